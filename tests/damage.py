@@ -37,6 +37,16 @@ def damage(file, chance, kind=None):
         (file / "inner").mkdir(parents=True)
 
 
+def misplace(first, second, chance):
+    """Exchange two files, or put one in the place of the other, where both are still there."""
+    if not (first.is_file() and second.is_file()):
+        return
+    one, other = first.read_bytes(), second.read_bytes()
+    second.write_bytes(one)
+    if chance.random() < 0.5:
+        first.write_bytes(other)
+
+
 def restore(file, data):
     """Put a file back as it was."""
     if file.is_dir():

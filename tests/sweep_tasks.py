@@ -114,8 +114,7 @@ def basins_plan(starts=12, chunk=2, shape=(4, 5), damping=(0.5, 0.9)):
 
 
 def stored_bytes(store):
-    """Every file of numbers of a store."""
+    """Every file of a store that follows from its plan and the processors: numbers, records, kinds of processors."""
     store = Path(store)
-    return {
-        str(file.relative_to(store)): file.read_bytes() for file in sorted(store.glob("*/c/**/*")) if file.is_file()
-    }
+    files = [*store.glob("*/c/**/*"), *store.glob("records/*"), store / "processors.json"]
+    return {str(file.relative_to(store)): file.read_bytes() for file in sorted(files) if file.is_file()}

@@ -140,7 +140,7 @@ def test_chunk_that_kills_every_worker_is_told_as_failed(tmp_path):
         tally = run_sweep(plan, tmp_path / "s.zarr", scheduler=client)
 
     assert (tally.done, tally.failed) == (5, 5)
-    assert "too many workers were lost" in (tmp_path / "s.zarr" / "failures" / "0000001.json").read_text()
+    assert "too many workers were lost" in (tmp_path / "s.zarr" / "records" / "0000001.json").read_text()
 
 
 def test_lost_scheduler_is_one_line_and_what_was_finished_is_kept(tmp_path, capfd):

@@ -8,7 +8,7 @@ import shutil
 import numpy as np
 import pytest
 from compilation import sized
-from damage import KINDS, damage
+from damage import KINDS, damage, misplace
 from sweep_tasks import Drawn, Failing, plan_of, stored_bytes
 
 from carom.outcome import CaromWarning, InputError
@@ -70,7 +70,7 @@ def test_damaged_chunk_is_named_when_it_is_read(store, kind):
 
     np.testing.assert_array_equal(data.value[:3], PLAN.axes[0].values[:3])  # what is read is checked, and no more
     assert data.draw.shape == data.draw.values.shape
-    words = "missing" if kind == "deleted" else "damaged"
+    words = "missing" if kind == "deleted" else "damaged or another's"
     with pytest.raises(InputError, match=f"^store = .*: its file value/c/1 is {words}; the carom sweep that wrote it"):
         data.value.load()
 
@@ -94,6 +94,64 @@ def test_what_agrees_with_its_end_but_is_too_short_is_no_chunk(whole, store, dat
         open_sweep(store).load()
     assert run(store).damaged == (1,)
     assert stored_bytes(store) == stored_bytes(whole)
+
+
+@pytest.mark.parametrize(
+    ("first", "second", "wrong"),
+    [
+        ("value/c/1", "value/c/2", {1, 2}),
+        ("value/c/1", "draw/c/1", {1}),
+        ("status/c/0", "status/c/3", {0, 3}),
+        ("records/0000001.json", "records/0000002.json", {1, 2}),
+        ("records/0000001.json", "processors.json", {1}),
+    ],
+)
+def test_exchanged_files_are_noticed(whole, store, first, second, wrong):
+    one, other = (store / first).read_bytes(), (store / second).read_bytes()
+    (store / first).write_bytes(other)
+    (store / second).write_bytes(one)
+    with pytest.raises(InputError, match=r"^store = .* is damaged"):
+        open_sweep(store).load()
+    assert set(run(store).damaged) == wrong
+    assert stored_bytes(store) == stored_bytes(whole)
+
+
+def test_chunk_under_the_name_of_another_is_noticed(whole, store):
+    """All its files, the record too: they agree with each other, but not with their place."""
+    for name in ("value/c/{}", "draw/c/{}", "status/c/{}", "records/000000{}.json"):
+        shutil.copy(store / name.format(0), store / name.format(1))
+    with pytest.raises(
+        InputError, match=r"^store = .*: its file records/0000001\.json is damaged, missing or another's"
+    ):
+        open_sweep(store).value.load()
+    assert run(store).damaged == (1,)
+    assert stored_bytes(store) == stored_bytes(whole)
+
+
+def test_chunk_of_another_plan_is_noticed(whole, store, tmp_path):
+    run(tmp_path / "other.zarr", plan_of(Failing(above=0.85), count=10, chunk=3, seed=6))
+    for name in ("value/c/1", "draw/c/1", "status/c/1", "records/0000001.json"):
+        shutil.copy(tmp_path / "other.zarr" / name, store / name)
+    with pytest.raises(
+        InputError, match=r"^store = .*: its file records/0000001\.json is damaged, missing or another's"
+    ):
+        open_sweep(store).draw.load()
+    assert run(store).damaged == (1,)
+    assert stored_bytes(store) == stored_bytes(whole)
+
+
+@pytest.mark.parametrize("name", ["zarr.json", "value/zarr.json", "checksums.json"])
+def test_description_under_another_name_is_one_line(store, name):
+    for other in ("processors.json", "records/0000001.json", "status/zarr.json"):
+        (store / name).write_bytes((store / other).read_bytes())
+        for use in (run, open_sweep):
+            with pytest.raises(InputError, match=f"its file {name} is damaged or missing"):
+                use(store)
+
+
+def test_values_of_a_chunk_without_a_status_are_not_read(store):
+    (store / "status/c/1").unlink()
+    assert np.isnan(open_sweep(store).value[3:6]).all()
 
 
 def test_chunks_that_wait_are_not_missing(store):
@@ -127,26 +185,23 @@ def test_damaged_metadata_are_one_line(store, name, kind):
 @pytest.mark.parametrize(
     "text", ["", "{", "[" * 100_000, '{"content": {"points": []}, "crc32c": 1}', "\xff\xfe", "null"]
 )
-def test_broken_record_of_failures_is_one_line(store, text):
-    record = store / "failures" / "0000003.json"
-    record.write_bytes(text.encode("latin-1"))
-    remedy = r"its file failures/0000003\.json is damaged; delete it, and the same command computes chunk 3 again$"
-    with pytest.raises(InputError, match=remedy):
-        run(store)
-    record.unlink()
+def test_chunk_with_a_broken_record_is_computed_again(whole, store, text):
+    (store / "records" / "0000003.json").write_bytes(text.encode("latin-1"))
+    with pytest.raises(InputError, match=r"its file records/0000003\.json is damaged, missing or another's; the carom"):
+        open_sweep(store).load()
     tally = run(store)
     assert (tally.damaged, tally.failed) == ((3,), 2)
+    assert stored_bytes(store) == stored_bytes(whole)
 
 
-def test_other_words_in_a_record_of_failures_are_noticed(store):
-    record = store / "failures" / "0000003.json"
+def test_other_words_in_a_record_are_noticed(store):
+    record = store / "records" / "0000003.json"
     record.write_text(record.read_text().replace('"gamma": 1.0', '"gamma": 2.0'))
-    with pytest.raises(InputError, match=r"failures/0000003\.json is damaged"):
-        SweepStore(store, PLAN)
+    assert SweepStore(store, PLAN).damaged == [3]
 
 
 @pytest.mark.parametrize(
-    "name", ["status/c/x", "status/c/99", "status/c/007", "value/c/99", "failures/notes.json", "mine"]
+    "name", ["status/c/x", "status/c/99", "status/c/007", "value/c/99", "records/notes.json", "mine"]
 )
 def test_folders_that_are_not_in_the_way_do_no_harm(store, name):
     (store / name).mkdir()
@@ -161,7 +216,7 @@ def test_folders_that_are_not_in_the_way_do_no_harm(store, name):
     [
         ("value/c/1", "Is a directory"),
         ("status/c/1", "Is a directory"),
-        ("failures/0000003.json", "Is a directory"),
+        ("records/0000003.json", "Is a directory"),
         ("processors.json", "Is a directory"),
         ("zarr.json", "Is a directory"),
     ],
@@ -174,7 +229,7 @@ def test_folders_in_the_way_are_one_line(store, name, words):
         run(store)
 
 
-@pytest.mark.parametrize("name", [".parts", "failures", ".lock"])
+@pytest.mark.parametrize("name", [".parts", "records", ".lock"])
 def test_what_stands_in_the_way_of_writing_is_one_line(store, name):
     place = store / name
     shutil.rmtree(place) if place.is_dir() else place.unlink()
@@ -199,6 +254,8 @@ def test_nothing_wrong_is_read_whatever_is_damaged(whole, store, seed):
     files = sorted(file for file in store.rglob("*") if file.is_file() and file.stat().st_size)
     for file in chance.sample(files, chance.choice([1, 1, 2, 4])):
         damage(file, chance)
+    if chance.random() < 0.5:
+        misplace(*chance.sample(files, 2), chance)
     right = open_sweep(whole).load()
     data = unless_refused(lambda: open_sweep(store).load())
     if data is not None:
@@ -219,6 +276,38 @@ def unless_refused(use):
         return use()
     except InputError:
         return None
+
+
+@pytest.mark.parametrize("seed", range(sized(10, 10, 200)))
+def test_store_of_an_interrupted_sweep_has_the_same_bytes(whole, tmp_path, seed):
+    chance = random.Random(seed)
+    path = tmp_path / "s.zarr"
+
+    def stop(report):
+        if chance.random() < 0.5:
+            raise KeyboardInterrupt
+
+    for _ in range(100):
+        try:
+            run(path, progress=stop)
+        except KeyboardInterrupt:
+            files = sorted(
+                file
+                for name in ("value", "draw", "records")
+                for file in (path / name).rglob("*[0-9]*")
+                if file.is_file()
+            )
+            if files and chance.random() < 0.3:
+                damage(chance.choice(files), chance, "cut")
+            continue
+        break
+    assert stored_bytes(path) == stored_bytes(whole)
+    names = [sorted(str(file.relative_to(store)) for file in store.rglob("*")) for store in (path, whole)]
+    assert names[0] == names[1]
+    # Of what was written before the first chunk only the times differ, and the checksums of the file with them.
+    sums, others = (json.loads((store / "checksums.json").read_text())["content"] for store in (path, whole))
+    assert list(sums) == list(others) == sorted(sums)
+    assert {name for name in sums if sums[name] != others[name]} <= {"zarr.json"}
 
 
 # --------------------------------------------------------------------------------------------------- two at the same time
@@ -266,13 +355,30 @@ def test_store_names_the_processors_that_computed_it(tmp_path, monkeypatch):
     with pytest.warns(CaromWarning, match=r"a processor of another kind \(only here: avx512f\).*last bits") as told:
         run(path, plan)
     assert len(told) == 1
-    assert open_sweep(path).attrs["versions"]["processors"] == ["x86_64 avx2 fma", "x86_64 avx2 avx512f fma"]
+    assert open_sweep(path).attrs["versions"]["processors"] == ["x86_64 avx2 avx512f fma", "x86_64 avx2 fma"]
     (path / "status/c/1").unlink()
     run(path, plan)  # both kinds are known
 
 
-def test_broken_record_of_processors_is_one_line(store):
-    (store / "processors.json").write_text(json.dumps(["x86_64"]))
-    for use in (run, open_sweep):
-        with pytest.raises(InputError, match=r"its file processors\.json is damaged; delete it"):
-            use(store)
+@pytest.mark.parametrize("change", ["deleted", "empty", "flip", "other words"])
+def test_kinds_of_processors_are_restored_from_the_chunks(whole, store, change):
+    file = store / "processors.json"
+    if change == "other words":
+        file.write_text(json.dumps(["x86_64"]))
+    else:
+        damage(file, random.Random(1), change)
+    with pytest.raises(
+        InputError, match=r"its file processors\.json is damaged or missing; the carom sweep that wrote it"
+    ):
+        open_sweep(store)
+    assert run(store).computed == 0
+    assert stored_bytes(store) == stored_bytes(whole)
+
+
+def test_kinds_of_processors_from_before_a_chunk_are_noticed(whole, store):
+    SweepStore(store.with_name("new.zarr"), PLAN)
+    shutil.copy(store.with_name("new.zarr") / "processors.json", store)
+    with pytest.raises(InputError, match=r"its file processors\.json is incomplete; the carom sweep that wrote it"):
+        open_sweep(store).value.load()
+    assert run(store).computed == 0
+    assert stored_bytes(store) == stored_bytes(whole)

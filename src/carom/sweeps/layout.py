@@ -19,11 +19,11 @@ from carom.outcome import InputError
 from carom.sweeps.integrity import SUMS, damaged_metadata, sums
 from carom.sweeps.plan import SweepPlan
 from carom.sweeps.variables import flag_attributes
-from carom.sweeps.versions import other_version, versions
+from carom.sweeps.versions import PROCESSORS, other_version, processors_record, versions
 
 OPTION, ROOT = "--out", "zarr.json"
 """Name of the directory in errors, and of the file that describes what a store holds."""
-FAILURES, PARTS = "failures", ".parts"
+PARTS = ".parts"
 
 
 def is_new(path: Path) -> bool:
@@ -95,8 +95,7 @@ def create(path: Path, plan: SweepPlan) -> None:
         made.mkdir(parents=True)
         _lay_out(made, plan)
         (made / SUMS).write_bytes(sums(made))
-        for directory in (PARTS, FAILURES):
-            (made / directory).mkdir()
+        (made / PROCESSORS).write_bytes(processors_record(()))
         made.rename(path)
         sync_directory(path.absolute().parent)
     except OSError:

@@ -22,6 +22,7 @@ class SweepMemory(nullcontext[None]):
 
     path = None
     damaged = ()
+    is_whole = True
 
     def __init__(self, plan: SweepPlan) -> None:
         super().__init__()

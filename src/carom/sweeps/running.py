@@ -38,7 +38,7 @@ class Tally:
     seconds : float
         Time since this run began.
     damaged : tuple of int
-        Finished chunks of which a file was damaged or missing; they are computed again.
+        Finished chunks of which a file was damaged, missing or another's; they are computed again.
     """
 
     store: Path | None
@@ -109,7 +109,7 @@ def run_sweep(
     """Compute all points of a sweep that are not in its store yet; without a store, keep the results in memory.
 
     Each chunk is stored as soon as it is computed, completely or not at all.  If this function is interrupted for any
-    reason, the same call resumes the sweep.  Chunks finished before are compared with their checksums, and damaged ones
+    reason, the same call resumes the sweep.  Chunks finished before are compared with their records, and damaged ones
     are computed again.  On processors of one kind the results are bit for bit the same, whichever workers compute them.
     The returned tally has the results as its ``dataset``.
 
@@ -168,10 +168,12 @@ def run_sweep(
         seconds = time.monotonic() - began
         return Tally(book.path, plan.points, book.done, book.failed, computed, seconds, tuple(book.damaged), book)
 
-    if next(book.waiting(retry_failed), None) is None:
+    if book.is_whole and next(book.waiting(retry_failed), None) is None:
         return tally()
     with ExitStack() as stack:
         stack.enter_context(book)
+        if next(book.waiting(retry_failed), None) is None:
+            return tally()
         chunks = _chunks(plan, book.waiting(retry_failed), workers, threads, scheduler, stack)
         for chunk in stack.enter_context(closing(chunks)):
             book.write(chunk)

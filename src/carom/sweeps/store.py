@@ -1,10 +1,11 @@
 """The Zarr store of a sweep: one process writes it, each chunk completely or not at all; any process can read it.
 
 Every variable is an uncompressed array over the grid in the Zarr 3 format.  A chunk of it is one file that holds the
-bytes of the numbers and their checksum.  The file of ``status`` is written last: a chunk counts as finished as soon as
-this file exists.  Failures are recorded in ``failures/<chunk>.json``, kinds of processors in ``processors.json``.
-Before a sweep is resumed, finished chunks are compared with their checksums; a chunk of which a file is damaged or
-missing is computed again.
+bytes of the numbers and their checksum.  ``records/<chunk>.json`` binds the files of a chunk to their place, and has its
+failures and the kind of its processor.  The file of ``status`` is written last: a chunk counts as finished as soon as
+this file exists.  Before a sweep is resumed, finished chunks are compared with their records; a chunk of which a file is
+damaged, missing or another's is computed again.  ``processors.json`` names the kinds of processors; it follows from the
+records, and is restored from them.
 """
 
 from __future__ import annotations
@@ -26,11 +27,12 @@ from filelock import FileLock, Timeout
 from carom.files import sync_directory, write_whole
 from carom.outcome import CaromWarning, InputError
 from carom.sweeps.chunk import MOST_FAILURES, Chunk
-from carom.sweeps.integrity import DamagedError, is_intact, read_record, record, seal, unseal
-from carom.sweeps.layout import FAILURES, OPTION, PARTS, attributes_of, check_same, create, is_new
+from carom.sweeps.chunk_record import RECORDS, ChunkRecord, record_file
+from carom.sweeps.integrity import DamagedError, seal, seal_of
+from carom.sweeps.layout import OPTION, PARTS, attributes_of, check_same, create, is_new
 from carom.sweeps.plan import SweepPlan
-from carom.sweeps.variables import STATUS, Status
-from carom.sweeps.versions import PROCESSORS, differences, processors_of
+from carom.sweeps.variables import STATUS
+from carom.sweeps.versions import PROCESSORS, differences, processors_of, processors_record
 
 if TYPE_CHECKING:
     import xarray
@@ -51,7 +53,7 @@ class SweepStore:
     Attributes
     ----------
     damaged : list of int
-        Finished chunks of which a file is damaged or missing; they are waiting again.
+        Finished chunks of which a file is damaged, missing or another's; they are waiting again.
 
     Raises
     ------
@@ -65,7 +67,10 @@ class SweepStore:
         self.damaged: list[int] = []
         self._finished = np.zeros(plan.chunks, bool)
         self._failed: dict[int, int] = {}
-        self._processors: list[str] = []
+        self._digest = plan.digest
+        self._processors: set[str] = set()
+        self.is_whole = False
+        """Whether what follows from the chunks was stored, too."""
         points = math.prod(plan.chunk_shape)
         self._sizes = [points * math.prod(one.shape) * one.dtype.itemsize for one in plan.variables]
         try:
@@ -81,43 +86,41 @@ class SweepStore:
     # ------------------------------------------------------------------------------------------------- reading
 
     def _scan(self) -> None:
-        """Find the finished chunks by their status files, and compare newly found ones with their checksums."""
+        """Find the finished chunks by their status files, and compare newly found ones with their records."""
         self.damaged = []
         for number in np.flatnonzero(
             _chunks_with_status(self.path / STATUS.name / "c", self.plan) & ~self._finished
         ).tolist():
-            failed = self._failed_points(number)
-            if failed is None:
+            found = self._record(number)
+            if found is None:
                 self.damaged.append(number)
                 continue
             self._finished[number] = True
-            if failed:
-                self._failed[number] = failed
-        self._processors = processors_of(self.path, OPTION)
+            self._note(found)
         self._points = _points(self._finished, self.plan)
+        with suppress(FileNotFoundError):
+            self.is_whole = (self.path / PROCESSORS).read_bytes() == processors_record(self._processors)
 
-    def _failed_points(self, number: int) -> int | None:
-        """Return the number of failed points of a finished chunk, or None if a file of it is damaged or missing."""
+    def _record(self, number: int) -> ChunkRecord | None:
+        """Return the record of a finished chunk, or None if it or a file of the chunk is damaged, missing or another's."""
         try:
-            data = [file.read_bytes() for file in self._files(number).values()]
-            if not all(map(is_intact, data, self._sizes)):
-                return None
-            failed = unseal(data[-1]).count(Status.FAILED)
-            if failed:
-                self._record(number)
-        except FileNotFoundError:
+            found = ChunkRecord.read(self.path, self._digest, number)
+            files = self._files(number).items()
+            agree = all(
+                found.agrees(name, file.read_bytes(), size)
+                for (name, file), size in zip(files, self._sizes, strict=True)
+            )
+        except (DamagedError, FileNotFoundError):
             return None
-        return failed
+        return found if agree else None
 
-    def _record(self, number: int) -> list[dict[str, Any]]:
-        """Return the records of the failed points of a chunk."""
-        file = _failure_file(self.path, number)
-        try:
-            points: list[dict[str, Any]] = read_record(file)["points"]
-        except DamagedError:
-            remedy = f"delete it, and the same command computes chunk {number} again"
-            raise InputError(OPTION, self.path, f"its file {FAILURES}/{file.name} is damaged; {remedy}") from None
-        return points
+    def _note(self, found: ChunkRecord) -> None:
+        """Keep what the record of a finished chunk says."""
+        self._failed.pop(found.number, None)
+        if found.failures:
+            self._failed[found.number] = len(found.failures)
+        if found.processor:
+            self._processors.add(found.processor)
 
     def _files(self, number: int) -> dict[str, Path]:
         """Return the files of a chunk by variable name; that of the status, which is written last, comes last."""
@@ -147,7 +150,8 @@ class SweepStore:
         """Return the first failed points: index in the grid, parameters and error of each."""
         found: list[dict[str, Any]] = []
         for number in sorted(self._failed):
-            found += self._record(number)
+            told = self._record(number)
+            found += told.failures if told else []
             if len(found) >= MOST_FAILURES:
                 break
         return found[:MOST_FAILURES]
@@ -163,11 +167,13 @@ class SweepStore:
             self._lock.acquire()
             with ExitStack() as stack:
                 stack.callback(self._lock.release)
-                for directory in (PARTS, FAILURES):
+                for directory in (PARTS, RECORDS):
                     (self.path / directory).mkdir(exist_ok=True)
                 for part in (self.path / PARTS).iterdir():  # left by a process that was killed
                     part.unlink()
                 self._scan()  # again, as no other process can write now
+                if not self.is_whole:
+                    self._write_processors()
                 stack.pop_all()
         except Timeout:
             raise InputError(OPTION, self.path, "another sweep is writing to it; let it end, or stop it") from None
@@ -185,7 +191,7 @@ class SweepStore:
         self._lock.release()
 
     def write(self, chunk: Chunk) -> None:
-        """Write a chunk: its arrays and failures, then its status.  On return it is on the disk.
+        """Write a chunk: its arrays and record, then its status.  On return it is on the disk.
 
         If it cannot be written, an input error says so; chunks written before are kept.
         """
@@ -196,34 +202,39 @@ class SweepStore:
         files = {
             file: seal(_padded(plan, chunk.arrays[name], fills[name])) for name, file in self._files(number).items()
         }
+        seals = {name: seal_of(files[file]) for name, file in self._files(number).items()}
+        failures = [asdict(failure) for failure in chunk.failures]
+        kept = ChunkRecord(self._digest, number, seals, chunk.processor, failures)
         status = list(files)[-1]
         status_data = files.pop(status)
-        failures = _failure_file(self.path, number)
-        if chunk.failures:
-            files[failures] = record({"chunk": number, "points": [asdict(failure) for failure in chunk.failures]})
+        files[record_file(self.path, number)] = kept.data
         try:
             self._record_processor(chunk.processor)
+            self._let_wait(number)
             list(self._writers.map(self._write_file, files, files.values()))
             list(self._writers.map(sync_directory, {file.parent for file in files}))
             self._write_file(status, status_data)
             sync_directory(status.parent)
-            if not chunk.failures:
-                failures.unlink(missing_ok=True)
         except OSError as problem:
             raise self._refusal(problem, told=True) from None
-        if not self._finished[number]:
-            self._finished[number] = True
-            self._points += plan.size(number)
-        self._failed.pop(number, None)
-        if chunk.failures:
-            self._failed[number] = len(chunk.failures)
+        self._finished[number] = True
+        self._points += plan.size(number)
+        self._note(kept)
+
+    def _let_wait(self, number: int) -> None:
+        """Make a chunk that is computed again wait until all its files are new, so that nobody reads a mixture."""
+        list(self._files(number).values())[-1].unlink(missing_ok=True)
+        if self._finished[number]:
+            self._finished[number] = False
+            self._points -= self.plan.size(number)
+            self._failed.pop(number, None)
 
     def _record_processor(self, processor: str) -> None:
         """Record a new kind of processor that computed a chunk; warn if it is not the first kind."""
         if not processor or processor in self._processors:
             return
         if self._processors:
-            others = differences(processor, self._processors[0])
+            others = differences(processor, min(self._processors))
             warnings.warn(
                 f"{self.path} was begun on a processor of another kind ({others}): from here on the last bits of "
                 "numbers may differ from those of the first kind, and irregular motions may then end elsewhere; "
@@ -231,8 +242,12 @@ class SweepStore:
                 CaromWarning,
                 stacklevel=2,
             )
-        self._processors.append(processor)
-        self._write_file(self.path / PROCESSORS, record(self._processors))
+        self._processors.add(processor)
+        self._write_processors()
+
+    def _write_processors(self) -> None:
+        self._write_file(self.path / PROCESSORS, processors_record(self._processors))
+        self.is_whole = True
 
     def _write_file(self, target: Path, data: bytes) -> None:
         write_whole(target, data, self.path / PARTS)
@@ -258,8 +273,8 @@ def open_sweep(path: str | os.PathLike[str]) -> xarray.Dataset:
     -------
     xarray.Dataset
         Variables over the axes of the sweep; data are read when needed.  ``status`` says which points were computed.
-        Reading a chunk of which a file is damaged or missing raises an :class:`~carom.outcome.InputError` that names
-        the file.
+        Reading a chunk of which a file is damaged, missing or another's raises an
+        :class:`~carom.outcome.InputError` that names the file.
 
     Raises
     ------
@@ -290,7 +305,7 @@ def open_sweep(path: str | os.PathLike[str]) -> xarray.Dataset:
     path = Path(path)
     try:
         attributes_of(path, "store")
-        processors = processors_of(path, "store")
+        processors = processors_of(path)
         data = xarray.open_zarr(CheckedStore.at(path), chunks=None, consolidated=True)
     except OSError as problem:
         raise InputError("store", path, f"cannot be read ({problem.strerror or problem}: {problem.filename})") from None
@@ -329,10 +344,6 @@ def _points(finished: np.ndarray, plan: SweepPlan) -> int:
         sizes[-1] = count - chunk * (chunks - 1)
         weights = weights @ sizes
     return int(weights)
-
-
-def _failure_file(path: Path, number: int) -> Path:
-    return path / FAILURES / f"{number:07d}.json"
 
 
 def _padded(plan: SweepPlan, values: np.ndarray, fill: float) -> bytes:
