@@ -10,6 +10,15 @@
 
 from carom.files.directory import check_directory, staged_directory
 from carom.files.documents import as_json, write_json
-from carom.files.whole import sync_directory, try_place, write_whole
+from carom.files.whole import sync_directory, try_place, unfinished, write_whole
 
-__all__ = ["as_json", "check_directory", "staged_directory", "sync_directory", "try_place", "write_json", "write_whole"]
+__all__ = [
+    "as_json",
+    "check_directory",
+    "staged_directory",
+    "sync_directory",
+    "try_place",
+    "unfinished",
+    "write_json",
+    "write_whole",
+]

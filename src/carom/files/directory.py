@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import json
 import os
-import secrets
-import shutil
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
+from carom.files.whole import unfinished
 from carom.outcome import InputError
 
 FIGURES = "figures"
@@ -67,13 +66,11 @@ def _staging(target: Path) -> Iterator[Path]:
     there = target.exists()
     home = target if there else target.absolute().parent
     missing = [directory for directory in (home, *home.parents) if not directory.exists()]
-    # Its name is chosen before it is created, so that it is removed after an interruption at any moment.
-    made = home / f".carom.{secrets.token_hex(4)}.part"
     try:
-        made.mkdir(parents=True)
-        yield made
+        home.mkdir(parents=True, exist_ok=True)
+        with unfinished(home, folder=True) as made:
+            yield made
     finally:
-        shutil.rmtree(made, ignore_errors=True)
         for directory in missing:
             with suppress(OSError):
                 directory.rmdir()

@@ -3,9 +3,14 @@
 from __future__ import annotations
 
 import os
+import re
 import secrets
-from contextlib import suppress
+import shutil
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 from pathlib import Path
+
+_PART = re.compile(r"\.carom\.[0-9a-f]{16}\.part")
 
 
 def write_whole(target: Path, data: bytes, parts: Path | None = None) -> None:
@@ -14,34 +19,92 @@ def write_whole(target: Path, data: bytes, parts: Path | None = None) -> None:
     An existing file is replaced; if an OSError occurs, it is unchanged.  The unfinished file is in ``parts``, a directory on the same
     file system, by default that of the target.
     """
-    part = (parts or target.parent) / _unfinished()
-    try:
-        with part.open("xb", buffering=0) as stream:
+    with unfinished(parts or target.parent) as part:
+        with part.open("wb", buffering=0) as stream:
             view = memoryview(data)
             while view:
                 view = view[stream.write(view) :]
             os.fsync(stream.fileno())
         target.parent.mkdir(parents=True, exist_ok=True)
         os.replace(part, target)  # noqa: PTH105  (tests let it fail)
-    except BaseException:
-        with suppress(OSError):
-            part.unlink(missing_ok=True)
-        raise
 
 
 def try_place(target: Path) -> None:
     """Test whether a file can be written, and leave no trace; OSError if not."""
-    part = target.parent / _unfinished()
+    with unfinished(target.parent):
+        pass
+
+
+@contextmanager
+def unfinished(directory: Path, *, folder: bool = False) -> Iterator[Path]:
+    """Provide a new file or folder of a temporary name; at the end it is removed if it is still there.
+
+    One that a killed process has left is removed when the next is made in the same directory.  That its process is still alive is
+    told by a lock; where the file system has none, nothing is removed.
+    """
+    _clear(directory)
+    # Its name is chosen before it is made, so that it is removed after an interruption at any moment.
+    part = directory / f".carom.{secrets.token_hex(8)}.part"
+    handle = None
     try:
-        part.touch(exist_ok=False)
+        while handle is None:
+            handle = _made(part, folder)
+        yield part
     finally:
-        with suppress(OSError):
+        if handle is not None:
+            os.close(handle)
+        _remove(part)
+
+
+def _made(part: Path, folder: bool) -> int | None:
+    """Make and lock a file or folder, and return its handle; None if another has taken it for left before it was locked."""
+    if folder:
+        part.mkdir()
+    else:
+        part.touch(exist_ok=False)
+    try:
+        handle = os.open(part, os.O_RDONLY)
+    except FileNotFoundError:
+        return None
+    _lock(handle, wait=True)
+    if part.exists():
+        return handle
+    os.close(handle)
+    return None
+
+
+def _clear(directory: Path) -> None:
+    """Remove what killed processes have left in a directory."""
+    with suppress(OSError), os.scandir(directory) as entries:
+        for entry in entries:
+            if not _PART.fullmatch(entry.name):
+                continue
+            with suppress(OSError):
+                handle = os.open(entry.path, os.O_RDONLY)
+                try:
+                    if _lock(handle):
+                        _remove(Path(entry.path))
+                finally:
+                    os.close(handle)
+
+
+def _lock(handle: int, *, wait: bool = False) -> bool:
+    """Lock an open file or folder until it is closed; whether this was possible."""
+    try:
+        import fcntl
+
+        fcntl.flock(handle, fcntl.LOCK_EX | (0 if wait else fcntl.LOCK_NB))
+    except (ImportError, OSError):
+        return False
+    return True
+
+
+def _remove(part: Path) -> None:
+    with suppress(OSError):
+        if part.is_dir():
+            shutil.rmtree(part, ignore_errors=True)
+        else:
             part.unlink(missing_ok=True)
-
-
-def _unfinished() -> str:
-    """A temporary name for an unfinished file."""
-    return f".{secrets.token_hex(8)}.part"
 
 
 def sync_directory(directory: Path) -> None:

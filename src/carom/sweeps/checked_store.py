@@ -76,7 +76,7 @@ class CheckedStore(WrapperStore[LocalStore]):
         root = self._store.root
         try:
             record = ChunkRecord.read(root, self._plan, number)
-        except (DamagedError, FileNotFoundError):
+        except (DamagedError, OSError):
             return f"its file {record_file(root, number).relative_to(root)} is damaged, missing or another's"
         if not record.agrees(name, found.to_bytes(), self._sizes[name]):
             return f"its file {key} is damaged or another's"

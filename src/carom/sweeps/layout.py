@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import json
 import platform
-import secrets
-import shutil
 import warnings
 from datetime import UTC, datetime
 from functools import partial
@@ -14,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from carom.files import sync_directory
+from carom.files import sync_directory, unfinished
 from carom.outcome import InputError
 from carom.sweeps.integrity import SUMS, damaged_metadata, sums
 from carom.sweeps.plan import SweepPlan
@@ -90,19 +88,18 @@ def _difference(there: Any, wanted: Any, where: str = "") -> str:
 
 def create(path: Path, plan: SweepPlan) -> None:
     """Create the store in a staging directory and move it into place, unless another sweep has just created it."""
-    made = path.absolute().parent / f".{path.name}.{secrets.token_hex(4)}.part"
+    home = path.absolute().parent
+    home.mkdir(parents=True, exist_ok=True)
     try:
-        made.mkdir(parents=True)
-        _lay_out(made, plan)
-        (made / SUMS).write_bytes(sums(made))
-        (made / PROCESSORS).write_bytes(processors_record(()))
-        made.rename(path)
-        sync_directory(path.absolute().parent)
+        with unfinished(home, folder=True) as made:
+            _lay_out(made, plan)
+            (made / SUMS).write_bytes(sums(made))
+            (made / PROCESSORS).write_bytes(processors_record(()))
+            made.rename(path)
+            sync_directory(home)
     except OSError:
         if not (path.is_dir() and _is_store(path)):
             raise
-    finally:
-        shutil.rmtree(made, ignore_errors=True)
 
 
 def description_of(plan: SweepPlan) -> dict[str, Any]:
