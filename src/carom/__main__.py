@@ -1,12 +1,25 @@
-"""Run the command line as ``python -m carom``."""
+"""Run the command line as ``carom`` or as ``python -m carom``."""
 
 import sys
 
-from carom.cli import main
 
-if __name__ == "__main__":
-    code = main()
+def run() -> int:
+    """Load and run the command line; return its exit code.
+
+    A Ctrl-C while it is being loaded ends it as quietly as one while it runs.
+    """
+    try:
+        from carom.cli import main
+
+        code = main()
+    except KeyboardInterrupt:
+        print("carom: interrupted", file=sys.stderr)  # noqa: T201
+        code = 130
     # After a Ctrl-C during an import that runs generated code, Python exits by that signal, whatever code is returned.
     # Running any other code resets this.
     exec("")
-    sys.exit(code)
+    return code
+
+
+if __name__ == "__main__":
+    sys.exit(run())

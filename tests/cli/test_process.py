@@ -4,6 +4,8 @@ import json
 import os
 import subprocess
 import sys
+import tomllib
+from pathlib import Path
 
 import pytest
 from studies import QUICK
@@ -128,3 +130,30 @@ def test_interrupt_leaves_nothing_behind(machine, tmp_path):
     assert process.stdout == ""
     assert process.stderr == "carom: interrupted\n"
     assert list(tmp_path.iterdir()) == []
+
+
+LATE = """
+import os, signal, sys
+class Interrupting:
+    def find_spec(self, name, path=None, target=None):
+        if name == {name!r}:
+            os.kill(os.getpid(), signal.SIGINT)
+sys.meta_path.insert(0, Interrupting())
+from carom.__main__ import run
+sys.argv = ["carom", "orbits", {machine!r}]
+sys.exit(run())
+"""
+
+
+@pytest.mark.parametrize("name", ["carom.cli", "typer", "carom.cli.study", "carom.outcome"])
+def test_interrupt_while_the_program_is_loaded(machine, name):
+    code = LATE.format(name=name, machine=str(machine))
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+
+    assert (done.returncode, done.stdout, done.stderr) == (130, "", "carom: interrupted\n")
+
+
+def test_the_command_is_loaded_where_an_interrupt_is_caught():
+    project = tomllib.loads((Path(__file__).parents[2] / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+
+    assert project["scripts"] == {"carom": "carom.__main__:run"}

@@ -114,6 +114,22 @@ def test_no_time_of_a_sample_is_outside_the_wall(motion, rubbing):
         assert path.radius(path.sample(300)).max() <= 1.0 + 1e-12
 
 
+class TestWithoutATime:
+    def test_a_motion_is_followed_to_where_it_settles(self, rotor):
+        motion = simulate(rotor, START)
+        assert motion.outcome is simulate(rotor, START, settle=True).outcome
+        assert motion.outcome.settled
+
+    def test_a_motion_that_must_not_settle_needs_a_time(self, rotor):
+        with pytest.raises(InputError, match=r"^until = nothing given: "):
+            simulate(rotor, START, settle=False)
+
+    def test_with_a_time_it_goes_on_though_it_has_settled(self, rotor):
+        end = 2.0 * simulate(rotor, START).time
+        assert simulate(rotor, START, end).time == end
+        assert simulate(rotor, START, end, settle=True).time < end
+
+
 class TestLimits:
     @pytest.mark.parametrize("until", [0.0, -1.0, math.nan, math.inf])
     def test_times_that_cannot_be_reached(self, rotor, until):

@@ -166,4 +166,4 @@ def _follow(rotor: Model, start: State | Kick, kick: str | None, end: float | No
     if isinstance(start, Kick) and radius > 1.0:
         words = f"needs levitation, but |U*| = {radius:.6g} is outside the wall; use --start"
         raise InputError("--kick", kick, words)
-    return follow(rotor, start, end, settle=end is None, max_events=MOST_EVENTS, progress=tell)
+    return follow(rotor, start, end, max_events=MOST_EVENTS, progress=tell)

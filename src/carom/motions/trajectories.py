@@ -294,7 +294,7 @@ def simulate(
     start: State | Kick,
     until: float | str | None = None,
     *,
-    settle: bool = False,
+    settle: bool | None = None,
     stop_at_chatter: bool = False,
     patience: int = PATIENCE,
     max_events: int = 1_000_000,
@@ -308,14 +308,14 @@ def simulate(
     start : State or Kick
         On the wall (``|U| = 1`` to within 1e-12) or inside it.
     until : float or str, optional
-        Time to follow it, in ``1/Ω`` or text with a unit, such as ``"2 s"``.  Optional only with ``settle``, where the
-        default is :func:`~carom.motions.settling.longest_time`.
+        Time to follow it, in ``1/Ω`` or text with a unit, such as ``"2 s"``; by default to where it settles, at most
+        for :func:`~carom.motions.settling.longest_time`.
     settle : bool
-        End earlier, as soon as the final motion is known (criteria in :mod:`carom.core.fate`).
+        End as soon as the final motion is known (criteria in :mod:`carom.core.fate`); by default only without ``until``.
     stop_at_chatter : bool
         End with ``CHATTER`` and the exact state when impacts accumulate.
     patience : int
-        With ``settle``: impacts without recurrence after which bouncing counts as aperiodic.
+        While it may settle: impacts without recurrence after which bouncing counts as aperiodic.
     max_events : int
         Impacts and steps of lasting contact after which to give up.
 
@@ -334,7 +334,7 @@ def simulate(
     --------
     >>> import carom as cm
     >>> machine = cm.load("examples/keogh-cole.toml")
-    >>> motion = cm.simulate(machine, cm.kick("60 mm/s"), settle=True)
+    >>> motion = cm.simulate(machine, cm.kick("60 mm/s"))
     >>> motion.outcome.label, motion.multiplicity
     ('bouncing', 1)
     >>> len(motion.contacts)
@@ -343,9 +343,8 @@ def simulate(
     rotor = model_of(machine)
     state = start.state(rotor) if isinstance(start, Kick) else start
     amplitudes, contact = amplitudes_of(rotor, state)
-    if until is None and settle:
-        until = longest_time(rotor)
-    until = time_until(until, rotor.scales)
+    settle = until is None if settle is None else settle
+    until = time_until(longest_time(rotor) if until is None and settle else until, rotor.scales)
     check_whole("patience", patience, 0)
     check_whole("max_events", max_events, 1)
     recollection = fresh_memory(rotor, patience if settle else 0, stop_at_chatter)

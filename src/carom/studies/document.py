@@ -15,7 +15,7 @@ from carom.bifurcations.boundary import BoundaryEquilibrium
 from carom.closed_forms.equilibria import Equilibrium
 from carom.closed_forms.thresholds import Gain
 from carom.closed_forms.whirl import rolling
-from carom.models import Jeffcott, jeffcott_of
+from carom.models import Jeffcott, Model
 from carom.motions.loads import touchdown_loads
 from carom.motions.starts import State
 from carom.motions.trajectories import Trajectory
@@ -78,7 +78,7 @@ def trajectory_document(trajectory: Trajectory, limits: LoadLimits | None = None
     impacts = zip(log.time, log.angle, log.radial_speed, log.angular_speed, log.normal_impulse, strict=True)
     keys = ("time", "angle", "radial_speed", "angular_speed", "normal_impulse")
     document: dict[str, Any] = {
-        "parameters": jeffcott_of(trajectory.rotor).parameters.as_dict(),
+        **_rotor(trajectory.rotor),
         "start": _state(trajectory.start),
         "outcome": trajectory.outcome.label,
         "meaning": trajectory.outcome.meaning,
@@ -183,8 +183,13 @@ def _value_in_si(say: Wording, gain: Gain, value: float) -> dict[str, Any]:
     return {"quantity": say.gain_name(gain), "value_si": say.gain_in_si(gain, value)}
 
 
-def _state(state: State) -> dict[str, complex]:
-    return {"U": state.position, "V": state.velocity}
+def _state(state: State) -> dict[str, Any]:
+    return fields_of(state, U="position", V="velocity")
+
+
+def _rotor(rotor: Model) -> dict[str, Any]:
+    """What describes a rotor: the parameters of the planar one, the attributes of any other."""
+    return {"parameters": rotor.parameters.as_dict()} if isinstance(rotor, Jeffcott) else {"rotor": rotor.attributes()}
 
 
 def _scales(scales: Scales) -> dict[str, float]:
