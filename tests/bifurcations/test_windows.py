@@ -2,11 +2,14 @@
 
 import numpy as np
 import pytest
+from compilation import sized
 
 from carom.bifurcations import orbit_windows
+from carom.bifurcations.conditions import conditions_at, corrected
+from carom.bifurcations.solutions import orbit_solutions
 from carom.models import Jeffcott
 from carom.orbits.single_impact import orbits_within_reach
-from carom.parameters import Parameters
+from carom.parameters import Numbers, Parameters
 
 WITHOUT_REBOUND = Parameters(
     gamma=0.42, omega=0.5708421012463507, rho=0.28690883112681587, phi=-1.52, mu=1.0174969331844883, d=0.0, radius_ratio=47.6
@@ -39,3 +42,65 @@ def test_an_orbit_that_is_there_at_all_values_has_one_window(parameters, paramet
     whole = [(low, high)]
     assert [(window.low.value, window.high.value) for window in found.possible] == whole
     assert [(window.low.value, window.high.value) for window in found.stable] == (whole if stable else [])
+
+
+FRICTIONLESS = Parameters(
+    gamma=0.03020923950417709, omega=0.9404657249642504, rho=0.7734908583275019, phi=-1.0033226312180616, mu=0.0,
+    d=0.3839168443314725, radius_ratio=32.59303174253395,
+)  # fmt: skip
+"""Next to a boundary equilibrium at ω = 0.47654936, where any period solves the equations of an orbit at rest on the wall."""
+
+
+def test_a_branch_does_not_run_along_the_equilibrium_on_the_wall():
+    """It used to, to a vanishing period, and Newton's method from there to ω = −1.96e15."""
+    values = [0.5 * FRICTIONLESS.omega, 0.49325746]
+
+    found = orbit_windows(FRICTIONLESS, "omega", values)
+
+    (window,) = found.possible
+    assert (window.low.kind, window.high.kind) == ("", "non-smooth-hopf")
+    assert window.high.value == pytest.approx(0.47654935583509495, rel=1e-12)  # |U*| = 1
+
+
+@pytest.mark.parametrize("seed", range(sized(3, 1, 40)))
+def test_windows_of_frictionless_machines_end_inside_the_range(seed):
+    random = np.random.default_rng(seed)
+    parameters = Parameters(
+        gamma=10.0 ** random.uniform(-1.5, 0.0),
+        omega=10.0 ** random.uniform(-0.4, 0.3),
+        rho=random.uniform(0.3, 0.9),
+        phi=random.uniform(-3.0, 3.0),
+        mu=0.0,
+        d=random.choice([random.uniform(0.0, 1.0), 1.0]),
+        radius_ratio=10.0 ** random.uniform(0.5, 2.0),
+    )
+    boundary = np.sqrt(max(1.0 - np.sqrt(max(parameters.rho**2 - parameters.gamma**2, 0.0)), 0.01))
+    values = boundary * 1.05 ** (np.arange(3) - random.random())
+
+    found = orbit_windows(parameters, "omega", values.tolist())
+
+    for window in (*found.possible, *found.stable):
+        assert values[0] <= window.low.value < window.high.value <= values[-1]
+        assert "vanishing-period" not in (window.low.kind, window.high.kind)  # ∂F₁/∂ω is zero at T = 0
+
+
+def test_a_period_that_vanishes_is_found_by_the_closed_form():
+    """With ``d = 1``, ``F₁ = (1 + d)T(2μ − γ)/12 + …``: a period vanishes at γ = 2μ, where ``ṙ`` does not exceed the height of a flight."""
+    parameters = Parameters(gamma=0.12, omega=0.8, rho=0.4, phi=0.3, mu=0.0622, d=1.0, radius_ratio=30.0)
+
+    found = orbit_windows(parameters, "gamma", np.geomspace(0.11, 0.14, 4).tolist())
+
+    (end,) = {end for window in found.possible for end in (window.low, window.high) if end.kind == "vanishing-period"}
+    at = conditions_at(Numbers.of(parameters.replace(gamma=end.value)), end.period, end.radial_speed)
+    assert end.value == pytest.approx(2.0 * parameters.mu, rel=1e-5)
+    # Both equations, to the rounding of sums of 1/T.
+    assert abs(at.closing) < 1e-11
+    assert abs(at.balance) < 1e-11
+
+
+def test_newtons_method_says_where_it_finds_no_orbit():
+    numbers = Numbers.of(FRICTIONLESS)
+    assert corrected(numbers, 1e-3, 0.0) is None
+    solution = orbit_solutions(CLOSE_SPEEDS, 40.0)[0]
+    near = corrected(solution.numbers, 1.001 * solution.period, 1.001 * solution.radial_speed)
+    assert near == pytest.approx((solution.period, solution.radial_speed), rel=1e-10)

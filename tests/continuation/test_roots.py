@@ -18,6 +18,21 @@ def test_bracketed_root():
         bracketed_root(np.cosh, -1.0, 1.0)
 
 
+def test_a_bracketed_root_is_sought_inside_the_bracket():
+    """The secant from a value that is far smaller than the other reaches beyond the end by a rounding error."""
+    random = np.random.default_rng(0)
+    for high, above in random.random((200, 2)):
+        seen: list[float] = []
+
+        def function(x, high=high, above=above, seen=seen):
+            seen.append(x)
+            return -1e-30 if x <= 0.0 else above if x >= high else above * x / high
+
+        bracketed_root(function, 0.0, high)
+        assert min(seen) >= 0.0
+        assert max(seen) <= high
+
+
 @pytest.mark.parametrize("mirror", [1.0, -1.0])
 def test_sign_change_next_to_where_a_function_begins(mirror):
     ends = sorted((0.0, 2.0 * mirror))

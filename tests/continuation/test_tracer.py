@@ -224,6 +224,24 @@ def test_watch_that_ends_the_branch():
     assert [point.kind for point in branch.special] == ["wall"]
 
 
+def test_another_branch_that_crosses_is_avoided():
+    """``u = 20p + 300p²``, ``v = p``, crossed at a small angle by ``v = p = 0`` with any ``u``."""
+
+    def residual(u, p):
+        return np.array([u[1] * (u[0] - 20.0 * p - 300.0 * p**2), u[1] - p])
+
+    start, still = np.array([20.0 * 0.06 + 300.0 * 0.06**2, 0.06]), lambda u, p: abs(u[1]) - 1e-9
+    strayed = continue_branch(residual, start, 0.06, (-0.07, 0.07))
+    assert np.ptp(strayed.unknowns[np.abs(strayed.parameters) < 1e-9, 0]) > 10.0
+    branch = continue_branch(
+        residual, start, 0.06, (-0.07, 0.07), watches=[Watch("line", still, at_zero="avoid")], crossings=""
+    )
+    assert branch.stops == ("parameter limit", "parameter limit")
+    assert branch.special == ()
+    values = branch.parameters
+    assert branch.unknowns[:, 0] == pytest.approx(20.0 * values + 300.0 * values**2, abs=1e-9)
+
+
 def test_equations_that_end():
     def residual(u, p):
         return np.array([u[0] - (np.sqrt(0.3 - p) if p <= 0.3 else np.nan)])

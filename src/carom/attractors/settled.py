@@ -11,6 +11,7 @@ from typing import Literal
 import numpy as np
 
 from carom.closed_forms.known import known_of
+from carom.continuation.roots import bracketed_root, sign_change
 from carom.motions.settling import REPEATING
 from carom.motions.trajectories import Trajectory
 from carom.orbits.orbit import Orbit, same_orbit
@@ -91,12 +92,14 @@ def _turn_time(motion: Trajectory) -> float | None:
     turned = np.flatnonzero(np.abs(angles - angles[-1]) >= 2.0 * math.pi * (1.0 - SAME))
     if not len(turned):
         return None
-    start = float(times[turned[-1]])
-    for _ in range(4):  # Newton's method from a start less than a sample's width away
-        position, velocity = motion.at_plane(np.array(start))
-        start -= cmath.phase(complex(position) / end) / (complex(position).conjugate() * complex(velocity)).imag
-        start = max(0.0, start)
-    return motion.time - start
+
+    def ahead(time: float) -> float:
+        return cmath.phase(complex(motion.at_plane(np.array(time))[0]) / end)
+
+    # By the tolerance of a full turn, it may begin before the sample found, even before the motion that was followed.
+    before, found, after = times[[max(0, turned[-1] - 1), turned[-1], turned[-1] + 1]].tolist()
+    bracket = sign_change(ahead, before, after)
+    return motion.time - (found if bracket is None else bracketed_root(ahead, *bracket))
 
 
 def same_motion(first: SettledMotion, second: SettledMotion) -> bool:

@@ -23,6 +23,9 @@ from carom.parameters import Numbers
 BOUNDLESS, FASTEST = "radial speed without bound", 30.0
 """Radial speed, in ``c_r Ω``, beyond which orbits are not followed: with one impact it grows without bound where ``a₁₂`` vanishes."""
 
+CORRECTIONS, CORRECTED = 12, 1e-10
+"""Largest number of steps of Newton's method, and the last of them, relative: the error that is left is its square."""
+
 
 class OrbitConditions(NamedTuple):
     """Equations and test functions of a single-impact orbit; see :func:`carom.core.planar.orbit_conditions`."""
@@ -112,16 +115,17 @@ def is_admissible(numbers: Numbers, period: float, speed: float) -> bool:
     return speed > 0.0 and min(margins_of(numbers, period, speed).values()) > 0.0
 
 
-def corrected(numbers: Numbers, period: float, speed: float) -> tuple[float, float]:
-    """Period and radial speed of the orbit at these parameters near a guess, by Newton's method."""
-    for _ in range(12):
+def corrected(numbers: Numbers, period: float, speed: float) -> tuple[float, float] | None:
+    """Period and radial speed of the orbit at these parameters near a guess, by Newton's method; ``None`` if it does not converge."""
+    for _ in range(CORRECTIONS):
         at = conditions_at(numbers, period, speed)
-        step = at.closing / at.period_fold if at.period_fold else 0.0
-        change = at.balance / (2.0 * at.speed_fold) if at.speed_fold else 0.0
-        if abs(step) < 1e-13 and abs(change) < 1e-13:
-            break
+        if not (at.period_fold and at.speed_fold and math.isfinite(at.closing + at.balance)):
+            return None
+        step, change = at.closing / at.period_fold, at.balance / (2.0 * at.speed_fold)
         period, speed = max(period - step, 0.5 * period), speed - change
-    return period, speed
+        if abs(step) < CORRECTED * period and abs(change) < CORRECTED * (1.0 + abs(speed)):
+            return period, speed
+    return None
 
 
 def name_of(numbers: Numbers, pair: int, period: float, speed: float) -> OrbitName:

@@ -8,6 +8,7 @@ it does so only between the values.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
@@ -25,12 +26,12 @@ from carom.bifurcations.conditions import (
     orbit_of,
     spectral_radii,
 )
-from carom.bifurcations.derivatives import orbit_jacobian
 from carom.bifurcations.solutions import Solution, orbit_solutions
 from carom.bifurcations.words import STEPS, continue_orbit
+from carom.continuation.roots import bracketed_root, sign_change
 from carom.models import Jeffcott, Subject, axis, jeffcott_of
 from carom.orbits.admissibility import slip_stays_forward
-from carom.orbits.single_impact import longest_within_reach
+from carom.orbits.single_impact import longest_within_reach, radial_speeds
 from carom.outcome import CaromError
 from carom.parameters import Numbers
 from carom.progress import Reporter, ShowProgress
@@ -211,6 +212,8 @@ def _partners(left: list[_Member], right: list[_Member]) -> dict[int, int]:
         for place, (solution, *_) in enumerate(left):
             if (solution.numbers.mu < 0.0) == backward:
                 guess = corrected(numbers, solution.period, solution.radial_speed)
+                if guess is None:
+                    continue
                 nearest = int(np.argmin(np.abs(others - guess).max(axis=1)))
                 partner = places[nearest]
                 if (
@@ -287,16 +290,16 @@ def _followed(solutions: Iterable[Solution], parameter: str, interval: tuple[flo
         except CaromError:
             continue
         passed += [branch.closed[end] for end in (0, -1)]
-        arcs += _arcs(branch)
+        arcs += _arcs(branch, interval)
     return arcs
 
 
-def _arcs(branch: OrbitBranch) -> list[_Arc]:
-    """Parts of a branch between its special points; along each the parameter is monotone."""
+def _arcs(branch: OrbitBranch, interval: tuple[float, float]) -> list[_Arc]:
+    """Parts of a branch in an interval between its special points; along each the parameter is monotone."""
     special, inner = branch.special, len(branch) - 2
     course = np.column_stack([branch.values, branch.period, branch.radial_speed])
     ends = [WindowEnd(point.value, point.kind, point.name, point.period, point.radial_speed) for point in special]
-    marks = [_branch_end(branch, 0), *ends, *([None] * inner), _branch_end(branch, -1)]
+    marks = [_branch_end(branch, 0, interval), *ends, *([None] * inner), _branch_end(branch, -1, interval)]
     rows = [course[0], *([end.value, end.period, end.radial_speed] for end in ends), *course[1:]]
     # A special point at the end of the branch comes before that end.
     order = np.argsort([0.0, *(point.place for point in special), *range(1, len(branch))], kind="stable").tolist()
@@ -314,25 +317,39 @@ def _arcs(branch: OrbitBranch) -> list[_Arc]:
     return arcs
 
 
-def _branch_end(branch: OrbitBranch, end: Literal[0, -1]) -> WindowEnd:
+def _branch_end(branch: OrbitBranch, end: Literal[0, -1], interval: tuple[float, float]) -> WindowEnd:
     value, period = float(branch.values[end]), float(branch.period[end])
     stop = branch.stops[end]
     if stop in ("parameter limit", "closed loop"):
         return WindowEnd(value)
-    speed = float(branch.radial_speed[end])
     if period < SHORT:
-        value, speed = _vanishing(branch, value, speed)
+        return _short_end(branch, end, interval)
+    return WindowEnd(value, stop, branch.names[end], period, float(branch.radial_speed[end]))
+
+
+def _short_end(branch: OrbitBranch, end: Literal[0, -1], interval: tuple[float, float]) -> WindowEnd:
+    """Where a branch ends whose period is too short for shooting, which loses digits there: by the closed form.
+
+    That is where the period vanishes, or the end of the interval to which it is short.
+    """
+    value, period, speed = (float(each[end]) for each in (branch.values, branch.period, branch.radial_speed))
+
+    def closing(there: float) -> float:
+        return conditions_at(branch.numbers_at(there), VANISHED, speed).closing
+
+    brackets = (sign_change(closing, value, limit) for limit in interval)
+    places = [bracketed_root(closing, *bracket) for bracket in brackets if bracket is not None]
+    if places:
+        value = min(places, key=lambda place: abs(place - value))
+        at = conditions_at(branch.numbers_at(value), VANISHED, speed)
+        speeds = radial_speeds(math.sqrt(1.0 + at.boundary), at.lever)
+        speed = min(speeds, key=lambda each: abs(each - speed), default=speed)
         return WindowEnd(value, "vanishing-period", branch.names[end], VANISHED, speed)
-    return WindowEnd(value, stop, branch.names[end], period, speed)
-
-
-def _vanishing(branch: OrbitBranch, value: float, speed: float) -> tuple[float, float]:
-    """Parameter and radial speed where the period of a branch vanishes, by the closed form: shooting loses digits there."""
-    for _ in range(5):
-        slopes = orbit_jacobian(branch.numbers_at, (value,), VANISHED, speed)[:, 1:]
-        change = np.linalg.solve(slopes, conditions_at(branch.numbers_at(value), VANISHED, speed)[:2])
-        speed, value = speed - float(change[0]), value - float(change[1])
-    return value, speed
+    for limit in interval:
+        found = corrected(branch.numbers_at(limit), period, speed)
+        if found is not None and found[0] < SHORT:
+            return WindowEnd(limit)
+    return WindowEnd(value, branch.stops[end], branch.names[end], period, speed)
 
 
 def _halfway(branch: OrbitBranch, course: np.ndarray) -> tuple[Numbers, float, float] | None:
@@ -343,8 +360,8 @@ def _halfway(branch: OrbitBranch, course: np.ndarray) -> tuple[Numbers, float, f
     middle = 0.5 * float(course[0, 0] + course[-1, 0])
     values, *others = course[np.argsort(course[:, 0])].T
     numbers = branch.numbers_at(middle)
-    period, speed = corrected(numbers, *(float(np.interp(middle, values, other)) for other in others))
-    return (numbers, period, speed) if np.isfinite([period, speed]).all() and period > 0.0 else None
+    found = corrected(numbers, *(float(np.interp(middle, values, other)) for other in others))
+    return None if found is None else (numbers, *found)
 
 
 def _joined(pieces: Iterable[Window]) -> tuple[Window, ...]:

@@ -52,6 +52,8 @@ LYING, BRIEF = "flights vanish", 0.03
 with the fourth power of it, so that there is nothing to be computed beyond."""
 GONE, LONG_GONE = "contact vanishes", -0.05
 """Where a branch ends beyond the value at which a stretch of lasting contact shrinks to nothing, and its duration there, in ``1/Ω``."""
+STILL = 1e-9
+"""Radial speeds, in ``c_r Ω``, at or below which nodes are no orbit: the equilibrium on the wall solves the equations with any durations."""
 FAST = 3.0
 """Speed before an impact, in ``c_r Ω``, above which steps grow with it."""
 FAR_OUT, FAR_IN = -0.3, -0.1
@@ -319,7 +321,10 @@ class Family:
             ends[LYING] = beyond(lifts, BRIEF)
         if (halves := halving(self.word, start)) is not None:
             ends[HALVING] = lambda u, _: halves(u)
-        return [Watch(kind, function, at_zero="end") for kind, function in ends.items()]
+        watches = [Watch(kind, function, at_zero="end") for kind, function in ends.items()]
+        if self.word.flies:
+            watches.append(Watch(HOPF, lambda u, _: self.fastest(u) - STILL, at_zero="avoid"))
+        return watches
 
 
 def _at_walls(rotor: Model, word: Word) -> np.ndarray:

@@ -238,7 +238,7 @@ def _special_point(
         if point.kind == HOPF:
             # Any period solves the equations there: it is the limit of those on both sides.
             period = float(np.interp(point.place, np.arange(len(branch)), branch.unknowns[:, -1]))
-            period, speed = corrected(numbers, period, speed)
+            period, speed = corrected(numbers, period, speed) or (period, speed)
         return special_orbit(point.kind, numbers, name.pair, period, speed, parameter, point.place)
     orbit = orbit_at(rotor, family.word, unknowns, name)
     return Bifurcation(

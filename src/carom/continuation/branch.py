@@ -48,14 +48,15 @@ class Watch:
         Name of the special point.
     function : callable
         Of ``u`` and ``p``; ``nan`` where it is not defined.  A jump from one sign to the other is not a zero.
-    at_zero : {"pass", "end", "limit"}
+    at_zero : {"pass", "end", "limit", "avoid"}
         Whether the branch goes on there or ends.  At a limit, too, it ends: it is followed only where the function is not
-        negative, and ends at once if it begins on a zero and leaves.
+        negative, and ends at once if it begins on a zero and leaves.  What is to be avoided is another branch that crosses
+        this one: a step to where the function is not positive is too long.
     """
 
     kind: str
     function: Callable[[np.ndarray, float], float]
-    at_zero: Literal["pass", "end", "limit"] = "pass"
+    at_zero: Literal["pass", "end", "limit", "avoid"] = "pass"
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -41,6 +41,8 @@ def bracketed_root(function: Callable[[float], float], low: float, high: float, 
         # Every fourth step halves the bracket, in case the secant steps do not shrink it.
         halve = attempt % 4 == 3
         middle = 0.5 * (low + high) if halve else high - above * (high - low) / (above - below)
+        # Next to a root at an end the secant may leave the bracket by a rounding error, to where there may be no value.
+        middle = min(max(middle, min(low, high)), max(low, high))
         value = function(middle)
         if value == 0.0:
             return middle

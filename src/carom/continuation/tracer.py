@@ -134,6 +134,11 @@ class Tracer:
             i: watch.kind for i, watch in enumerate(self.watches, 1) if watch.at_zero == "limit"
         }
 
+    @cached_property
+    def avoided(self) -> list[int]:
+        """Places, among the watched values, of those that are to be positive at every point."""
+        return [i for i, watch in enumerate(self.watches, 1) if watch.at_zero == "avoid"]
+
     def begin(self, guess: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """First point and the direction in which the parameter grows there."""
         jacobian = self.equations.jacobian(guess)
@@ -161,6 +166,8 @@ class Tracer:
             there, share, ending, known = self._step(here, length, length == to_limit), None, None, len(path.special)
             if there is not None:
                 there.watched = self._watched(there)
+                there = None if self._strays(there) else there
+            if there is not None:
                 left = self._left(here, there)
                 if left:
                     path.stop = left
@@ -199,6 +206,10 @@ class Tracer:
             return math.inf
         left = self.interval[ahead > 0.0] - float(here.x[-1]) * size
         return left / (ahead * size) if here.watched[0] != 0.0 else math.inf
+
+    def _strays(self, there: Point) -> bool:
+        """Whether a step leads to another branch that is to be avoided."""
+        return any(there.watched[i] <= 0.0 for i in self.avoided)
 
     def _left(self, here: Point, there: Point) -> str:
         """The limit that a step leaves from a point on it; empty if there is none."""
@@ -261,10 +272,11 @@ class Tracer:
     def _locate(self, path: _Path, here: Point, there: Point, length: float, share: float | None) -> str | None:
         """Add the special points of a step, up to a share of it, to the path, up to the first that ends the branch."""
         changed = (here.watched * there.watched < 0.0) | (np.isnan(here.watched) != np.isnan(there.watched))
+        changed[self.avoided] = False
         if not changed.any():
             return None
         kinds = ["", *(watch.kind for watch in self.watches), self.folds, self.crossings]
-        ends = [True, *(watch.at_zero != "pass" for watch in self.watches), False, False]
+        ends = [True, *(watch.at_zero in ("end", "limit") for watch in self.watches), False, False]
         reached: list[tuple[float, int, np.ndarray]] = []
         known = {0.0: here.x, length: there.x}
         for i in np.flatnonzero(changed):

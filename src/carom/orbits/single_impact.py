@@ -212,7 +212,7 @@ def orbits_of_roots(rotor: Jeffcott, roots: PeriodRoots, slip: Slip = 1) -> Iter
     for root, lever in enumerate(roots.returns[:, 0].tolist()):
         # F₁ starts positive unless d = 1, when T = 0 may be the shorter root of the first pair.
         pair, longer = divmod(root + int(roots.starts_below), 2)
-        for faster, speed in enumerate(_radial_speeds(rotor, lever)):
+        for faster, speed in enumerate(radial_speeds(abs(rotor.equilibrium), lever)):
             yield OrbitName(pair + 1, bool(longer), bool(faster), slip), root, speed
 
 
@@ -224,12 +224,12 @@ def orbit_at(rotor: Jeffcott, name: OrbitName, period: float, section: Section, 
     return Orbit(rotor, name, word, *start, nontrivial, why_virtual(rotor, word, start))
 
 
-def _radial_speeds(rotor: Jeffcott, lever: complex) -> tuple[float, ...]:
+def radial_speeds(rest: float, lever: complex) -> tuple[float, ...]:
     """Both solutions of ``|1 + q a₁₂ ṙ|² = |U*|²``, the lower first; empty if they are not real or ``U* = 0``.
 
-    ``lever`` is ``q a₁₂``.
+    ``rest`` is ``|U*|``, and ``lever`` is ``q a₁₂``.
     """
-    square, half, rest = abs(lever) ** 2, lever.real, abs(rotor.equilibrium)
+    square, half = abs(lever) ** 2, lever.real
     constant = (1.0 - rest) * (1.0 + rest)
     discriminant = half**2 - square * constant
     if discriminant < 0.0 or rest == 0.0:
