@@ -239,7 +239,8 @@ def test_study_as_json(carom, machine):
 def test_study_refuses_a_kick_without_a_unit(carom, machine):
     code, out, err = carom("study", machine, "--kick", "60")
     assert (code, out) == (2, "")
-    assert "--kick = 60: must be a velocity above 0 with its unit" in err
+    assert "--kick = 60: must be a velocity in m/s" in err
+    assert "write 60 mm/s or 60 m/s" in err
 
 
 def test_study_for_people(carom, machine):

@@ -35,7 +35,7 @@ from carom.parameters.quantities import read_quantity
 from carom.parameters.requirement import (
     GRAVITY,
     SHOCK_DURATION,
-    SURVIVE_FIELDS,
+    SURVIVE_ENTRIES,
     Required,
     Requirement,
     Shock,
@@ -56,7 +56,7 @@ __all__ = [
     "PHYSICAL_PARTNER",
     "SETTABLE",
     "SHOCK_DURATION",
-    "SURVIVE_FIELDS",
+    "SURVIVE_ENTRIES",
     "TERMS",
     "TERM_FIELDS",
     "UNITS",

@@ -10,10 +10,10 @@ from decimal import Decimal
 from typing import Any, Literal, get_args
 
 from carom.outcome import InputError, Problems, shown
-from carom.parameters.fields import DIMENSIONLESS_FIELDS, Field, by_name, unknown_name
-from carom.parameters.quantities import read_decimal, read_quantity
+from carom.parameters.fields import DIMENSIONLESS_FIELDS, Field, unknown_name
+from carom.parameters.quantities import read_quantity
 from carom.parameters.scaling import Scales
-from carom.parameters.sizes import in_gravities, is_plain
+from carom.parameters.sizes import read_size
 
 GRAVITY = 9.80665
 """Standard acceleration of free fall, m/s²."""
@@ -21,30 +21,13 @@ SHOCK_DURATION = 0.011
 """Duration of a shock for which none is stated, s: that of the usual test pulse (IEC 60068-2-27)."""
 Source = Literal["file", "option", "default"]
 
-SURVIVE_FIELDS: Mapping[str, Field] = by_name(
-    Field("kick", "", "velocity kick out of levitation", "a velocity", "m/s", 1e-12, 1e9, '"100 mm/s"'),
-    Field("shock", "", "half-sine shock of the base", "an acceleration", "m/s^2", 1e-12, 1e12, '"5 g, 11 ms"'),
-    Field(
-        "blade_loss_after",
-        "",
-        "unbalance after the loss of a blade",
-        "an unbalance",
-        "kg m",
-        1e-30,
-        1e12,
-        '"2000 g mm" or, as an eccentricity, "0.1 mm"',
-    ),
-)
-"""Entries of a ``[survive]`` table, in SI units; each may be left out."""
-_DURATION = Field("", "", "duration", "a time", "s", 1e-12, 1e6, '"5 g, 11 ms"')
-_ECCENTRICITY = Field("", "", "eccentricity", "a length", "m", 1e-30, 1e6, '"0.1 mm"')
-_PLAIN = {
-    "kick": ("c_r Omega", "0.4"),
-    "shock": ("c_r Omega^2 and 1/Omega", '"0.5, 3"'),
-    "blade_loss_after": ("c_r", "0.6"),
+SURVIVE_ENTRIES: Mapping[str, tuple[str, str]] = {
+    "kick": ("velocity kick out of levitation", '"100 mm/s"'),
+    "shock": ("half-sine shock of the base: peak and duration", '"5 g, 11 ms"'),
+    "blade_loss_after": ("unbalance after the loss of a blade, or its eccentricity", '"2000 g mm"'),
 }
-"""Units and an example of each entry of a machine without scales."""
-_NUMBER = Field("", "", "", "a number", "", 1e-12, 1e12, "0.4")
+"""Entries of a ``[survive]`` table, in words and with an example; each may be left out."""
+_NUMBER = Field("", "", "", "a number", "", 1e-300, 1e300, "0.4")
 
 
 @dataclass(frozen=True)
@@ -225,11 +208,11 @@ class Requirement:
         """
         problems = Problems()
         problems.errors += [
-            unknown_name(name, value, SURVIVE_FIELDS, "[survive]")
+            unknown_name(name, value, SURVIVE_ENTRIES, "[survive]")
             for name, value in table.items()
-            if name not in SURVIVE_FIELDS
+            if name not in SURVIVE_ENTRIES
         ]
-        names = {name: f"[survive] {name}" for name in SURVIVE_FIELDS}
+        names = {name: f"[survive] {name}" for name in SURVIVE_ENTRIES}
         found = problems.attempt(_read, table, names, scales, "file")
         problems.raise_all()
         return found or cls()
@@ -256,7 +239,7 @@ def _check(values: object, *names: str) -> None:
     problems = Problems()
     for name in names:
         given = getattr(values, name)
-        field = dataclasses.replace(_NUMBER, name=name, lowest=1e-300, highest=1e300)
+        field = dataclasses.replace(_NUMBER, name=name)
         if isinstance(given, str):
             problems.errors.append(InputError(name, shown(given), f"must be a number; {_TEXT}"))
         else:
@@ -275,45 +258,35 @@ def _read(entries: Mapping[str, Any], names: Mapping[str, str], scales: Scales |
 
 
 def _read_kick(name: str, given: object, scales: Scales | None) -> float:
-    return float(_number(name, given, "kick", scales))
+    return _size(name, given, "velocity", scales)
 
 
 def _read_shock(name: str, given: object, scales: Scales | None) -> Shock:
     parts = [part.strip() for part in given.split(",")] if isinstance(given, str) else [given]
     if len(parts) > 2 or (len(parts) == 1 and not scales):
-        raise _refused(name, given, "shock", scales)
-    try:
-        peak = _number(name, in_gravities(parts[0]), "shock", scales)
-        duration = _number(name, parts[1], "shock", scales, _DURATION) if len(parts) == 2 else SHOCK_DURATION
-    except InputError:
-        raise _refused(name, given, "shock", scales) from None
-    return Shock(float(peak), float(duration))
+        example = SURVIVE_ENTRIES["shock"][1] if scales else '"0.5, 3"'
+        raise InputError(name, shown(given), f"must be PEAK, DURATION, such as {example}")
+    peak = _size(name, parts[0], "acceleration", scales)
+    return Shock(peak, _size(name, parts[1], "time", scales) if len(parts) == 2 else SHOCK_DURATION)
 
 
 def _read_unbalance(name: str, given: object, scales: Scales | None) -> float:
+    if scales is None:
+        return _size(name, given, "length", scales)
     try:
-        return float(_number(name, given, "blade_loss_after", scales))
-    except InputError:
-        if scales is None:
-            raise
-        eccentricity = _number(name, given, "blade_loss_after", scales, _ECCENTRICITY)
-        return float(eccentricity * Decimal(repr(scales.mass)))
-
-
-def _number(name: str, given: object, entry: str, scales: Scales | None, field: Field | None = None) -> Decimal:
-    """Read a number with a unit, or without one if there are no scales."""
-    field = field or SURVIVE_FIELDS[entry]
-    if is_plain(given) == (scales is None):
+        return _size(name, given, "unbalance", scales)
+    except InputError as problem:
         try:
-            return read_decimal(field if scales else _NUMBER, given)
+            eccentricity = _size(name, given, "length", scales)
         except InputError:
-            pass
-    raise _refused(name, given, entry, scales)
+            raise problem from None
+    return float(Decimal(repr(eccentricity)) * Decimal(repr(scales.mass)))
 
 
-def _refused(name: str, given: object, entry: str, scales: Scales | None) -> InputError:
-    field, (unit, example) = SURVIVE_FIELDS[entry], _PLAIN[entry]
-    if scales:
-        return InputError(name, shown(given), f"must be {field.kind} above 0 with its unit, such as {field.example}")
-    words = f"must be a number above 0 in {unit}, such as {example}: this machine has no SI units"
-    return InputError(name, shown(given), words)
+def _size(name: str, given: object, kind: str, scales: Scales | None) -> float:
+    """Read a size above 0, in SI units where the scales are known; there it needs a unit."""
+    text = given if scales is None or isinstance(given, str) else shown(given)
+    size = read_size(name, text, kind, scales, bare=False)
+    if not size.value > 0.0:
+        raise InputError(name, shown(given), "must be above 0")
+    return size.value

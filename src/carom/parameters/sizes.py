@@ -79,13 +79,14 @@ def read_size(name: str, given: object, kind: str, scales: Scales | None, bare: 
     words, unit, usual, own, example = _KINDS[kind]
     needs_unit = scales is not None and not bare
     field = Field(name, "", "", words, "", -_HUGE, _HUGE, f"0.5 or '{example}'", bare=own)
-    if not isinstance(given, str) or (is_plain(given) and not needs_unit):
+    if not isinstance(given, str) or (not needs_unit and _PLAIN.fullmatch(without_separators(given))):
         return Size(read_quantity(field, given), False, kind)
     in_units = replace(field, unit=unit, usual=usual, needs_unit=needs_unit)
     if needs_unit:
         in_units = replace(in_units, example=f"'{example}'")
+    gravities = _GRAVITIES.fullmatch(given) if kind == "acceleration" else None
     try:
-        number = read_quantity(in_units, in_gravities(given) if kind == "acceleration" else given)
+        number = read_quantity(in_units, f"{gravities[1]} standard_gravity" if gravities else given)
     except InputError as problem:
         raise InputError(name, shown(given), problem.allowed) from None
     if kind == "angle":
@@ -94,17 +95,6 @@ def read_size(name: str, given: object, kind: str, scales: Scales | None, bare: 
         words = f"must be a number without a unit, in {own}: the machine file is dimensionless and has no scales"
         raise InputError(name, shown(given), words)
     return Size(number, True, kind)
-
-
-def is_plain(given: object) -> bool:
-    """Whether this is a number without a unit, in quotes or not; also what is no text at all."""
-    return not isinstance(given, str) or bool(_PLAIN.fullmatch(without_separators(given)))
-
-
-def in_gravities(given: object) -> object:
-    """Text of an acceleration in which ``g``, alone after a number, has become the standard gravity."""
-    gravities = _GRAVITIES.fullmatch(given) if isinstance(given, str) else None
-    return f"{gravities[1]} standard_gravity" if gravities else given
 
 
 def own_size(name: str, given: float | str, kind: str, scales: Scales | None) -> float:
