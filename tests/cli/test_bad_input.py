@@ -1,5 +1,6 @@
 """Bad input: one line that names the field, the value and what is allowed; exit code 2; nothing written."""
 
+import json
 import sys
 import time
 import warnings
@@ -10,7 +11,7 @@ import pytest
 
 from carom.cli import main
 from carom.cli.app import BAD_INPUT, FAILURE, INTERRUPTED
-from carom.outcome import CaromWarning, InputError
+from carom.outcome import CaromError, CaromWarning, InputError
 
 FIELDS = {
     "mass": ("50 kg", "1 s"),
@@ -271,6 +272,58 @@ def test_all_errors_of_a_file_are_told_a_line_each(carom, tmp_path):
         "carom: speed",
         "carom: gama",
     ]
+
+
+def test_an_error_is_an_object_of_json_too(carom, machine):
+    code, out, err = carom("simulate", machine, "--kick", "60", "--json")
+    error = json.loads(out)["error"]
+
+    assert code == BAD_INPUT
+    assert err == f"carom: {error['message']}\n"
+    assert (error["field"], error["value"], error["code"]) == ("--kick", "60", BAD_INPUT)
+    assert error["message"] == f"--kick = 60: {error['allowed']}"
+    assert set(json.loads(out)) == {"error"}
+
+
+def test_all_errors_of_a_file_are_objects_of_json(carom, tmp_path):
+    path = tmp_path / "machine.toml"
+    path.write_text(toml(good() | {"mass": "1 m", "speed": -1}), encoding="utf-8")
+    code, out, err = carom("orbits", path, "--set", "gama=1", "--json")
+    document = json.loads(out)
+
+    assert code == BAD_INPUT
+    assert [entry["field"] for entry in document["errors"]] == ["mass", "speed", "gama"]
+    assert [f"carom: {entry['message']}" for entry in document["errors"]] == err.splitlines()
+    assert document["error"] == document["errors"][0] | {"code": BAD_INPUT}
+
+
+@pytest.mark.parametrize(
+    ("problem", "code", "message"),
+    [
+        (ZeroDivisionError("first\nsecond"), FAILURE, "unexpected ZeroDivisionError, please report it"),
+        (OSError(28, "No space left on device"), FAILURE, "cannot read or write: No space left on device"),
+        (CaromError("no orbit"), BAD_INPUT, "no orbit"),
+        (KeyboardInterrupt(), INTERRUPTED, "interrupted"),
+        (InputError("mass", None, "\x1b[31m\u202e"), BAD_INPUT, "mass = nothing given"),
+    ],
+)
+def test_other_failures_are_objects_of_json(monkeypatch, carom, machine, problem, code, message):
+    monkeypatch.setattr("carom.parameters.load", _raise(problem))
+    answer, out, err = carom("study", machine, "--json")
+    error = json.loads(out)["error"]
+
+    assert answer == error["code"] == code
+    assert error["message"].startswith(message)
+    assert err == f"carom: {error['message']}\n"
+    assert out.replace("\n", "").isprintable()
+
+
+def test_wrong_usage_is_an_object_of_json(carom, machine):
+    code, out, err = carom("orbits", machine, "--impacts", "no", "--json")
+    error = json.loads(out)["error"]
+
+    assert (code, error["field"], error["value"], error["allowed"]) == (BAD_INPUT, None, None, None)
+    assert err == f"carom: {error['message']}\n"
 
 
 EVIL = "\x1b[31m\u202e\n\x07\x9b\u2028"

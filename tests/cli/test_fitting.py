@@ -50,6 +50,19 @@ def test_nothing_is_lost_where_words_cannot_stay_whole():
     assert letters == sorted(re.sub(r"\s", "", expected))
 
 
+def test_an_empty_column_takes_no_words():
+    screen = Console(file=io.StringIO(), width=40)
+    table = Table(box=box.SIMPLE_HEAD)
+    for heading in ("what happens", "", "remark"):
+        table.add_column(heading)
+    table.add_row("boundary equilibrium (persistence)", "", "friction keeps the rotor rolling")
+    screen.print(fitted(screen, table))
+    text = screen.file.getvalue()
+
+    assert max(map(len, text.splitlines())) <= 40
+    assert "equilibrium" in text
+
+
 def test_a_table_with_room_is_left_as_it_is():
     screen, table = Console(file=io.StringIO(), width=80), Table(box=box.SIMPLE_HEAD)
     table.add_column("speed")

@@ -29,7 +29,7 @@ def test_json_is_one_object(machine):
 
 
 def test_bad_input_exits_with_2_and_one_line():
-    done = run("study", "no-such-file.toml", "--json")
+    done = run("study", "no-such-file.toml")
 
     assert (done.returncode, done.stdout) == (2, "")
     assert (
@@ -63,7 +63,7 @@ def test_what_cannot_be_simulated_is_refused_before_kernels_are_loaded(machine):
         ("--kick", "fast"),
         ("--kick", "1,north"),
         (),
-        ("--kick", "1", "--csv", "."),
+        ("--kick", "1 m/s", "--csv", "."),
     ]
     code = (
         "import json, sys; from carom.cli import main; "

@@ -9,8 +9,9 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
+from carom.cli.app import app, main
 from carom.cli.screen import Screen
-from carom.cli.terminal import print_document
+from carom.cli.terminal import console, print_document
 from carom.progress import _bar
 
 
@@ -32,6 +33,33 @@ def test_clock_and_words_stay_whole(words, width):
     assert len(line.rstrip()) <= width
     assert re.search(r"[0-9-]:[0-9-]{2}:[0-9-]{2} ", line)
     assert line.rstrip().endswith(words)
+
+
+@pytest.mark.parametrize(
+    ("columns", "width"), [(None, 80), ("", 80), ("wide", 80), ("0", 80), ("120", 120), ("60", 60)]
+)
+def test_output_that_goes_elsewhere_has_80_columns_unless_others_are_asked_for(monkeypatch, capsys, columns, width):
+    monkeypatch.delenv("COLUMNS", raising=False)
+    if columns is not None:
+        monkeypatch.setenv("COLUMNS", columns)
+    console().print("x " * 200)
+
+    assert max(map(len, capsys.readouterr().out.splitlines())) in (width - 1, width)
+
+
+@pytest.mark.parametrize("columns", ["80", "100"])
+@pytest.mark.parametrize("command", ["", *(entry.name for entry in app.registered_commands)])
+def test_help_is_not_cut_off(monkeypatch, capsys, command, columns):
+    monkeypatch.setenv("COLUMNS", columns)
+    assert main([*command.split(), "--help"]) == 0
+    text = capsys.readouterr().out
+
+    assert max(map(len, text.splitlines())) <= int(columns)
+    assert "…" not in text
+    assert "..." not in text.replace("[ARGS]...", "")
+    plain = " ".join(text.split())
+    listed = app.registered_commands if not command else ()
+    assert all(str(entry.short_help) in plain for entry in listed)
 
 
 EVIL = "a\x1b[2J\u202e\x9b\x7fb"

@@ -24,6 +24,9 @@ COMMANDS = {
     "simulate": ("simulate", MACHINE, "--kick", "51.576 mm/s,0.2 rad", "--until", "100"),
     "basins": ("basins", MACHINE, "--grid", "14x14"),
     "bifurcations": ("bifurcations", MACHINE, "--along", "speed", "--from", "1500 rpm", "--to", "2000 rpm"),
+    "attractors": ("attractors", MACHINE, "--starts", "4"),
+    "response": ("response", MACHINE),
+    "prove": ("prove", "examples/source-paper.toml"),
     "regions": ("regions", MACHINE, "--plane", "gamma,omega", "--x", "0.1,0.2", "--y", "0.7,0.8", "--grid", "6"),
 }
 
@@ -67,9 +70,12 @@ def test_the_page_lists_what_names_can_be():
 
 
 @pytest.mark.parametrize("command", COMMANDS)
-def test_texts_of_commands_use_these_names(command, capsys):
+def test_texts_of_commands_use_these_names_and_80_columns(command, capsys, monkeypatch):
+    monkeypatch.delenv("COLUMNS", raising=False)
     assert main(COMMANDS[command]) == 0
-    text = re.sub(r"\s+", " ", capsys.readouterr().out)
+    out = capsys.readouterr().out
+    assert max(map(len, out.splitlines())) <= 80
+    text = re.sub(r"\s+", " ", out)
     assert not [words for words in FORBIDDEN if words in text]
     assert "rad/s" not in text
     if command in ("study", "basins"):

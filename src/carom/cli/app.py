@@ -1,15 +1,18 @@
-"""All commands, and the only place where errors become a line of text and an exit code."""
+"""All commands, and the only place where errors become a line of text, an object of JSON and an exit code."""
 
 from __future__ import annotations
 
 import _thread
 import io
+import json
+import math
 import os
 import sys
 import threading
 import warnings
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -27,7 +30,7 @@ from carom.cli.simulate import simulate
 from carom.cli.study import study
 from carom.cli.sweep import sweep
 from carom.cli.terminal import InterruptionError
-from carom.outcome import CaromError, CaromWarning, InputError, printable
+from carom.outcome import CaromError, CaromWarning, InputError, printable, shown
 
 FAILURE, BAD_INPUT, INTERRUPTED = 1, 2, 130
 AGAIN = 0.01
@@ -46,7 +49,8 @@ app = typer.Typer(
     context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110},
 )
 for each in study, simulate, orbits, attractors, prove, response, bifurcations, regions, basins, sweep, paper, explore:
-    app.command(each.__name__, help=each.__doc__)(each)
+    # The list of commands shows the first line of each whole, not its beginning.
+    app.command(each.__name__, help=each.__doc__, short_help=str(each.__doc__).partition("\n")[0])(each)
 
 
 def _print_version(wanted: bool) -> None:
@@ -86,29 +90,73 @@ def main(arguments: Sequence[str] | None = None) -> int:
         with _lost_interrupts_repeated(), _warnings_on_one_line():
             code = app(args=words, prog_name="carom", standalone_mode=False)
             sys.stdout.flush()
-    except CaromError as problem:
-        return _refuse(problem)
-    except InterruptionError as problem:
-        return _complain(str(problem), INTERRUPTED)
-    except UsageError as problem:
-        message = getattr(problem, "format_message", problem.__str__)()
-        return _complain(f"{message} (see carom --help)", BAD_INPUT)
-    except (KeyboardInterrupt, typer.Abort) as problem:
-        if isinstance(problem.__cause__, EOFError):  # which typer takes for Ctrl-D
-            return _unexpected(problem.__cause__)
-        return _complain("interrupted", INTERRUPTED)
     except BrokenPipeError:
         _close_quietly()
         return FAILURE
-    except OSError as problem:
+    except BaseException as problem:  # noqa: BLE001  (last resort: a user sees no traceback)
+        failure = _failure_of(problem)
+    else:
+        if code != INTERRUPTED:  # caught by typer, which prints nothing
+            return code if isinstance(code, int) else 0
+        failure = Failure(INTERRUPTED, "interrupted")
+    return failure.tell(as_json="--json" in words)
+
+
+@dataclass(frozen=True)
+class Failure:
+    """Why a command did not succeed, its exit code, and the errors of the input if it was refused."""
+
+    code: int
+    message: str
+    errors: tuple[InputError, ...] = ()
+
+    def tell(self, as_json: bool) -> int:
+        """Print each error on its own line of the error stream, and with ``--json`` one object too; return the exit code."""
+        lines = self.message.split("\n") if self.errors else [self.message]
+        for line in lines:
+            _complain(line)
+        if as_json:
+            entries = [_entry(error) for error in self.errors] or [{"message": _on_one_line(self.message)}]
+            nothing = dict.fromkeys(("field", "value", "allowed", "message"))
+            error = nothing | entries[0] | {"code": self.code}
+            document = {"error": error} if len(entries) == 1 else {"error": error, "errors": entries}
+            try:
+                print(json.dumps(document, indent=2), flush=True)  # noqa: T201
+            except OSError:
+                _close_quietly()
+        return self.code
+
+
+def _entry(error: InputError) -> dict[str, Any]:
+    """An error of the input as plain data."""
+    value = error.value
+    if not isinstance(value, bool | int | None) and not (isinstance(value, float) and math.isfinite(value)):
+        value = shown(value)
+    return {"field": shown(error.field), "value": value, "allowed": printable(error.allowed), "message": str(error)}
+
+
+def _failure_of(problem: BaseException) -> Failure:
+    """What an exception means for the user; raise it again if ``CAROM_DEBUG=1`` asks for the traceback of an unexpected one."""
+    if isinstance(problem, InputError):
+        return Failure(BAD_INPUT, str(problem), problem.errors)
+    if isinstance(problem, CaromError):
+        return Failure(BAD_INPUT, str(problem))
+    if isinstance(problem, InterruptionError):
+        return Failure(INTERRUPTED, str(problem))
+    if isinstance(problem, UsageError):
+        message = getattr(problem, "format_message", problem.__str__)()
+        return Failure(BAD_INPUT, f"{message} (see carom --help)")
+    if isinstance(problem, KeyboardInterrupt | typer.Abort) and not isinstance(problem.__cause__, EOFError):
+        return Failure(INTERRUPTED, "interrupted")
+    if isinstance(problem, OSError):
         _discard_unwritten_output()
         where = f" ({problem.filename})" if problem.filename else ""
-        return _complain(f"cannot read or write{where}: {problem.strerror or problem}", FAILURE)
-    except Exception as problem:  # noqa: BLE001  (last resort: a user sees no traceback)
-        return _unexpected(problem)
-    if code == INTERRUPTED:  # caught by typer, which prints nothing
-        return _complain("interrupted", INTERRUPTED)
-    return code if isinstance(code, int) else 0
+        return Failure(FAILURE, f"cannot read or write{where}: {problem.strerror or problem}")
+    cause = problem.__cause__ if isinstance(problem, typer.Abort) else problem  # typer takes the end of data for Ctrl-D
+    if os.environ.get("CAROM_DEBUG") == "1" or not isinstance(cause, Exception):
+        raise cause or problem
+    name = type(cause).__name__
+    return Failure(FAILURE, f"unexpected {name}, please report it (CAROM_DEBUG=1 shows more): {cause}")
 
 
 @contextmanager
@@ -138,7 +186,7 @@ def _warnings_on_one_line() -> Iterator[None]:
 
     def shown(message: Warning | str, category: type[Warning], *place: Any, **more: Any) -> None:
         if issubclass(category, CaromWarning):
-            _complain(str(message), 0)
+            _complain(str(message))
         else:
             usual(message, category, *place, **more)
 
@@ -149,26 +197,13 @@ def _warnings_on_one_line() -> Iterator[None]:
         warnings.showwarning = usual
 
 
-def _unexpected(problem: BaseException) -> int:
-    """Report an unexpected error; with ``CAROM_DEBUG=1`` raise it to show the traceback."""
-    if os.environ.get("CAROM_DEBUG") == "1":
-        raise problem
-    name = type(problem).__name__
-    return _complain(f"unexpected {name}, please report it (CAROM_DEBUG=1 shows more): {problem}", FAILURE)
+def _complain(message: str) -> None:
+    """Print an error or a warning on one line."""
+    print(f"carom: {_on_one_line(message)}", file=sys.stderr)  # noqa: T201
 
 
-def _refuse(problem: CaromError) -> int:
-    """Report errors of the input, each on its own line."""
-    lines = str(problem).split("\n") if isinstance(problem, InputError) else [str(problem)]
-    for line in lines:
-        _complain(line, BAD_INPUT)
-    return BAD_INPUT
-
-
-def _complain(message: str, code: int) -> int:
-    """Print an error on one line."""
-    print(f"carom: {printable(' '.join(message.split()))}", file=sys.stderr)  # noqa: T201
-    return code
+def _on_one_line(message: str) -> str:
+    return printable(" ".join(message.split()))
 
 
 def _discard_unwritten_output() -> None:

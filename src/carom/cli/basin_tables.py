@@ -31,7 +31,7 @@ _NAMES = {
 
 def print_basin(screen: Console, basin: Basin, smallest: SmallestLoss | None, harmless: float) -> None:
     """Print the disturbances tried, where they end, and the smallest that is lost."""
-    from carom.cli.fitting import plain_table
+    from carom.cli.fitting import fitted, plain_table
 
     screen.print(_tried(basin))
     drawn = basin.share_recovered.drawn
@@ -45,7 +45,7 @@ def print_basin(screen: Console, basin: Basin, smallest: SmallestLoss | None, ha
         table.add_row(
             name.words, str(share.count), f"{100 * share.fraction:.4g} %", *interval, _time(when, basin.scales)
         )
-    screen.print(table)
+    screen.print(fitted(screen, table))
     screen.print(
         "Known after: time from the start until it was known where the motion ends, by a proof or by the criterion of that outcome; "
         "the motion need not have arrived there. The table shows the median of the starts with this end."

@@ -44,7 +44,7 @@ Sampled = Annotated[
         metavar="N",
         min=0,
         max=10_000,
-        help="Simulate N disturbances at each of 31 values and show where they settle: irregular bouncing, rolling, …",
+        help="Simulate N disturbances at each of 31 values and show where they settle: bouncing, rub, rolling and so on.",
     ),
 ]
 Seed = Annotated[

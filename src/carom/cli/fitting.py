@@ -59,7 +59,7 @@ def fitted(screen: Console, table: Table) -> Table:
 
 
 def _widest(parts: list[str]) -> int:
-    return max(map(cell_len, parts), default=0)
+    return max(map(cell_len, parts), default=0) or 1  # a column may be empty
 
 
 def _widened(least: list[int], most: list[int], room: int) -> list[int]:

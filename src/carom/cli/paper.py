@@ -45,7 +45,7 @@ def paper(
 
 
 def _print_reproduction(found: Reproduction) -> None:
-    from carom.cli.fitting import plain_table
+    from carom.cli.fitting import fitted, plain_table
     from carom.reproductions.mora2014.document import given_words, tables
 
     screen = console()
@@ -53,5 +53,5 @@ def _print_reproduction(found: Reproduction) -> None:
         table = plain_table(shown.title, *shown.headings, right=shown.numbers)
         for row, agrees in zip(shown.rows, shown.agrees, strict=True):
             table.add_row(*row, style="" if agrees else "yellow")
-        screen.print(table)
+        screen.print(fitted(screen, table))
     screen.print(given_words(found))

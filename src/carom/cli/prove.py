@@ -100,10 +100,10 @@ def _print_proof(proof: Proof, checked: bool) -> None:
         table.add_row(claim.about, claim.kind, claim.status, claim.reason or _number(claim))
     screen.print(fitted(screen, table))
     how = "Verified from the certificate alone" if checked else "Proven"
-    screen.print(f"{how}, with balls of {proof.bits} bits. Exactly assumed: {_assumed(proof)}.", soft_wrap=True)
+    screen.print(f"{how}, with balls of {proof.bits} bits. Exactly assumed: {_assumed(proof)}.")
     screen.print("Not claimed:")
     for words in proof.not_claimed:
-        screen.print(f"- {words}", soft_wrap=True)
+        screen.print(f"- {words}")
 
 
 def _number(claim: Claim) -> str:

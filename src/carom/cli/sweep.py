@@ -134,7 +134,7 @@ def _print(plan: SweepPlan, tally: Tally, failures: list[dict[str, Any]]) -> Non
     table.add_row("failed", f"{tally.failed:,}")
     table.add_row("all", f"{tally.points:,}")
     grid = " x ".join(f"{axis.count} {axis.name}" for axis in plan.axes)
-    screen.print(f"Sweep of {plan.name} ({plan.task.kind}): {grid}", soft_wrap=True)
+    screen.print(f"Sweep of {plan.name} ({plan.task.kind}): {grid}")
     screen.print(table)
     if tally.computed:
         rate = rate_words(tally.rate, "points")
@@ -147,7 +147,7 @@ def _print(plan: SweepPlan, tally: Tally, failures: list[dict[str, Any]]) -> Non
         chunks = ", ".join(map(str, tally.damaged[:_SHOWN])) + (", ..." if len(tally.damaged) > _SHOWN else "")
         noun = "chunk" if len(tally.damaged) == 1 else "chunks"
         words = f"Files of {len(tally.damaged):,} {noun} ({chunks}) were damaged or missing: computed again"
-        screen.print(words, soft_wrap=True)
+        screen.print(words)
     for failure in failures[:_SHOWN]:
         screen.print(f"Failed at {_place(failure)}: {failure['error']}", soft_wrap=True)
     if tally.failed:

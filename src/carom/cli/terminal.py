@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -25,8 +26,8 @@ Settings = Annotated[
 ]
 AsJson = Annotated[bool, typer.Option("--json", help="Print one JSON object and nothing else.")]
 
-PIPE_WIDTH = 140
-"""Width of tables, in columns, if the output is not a terminal."""
+WIDTH = 80
+"""Width of texts and tables, in columns, if the output is no terminal and ``COLUMNS`` is not set."""
 
 
 class InterruptionError(Exception):
@@ -38,7 +39,9 @@ def console(errors: bool = False) -> Console:
     from carom.cli.screen import Screen
 
     stream = sys.stderr if errors else sys.stdout
-    width = None if stream.isatty() else PIPE_WIDTH
+    columns = os.environ.get("COLUMNS", "")
+    # Without a width rich takes that of any terminal it finds, also if the output goes elsewhere.
+    width = None if stream.isatty() else int(columns) if columns.isdecimal() and int(columns) else WIDTH
     return Screen(file=stream, markup=False, highlight=False, emoji=False, width=width)
 
 
