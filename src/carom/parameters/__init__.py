@@ -16,6 +16,7 @@
 ``indentation``           whether a rigid wall is a valid model under a load
 ``requirement``           :class:`Requirement`: what a machine must survive
 ``machine_file``          :func:`load`: file and settings -> :class:`Case`
+``in_terms``              :func:`in_terms_of`: values in the terms of the file
 ========================  =================================================================
 """
 
@@ -27,6 +28,7 @@ from carom.parameters.fields import (
     Field,
     unknown_name,
 )
+from carom.parameters.in_terms import InTerms, in_terms_of
 from carom.parameters.load_limits import LIMIT_FIELDS, LoadLimits
 from carom.parameters.machine import Machine
 from carom.parameters.machine_file import Case, Zones, load
@@ -62,6 +64,7 @@ __all__ = [
     "UNITS",
     "Case",
     "Field",
+    "InTerms",
     "LoadLimits",
     "Machine",
     "Numbers",
@@ -74,6 +77,7 @@ __all__ = [
     "Zones",
     "field_to_set",
     "field_to_vary",
+    "in_terms_of",
     "load",
     "own_size",
     "read_quantity",

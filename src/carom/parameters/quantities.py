@@ -152,6 +152,15 @@ def _from_text(field: Field, text: str) -> float | Decimal:
         return Decimal(match["number"]) * unit_factor(field, unit, text) if unit else Decimal(match["number"])
 
 
+def unit_of(field: Field, text: str) -> str:
+    """Unit that stands in a text which :func:`read_quantity` reads; the letter of the field if this stands there instead."""
+    plain = text.strip()
+    if field.letter and plain.startswith(field.letter):
+        return field.letter
+    match = _TEXT.fullmatch(without_separators(plain))
+    return match["unit"].strip() if match else ""
+
+
 def unit_advice(field: Field, number: str) -> str:
     """Say how to write a number without a unit."""
     written = (f"{number} {unit}" for unit in dict.fromkeys((field.usual_unit, field.unit)))

@@ -37,6 +37,8 @@ class Term(NamedTuple):
     """What the formula needs besides the entry: fields of the machine, and entries that set nothing themselves."""
     value: Callable[[Decimals], Decimal]
     """The formula, from decimals in the units of the fields."""
+    entry: Callable[[Decimals], Decimal]
+    """Its inverse: the entry from the field and from what the formula needs.  All are increasing."""
 
 
 TERM_FIELDS: Mapping[str, Field] = by_name(
@@ -164,28 +166,47 @@ BEARING_FIELDS = tuple(name for name in HELPER_FIELDS if name != "rated_speed")
 """Entries about the magnetic bearings, which a machine keeps."""
 
 TERMS: Mapping[str, Term] = {
-    "unbalance": Term("eccentricity", "unbalance/mass", ("mass",), lambda given: given["unbalance"] / given["mass"]),
+    "unbalance": Term(
+        "eccentricity",
+        "unbalance/mass",
+        ("mass",),
+        lambda given: given["unbalance"] / given["mass"],
+        lambda given: given["eccentricity"] * given["mass"],
+    ),
     "balance_grade": Term(
         "eccentricity",
         "balance_grade/rated_speed",
         ("rated_speed",),
         lambda given: given["balance_grade"] / 1000 / given["rated_speed"],
+        lambda given: given["eccentricity"] * 1000 * given["rated_speed"],
     ),
-    "rotor_diameter": Term("rotor_radius", "rotor_diameter/2", (), lambda given: given["rotor_diameter"] / 2),
+    "rotor_diameter": Term(
+        "rotor_radius",
+        "rotor_diameter/2",
+        (),
+        lambda given: given["rotor_diameter"] / 2,
+        lambda given: given["rotor_radius"] * 2,
+    ),
     "diametral_clearance": Term(
-        "clearance", "diametral_clearance/2", (), lambda given: given["diametral_clearance"] / 2
+        "clearance",
+        "diametral_clearance/2",
+        (),
+        lambda given: given["diametral_clearance"] / 2,
+        lambda given: given["clearance"] * 2,
     ),
     "natural_frequency": Term(
         "stiffness",
         "mass natural_frequency^2",
         ("mass",),
         lambda given: given["mass"] * given["natural_frequency"] ** 2,
+        lambda given: (given["stiffness"] / given["mass"]).sqrt(),
     ),
     "damping_ratio": Term(
         "damping",
         "2 damping_ratio sqrt(stiffness mass)",
         ("mass", "stiffness"),
         lambda given: 2 * given["damping_ratio"] * (given["stiffness"] * given["mass"]).sqrt(),
+        lambda given: given["damping"] / (2 * (given["stiffness"] * given["mass"]).sqrt()),
     ),
     "proportional_gain": Term(
         "stiffness",
@@ -195,12 +216,17 @@ TERMS: Mapping[str, Term] = {
             given["magnetic_bearings"]
             * (given["force_current_factor"] * given["proportional_gain"] - given["negative_stiffness"])
         ),
+        lambda given: (
+            (given["stiffness"] / given["magnetic_bearings"] + given["negative_stiffness"])
+            / given["force_current_factor"]
+        ),
     ),
     "derivative_gain": Term(
         "damping",
         "magnetic_bearings force_current_factor derivative_gain",
         ("magnetic_bearings", "force_current_factor"),
         lambda given: given["magnetic_bearings"] * given["force_current_factor"] * given["derivative_gain"],
+        lambda given: given["damping"] / (given["magnetic_bearings"] * given["force_current_factor"]),
     ),
 }
 """The formula of each entry of :data:`TERM_FIELDS`."""

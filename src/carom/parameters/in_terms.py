@@ -1,0 +1,201 @@
+"""Values of a machine in the terms of its file: a gain in A s/m where the file has gains, a frequency where it has one."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from decimal import ROUND_CEILING, ROUND_FLOOR, ROUND_HALF_EVEN, Context, Decimal, localcontext
+from typing import Any, Literal, NamedTuple
+
+from carom.parameters.fields import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, PARAMETERS, PHYSICAL_PARTNER
+from carom.parameters.machine import Machine
+from carom.parameters.machine_file import Case
+from carom.parameters.numbers import CONVERSIONS
+from carom.parameters.quantities import read_quantity, unit_factor, unit_of
+from carom.parameters.terms import HELPER_FIELDS, SETTABLE, TERMS, no_such_parameter, set_by
+
+Side = Literal["up", "down", "nearest"]
+_ROUNDING = {"up": ROUND_CEILING, "down": ROUND_FLOOR, "nearest": ROUND_HALF_EVEN}
+_EXACT = Context(prec=60)
+_RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+_SECONDARY_DIGITS = 3
+
+
+@dataclass(frozen=True)
+class InTerms:
+    """A value of a parameter as the file of a machine would state it.
+
+    Attributes
+    ----------
+    entry : str
+        The entry that states it there, such as ``"derivative_gain"``.
+    value : float
+        Its rounded value, in `unit`.
+    unit : str
+        The unit that stands in the file; empty for a pure number.
+    text : str
+        Value and unit for people, such as ``"50,540 N s/m"``.
+    setting : str
+        What follows ``--set``, such as ``"damping=50540 N s/m"``.
+    reached : float
+        The parameter after this setting, in its own unit; on the side that was asked for.
+    beside : tuple of str
+        What else people call it, such as ``"damping ratio 0.31"``.
+    """
+
+    entry: str
+    value: float
+    unit: str
+    text: str
+    setting: str
+    reached: float
+    beside: tuple[str, ...]
+
+
+class _Stated(NamedTuple):
+    """An entry, its exact value, and how it is written."""
+
+    entry: str
+    exact: Decimal
+    unit: str
+    letter: bool
+
+    def written(self, number: str) -> str:
+        return f"{self.unit} {number}" if self.letter else f"{number} {self.unit}".rstrip()
+
+
+def in_terms_of(case: Case, name: str, value: float, side: Side = "nearest", digits: int = 4) -> InTerms:
+    """Return a value of a parameter in the terms and units of the machine's file, rounded.
+
+    Parameters
+    ----------
+    case : Case
+        A field that a dimensionless number has set is stated by its own name.
+    name : str
+        A dimensionless parameter, or a field of the machine.
+    value : float
+        In the unit of the parameter: ``gamma`` and the like without one, fields of the machine in SI units.
+    side : {"up", "down", "nearest"}
+        How to round.  A machine with the setting has at least, or at most, the value.
+    digits : int
+        Significant digits.
+
+    Raises
+    ------
+    InputError
+        The case has no such parameter, or the machine cannot have this value.
+
+    Examples
+    --------
+    >>> import carom as cm
+    >>> case = cm.load("examples/tum-test-rig.toml")
+    >>> least = cm.parameters.in_terms_of(case, "damping", 1234.5, "up")
+    >>> least.setting, least.beside
+    ('derivative_gain=12.35 A s/m', ('damping 1,240 N s/m', 'damping ratio 0.623'))
+    """
+    if name not in case.parameters.varied:
+        raise no_such_parameter(name, value, case.parameters.varied, case.parameters.scales is not None)
+    value = read_quantity(PARAMETERS[name], value)
+    with localcontext(_EXACT):
+        stated = _stated(case.machine, name, Decimal(repr(value)))
+        number = _rounded(stated.exact, digits, _ROUNDING[side])
+        after = _changed(case, stated, number)
+        while (side == "up" and _value(after, name) < value) or (side == "down" and _value(after, name) > value):
+            # Rounding of what follows from the entry has put the last bit on the other side.
+            number += Decimal(1 if side == "up" else -1).scaleb(_last_digit(number, digits))
+            after = _changed(case, stated, number)
+        return InTerms(
+            stated.entry,
+            float(number),
+            stated.unit,
+            stated.written(_for_people(number)),
+            f"{stated.entry}={stated.written(_plain(number))}",
+            _value(after, name),
+            tuple(_beside(after, stated.entry)),
+        )
+
+
+def _stated(machine: Machine | None, name: str, value: Decimal) -> _Stated:
+    """The entry that states a parameter in the file of a machine, with its value."""
+    given: Mapping[str, Any] = {}
+    if machine is not None:
+        name, value = _field(machine, name, value)
+        given = machine.given.get(name, {})
+    entry = next((entry for entry in given if entry in TERMS), name)
+    if machine is not None and entry in TERMS:
+        value = TERMS[entry].entry({name: value} | {need: _needed(machine, need) for need in TERMS[entry].needs})
+    field, written = SETTABLE[entry], given.get(entry)
+    unit = (unit_of(field, written) if isinstance(written, str) else "") or field.usual_unit
+    if field.letter and unit == field.letter:
+        return _Stated(entry, value, unit, letter=True)
+    return _Stated(entry, value / unit_factor(field, unit, unit) if unit else value, unit, letter=False)
+
+
+def _changed(case: Case, stated: _Stated, number: Decimal) -> Case:
+    """The case after ``--set``."""
+    entry, text = stated.entry, stated.written(_plain(number))
+    if case.machine is None and entry in DIMENSIONLESS_FIELDS:
+        return case.replace(**{entry: read_quantity(DIMENSIONLESS_FIELDS[entry], text)})
+    return case.replace(**{entry: text})
+
+
+def _value(case: Case, name: str) -> float:
+    """A parameter, as exact as the case knows it."""
+    return float(
+        getattr(case.machine, name) if case.machine and name in MACHINE_FIELDS else case.parameters.value(name)
+    )
+
+
+def _field(machine: Machine, name: str, value: Decimal) -> tuple[str, Decimal]:
+    """The field of a machine that a parameter stands for, and its value in SI units."""
+    if name not in PHYSICAL_PARTNER:
+        return name, value
+    return PHYSICAL_PARTNER[name], CONVERSIONS[name].value(value, machine.scales)
+
+
+def _needed(machine: Machine, need: str) -> Decimal:
+    """What a formula needs besides the field, as :mod:`carom.parameters.resolution` takes it."""
+    if need == "rated_speed":
+        written = machine.given["eccentricity"].get(need, machine.speed)
+        return Decimal(repr(read_quantity(HELPER_FIELDS[need], written)))
+    return Decimal(repr(getattr(machine, need)))
+
+
+def _beside(case: Case, entry: str) -> Iterator[str]:
+    """What else people say: the damping or stiffness that follows from a term, the damping ratio, the natural frequency."""
+    numbers, field = case.parameters, set_by(entry)
+    if numbers.scales and field in ("damping", "stiffness") and entry != field:
+        yield f"{field} {_short(numbers.value(field))} {MACHINE_FIELDS[field].unit}"
+    if field == "damping" and entry != "damping_ratio":
+        yield f"damping ratio {_short(numbers.gamma / (2.0 * numbers.omega))}"
+    if numbers.scales and field == "stiffness" and entry != "natural_frequency":
+        yield f"natural frequency {_short(numbers.omega * numbers.scales.speed / math.tau)} Hz"
+
+
+def _rounded(exact: Decimal, digits: int, rounding: str) -> Decimal:
+    return exact.quantize(Decimal(1).scaleb(_last_digit(exact, digits)), rounding) if exact else exact
+
+
+def _last_digit(number: Decimal, digits: int) -> int:
+    """Power of ten of the last significant digit."""
+    return number.adjusted() - digits + 1
+
+
+def _short(value: float) -> str:
+    return _for_people(_rounded(Decimal(value), _SECONDARY_DIGITS, ROUND_HALF_EVEN))
+
+
+def _plain(number: Decimal) -> str:
+    """Text of a number as all programs read it."""
+    number = number.normalize()
+    return f"{number:f}" if -5 <= number.adjusted() < 12 or not number else f"{number:e}"
+
+
+def _for_people(number: Decimal) -> str:
+    """Text of a number with thousands separators, or a power of ten: ``50,540``, ``2.5×10⁹``."""
+    number = number.normalize()
+    power = number.adjusted()
+    if -5 <= power < 8 or not number:
+        return f"{number:,f}"
+    return f"{number.scaleb(-power):f}×10{str(power).translate(_RAISED)}"
