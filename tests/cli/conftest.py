@@ -21,6 +21,12 @@ def dimensionless():
 
 
 @pytest.fixture(autouse=True)
+def output_is_wide(monkeypatch):
+    """Let sentences and names of tables stay on one line; tests of the width set another one."""
+    monkeypatch.setenv("COLUMNS", "140")
+
+
+@pytest.fixture(autouse=True)
 def studies_are_made_once(monkeypatch):
     """Let commands that study the same machine share the study."""
     from studies import study_once
