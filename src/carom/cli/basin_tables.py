@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from carom.parameters import GRAVITY
+
 if TYPE_CHECKING:
     from rich.console import Console
 
@@ -16,7 +18,7 @@ if TYPE_CHECKING:
     from carom.parameters import Field, Scales
 
 _UNITS = {"velocity": "c_r Ω", "length": "c_r", "acceleration": "c_r Ω²", "time": "/Ω"}
-_SHOWN = {"m/s": (1e3, "mm/s"), "m": (1e3, "mm"), "m/s^2": (1.0 / 9.80665, "g")}
+_SHOWN = {"m/s": (1e3, "mm/s"), "m": (1e3, "mm"), "m/s^2": (1.0 / GRAVITY, "g")}
 _NAMES = {
     "kick": "velocity kicks out of levitation",
     "kick-plane": "velocity kicks out of levitation",

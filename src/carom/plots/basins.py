@@ -16,6 +16,7 @@ from matplotlib.ticker import MaxNLocator
 
 from carom.disturbances import outward_from
 from carom.outcome import InputError
+from carom.parameters import GRAVITY
 from carom.plots.cells import CHORDS, MotionLook, finish, ink, motion_looks, paint
 from carom.plots.figure import StyledFigure
 from carom.plots.plane import clearance_circle, label_frame, point
@@ -28,7 +29,7 @@ if TYPE_CHECKING:
     from carom.disturbances import Coordinate
     from carom.parameters import Scales
 
-_BRIGHT = {"m/s": (1e3, "mm/s"), "m": (1e3, "mm"), "m/s^2": (1.0 / 9.80665, "g")}
+_BRIGHT = {"m/s": (1e3, "mm/s"), "m": (1e3, "mm"), "m/s^2": (1.0 / GRAVITY, "g")}
 """SI units as figures show them: factor and unit."""
 
 
