@@ -128,3 +128,16 @@ def test_without_a_machine_the_parameter_states_itself():
 def test_what_the_machine_cannot_have_is_refused(path, name, value, words):
     with pytest.raises(InputError, match=words):
         in_terms_of(load(path), name, value)
+
+
+@pytest.mark.parametrize("bad", [None, True, -1, 0.5, math.inf, [1.0], 10**400, "", np.ones(2)])
+def test_bad_arguments_are_refused(bad):
+    case = load(REAL)
+    for make in (
+        lambda: in_terms_of(bad, "damping", 1.0),
+        lambda: in_terms_of(case, bad, 1.0),
+        lambda: in_terms_of(case, "damping", 1.0, bad),
+        lambda: in_terms_of(case, "damping", 1.0, "up", bad),
+    ):
+        with pytest.raises(InputError):
+            make()

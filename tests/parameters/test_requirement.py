@@ -3,11 +3,12 @@
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from carom.models import Jeffcott
 from carom.outcome import InputError
-from carom.parameters import GRAVITY, Required, Requirement, Scales, Shock, load, usual_kick
+from carom.parameters import GRAVITY, Case, Required, Requirement, Scales, Shock, Zones, load, usual_kick
 
 REAL, PAPER = "examples/keogh-cole.toml", "examples/source-paper.toml"
 FIVE_G = 49.03325
@@ -166,9 +167,14 @@ def test_python_reads_text_for_any_machine():
         Requirement.of(case, kick=0.1)
 
 
-@pytest.mark.parametrize("bad", [-1.0, 0.0, float("nan"), float("inf"), True, "100 mm/s", [1.0], 10**400])
+@pytest.mark.parametrize("bad", [-1.0, 0.0, float("nan"), float("inf"), True, "100 mm/s", [1.0], 10**400, np.ones(2)])
 def test_bad_numbers_are_refused(bad):
+    parameters = load(PAPER).parameters
     for make in (
+        lambda: usual_kick(bad),
+        lambda: Requirement.of(bad),
+        lambda: Case("machine", parameters, None, Zones(), requirement=bad),
+        lambda: Case("machine", bad, None, Zones()),
         lambda: Requirement(kick=bad),
         lambda: Requirement(blade_loss=bad),
         lambda: Requirement(shock=bad),

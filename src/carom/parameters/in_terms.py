@@ -8,7 +8,8 @@ from dataclasses import dataclass
 from decimal import ROUND_CEILING, ROUND_FLOOR, ROUND_HALF_EVEN, Context, Decimal, localcontext
 from typing import Any, Literal, NamedTuple
 
-from carom.parameters.fields import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, PARAMETERS, PHYSICAL_PARTNER
+from carom.outcome import InputError, shown
+from carom.parameters.fields import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, PARAMETERS, PHYSICAL_PARTNER, Field
 from carom.parameters.machine import Machine
 from carom.parameters.machine_file import Case
 from carom.parameters.numbers import CONVERSIONS
@@ -20,6 +21,7 @@ _ROUNDING = {"up": ROUND_CEILING, "down": ROUND_FLOOR, "nearest": ROUND_HALF_EVE
 _EXACT = Context(prec=60)
 _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 _SECONDARY_DIGITS = 3
+_DIGITS = Field("digits", "", "significant digits", "a whole number", "", 1, 17, "4", whole=True)
 
 
 @dataclass(frozen=True)
@@ -84,7 +86,7 @@ def in_terms_of(case: Case, name: str, value: float, side: Side = "nearest", dig
     Raises
     ------
     InputError
-        The case has no such parameter, or the machine cannot have this value.
+        The case has no such parameter, the machine cannot have this value, or it is none; no such side; digits not from 1 to 17.
 
     Examples
     --------
@@ -94,6 +96,13 @@ def in_terms_of(case: Case, name: str, value: float, side: Side = "nearest", dig
     >>> least.setting, least.beside
     ('derivative_gain=12.35 A s/m', ('damping 1,240 N s/m', 'damping ratio 0.623'))
     """
+    if not isinstance(case, Case):
+        raise InputError("case", shown(case), "must be a Case, as carom.load reads it from a file")
+    if not isinstance(name, str):
+        raise InputError("name", shown(name), f"must be one of: {', '.join(case.parameters.varied)}")
+    if shown(side) not in _ROUNDING:
+        raise InputError("side", shown(side), f"must be one of: {', '.join(_ROUNDING)}")
+    digits = int(read_quantity(_DIGITS, digits))
     if name not in case.parameters.varied:
         raise no_such_parameter(name, value, case.parameters.varied, case.parameters.scales is not None)
     value = read_quantity(PARAMETERS[name], value)

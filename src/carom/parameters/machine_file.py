@@ -87,7 +87,8 @@ class Case:
     Raises
     ------
     InputError
-        The unbalance after the loss of a blade is out of range for the mass and clearance of the machine.
+        `parameters` or `requirement` are something else, or the unbalance after the loss of a blade is out of range for the
+        mass and clearance of the machine.
     """
 
     name: str
@@ -98,6 +99,9 @@ class Case:
     requirement: Requirement = field(default_factory=Requirement)
 
     def __post_init__(self) -> None:
+        for name, kind in (("parameters", Parameters), ("requirement", Requirement)):
+            if not isinstance(getattr(self, name), kind):
+                raise InputError(name, shown(getattr(self, name)), f"must be a carom.parameters.{kind.__name__}")
         self.requirement.own(self.parameters.scales)
 
     def replace(self, /, **changes: Any) -> Case:

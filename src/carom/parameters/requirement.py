@@ -115,7 +115,7 @@ class Requirement:
         _check(self, *(name for name in ("kick", "blade_loss") if getattr(self, name) is not None))
         if not isinstance(self.shock, Shock | None):
             raise InputError("shock", shown(self.shock), f"must be a carom.parameters.Shock, or None; {_TEXT}")
-        if self.source not in get_args(Source):
+        if shown(self.source) not in get_args(Source):
             raise InputError("source", shown(self.source), f"must be one of: {', '.join(get_args(Source))}")
         if (self.kick, self.shock, self.blade_loss) == (None, None, None):
             object.__setattr__(self, "source", "default")
@@ -223,7 +223,14 @@ def usual_kick(scales: Scales | None) -> float:
 
     It is the speed of a fall through the diametral clearance, ``sqrt(4 g c_r)`` in m/s whatever the running speed; 1
     where the scales are not known.
+
+    Raises
+    ------
+    InputError
+        They are neither scales nor None.
     """
+    if not isinstance(scales, Scales | None):
+        raise InputError("scales", shown(scales), "must be carom.parameters.Scales, or None")
     return _fall_speed(scales) / scales.velocity if scales else 1.0
 
 
