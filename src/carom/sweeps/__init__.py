@@ -8,6 +8,7 @@
 ``studies``         what a study computes at a point
 ``basins``          where disturbances end at a point
 ``chunk``           computes the arrays of a chunk from its number
+``chunk_record``    the record of a chunk, which says which files are its own
 ``layout``          creates the store, without chunks
 ``store``           the Zarr store, :func:`open_sweep`
 ``checked_store``   the same as Zarr reads it, with damage detected
