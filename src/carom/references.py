@@ -246,18 +246,6 @@ _ALL = (
         pages="195--225",
         year="1989",
     ),
-    Reference(
-        key="wilson1927",
-        kind="article",
-        author="Wilson, Edwin B.",
-        title="Probable inference, the law of succession, and statistical inference",
-        journal="Journal of the American Statistical Association",
-        volume="22",
-        number="158",
-        pages="209--212",
-        year="1927",
-        doi="10.1080/01621459.1927.10502953",
-    ),
 )
 
 REFERENCES = {reference.key: reference for reference in _ALL}

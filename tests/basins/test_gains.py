@@ -7,6 +7,7 @@ import sys
 
 import numpy as np
 import pytest
+from compilation import sized
 from linear_rotors import tilting
 from machines import PAPER
 
@@ -152,3 +153,48 @@ def test_any_model_has_gain_maps():
             share = map_basins(machine, kicks).share_recovered.fraction if levitates[i, k] else 0.0
             assert found.dataset["recovered"].values[i, k] == share
     found.plot()
+
+
+def test_intervals_cover_the_shares_of_95_of_100_machines():
+    """Against a large sample of each machine, over many seeds; and no seed makes them miss together."""
+    machine, ranges, shape = PAPER.replace(gamma=0.15, rho=0.3), ((0.74, 0.78), (0.11, 0.3)), (4, 4)
+    model, seeds = VelocityKick(1.0), sized(60, 30)
+
+    def shares(plan):
+        found = map_gains(machine, plan, ("omega", "gamma"), ranges=ranges, shape=shape).dataset
+        return (found[name].values for name in ("recovered_low", "recovered", "recovered_high"))
+
+    _, true, _ = shares(Sample(model, 20_000, seed=10**6))
+    assert true.min() < 0.3
+    assert true.max() > 0.7
+    covered, apart = [], []
+    for seed in range(seeds):
+        low, middle, high = shares(Sample(model, 69, seed=seed))
+        covered.append((low <= true) & (true <= high))
+        apart.append((middle - true).ravel())
+    # At least 95 % of the intervals, less three deviations of this number of them.
+    count = np.size(covered)
+    assert np.sum(covered) >= 0.95 * count - 3.0 * math.sqrt(0.05 * 0.95 * count)
+    # Machines of one map err independently: their errors add up as those of different samples do.
+    together, each = np.var(np.mean(apart, axis=1)), np.mean(np.var(apart, axis=0))
+    assert together * true.size < each * (1.0 + 4.0 * math.sqrt(2.0 / (seeds - 1)))
+
+
+def test_the_least_change_is_confirmed_by_a_sample_that_the_search_has_not_seen():
+    machine, plan = PAPER.replace(gamma=0.15, rho=0.3), Sample(VelocityKick(1.0), 300, seed=1)
+    found = map_gains(machine, plan, ("omega", "gamma"), ranges=((0.74, 0.78), (0.1, 0.6)), shape=(3, 6))
+    change = least_gain_change(found, 0.8)
+    assert change.share.low >= 0.8
+    moved = machine.replace(omega=change.values[0], gamma=change.values[1])
+    fresh = map_basins(carom.models.Jeffcott(moved), Sample(VelocityKick(1.0), 20_000, seed=77)).share_recovered
+    assert fresh.high >= change.share.low
+    assert fresh.fraction >= 0.8
+
+
+def test_every_machine_of_a_map_draws_its_own_sample():
+    plan = Sample(VelocityKick(1.0), 50, seed=4)
+    drawn = [plan.fresh(number).values()[0] for number in range(3)]
+    assert not (drawn[0] == drawn[1]).any()
+    assert not (drawn[1] == drawn[2]).any()
+    np.testing.assert_array_equal(plan.fresh(2).values()[0], drawn[2])
+    assert KICKS.fresh(3) is KICKS

@@ -8,30 +8,15 @@ import numpy as np
 import pytest
 from machines import PAPER
 from scipy.ndimage import distance_transform_edt
-from scipy.stats import binomtest
 
 import carom
-from carom.basins import Share, basin_entropy, integrity, map_basins
+from carom.basins import basin_entropy, integrity, map_basins
 from carom.basins.entropy import entropies
 from carom.basins.integrity_measures import _distances, safe_size
 from carom.disturbances import AnyState, ContactRelease, Grid, KickPlane, Sample, StateSlice, VelocityKick
 from carom.outcome import InputError
 
 MACHINE = PAPER.replace(gamma=0.15, rho=0.3)
-
-
-@pytest.mark.parametrize(("count", "total"), [(0, 10), (3, 10), (10, 10), (499, 1000), (1, 100_000)])
-def test_the_interval_is_that_of_wilson(count, total):
-    share = Share.of(count, total, drawn=True)
-    expected = binomtest(count, total).proportion_ci(0.95, method="wilson")
-    assert (share.low, share.high) == pytest.approx((expected.low, expected.high), abs=1e-14)
-    assert share.low <= share.fraction <= share.high
-
-
-def test_a_grid_has_no_sampling_error():
-    share = Share.of(3, 10, drawn=False)
-    assert share.low == share.fraction == share.high == 0.3
-    assert "no sampling error" in share.words
 
 
 def test_distances_are_exact():
@@ -99,6 +84,17 @@ def test_entropy_of_a_straight_boundary():
     assert found.boundary == pytest.approx(cut)
     assert found.whole == pytest.approx(cut / 4.0)
     assert not found.fractal
+
+
+def test_entropy_weighs_cells_by_area():
+    """Two of five rings of each box are of another kind; the boxes and the rings farther out count for more."""
+    labels, weights = np.zeros((10, 10), int), np.repeat(np.arange(1.0, 20.0, 2.0)[:, None], 10, axis=1)
+    labels[[3, 4, 9]] = 1
+    parts = [((1 + 3 + 5) / 25.0, 25.0), ((11 + 13 + 15 + 17) / 75.0, 75.0)]
+    mixed = [-(p * math.log(p) + (1 - p) * math.log(1 - p)) for p, _ in parts]
+    found = entropies(labels, weights)
+    assert found.whole == found.boundary == pytest.approx(0.25 * mixed[0] + 0.75 * mixed[1])
+    assert entropies(np.zeros((10, 10), int), weights).whole == 0.0
 
 
 def test_entropy_of_thorough_mixing():

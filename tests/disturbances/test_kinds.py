@@ -8,6 +8,7 @@ import math
 import numpy as np
 import pytest
 from machines import PAPER, rest_position
+from scipy.stats import chisquare
 
 import carom
 from carom.disturbances import (
@@ -110,9 +111,39 @@ def test_a_longer_sample_begins_with_the_shorter(rotor):
     assert (other.positions != short.positions).all()
 
 
-def test_cells_have_equal_weight():
-    radius = AnyState().coordinates[0]
-    assert np.diff(radius.edges(10) ** 2) == pytest.approx(np.full(10, 0.1))
+@pytest.mark.parametrize("model", [VelocityKick(2.0), BaseShock(2.0, 1.0), UnbalanceStep(2.0)])
+def test_cells_of_a_disc_weigh_by_their_area(model):
+    size, direction = model.coordinates
+    rings = np.diff(math.pi * size.edges(7) ** 2)
+    assert (size.edges(7)[0], size.edges(7)[-1]) == (0.0, 2.0)
+    assert np.diff(size.edges(7)) == pytest.approx(np.full(7, 2.0 / 7))
+    weights = Grid(model, (7, 5)).weights()
+    assert weights == pytest.approx(np.repeat(rings[:, None] / rings.mean(), 5, axis=1))
+    assert weights.mean() == pytest.approx(1.0)
+    assert (direction.weights(5) == 1.0).all()
+
+
+@pytest.mark.parametrize("model", [VelocityKick(2.0), KickPlane(2.0), BaseShock(2.0, 1.0), UnbalanceStep(2.0)])
+def test_samples_are_uniform_over_the_disc(model):
+    """Chi-square over 6 rings of equal area times 8 sectors."""
+    size, direction = Sample(model, 10_000, seed=3).values()
+    if isinstance(model, KickPlane):
+        size, direction = np.hypot(size, direction), np.arctan2(direction, size) + math.pi
+    rings, sectors = (6 * (size / 2.0) ** 2).astype(int), (8 * direction / (2.0 * math.pi)).astype(int) % 8
+    assert chisquare(np.bincount(8 * rings + sectors, minlength=48)).pvalue > 1e-3
+
+
+def test_no_kick_by_components_is_larger_than_the_largest(rotor):
+    grid = Grid(KickPlane(0.5), (30, 30))
+    starts = grid.starts(rotor)
+    sizes = np.abs(starts.velocities)
+    np.testing.assert_array_equal(starts.exists, sizes <= 0.5)
+    # The cells whose middles lie in the disc have its share of the square, to the width of a cell.
+    assert starts.exists.mean() == pytest.approx(math.pi / 4.0, abs=1.0 / 30)
+    assert Sample(KickPlane(0.5), 500, seed=1).starts(rotor).exists.all()
+
+
+def test_cells_are_represented_by_their_middles():
     speed, direction = Grid(VelocityKick(2.0), (4, 8)).values()
     assert speed == pytest.approx([0.25, 0.75, 1.25, 1.75])
     assert direction[0] == pytest.approx(math.pi / 8)

@@ -184,7 +184,7 @@ def test_displaced_rotors_touch_with_the_plane_that_moves_farthest(model, releas
 def test_an_unbalance_step_starts_from_the_whirl_with_the_old_unbalance():
     for model in (tilting().model, three_masses().model):
         starts = Sample(UnbalanceStep(0.9), 40, 1).starts(model)
-        values = [c.at(np.array(0.2)) for c in UnbalanceStep(0.9).coordinates]
+        values = [0.18, 0.4 * np.pi]
         (position,) = UnbalanceStep(0.9).starts(model, *(np.array([value]) for value in values)).positions
         turn = cmath.exp(1j * (float(values[1]) + model.unbalance_phase))
         before = model.replace(forcing=float(values[0]) * turn * (model.mass @ model.translation))

@@ -136,7 +136,10 @@ def test_shares_at_each_size_are_stacked_to_a_hundred(rotor):
         (Grid(StateSlice(), (12, 12)), ("Re $U$", "Im $U$", "0.7 mm")),
         (Grid(ContactRelease("rotating"), (20,)), ("released from the wall, at rest in the co-rotating frame",)),
         (Grid(BladeLoss.of(MACHINE, "0.25 mm"), (20,)), ("phase of the unbalance after the loss", "to 0.25 mm")),
-        (Sample(AnyState(1.0), 100), ("share of 100 starts (%), with 95 % confidence",)),
+        (
+            Sample(AnyState(1.0), 100),
+            ("share of 100 positions with velocities up to 129 mm/s (%), with 95 % confidence",),
+        ),
     ],
 )
 def test_each_disturbance_has_its_picture(rotor, plan, labels):

@@ -3,6 +3,7 @@
 ==============  =======================================================================================================
 ``starts``      the standard set of disturbances, and starts next to every motion known in closed form
 ``following``   starts followed until they settle
+``intervals``   :func:`exact_interval`: what a sample says of a probability
 ``survival``    :class:`Survival`: how long irregular motion lasts
 ``lifetimes``   :func:`measure_lifetimes`: after how many impacts motions stop bouncing; transient, or not seen to end
 ``crises``      :func:`locate_crisis`: where along a parameter bouncing begins to end
@@ -20,6 +21,7 @@ from carom.attractors.characters import Character, character_of
 from carom.attractors.crises import Crisis, locate_crisis
 from carom.attractors.following import Ending
 from carom.attractors.groups import Attractor
+from carom.attractors.intervals import exact_interval
 from carom.attractors.lifetimes import Lifetimes, measure_lifetimes
 from carom.attractors.names import MotionName
 from carom.attractors.search import AttractorSet, find_attractors
@@ -39,6 +41,7 @@ __all__ = [
     "Survival",
     "character_of",
     "document_of",
+    "exact_interval",
     "find_attractors",
     "follow_until_settled",
     "known_starts",

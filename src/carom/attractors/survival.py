@@ -8,6 +8,7 @@ from typing import Any, ClassVar, Literal
 
 import numpy as np
 
+from carom.attractors.intervals import CONFIDENCE, exact_interval
 from carom.models import Model, Subject, model_of
 from carom.motions.ensembles import Endings, settle
 from carom.motions.settling import REPEATING
@@ -24,7 +25,6 @@ APART = 1e-6
 """Relative change of velocity that makes several motions of one: irregular motions diverge within a look."""
 ENOUGH = 5.0
 """Half-lives after which the motions that are left are taken for late ones, not for an attractor: 1 in 32 lasts longer."""
-CONFIDENCE = 0.95
 SEED = 0
 HALF_LIVES = 40
 """Number of half-lives for which transient motions are followed: one in 10¹² lasts longer."""
@@ -69,9 +69,7 @@ class Survival:
         if left == 0:
             longest = math.inf if looks == 0 else 1.0 - (1.0 - CONFIDENCE) ** (1.0 / looks)
             return cls(motions, impacts, died, None, (_half_life(longest, span) if looks else 0.0, math.inf))
-        tail = 0.5 * (1.0 - CONFIDENCE)
-        low = _share_with(left, looks, 1.0 - tail)
-        high = _share_with(left + 1, looks, tail) if left < looks else 1.0
+        low, high = exact_interval(left, looks)
         share = left / looks if left < looks else 1.0 - 0.5 / looks
         return cls(motions, impacts, died, _half_life(share, span), (_half_life(high, span), _half_life(low, span)))
 
@@ -105,18 +103,6 @@ class Survival:
             return f"{died} (half-life above {_rounded(low)} impacts at {100.0 * CONFIDENCE:.0f} %)"
         lasting = "transient" if self.verdict == "transient" else "transient or attractor, undecided"
         return f"{lasting}, half-life {_rounded(self.half_life)} impacts ({_rounded(low)} to {_rounded(high)})"
-
-
-def _share_with(left: int, looks: int, chance: float) -> float:
-    """Probability per look for which fewer than ``left`` events in ``looks`` looks have probability ``chance``."""
-    low, high = 0.0, 1.0
-    ways = [math.lgamma(looks + 1) - math.lgamma(k + 1) - math.lgamma(looks - k + 1) for k in range(left)]
-    for _ in range(60):
-        share = 0.5 * (low + high)
-        rare, often = math.log(share), math.log1p(-share)
-        fewer = sum(math.exp(way + k * rare + (looks - k) * often) for k, way in enumerate(ways))
-        low, high = (share, high) if fewer > chance else (low, share)
-    return 0.5 * (low + high)
 
 
 def _half_life(share: float, span: int) -> float:

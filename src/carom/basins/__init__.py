@@ -3,7 +3,7 @@
 ======================  ==================================================================================
 ``classification``      :func:`map_basins` and the frozen :class:`Basin`
 ``dataset``             endings as a dataset with coordinates, units and provenance
-``shares``              shares with their confidence intervals
+``shares``              the share of disturbances that come back, with its confidence interval
 ``losses``              the smallest kicks, shocks, steps and releases that are lost
 ``blade_losses``        the smallest unbalance after the loss of a blade that is not survived
 ``integrity_measures``  the largest ball of starts that all come back
@@ -20,7 +20,7 @@ from carom.basins.entropy import BasinEntropy, basin_entropy
 from carom.basins.gains import GainMap, map_gains
 from carom.basins.integrity_measures import Integrity, integrity
 from carom.basins.losses import SmallestLoss, smallest_loss
-from carom.basins.shares import Share
+from carom.basins.shares import Population, Share, share_of_kicks
 
 __all__ = [
     "Basin",
@@ -28,6 +28,7 @@ __all__ = [
     "GainChange",
     "GainMap",
     "Integrity",
+    "Population",
     "Share",
     "SmallestLoss",
     "basin_entropy",
@@ -35,5 +36,6 @@ __all__ = [
     "least_gain_change",
     "map_basins",
     "map_gains",
+    "share_of_kicks",
     "smallest_loss",
 ]

@@ -3,17 +3,21 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import count
 
 import numpy as np
 
 from carom.basins.gains import GainMap, measured
 from carom.basins.shares import Share
-from carom.disturbances import Sample
+from carom.disturbances import Plan
 from carom.outcome import InputError
 from carom.progress import Reporter, ShowProgress, shows_progress
 
 HALVINGS = 8
+STEPS = 5
+"""Parts of the way, from the one found by bisection to the node, whose share is checked by another sample until one is enough."""
 CANDIDATES = 8
 """Number of nodes of the map towards which the least change is searched."""
 WANTED = 0.99
@@ -30,7 +34,7 @@ class GainChange:
     changes : tuple of float
         Changes relative to the present values.
     share : Share
-        Share that comes back with the new values.
+        Share that comes back with the new values: of a sample that the search has not seen.
     """
 
     values: tuple[float, float]
@@ -53,7 +57,8 @@ def least_gain_change(
     The search starts from the few nodes of the map that reach the share and are nearest (Euclidean distance of relative
     changes).  On the straight line from the present machine to each of them the change is found by bisection.  In other
     directions there may be a smaller one.  For a sample, the lower end of the confidence interval has to reach the wanted
-    share.  Return ``None`` if no node of the map reaches the share, and a change of zero if the present machine does.
+    share, in the search and again for a sample drawn after it: where this fails, longer parts of the way are tried.  Return
+    ``None`` if no node of the map reaches the share so, and a change of zero if the present machine does.
 
     Parameters
     ----------
@@ -93,12 +98,14 @@ def least_gain_change(
         return None
     nearest = np.argsort(np.where(good, size, np.inf), axis=None, kind="stable")[: min(CANDIDATES, int(good.sum()))]
     found_changes, tell = [], Reporter.of(progress, "looking for the least change")
-    for place in zip(*np.unravel_index(nearest, size.shape), strict=True):
+    samples = (found.plan.fresh(number) for number in count(size.size))  # the nodes of the map have the ones before
+    for done, place in enumerate(zip(*np.unravel_index(nearest, size.shape), strict=True)):
         goal = float(x[place[0]]), float(y[place[1]])
-        part, share = _least_part(found, goal, wanted, threads)
-        found_changes.append(GainChange(*_moved(present, goal, part), share, wanted))
-        tell(len(found_changes) / len(nearest))
-    return min(found_changes, key=lambda change: change.size)
+        part, share = _least_part(found, goal, wanted, samples, threads)
+        if part is not None:
+            found_changes.append(GainChange(*_moved(present, goal, part), share, wanted))
+        tell((done + 1) / len(nearest))
+    return min(found_changes, key=lambda change: change.size, default=None)
 
 
 def _moved(
@@ -109,20 +116,27 @@ def _moved(
     return (present[0] * (1.0 + changes[0]), present[1] * (1.0 + changes[1])), changes
 
 
-def _least_part(found: GainMap, goal: tuple[float, float], wanted: float, threads: int | None) -> tuple[float, Share]:
-    """Smallest sufficient part of the way to a goal, by bisection, and the share there."""
+def _least_part(
+    found: GainMap, goal: tuple[float, float], wanted: float, samples: Iterator[Plan], threads: int | None
+) -> tuple[float | None, Share]:
+    """Smallest sufficient part of the way to a goal, by bisection, and the share there of a sample drawn afterwards.
+
+    ``None`` if no part of the way is sufficient for such a sample.
+    """
 
     def share(part: float) -> Share:
         node, _ = _moved(found.present, goal, part)
-        (entry,) = measured(found.rotor, found.plan, found.axes, [node], {**found.limits, "threads": threads})
-        return Share.of(entry["count"], entry["total"], drawn=isinstance(found.plan, Sample))
+        limits = {**found.limits, "threads": threads}
+        (entry,) = measured(found.rotor, found.axes, [(next(samples), node)], limits)
+        tried: Share = entry["share"]
+        return tried
 
-    low, high, best = 0.0, 1.0, share(1.0)
+    low, high = 0.0, 1.0
     for _ in range(HALVINGS):
         middle = 0.5 * (low + high)
-        tried = share(middle)
+        low, high = (low, middle) if share(middle).low >= wanted else (middle, high)
+    for part in np.linspace(high, 1.0, STEPS).tolist():
+        tried = share(part)
         if tried.low >= wanted:
-            high, best = middle, tried
-        else:
-            low = middle
-    return high, best
+            return part, tried
+    return None, tried

@@ -14,7 +14,7 @@ from carom.attractors import MotionName, document_of, follow_until_settled
 from carom.attractors.naming import name_motions
 from carom.basins.dataset import Mapped, dataset_of, provenance
 from carom.basins.shares import Share
-from carom.disturbances import Coordinate, Plan, Sample
+from carom.disturbances import Coordinate, Plan
 from carom.disturbances.following import NO_START, follow, require_start
 from carom.models import Subject, model_of
 from carom.motions.ensembles import MOST_EVENTS
@@ -48,7 +48,8 @@ class Basin(Mapped):
         Dimensions are the coordinates of a grid, or ``start``.  Variables: ``outcome``
         (:class:`~carom.outcome.Outcome`, −1 where there is no start), ``motion`` (index of the motion in its attribute ``motions``),
         ``time`` until the outcome was known, ``impacts`` until then, ``touched`` (whether the rotor met the wall, even
-        if only during a shock or because it started there), ``multiplicity`` (impacts per period), and the starts
+        if only during a shock or because it started there), ``multiplicity`` (impacts per period), ``weight`` (of the
+        start in shares: the area of its cell, one on average), and the starts
         ``start_x``, ``start_y``, ``start_vx``, ``start_vy`` in the co-rotating frame.  Lengths in ``c_r``, times in
         ``1/Ω``; coordinates ending in ``_si`` exist where the machine is known.  Attributes hold what is needed to
         repeat the computation: parameters, disturbance, seed, criteria, versions.
@@ -57,7 +58,7 @@ class Basin(Mapped):
     figure: ClassVar[str] = "basin"
     shown: ClassVar[tuple[str, ...]] = ("rotor", "coordinates", "starts", "fractions", "unresolved")
 
-    needed: ClassVar[tuple[str, ...]] = ("outcome", "motion", "time", "touched")
+    needed: ClassVar[tuple[str, ...]] = ("outcome", "motion", "time", "touched", "weight")
 
     @property
     def scales(self) -> Scales | None:
@@ -116,19 +117,18 @@ class Basin(Mapped):
 
     @property
     def fractions(self) -> dict[MotionName, float]:
-        """Share of the starts that end on each motion, the largest first; unresolved ones last."""
-        index = self.dataset["motion"].values
-        shares = {name: float((index == place).sum()) / self.starts for place, name in enumerate(self.motions)}
+        """Share of the disturbances that end on each motion, the largest first; unresolved ones last."""
+        shares = {name: self.share_of(name).fraction for name in self.motions}
         order = sorted(shares, key=lambda name: (not name.outcome.settled, -shares[name]))
         return {name: shares[name] for name in order}
 
     @property
     def share_recovered(self) -> Share:
-        """Share that returns to levitation; starts that were given up count as lost."""
-        return Share.of(int(self.recovered.sum()), self.starts, drawn=isinstance(self.plan, Sample))
+        """Share that returns to levitation; starts that were given up count as lost.  Cells of a disc weigh by their area."""
+        return Share.over(self.plan, self.recovered, self.exists, self.scales)
 
     def share_of(self, motion: str) -> Share:
-        """Share of the starts that end on a motion.
+        """Share of the disturbances that end on a motion.
 
         Raises
         ------
@@ -137,8 +137,8 @@ class Basin(Mapped):
         """
         if motion not in self.motions:
             raise InputError("motion", motion, f"one of: {', '.join(self.motions)}")
-        count = int((self.dataset["motion"].values == self.motions.index(motion)).sum())
-        return Share.of(count, self.starts, drawn=isinstance(self.plan, Sample))
+        chosen = self.dataset["motion"].values == self.motions.index(motion)
+        return Share.over(self.plan, chosen, self.exists, self.scales, f"end in {motion}")
 
 
 @shows_progress

@@ -38,7 +38,7 @@ def plan_of(document: Mapping[str, Any]) -> Plan:
 class Mapped(Result):
     """Base of basins and gain maps: a dataset whose attributes hold what is needed to repeat the computation."""
 
-    rests_on: ClassVar[tuple[str, ...]] = ("mora2014", "brent1980", "wilson1927")
+    rests_on: ClassVar[tuple[str, ...]] = ("mora2014", "brent1980", "clopper1934")
 
     needed: ClassVar[tuple[str, ...]] = ()
 
@@ -138,6 +138,10 @@ def dataset_of(
         "multiplicity": (
             endings.multiplicities.astype(np.int32),
             {"units": "1", "long_name": "impacts in a period of bouncing; 0 otherwise (of bouncing: irregular)"},
+        ),
+        "weight": (
+            np.where(starts.exists, plan.weights().reshape(starts.exists.shape), 0.0),
+            {"units": "1", "long_name": "weight in shares: area of the cell, one on average over all cells"},
         ),
         "start_x": (starts.positions.real, {**length, "long_name": "position at the start, Re U"}),
         "start_y": (starts.positions.imag, {**length, "long_name": "position at the start, Im U"}),

@@ -48,6 +48,7 @@ def basin_document(
         **_loss(smallest, basin, "kick"),
         "harmless_kick": harmless,
         "recovered": _share(basin.share_recovered),
+        "share": basin.share_recovered.document,
         "touching": int(basin.touched.sum()),
         "touching_recovered": int((basin.touched & basin.recovered).sum()),
         "integrity": _integrity(basin),
@@ -108,9 +109,10 @@ def _loss(smallest: SmallestLoss | None, basin: Basin, kind: str) -> dict[str, A
 def _share(share: Share) -> dict[str, Any]:
     return {
         "fraction": share.fraction,
+        "count": share.count,
         "low": share.low,
         "high": share.high,
-        "method": "Wilson, 95 %" if share.drawn else "grid, no sampling error",
+        "method": "Clopper-Pearson, 95 %" if share.drawn else "grid, cells weighed by area",
     }
 
 

@@ -27,7 +27,8 @@ class BasinEntropy:
     Attributes
     ----------
     whole : float
-        ``S_b``: mean of ``−Σ p ln p`` over all boxes, ``p`` the shares of the motions in a box.
+        ``S_b``: mean of ``−Σ p ln p`` over all boxes, ``p`` the shares of the motions in a box; boxes, and starts in them,
+        weigh by their area.
     boundary : float
         ``S_bb``: the same mean over boxes with more than one motion; ``nan`` if there are none.
     side : int
@@ -78,7 +79,7 @@ def basin_entropy(basin: Basin, side: int | None = None) -> BasinEntropy:
     """
     if not isinstance(basin.plan, Grid):
         raise InputError("basin", "a sample", "starts on a grid, of which boxes can be made")
-    return entropies(basin.dataset["motion"].values, side)
+    return entropies(basin.dataset["motion"].values, basin.plan.weights(), side)
 
 
 def usual_side(dimensions: int) -> int:
@@ -86,23 +87,34 @@ def usual_side(dimensions: int) -> int:
     return max(2, round(IN_A_BOX ** (1.0 / dimensions)))
 
 
-def entropies(labels: np.ndarray, side: int | None = None) -> BasinEntropy:
-    """Basin entropy of labels on a grid with room for a box; boxes with a negative label are left out."""
+def entropies(labels: np.ndarray, weights: np.ndarray | None = None, side: int | None = None) -> BasinEntropy:
+    """Basin entropy of labels on a grid with room for a box; boxes with a negative label are left out.
+
+    Cells weigh alike unless weights are given.
+    """
     side = side or usual_side(labels.ndim)
     counts = [cells // side for cells in labels.shape]
     if side < 2 or not all(counts):
         raise InputError("side", side, f"2 to {min(labels.shape)}, the smallest side of the grid")
-    trimmed = labels[tuple(slice(count * side) for count in counts)]
-    split = trimmed.reshape([part for count in counts for part in (count, side)])
-    order = [*range(0, 2 * labels.ndim, 2), *range(1, 2 * labels.ndim, 2)]
-    boxes = split.transpose(order).reshape(math.prod(counts), -1)
-    boxes = boxes[(boxes >= 0).all(axis=1)]
+    boxes = _boxes(labels, counts, side)
+    weights = _boxes(np.ones(labels.shape) if weights is None else weights, counts, side)
+    inside = (boxes >= 0).all(axis=1)
+    boxes, weights = boxes[inside], weights[inside]
     if not len(boxes):
         return BasinEntropy(math.nan, math.nan, side, 0, 0)
-    values = np.zeros(len(boxes))
+    values, whole = np.zeros(len(boxes)), weights.sum(axis=1)
     for label in np.unique(boxes):
-        share = (boxes == label).mean(axis=1)
+        share = np.where(boxes == label, weights, 0.0).sum(axis=1) / whole
         values -= share * np.log(np.where(share > 0.0, share, 1.0))
     mixed = boxes.min(axis=1) != boxes.max(axis=1)
-    boundary = float(values[mixed].mean()) if mixed.any() else math.nan
-    return BasinEntropy(float(values.mean()), boundary, side, len(boxes), int(mixed.sum()))
+    values[~mixed] = 0.0  # free of the rounding of the sums
+    boundary = float(np.average(values[mixed], weights=whole[mixed])) if mixed.any() else math.nan
+    return BasinEntropy(float(np.average(values, weights=whole)), boundary, side, len(boxes), int(mixed.sum()))
+
+
+def _boxes(cells: np.ndarray, counts: list[int], side: int) -> np.ndarray:
+    """Cells box by box, shape (boxes, cells of a box); those beyond the last whole box are left out."""
+    trimmed = cells[tuple(slice(count * side) for count in counts)]
+    split = trimmed.reshape([part for count in counts for part in (count, side)])
+    order = [*range(0, 2 * cells.ndim, 2), *range(1, 2 * cells.ndim, 2)]
+    return split.transpose(order).reshape(math.prod(counts), -1)

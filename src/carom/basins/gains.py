@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import json
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from itertools import tee
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar, TypeAlias
 
 import numpy as np
 
@@ -14,7 +15,7 @@ from carom.basins.dataset import Mapped, provenance
 from carom.basins.entropy import entropies, usual_side
 from carom.basins.integrity_measures import safe_size
 from carom.basins.losses import smallest_lost
-from carom.basins.shares import Share
+from carom.basins.shares import Population, Share
 from carom.disturbances import BaseShock, Grid, KickPlane, Plan, Sample, Starts, VelocityKick
 from carom.disturbances.following import NO_START, follow_machines
 from carom.models import Axis, Model, Subject, axis, model_of
@@ -23,6 +24,7 @@ from carom.motions.ensembles import MOST_EVENTS
 from carom.motions.settling import PATIENCE
 from carom.outcome import InputError, Outcome
 from carom.progress import Reporter, ShowProgress, shows_progress
+from carom.results import fields_of
 
 if TYPE_CHECKING:
     import xarray
@@ -31,6 +33,8 @@ if TYPE_CHECKING:
 
 AROUND = (0.5, 2.0)
 """Default range of a parameter, in multiples of its present value."""
+Node: TypeAlias = tuple[Plan, tuple[float, float]]
+"""Disturbances, and values of the two parameters."""
 CHUNK = 50_000
 """Approximate number of starts in memory at a time."""
 
@@ -42,8 +46,8 @@ class GainMap(Mapped):
     Attributes
     ----------
     dataset : xarray.Dataset
-        Dimensions are the two parameters.  Variables: ``recovered`` (share that comes back) with ``recovered_low`` and
-        ``recovered_high`` (95 % confidence interval of a sample), ``unresolved``, ``levitates`` (whether there is
+        Dimensions are the two parameters.  Variables: ``recovered`` (share that comes back, by area) with ``recovered_low``
+        and ``recovered_high`` (95 % confidence interval of a sample; each machine draws its own), ``unresolved``, ``levitates`` (whether there is
         levitation to return to), ``integrity`` (for kicks and shocks on a grid: largest size up to which none is lost,
         as a fraction of the largest one), ``basin_entropy`` and ``boundary_basin_entropy`` (of the outcomes, on a
         grid).  For kicks also ``smallest_unrecovered_kick`` (of those tried, in ``c_r Ω`` of the present machine) and
@@ -70,8 +74,13 @@ class GainMap(Mapped):
     @property
     def present_share(self) -> Share:
         """Share that comes back in the present machine."""
-        total, count = (int(self.dataset.attrs[name]) for name in ("present_starts", "present_recovered"))
-        return Share.of(count, total, drawn=isinstance(self.plan, Sample))
+        share: dict[str, Any] = json.loads(self.dataset.attrs["present"])
+        return Share(**share, drawn=isinstance(self.plan, Sample), population=self.population)
+
+    @property
+    def population(self) -> Population:
+        """Of what the shares are shares."""
+        return Population.of_model(self.plan.model, self.rotor.scales)
 
     @property
     def limits(self) -> dict[str, int]:
@@ -142,13 +151,12 @@ def map_gains(
     values = [_values(rotor, varied, given, count) for varied, given, count in zip(axes, ranges, shape, strict=True)]
     limits = {"patience": patience, "max_events": max_events}
     nodes = [(float(x), float(y)) for x in values[0] for y in values[1]]
-    present = tuple(varied.value(rotor) for varied in axes)
+    tried: list[Node] = [(disturbances.fresh(number), node) for number, node in enumerate(nodes)]
+    tried.append((disturbances, (axes[0].value(rotor), axes[1].value(rotor))))
     measures, tell = [], Reporter.of(progress, "following starts of other gains")
-    for done, found in enumerate(
-        measured(rotor, disturbances, axes, [*nodes, present], {**limits, "threads": threads}), start=1
-    ):
+    for done, found in enumerate(measured(rotor, axes, tried, {**limits, "threads": threads}), start=1):
         measures.append(found)
-        tell(done / (len(nodes) + 1))
+        tell(done / len(tried))
     *grid, now = measures
     dataset = _dataset(axes, values, grid)
     dataset.attrs = {
@@ -156,8 +164,7 @@ def map_gains(
         **provenance(rotor, disturbances),
         "title": "Share of disturbances that come back to levitation, against two parameters",
         **limits,
-        "present_recovered": now["count"],
-        "present_starts": now["total"],
+        "present": json.dumps(fields_of(now["share"], "fraction", "low", "high", "count", "total")),
     }
     return GainMap(dataset)
 
@@ -173,13 +180,20 @@ def _values(rotor: Model, varied: Axis, given: Ends | None, count: int) -> np.nd
 
 
 def measured(
-    rotor: Model, plan: Plan, axes: tuple[Axis, Axis], nodes: list[tuple[float, ...]], limits: Mapping[str, Any]
+    rotor: Model, axes: tuple[Axis, Axis], nodes: list[Node], limits: Mapping[str, Any]
 ) -> Iterator[dict[str, Any]]:
-    """Yield the measures of each node; nodes are followed in chunks of about CHUNK starts."""
-    there, back = tee(_machine(rotor, plan, axes, node) for node in nodes)
-    after = ((plan.rescaled(rotor.scales, moved.scales).model.machine_after(moved), starts) for moved, starts in back)
-    for (moved, starts), ends in zip(there, follow_machines(after, CHUNK, **limits), strict=True):
-        measures = _measures(plan, ends.outcomes)
+    """Yield the measures of each node, which has disturbances of its own; nodes are followed in chunks of about CHUNK starts.
+
+    If all nodes of a map shared one sample, a sample with too many lost starts would make the intervals of all of them too
+    low at once: they would not cover the true shares of 95 % of the nodes, but of all or of few.
+    """
+    there, back = tee(_machine(rotor, plan, axes, node) for plan, node in nodes)
+    after = (
+        (nodes[0][0].rescaled(rotor.scales, moved.scales).model.machine_after(moved), starts) for moved, starts in back
+    )
+    followed = zip(nodes, there, follow_machines(after, CHUNK, **limits), strict=True)
+    for (plan, _), (moved, starts), ends in followed:
+        measures = _measures(plan, ends.outcomes, rotor.scales)
         if isinstance(plan.model, VelocityKick | KickPlane):
             measures |= _smallest(rotor.scales, moved, starts, ends.outcomes)
         yield measures
@@ -194,21 +208,23 @@ def _machine(rotor: Model, plan: Plan, axes: tuple[Axis, Axis], node: tuple[floa
     return moved, plan.rescaled(rotor.scales, moved.scales).starts(moved)
 
 
-def _measures(plan: Plan, outcomes: np.ndarray) -> dict[str, Any]:
+def _measures(plan: Plan, outcomes: np.ndarray, present: Scales | None) -> dict[str, Any]:
     """Measures of one machine from the outcomes of its starts."""
     exists, back = outcomes != NO_START, outcomes == Outcome.LEVITATED
     if not exists.any():
-        nothing = dict.fromkeys(_WORDS, 0.0) | {"count": 0, "total": plan.count}
+        population = Population.of_model(plan.model, present)
+        none = Share(0.0, 0.0, 0.0, 0, plan.count, isinstance(plan, Sample), population)
+        nothing = dict.fromkeys(_WORDS, 0.0) | {"share": none}
         return nothing | {"basin_entropy": math.nan, "boundary_basin_entropy": math.nan}
-    share = Share.of(int(back.sum()), int(exists.sum()), drawn=isinstance(plan, Sample))
+    share = Share.over(plan, back, exists, present)
+    given_up = Share.over(plan, exists & (outcomes < Outcome.LEVITATED), exists, present)
     measures: dict[str, Any] = {
         "recovered": share.fraction,
         "recovered_low": share.low,
         "recovered_high": share.high,
-        "unresolved": float((exists & (outcomes < Outcome.LEVITATED)).sum()) / share.total,
+        "unresolved": given_up.fraction,
         "levitates": 1.0,
-        "count": share.count,
-        "total": share.total,
+        "share": share,
         **dict.fromkeys(("integrity", "basin_entropy", "boundary_basin_entropy"), math.nan),
     }
     if isinstance(plan, Grid):
@@ -216,7 +232,7 @@ def _measures(plan: Plan, outcomes: np.ndarray) -> dict[str, Any]:
             size = plan.model.coordinates[0]
             measures["integrity"] = safe_size(size, exists & ~back) / size.high
         if min(plan.shape) >= usual_side(len(plan.shape)):
-            entropy = entropies(outcomes)
+            entropy = entropies(outcomes, plan.weights())
             measures |= {"basin_entropy": entropy.whole, "boundary_basin_entropy": entropy.boundary}
     return measures
 
@@ -230,7 +246,7 @@ def _smallest(present: Scales | None, rotor: Model, starts: Starts, outcomes: np
 
 
 _WORDS = {
-    "recovered": "share of the disturbances that comes back to levitation",
+    "recovered": "share of the disturbances that comes back to levitation, by area",
     "recovered_low": "lower end of its 95 % confidence interval (of a grid: the share)",
     "recovered_high": "upper end of its 95 % confidence interval (of a grid: the share)",
     "unresolved": "share given up before it was known where it ends",

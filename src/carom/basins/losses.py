@@ -75,8 +75,8 @@ class SmallestLoss:
         Largest size up to which all starts tried came back: those of the search and ``fresh`` ones.  ``None`` where the
         smallest starts are lost already.
     fresh : int
-        Number of starts up to ``all_back`` that are independent of the search: 2,000 drawn uniformly over directions
-        and over sizes above the harmless one, and 720 directions over a full turn at that size.
+        Number of starts up to ``all_back`` that are independent of the search: 2,000 drawn uniformly over the area of the
+        disc beyond the harmless size (of releases: over places and speeds), and 720 directions over a full turn at that size.
     harmless : float
         Size up to which contact is proven to be impossible in any direction; 0 where nothing is proven.
     largest : float
@@ -104,7 +104,7 @@ class SmallestLoss:
 
     @property
     def share_below(self) -> float:
-        """Share of the sizes and directions up to ``all_back`` that may be lost: a bound at 95 % confidence.
+        """Share of the disturbances beyond the harmless size and up to ``all_back``, by area, that may be lost: a bound at 95 %.
 
         ``1 − 0.05^{1/n}`` for ``n`` starts of which none is lost (Clopper and Pearson, one-sided).
         """
@@ -121,6 +121,15 @@ class _Family:
     harmless: float
     starts: Callable[[np.ndarray, np.ndarray], Starts]
     turns: int = 1
+    by_area: bool = True
+
+    def drawn(self, shares: np.ndarray, below: float) -> np.ndarray:
+        """Sizes between the harmless one and another by numbers uniform from 0 to 1: uniform over the area of the ring."""
+        low = self.harmless
+        if not self.by_area:
+            return low + (below - low) * shares
+        sizes: np.ndarray = np.sqrt(low**2 + (below**2 - low**2) * shares)
+        return sizes
 
 
 def has_sizes(model: Disturbance) -> bool:
@@ -240,7 +249,7 @@ def _family(rotor: Jeffcott, model: Disturbance) -> _Family:
             velocities.real, velocities.imag = -rate * sine, rate * cosine
             return Starts.of(positions, velocities, True)
 
-        return _Family(model.kind, WHIRL, 0.0, released, turns=2)
+        return _Family(model.kind, WHIRL, 0.0, released, turns=2, by_area=False)
     if not _by_size(model):
         raise InputError("disturbance", model.kind, "one with a size from 0 and a direction, or a release from contact")
     harmless = 0.0  # nothing is proven of a subclass, which may start anywhere
@@ -248,7 +257,8 @@ def _family(rotor: Jeffcott, model: Disturbance) -> _Family:
         harmless = harmless_kick(rotor)
     elif type(model) is BaseShock:
         harmless = harmless_shock(rotor, model.duration)
-    return _Family(model.kind, model.coordinates[0].high, harmless, lambda *at: model.starts(rotor, *at))
+    size = model.coordinates[0]
+    return _Family(model.kind, size.high, harmless, lambda *at: model.starts(rotor, *at), by_area=size.over_disc)
 
 
 def _all_round(family: _Family, directions: int) -> np.ndarray:
@@ -323,7 +333,7 @@ class _Search:
         """Try fresh starts up to a size, and all directions at it; bisect the lost ones; return how many were tried."""
         family = self.family
         random = np.random.default_rng(seed)
-        sizes = np.append(random.uniform(family.harmless, below, DRAWN), np.full(ROUND, below))
+        sizes = np.append(family.drawn(random.random(DRAWN), below), np.full(ROUND, below))
         span = TURN * family.turns
         angles = np.append(span * random.random(DRAWN), span * (np.arange(ROUND) + random.random()) / ROUND)
         _, gone = self._follow(sizes, angles)

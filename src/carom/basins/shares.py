@@ -1,77 +1,158 @@
-"""Shares of starts, with confidence intervals for samples."""
+"""Shares of disturbances, with confidence intervals for samples.
+
+"The share of kicks that come back" has one meaning everywhere: the share of the area of the disc of kick velocities, up to a
+stated speed, seen in the fixed frame.  Samples are drawn uniformly over this area, and cells of grids weigh by it.
+"""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from statistics import NormalDist
+from typing import Any
 
-CONFIDENCE = 0.95
+import numpy as np
+
+from carom.attractors import AttractorSet, DisturbanceSet, exact_interval
+from carom.attractors.intervals import CONFIDENCE as CONFIDENCE
+from carom.disturbances import Disturbance, Plan, Sample, VelocityKick
+from carom.parameters import Scales
+
+
+@dataclass(frozen=True)
+class Population:
+    """What a share is a share of.
+
+    Attributes
+    ----------
+    of : str
+        Such as ``"kicks"``.
+    up_to : float or None
+        Largest size, in units of the equations; speeds are those of the fixed frame.  ``None`` where they have no size.
+    up_to_si : float or None
+        The same in SI units, where the machine is known.
+    words : str
+        Such as ``"kicks up to 166 mm/s"``.
+    """
+
+    of: str = "starts"
+    up_to: float | None = None
+    up_to_si: float | None = None
+    words: str = "starts"
+
+    @classmethod
+    def of_model(cls, model: Disturbance, scales: Scales | None) -> Population:
+        """All disturbances of a model, whose sizes are given for these scales."""
+        size = model.size
+        if size is None:
+            return cls(model.noun, words=model.noun)
+        si = size.high * size.si(scales) if scales else None
+        return cls(model.noun, size.high, si, f"{model.noun} up to {size.told(size.high, scales)}")
+
+
+STARTS = Population()
 
 
 @dataclass(frozen=True)
 class Share:
-    """A share of starts.
+    """A share of disturbances, by default of those that come back to levitation.
 
     Attributes
     ----------
+    fraction : float
+        The share itself, 0 to 1: of a random sample the share of its starts, of a grid that of the weight of its cells.
     low, high : float
-        For a random sample, Wilson's interval (1927) at 95 % confidence; for a grid, both equal the share.
+        For a random sample the interval of Clopper and Pearson (1934), which contains the true share with at least 95 %
+        confidence; for a grid, both equal the share.
+    count, total : int
+        Numbers of starts.
     drawn : bool
         Whether the starts are a random sample.
+    population : Population
+        Of what it is a share.
+    does : str
+        What those that are counted do.
     """
 
-    count: int
-    total: int
+    fraction: float
     low: float
     high: float
+    count: int
+    total: int
     drawn: bool
+    population: Population = STARTS
+    does: str = "come back"
 
     @classmethod
-    def of(cls, count: int, total: int, *, drawn: bool) -> Share:
-        """Share ``count`` of ``total``."""
+    def of(
+        cls, count: int, total: int, *, drawn: bool, population: Population = STARTS, does: str = "come back"
+    ) -> Share:
+        """Share ``count`` of ``total`` starts of equal weight."""
         share = count / total if total else math.nan
-        low, high = wilson_interval(count, total) if drawn and total else (share, share)
-        return cls(count, total, low, high, drawn)
+        low, high = exact_interval(count, total) if drawn and total else (share, share)
+        return cls(share, low, high, count, total, drawn, population, does)
 
-    @property
-    def fraction(self) -> float:
-        """The share itself."""
-        return self.count / self.total if self.total else math.nan
+    @classmethod
+    def over(
+        cls, plan: Plan, chosen: np.ndarray, exists: np.ndarray, scales: Scales | None, does: str = "come back"
+    ) -> Share:
+        """Share of the disturbances of a plan that are chosen, among those that exist; cells of a grid weigh by their area."""
+        population = Population.of_model(plan.model, scales)
+        count, total = int((chosen & exists).sum()), int(exists.sum())
+        if isinstance(plan, Sample):
+            return cls.of(count, total, drawn=True, population=population, does=does)
+        weights = plan.weights().reshape(exists.shape)
+        whole = float(weights[exists].sum())
+        share = float(weights[chosen & exists].sum()) / whole if total else math.nan
+        # All cells are all, whatever the rounding of the sums.
+        share = 1.0 if count == total else share
+        return cls(share, share, share, count, total, False, population, does)
 
     @property
     def words(self) -> str:
-        """Summary in words, with the confidence interval, or for a grid with a note that it has no sampling error."""
-        share, count = f"{100.0 * self.fraction:.3g} %", f"{self.count} of {self.total}"
+        """Sentence without a full stop: the share, its confidence interval, or that the starts are a grid."""
         if self.drawn:
-            return f"{share} ({count}), {100.0 * self.low:.3g} to {100.0 * self.high:.3g} % with 95 % confidence"
-        return f"{share} ({count} cells of a grid, each represented by its middle: no sampling error)"
+            interval = f"{100.0 * self.low:.3g} to {100.0 * self.high:.3g} % with 95 % confidence"
+            how = f"{self.count:,} of {self.total:,} drawn; {interval}"
+        else:
+            how = f"{self.count:,} of {self.total:,} cells of a grid, weighed by area, each represented by its middle: no sampling error"
+        return f"{100.0 * self.fraction:.3g} % of {self.population.words} {self.does} ({how})"
+
+    @property
+    def document(self) -> dict[str, Any]:
+        """The share as plain data for JSON."""
+        of = self.population
+        si = {} if of.up_to_si is None else {"up_to_si": of.up_to_si}
+        interval = {"estimate": self.fraction, "low": self.low, "high": self.high}
+        return {"of": of.of, "up_to": of.up_to, **si, **interval}
 
 
-def wilson_interval(count: int, total: int) -> tuple[float, float]:
-    """Interval of 95 % of a probability from ``count`` successes in ``total`` trials (Wilson, J. Am. Stat. Assoc. 22, 1927).
+def share_of_kicks(found: AttractorSet) -> Share | None:
+    """Share of the kicks that come back, of attractors found by kicks of all sizes and directions up to the largest.
 
-    It contains the probabilities ``p`` with ``|count/total − p| ≤ z√(p(1 − p)/total)``.
+    Starts elsewhere in the clearance do not count.  ``None`` if the rotor cannot levitate, or was not disturbed by such kicks.
     """
-    z = NormalDist().inv_cdf(0.5 + CONFIDENCE / 2.0)
-    share, weight = count / total, z * z / total
-    middle = share + weight / 2.0
-    half = z * math.sqrt(share * (1.0 - share) / total + weight / (4.0 * total))
-    low = 0.0 if count == 0 else (middle - half) / (1.0 + weight)
-    high = 1.0 if count == total else (middle + half) / (1.0 + weight)
-    return low, high
+    sample, scales = found.sample, found.rotor.scales
+    kicks = [ending for ending in found.disturbances if ending.start.kind == "kick"]
+    if sample is None or not kicks:
+        return None
+    back = np.array([ending.recovered for ending in kicks])
+    if isinstance(sample, DisturbanceSet):
+        population = Population.of_model(VelocityKick(sample.fastest), scales)
+        return Share.of(int(back.sum()), len(kicks), drawn=True, population=population)
+    exists = sample.starts(found.rotor).exists
+    chosen = np.zeros(exists.shape, bool)
+    chosen[exists] = back
+    return Share.over(sample, chosen, exists, scales)
 
 
 def starts_enough(wanted: float) -> int | None:
     """Smallest sample which, if all its starts come back, shows that the share is at least the wanted one.
 
-    For ``n`` of ``n`` Wilson's interval begins at ``n/(n + z²)``.  ``None`` for a share of one, which no sample can
-    show.
+    For ``n`` of ``n`` the interval begins at ``0.025^{1/n}``.  ``None`` for a share of one, which no sample can show.
     """
     if wanted >= 1.0:
         return None
-    square = NormalDist().inv_cdf(0.5 + CONFIDENCE / 2.0) ** 2
-    count = max(1, math.floor(square * wanted / (1.0 - wanted)))
-    while wilson_interval(count, count)[0] < wanted:
+    count = max(1, math.floor(math.log(0.5 - 0.5 * CONFIDENCE) / math.log(wanted)))
+    while exact_interval(count, count)[0] < wanted:
         count += 1
     return count

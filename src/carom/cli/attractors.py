@@ -42,7 +42,8 @@ def attractors(
         from carom.attractors import character_of, find_attractors
         from carom.studies.attractors_document import attractors_document
 
-        found = find_attractors(case, count=starts, seed=seed, progress=tell)
+        fastest = case.requirement.own(case.parameters.scales).kick
+        found = find_attractors(case, count=starts, seed=seed, fastest=fastest, progress=tell)
         characters = [character_of(case, entry) for entry in found]
         document = attractors_document(case.parameters, found, characters, exponents) if as_json or out else {}
         if out is not None:
@@ -85,9 +86,9 @@ def _print(case: Case, found: AttractorSet, characters: list[Character], exponen
 
 def _numbers(entry: Attractor, character: Character, total: int) -> tuple[str, ...]:
     """Share, impacts, period and largest exponent across the motion, as text."""
-    from carom.basins.shares import wilson_interval
+    from carom.attractors import exact_interval
 
-    low, high = wilson_interval(entry.count, total) if total else (0.0, 1.0)
+    low, high = exact_interval(entry.count, total) if total else (0.0, 1.0)
     period = character.orbit.period if character.orbit else entry.period
     largest = "-"
     if character.exponents is not None:

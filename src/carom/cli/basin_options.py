@@ -13,7 +13,7 @@ from carom.outcome import InputError
 
 if TYPE_CHECKING:
     from carom.disturbances import Disturbance, Plan
-    from carom.parameters import Parameters
+    from carom.parameters import Case, Parameters
 
 CELLS = 60
 RELEASES = 360
@@ -46,7 +46,7 @@ Fastest = Annotated[
     str | None,
     typer.Option(
         metavar="SPEED",
-        help="Largest kick or start speed, such as '50 mm/s'; by default that of a fall through the clearance.",
+        help="Largest kick or start speed, such as '50 mm/s'; by default the one to be survived: stated in [survive], or of a fall through the clearance.",
     ),
 ]
 Peak = Annotated[str | None, typer.Option(metavar="ACC", help="Largest peak of a shock, such as '20 g'.")]
@@ -121,7 +121,7 @@ def read_gains(
 
 
 def read_plan(
-    parameters: Parameters,
+    case: Case,
     kind: str,
     sizes: dict[str, str | None],
     grid: str | None,
@@ -144,7 +144,7 @@ def read_plan(
         raise InputError("--seed", seed, "allowed only for a sample: give --starts too")
     if seed is not None and seed < 0:
         raise InputError("--seed", seed, "must be a whole number of at least 0")
-    model = _model(parameters, kind, sizes)
+    model = _model(case, kind, sizes)
     if kind == "state" and grid is not None:
         raise InputError("--grid", grid, "not allowed for states, which have four coordinates: give --starts")
     if drawn:
@@ -158,12 +158,11 @@ def read_plan(
     return Grid(model, _cells("--grid", grid, dimensions))
 
 
-def _model(parameters: Parameters, kind: str, sizes: dict[str, str | None]) -> Disturbance:
+def _model(case: Case, kind: str, sizes: dict[str, str | None]) -> Disturbance:
     from carom.cli.starts import read_positive, read_unbalance
     from carom.disturbances import MODELS
-    from carom.parameters import usual_kick
 
-    model, given = MODELS[kind], dict[str, Any]()
+    parameters, model, given = case.parameters, MODELS[kind], dict[str, Any]()
     for option in _OPTIONS[kind]:
         name, text = _FIELDS.get(option, option), sizes[option]
         if option == "release":
@@ -177,7 +176,7 @@ def _model(parameters: Parameters, kind: str, sizes: dict[str, str | None]) -> D
         elif option in _NEEDED:
             raise InputError(f"--{option}", None, f"needed for a {kind}, such as {_NEEDED[option]}, or dimensionless")
         elif option == "fastest":
-            given[name] = usual_kick(parameters.scales)
+            given[name] = case.requirement.own(parameters.scales).kick
         elif option == "before":  # the unbalance whose contact-free whirl just reaches the wall
             given[name] = abs(complex(parameters.omega**2 - 1.0, parameters.gamma))
     return model(**given)

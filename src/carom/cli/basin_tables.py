@@ -7,8 +7,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from carom.parameters import GRAVITY
-
 if TYPE_CHECKING:
     from rich.console import Console
 
@@ -17,8 +15,6 @@ if TYPE_CHECKING:
     from carom.outcome import Outcome
     from carom.parameters import Field, Scales
 
-_UNITS = {"velocity": "c_r Ω", "length": "c_r", "acceleration": "c_r Ω²", "time": "/Ω"}
-_SHOWN = {"m/s": (1e3, "mm/s"), "m": (1e3, "mm"), "m/s^2": (1.0 / GRAVITY, "g")}
 _NAMES = {
     "kick": "velocity kicks out of levitation",
     "kick-plane": "velocity kicks out of levitation",
@@ -66,16 +62,15 @@ def print_gains(screen: Console, found: GainMap, change: GainChange | None, want
     """Print what a gain map says about the present machine."""
     share = found.dataset["recovered"].values
     able = found.dataset["levitates"].values > 0.0
-    back = f"{100 * found.present_share.fraction:.4g} %"
+    back, of_what = found.present_share, found.population.words
     here = ", ".join(_value(axis.field, value) for axis, value in zip(found.axes, found.present, strict=True))
-    screen.print(f"Present machine: {here}; {back} of the disturbances come back.")
+    screen.print(f"Present machine: {here}; {back.words}.")
     shape = " x ".join(str(size) for size in share.shape)
     reach = int((share >= wanted).sum())
-    drawn = found.present_share.drawn
-    of_what = f"the {found.present_share.total} tried" if drawn else "the disturbances"
+    drawn = back.drawn
     screen.print(
         f"Of {shape} machines with other {found.axes[0].name} and {found.axes[1].name}, {reach} of {share.size} bring back at least "
-        f"{100 * wanted:g} % of {of_what}; {100 * (1 - able.mean()):.3g} % cannot levitate."
+        f"{100 * wanted:g} % of {of_what}{f' ({back.total} drawn at each)' if drawn else ''}; {100 * (1 - able.mean()):.3g} % cannot levitate."
     )
     if drawn:
         screen.print(_sure(found, wanted, reach))
@@ -84,6 +79,8 @@ def print_gains(screen: Console, found: GainMap, change: GainChange | None, want
     if change is None:
         if not reach:
             screen.print(f"No machine of the map brings back {100 * wanted:g} %.")
+        elif (found.dataset["recovered_low"].values >= wanted).any():
+            screen.print(f"No change found brings back {100 * wanted:g} % of a fresh sample too, with 95 % confidence.")
     elif change.size == 0.0:
         screen.print("No change is needed.")
     else:
@@ -91,9 +88,7 @@ def print_gains(screen: Console, found: GainMap, change: GainChange | None, want
             f"{_value(axis.field, value)} ({100 * part:+.3g} %)"
             for axis, value, part in zip(found.axes, change.values, change.changes, strict=True)
         )
-        screen.print(
-            f"Least change found for {100 * wanted:g} %: {parts}; {100 * change.share.fraction:.4g} % come back."
-        )
+        screen.print(f"Least change found for {100 * wanted:g} %: {parts}; {change.share.words}.")
 
 
 def _sure(found: GainMap, wanted: float, reach: int) -> str:
@@ -101,7 +96,9 @@ def _sure(found: GainMap, wanted: float, reach: int) -> str:
     from carom.basins.shares import starts_enough
 
     sure = int((found.dataset["recovered_low"].values >= wanted).sum())
-    text = f"That at least {100 * wanted:g} % of all such disturbances come back is shown with 95 % confidence for {sure or 'none'} of them"
+    text = (
+        f"That at least {100 * wanted:g} % of them come back is shown with 95 % confidence for {sure or 'none'} of them"
+    )
     enough, total = starts_enough(wanted), found.present_share.total
     if enough is None:
         return f"{text}: no sample can show that all come back."
@@ -271,11 +268,8 @@ def _measures(basin: Basin) -> list[str]:
 
 
 def _size(coordinate: Coordinate, value: float, scales: Scales | None, digits: int = 4) -> str:
-    own = f"{value:.{digits}g} {_UNITS[coordinate.scale]}"
-    if scales is None:
-        return own
-    factor, unit = _SHOWN[coordinate.units[1]]
-    return f"{value * coordinate.si(scales) * factor:.{digits}g} {unit} ({own})"
+    own = coordinate.told(value, None, digits)
+    return own if scales is None else f"{coordinate.told(value, scales, digits)} ({own})"
 
 
 def _ending(basin: Basin, outcome: Outcome) -> str:

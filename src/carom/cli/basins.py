@@ -56,7 +56,7 @@ def basins(
             "after": after,
             "release": release,
         }
-        plan = options.read_plan(case.parameters, disturbance, sizes, grid, starts, seed)
+        plan = options.read_plan(case, disturbance, sizes, grid, starts, seed)
         asked = options.read_gains(case.parameters, gains, plane, x, y, wanted)
         check_output(out)
         source = _source(machine, settings)

@@ -46,6 +46,7 @@ class BladeLoss(Disturbance):
 
     eccentricity_after: float
     kind: ClassVar[str] = "blade-loss"
+    noun: ClassVar[str] = "phases of the unbalance after the loss"
     measured_in: ClassVar[dict[str, str]] = {"eccentricity_after": "length"}
 
     @property

@@ -46,12 +46,13 @@ class VelocityKick(Disturbance):
 
     fastest: float = FASTEST
     kind: ClassVar[str] = "kick"
+    noun: ClassVar[str] = "kicks"
     measured_in: ClassVar[dict[str, str]] = {"fastest": "velocity"}
 
     @property
     def coordinates(self) -> tuple[Coordinate, ...]:
         """Size and direction."""
-        return speed_coordinate("speed", "size of the kick", 0.0, self.fastest), angle_coordinate(
+        return speed_coordinate("speed", "size of the kick", 0.0, self.fastest, over_disc=True), angle_coordinate(
             "direction", "direction of the kick"
         )
 
@@ -69,11 +70,12 @@ class KickPlane(Disturbance):
     Attributes
     ----------
     fastest : float
-        Largest part, in ``c_r Ω``.
+        Largest change of velocity, in ``c_r Ω``: a disc in the plane of both parts.
     """
 
     fastest: float = FASTEST
     kind: ClassVar[str] = "kick-plane"
+    noun: ClassVar[str] = "kicks"
     measured_in: ClassVar[dict[str, str]] = {"fastest": "velocity"}
 
     @property
@@ -84,14 +86,29 @@ class KickPlane(Disturbance):
             speed_coordinate("tangential_speed", "kick in the sense of rotation", -self.fastest, self.fastest),
         )
 
+    @property
+    def size(self) -> Coordinate:
+        """Size of the kick."""
+        return VelocityKick(self.fastest).coordinates[0]
+
+    def drawn(self, shares: np.ndarray) -> tuple[np.ndarray, ...]:
+        """Both parts, uniform over the disc."""
+        speed, direction = VelocityKick(self.fastest).drawn(shares)
+        return speed * np.cos(direction), speed * np.sin(direction)
+
+    def within(self, radial: np.ndarray, tangential: np.ndarray) -> np.ndarray:
+        """Whether kicks are no larger than the largest, but for rounding."""
+        return np.asarray(np.hypot(radial, tangential) <= self.fastest * (1.0 + 1e-12))
+
     def starts(self, rotor: Model, *values: np.ndarray) -> Starts:
-        """Levitation with the velocity changed."""
+        """Levitation with the velocity changed; there is no start beyond the largest kick."""
         radial, tangential = values
         outward = outward_from(rotor)
         velocity = complex_of(
             outward.real * radial - outward.imag * tangential, outward.imag * radial + outward.real * tangential
         )
-        return _kicked(rotor, velocity)
+        kicked = _kicked(rotor, velocity)
+        return kicked._replace(exists=kicked.exists & self.within(radial, tangential))
 
 
 @dataclass(frozen=True)
@@ -126,6 +143,7 @@ class BaseShock(Disturbance):
     peak: float
     duration: float
     kind: ClassVar[str] = "shock"
+    noun: ClassVar[str] = "shocks"
     measured_in: ClassVar[dict[str, str]] = {"peak": "acceleration", "duration": "time"}
 
     def __post_init__(self) -> None:
@@ -136,7 +154,7 @@ class BaseShock(Disturbance):
     @property
     def coordinates(self) -> tuple[Coordinate, ...]:
         """Peak acceleration and direction."""
-        peak = Coordinate("peak_acceleration", "peak acceleration of the base", 0.0, self.peak, "acceleration")
+        peak = Coordinate("peak_acceleration", "peak acceleration of the base", 0.0, self.peak, "acceleration", True)
         return peak, angle_coordinate("direction", "direction of the shock")
 
     def starts(self, rotor: Model, *values: np.ndarray) -> Starts:

@@ -10,12 +10,13 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from carom.outcome import InputError
-from carom.parameters import UNITS, Scales
+from carom.parameters import GRAVITY, UNITS, Scales
 
 if TYPE_CHECKING:
     from carom.models import Model
 
 TURN = 2.0 * math.pi
+_SHOWN = {"m/s": (1e3, "mm/s"), "m": (1e3, "mm"), "m/s^2": (1.0 / GRAVITY, "g")}
 ON_WALL = 1e-12
 """Distance from the wall, in clearances, within which a start counts as on it."""
 
@@ -32,7 +33,7 @@ class Coordinate:
     scale : str
         Property of :class:`~carom.parameters.Scales` that converts it to SI; empty for angles.
     over_disc : bool
-        Whether it is a radius whose weight is uniform over the area of a disc, not over the radius.
+        Whether it is a radius and counts by area: of a disc, all parts of the same area have the same weight.
     periodic : bool
         Whether it is an angle over a full turn.
     """
@@ -59,16 +60,32 @@ class Coordinate:
         return self.high * np.sqrt(shares) if self.over_disc else self.low + (self.high - self.low) * shares
 
     def edges(self, cells: int) -> np.ndarray:
-        """Ends of cells of equal weight, shape (cells + 1,)."""
-        return self.at(np.arange(cells + 1) / cells)
+        """Ends of cells of equal width, shape (cells + 1,)."""
+        return self.low + (self.high - self.low) * np.arange(cells + 1) / cells
 
     def middles(self, cells: int) -> np.ndarray:
-        """Middles, by weight, of cells of equal weight, shape (cells,)."""
-        return self.at((np.arange(cells) + 0.5) / cells)
+        """Middles of cells of equal width, shape (cells,)."""
+        return self.low + (self.high - self.low) * (np.arange(cells) + 0.5) / cells
+
+    def weights(self, cells: int) -> np.ndarray:
+        """Weights of these cells, shape (cells,): ones, or for a disc proportional to the areas of its rings; one on average."""
+        return (2.0 * np.arange(cells) + 1.0) / cells if self.over_disc else np.ones(cells)
 
     def si(self, scales: Scales) -> float:
         """One unit of the coordinate in SI units."""
         return float(getattr(scales, self.scale)) if self.scale else 1.0
+
+    def shown_in(self, scales: Scales | None) -> tuple[float, str]:
+        """Unit in which people are told values, and by what to multiply them: mm/s, mm and g where the scales are known."""
+        if scales is None or not self.scale:
+            return 1.0, self.units[0]
+        factor, unit = _SHOWN.get(self.units[1], (1.0, self.units[1]))
+        return self.si(scales) * factor, unit
+
+    def told(self, value: float, scales: Scales | None, digits: int = 3) -> str:
+        """A value as text in this unit."""
+        factor, unit = self.shown_in(scales)
+        return f"{float(f'{factor * value:.{digits}g}'):,.12g} {unit}"
 
 
 def angle_coordinate(name: str, words: str) -> Coordinate:

@@ -32,12 +32,15 @@ class Disturbance:
     ----------
     kind : str
         Its name in files and results; by default that of the class in lower case.
+    noun : str
+        What many of them are called, in sentences.
     measured_in : dict of str to str
         Property of :class:`~carom.parameters.Scales` that is the unit of each field with a unit, so that a disturbance
         keeps its size in SI units where a sweep or a gain map changes the scales.
     """
 
     kind: ClassVar[str] = ""
+    noun: ClassVar[str] = "disturbances"
     measured_in: ClassVar[dict[str, str]] = {}
 
     def __init_subclass__(cls, **keywords: Any) -> None:
@@ -63,6 +66,16 @@ class Disturbance:
     def coordinates(self) -> tuple[Coordinate, ...]:
         """Coordinates by which the disturbance varies."""
         raise NotImplementedError
+
+    @property
+    def size(self) -> Coordinate | None:
+        """Their size, up to the largest; by default the first of two coordinates that are a size from 0 and a direction."""
+        axes = self.coordinates
+        return axes[0] if len(axes) == 2 and axes[0].low == 0.0 and axes[1].periodic else None
+
+    def drawn(self, shares: np.ndarray) -> tuple[np.ndarray, ...]:
+        """Values of the coordinates drawn by numbers uniform from 0 to 1, shape (number, coordinates)."""
+        return tuple(coordinate.at(share) for coordinate, share in zip(self.coordinates, shares.T, strict=True))
 
     def starts(self, rotor: Model, *values: np.ndarray) -> Starts:
         """Starts of free motion.

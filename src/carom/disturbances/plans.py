@@ -28,7 +28,7 @@ class _Plan:
 
 @dataclass(frozen=True)
 class Grid(_Plan):
-    """Cells of equal weight along every coordinate, each represented by its middle.
+    """Cells of equal width along every coordinate, each represented by its middle; by size and direction they weigh by area.
 
     Attributes
     ----------
@@ -67,6 +67,17 @@ class Grid(_Plan):
             coordinate.middles(cells) for coordinate, cells in zip(self.model.coordinates, self.shape, strict=True)
         )
 
+    def weights(self) -> np.ndarray:
+        """Weight of each cell in shares, of the shape of the grid, one on average: in discs by area."""
+        axes = zip(self.model.coordinates, self.shape, strict=True)
+        along = np.meshgrid(*(coordinate.weights(cells) for coordinate, cells in axes), indexing="ij")
+        found: np.ndarray = np.prod(along, axis=0)
+        return found
+
+    def fresh(self, number: int) -> Self:
+        """Return the same grid: it draws nothing."""
+        return self
+
     def starts(self, rotor: Model) -> Starts:
         """Starts, arrays of the shape of the grid."""
         return self.model.starts(rotor, *np.meshgrid(*self.values(), indexing="ij"))
@@ -74,7 +85,10 @@ class Grid(_Plan):
 
 @dataclass(frozen=True)
 class Sample(_Plan):
-    """A seeded random sample, uniform in every coordinate; a longer one of the same seed begins with the shorter.
+    """A seeded random sample; a longer one of the same seed begins with the shorter.
+
+    It is uniform in every coordinate, but uniform over the area where sizes in all directions fill a disc (kicks, shocks,
+    steps of the unbalance, states).
 
     Attributes
     ----------
@@ -104,9 +118,16 @@ class Sample(_Plan):
 
     def values(self) -> tuple[np.ndarray, ...]:
         """Value of each coordinate at each start, shape (count,)."""
-        axes = self.model.coordinates
-        shares = np.random.default_rng(self.seed).random((self.count, len(axes)))
-        return tuple(coordinate.at(share) for coordinate, share in zip(axes, shares.T, strict=True))
+        return self.model.drawn(np.random.default_rng(self.seed).random((self.count, len(self.model.coordinates))))
+
+    def weights(self) -> np.ndarray:
+        """Weight of each start in shares: ones."""
+        return np.ones(self.count)
+
+    def fresh(self, number: int) -> Self:
+        """Return a sample of the same model that is independent of this one, and of those with other numbers."""
+        seeds = np.random.SeedSequence(self.seed, spawn_key=(number,))
+        return replace(self, seed=int(seeds.generate_state(1, np.uint64)[0]))
 
     def starts(self, rotor: Model) -> Starts:
         """Starts, arrays of shape (count,)."""

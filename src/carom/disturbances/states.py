@@ -57,13 +57,14 @@ class UnbalanceStep(Disturbance):
 
     largest: float
     kind: ClassVar[str] = "unbalance-step"
+    noun: ClassVar[str] = "steps of the unbalance from eccentricities"
     measured_in: ClassVar[dict[str, str]] = {"largest": "length"}
 
     @property
     def coordinates(self) -> tuple[Coordinate, ...]:
         """Eccentricity and phase before the step."""
         return (
-            length_coordinate("eccentricity_before", "eccentricity before the step", 0.0, self.largest),
+            length_coordinate("eccentricity_before", "eccentricity before the step", 0.0, self.largest, over_disc=True),
             angle_coordinate("phase_before", "phase of the unbalance before the step, relative to that after it"),
         )
 
@@ -104,6 +105,7 @@ class ContactRelease(Disturbance):
 
     motion: Release = "fixed"
     kind: ClassVar[str] = "release"
+    noun: ClassVar[str] = "releases"
 
     def __post_init__(self) -> None:
         if self.motion not in ("fixed", "rotating", "rolling"):
@@ -139,6 +141,7 @@ class StateSlice(Disturbance):
 
     velocity: complex = 0j
     kind: ClassVar[str] = "slice"
+    noun: ClassVar[str] = "positions"
     measured_in: ClassVar[dict[str, str]] = {"velocity": "velocity"}
 
     @property
@@ -168,6 +171,7 @@ class AnyState(Disturbance):
 
     fastest: float = FASTEST
     kind: ClassVar[str] = "state"
+    noun: ClassVar[str] = "positions with velocities"
     measured_in: ClassVar[dict[str, str]] = {"fastest": "velocity"}
 
     @property
@@ -179,6 +183,11 @@ class AnyState(Disturbance):
             speed_coordinate("speed", "speed in the fixed frame", 0.0, self.fastest, over_disc=True),
             angle_coordinate("direction", "direction of the velocity"),
         )
+
+    @property
+    def size(self) -> Coordinate:
+        """Speed in the fixed frame."""
+        return self.coordinates[2]
 
     def starts(self, rotor: Model, *values: np.ndarray) -> Starts:
         """The given states, in the co-rotating frame."""

@@ -176,7 +176,7 @@ def _compile(origin: Origin, ready: threading.Event) -> None:
     """Compile the kernels, or load them, by a first small use."""
     try:
         rotor = Jeffcott(origin.case.parameters)
-        largest = largest_kick(rotor.scales)
+        largest = largest_kick(origin.case)
         table_of(rotor)
         found = map_kicks(rotor, 17, largest)
         follow_kick(rotor, found.rest, 0.3, 0.1)

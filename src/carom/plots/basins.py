@@ -16,7 +16,6 @@ from matplotlib.ticker import MaxNLocator
 
 from carom.disturbances import outward_from
 from carom.outcome import InputError
-from carom.parameters import GRAVITY
 from carom.plots.cells import CHORDS, MotionLook, finish, ink, motion_looks, paint
 from carom.plots.figure import StyledFigure
 from carom.plots.plane import clearance_circle, label_frame, point
@@ -28,9 +27,6 @@ if TYPE_CHECKING:
     from carom.basins import Basin, SmallestLoss
     from carom.disturbances import Coordinate
     from carom.parameters import Scales
-
-_BRIGHT = {"m/s": (1e3, "mm/s"), "m": (1e3, "mm"), "m/s^2": (1.0 / GRAVITY, "g")}
-"""SI units as figures show them: factor and unit."""
 
 
 @styled
@@ -157,9 +153,9 @@ def _plane(basin: Basin, motions: list[MotionLook], smallest: SmallestLoss | Non
             cells_drawn.set_clip_path(Circle((0.0, 0.0), 1.0, transform=axes.transData))
         label_frame(axes, "rotating", basin.scales)
         point(axes, complex(basin.rotor.system.arrays.offsets[0]), "contact-free", label="", colour="#ffffff")
-        velocity = complex(dataset["start_vx"].values.flat[0], dataset["start_vy"].values.flat[0])
-        said = "at rest in the co-rotating frame" if velocity == 0 else rf"$\dot U$ = {velocity:.3g} $c_r\Omega$"
-        axes.set_title(f"starts {said}")
+        velocity = complex(getattr(basin.plan.model, "velocity", 0.0))
+        said = "at rest" if velocity == 0 else rf"at {velocity:.3g} $c_r\Omega$"
+        axes.set_title(f"starts {said} in the fixed frame")
         handles = [Line2D([], [], ls="none", marker="p", ms=5, mfc="white", mec="#1a1a1a", label="levitation")]
     else:
         factor, label = _axis(x, basin.scales)
@@ -201,7 +197,7 @@ def _bars(basin: Basin, motions: list[MotionLook], title: str | None) -> Figure:
     axes.tick_params(axis="y", length=0)
     axes.set_xlim(0.0, 112.0)
     axes.set_xticks(range(0, 101, 20))
-    axes.set_xlabel(f"share of {basin.starts} starts (%), with 95 % confidence")
+    axes.set_xlabel(f"share of {basin.starts} {basin.share_recovered.population.words} (%), with 95 % confidence")
     if title:
         figure.suptitle(title)
     return figure
@@ -216,6 +212,5 @@ def _axis(coordinate: Coordinate, scales: Scales | None) -> tuple[float, str]:
             "acceleration": r"$c_\mathrm{r}\Omega^2$",
         }
         return 1.0, f"{coordinate.words} ({unit.get(coordinate.scale, coordinate.units[0])})"
-    si = coordinate.units[1]
-    more, unit_shown = _BRIGHT.get(si, (1.0, si))
-    return coordinate.si(scales) * more, f"{coordinate.words} ({unit_shown})"
+    factor, unit_shown = coordinate.shown_in(scales)
+    return factor, f"{coordinate.words} ({unit_shown})"

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from carom.attractors import Attractor, AttractorSet, Character, document_of
-from carom.basins.shares import wilson_interval
+from carom.attractors import Attractor, AttractorSet, Character, document_of, exact_interval
 from carom.parameters import Parameters
 
 
@@ -42,7 +41,7 @@ def _attractor(entry: Attractor, total: int, character: Character, exponents: bo
         "word": str(orbit.word) if orbit else None,
         "impacts": (orbit.impacts if orbit else entry.name.multiplicity) or None,
         "period": orbit.period if orbit else entry.period,
-        "share": [entry.share, *(wilson_interval(entry.count, total) if total else (0.0, 1.0))],
+        "share": [entry.share, *(exact_interval(entry.count, total) if total else (0.0, 1.0))],
         "count": entry.count,
         "known_starts": entry.known,
         "lasting": character.lasting,

@@ -53,9 +53,9 @@ class BasinsTask:
         found: tuple[Variable, ...] = (
             Variable("possible", "disturbances that are possible", "count"),
             Variable("counts", "disturbances that ended so", "count", along=OUTCOMES),
-            Variable("recovered", "share of the possible disturbances that came back to levitation"),
-            Variable("recovered_low", "lower end of its 95 % confidence interval (Wilson)"),
-            Variable("recovered_high", "upper end of its 95 % confidence interval (Wilson)"),
+            Variable("recovered", f"share of {self.tried.model.noun} that came back to levitation, by area"),
+            Variable("recovered_low", "lower end of its 95 % confidence interval (Clopper and Pearson)"),
+            Variable("recovered_high", "upper end of its 95 % confidence interval (Clopper and Pearson)"),
             Variable("mean_impacts", "impacts until it was known where the motion ends, mean"),
         )
         if self._kicks:
@@ -96,7 +96,7 @@ class BasinsTask:
         """Compute the values of one machine by variable name; a variable without a value is left out."""
         from carom.basins.losses import smallest_lost
         from carom.basins.shares import Share
-        from carom.disturbances.following import follow
+        from carom.disturbances.following import NO_START, follow
         from carom.models import model_of
 
         rotor = model_of(case)
@@ -112,7 +112,10 @@ class BasinsTask:
         possible = int(counts.sum())
         found: dict[str, Any] = {"possible": possible, "counts": counts}
         if possible:
-            share = Share.of(int(counts[0]), possible, drawn=isinstance(self.tried, Sample))
+            share = Share.of(int(counts[0]), possible, drawn=True)
+            if isinstance(self.tried, Grid):  # one batch
+                exists, back = endings.outcomes != NO_START, endings.outcomes == Outcome.LEVITATED
+                share = Share.over(self.tried, back, exists, rotor.scales)
             found |= {"recovered": share.fraction, "recovered_low": share.low, "recovered_high": share.high}
             found["mean_impacts"] = impacts / possible
         if kicks:

@@ -34,7 +34,9 @@ _SIMPLE = (
 )
 _SIMULATED = (
     Variable("attractors", "motions in which simulated disturbances ended", "count"),
-    Variable("recovered", "share of simulated disturbances that came back to levitation"),
+    Variable("recovered", "share of kicks up to the required size that came back to levitation, by area"),
+    Variable("recovered_low", "lower end of its 95 % confidence interval (Clopper and Pearson)"),
+    Variable("recovered_high", "upper end of its 95 % confidence interval (Clopper and Pearson)"),
     Variable("smallest_unrecovered_kick", "smallest simulated kick that did not come back", scale="velocity"),
 )
 _DAMPING = (
@@ -124,7 +126,7 @@ class StudyTask:
         found = self._closed_forms(rotor, case)
         number = int(seed.generate_state(1)[0])
         if self.disturbances:
-            found |= self._simulated(rotor, number)
+            found |= self._simulated(rotor, case.requirement.own(rotor.scales).kick, number)
         if self.least_damping:
             found |= self._damping(rotor, number)
         scales = rotor.scales
@@ -157,14 +159,16 @@ class StudyTask:
             found["zone"] = zones.labels.index(zones.zone(min(levitation.radius, 1.0)))
         return found
 
-    def _simulated(self, rotor: Jeffcott, seed: int) -> dict[str, Any]:
+    def _simulated(self, rotor: Jeffcott, fastest: float, seed: int) -> dict[str, Any]:
         from carom.attractors import find_attractors
+        from carom.basins import share_of_kicks
 
-        found = find_attractors(rotor, seed=seed, count=self.disturbances, threads=1)
-        smallest = found.smallest_unrecovered_kick
+        found = find_attractors(rotor, seed=seed, count=self.disturbances, fastest=fastest, threads=1)
+        smallest, share = found.smallest_unrecovered_kick, share_of_kicks(found)
+        back = (share.fraction, share.low, share.high) if share else (0.0, 0.0, 0.0)
         return {
             "attractors": sum(member.count > 0 for member in found),
-            "recovered": found.recovered,
+            **dict(zip(("recovered", "recovered_low", "recovered_high"), back, strict=True)),
             "smallest_unrecovered_kick": math.nan if smallest is None else smallest,
         }
 

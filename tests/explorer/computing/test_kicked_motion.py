@@ -52,6 +52,8 @@ def test_each_flight_has_the_colour_of_its_cell():
     middles = shown.basin.coordinates[0].middles(cells)
     for radial in range(0, cells, 3):
         for tangential in range(0, cells, 3):
+            if not shown.basin.exists[radial, tangential]:
+                continue
             kicked = follow_kick(ROTOR, shown.rest, float(middles[radial]), float(middles[tangential]))
             ending = shown.endings[shown.cells[tangential, radial]]
             assert kicked.colour == ending.colour

@@ -7,12 +7,12 @@ from typing import ClassVar
 
 import numpy as np
 
-from carom.basins import Basin, map_basins
+from carom.basins import Basin, Share, map_basins
 from carom.closed_forms import find_equilibria
 from carom.disturbances import Coordinate, Disturbance, Grid, KickPlane, Starts, outward_from
 from carom.models import Jeffcott
 from carom.motions import State
-from carom.parameters import Scales, usual_kick
+from carom.parameters import Case
 from carom.plots.cells import MotionLook, motion_looks
 from carom.progress import ShowProgress
 
@@ -42,7 +42,8 @@ class RestKick(KickPlane):
         """The resting motion with the velocity changed."""
         radial, tangential = values
         outward = self.position / abs(self.position)
-        return Starts.of(np.full(np.shape(radial), self.position), outward * (radial + 1j * tangential), True)
+        there = self.within(radial, tangential)
+        return Starts.of(np.full(np.shape(radial), self.position), outward * (radial + 1j * tangential), there)
 
 
 @dataclass(frozen=True)
@@ -92,7 +93,7 @@ class Ending:
     Attributes
     ----------
     share : float
-        Share of all kicks of the picture, 0 to 1.
+        Share of all kicks up to the largest, 0 to 1.
     hatch : str
         Texture for print without colour; empty for none.
     """
@@ -112,7 +113,7 @@ class KickMap:
     rest : Rest
     basin : Basin
     fastest : float
-        Largest component of the kicks, in ``c_r Ω``.
+        Largest kick, in ``c_r Ω``: the radius of the disc.
     cells : ndarray of uint8, shape (n, n)
         Index of the ending by tangential (rows) and radial component (columns), both ascending; ``NOWHERE`` without one.
     endings : tuple of Ending
@@ -128,14 +129,15 @@ class KickMap:
     smallest_lost: float | None
 
     @property
-    def share(self) -> float:
+    def share(self) -> Share:
         """Share of the kicks that comes back to levitation."""
-        return self.basin.share_recovered.fraction
+        return self.basin.share_recovered
 
 
-def largest_kick(scales: Scales | None) -> float:
-    """Largest component of kicks: in m/s if the machine is known, so that axes stay where the speed changes."""
-    return usual_kick(scales) * (scales.velocity if scales else 1.0)
+def largest_kick(case: Case) -> float:
+    """Largest kick, the one to be survived: in m/s if the machine is known, so that axes stay where the speed changes."""
+    scales = case.parameters.scales
+    return case.requirement.own(scales).kick * (scales.velocity if scales else 1.0)
 
 
 def map_kicks(rotor: Jeffcott, cells: int, largest: float, progress: ShowProgress = None) -> KickMap:

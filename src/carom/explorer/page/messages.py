@@ -49,7 +49,7 @@ def units_message(scales: Scales | None) -> Message:
 
 def basin_message(found: KickMap, rotor: Jeffcott) -> Message:
     """The picture of a basin, its legend, and what is read off it."""
-    say, basin = Wording(rotor.scales), found.basin
+    say, share = Wording(rotor.scales), found.share
     units = units_message(rotor.scales)
     lost = found.smallest_lost
     return {
@@ -60,8 +60,8 @@ def basin_message(found: KickMap, rotor: Jeffcott) -> Message:
         "rest": found.rest.words,
         "levitates": found.rest.levitates,
         "endings": [asdict(ending) for ending in found.endings],
-        "share": f"{100.0 * found.share:.3g} %",
-        "share_remark": f"{basin.recovered.sum():,} of {basin.starts:,} kicks, both parts up to {say.velocity(found.fastest)}",
+        "share": f"{100.0 * share.fraction:.3g} %",
+        "share_remark": f"of {share.population.words}, by area: {share.count:,} of {share.total:,} cells of this picture",
         "sentence": _sentence(found),
         "harmless": harmless_kick(rotor) / found.fastest if found.rest.levitates else 0.0,
         "lost": "none" if lost is None else say.velocity(lost),
@@ -77,11 +77,9 @@ def basin_message(found: KickMap, rotor: Jeffcott) -> Message:
 def _sentence(found: KickMap) -> str:
     if not found.rest.levitates:
         return f"It cannot levitate with these values. The kicks disturb {found.rest.words}."
-    if found.share == 1.0:
-        return "Every kick of this picture comes back to levitation."
-    if found.share == 0.0:
-        return "No kick of this picture comes back to levitation."
-    return f"{100.0 * found.share:.2g} % of these kicks come back to levitation."
+    if found.share.count in (0, found.share.total):
+        return f"{'Every' if found.share.count else 'No'} kick of this picture comes back to levitation."
+    return f"{100.0 * found.share.fraction:.3g} % of {found.share.population.words} come back to levitation."
 
 
 def motion_message(motion: KickedMotion, rotor: Jeffcott) -> Message:

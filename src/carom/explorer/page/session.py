@@ -76,7 +76,7 @@ class Session:
     def __init__(self, origin: Origin, answer: Answer, ready: threading.Event) -> None:
         self.origin, self._answer, self._ready = origin, answer, ready
         self.controls = {control.name: control for control in controls_of(origin.case)}
-        self.largest = largest_kick(origin.case.parameters.scales)
+        self.largest = largest_kick(origin.case)
         rotor = Jeffcott(origin.case.parameters)
         first = "damping" if "damping" in self.controls else "gamma"
         self._shown = _Shown(0, origin.case, {}, rotor, first, 0.31, 0.12)

@@ -42,7 +42,7 @@ carom.basin = { message: null, kick: { radial: 0.31, tangential: 0.12 } };
     pen.save();
     pen.beginPath(); pen.rect(x0, y0, span, span); pen.clip();
     pen.strokeStyle = "rgba(255,255,255,.42)"; pen.lineWidth = 1;
-    for (let size = step; size < 1.42 * message.largest; size += step) {
+    for (let size = step; size <= message.largest; size += step) {
       pen.beginPath(); pen.arc(toX(0), toY(0), span * size / message.largest / 2, 0, 7); pen.stroke();
     }
     pen.beginPath(); pen.moveTo(toX(0), y0); pen.lineTo(toX(0), y0 + span); pen.moveTo(x0, toY(0)); pen.lineTo(x0 + span, toY(0)); pen.stroke();
