@@ -11,10 +11,15 @@ from flint import acb
 from reference import Crossing, Flight, first_crossing, jeffcott_exponents, jeffcott_flight, unit
 
 from carom.core import events
+from carom.core.advance import advance
 from carom.core.block import load_products
+from carom.core.contact_series import AWAY, FLIGHT
+from carom.core.fate import memory
 from carom.core.flow import displacement, squared_modulus
-from carom.core.layout import workspace
+from carom.core.lanes import CLEARED, LATE, OPEN, fly_lanes, lanes_record
+from carom.core.layout import LEVELS, rub_workspace, workspace
 from carom.models import Jeffcott
+from carom.motions.trajectories import EventLog
 from carom.outcome import Outcome
 from carom.parameters import Parameters
 
@@ -96,6 +101,45 @@ def by_kernel(task: Task, horizon: float) -> tuple[int, float]:
     """Outcome and time of the first crossing, by the kernel for single motions."""
     work = workspace(len(task.amplitudes))
     return events.first_crossing(task.arrays, task.table, task.plane, task.amplitudes, horizon, task.start, work)
+
+
+def board(lanes: np.record, lane: int, task: Task) -> None:
+    lower, upper = task.amplitudes
+    lanes.lower_re[lane], lanes.lower_im[lane] = lower.real, lower.imag
+    lanes.upper_re[lane], lanes.upper_im[lane] = upper.real, upper.imag
+    inside = task.start == events.INSIDE
+    lanes.level[lane] = abs(task.arrays.offsets[0] + upper) ** 2 - 1.0 if inside else 0.0
+    lanes.clock[lane], lanes.depth[lane], lanes.quiet[lane], lanes.due[lane] = 0.0, 0.0, 0.0, 1e9
+
+
+def by_lane(lane: int, undecided: list[Task]) -> Callable[[Task, float], tuple[int, float]]:
+    """First crossing in one of the lanes; what none of its proofs decides, by the kernel for single motions."""
+
+    def search(task: Task, horizon: float) -> tuple[int, float]:
+        lanes = lanes_record()
+        board(lanes, lane, task)
+        while True:
+            fly_lanes(task.arrays, task.table, horizon, lanes)
+            verdict = lanes.verdict[lane]
+            if verdict == LATE:
+                return Outcome.CLEAR, horizon
+            if verdict == OPEN and lanes.depth[lane] >= LEVELS:
+                undecided.append(task)
+                return by_kernel(task, horizon)
+            if verdict not in (CLEARED, OPEN):
+                return Outcome.CONTACT, lanes.clock[lane]
+
+    return search
+
+
+def by_advance(task: Task, horizon: float) -> tuple[int, float]:
+    """The same by the event loop: to the first event of the motion."""
+    contact, log = np.array([AWAY if task.radial_speed is None else FLIGHT]), EventLog.empty(1, len(task.amplitudes))
+    scratch = memory(len(task.amplitudes)), workspace(len(task.amplitudes)), rub_workspace(len(task.amplitudes))
+    outcome, time, events = advance(task.arrays, task.table, task.amplitudes.copy(), horizon, contact, *log, *scratch)
+    if events > 0:
+        return Outcome.CONTACT, float(log.times[0])
+    return (Outcome.CLEAR if outcome == Outcome.TIME_REACHED else outcome), time
 
 
 def compare(

@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 
 import numpy as np
 import pytest
 from compilation import sized
 from flights import (
     Tally,
-    Task,
-    by_kernel,
+    board,
+    by_lane,
     compare,
     inside_task,
     near_grazing_task,
@@ -21,11 +20,9 @@ from flights import (
     task_from_state,
 )
 
-from carom.core import events
-from carom.core.lanes import CLEARED, LATE, OPEN, fly_lanes, lanes_record
-from carom.core.layout import LANES, LEVELS
+from carom.core.lanes import LATE, OPEN, fly_lanes, lanes_record
+from carom.core.layout import LANES
 from carom.models import Jeffcott
-from carom.outcome import Outcome
 
 HORIZON = 15.0
 STATE = ("lower_re", "lower_im", "upper_re", "upper_im", "level", "clock", "verdict")
@@ -34,35 +31,6 @@ STATE = ("lower_re", "lower_im", "upper_re", "upper_im", "level", "clock", "verd
 def count(flights: int) -> int:
     """How many flights to try: all in a deep run, every tenth by day."""
     return sized(math.ceil(0.1 * flights), math.ceil(0.002 * flights), flights)
-
-
-def board(lanes: np.record, lane: int, task: Task) -> None:
-    lower, upper = task.amplitudes
-    lanes.lower_re[lane], lanes.lower_im[lane] = lower.real, lower.imag
-    lanes.upper_re[lane], lanes.upper_im[lane] = upper.real, upper.imag
-    inside = task.start == events.INSIDE
-    lanes.level[lane] = abs(task.arrays.offsets[0] + upper) ** 2 - 1.0 if inside else 0.0
-    lanes.clock[lane], lanes.depth[lane], lanes.quiet[lane], lanes.due[lane] = 0.0, 0.0, 0.0, 1e9
-
-
-def by_lane(lane: int, undecided: list[Task]) -> Callable[[Task, float], tuple[int, float]]:
-    """First crossing in one of the lanes; what none of its proofs decides, by the kernel for single motions."""
-
-    def search(task: Task, horizon: float) -> tuple[int, float]:
-        lanes = lanes_record()
-        board(lanes, lane, task)
-        while True:
-            fly_lanes(task.arrays, task.table, horizon, lanes)
-            verdict = lanes.verdict[lane]
-            if verdict == LATE:
-                return Outcome.CLEAR, horizon
-            if verdict == OPEN and lanes.depth[lane] >= LEVELS:
-                undecided.append(task)
-                return by_kernel(task, horizon)
-            if verdict not in (CLEARED, OPEN):
-                return Outcome.CONTACT, lanes.clock[lane]
-
-    return search
 
 
 def test_random_flights(record_property):

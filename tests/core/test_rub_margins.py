@@ -257,16 +257,14 @@ def test_rounding_errors_are_the_sums_of_the_sizes_of_their_terms():
         )
         amplitudes = random.normal(size=2) + 1j * random.normal(size=2)
         spread = sizes(arrays.offsets)[0] + sizes(arrays.rows[0] * amplitudes).sum()
-        speed = 1.0 + sizes(arrays.rate_rows[0] * amplitudes).sum()
+        rates, speed = 1.0 + sizes(arrays.rate_rows[0] * amplitudes).sum(), sizes(arrays.rate_rows[0] @ amplitudes)
         assert rub.speed_rounding(arrays, 0, amplitudes) == pytest.approx(
-            64 * EPSILON * spread * speed, rel=1e-12, abs=0.0
+            64 * EPSILON * (rates + spread * speed), rel=1e-12, abs=0.0
         )
         row = arrays.acceleration_rows[0]
-        force = abs(arrays.rate_rows[0] @ amplitudes) ** 2 + sizes(row * amplitudes).sum()
-        force += sizes(row * arrays.rows[0]).sum() / (np.abs(arrays.rows[0]) ** 2).sum()
-        assert rub.push_rounding(arrays, 0, amplitudes) == pytest.approx(
-            64 * EPSILON * spread * force, rel=1e-12, abs=0.0
-        )
+        lever = sizes(row * arrays.rows[0]).sum() / (np.abs(arrays.rows[0]) ** 2).sum()
+        force = sizes(row * amplitudes).sum() + 2 * speed * (rates - 1.0) + spread * (sizes(row @ amplitudes) + lever)
+        assert rub.push_rounding(arrays, 0, amplitudes) == pytest.approx(64 * EPSILON * force, rel=1e-12, abs=0.0)
 
 
 # ------------------------------------------------------------------------------------------------------- first falls

@@ -116,23 +116,39 @@ def first_contact(rotor, plane, on_wall, step, work):
 
     From ``(|y|²)'' = 2(Re(ȳÿ) + |ẏ|²)``; at rest on the wall see :func:`lift_off`.
     """
-    state = work.series[0]
-    position, speed = work.position[plane, 0], work.speed[plane, 0]
-    rise = -2.0 * (position.conjugate() * speed).real
+    state, rise = work.series[0], _rise(plane, work)
     if on_wall and abs(rise) <= 2.0 * RESTING * speed_rounding(rotor, plane, state):
         return _first_return(rotor, plane, step, work)
-    work.first_margin[0], work.first_margin[1] = 0.0 if on_wall else 1.0 - squared_modulus(position), rise
+    gap = 0.0 if on_wall else 1.0 - squared_modulus(work.position[plane, 0])
+    work.first_margin[0], work.first_margin[1] = gap, rise
     for k in range(ORDER - 1):
         work.first_margin[k + 2] = -2.0 * work.push[plane, k] / ((k + 1) * (k + 2))
     return first_fall(work.first_margin, step, 2.0 * ROUNDING * _spread(rotor, plane, state))
 
 
 @part
+def _rise(plane, work):
+    """Rate of ``1 − |y|²`` at the start of a step."""
+    return -2.0 * (work.position[plane, 0].conjugate() * work.speed[plane, 0]).real
+
+
+@part
 def _first_return(rotor, plane, step, work):
-    """First time within a step at which a plane that starts at rest on its wall is back there, or the step."""
+    """First time within a step at which a plane that starts at rest on its wall is back there, or the step.
+
+    Its distance from there on is ``1 − |y|² = rise t − 2∬N``.  Where it is pulled off by more than rounding, the little
+    ``rise`` that counts as rest is kept, and the margin is the distance by ``t``.  Elsewhere it is left out: the margin is
+    the distance by ``t²``, which tells a return from the start.
+    """
+    rounding = push_rounding(rotor, plane, work.series[0])
+    if work.push[plane, 0] < -rounding:
+        work.first_margin[0] = max(_rise(plane, work), 0.0)
+        for k in range(ORDER):
+            work.first_margin[k + 1] = -2.0 * work.push[plane, k] / ((k + 1) * (k + 2))
+        return first_fall(work.first_margin, step, speed_rounding(rotor, plane, work.series[0]))
     for k in range(ORDER + 1):
         work.first_margin[k] = -2.0 * work.push[plane, k] / ((k + 1) * (k + 2))
-    return first_fall(work.first_margin, step, push_rounding(rotor, plane, work.series[0]))
+    return first_fall(work.first_margin, step, rounding)
 
 
 @kernel
@@ -140,7 +156,7 @@ def lift_off(rotor, contact, amplitudes, horizon, work):
     """Follow a flight that starts at rest on the only wall, in place, to its return or to the end of a Taylor step.
 
     There ``|y|² − 1 = 2∬N`` with ``N = Re(ȳÿ) + |ẏ|²``, so the series of ``N`` gives the distance from the wall without
-    cancellation, even for a departure as slow as ``N't³/3``.
+    cancellation, even for a departure as slow as ``N't³/3``.  A speed within rounding adds to that (:func:`_first_return`).
 
     Returns
     -------
@@ -180,21 +196,34 @@ def rest_on_wall(rotor, plane, amplitudes, rolling):
 
 @part
 def speed_rounding(rotor, plane, amplitudes):
-    """Rounding error of the radial speed and the speed along the wall."""
-    speed = 1.0
+    """Rounding error of the radial speed and the speed along the wall.
+
+    It is that of the velocity's terms, and that of the position, which turns the wall's normal against the velocity.
+    """
+    rates, speed = 1.0, 0j
     for m in range(amplitudes.shape[0]):
-        speed += _size(rotor.rate_rows[plane, m] * amplitudes[m])
-    return ROUNDING * _spread(rotor, plane, amplitudes) * speed
+        rate = rotor.rate_rows[plane, m] * amplitudes[m]
+        rates += _size(rate)
+        speed += rate
+    return ROUNDING * (rates + _spread(rotor, plane, amplitudes) * _size(speed))
 
 
 @kernel
 def push_rounding(rotor, plane, amplitudes):
-    """Rounding error of the normal force, including that of the position, which dominates near the equilibrium."""
-    force = squared_modulus(velocity(rotor, plane, amplitudes))
+    """Rounding error of the normal force ``Re(ȳÿ) + |ẏ|²``: of the terms of ``ÿ`` and ``ẏ``, and of the position.
+
+    The position counts twice, by its direction and by the force that it changes; that dominates near the equilibrium.
+    """
+    forces, rates, lever, force, speed = 0.0, 0.0, 0.0, 0j, 0j
     for m in range(amplitudes.shape[0]):
-        row = rotor.acceleration_rows[plane, m]
-        force += _size(row * amplitudes[m]) + _size(row * rotor.rows[plane, m]) / rotor.weights[plane]
-    return ROUNDING * _spread(rotor, plane, amplitudes) * force
+        row, rate = rotor.acceleration_rows[plane, m], rotor.rate_rows[plane, m] * amplitudes[m]
+        lever += _size(row * rotor.rows[plane, m]) / rotor.weights[plane]
+        forces += _size(row * amplitudes[m])
+        rates += _size(rate)
+        force += row * amplitudes[m]
+        speed += rate
+    of_position = _spread(rotor, plane, amplitudes) * (_size(force) + lever)
+    return ROUNDING * (forces + 2.0 * _size(speed) * rates + of_position)
 
 
 @kernel
