@@ -17,7 +17,7 @@ from carom.plots import LOOKS, OUTCOMES
 HERE = Path(__file__).parent
 CELLS = 240
 FASTEST = 0.3
-"""Largest part of a kick, in m/s."""
+"""Largest kick, in m/s."""
 KICKS = (("levitated", (-130.0, 178.0)), ("bouncing", (130.0, 178.0)))
 """Two kicks of the same size, outward and in the sense of rotation in mm/s, by where they lead."""
 
@@ -70,8 +70,13 @@ def shade(axes: Axes, basin: cm.basins.Basin) -> None:
         if where.any():
             options = {"colors": [look.colour], "hatches": [look.hatch], "levels": [0.5, 1.5]}
             axes.contourf(along, along, where.T.astype(float), **options).set_edgecolor("#ffffff90")
-    for place, words in (((0, -30), "levitates"), ((0, -225), "bounces for ever"), ((234, -262), "rolls\nbackward")):
-        axes.annotate(words, place, color="white", ha="center", va="center", fontsize=13, fontweight="bold")
+    outside = OUTCOMES["rolling"].colour
+    for place, words, colour in (
+        ((0, -30), "levitates", "white"),
+        ((0, -225), "bounces for ever", "white"),
+        ((232, -265), "rolls\nbackward", outside),
+    ):
+        axes.annotate(words, place, color=colour, ha="center", va="center", fontsize=13, fontweight="bold")
 
 
 def mark(axes: Axes, kick: tuple[float, float], label: str) -> None:

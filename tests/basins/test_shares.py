@@ -12,7 +12,7 @@ from machines import PAPER
 import carom
 from carom.attractors import DisturbanceSet, find_attractors
 from carom.basins import Share, map_basins, share_of_kicks
-from carom.basins.shares import starts_enough
+from carom.basins.shares import percent, starts_enough
 from carom.disturbances import BaseShock, ContactRelease, Grid, KickPlane, Sample, VelocityKick
 from carom.explorer.computing.kicks import largest_kick, map_kicks
 from carom.explorer.page.messages import basin_message
@@ -53,6 +53,21 @@ def test_a_share_says_of_what_it_is_and_how_sure():
     )
     assert cells.low == cells.fraction == cells.high == 0.25
     assert "up_to_si" not in cells.document
+
+
+@pytest.mark.parametrize(
+    ("share", "words"),
+    [
+        (0.0, "0 %"),
+        (1.0, "100 %"),
+        (0.3878, "38.8 %"),
+        (1999 / 2000, "99.95 %"),
+        (3999 / 4000, "99.98 %"),
+        (1 / 3600, "0.0278 %"),
+    ],
+)
+def test_only_all_are_100_percent(share, words):
+    assert percent(share) == words
 
 
 def test_a_share_without_a_size():

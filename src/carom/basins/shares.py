@@ -111,11 +111,11 @@ class Share:
     def words(self) -> str:
         """Sentence without a full stop: the share, its confidence interval, or that the starts are a grid."""
         if self.drawn:
-            interval = f"{100.0 * self.low:.3g} to {100.0 * self.high:.3g} % with 95 % confidence"
+            interval = f"{percent(self.low).removesuffix(' %')} to {percent(self.high)} with 95 % confidence"
             how = f"{self.count:,} of {self.total:,} drawn; {interval}"
         else:
             how = f"{self.count:,} of {self.total:,} cells of a grid, weighed by area, each represented by its middle: no sampling error"
-        return f"{100.0 * self.fraction:.3g} % of {self.population.words} {self.does} ({how})"
+        return f"{percent(self.fraction)} of {self.population.words} {self.does} ({how})"
 
     @property
     def document(self) -> dict[str, Any]:
@@ -143,6 +143,14 @@ def share_of_kicks(found: AttractorSet) -> Share | None:
     chosen = np.zeros(exists.shape, bool)
     chosen[exists] = back
     return Share.over(sample, chosen, exists, scales)
+
+
+def percent(share: float) -> str:
+    """Write a share in per cent, with three digits, or more where they would say 100 % of what is not all."""
+    digits = 3
+    while float(f"{100.0 * share:.{digits}g}") >= 100.0 > 100.0 * share:
+        digits += 1
+    return f"{100.0 * share:.{digits}g} %"
 
 
 def starts_enough(wanted: float) -> int | None:

@@ -59,6 +59,7 @@ def attractors(
 
 def _print(case: Case, found: AttractorSet, characters: list[Character], exponents: bool) -> None:
     """Print a table of the attractors, and the evidence below it."""
+    from carom.basins import share_of_kicks
     from carom.cli.fitting import fitted, plain_table
 
     screen = console()
@@ -71,6 +72,8 @@ def _print(case: Case, found: AttractorSet, characters: list[Character], exponen
     screen.print(f"{case.name}: {found.words()}")
     screen.print()
     screen.print(fitted(screen, table))
+    if share := share_of_kicks(found):
+        screen.print(f"{share.words}.")
     for entry, character in zip(found, characters, strict=True):
         survival = f" {entry.survival.words[0].upper()}{entry.survival.words[1:]}." if entry.survival else ""
         screen.print(f"{entry.name}: {character.words}{survival}")

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from carom.attractors import Attractor, AttractorSet, Character, document_of, exact_interval
+from carom.basins import share_of_kicks
 from carom.parameters import Parameters
 
 
@@ -16,13 +17,14 @@ def attractors_document(
 
     ``exponents`` says whether to list the Lyapunov exponents.
     """
-    total = len(found.disturbances)
+    total, share = len(found.disturbances), share_of_kicks(found)
     entries = [
         _attractor(entry, total, character, exponents) for entry, character in zip(found, characters, strict=True)
     ]
     return {
         "parameters": parameters.as_dict(),
         "attractors": entries,
+        "share": share.document if share else None,
         "starts": total,
         "known_starts": len(found.endings) - total,
         "seed": getattr(found.sample, "seed", None),

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import asdict
 from typing import Any
 
+from carom.basins.shares import percent
 from carom.closed_forms import harmless_kick
 from carom.explorer.computing.controls import Control
 from carom.explorer.computing.diagrams import Picture
@@ -60,7 +61,7 @@ def basin_message(found: KickMap, rotor: Jeffcott) -> Message:
         "rest": found.rest.words,
         "levitates": found.rest.levitates,
         "endings": [asdict(ending) for ending in found.endings],
-        "share": f"{100.0 * share.fraction:.3g} %",
+        "share": percent(share.fraction),
         "share_remark": f"of {share.population.words}, by area: {share.count:,} of {share.total:,} cells of this picture",
         "sentence": _sentence(found),
         "harmless": harmless_kick(rotor) / found.fastest if found.rest.levitates else 0.0,
@@ -79,7 +80,7 @@ def _sentence(found: KickMap) -> str:
         return f"It cannot levitate with these values. The kicks disturb {found.rest.words}."
     if found.share.count in (0, found.share.total):
         return f"{'Every' if found.share.count else 'No'} kick of this picture comes back to levitation."
-    return f"{100.0 * found.share.fraction:.3g} % of {found.share.population.words} come back to levitation."
+    return f"{percent(found.share.fraction)} of {found.share.population.words} come back to levitation."
 
 
 def motion_message(motion: KickedMotion, rotor: Jeffcott) -> Message:
