@@ -29,6 +29,7 @@ class Outcome(IntEnum):
     TIME_REACHED = 10
     EVENT_LIMIT = 11
     CHATTER = 12
+    LOW_BOUNCES = 13
     LEVITATED = 20
     BOUNCING = 21
     MIXED = 22
@@ -76,6 +77,10 @@ _MEANINGS = {
     Outcome.TIME_REACHED: "The motion was followed to the time asked for without settling.",
     Outcome.EVENT_LIMIT: "The motion was stopped at the largest allowed number of events; raise max_events.",
     Outcome.CHATTER: "The impacts accumulate: lasting contact with the touchdown bearing begins.",
+    Outcome.LOW_BOUNCES: (
+        "The rotor stays at the wall in bounces too low and quick to be followed to their end; "
+        "whether they fade to lasting contact is not known."
+    ),
     Outcome.LEVITATED: "The rotor returns to levitation: no later flight can reach the wall.",
     Outcome.BOUNCING: "The rotor keeps bouncing on the touchdown bearing.",
     Outcome.MIXED: "The rotor keeps alternating between bounces and lasting contact.",

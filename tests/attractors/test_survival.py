@@ -104,6 +104,24 @@ def test_motions_that_all_die_at_once_have_a_short_life(monkeypatch):
     assert found.interval[0] <= found.half_life <= found.interval[1] < LOOK
 
 
+def test_motions_that_stay_low_on_the_wall_for_longer_than_a_chatter_have_left(monkeypatch):
+    looks = []
+
+    def settle(rotor, positions, velocities, *, patience, threads=None):
+        looks.append(len(positions))
+        # The first half is low from the third look on, the second half at every other look: in a chatter, time and again.
+        low = np.where(positions.real > 0.0, len(looks) >= 3, len(looks) % 2 == 0)
+        ends = ensemble(np.zeros(len(positions), int), np.where(low, Outcome.LOW_BOUNCES, Outcome.MIXED), patience)
+        ends.positions[:] = positions
+        return ends
+
+    monkeypatch.setattr(module, "settle", settle)
+    halves = np.repeat([1.0 + 0j, -1.0 + 0j], 100)
+    found = measure_survival(None, halves, halves, impacts=20_000)
+    assert found.died == 100
+    assert looks[5:7] == [200, 100]  # low at the third, fourth, fifth and sixth look
+
+
 def test_motions_given_up_have_neither_died_nor_lasted(monkeypatch):
     def settle(rotor, positions, velocities, *, patience, threads=None):
         count = len(positions)

@@ -107,7 +107,8 @@ def _rubbing(rotor: Model, attractor: Attractor) -> Character:
 def _rolling_exponents(rotor: Model, attractor: Attractor) -> LyapunovExponents | None:
     """Exponents of rolling that leaves nothing of a disturbance but a delay, as that of the planar rotor does."""
     directions = 2 * len(rotor.system.exponents) - 1
-    if directions > LOST[Kind.ROLL] or attractor.period is None:
+    # On an elastic wall bounces fade at a finite rate.
+    if directions > LOST[Kind.ROLL] or attractor.period is None or (rotor.system.arrays.restitution == 1.0).any():
         return None
     values = np.array([0.0, *[-np.inf] * directions])
     return LyapunovExponents(values, np.zeros(len(values)), 0.0, -np.inf, 0, 0, attractor.period)

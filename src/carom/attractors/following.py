@@ -10,7 +10,7 @@ import numpy as np
 
 from carom.attractors.names import MotionName
 from carom.attractors.starts import Start
-from carom.attractors.survival import MOTIONS, Survival, follow_further, follow_until_settled, still_irregular
+from carom.attractors.survival import MOTIONS, Survival, follow_further, follow_until_settled, stay_low, still_irregular
 from carom.disturbances import Starts
 from carom.disturbances.following import follow
 from carom.models import Model
@@ -89,11 +89,11 @@ def follow_in_stages(
     bounded: dict[str, Any] = {"max_events": MOST_EVENTS // divisor} if divisor > 1 else {}
     first = follow(rotor, starts, patience=seen, threads=threads, progress=tell.part(0.0, 0.8), **bounded)
     endings, lasted = first, still_irregular(first)
-    irregular = lasted
-    while irregular.any() and seen < patience:
+    unsettled = lasted | stay_low(first)
+    while unsettled.any() and seen < patience:
         span = min(seen, patience - seen)
-        endings = follow_further(rotor, endings, irregular, patience=span, threads=threads, **bounded)
-        irregular = still_irregular(endings)
+        endings = follow_further(rotor, endings, unsettled, patience=span, threads=threads, **bounded)
+        unsettled = still_irregular(endings) | stay_low(endings)
         seen += span
         tell(0.8 + 0.1 * min(seen / patience, 1.0))
     effort: dict[str, int] = {"affordable": AFFORDABLE // divisor, "motions": MOTIONS // divisor}

@@ -14,8 +14,11 @@ from carom.motions.settling import REPEATING
 from carom.motions.starts import Kick, State
 from carom.motions.trajectories import Trajectory, simulate
 from carom.orbits.orbit import Orbit
-from carom.outcome import Outcome
+from carom.outcome import Outcome, Phase
 from carom.results import Result
+
+FADING = "It still bounces as far as it was followed: friction stops its slip in every impact, and the bounces provably fade."
+"""What is said of rolling that is reached only after more impacts than are followed, or in the limit of infinitely many."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -138,4 +141,6 @@ def _words(settled: SettledMotion, name: MotionName) -> str:
     if settled.outcome is Outcome.FORWARD_RUB:
         how = "in step with the shaft" if settled.synchronous else "out of step with the shaft"
         return f"The rotor rubs along the touchdown bearing {how}."
+    if settled.outcome is Outcome.ROLLING and settled.motion.segment_phases[-1, settled.motion.plane] == Phase.FLIGHT:
+        return f"{settled.outcome.meaning} {FADING}"
     return settled.outcome.meaning

@@ -16,7 +16,7 @@ from carom.attractors.survival import ENOUGH, Survival, still_irregular
 from carom.disturbances import Plan
 from carom.models import Model, Subject, model_of
 from carom.motions.ensembles import settle
-from carom.motions.settling import PATIENCE, REPEATING
+from carom.motions.settling import CHATTER, PATIENCE, REPEATING
 from carom.motions.starts import Kick, State, check_whole
 from carom.outcome import InputError, Outcome
 from carom.results import Result
@@ -29,7 +29,6 @@ DISCARDED = 100
 
 Added to these is the length of a chatter, whose bounces are counted too: about ``CHATTER/|ln d|``.
 """
-CHATTER = 15.0
 FEWEST = 10
 """Motions from which on a half-life means something."""
 UNEVEN = 0.01

@@ -21,6 +21,8 @@ LOOK = 1000
 
 The first look is not counted: until then the motions depend on their starts.
 """
+LOOKS_LOW = 4
+"""Looks in a row at which a motion was low on the wall, until it has left irregular bouncing: a chatter is seldom longer."""
 APART = 1e-6
 """Relative change of velocity that makes several motions of one: irregular motions diverge within a look."""
 ENOUGH = 5.0
@@ -124,6 +126,12 @@ def still_irregular(endings: Endings) -> np.ndarray:
     return bouncing & (endings.multiplicities == 0)
 
 
+def stay_low(endings: Endings) -> np.ndarray:
+    """Which motions stay at the wall in low bounces: in a chatter, or in bounces that hardly fade."""
+    low: np.ndarray = endings.outcomes == Outcome.LOW_BOUNCES
+    return low
+
+
 def measure_survival(
     rotor: Model,
     positions: np.ndarray,
@@ -136,22 +144,25 @@ def measure_survival(
     """Follow irregular motions for a number of impacts further, and count those that leave.
 
     The states, shape (M,), are those just before an impact, co-rotating frame.  If there are more than ``motions``, a random
-    part is followed; if fewer, copies with slightly changed velocities are added.
+    part is followed; if fewer, copies with slightly changed velocities are added.  A motion that only bounces low along the wall
+    for longer than a chatter has left too, wherever it ends.
     """
     random = np.random.default_rng(SEED)
     places = np.resize(random.permutation(len(positions)), motions)
     change = APART * np.exp(2j * np.pi * random.random(motions))
     change = change.reshape(-1, *np.ones(velocities.ndim - 1, int))
     positions, velocities = positions[places], velocities[places] * (1.0 + change)
-    looks, left = [], []
+    looks, left, low_for = [], [], np.zeros(motions, int)
     for _ in range(1 + max(1, impacts // LOOK)):
         ends = settle(rotor, positions, velocities, patience=LOOK, threads=threads)
-        alive = still_irregular(ends)
+        low = stay_low(ends)
+        low_for = np.where(low, low_for + 1, 0)
+        alive = still_irregular(ends) | (low & (low_for < LOOKS_LOW))
         # A motion that was given up has not left, but it cannot be followed any further.
-        lost = int(np.count_nonzero(ends.outcomes < Outcome.LEVITATED))
+        lost = int(np.count_nonzero((ends.outcomes < Outcome.LEVITATED) & ~low))
         looks.append(len(positions) - lost)
         left.append(len(positions) - lost - int(alive.sum()))
-        positions, velocities = ends.positions[alive], ends.velocities[alive]
+        positions, velocities, low_for = ends.positions[alive], ends.velocities[alive], low_for[alive]
         if not len(positions):
             break
     if len(looks) == 1:

@@ -7,6 +7,7 @@
 ``thresholds``      where motions begin and end, and disturbances that never reach the wall
 ``unbalance``       contact-free response over the speed of the shaft
 ``whirl``           backward whirl: runaway and rolling
+``fading``          rolling in bounces, and when they certainly fade
 ``absorbing``       neighbourhoods of the rub that sliding never leaves
 ``periods``         periods of all orbits with one impact a period
 ``local``           cycles that shrink into a boundary equilibrium
@@ -16,6 +17,7 @@
 
 from carom.closed_forms.absorbing import RubNeighbourhood, rub_neighbourhood
 from carom.closed_forms.equilibria import Equilibrium, EquilibriumSet, find_equilibria
+from carom.closed_forms.fading import fading_speed
 from carom.closed_forms.local import ContactSystem, LocalCycle, NonSmoothHopf, cycle_determinant, non_smooth_hopf
 from carom.closed_forms.periods import PeriodCondition, PeriodRoots
 from carom.closed_forms.thresholds import (
@@ -41,6 +43,7 @@ __all__ = [
     "Runaway",
     "SpeedResponse",
     "cycle_determinant",
+    "fading_speed",
     "find_equilibria",
     "harmless_blade_loss",
     "harmless_kick",

@@ -10,7 +10,7 @@ from carom.core.fate import forget_rub, levitates, recurs
 from carom.core.flow import acceleration, copy, displacement, squared_modulus, velocity
 from carom.core.impact import move_plane, rebound, set_on_wall, unit
 from carom.core.layout import kernel, part, passage, shared
-from carom.core.planar_proofs import stays_inside
+from carom.core.planar_proofs import fades_to_rolling, stays_inside
 from carom.core.rub import (
     RESTING,
     lift_off,
@@ -30,6 +30,7 @@ LANDING = -1
 TIME_REACHED, EVENT_LIMIT = int(Outcome.TIME_REACHED), int(Outcome.EVENT_LIMIT)
 CHATTER = int(Outcome.CHATTER)
 LEVITATED, BOUNCING, MIXED = int(Outcome.LEVITATED), int(Outcome.BOUNCING), int(Outcome.MIXED)
+ROLLING = int(Outcome.ROLLING)
 CHATTER_HEIGHT = 1e-13
 """Height of a bounce, in clearances, below which a chatter counts as complete; penetration is allowed to 1e-12."""
 STALLED = 64
@@ -269,6 +270,9 @@ def _meet(rotor, contact, plane, elapsed, memory, work):
     ):
         copy(work.arrival, work.current)
         return MIXED if memory.rubbed > 0 else BOUNCING
+    if memory.patience > 0 and fades_to_rolling(memory.proofs, rotor, work.arrival):
+        copy(work.arrival, work.current)
+        return ROLLING
     local = normal.conjugate() * speed
     change, _ = rebound(local, rotor.friction[plane], rotor.restitution[plane], rotor.drive[plane])
     change = normal * change

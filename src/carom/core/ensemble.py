@@ -21,11 +21,12 @@ from carom.core.flow import copy, displacement, squared_modulus, velocity
 from carom.core.impact import set_on_wall
 from carom.core.lanes import CLEARED, LATE, OPEN, fly_lanes, surely_flies
 from carom.core.layout import LANES, NEAR, kernel, part, passage
-from carom.core.planar_proofs import stays_inside
+from carom.core.planar_proofs import fades_to_rolling, stays_inside
 from carom.outcome import Outcome
 
 EVENT_LIMIT, GRAZING, TIME_REACHED = int(Outcome.EVENT_LIMIT), int(Outcome.GRAZING), int(Outcome.TIME_REACHED)
 BOUNCING, LEVITATED, MIXED = int(Outcome.BOUNCING), int(Outcome.LEVITATED), int(Outcome.MIXED)
+ROLLING = int(Outcome.ROLLING)
 GOES_ON, SINGLY, NONE_YET = -1, -2, -3
 """What to do with a lane whose motion has not ended: fly on; follow it one event at a time; there is no motion yet."""
 VACANT = -1.0
@@ -188,9 +189,12 @@ def _act_on_verdict(task, lanes, memory, work, lane):
     lanes.stalled[lane] = 0
     _copy_arrival(lanes, lane, work.arrival)
     _load_memory(lanes, memory, lane)
-    if memory.patience > 0 and recurs(memory, work.arrival):
+    fades = memory.patience > 0 and fades_to_rolling(memory.proofs, task.rotor, work.arrival)
+    if fades or (memory.patience > 0 and recurs(memory, work.arrival)):
         lanes.struck[lane] -= 1
         copy(work.arrival, work.current)
+        if fades:
+            return ROLLING
         return MIXED if memory.rubbed > 0 else BOUNCING
     _save_memory(lanes, memory, lane)
     if lanes.events[lane] >= task.most_events:

@@ -4,7 +4,8 @@
   the drift over later periods is too small to reach the wall.
 - *Forward rub*: the state lies in a neighbourhood of the synchronous rub which sliding never leaves
   (:mod:`carom.closed_forms.absorbing`).
-- *Rolling*: backward whirl slides faster than a threshold speed (:mod:`carom.closed_forms.whirl`).
+- *Rolling*: backward whirl slides faster than a threshold speed (:mod:`carom.closed_forms.whirl`), or an impact stops the slip and
+  leaves the wall so slowly that the bounces fade (:mod:`carom.closed_forms.fading`).
 """
 
 from __future__ import annotations
@@ -13,7 +14,7 @@ import math
 
 import numpy as np
 
-from carom.core.flow import squared_modulus
+from carom.core.flow import displacement, squared_modulus, velocity
 from carom.core.layout import NEAR, kernel, record
 
 TURNS = 32
@@ -26,6 +27,7 @@ def planar_proofs(
     level: float = 0.0,
     shape: tuple[float, float, float] = (0.0, 0.0, 0.0),
     runaway: float = np.inf,
+    fading: float = 0.0,
 ) -> np.record:
     """Constants of the proofs for one rotor; the defaults prove nothing.
 
@@ -37,6 +39,9 @@ def planar_proofs(
         The ``μ``, ``p`` and ``y₀`` of that function, see :mod:`carom.closed_forms.absorbing`.
     runaway : float
         Speed of backward whirl above which sliding certainly ends in permanent rolling; infinite to skip this test.
+    fading : float
+        Speed after an impact that has stopped the slip up to which bounces certainly fade to permanent rolling; zero to skip this
+        test.
     """
     friction, strength, phase = shape
     return record(
@@ -45,6 +50,7 @@ def planar_proofs(
         strength=np.asarray(strength, float),
         phase=np.asarray(phase, float),
         runaway=np.asarray(runaway, float),
+        fading=np.asarray(fading, float),
     )
 
 
@@ -135,6 +141,17 @@ def absorbed(proofs, rub, position, speed):
 def runs_away(proofs, speed):
     """Whether backward whirl that slides at this speed along growing angle provably ends in rolling."""
     return -(1.0 + speed) > proofs.runaway
+
+
+@kernel
+def fades_to_rolling(proofs, rotor, arrival):
+    """Whether the impact of a state stops the slip, and the bounces from there provably fade to rolling."""
+    if proofs.fading <= 0.0:
+        return False
+    local = displacement(rotor, 0, arrival).conjugate() * velocity(rotor, 0, arrival)
+    restitution = rotor.restitution[0]
+    stops = abs(rotor.drive[0] + local.imag) <= rotor.friction[0] * (1.0 + restitution) * local.real
+    return stops and restitution * local.real <= proofs.fading
 
 
 @kernel

@@ -18,7 +18,16 @@ from carom.core.lanes import lanes_record
 from carom.core.layout import rub_workspace, workspace
 from carom.core.processors import available_cores
 from carom.models import Model, Subject, model_of
-from carom.motions.settling import PATIENCE, fresh_memory, longest_time, settled
+from carom.motions.settling import (
+    LOW_FOR,
+    PATIENCE,
+    REPEATING,
+    fresh_memory,
+    longest_time,
+    low_interval,
+    may_be_low,
+    settled,
+)
 from carom.motions.starts import LARGEST_SPEED, WALL_TOLERANCE, State, amplitudes_of, check_whole, time_until
 from carom.motions.trajectories import EventLog, follow
 from carom.outcome import InputError, Outcome, Phase, shown
@@ -86,7 +95,7 @@ class Endings(Result):
     def reshaped(self, *shape: int) -> Endings:
         """Return the same endings for starts of another shape."""
         ndim = self.outcomes.ndim
-        return Endings(**{name: values.reshape(*shape, *values.shape[ndim:]) for name, values in vars(self).items()})
+        return Endings(**{name: values.reshape((*shape, *values.shape[ndim:])) for name, values in vars(self).items()})
 
     @property
     def recovered(self) -> np.ndarray:
@@ -174,21 +183,52 @@ def settle(
         check_whole("threads", threads, 1)
     for rotor in rotors if until is not None or patience == 0 else ():
         time_until(until, rotor.scales)
+    positions, velocities = (values.reshape(len(which), *coordinates) for values in (positions, velocities))
+    limits, threads = _Limits(until, patience, max_events), threads or available_cores()
+    tell = Reporter.of(progress, "following starts")
+    endings = _followed(rotors, which, positions, velocities, limits, threads, tell)
+    _note_low_bounces(rotors, which, endings, limits, threads)
+    return endings.reshaped(*shape)
+
+
+def _followed(
+    rotors: Sequence[Model],
+    which: np.ndarray,
+    positions: np.ndarray,
+    velocities: np.ndarray,
+    limits: _Limits,
+    threads: int,
+    tell: Reporter,
+) -> Endings:
+    """Endings of starts in one dimension."""
     # The starts of each machine are followed together, in portions; their endings are put back into the order of the starts.
     order = slice(None) if len(rotors) == 1 else np.argsort(which, kind="stable")
-    positions, velocities = (values.reshape(len(which), *coordinates)[order] for values in (positions, velocities))
-    motions = _motions(positions, velocities)
-    limits = _Limits(until, patience, max_events)
-    threads = threads or available_cores()
+    motions = _motions(positions[order], velocities[order])
     parts = []
     for number, portion in _portions(which[order], len(rotors)):
         part = _Part(rotors[number], motions[portion], fresh_counter())
         parts += [part] * min(threads, 1 + len(part.motions) // FEW)
-    done, tell = 0, Reporter.of(progress, "following starts")
+    done = 0
     for finished in _settle_parts(parts, limits, threads):
         done += finished
         tell(done / len(motions))
-    return _endings(motions, order, shape)
+    return _endings(motions, order)
+
+
+def _note_low_bounces(
+    rotors: Sequence[Model], which: np.ndarray, endings: Endings, limits: _Limits, threads: int
+) -> None:
+    """Note, in place, which motions that do not repeat stay at the wall in low bounces; they are followed further to see that."""
+    may = np.array([may_be_low(rotor, limits.patience) for rotor in rotors], bool)
+    doubtful = np.flatnonzero(np.isin(endings.outcomes, REPEATING) & (endings.multiplicities == 0) & may[which])
+    if not len(doubtful):
+        return
+    here, which = endings[doubtful], which[doubtful]
+    look = limits._replace(until=None, patience=LOW_FOR)
+    ends = _followed(rotors, which, here.positions, here.velocities, look, threads, Reporter.of(None, ""))
+    intervals = np.array([low_interval(rotor) for rotor in rotors])[which]
+    low = np.isin(ends.outcomes, REPEATING) & (ends.multiplicities == 0) & (ends.times < intervals * ends.impacts)
+    endings.outcomes[doubtful[low]] = Outcome.LOW_BOUNCES
 
 
 def _coordinates(rotors: Sequence[Model]) -> tuple[int, ...]:
@@ -211,8 +251,7 @@ def _read(name: str, given: np.ndarray, coordinates: tuple[int, ...]) -> np.ndar
     return values
 
 
-@dataclass(frozen=True)
-class _Limits:
+class _Limits(NamedTuple):
     until: float | str | None
     patience: int
     max_events: int
@@ -346,14 +385,14 @@ class _Scratch(threading.local):
 _scratch = _Scratch()
 
 
-def _endings(motions: np.recarray, order: np.ndarray | slice, shape: tuple[int, ...]) -> Endings:
+def _endings(motions: np.recarray, order: np.ndarray | slice) -> Endings:
     """Endings in the order of the starts."""
 
     def gather(name: str, kind: type) -> np.ndarray:
         found = motions[name]
         values: np.ndarray = np.empty(found.shape, kind)
         values[order] = found
-        return values.reshape(shape + found.shape[1:])
+        return values
 
     return Endings(
         outcomes=gather("outcome", np.int8),

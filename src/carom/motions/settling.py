@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from carom.closed_forms.known import known_of
@@ -9,7 +11,7 @@ from carom.closed_forms.rub_stability import rub_attracts
 from carom.core.closing import PASSES, least_period
 from carom.core.fate import doubt, memory
 from carom.core.layout import rub_workspace, workspace
-from carom.core.planar_proofs import planar_proofs
+from carom.core.planar_proofs import fades_to_rolling, planar_proofs
 from carom.models import Model
 from carom.motions.recurrence import least_recurrence
 from carom.outcome import Outcome
@@ -24,6 +26,11 @@ LONG_FLIGHT = 3e4
 TIME_CONSTANTS = 40.0
 SHORTEST_LIMIT, LONGEST_LIMIT = 2e5, 2e7
 """Smallest and largest time, in ``1/Ω``, that a motion is given to settle: seconds of computing."""
+CHATTER = 15.0
+"""Impacts of a chatter, times ``|ln d|``, until its bounces are too low to be told from lasting contact."""
+LOW, LOW_FOR = 0.5, 200
+"""Bounces are low if this many take on average less than this time, in units of ``1/|λ|`` of the fastest exponent: so quickly
+no rotor returns to a wall that does not keep pulling it."""
 AT_REST = 1e-6
 """Largest velocity of a rub that counts as synchronous, far above the rate at which it was recognised."""
 REPEATING = (Outcome.BOUNCING, Outcome.MIXED)
@@ -51,6 +58,7 @@ def fresh_memory(rotor: Model, patience: int, stop_at_chatter: bool = False, *, 
             level=around.level - around.rounding if around else 0.0,
             shape=(around.friction, around.strength, around.phase) if around else (0.0, 0.0, 0.0),
             runaway=known.runaway if patience > 0 and absorb else np.inf,
+            fading=known.fading if patience > 0 and absorb else 0.0,
         ),
     )
 
@@ -86,6 +94,8 @@ def settled(
         return Outcome.EVENT_LIMIT, 0
     if outcome not in REPEATING:
         return outcome, 0
+    if not recollection.period and rotor.system.is_planar and _fade(rotor, amplitudes):
+        return Outcome.ROLLING, 0
     recurred = int(recollection.period)
     if rotor.system.is_planar:
         count = int(least_period(rotor.system.arrays, rotor.system.table, amplitudes, recurred, *_tools()))
@@ -95,6 +105,23 @@ def settled(
         return outcome, count
     doubt(recollection)
     return Outcome.EVENT_LIMIT, 0
+
+
+def may_be_low(rotor: Model, patience: int) -> bool:
+    """Whether bounces may stay low for so many impacts: not if a chatter would have ended."""
+    restitution = rotor.system.arrays.restitution
+    return patience > 0 and bool((restitution > math.exp(-2.0 * CHATTER / patience)).any())
+
+
+def low_interval(rotor: Model) -> float:
+    """Mean time between impacts, in ``1/Ω``, below which bounces are low."""
+    return LOW / float(np.abs(rotor.system.exponents).max())
+
+
+def _fade(rotor: Model, arrival: np.ndarray) -> bool:
+    """Whether bounces from a state just before an impact are proven to fade to rolling."""
+    proofs = planar_proofs(fading=known_of(rotor).fading)
+    return bool(fades_to_rolling(proofs, rotor.system.arrays, arrival))
 
 
 def _is_at_rest(rotor: Model, amplitudes: np.ndarray) -> bool:

@@ -16,7 +16,16 @@ from carom.core.layout import rub_workspace, workspace
 from carom.core.rub import fly_or_rub_all, forces_all
 from carom.models import Model, Subject, model_of
 from carom.motions.contacts import ContactHistory, ContactLog, LastingContact
-from carom.motions.settling import PATIENCE, fresh_memory, longest_time, settled
+from carom.motions.settling import (
+    LOW_FOR,
+    PATIENCE,
+    REPEATING,
+    fresh_memory,
+    longest_time,
+    low_interval,
+    may_be_low,
+    settled,
+)
 from carom.motions.starts import Kick, State, amplitudes_of, check_whole, time_until
 from carom.outcome import InputError, Outcome, Phase
 from carom.progress import Reporter, ShowProgress, shows_progress
@@ -359,6 +368,10 @@ def simulate(
         reached, events = reached + time, events + count
         tell(reached / until)
         outcome, multiplicity = settled(rotor, amplitudes, contact, outcome, recollection)
+    if outcome in REPEATING and not multiplicity and may_be_low(rotor, patience):
+        struck = np.concatenate([log.times for log in logs])[-LOW_FOR:]
+        if np.ptp(struck) < low_interval(rotor) * (len(struck) - 1):
+            outcome = Outcome.LOW_BOUNCES
     position, velocity = rotor.system.state(amplitudes)
     return Trajectory(
         rotor=rotor,

@@ -128,6 +128,7 @@ OUTCOMES = MappingProxyType(
         "grazing": Look("#000000", "grazes the wall, undecided"),
         "time-reached": Look("#a6a6a6", "time reached"),
         "event-limit": Look("#a6a6a6", "limit of events reached"),
+        "low-bounces": Look("#a6a6a6", "low bounces along the wall, undecided"),
     }
 )
 """Looks of endings, by the label of their :class:`~carom.outcome.Outcome`; irregular bouncing has a look of its own."""

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 ENDINGS = (
     *(outcome for outcome in Outcome if outcome.settled),
-    *(Outcome.TIME_REACHED, Outcome.EVENT_LIMIT, Outcome.GRAZING),
+    *(Outcome.TIME_REACHED, Outcome.EVENT_LIMIT, Outcome.GRAZING, Outcome.LOW_BOUNCES),
 )
 OUTCOMES = Dimension(
     "outcome",

@@ -1,0 +1,95 @@
+"""Bounces that hardly fade, on walls that return nearly all of the speed: no survivors."""
+
+import numpy as np
+import pytest
+from compilation import sized
+
+from carom.attractors import character_of, find_attractors
+from carom.models import Jeffcott
+from carom.motions.ensembles import settle
+from carom.motions.starts import State
+from carom.motions.trajectories import simulate
+from carom.outcome import Outcome
+from carom.parameters import Parameters
+
+ROLLS = Parameters(
+    gamma=0.05071695, omega=0.77359473, rho=0.20472252, phi=1.08396837, mu=0.34598246, d=0.999, radius_ratio=99.134234
+)
+UNPROVEN = ROLLS.replace(gamma=1e-3, d=1.0)
+"""Damping too weak for the proof that bounces fade to rolling."""
+
+
+def starts(count: int, seed: int = 0) -> list[State]:
+    random = np.random.default_rng(seed)
+    places, speeds = np.sqrt(random.random((2, count))) * np.exp(2j * np.pi * random.random((2, count)))
+    return [
+        State(complex(place), complex(1.5 * speed - 1j * place)) for place, speed in zip(places, speeds, strict=True)
+    ]
+
+
+@pytest.mark.parametrize("d", [0.9995, 0.9999, 1.0])
+def test_as_many_roll_as_a_little_below(d):
+    below, here = (
+        find_attractors(Jeffcott(ROLLS.replace(d=each)), starts(sized(60, 4)), known=False) for each in (0.995, d)
+    )
+    assert [(str(member.name), member.count) for member in here] == [
+        (str(member.name), member.count) for member in below
+    ]
+    assert {str(member.name) for member in here} == {"rolling backward whirl", "levitation"}
+    rolls = here["rolling backward whirl"]
+    assert rolls.whirl == "backward"
+    assert "the bounces provably fade" in rolls.words
+    # What is left of a bounce fades in finite time, unless the wall is elastic.
+    assert (character_of(here.rotor, rolls).exponents is None) == (d == 1.0)
+
+
+def test_one_motion_is_told_to_roll_where_its_bounces_never_end():
+    start = State(1.0, complex(-0.5, -1.0 - ROLLS.radius_ratio))
+    motion = simulate(Jeffcott(ROLLS.replace(d=1.0)), start, settle=True, patience=500)
+    assert motion.outcome is Outcome.ROLLING
+    assert simulate(Jeffcott(UNPROVEN), start, settle=True, patience=500).outcome is Outcome.LOW_BOUNCES
+    # With negative damping they grow, and nothing is said of where to.
+    grows = simulate(Jeffcott(UNPROVEN.replace(gamma=-1e-3)), start, settle=True, patience=500)
+    assert grows.outcome is Outcome.LOW_BOUNCES
+
+
+def test_what_is_not_proven_to_fade_is_undecided_and_neither_survives_nor_comes_back():
+    found = find_attractors(Jeffcott(UNPROVEN), starts(sized(40, 4)), known=False)
+    undecided = [member for member in found if member.name.outcome is Outcome.LOW_BOUNCES]
+    assert sum(member.count for member in undecided) > 0.3 * len(found.endings)
+    assert not any(member.settled or member.touches or member.survival for member in undecided)
+    assert not any(member.name.irregular for member in found)
+    assert found.recovered == sum(ending.attractor == "levitation" for ending in found.endings) / len(found.endings)
+    assert character_of(found.rotor, undecided[0]).kind == "undecided"
+
+
+@pytest.mark.parametrize("seed", range(sized(3, 1, 40)))
+def test_no_motion_without_slip_survives_on_random_machines(seed):
+    """Neither is any motion lost that comes back at a less elastic wall: both shares of coming back are those of the same starts."""
+    random = np.random.default_rng(seed)
+    parameters = Parameters(
+        gamma=10.0 ** random.uniform(-3.0, -0.3),
+        omega=10.0 ** random.uniform(-0.5, 0.3),
+        rho=random.uniform(0.02, 0.9),
+        phi=random.uniform(-3.0, 3.0),
+        mu=random.uniform(0.05, 0.6),
+        d=random.choice([1.0, 1.0 - 10.0 ** random.uniform(-6.0, -3.0)]),
+        radius_ratio=10.0 ** random.uniform(0.3, 2.3),
+    )
+    found = find_attractors(Jeffcott(parameters), starts(sized(40, 4), seed), known=False)
+    for member in found:
+        if member.name.irregular:
+            motion = simulate(found.rotor, member.state, 1e6, max_events=2000)
+            log = motion.log_of(motion.is_impact)
+            slip = np.abs(log.angular_speed + 1.0 + parameters.radius_ratio)
+            stopped = slip <= parameters.mu * (1.0 + parameters.d) * log.radial_speed
+            assert not stopped.all()
+
+
+def test_a_chatter_in_progress_is_followed_to_its_end():
+    """Its bounces are low too, but they end."""
+    rotor = Jeffcott(ROLLS.replace(mu=0.0, d=0.99))
+    pressed = np.full(3, 1.0 + 0j), np.array([-0.3, -0.2, -0.1]) - 0.5j * ROLLS.radius_ratio
+    assert (settle(rotor, *pressed, patience=300).outcomes == Outcome.LOW_BOUNCES).all()
+    found = find_attractors(rotor, [State(1.0, complex(velocity)) for velocity in pressed[1]], known=False)
+    assert not any(member.name.outcome is Outcome.LOW_BOUNCES for member in found)
