@@ -11,9 +11,8 @@ from sweep_tasks import Drawn, plan_of
 
 import carom
 from carom import basins
-from carom.disturbances import Grid, VelocityKick
+from carom.disturbances import Grid, Sample, VelocityKick
 from carom.progress import Progress, Reporter, _told, bar
-from carom.studies.safety import least_safe_damping
 
 KICKS = Grid(VelocityKick(0.5), (4, 6))
 DAMPED = PAPER.replace(gamma=0.65, mu=0.0)
@@ -33,7 +32,9 @@ LONG = {
     "map_gains": lambda **given: carom.map_gains(PAPER, KICKS, ("omega", "gamma"), shape=(2, 2), **given),
     "smallest_loss": lambda **given: basins.smallest_loss(PAPER, VelocityKick(0.5), directions=8, sizes=8, **given),
     "find_orbits": lambda **given: carom.find_orbits(PAPER, impacts=2, starts=3, **given),
-    "least_safe_damping": lambda **given: least_safe_damping(DAMPED, count=60, **given),
+    "find_recovery": lambda **given: carom.studies.find_recovery(
+        DAMPED, "gamma", [Sample(VelocityKick(0.5), 20)], within=(0.5, 2.0), **given
+    ),
 }
 
 

@@ -15,13 +15,11 @@ from linear_rotors import tilting
 from machines import PAPER
 
 import carom as cm
-from carom.attractors import DisturbanceSet
 from carom.disturbances import Grid, Sample, VelocityKick
 from carom.models import Jeffcott
 from carom.orbits.shooting import Start
 from carom.outcome import CaromError, InputError
 from carom.parameters import Case, Machine, Scales, Zones
-from carom.studies.safety import least_safe_damping, try_disturbances
 from carom.sweeps import GridAxis
 
 MACHINE = Machine.from_parameters(PAPER.replace(gamma=0.4), Scales(50.0, 0.7e-3, 184.2))
@@ -104,8 +102,10 @@ CALLS = {
     "orbits.period_condition": lambda m: cm.orbits.period_condition(m, np.array([1.0, 2.0])),
     "orbits.rubbing_orbits": lambda m: cm.orbits.rubbing_orbits(m, longest=10.0, samples=2),
     "orbits.stroboscopic_map": lambda m: cm.orbits.stroboscopic_map(m, START, 1.0),
-    "studies.safety.try_disturbances": lambda m: try_disturbances(m, DisturbanceSet(3)),
-    "studies.safety.least_safe_damping": lambda m: least_safe_damping(m, count=2, highest=0.7),
+    "studies.check_recovery": lambda m: cm.studies.check_recovery(m, [Sample(VelocityKick(0.5), 3)]),
+    "studies.find_recovery": lambda m: cm.studies.find_recovery(
+        m, "gamma", [Sample(VelocityKick(0.5), 3)], within=(0.5, 1.0)
+    ),
     "studies.study": lambda m: dataclasses.replace(cm.study(m, FEW), case=None),
     "studies.unbalance_response": lambda m: dataclasses.replace(cm.studies.unbalance_response(m), case=None),
     "sweeps.plan_sweep": lambda m: cm.sweeps.plan_sweep(m, [GridAxis.of("gamma", [0.4])], KICKS).case_at((0,)),
@@ -130,7 +130,7 @@ GENERAL = {
     "sweeps.plan_sweep",
 }
 """Those that take any linear rotor."""
-SLOW = {"studies.study": sized(False, False, True), "studies.safety.least_safe_damping": sized(False, False, True)}
+SLOW = {"studies.study": sized(False, False, True)}
 """Those that take seconds, and whether they are called here."""
 NAMES = [name for name in CALLS if SLOW.get(name, True)]
 PACKAGES = [name for name, home in cm._HOMES.items() if home == "carom" and name != "proofs"] + ["studies.safety"]

@@ -53,14 +53,6 @@ def test_integrity_of_kicks_agrees_between_pictures():
     assert math.isnan(rings.largest)
 
 
-def test_integrity_is_one_where_every_kick_of_the_disc_comes_back():
-    rotor = carom.models.Jeffcott(MACHINE)
-    safe = 0.9 * carom.closed_forms.harmless_kick(rotor)
-    found = integrity(map_basins(rotor, Grid(KickPlane(safe), (9, 9))))
-    assert (found.local, found.largest, found.centre) == (1.0, 1.0, (0.0, 0.0))
-    assert integrity(map_basins(rotor, Grid(VelocityKick(safe), (4, 5)))).local == 1.0
-
-
 @pytest.mark.jit_only
 def test_integrity_of_positions_and_samples():
     rotor = carom.models.Jeffcott(MACHINE)

@@ -137,19 +137,6 @@ def test_page_basins_study_and_sweep_give_one_share(settings):
 
 
 @pytest.mark.jit_only
-def test_intervals_of_the_standard_set_cover_the_share():
-    """Kicks in rings of equal area scatter less than independent ones, so the intervals cover more than 95 %."""
-    rotor, seeds = Jeffcott(PAPER.replace(gamma=0.15, rho=0.3)), sized(200, 60)
-    true = map_basins(rotor, Sample(VelocityKick(1.0), 20_000, seed=10**6)).share_recovered.fraction
-    shares = [share_of_kicks(find_attractors(rotor, DisturbanceSet(100, seed), known=False)) for seed in range(seeds)]
-    covered = sum(share.low <= true <= share.high for share in shares)
-    assert covered >= 0.95 * seeds - 3.0 * math.sqrt(0.05 * 0.95 * seeds)
-    # Unbiased: the mean of all lies within four of its standard deviations.
-    mean = np.mean([share.fraction for share in shares])
-    assert mean == pytest.approx(true, abs=4.0 * math.sqrt(true * (1.0 - true) / (60 * seeds)))
-
-
-@pytest.mark.jit_only
 def test_plans_of_kicks_have_the_same_share_as_attractors_and_as_basins():
     rotor = Jeffcott(PAPER.replace(gamma=0.15, rho=0.3))
     for plan in (Grid(VelocityKick(0.8), (9, 8)), Grid(KickPlane(0.8), (9, 9)), Sample(KickPlane(0.8), 60, seed=1)):

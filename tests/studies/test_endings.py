@@ -8,7 +8,7 @@ from carom.motions.trajectories import simulate
 from carom.orbits.names import OrbitName
 from carom.outcome import Outcome
 from carom.parameters import Parameters
-from carom.studies.endings import ending_phrase, hardest_impulse, kick_sizes, shown_example, touching
+from carom.studies.endings import ending_phrase, ending_words, hardest_impulse, motion_words, shown_example, touching
 
 SOURCE = Parameters(gamma=0.1, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7)
 
@@ -34,15 +34,20 @@ def test_endings_follow_a_verb(attractor, phrase):
     assert ending_phrase(attractor) == phrase
 
 
-def test_kick_sizes_hold_every_kick_once(found):
-    sizes = kick_sizes(found)
-    kicks = [ending for ending in found.disturbances if ending.start.kind == "kick"]
+@pytest.mark.parametrize(
+    ("outcome", "clause"),
+    [
+        (Outcome.FORWARD_RUB, " (ends in synchronous rub)"),
+        (Outcome.BOUNCING, " (ends bouncing)"),
+        (Outcome.GRAZING, " (its end was not found)"),
+    ],
+)
+def test_outcomes_in_brackets(outcome, clause):
+    assert ending_words(outcome) == clause
 
-    assert sum(size.directions for size in sizes) == len(kicks)
-    assert [size.speed for size in sizes] == sorted({size.speed for size in sizes})
-    assert sum(size.recovered for size in sizes) == sum(ending.recovered for ending in kicks)
-    assert all(size.recovered + sum(size.lost.values()) == size.directions for size in sizes)
-    assert next(size.speed for size in sizes if size.lost) == pytest.approx(found.smallest_unrecovered_kick, rel=1e-9)
+
+def test_motions_that_stand_alone():
+    assert motion_words(MotionName(Outcome.BOUNCING, 1, orbit=OrbitName(1, True, True))) == "bouncing on B1,d"
 
 
 def test_touching_are_those_whose_motion_reaches_the_wall(found):

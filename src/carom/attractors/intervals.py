@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 CONFIDENCE = 0.95
-_STEPS = 100
+_HALVINGS = 60
 _SMALL = 1e-300
 
 
@@ -25,24 +25,16 @@ def exact_interval(count: int, total: int) -> tuple[float, float]:
 def _quantile(a: int, b: int, chance: float) -> float:
     """Number below which a beta variable of parameters ``a``, ``b`` lies with a probability of less than a third."""
     low, high = 0.0, a / (a + b)
-    x = 0.5 * high
-    for _ in range(_STEPS):
-        share, slope = _incomplete_beta(a, b, x)
-        low, high = (x, high) if share < chance else (low, x)
-        # Newton's method for the logarithm of the share, which is concave; halves where it leaves the bracket.
-        step = share * math.log(chance / share) / slope if share > 0.0 and slope > 0.0 else math.inf
-        after = x + step if low < x + step < high else 0.5 * (low + high)
-        if abs(after - x) <= 1e-15 * x:
-            break
-        x = after
-    return x
+    for _ in range(_HALVINGS):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if _incomplete_beta(a, b, middle) < chance else (low, middle)
+    return 0.5 * (low + high)
 
 
-def _incomplete_beta(a: int, b: int, x: float) -> tuple[float, float]:
-    """Regularised incomplete beta function ``I_x(a, b)``, 0 < x < 1, by its continued fraction (DLMF 8.17.22), and its slope."""
+def _incomplete_beta(a: int, b: int, x: float) -> float:
+    """Regularised incomplete beta function ``I_x(a, b)``, 0 < x < 1, by its continued fraction (DLMF 8.17.22)."""
     if x > (a + 1.0) / (a + b + 2.0):
-        share, slope = _incomplete_beta(b, a, 1.0 - x)
-        return 1.0 - share, slope
+        return 1.0 - _incomplete_beta(b, a, 1.0 - x)
     log_front = math.lgamma(a + b) - math.lgamma(a) - math.lgamma(b) + a * math.log(x) + b * math.log1p(-x)
     # Lentz's algorithm: the fraction is the product of the ratios of successive numerators and denominators.
     above, below = 1.0, 1.0 / _not_zero(1.0 - (a + b) * x / (a + 1.0))
@@ -57,8 +49,7 @@ def _incomplete_beta(a: int, b: int, x: float) -> tuple[float, float]:
             above = _not_zero(1.0 + factor / above)
             change = above * below
             fraction *= change
-    front = math.exp(log_front)
-    return front * fraction / a, front / (x * (1.0 - x))
+    return math.exp(log_front) * fraction / a
 
 
 def _not_zero(value: float) -> float:

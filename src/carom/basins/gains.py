@@ -217,13 +217,12 @@ def _measures(plan: Plan, outcomes: np.ndarray, present: Scales | None) -> dict[
         nothing = dict.fromkeys(_WORDS, 0.0) | {"share": none}
         return nothing | {"basin_entropy": math.nan, "boundary_basin_entropy": math.nan}
     share = Share.over(plan, back, exists, present)
-    weights = plan.weights().reshape(exists.shape)
-    given_up = exists & (outcomes < Outcome.LEVITATED)
+    given_up = Share.over(plan, exists & (outcomes < Outcome.LEVITATED), exists, present)
     measures: dict[str, Any] = {
         "recovered": share.fraction,
         "recovered_low": share.low,
         "recovered_high": share.high,
-        "unresolved": float(weights[given_up].sum() / weights[exists].sum()),
+        "unresolved": given_up.fraction,
         "levitates": 1.0,
         "share": share,
         **dict.fromkeys(("integrity", "basin_entropy", "boundary_basin_entropy"), math.nan),
@@ -233,7 +232,7 @@ def _measures(plan: Plan, outcomes: np.ndarray, present: Scales | None) -> dict[
             size = plan.model.coordinates[0]
             measures["integrity"] = safe_size(size, exists & ~back) / size.high
         if min(plan.shape) >= usual_side(len(plan.shape)):
-            entropy = entropies(outcomes, weights)
+            entropy = entropies(outcomes, plan.weights())
             measures |= {"basin_entropy": entropy.whole, "boundary_basin_entropy": entropy.boundary}
     return measures
 

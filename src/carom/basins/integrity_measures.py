@@ -103,15 +103,12 @@ def _in_plane(basin: Basin, plan: Grid, centre: tuple[float, float]) -> Integrit
     x, y = plan.values()
     first, second = plan.model.coordinates
     whole = min(first.high - first.low, second.high - second.low) / 2.0
-    disc = isinstance(plan.model, KickPlane)
-    barred = basin.exists & ~basin.recovered if disc else ~basin.recovered
+    barred = ~basin.recovered
     cells = (first.high - first.low) / len(x), (second.high - second.low) / len(y)
     nearest = np.maximum(_distances(barred, x, y) - 0.5 * max(cells), 0.0)
     edge = np.minimum(
         np.minimum(x - first.low, first.high - x)[:, None], np.minimum(y - second.low, second.high - y)[None, :]
     )
-    if disc:
-        edge = np.maximum(whole - np.hypot(x[:, None], y[None, :]), 0.0)
     radius = np.where(barred, 0.0, np.minimum(nearest, edge))
     best = np.unravel_index(int(radius.argmax()), radius.shape)
     away = np.hypot(

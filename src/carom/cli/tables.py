@@ -18,12 +18,12 @@ from carom.cli.fitting import fitted, plain_table
 from carom.motions import Trajectory, touchdown_loads
 from carom.parameters.indentation import indentation_of_hit
 from carom.studies import Study, Wording, check_loads
-from carom.studies.one_page import recommendation_lines
+from carom.studies.advice_facts import CHANGES
+from carom.studies.facts import Topic, about, paragraphs
 from carom.studies.summaries import (
     MotionRow,
     State,
     dimensionless_rows,
-    kick_rows,
     motion_rows,
     simple_motion_rows,
     threshold_rows,
@@ -63,27 +63,20 @@ _LEVELS = {
 def print_study(console: Console, study: Study, report: Path | None) -> None:
     """Print the verdict, motions, thresholds and kicks of a study."""
     verdict = study.verdict
-    headline = Text(f"{study.case.name}: {verdict.headline}", style=_LEVELS[verdict.level])
+    headline = Text(f"{study.case.name}: {verdict.lead}", style=_LEVELS[verdict.level])
     console.print(headline, width=min(console.width, TEXT_WIDTH))
-    console.print()
-    _print_recommendation(console, study)
-    for finding in verdict.findings:
+    _print_facts(console, study, "Verdict", "What it survives")
+    _print_facts(console, study, "Recommendation", "Recommendation")
+    for topic, texts in paragraphs(study.facts):
         console.print()
-        console.print(Text(finding.topic, style="bold"))
-        console.print(Padding(Text(finding.text), (0, 0, 0, 2), expand=False), width=min(console.width, TEXT_WIDTH))
+        console.print(Text(topic, style="bold"))
+        told = Padding(Text("\n".join(texts)), (0, 0, 0, 2), expand=False)
+        console.print(told, width=min(console.width, TEXT_WIDTH))
     console.print()
     console.print(fitted(console, _motions(motion_rows(study), "Motions", console.width)))
     _print_left_out(console, study.orbits)
     console.print()
     console.print(fitted(console, _thresholds(study)))
-    kicks = kick_rows(study)
-    if kicks:
-        headings = ("speed", "came back", "the others ended")
-        table = plain_table("Kicks out of levitation", *headings, right=headings[:1], no_wrap=headings[:1])
-        for row in kicks:
-            table.add_row(*row)
-        console.print()
-        console.print(fitted(console, table))
     console.print()
     if report is None:
         console.print("Figures, study.json and report.html: add --out DIR")
@@ -91,15 +84,16 @@ def print_study(console: Console, study: Study, report: Path | None) -> None:
         console.print(f"Report: {report}", soft_wrap=True)
 
 
-def _print_recommendation(console: Console, study: Study) -> None:
-    """Print the recommendation: a table without lines, details indented."""
-    console.print(Text("Recommendation", style="bold"))
+def _print_facts(console: Console, study: Study, topic: Topic, heading: str) -> None:
+    """Print the facts of a topic with their labels: a table without lines, details indented."""
+    console.print()
+    console.print(Text(heading, style="bold"))
     table = Table.grid(padding=(0, 2, 0, 0))
     table.add_column(no_wrap=True)
     table.add_column()
-    for line in recommendation_lines(study):
-        label = Text(f"    {line.label}" if line.detail else f"  {line.label}")
-        table.add_row(label, Text(line.text, style="bold" if line.label in ("Change", "Or") else ""))
+    for fact in about(study.facts, topic):
+        label = Text(f"    {fact.label}" if fact.detail else f"  {fact.label}")
+        table.add_row(label, Text(fact.told, style="bold" if fact.label in CHANGES else ""))
     console.print(table, width=min(console.width, TEXT_WIDTH))
 
 

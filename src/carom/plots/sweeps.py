@@ -43,8 +43,7 @@ _NONE = MappingProxyType(
         "smallest_unrecovered_kick_angle": "every kick tried came back",
         "rub_force": "no stable synchronous rub",
         "orbit_impulse": "no stable orbit with one impact",
-        "least_damping": "contact survives all damping tried",
-        "least_damping_rolling": "contact survives all damping tried",
+        "least_damping": "some are lost at all damping tried",
     }
 )
 """What it means if a number does not exist, or is infinite, for a machine that was computed."""

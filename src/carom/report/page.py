@@ -19,8 +19,8 @@ from carom.plots.sheet import drawing
 from carom.progress import Reporter, ShowProgress, shows_progress
 from carom.report.figures import Picture, pictures
 from carom.studies import NOT_COVERED, Study
-from carom.studies.one_page import recommendation_lines
-from carom.studies.summaries import dimensionless_rows, kick_rows, machine_rows, motion_rows, range_rows, threshold_rows
+from carom.studies.facts import about, paragraphs
+from carom.studies.summaries import dimensionless_rows, machine_rows, motion_rows, range_rows, threshold_rows
 from carom.studies.wording import machine_heading
 
 REPORT = "report.html"
@@ -80,7 +80,9 @@ def report_page(study: Study, figures: list[InlineFigure]) -> str:
     return template.render(
         study=study,
         verdict=study.verdict,
-        recommendation=recommendation_lines(study),
+        survived=about(study.facts, "Verdict"),
+        recommendation=about(study.facts, "Recommendation"),
+        findings=paragraphs(study.facts),
         machine=machine_rows(study.case),
         dimensionless=dimensionless_rows(study.case),
         motions=motion_rows(study),
@@ -93,7 +95,6 @@ def report_page(study: Study, figures: list[InlineFigure]) -> str:
         thresholds=rows,
         in_si=study.wording.scales is not None,
         searched=[entry for entry in study.ranges if entry.motion == "single-impact"],
-        kicks=kick_rows(study),
         figures=figures,
         not_covered=NOT_COVERED,
         versions=_versions(),

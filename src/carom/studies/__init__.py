@@ -6,18 +6,18 @@ Read them in this order.
 ``assembly``             :func:`study` and the frozen :class:`Study`
 ``ranges``               for which damping and stiffness equilibria exist, in closed form
 ``orbit_ranges``         for which damping and stiffness single-impact orbits are possible, by search
-``alone``                for which damping and stiffness levitation is the only motion found
-``safety``               the least damping above which no contact motion is found
-``advice``               the least change of either gain that leaves only levitation, checked by simulation
+``survives``             the sizes of kicks, shocks and losses of a blade up to which none is lost
+``recovery``             which values of a parameter leave only recovery, for any rotor and disturbances
+``advice``               the least change of a gain that leaves only recovery, in the user's terms and within limits
 ``load_checks``          loads of touchdowns against stated limits
 ``actuator``             what motions ask of the magnetic bearings, against the limits of these
 ``endings``              where simulated disturbances ended
-``verdict``              the results in words
-``findings``             the paragraphs of the verdict
-``remedies``             where levitation is the only motion found, in words
+``facts``                :class:`Fact`: what headline, page, report and JSON show
+``verdict_facts``        what is survived, as facts
+``advice_facts``         the recommendation, as facts
+``findings``             the motions, what disturbances did and what would change it, in words
+``verdict``              the list of all facts, and the headline
 ``proven``               what a proof has decided, in words
-``recommendation``       the least change, its margin and its evidence
-``one_page``             the recommendation as lines of text
 ``summaries``            the tables of a study, as text
 ``wording``              numbers with units
 ``document``             results as JSON
@@ -29,41 +29,44 @@ Read them in this order.
 =======================  ========================================================================================
 """
 
-from carom.studies.advice import Advice
-from carom.studies.alone import LevitationAlone, OtherMotion
+from carom.studies.advice import Change, Margin, Recommendation
 from carom.studies.assembly import Study, study
 from carom.studies.document import found_orbits_document, orbits_document, trajectory_document
+from carom.studies.facts import Fact
 from carom.studies.load_checks import LoadCheck, WorstLoads, check_loads, worst_loads
 from carom.studies.ranges import Edge, MotionRange, Span, Threshold, free_spans
-from carom.studies.recommendation import Change, Margin, Recommendation, Tried
+from carom.studies.recovery import Check, Lost, Recovery, check_recovery, find_recovery
 from carom.studies.response import Separation, Steady, Stretch, UnbalanceResponse, unbalance_response
-from carom.studies.verdict import NOT_COVERED, Finding, Verdict
+from carom.studies.survives import Survives
+from carom.studies.verdict import NOT_COVERED, Verdict
 from carom.studies.wording import Wording
 
 __all__ = [
     "NOT_COVERED",
-    "Advice",
     "Change",
+    "Check",
     "Edge",
-    "Finding",
-    "LevitationAlone",
+    "Fact",
     "LoadCheck",
+    "Lost",
     "Margin",
     "MotionRange",
-    "OtherMotion",
     "Recommendation",
+    "Recovery",
     "Separation",
     "Span",
     "Steady",
     "Stretch",
     "Study",
+    "Survives",
     "Threshold",
-    "Tried",
     "UnbalanceResponse",
     "Verdict",
     "Wording",
     "WorstLoads",
     "check_loads",
+    "check_recovery",
+    "find_recovery",
     "found_orbits_document",
     "free_spans",
     "orbits_document",

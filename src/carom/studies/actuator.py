@@ -31,11 +31,14 @@ from carom.attractors import AttractorSet, Ending, MotionName
 from carom.attractors.names import LEVITATION, SYNCHRONOUS_RUB
 from carom.closed_forms.equilibria import Equilibrium
 from carom.closed_forms.whirl import Rolling
-from carom.models import jeffcott_of
+from carom.disturbances import Sample
+from carom.models import Jeffcott, jeffcott_of
+from carom.motions.starts import State
 from carom.motions.trajectories import Trajectory, simulate
 from carom.orbits.orbit import Orbit
 from carom.outcome import Outcome
 from carom.parameters import Case
+from carom.studies.recovery import coordinates_at_largest
 from carom.studies.wording import listed, number
 
 if TYPE_CHECKING:
@@ -46,6 +49,8 @@ STEP = 0.05
 """Largest step of phase between two instants, in rad of the fastest oscillation."""
 MOST_INSTANTS = 200_000
 """Largest number of instants of one motion."""
+LARGEST = 24
+"""Number of disturbances of each kind that are followed to see what a change asks of the bearings."""
 _UNITS = {"force": "N", "current": "A", "slew rate": "A/s"}
 
 
@@ -238,6 +243,24 @@ def _until_known(ending: Ending, limits: tuple[BearingLimit, ...]) -> tuple[tupl
     """Largest values and jumps of a disturbance, which is simulated once more."""
     motion = simulate(ending.rotor, ending.start.state, ending.time)
     return largest_along(motion, limits), largest_jumps(motion, limits)
+
+
+def asked_by(case: Case, disturbances: Iterable[Sample]) -> float | None:
+    """Largest multiple of a limit that levitation, and disturbances at their largest size, ask for; ``None`` without limits.
+
+    Followed are as many disturbances of each kind as :data:`LARGEST`, in random directions, each until its end is known.
+    """
+    limits = limits_of(case)
+    if not limits:
+        return None
+    rotor = Jeffcott(case.parameters)
+    reached = [tuple(float(limit.asked(Centre.whirling(abs(rotor.equilibrium), 1.0))) for limit in limits)]
+    for sample in disturbances:
+        starts = sample.model.starts(rotor, *coordinates_at_largest(sample, LARGEST))
+        after = sample.model.machine_after(rotor)
+        for position, velocity in zip(starts.positions, starts.velocities, strict=True):
+            reached.append(largest_along(simulate(after, State.of(position, velocity), settle=True), limits))
+    return max(asked / limit.most for each in reached for asked, limit in zip(each, limits, strict=True))
 
 
 def largest_along(motion: Trajectory, limits: tuple[BearingLimit, ...]) -> tuple[float, ...]:

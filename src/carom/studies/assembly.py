@@ -6,37 +6,45 @@ follow from these results when they are asked for.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar, get_args
 
-from carom.attractors import AttractorSet, DisturbanceSet, find_attractors
+from carom.attractors import AttractorSet, find_attractors
+from carom.basins import Share
 from carom.bifurcations.boundary import BoundaryEquilibrium, boundary_equilibria
 from carom.closed_forms.equilibria import Equilibrium, find_equilibria
 from carom.closed_forms.thresholds import Gain, Steady
 from carom.closed_forms.whirl import rolling
-from carom.disturbances import Disturbance, Plan
+from carom.disturbances import Disturbance, Plan, Sample
 from carom.models import Jeffcott, Subject, case_of
 from carom.orbits.orbit import Orbit
 from carom.orbits.single_impact import OrbitSet, orbits_within_reach
 from carom.outcome import InputError
-from carom.parameters import Case, Parameters
+from carom.parameters import Case, Parameters, Required, Requirement
 from carom.progress import Reporter, ShowProgress, shows_progress
 from carom.results import Result, in_a_line
 from carom.studies.actuator import BearingDemand, bearing_demand
-from carom.studies.advice import Advice, advise
-from carom.studies.alone import LevitationAlone, levitation_alone
+from carom.studies.advice import Recommendation, recommend
 from carom.studies.document import study_document
+from carom.studies.facts import Fact
 from carom.studies.load_checks import WorstLoads, worst_loads
 from carom.studies.orbit_ranges import single_impact_ranges
-from carom.studies.ranges import Motion, MotionRange, Threshold, steady_range
-from carom.studies.recommendation import Recommendation, recommend
-from carom.studies.safety import FRESH, DampingCheck, SafeDamping, least_safe_damping, try_disturbances
-from carom.studies.verdict import Verdict, verdict
+from carom.studies.ranges import Motion, MotionRange, Threshold, free_spans, levitating_spans, steady_range
+from carom.studies.recovery import Check, Recovery, check_recovery, find_recovery, in_all
+from carom.studies.survives import Survives, required_disturbances, standard_set, survives
+from carom.studies.verdict import Verdict, facts_of, verdict
 from carom.studies.wording import Wording
 
 if TYPE_CHECKING:
     from carom.proofs import Proof
+
+TRIED = 1000
+"""Disturbances tried at each value of a gain."""
+FIRST, FRESH = 2000, 10_000
+"""Fresh disturbances at the machine's own gains: at first, and if all of these came back."""
+SEED = 1
+"""Seed of these; the search for recovery has its own."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -53,16 +61,16 @@ class Study(Result):
         For which damping and which stiffness each motion exists, with the other parameters fixed.
     boundaries : tuple of BoundaryEquilibrium
         Values of damping and stiffness at which the contact-free motion meets the wall, and what happens there.
-    alone : tuple of LevitationAlone
-        Values of damping and stiffness for which levitation is the only motion found.
-    advice : tuple of Advice
-        The least change of either that leaves only levitation, checked by simulation; empty if no change is needed.
     attractors : AttractorSet
         The motions in which simulated disturbances, and starts next to the known motions, end.
-    safe_damping : SafeDamping
-        The damping above which all disturbances came back, found by simulation at other dampings too.
-    fresh : DampingCheck or None
-        If all disturbances of the standard set came back: how many of a larger sample do, at the machine's own damping.
+    survives : Survives or None
+        The sizes of kicks, shocks and losses of a blade up to which none is lost; ``None`` where there is no stable levitation.
+    present : Check or None
+        Fresh disturbances of what must be survived, at the machine's own gains; ``None`` where there is no stable levitation.
+    recoveries : tuple of Recovery
+        The values of damping and of stiffness at which all that must be survived came back.
+    recommendation : Recommendation
+        The least change that leaves only recovery, with its margin and how sure it is.
     loads : WorstLoads or None
         The largest loads of the disturbances against the limits of the touchdown bearing, if any are stated.
     proof : Proof or None
@@ -79,11 +87,11 @@ class Study(Result):
     orbits: OrbitSet
     ranges: tuple[MotionRange, ...]
     boundaries: tuple[BoundaryEquilibrium, ...]
-    alone: tuple[LevitationAlone, ...]
-    advice: tuple[Advice, ...]
     attractors: AttractorSet
-    safe_damping: SafeDamping
-    fresh: DampingCheck | None
+    survives: Survives | None
+    present: Check | None
+    recoveries: tuple[Recovery, ...]
+    recommendation: Recommendation
     loads: WorstLoads | None = None
     proof: Proof | None = None
 
@@ -128,9 +136,15 @@ class Study(Result):
         """Return the range of a motion along a gain; ``None`` if it was not determined."""
         return next((entry for entry in self.ranges if (entry.motion, entry.gain) == (motion, gain)), None)
 
-    def alone_along(self, gain: Gain) -> LevitationAlone | None:
-        """Return where along a gain levitation is the only motion found; ``None`` if that was not searched."""
-        return next((entry for entry in self.alone if entry.gain == gain), None)
+    @property
+    def required(self) -> Required:
+        """What the machine must survive, in units of the equations."""
+        return self.case.requirement.own(self.rotor.scales)
+
+    @property
+    def share(self) -> Share | None:
+        """Share of the kicks up to the required one that come back; ``None`` where there is no stable levitation."""
+        return self.present.returned[0] if self.present else None
 
     @property
     def thresholds(self) -> tuple[Threshold, ...]:
@@ -153,9 +167,9 @@ class Study(Result):
         return verdict(self)
 
     @cached_property
-    def recommendation(self) -> Recommendation:
-        """The least change that leaves only levitation, with its margin and how sure it is."""
-        return recommend(self)
+    def facts(self) -> tuple[Fact, ...]:
+        """All that was found, in the order in which it is told."""
+        return tuple(facts_of(self))
 
     def to_dict(self) -> dict[str, Any]:
         """Return the study as it is written to ``study.json``."""
@@ -167,6 +181,7 @@ def study(
     machine: Subject,
     disturbances: Plan | Disturbance | None = None,
     *,
+    requirement: Requirement | None = None,
     proofs: bool = False,
     progress: ShowProgress = None,
 ) -> Study:
@@ -176,8 +191,11 @@ def study(
     ----------
     machine : Machine, Case, Parameters or model
     disturbances : Grid, Sample or Disturbance, optional
-        The disturbances followed at the machine's own damping and stiffness instead of the standard set, as in
-        :func:`~carom.attractors.find_attractors`.  At other values the standard kinds are tried.
+        The disturbances whose ends are described, instead of kicks and starts in the clearance as fast as what must be
+        survived; as in :func:`~carom.attractors.find_attractors`.
+    requirement : Requirement, optional
+        What the machine must survive, instead of what its file states; by default kicks of the speed of a fall through the
+        diametral clearance.
     proofs : bool
         Prove equilibria and orbits too, by :func:`carom.prove`; needs the extra ``carom[proof]``.
 
@@ -202,32 +220,62 @@ def study(
     (True, ['B1,d'])
     """
     case = case_of(machine)
+    if requirement is not None:
+        case = replace(case, requirement=requirement)
     _refuse_another_machine(case, disturbances)
     tell = Reporter.of(progress, "study")
-    parameters = case.parameters
+    parameters, rotor = case.parameters, Jeffcott(case.parameters)
+    required = case.requirement.own(parameters.scales)
     proof = None
     if proofs:
         proof, tell = _proof_of(parameters, tell.part(0.0, 0.2)), tell.part(0.2, 1.0)
     tell(0.0, "equilibria and periodic orbits (the kernels are compiled on first use)")
-    rotor = Jeffcott(parameters)
     orbits = orbits_within_reach(rotor)
-    tell(0.15, "disturbances")
-    found = find_attractors(rotor, disturbances, progress=tell.part(0.15, 0.3, "disturbances"))
-    ranges = _ranges(parameters, tell.part(0.3, 0.45, "thresholds of damping and stiffness"))
-    tell(0.45, "disturbances where levitation is alone")
-    alone = tuple(entry for gain in _gains(parameters) if (entry := levitation_alone(parameters, gain, ranges)))
-    tell(0.53, "loss of levitation")
+    tell(0.1, "disturbances")
+    found = find_attractors(rotor, disturbances or standard_set(required), progress=tell.part(0.1, 0.2, "disturbances"))
+    endured = survives(rotor, required, tell.part(0.2, 0.4))
+    ranges = _ranges(parameters, tell.part(0.4, 0.6, "thresholds of damping and stiffness"))
+    tell(0.6, "loss of levitation")
     boundaries = tuple(boundary for gain in _gains(parameters) for boundary in boundary_equilibria(rotor, gain))
-    fresh = (
-        try_disturbances(rotor, DisturbanceSet(FRESH, seed=1))
-        if found.recovered == 1.0 and disturbances is None
-        else None
-    )
-    safe = least_safe_damping(parameters, progress=tell.part(0.55, 1.0, "disturbances at other dampings"))
-    advice = advise(parameters, alone, ranges, safe.simulated.gamma if safe.simulated else 0.0)
+    tell(0.65, "what must be survived, at other gains")
+    tried = required_disturbances(required, TRIED)
+    present = _present(rotor, tried) if endured else None
+    recoveries = _recoveries(rotor, ranges, tried, present)
+    tell(0.9, "the least change")
+    needed = present is None or not present.recovers
+    advice = recommend(case, tried, recoveries, ranges, needed)
     loads = worst_loads(found, case.limits) if case.limits.stated and parameters.scales else None
     steady = find_equilibria(rotor).members
-    return Study(case, rotor, steady, orbits, ranges, boundaries, alone, advice, found, safe, fresh, loads, proof)
+    return Study(
+        case, rotor, steady, orbits, ranges, boundaries, found, endured, present, recoveries, advice, loads, proof
+    )
+
+
+def _present(rotor: Jeffcott, tried: tuple[Sample, ...]) -> Check:
+    """Follow fresh disturbances at the machine's own gains; more of them if all came back."""
+    first = check_recovery(rotor, in_all(tried, FIRST), seed=SEED)
+    return check_recovery(rotor, in_all(tried, FRESH), seed=SEED) if first.recovers else first
+
+
+def _recoveries(
+    rotor: Jeffcott, ranges: tuple[MotionRange, ...], tried: tuple[Sample, ...], present: Check | None
+) -> tuple[Recovery, ...]:
+    """Search each gain for values at which all comes back: where no rub and no orbit exists, or else wherever it levitates.
+
+    Where all comes back at the machine's own gains although such motions exist, the range around these is searched.
+    """
+    found = []
+    for gain in _gains(rotor.parameters):
+        free, levitating = free_spans(ranges, gain), levitating_spans(ranges, gain)
+        if free is None or levitating is None:
+            continue
+        own = rotor.parameters.value(gain)
+        here = present is not None and present.recovers and not any(own in span for span in free)
+        recovery = find_recovery(rotor, gain, tried, within=levitating if here else free)
+        if not recovery.spans and not here and free != levitating:
+            recovery = find_recovery(rotor, gain, tried, within=levitating)
+        found.append(recovery)
+    return tuple(found)
 
 
 def _refuse_another_machine(case: Case, disturbances: Plan | Disturbance | None) -> None:

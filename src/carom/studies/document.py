@@ -10,7 +10,7 @@ from importlib.metadata import version
 from typing import TYPE_CHECKING, Any
 
 from carom.attractors import Attractor, AttractorSet, Ending, document_of
-from carom.basins.shares import CONFIDENCE
+from carom.basins import Share
 from carom.bifurcations.boundary import BoundaryEquilibrium
 from carom.closed_forms.equilibria import Equilibrium
 from carom.closed_forms.thresholds import Gain
@@ -25,14 +25,13 @@ from carom.orbits.single_impact import OrbitSet
 from carom.parameters import MACHINE_FIELDS, LoadLimits, Parameters, Scales
 from carom.parameters.indentation import gives_way, indentation_of_force, indentation_of_hit
 from carom.results import fields_of
-from carom.studies.advice import Advice
-from carom.studies.alone import LevitationAlone
-from carom.studies.endings import came_back, hardest_impulse, largest_all_back, touching
+from carom.studies.advice import gain_of
+from carom.studies.advice_facts import change_document
+from carom.studies.endings import came_back, hardest_impulse, touching
 from carom.studies.load_checks import check_loads, loads_entry
-from carom.studies.one_page import recommendation_document
 from carom.studies.ranges import MotionRange, Span, Threshold
-from carom.studies.safety import DampingCheck, DampingLimit, SafeDamping
-from carom.studies.verdict import NOT_COVERED
+from carom.studies.recovery import Check, Recovery
+from carom.studies.verdict_facts import requirement_document, survived_document
 from carom.studies.wording import Wording
 
 if TYPE_CHECKING:
@@ -120,26 +119,26 @@ def study_document(study: Study) -> dict[str, Any]:
         "scales_si": _scales(case.parameters.scales) if case.parameters.scales else None,
         "zone": study.zone,
         "zone_limits": list(case.zones.limits),
-        "verdict": {
-            "level": study.verdict.level,
-            "outcome": study.verdict.outcome,
-            "headline": study.verdict.headline,
-            "findings": [{"topic": finding.topic, "text": finding.text} for finding in study.verdict.findings],
-        },
+        "verdict": fields_of(study.verdict, "level", "outcome", "reason", "headline"),
+        "requirement": requirement_document(study),
+        "survives": {name: survived_document(study, name, found) for name, found in study.survives.items()}
+        if study.survives
+        else None,
+        "share": study.share.document if study.share else None,
+        "facts": [fact.document() for fact in study.facts],
         "thresholds": [_threshold(entry, say) for entry in study.thresholds],
         "ranges": [_range(entry) for entry in study.ranges],
         "boundaries": [_boundary(entry, say) for entry in study.boundaries],
-        "levitation_alone": dict.fromkeys(study.gains) | {entry.gain: _spans(entry.spans) for entry in study.alone},
-        "levitation_alone_checks": [_alone(entry) for entry in study.alone],
-        "advice": [_advice(entry, say) for entry in study.advice],
-        "recommendation": recommendation_document(study),
+        "present": _check(study.present) if study.present else None,
+        "recovery": [_recovery(entry, say) for entry in study.recoveries],
+        "recommendation": {
+            "kind": study.recommendation.kind,
+            "changes": [change_document(study, change) for change in study.recommendation.changes],
+        },
         "attractors": [_attractor(entry, case.parameters) for entry in study.attractors],
         "rolling": _rolling(study.rotor),
-        "disturbances": _disturbances(study.attractors, case.parameters)
-        | {"fresh": _check(study.fresh) if study.fresh else None},
+        "disturbances": _disturbances(study.attractors, case.parameters),
         "bearing_demand": study.bearing_demand.document() if study.bearing_demand else None,
-        "safe_damping": _safe_damping(study.safe_damping, case.parameters.scales),
-        "not_covered": list(NOT_COVERED),
         "loads": study.loads.document() if study.loads else None,
         "proof": study.proof.document() if study.proof else None,
     }
@@ -241,39 +240,31 @@ def _spans(spans: tuple[Span, ...]) -> list[list[float]]:
     return [_span(span) for span in spans]
 
 
-def _alone(entry: LevitationAlone) -> dict[str, Any]:
+def _recovery(entry: Recovery, say: Wording) -> dict[str, Any]:
+    gain = gain_of(entry)
     return {
-        "parameter": entry.gain,
+        "parameter": gain,
+        "searched": _spans(entry.searched),
         "spans": _spans(entry.spans),
         "ends": [[span.low.motion or span.low.kind, span.high.motion or span.high.kind] for span in entry.spans],
-        "backward_whirl": _spans(entry.whirl),
-        "met": [
-            {"motion": met.motion, "value": met.value, "start": {"U": met.position, "V": met.velocity}}
-            for met in entry.met
-        ],
-        "values": list(entry.values),
-        "disturbances": entry.disturbances,
-        "on_the_wall": entry.rim,
-        **fields_of(entry, "seed", "fastest"),
+        "values": [_check(check) | _value_in_si(say, gain, check.value) for check in entry.checks],
     }
 
 
-def _advice(entry: Advice, say: Wording) -> dict[str, Any]:
-    document: dict[str, Any] = {
-        "parameter": entry.gain,
-        **fields_of(entry, "value", "change"),
-        "levitation_alone": entry.alone,
-        "margin": entry.margin,
-        "disturbances": entry.returned.total,
-        "recovered": entry.returned.count,
-        "share_low": entry.returned.low,
-        "share_high": entry.returned.high,
-        **fields_of(entry, "seed", "fastest"),
-        **_value_in_si(say, entry.gain, entry.value),
+def _check(check: Check) -> dict[str, Any]:
+    example = check.example
+    return {
+        "value": check.value,
+        "kinds": [_returned(share) for share in check.returned],
+        "at_their_largest": [_returned(share) for share in check.largest],
+        "lost": None
+        if example is None
+        else {"disturbance": example.model.describe(), "coordinates": list(example.values), "motion": example.motion},
     }
-    if say.scales is not None:
-        document["fastest_si"] = entry.fastest * say.scales.velocity
-    return document
+
+
+def _returned(share: Share) -> dict[str, Any]:
+    return {"tried": share.total, "came_back": share.count}
 
 
 def _attractor(entry: Attractor, parameters: Parameters) -> dict[str, Any]:
@@ -309,7 +300,6 @@ def _disturbances(found: AttractorSet, parameters: Parameters) -> dict[str, Any]
         "touching": len(touched),
         "touching_recovered": came_back(touched),
         "smallest_unrecovered_kick": smallest,
-        "smallest_unrecovered_kick_bracket": [largest_all_back(found), smallest],
         "irregular_transient": document_of(found.transient) if found.transient else None,
         "starts": [_ending(ending) for ending in found.endings],
     }
@@ -326,34 +316,6 @@ def _ending(entry: Ending) -> dict[str, Any]:
         "start": _state(entry.start.state),
         **fields_of(entry, "attractor", "time", "impacts", "hardest_impulse"),
     }
-
-
-def _safe_damping(safe: SafeDamping, scales: Scales | None) -> dict[str, Any]:
-    limits = fields_of(safe, "within_reach", "at_all", "rub", "orbits", "simulated", "rolling")
-    return {
-        **{name: _limit(limit, scales) if limit else None for name, limit in limits.items()},
-        **fields_of(safe, "lowest", "highest"),
-        "disturbances": safe.sample.count,
-        "seed": safe.sample.seed,
-        "fastest": safe.sample.fastest,
-        "checked": [check.gamma for check in safe.checks],
-        "share_below": safe.share_below if safe.checks else None,
-        "confidence": CONFIDENCE,
-        "faster": _check(safe.faster) if safe.faster else None,
-    }
-
-
-def _check(check: DampingCheck) -> dict[str, Any]:
-    sample = fields_of(check.sample, "fastest", "seed", "count")
-    return {"gamma": check.gamma, **sample, **fields_of(check, "lost", "share_below")}
-
-
-def _limit(limit: DampingLimit, scales: Scales | None) -> dict[str, Any]:
-    document = fields_of(limit, "motion", "gamma", "above", "evidence")
-    if scales is not None:
-        document["gamma_si"] = limit.gamma * scales.damping
-        document["above_si"] = limit.above * scales.damping
-    return document
 
 
 def _wall(indentation: float) -> dict[str, Any]:

@@ -5,24 +5,24 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from carom.attractors.names import LEVITATION
-from carom.basins.shares import CONFIDENCE
 from carom.closed_forms.thresholds import Gain
 from carom.closed_forms.whirl import Rolling, Runaway, rolling, runaway_speed
-from carom.parameters.indentation import indentation_of_force, indentation_of_hit
-from carom.studies.endings import KickSize, came_back, ending_phrase, hardest_impulse, kick_sizes, touching
+from carom.parameters import GRAVITY
+from carom.parameters.indentation import gives_way, indentation_of_force, indentation_of_hit
+from carom.studies.advice import gain_of
+from carom.studies.endings import came_back, ending_phrase, hardest_impulse, motion_words, touching
+from carom.studies.facts import Topic
 from carom.studies.ranges import Motion
-from carom.studies.remedies import alone_sentences
-from carom.studies.safety.limits import share_words
-from carom.studies.wording import counted, listed, no_rigid_wall, number
+from carom.studies.wording import counted, listed, no_rigid_wall, number, steel_words
 
 if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
     from carom.attractors import AttractorSet
     from carom.closed_forms.equilibria import Equilibrium
     from carom.orbits.orbit import Orbit
     from carom.studies.assembly import Study
 
-GRAVITY = 9.80665
-"""Standard acceleration of free fall, m/s²."""
 MOST_NAMES = 8
 
 
@@ -80,8 +80,8 @@ def _rub(study: Study) -> str:
     stable = stable_rub(study)
     if stable is None:
         return (
-            "A synchronous rub exists. It is not stable in every direction, but it marks a way to stay in contact "
-            f"(bearing force {study.wording.force(rubs[0].normal_force)}{_of_force(study, rubs[0].normal_force)})."
+            "A synchronous rub exists. It is not stable in every direction, but it marks a way to stay in contact: the bearing force "
+            f"is {_rub_load(study, rubs[0])}."
         )
     start = "A synchronous rub exists and is stable"
     if study.levitates:
@@ -94,6 +94,9 @@ def _rub(study: Study) -> str:
 
 def _rub_load(study: Study, rub: Equilibrium) -> str:
     say, parameters = study.wording, study.case.parameters
+    indentation = indentation_of_force(parameters, rub.normal_force)
+    if gives_way(indentation):
+        return f"one for which there is no model: {steel_words(indentation)}"
     friction = parameters.mu * rub.normal_force
     slip = parameters.radius_ratio + 1.0
     text = _with_weight(study, rub.normal_force)
@@ -102,13 +105,7 @@ def _rub_load(study: Study, rub: Equilibrium) -> str:
             f", and friction of {say.force(friction)} at a slip of {say.slip(slip)} would heat the contact with "
             f"{say.power(friction * slip)}"
         )
-    return text + _of_force(study, rub.normal_force)
-
-
-def _of_force(study: Study, force: float) -> str:
-    """Return a clause on whether the rigid wall is a valid model under a force; empty if it is."""
-    text = no_rigid_wall(indentation_of_force(study.case.parameters, force))
-    return f"; {text}" if text else ""
+    return text
 
 
 def _of_hit(study: Study, impulse: float) -> str:
@@ -172,36 +169,18 @@ def names_of(orbits: list[Orbit]) -> str:
 
 def _disturbances(study: Study) -> str:
     say, found = study.wording, study.attractors
-    sizes = kick_sizes(found)
     text = f"Simulated to where they settle: {found.words(say.velocity)}. {_endings(study)}"
-    text += _smallest_kick(study, sizes)
     hardest = hardest_impulse(found)
     if hardest > 0:
         text += f" The hardest hit had a normal impulse of {say.impulse(hardest)}{_of_hit(study, hardest)}."
     return text
 
 
-def _smallest_kick(study: Study, sizes: tuple[KickSize, ...]) -> str:
-    """Say between which of the sizes tried the first kicks are lost."""
-    say = study.wording
-    place = next((place for place, size in enumerate(sizes) if size.lost), None)
-    if place is None:
-        return ""
-    lost = sizes[place]
-    gone = f"{lost.directions - lost.recovered} of {lost.directions} directions"
-    if place == 0:
-        return f" Kicks of {say.velocity(lost.speed)}, the smallest tried, did not come back in {gone}."
-    return (
-        f" Kicks up to {say.velocity(sizes[place - 1].speed)} came back in all directions tried; of {say.velocity(lost.speed)} they did "
-        f"not in {gone}. `carom basins` looks for the smallest that is lost."
-    )
-
-
 def _endings(study: Study) -> str:
     found = study.attractors
     counts = {member.name: member.count for member in found if member.count}
     if list(counts) == [LEVITATION]:
-        return f"All of them came back to levitation{_fresh_words(study)}."
+        return "All of them came back to levitation."
     parts = [f"{count} {ending_phrase(name)}" for name, count in counts.items()]
     text = f"They ended: {listed(parts)}.{_irregular(found)}"
     touched = touching(found)
@@ -216,19 +195,6 @@ def _irregular(found: AttractorSet) -> str:
         return f" On the way some bounced irregularly for long: {found.transient.words}."
     lasting = next((member for member in found if member.survival is not None), None)
     return f" Of such irregular motions {lasting.survival.words}." if lasting and lasting.survival else ""
-
-
-def _fresh_words(study: Study) -> str:
-    """Say how a larger sample of disturbances ended, if all of the first sample came back."""
-    fresh = study.fresh
-    if fresh is None:
-        return ""
-    if fresh.lost:
-        return f", but of {fresh.sample.count:,} others of the same kinds {fresh.lost} did not"
-    return (
-        f", and so did {fresh.sample.count:,} others of the same kinds: with {100 * CONFIDENCE:.0f} % confidence "
-        f"{share_words(fresh.share_below)}"
-    )
 
 
 def _backward_whirl(study: Study) -> str:
@@ -246,12 +212,30 @@ def _backward_whirl(study: Study) -> str:
             f"each turn is not ruled out; {say.gain_name('gamma')} above {bound} would rule it out."
         )
     return (
-        f"Dry friction can drive the rotor backward round the bearing until it rolls there with "
-        f"{_with_weight(study, roll.largest_force)}{_of_force(study, roll.largest_force)}. Once it rolls, it goes on rolling; only {say.gain_name('gamma')} above "
-        f"{bound} rules that out{_interrupted(study, roll)}. It surely gets there if, in lasting contact, its centre moves backward faster than "
-        f"{say.velocity(runaway.certain)} (whirl at {number(runaway.certain, 3)} times the speed of the shaft)"
-        f"{_perhaps(study, runaway)}."
+        f"Dry friction can drive the rotor backward round the bearing. {_no_return(study, runaway)} {_where_it_ends(study, roll)} "
+        f"Only {say.gain_name('gamma')} above {bound} rules that out{_interrupted(study, roll)}."
     )
+
+
+def _no_return(study: Study, runaway: Runaway) -> str:
+    """Say from which speed backward whirl runs away, and with which load on the bearing."""
+    say, at = study.wording, study.case.parameters
+    force = runaway.certain**2 - at.omega**2 + at.rho
+    power = at.mu * force * max(runaway.rolling_speed - runaway.certain, 0.0)
+    return (
+        f"There is no return if, in lasting contact, its centre moves backward faster than {say.velocity(runaway.certain)} (whirl at "
+        f"{number(runaway.certain, 3)} times the speed of the shaft){_perhaps(study, runaway)}; the bearing then carries up to "
+        f"{_with_weight(study, force)}, and friction takes {say.power(power)} from the drive."
+    )
+
+
+def _where_it_ends(study: Study, roll: Rolling) -> str:
+    """Say with which load it ends in rolling, or that a rigid wall is no model of that."""
+    indentation = indentation_of_force(study.case.parameters, roll.largest_force)
+    if gives_way(indentation):
+        return f"Where that ends there is no model: rolling without slip, a rigid wall would carry a load at which {steel_words(indentation)}."
+    force = _with_weight(study, roll.largest_force)
+    return f"It ends in rolling without slip, with {force}; once it rolls, it goes on rolling."
 
 
 def _interrupted(study: Study, roll: Rolling) -> str:
@@ -277,9 +261,7 @@ def _with_weight(study: Study, force: float) -> str:
 
 
 def _remedies(study: Study) -> str:
-    lines = [" ".join(_remedies_along(study, gain)) for gain in study.gains]
-    lines[0] = f"{lines[0]} {study.safe_damping.words}"
-    return "\n".join(lines)
+    return "\n".join(" ".join(_remedies_along(study, gain)) for gain in study.gains)
 
 
 def _remedies_along(study: Study, gain: Gain) -> list[str]:
@@ -291,8 +273,28 @@ def _remedies_along(study: Study, gain: Gain) -> list[str]:
         if entry is not None and (entry.spans or motion != "stable-single-impact"):
             parts.append(f"{words} {say.where(gain, entry.spans, entry.searched)}")
     along = name if say.scales is None else f"{name[0].upper()}{name[1:]}"  # A symbol keeps its case: Ω is not ω.
-    sentences = [f"{along} (this machine: {own}): {'; '.join(parts)}."]
-    return [*sentences, *alone_sentences(study, gain)]
+    return [f"{along} (this machine: {own}): {'; '.join(parts)}.", _recovery_words(study, gain)]
+
+
+def _recovery_words(study: Study, gain: Gain) -> str:
+    """Say where along a gain everything tried came back, how much was tried, and what was met beyond."""
+    say, name = study.wording, study.wording.gain_name(gain)
+    found = next((entry for entry in study.recoveries if gain_of(entry) == gain), None)
+    if found is None:
+        return f"At which {name} all that must be survived comes back was not searched."
+    if not found.searched:
+        return f"There is no {name} in the range searched without another motion that can hold the rotor."
+    if not found.spans:
+        return f"At no {name} tried all that must be survived came back."
+    low, high = (min(span.low.value for span in found.searched), max(span.high.value for span in found.searched))
+    each = min(check.tried for check in found.clear)
+    ends = {(edge.motion, edge.value) for span in found.spans for edge in (span.low, span.high) if edge.motion}
+    met = [f"some end in {motion_words(motion)} beyond {say.gain(gain, value)}" for motion, value in sorted(ends)]
+    beyond = f"; {listed(met)}" if met else ""
+    return (
+        f"Of {each:,} disturbances at each of {counted(len(found.clear), 'value')} of {name} none was lost "
+        f"{say.where(gain, found.spans)}, searched from {say.gain(gain, low)} to {say.gain(gain, high)}{beyond}."
+    )
 
 
 _POSSIBLE: dict[Motion, str] = {
@@ -303,7 +305,7 @@ _POSSIBLE: dict[Motion, str] = {
 }
 
 
-FINDINGS = {
+FINDINGS: Mapping[Topic, Callable[[Study], str]] = {
     "Levitation": _levitation,
     "Rub": _rub,
     "Bouncing": _bouncing,

@@ -15,6 +15,22 @@ from carom.parameters import Parameters
 
 Motion = Steady | Literal["single-impact", "stable-single-impact"]
 
+EVENTS = {
+    "boundary-equilibrium": "levitation reaches the wall",
+    "rub-fold": "a stable and an unstable rub meet (fold)",
+    "fold": "two orbits meet (fold)",
+    "speed-fold": "two orbits of one period meet (fold)",
+    "grazing": "an orbit grazes the wall between its impacts",
+    "non-smooth-hopf": "an orbit shrinks into levitation on the wall (non-smooth Hopf)",
+    "slip-stop": "friction begins to stop the slip in the impacts of an orbit",
+    "contact-onset": "an orbit begins to stay on the wall after its impact",
+    "period-doubling": "an orbit loses its stability (period doubling)",
+    "neimark-sacker": "an orbit loses its stability (Neimark-Sacker)",
+    "vanishing-period": "the period of an orbit shrinks to zero",
+    "rolling-limit": "friction just keeps the rotor rolling at every angle",
+}
+"""What happens at the ends of the ranges of motions."""
+
 
 @dataclass(frozen=True)
 class Edge:
@@ -148,6 +164,15 @@ def free_spans(ranges: tuple[MotionRange, ...], gain: Gain) -> tuple[Span, ...] 
     searched = orbits.searched
     quiet = common(outside(orbits.spans, searched), outside(here["rub"].spans, searched))
     return common(quiet, here["contact-free"].spans)
+
+
+def levitating_spans(ranges: tuple[MotionRange, ...], gain: Gain) -> tuple[Span, ...] | None:
+    """Return where along one gain the contact-free motion exists, within the range searched for orbits; ``None`` if none was."""
+    here = {entry.motion: entry for entry in ranges if entry.gain == gain}
+    orbits = here.get("single-impact")
+    if orbits is None or orbits.searched is None:
+        return None
+    return common(here["contact-free"].spans, (orbits.searched,))
 
 
 def steady_range(parameters: Parameters, motion: Steady, gain: Gain) -> MotionRange:

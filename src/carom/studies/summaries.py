@@ -13,11 +13,10 @@ from carom.outcome import shown
 from carom.parameters import DIMENSIONLESS_FIELDS, ENTRIES, HELPER_FIELDS, MACHINE_FIELDS, Case, Machine, Parameters
 from carom.parameters.indentation import indentation_of_force, indentation_of_hit
 from carom.parameters.terms import set_by
-from carom.studies.endings import kick_sizes
-from carom.studies.one_page import EVENTS
+from carom.studies.advice import gain_of
+from carom.studies.advice_facts import check_words
 from carom.studies.proven import is_proven
-from carom.studies.ranges import Motion
-from carom.studies.remedies import check_words
+from carom.studies.ranges import EVENTS, Motion
 from carom.studies.wording import Wording, no_rigid_wall
 
 if TYPE_CHECKING:
@@ -169,15 +168,21 @@ def _steady(entry: Equilibrium, say: Wording, share: str, parameters: Parameters
     if entry.status == "virtual":
         remark = "would lie outside the wall" if contact_free else "the wall would have to pull"
         return MotionRow(name, "not possible", size=size, trials=share, remark=remark)
+    soft = "" if contact_free else no_rigid_wall(indentation_of_force(parameters, entry.normal_force))
     touches = "touches the wall without force" if entry.status == "boundary" else ""
     return MotionRow(
         name,
         "stable" if entry.stable else "unstable",
         size=size,
-        force="" if contact_free else say.force(entry.normal_force),
+        force="" if contact_free else _force(say, entry.normal_force, soft),
         trials=share,
-        remark=touches or no_rigid_wall(indentation_of_force(parameters, entry.normal_force)),
+        remark=touches or soft,
     )
+
+
+def _force(say: Wording, force: float, no_model: str) -> str:
+    """A force of lasting contact, unless no wall bears it."""
+    return "no model" if no_model else say.force(force)
 
 
 def _bounce(orbit: Orbit, say: Wording, share: str) -> MotionRow:
@@ -210,7 +215,7 @@ def _seen(say: Wording, member: Attractor, found: AttractorSet, parameters: Para
         "transient" if member.transient else "seen" if member.settled else "undecided",
         period=say.time(member.period) if member.period else "",
         impulse=f"up to {say.impulse(impulse)}" if impulse > 0 else "",
-        force=say.force(force) if force > 0 else "",
+        force=_force(say, force, no_rigid_wall(indentation)) if force > 0 else "",
         trials=_share(found, member.name),
         remark="; ".join(filter(None, (lasts, known, no_rigid_wall(indentation)))),
     )
@@ -240,7 +245,7 @@ def threshold_rows(study: Study) -> list[ThresholdRow]:
 def range_rows(study: Study) -> list[tuple[str, ...]]:
     """Return rows that say where each motion exists along each gain of ``study.gains``.
 
-    The last rows say where levitation is the only motion found, and what is advised.
+    The last rows say where all that must be survived came back, and what is advised.
     """
     say = study.wording
     rows = []
@@ -250,25 +255,16 @@ def range_rows(study: Study) -> list[tuple[str, ...]]:
             entry = study.range_of(motion, gain)
             cells.append(say.where(gain, entry.spans, entry.searched) if entry else "not searched")
         rows.append((name, *cells))
-    return [*rows, *_alone_rows(study)]
+    return [*rows, *_recovery_rows(study)]
 
 
-def _alone_rows(study: Study) -> list[tuple[str, ...]]:
-    """Say where levitation is the only motion found, what is advised, and how that was checked."""
+def _recovery_rows(study: Study) -> list[tuple[str, ...]]:
+    """Say where all that must be survived came back, what is advised, and how that was checked."""
     say = study.wording
-    alone, advised = [], []
+    back, advised = [], []
     for gain in study.gains:
-        found, orbits = study.alone_along(gain), study.range_of("single-impact", gain)
-        alone.append(say.where(gain, found.spans, orbits.searched) if found and orbits else "not determined")
-        advice = next((entry for entry in study.advice if entry.gain == gain), None)
-        advised.append(f"{say.gain(gain, advice.value)}, where {check_words(study, advice)}" if advice else "none")
-    return [("levitation alone, backward whirl aside", *alone), ("advised", *advised)]
-
-
-def kick_rows(study: Study) -> list[tuple[str, str, str]]:
-    """Return for each size of kick how many directions came back, and where the others ended."""
-    rows = []
-    for size in kick_sizes(study.attractors):
-        lost = [f"{count} {name.words}" for name, count in size.lost.items()]
-        rows.append((study.wording.velocity(size.speed), f"{size.recovered} of {size.directions}", ", ".join(lost)))
-    return rows
+        found = next((entry for entry in study.recoveries if gain_of(entry) == gain), None)
+        back.append(say.where(gain, found.spans) if found else "not searched")
+        change = next((entry for entry in study.recommendation.changes if entry.gain == gain), None)
+        advised.append(f"{change.terms.text}, where {check_words(study, change.check)}" if change else "none")
+    return [("all that must be survived comes back", *back), ("advised", *advised)]

@@ -1,4 +1,4 @@
-"""The verdict of a study in words: what the machine does, what may hold it, which changes help, what is unknown.
+"""The verdict of a study in words: what the machine survives, what may hold it, which changes help, what is unknown.
 
 It never promises that a machine recovers.  Disturbances are samples, and motions that none of them reached may exist.
 The best possible verdict is that every disturbance tried came back.
@@ -6,20 +6,19 @@ The best possible verdict is that every disturbance tried came back.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING
 
-from carom.closed_forms.whirl import rolling
 from carom.studies.actuator import actuator_words
-from carom.studies.endings import came_back
-from carom.studies.findings import FINDINGS, names_of, stable_rub
+from carom.studies.advice_facts import advice_facts
+from carom.studies.facts import Fact, about
+from carom.studies.findings import FINDINGS
 from carom.studies.proven import proven_words
-from carom.studies.wording import listed
+from carom.studies.verdict_facts import KINDS, Level, judged, verdict_facts
 
 if TYPE_CHECKING:
     from carom.studies.assembly import Study
-
-Level = Literal["no-contact-free-motion", "may-not-come-back", "all-tried-came-back"]
 
 NOT_COVERED = (
     "Disturbances other than those simulated. They are samples: one between them, or a larger one, may end elsewhere.",
@@ -34,14 +33,6 @@ NOT_COVERED = (
 
 
 @dataclass(frozen=True)
-class Finding:
-    """A topic of the verdict; each line of its text is a paragraph."""
-
-    topic: str
-    text: str
-
-
-@dataclass(frozen=True)
 class Verdict:
     """The conclusion of a study.
 
@@ -51,79 +42,53 @@ class Verdict:
         The verdict as a code for programs.
     outcome : str
         The verdict in a few words, with the zone of the vibration amplitude (ISO 14839-2).
+    reason : str
+        What was lost, or why there is nothing to come back to; empty if there is nothing to say.
+    survived : tuple of str
+        For each kind of disturbance: harmless up to, all tried came back up to, smallest lost; then what must be survived.
     """
 
     level: Level
     outcome: str
-    headline: str
-    findings: tuple[Finding, ...]
+    reason: str
+    survived: tuple[str, ...]
 
     @property
-    def text(self) -> str:
-        """The whole verdict as plain text."""
-        return "\n\n".join([self.headline, *(f"{finding.topic}: {finding.text}" for finding in self.findings)])
+    def lead(self) -> str:
+        """The outcome with its reason, as a sentence."""
+        return f"{self.outcome}: {self.reason}." if self.reason else f"{self.outcome}."
+
+    @property
+    def headline(self) -> str:
+        """The whole in one paragraph: the outcome, and what is survived in absolute sizes."""
+        return " ".join((self.lead, *self.survived))
+
+
+def facts_of(study: Study) -> Iterator[Fact]:
+    """List all facts of a study, in the order in which they are told."""
+    yield from verdict_facts(study)
+    yield from advice_facts(study)
+    for topic, write in FINDINGS.items():
+        for text in write(study).split("\n"):
+            yield Fact(topic, text)
+    if study.proof is not None:
+        yield Fact("Proven", proven_words(study.proof), evidence="proven")
+    if study.bearing_demand is not None:
+        yield Fact("Magnetic bearings", actuator_words(study))
+    if study.loads is not None:
+        for text in study.loads.words.split("\n"):
+            yield Fact("Touchdown loads", text)
+    for text in NOT_COVERED:
+        yield Fact("Not covered", text)
 
 
 def verdict(study: Study) -> Verdict:
-    """Write the verdict of a study."""
-    findings = [Finding(topic, write(study)) for topic, write in FINDINGS.items()]
-    if study.proof is not None:
-        findings.append(Finding("Proven", proven_words(study.proof)))
-    if study.bearing_demand is not None:
-        findings.append(Finding("Magnetic bearings", actuator_words(study)))
-    if study.loads is not None:
-        findings.append(Finding("Touchdown loads", study.loads.words))
-    findings.append(Finding("Not covered", "\n".join(NOT_COVERED)))
-    level, outcome, headline = _headline(study)
-    return Verdict(level, outcome, f"{outcome}: {headline}", tuple(findings))
-
-
-def _headline(study: Study) -> tuple[Level, str, str]:
-    levitation = study.equilibria[0]
-    if levitation.status != "admissible":
-        what = "just reaches" if levitation.status == "boundary" else "would lie beyond"
-        return (
-            "no-contact-free-motion",
-            "Cannot run without contact",
-            f"its whirl from unbalance {what} the wall of the touchdown bearing.",
-        )
-    if not levitation.stable:
-        text = "its levitation is not damped, so that a disturbance does not die out."
-        return "no-contact-free-motion", f"Does not stay in levitation, zone {study.zone}", text
-    holds = _what_may_hold(study)
-    if holds:
-        return (
-            "may-not-come-back",
-            f"May not come back after a touch, zone {study.zone}",
-            f"it levitates, but {listed(holds)}.",
-        )
-    fastest = study.wording.velocity(study.attractors.fastest)
-    text = f"it came back from every disturbance tried, of up to {fastest}"
-    if study.bearing_demand is not None and study.bearing_demand.doubtful:
-        text += f"; {study.bearing_demand.doubtful} of them ask for more than its magnetic bearings can give"
-    if rolling(study.rotor).holds:
-        text += "; only rolling backward whirl is known to be able to hold it"
-    return (
-        "all-tried-came-back",
-        f"Came back each time, zone {study.zone}",
-        f"{text}. That is no guarantee: see what is not covered.",
-    )
-
-
-def _what_may_hold(study: Study) -> list[str]:
-    holds = []
-    if any(rub.status != "virtual" for rub in study.rubs):
-        holds.append("a stable synchronous rub exists" if stable_rub(study) else "a synchronous rub exists")
-    if study.stable_orbits:
-        holds.append(f"it can bounce for ever ({names_of(list(study.stable_orbits))})")
-    tried = study.attractors.disturbances
-    lost = len(tried) - came_back(tried)
-    upto = f"disturbances of up to {study.wording.velocity(study.attractors.fastest)}"
-    if lost:
-        share = f"{lost} of {len(tried)}" if lost < len(tried) else f"any of the {lost}"
-        holds.append(f"it did not come back from {share} {upto}")
-    elif study.fresh is not None and study.fresh.lost:
-        holds.append(f"it did not come back from {study.fresh.lost} of {study.fresh.sample.count:,} {upto}")
-    if not study.orbits.complete and not study.stable_orbits:
-        holds.append("not all of its periodic motions could be searched")
-    return holds
+    """Write the verdict of a study from its facts."""
+    level, outcome, reason = judged(study)
+    facts = {fact.label: fact.text for fact in about(study.facts, "Verdict")}
+    survived = [
+        f"{label}{'' if label == 'Shock' else ':'} {facts[label]}." for label in KINDS.values() if label in facts
+    ]
+    if "Share" in facts:
+        survived.append(f"It must survive {facts['Must survive']}; {facts['Share']}.")
+    return Verdict(level, outcome, reason, tuple(survived))

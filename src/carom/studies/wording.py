@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 
 from carom.closed_forms.thresholds import Gain
-from carom.parameters import DIMENSIONLESS_FIELDS, ENTRIES, MACHINE_FIELDS, PHYSICAL_PARTNER, Case, Scales
+from carom.parameters import DIMENSIONLESS_FIELDS, ENTRIES, GRAVITY, MACHINE_FIELDS, PHYSICAL_PARTNER, Case, Scales
 from carom.parameters.indentation import gives_way
 from carom.parameters.numbers import CONVERSIONS
 from carom.studies.ranges import Span
@@ -42,11 +43,14 @@ def listed(items: list[str]) -> str:
 
 def no_rigid_wall(indentation: float) -> str:
     """Say that the rigid wall is not a valid model if the indentation of steel, in clearances, is large; else nothing."""
-    if not gives_way(indentation):
-        return ""
+    return f"a rigid wall is no model there: {steel_words(indentation)}" if gives_way(indentation) else ""
+
+
+def steel_words(indentation: float) -> str:
+    """Say by how much, in clearances, even a wall of steel gives way."""
     share = f"{number(100.0 * indentation, 2)} %" if indentation < 10.0 else f"{number(indentation, 2)} times"
     what = "of the clearance" if indentation < 10.0 else "the clearance"
-    return f"a rigid wall is no model there: even solid steel gives way by at least {share} {what}"
+    return f"even solid steel gives way by at least {share} {what}"
 
 
 @dataclass(frozen=True)
@@ -77,6 +81,32 @@ class Wording:
     def velocity(self, value: float) -> str:
         """A velocity of the rotor centre given in ``c_r Ω``; always in mm/s, so that those of a page compare at a glance."""
         return self._plain(1e3 * value if self.scales else value, "velocity", "mm/s", "c_r Ω")
+
+    def acceleration(self, value: float) -> str:
+        """An acceleration of the housing given in ``c_r Ω²``, in multiples of that of free fall."""
+        if self.scales is None:
+            return f"{number(value, 3)} c_r Ω²"
+        return f"{number(value * self.scales.acceleration / GRAVITY, 3)} g"
+
+    def unbalance(self, value: float) -> str:
+        """An unbalance given as an eccentricity in ``c_r``, in g mm."""
+        return (
+            f"{number(value, 3)} c_r"
+            if self.scales is None
+            else f"{number(1e6 * value * self.scales.unbalance, 3)} g mm"
+        )
+
+    def size_of(self, kind: str) -> Callable[[float], str]:
+        """How the size of a kick, a shock or a loss of a blade is written."""
+        return {"kick": self.velocity, "shock": self.acceleration, "blade_loss": self.unbalance}[kind]
+
+    def unit_of(self, kind: str) -> float | None:
+        """One unit of the size of a kick, a shock or a loss of a blade, in SI units; ``None`` without scales."""
+        if self.scales is None:
+            return None
+        return {"kick": self.scales.velocity, "shock": self.scales.acceleration, "blade_loss": self.scales.unbalance}[
+            kind
+        ]
 
     def slip(self, value: float) -> str:
         """The speed of the surface of the rotor on the wall, given in ``c_r Ω``, in m/s."""

@@ -9,13 +9,13 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 
 from carom.outcome import InputError
-from carom.parameters import Zones
+from carom.parameters import DIMENSIONLESS_FIELDS, Zones
 from carom.sweeps.variables import Dimension, Variable, with_si
 
 if TYPE_CHECKING:
     from carom.models import Jeffcott, Model
     from carom.orbits.single_impact import OrbitSet
-    from carom.parameters import Case
+    from carom.parameters import Case, Required
 
 _SIMPLE = (
     Variable("levitates", "whether levitation exists and is stable", "flag", flags=("no", "yes")),
@@ -41,10 +41,16 @@ _SIMULATED = (
 )
 _DAMPING = (
     Variable(
-        "least_damping", "damping above which simulated disturbances of up to 2 c_r Omega came back", scale="damping"
+        "least_damping",
+        "damping above which all simulated disturbances of what must be survived came back",
+        scale="damping",
     ),
-    Variable("least_damping_rolling", "the same with rolling, however fast the start", scale="damping"),
+    Variable(
+        "rolling_damping", "damping above which no backward whirl in lasting contact sustains itself", scale="damping"
+    ),
 )
+LOWEST, HIGHEST = 0.02, 8.0
+"""Range of ``γ`` searched, in units of the largest of 1, ``ω`` and (for the upper end only) the machine's own ``γ``."""
 _COST = 0.01
 _COST_OF_DISTURBANCE = 0.0001
 _COST_OF_SEARCH, _COST_OF_CHECK = 0.6, 0.0002
@@ -59,8 +65,8 @@ class StudyTask:
     disturbances : int
         Number simulated at each point with :func:`~carom.find_attractors`; zero for closed forms only.
     least_damping : bool
-        Whether to search for the least safe damping too, with the same number of fresh disturbances at each damping
-        checked.
+        Whether to search for the damping above which all disturbances come back too, with the same number of them at each
+        damping tried.
     zone_limits : tuple of float
         Limits of the amplitude zones; :func:`plan_sweep` sets those of the machine.
     has_scales : bool
@@ -128,7 +134,7 @@ class StudyTask:
         if self.disturbances:
             found |= self._simulated(rotor, case.requirement.own(rotor.scales).kick, number)
         if self.least_damping:
-            found |= self._damping(rotor, number)
+            found |= self._damping(rotor, case.requirement.own(rotor.scales), number)
         scales = rotor.scales
         if scales is not None:
             for variable in self.variables:
@@ -172,18 +178,21 @@ class StudyTask:
             "smallest_unrecovered_kick": math.nan if smallest is None else smallest,
         }
 
-    def _damping(self, rotor: Jeffcott, seed: int) -> dict[str, Any]:
-        from carom.studies.safety import DampingLimit, least_safe_damping
+    def _damping(self, rotor: Jeffcott, required: Required, seed: int) -> dict[str, Any]:
+        from carom.closed_forms.whirl import rolling
+        from carom.studies.recovery import find_recovery
+        from carom.studies.survives import required_disturbances
 
-        safe = least_safe_damping(rotor.parameters, seed=seed, count=max(self.disturbances, 1), threads=1)
-
-        def above(limit: DampingLimit | None) -> float:
-            """Return the limit: zero if nothing survives, infinite if something survives at the highest damping."""
-            if limit is None:
-                return 0.0
-            return math.inf if limit.above > safe.highest and limit.evidence != "closed form" else limit.above
-
-        return {"least_damping": above(safe.within_reach), "least_damping_rolling": above(safe.at_all)}
+        at, field = rotor.parameters, DIMENSIONLESS_FIELDS["gamma"]
+        unit = max(1.0, at.omega)
+        within = LOWEST * unit, min(HIGHEST * max(unit, at.gamma), field.highest)
+        tried = required_disturbances(required, self.disturbances)
+        found = find_recovery(rotor, "gamma", tried, within=within, seed=seed, threads=1)
+        least = math.inf  # something is lost at the highest damping
+        if found.spans and found.spans[-1].high.value == within[1]:
+            least = found.spans[-1].low.value
+            least = 0.0 if least == within[0] else least
+        return {"least_damping": least, "rolling_damping": max(rolling(rotor).damping_bound, 0.0)}
 
 
 def _orbits(found: OrbitSet) -> dict[str, Any]:

@@ -1,0 +1,314 @@
+"""The facts of the recommendation: one page, the same in the terminal and in the report."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any
+
+from carom.closed_forms.thresholds import Gain
+from carom.parameters import DIMENSIONLESS_FIELDS
+from carom.studies.advice import WANTED, Bound, Change, Margin, evidence_of, stated
+from carom.studies.endings import motion_words
+from carom.studies.facts import Evidence, Fact
+from carom.studies.ranges import EVENTS, Edge
+from carom.studies.recovery import Check, Lost
+from carom.studies.verdict_facts import judged
+from carom.studies.wording import counted, listed, number, present_values
+
+if TYPE_CHECKING:
+    from carom.studies.assembly import Study
+
+_BOUNDS: dict[Bound, str] = {"at least": "at least ", "at most": "at most ", "about": ""}
+CHANGES = ("Change", "Or", "For all starts")
+"""Labels of the changes that help."""
+_LAST_ZONE = "D"
+
+
+def advice_facts(study: Study) -> Iterator[Fact]:
+    """The machine, what it does now, the changes that help, and how sure all this is."""
+    yield _fact("Machine", _machine(study))
+    yield _now(study)
+    recommended = study.recommendation
+    unbuildable = recommended.kind == "nothing-buildable"
+    first = "Change" if judged(study)[0] == "may-not-come-back" else "For all starts"
+    if unbuildable:
+        yield _fact("Change", _nothing_buildable(study), "sampled")
+    for place, change in enumerate(recommended.changes):
+        label = "Beyond the limits" if unbuildable else "Or" if place else first
+        values = change_document(study, change)
+        yield _fact(label, _change(study, change), values=values)
+        yield from _details(study, change)
+    if recommended.kind == "no-change-found":
+        yield _fact("Change", _none_found(study), "sampled")
+    elif recommended.kind == "no-change-needed":
+        yield _fact("Change", "none needed for what the machine must survive", "sampled")
+        for gain, margin in recommended.margins:
+            values = {
+                **_in_both(study, gain, present=study.case.parameters.value(gain)),
+                **_margin_document(study, gain, margin),
+            }
+            yield _fact("Margin", _own_margin(study, gain, margin), evidence_of(margin.edge), values, detail=True)
+    yield _fact("Disturbances", _disturbances(study))
+    yield _fact("How sure", _how_sure(study))
+
+
+def _fact(
+    label: str, text: str, evidence: Evidence | None = None, values: dict[str, Any] | None = None, detail: bool = False
+) -> Fact:
+    return Fact("Recommendation", text, label, evidence, values or {}, detail=detail)
+
+
+def _machine(study: Study) -> str:
+    """The present values in a line."""
+    machine, told = study.case.machine, present_values(study.case)
+    if machine is None:
+        return told
+    more = [
+        f"{name} {study.wording.field(name, getattr(machine, name))}" for name in ("mass", "clearance", "eccentricity")
+    ]
+    return ", ".join([told, *more])
+
+
+def _now(study: Study) -> Fact:
+    levitation = study.equilibria[0]
+    if not study.levitates:
+        return _fact("Now", judged(study)[1].lower(), "closed form")
+    return _fact("Now", f"levitates at {_place(study, levitation.radius)}, zone {study.zone}", "closed form")
+
+
+def _place(study: Study, radius: float) -> str:
+    """Return a radius with the clearance beside it where lengths are known."""
+    if study.wording.scales is None:
+        return f"{number(radius, 3)} of the clearance"
+    return f"a radius of {study.wording.length(radius)} (clearance {study.wording.length(1.0)})"
+
+
+def _change(study: Study, change: Change) -> str:
+    """The change in the terms of the machine file, what it is in others, and how far beyond it was tried."""
+    say, gain, terms = study.wording, change.gain, change.terms
+    beside = [
+        *terms.beside,
+        "there is none now" if math.isinf(change.ratio) else f"{_name(study, gain)} × {number(change.ratio, 3)}",
+    ]
+    now = stated(study.case, gain, change.present).text
+    text = f"{_entry_words(terms.entry)} {now} → {_BOUNDS[change.bound]}{terms.text} ({', '.join(beside)})"
+    if change.bound == "about":
+        return text
+    farthest = max((check.value for check in change.beyond), key=lambda at: abs(at - change.value))
+    return f"{text}, tried {'up' if farthest > change.value else 'down'} to {say.gain(gain, farthest)}"
+
+
+def _entry_words(entry: str) -> str:
+    """An entry of the machine file as people say it: ``derivative gain``; a dimensionless number by its symbol."""
+    return DIMENSIONLESS_FIELDS[entry].symbol if entry in DIMENSIONLESS_FIELDS else entry.replace("_", " ")
+
+
+def _name(study: Study, gain: Gain) -> str:
+    """``damping`` or ``stiffness``; ``ω`` varies with the square root of the latter."""
+    return "stiffness" if gain == "omega" and study.wording.scales is None else study.wording.gain_name(gain)
+
+
+def _details(study: Study, change: Change) -> Iterator[Fact]:
+    """The lines under a change: how to try it, margin, levitation there, what was tried, what remains."""
+    yield _fact("Set", f'--set "{change.terms.setting}"', detail=True)
+    yield _fact("Margin", _margin(study, change), detail=True)
+    zone = f"zone {change.zone}"
+    if change.zone == _LAST_ZONE:
+        zone = (
+            f"still zone {_LAST_ZONE}: less unbalance is needed too"
+            if study.zone == _LAST_ZONE
+            else f"zone {_LAST_ZONE}, which is worse than now"
+        )
+    yield _fact("Then", f"levitates at {_place(study, change.radius)}, {zone}", "closed form", detail=True)
+    yield _fact("Tried", _tried(study, change), "sampled", detail=True)
+    for check in change.forced:
+        yield _fact("Not nearer", _forced(study, change.gain, check), "sampled", detail=True)
+    if change.demand is not None:
+        most = (
+            f"{number(change.demand, 3)} times the limit"
+            if change.demand > 1.0
+            else f"{number(100.0 * change.demand, 3)} % of the limit"
+        )
+        yield _fact("Bearings", f"asked for at most {most} of the magnetic bearings", "sampled", detail=True)
+    if change.whirl is not None:
+        fast = study.wording.velocity(change.whirl.certain)
+        remains = f"rolling backward whirl: it surely begins if, in lasting contact, the centre moves backward faster than {fast}"
+        yield _fact("Remains", remains, "closed form", detail=True)
+
+
+def _tried(study: Study, change: Change) -> str:
+    """Say how many disturbances were followed at the value and beyond it, and how many came back."""
+    say, gain, value = study.wording, change.gain, change.value
+    text = check_words(study, change.check)
+    if not change.beyond:
+        return f"{text}; no value beyond it was tried"
+    last = max((check.value for check in change.beyond), key=lambda at: abs(at - value))
+    each = min(check.tried for check in change.beyond)
+    places = f"{counted(len(change.beyond), 'value')} {'up' if last > value else 'down'} to {say.gain(gain, last)}"
+    return f"{text}; beyond it none was lost of {each:,} at {'each of ' if len(change.beyond) > 1 else ''}{places}"
+
+
+def check_words(study: Study, check: Check) -> str:
+    """Say how many fresh disturbances were followed at a value, how fast they were, and how many came back."""
+    drawn = check.drawn
+    sample = f"{drawn.total:,} fresh disturbances of up to {study.wording.velocity(study.required.kick)}"
+    at_most = f"{sum(share.total for share in check.largest):,} at their largest"
+    if check.recovers:
+        return f"all of {sample}, and {at_most}, came back (so at least {number(100.0 * drawn.low, 4)} % do, with 95 % confidence)"
+    lost = sum(share.total - share.count for share in check.largest)
+    low, high = (number(100.0 * share, 4) for share in (drawn.low, drawn.high))
+    return (
+        f"{drawn.count:,} of {sample} came back ({low} to {high} % do, with 95 % confidence); of {at_most} {lost or 'none'} "
+        f"{'was' if lost <= 1 else 'were'} lost"
+    )
+
+
+def _forced(study: Study, gain: Gain, check: Check) -> str:
+    """Say which disturbance was lost at a nearer value."""
+    lost = check.tried - check.drawn.count - sum(share.count for share in check.largest)
+    example = f", such as {lost_words(study, check.example)}" if check.example else ""
+    return f"at {study.wording.gain(gain, check.value)} {lost:,} of {check.tried:,} {'was' if lost == 1 else 'were'} lost{example}"
+
+
+def lost_words(study: Study, lost: Lost) -> str:
+    """Describe a disturbance that was lost, by its coordinates."""
+    along = lost.model.coordinates
+    sizes = [
+        f"{each.words} {each.told(value, study.wording.scales)}"
+        for each, value in zip(along, lost.values, strict=True)
+        if not each.periodic
+    ]
+    ends = f", which ends in {motion_words(lost.motion)}" if lost.motion else ""
+    return (
+        f"{_KINDS.get(lost.model.kind, lost.model.kind)} ({', '.join(sizes)}){ends}"
+        if sizes
+        else f"{lost.model.kind}{ends}"
+    )
+
+
+_KINDS = {"kick": "a kick", "state": "a start in the clearance", "shock": "a shock", "blade-loss": "a loss of a blade"}
+
+
+def _margin(study: Study, change: Change) -> str:
+    say, gain, margin, far = study.wording, change.gain, change.margin, change.far
+    if margin is None:
+        share = f"{number(100.0 * WANTED, 3)} %"
+        return f"none: no value tried brings all back, and this one brings back at least {share} (sampled)"
+    text = f"{number(100.0 * margin.share, 2)} % beyond {say.gain(gain, margin.edge.value)}, {_where(margin.edge)} ({evidence_of(margin.edge)})"
+    if far is None:
+        return text
+    other = evidence_of(far)
+    return f"{text}; stay on this side of {say.gain(gain, far.value)}, {_where(far)} ({other})"
+
+
+def _own_margin(study: Study, gain: Gain, margin: Margin) -> str:
+    say = study.wording
+    own, end = study.case.parameters.value(gain), margin.edge.value
+    side = "above" if own > end else "below"
+    share = f"{number(100.0 * margin.share, 2)} % {side} {say.gain(gain, end)}"
+    return f"{say.gain_name(gain)} {say.gain(gain, own)} is {share}, {_where(margin.edge)}"
+
+
+def _where(edge: Edge) -> str:
+    """Say what happens at the end of a range."""
+    if edge.motion is not None:
+        return f"beyond which disturbances ended in {motion_words(edge.motion)}"
+    return f"where {EVENTS.get(edge.kind, f'an orbit ends ({edge.kind})')}"
+
+
+def _searched(study: Study) -> str:
+    """The ranges in which a change was looked for."""
+    say = study.wording
+    ranges = [
+        f"{say.gain_name(entry.gain)} from {say.gain(entry.gain, entry.searched.low.value)} to "
+        f"{say.gain(entry.gain, entry.searched.high.value)}"
+        for entry in study.ranges
+        if entry.motion == "single-impact" and entry.searched is not None
+    ]
+    return f"of {' and '.join(ranges)}, each alone" if ranges else ""
+
+
+def _none_found(study: Study) -> str:
+    searched = _searched(study)
+    if not searched:
+        return "none found: no range of damping or stiffness could be searched"
+    return f"none found that brings back all that must be survived, {searched}"
+
+
+def _nothing_buildable(study: Study) -> str:
+    return (
+        "nothing that the magnetic bearings can give helps: every change found that brings all back asks for more than their "
+        "limits, so that the real machine moves otherwise; larger limits, less unbalance or a larger clearance are needed"
+    )
+
+
+def _disturbances(study: Study) -> str:
+    say, required = study.wording, study.required
+    kinds = ["velocity kicks out of levitation", "starts spread over the clearance"]
+    text = f"{listed(kinds)}, both of up to {say.velocity(required.kick)} as seen in the room"
+    if required.shock:
+        text += f"; shocks of up to {say.acceleration(required.shock.peak)} over {say.time(required.shock.duration)}"
+    if required.blade_loss:
+        text += f"; losses of a blade that leave an unbalance of {say.unbalance(required.blade_loss)}"
+    return f"{text}; of faster ones, and of other kinds, nothing is said"
+
+
+def _how_sure(study: Study) -> str:
+    text = (
+        "closed form: exact; searched: complete lists of orbits at values close together; sampled: seeded random "
+        "disturbances, so that rare ones may end elsewhere. "
+    )
+    if study.proof is None:
+        return text + "Only what is called proven is."
+    return text + "Proven is only what “Proven” says of the present values, not the change."
+
+
+def change_document(study: Study, change: Change) -> dict[str, Any]:
+    """A change as plain data for JSON."""
+    gain, scales, check = change.gain, study.wording.scales, change.check
+    document = {
+        **_in_both(study, gain, present=change.present, value=change.value),
+        "entry": change.terms.entry,
+        "set": change.terms.setting,
+        "bound": change.bound,
+        "ratio": change.ratio,
+        "margin": None if change.margin is None else _margin_document(study, gain, change.margin),
+        "other_end": None if change.far is None else _end_document(study, gain, change.far),
+        "disturbances": check.drawn.total,
+        "recovered": check.drawn.count,
+        "share_low": check.drawn.low,
+        "share_high": check.drawn.high,
+        "at_their_largest": sum(share.total for share in check.largest),
+        "recovered_at_their_largest": sum(share.count for share in check.largest),
+        "not_nearer": [{"value": each.value, "disturbances": each.tried} for each in change.forced],
+        "beyond": [{"value": each.value, "disturbances": each.tried, "lost": 0} for each in change.beyond],
+        "radius": change.radius,
+        "zone": change.zone,
+        "rolling_from": None if change.whirl is None else change.whirl.certain,
+        "buildable": change.buildable,
+        "demand": change.demand,
+    }
+    if scales is not None:
+        document["radius_si"] = change.radius * scales.length
+        document["rolling_from_si"] = None if change.whirl is None else change.whirl.certain * scales.velocity
+    return document
+
+
+def _margin_document(study: Study, gain: Gain, margin: Margin) -> dict[str, Any]:
+    return {**_end_document(study, gain, margin.edge), "share": margin.share}
+
+
+def _end_document(study: Study, gain: Gain, edge: Edge) -> dict[str, Any]:
+    ends = _in_both(study, gain, end=edge.value)
+    return {**ends, "at_end": edge.motion or edge.kind, "evidence": evidence_of(edge)}
+
+
+def _in_both(study: Study, gain: Gain, **values: float) -> dict[str, Any]:
+    """Return values of a gain, with those in SI units if the machine is known."""
+    say = study.wording
+    document: dict[str, Any] = {"parameter": gain, **values}
+    if say.scales is not None:
+        document["quantity"] = say.gain_name(gain)
+        document |= {f"{name}_si": say.gain_in_si(gain, value) for name, value in values.items()}
+    return document

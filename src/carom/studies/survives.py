@@ -1,0 +1,136 @@
+"""What a machine survives: kicks, shocks and losses of a blade, in absolute sizes.
+
+For each kind of disturbance three sizes matter: up to the first contact is proven to be impossible, up to the second every one
+tried came back, and the third is the smallest found that is lost (:func:`carom.basins.smallest_loss`).  They do not depend on
+what the machine must survive; whether that is met follows from them.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+from carom.attractors import DisturbanceSet
+from carom.basins import SmallestLoss, smallest_loss
+from carom.disturbances import AnyState, BaseShock, BladeLoss, Disturbance, Sample, VelocityKick
+from carom.disturbances.blows import LONGEST_SHOCK
+from carom.models import Jeffcott
+from carom.parameters import DIMENSIONLESS_FIELDS, SHOCK_DURATION, Required
+from carom.progress import Reporter
+from carom.results import Result
+
+REACH = 4.0
+"""Largest kick and shock searched, as a multiple of what must be survived or is proven to be harmless."""
+BELOW = 0.999
+"""Largest unbalance searched, relative to that with which levitation would fill the clearance."""
+KICKS_SHARE = 0.6
+"""Share of kicks among the disturbances of a sample; the rest start elsewhere in the clearance."""
+OF_ANOTHER_KIND = 0.2
+"""Number of shocks, and of losses of a blade, relative to that of kicks and other starts, where such are required."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Survives(Result):
+    """What a machine survives of each kind of disturbance.
+
+    Attributes
+    ----------
+    kick : SmallestLoss
+        Kicks out of levitation; sizes in ``c_r Ω``.
+    shock : SmallestLoss or None
+        Half-sine shocks of the base of ``duration``; sizes are peaks in ``c_r Ω²``.  ``None`` where none is required and the
+        usual duration is not known in turns, or is too many.
+    duration : float
+        Duration of the shocks, in ``1/Ω``.
+    blade_loss : SmallestLoss or None
+        Sizes are eccentricities after the loss of a blade, in ``c_r``, at the worst phase.
+    """
+
+    kick: SmallestLoss
+    shock: SmallestLoss | None
+    duration: float
+    blade_loss: SmallestLoss | None
+
+    def items(self) -> tuple[tuple[str, SmallestLoss], ...]:
+        """The kinds that were searched, by name."""
+        found = {"kick": self.kick, "shock": self.shock, "blade_loss": self.blade_loss}
+        return tuple((name, entry) for name, entry in found.items() if entry is not None)
+
+
+def survives(rotor: Jeffcott, required: Required, tell: Reporter) -> Survives | None:
+    """Search for the smallest disturbance of each kind that is lost; ``None`` where there is no levitation to come back to."""
+    parameters = rotor.parameters
+    if abs(rotor.equilibrium) >= 1.0 or parameters.gamma <= 0.0:
+        return None
+    tell(0.0, "the smallest kick that is lost")
+    kick = _reaching(rotor, VelocityKick(required.kick))
+    shock, duration = None, _duration(rotor, required)
+    if duration:
+        tell(0.4, "the smallest shock that is lost")
+        peak = required.shock.peak if required.shock else math.pi * required.kick / (2.0 * duration)
+        shock = _reaching(rotor, BaseShock(peak, duration))
+    tell(0.9, "the smallest loss of a blade that is lost")
+    blade_loss = None
+    if largest_levitating(rotor) > parameters.rho:
+        blade_loss = smallest_loss(rotor, BladeLoss(largest_levitating(rotor)))
+    return Survives(kick, shock, duration, blade_loss)
+
+
+def largest_levitating(rotor: Jeffcott) -> float:
+    """Largest eccentricity, in ``c_r``, of the losses of a blade that are searched: just below that which fills the clearance.
+
+    There levitation lies on the wall, and motions do not settle.
+    """
+    fills = math.hypot(rotor.parameters.omega**2 - 1.0, rotor.parameters.gamma)
+    return min(BELOW * fills, DIMENSIONLESS_FIELDS["rho"].highest)
+
+
+def _duration(rotor: Jeffcott, required: Required) -> float:
+    """Duration of the shocks: that required, otherwise the usual one where times are known; else 0."""
+    if required.shock:
+        return required.shock.duration
+    usual = SHOCK_DURATION / rotor.scales.time if rotor.scales else 0.0
+    return usual if usual <= LONGEST_SHOCK else 0.0
+
+
+def _reaching(rotor: Jeffcott, model: VelocityKick | BaseShock) -> SmallestLoss:
+    """Search up to a multiple of a disturbance, and farther where that is proven to be harmless."""
+    found = smallest_loss(rotor, _times(model, REACH))
+    times = found.harmless / found.largest
+    return found if times * REACH < 1.0 else smallest_loss(rotor, _times(model, REACH * REACH * times))
+
+
+def _times(model: VelocityKick | BaseShock, factor: float) -> VelocityKick | BaseShock:
+    """A kick or shock that many times as large."""
+    if isinstance(model, VelocityKick):
+        return VelocityKick(factor * model.fastest)
+    return replace(model, peak=factor * model.peak)
+
+
+def meets(found: SmallestLoss, size: float) -> bool:
+    """Whether no disturbance up to a size was lost."""
+    return size <= found.largest and (found.size is None or found.size > size)
+
+
+def required_disturbances(required: Required, count: int, seed: int = 0) -> tuple[Sample, ...]:
+    """Kinds of disturbances that a machine must survive, with the number of each in a sample of about ``count``.
+
+    Kicks out of levitation, uniform over the disc of their velocities; starts elsewhere in the clearance, no faster than these
+    in the fixed frame; shocks and losses of a blade where they are required.
+    """
+    kicks = round(KICKS_SHARE * count)
+    models: list[tuple[Disturbance, int]] = [
+        (VelocityKick(required.kick), kicks),
+        (AnyState(required.kick), count - kicks),
+    ]
+    more = max(1, round(OF_ANOTHER_KIND * count))
+    if required.shock:
+        models.append((BaseShock(required.shock.peak, required.shock.duration), more))
+    if required.blade_loss:
+        models.append((BladeLoss(required.blade_loss), more))
+    return tuple(Sample(model, number, seed) for model, number in models)
+
+
+def standard_set(required: Required) -> DisturbanceSet:
+    """The disturbances whose ends are described: kicks and starts elsewhere, as fast as the kick that must be survived."""
+    return DisturbanceSet(fastest=required.kick)

@@ -1,0 +1,233 @@
+"""The facts of the verdict: what the machine must survive, what it survives, and which share of kicks comes back."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any, Literal
+
+from carom.basins import SmallestLoss
+from carom.closed_forms.whirl import rolling
+from carom.outcome import Outcome
+from carom.results import fields_of
+from carom.studies.endings import ending_words
+from carom.studies.facts import Fact
+from carom.studies.findings import names_of, stable_rub
+from carom.studies.survives import meets
+from carom.studies.wording import listed
+
+if TYPE_CHECKING:
+    from carom.studies.assembly import Study
+
+Level = Literal["no-contact-free-motion", "may-not-come-back", "all-tried-came-back"]
+KINDS = {"kick": "Kick", "shock": "Shock", "blade_loss": "Blade loss"}
+"""Labels of the kinds of disturbances that a machine may have to survive."""
+_CHOSEN = {
+    "file": "as its file says",
+    "option": "as the options say",
+    "default": "chosen by carom: the speed of a fall through the diametral clearance",
+}
+
+
+def verdict_facts(study: Study) -> Iterator[Fact]:
+    """What must be survived, what of each kind is survived, shares, and what else may hold the rotor."""
+    yield _required(study)
+    if study.survives is not None:
+        for name, found in study.survives.items():
+            yield _survived(study, name, found)
+    yield from _shares(study)
+    yield from _others(study)
+
+
+def required_words(study: Study) -> str:
+    """What the machine must survive, in words."""
+    say, required = study.wording, study.required
+    parts = [f"kicks of up to {say.velocity(required.kick)}"]
+    if required.shock:
+        parts.append(
+            f"shocks of up to {say.acceleration(required.shock.peak)} over {say.time(required.shock.duration)}"
+        )
+    if required.blade_loss:
+        parts.append(f"the loss of a blade that leaves an unbalance of {say.unbalance(required.blade_loss)}")
+    return listed(parts)
+
+
+def _required(study: Study) -> Fact:
+    source = study.case.requirement.source
+    how = _CHOSEN[source]
+    if source == "default" and study.wording.scales is None:
+        how = "chosen by carom"
+    elif source != "default" and study.case.requirement.kick is None:
+        how = f"{how}; the kick is {_CHOSEN['default']}"
+    return Fact("Verdict", f"{required_words(study)} ({how})", "Must survive", values=requirement_document(study))
+
+
+def requirement_document(study: Study) -> dict[str, Any]:
+    """What must be survived, as plain data for JSON."""
+    required, scales = study.required, study.wording.scales
+    shock = required.shock
+    document: dict[str, Any] = {
+        "source": study.case.requirement.source,
+        "frame": "fixed",
+        "kick": required.kick,
+        "shock": fields_of(shock, "peak", "duration") if shock else None,
+        "blade_loss": required.blade_loss,
+    }
+    if scales is not None:
+        stated = study.case.requirement.complete(scales)
+        document |= fields_of(stated, kick_si="kick", blade_loss_si="blade_loss")
+        document["shock_si"] = fields_of(stated.shock, "peak", "duration") if stated.shock else None
+    return document
+
+
+def _survived(study: Study, name: str, found: SmallestLoss) -> Fact:
+    size = study.wording.size_of(name)
+    parts = [
+        f"harmless up to {size(found.harmless)} (proven)" if found.harmless > 0.0 else "no size is proven harmless"
+    ]
+    if found.size is None:
+        most = "; with more it cannot levitate" if name == "blade_loss" else ""
+        parts.append(f"all {found.tried:,} tried came back, up to {size(found.largest)}{most}")
+    else:
+        if found.all_back is not None:
+            parts.append(f"all tried came back up to {size(found.all_back)}")
+        ends = ending_words(found.outcome) if found.outcome is not None else ""
+        parts.append(f"smallest lost {size(found.size)}{ends}")
+    label, of = KINDS[name], ""
+    if name == "shock" and study.survives is not None:
+        of = f"of {study.wording.time(study.survives.duration)}, "
+    elif name == "blade_loss":
+        of = "unbalance after it, at the worst phase: "
+    return Fact(
+        "Verdict",
+        f"{of}{', '.join(parts)}",
+        label,
+        values=survived_document(study, name, found),
+        motions=(found.outcome.label,) if found.outcome is not None else (),
+        disturbances=name,
+    )
+
+
+def survived_document(study: Study, name: str, found: SmallestLoss) -> dict[str, Any]:
+    """What of a kind is survived, as plain data for JSON."""
+    numbers = {"harmless_up_to": found.harmless, "all_up_to": found.all_back, "smallest_lost": found.size}
+    document: dict[str, Any] = {
+        **numbers,
+        "searched_up_to": found.largest,
+        "tried": found.tried,
+        "fresh": found.fresh,
+        "angle": found.angle,
+        "lost_to": None if found.outcome is None else found.outcome.label,
+    }
+    if name == "shock" and study.survives is not None:
+        document["duration"] = study.survives.duration
+    factor = study.wording.unit_of(name)
+    if factor is not None:
+        document |= {f"{key}_si": None if value is None else value * factor for key, value in numbers.items()}
+        document["searched_up_to_si"] = found.largest * factor
+    return document
+
+
+def _shares(study: Study) -> Iterator[Fact]:
+    """The share of kicks that comes back, and apart from it that of starts elsewhere in the clearance."""
+    say, present = study.wording, study.present
+    if present is None:
+        return
+    upto = say.velocity(study.required.kick)
+    share = study.share
+    if share is not None:
+        yield Fact(
+            "Verdict",
+            f"{share.words}, by the area of their disc",
+            "Share",
+            "sampled",
+            share.document,
+            disturbances="kick",
+        )
+    elsewhere = present.returned[1]
+    yield Fact(
+        "Verdict",
+        f"{elsewhere.count:,} of {elsewhere.total:,} starts spread over the clearance, of up to {upto} in the room, came back",
+        "Elsewhere",
+        "sampled",
+        {"count": elsewhere.count, "total": elsewhere.total, **elsewhere.document},
+        disturbances="state",
+    )
+
+
+def _others(study: Study) -> Iterator[Fact]:
+    """Motions besides levitation that can hold the rotor, whether a disturbance reached them or not."""
+    holds, motions = [], []
+    if any(rub.status != "virtual" for rub in study.rubs):
+        holds.append("a stable synchronous rub" if stable_rub(study) else "a synchronous rub")
+        motions.append(Outcome.FORWARD_RUB.label)
+    if study.stable_orbits:
+        names = names_of(list(study.stable_orbits))
+        holds.append(f"bouncing for ever ({names})")
+        motions += [orbit.name for orbit in study.stable_orbits]
+    if rolling(study.rotor).holds:
+        holds.append("rolling backward whirl")
+        motions.append(Outcome.ROLLING.label)
+    if holds:
+        text = f"besides levitation there {'are' if len(holds) > 1 else 'is'} {listed(holds)}"
+        yield Fact(
+            "Verdict", text, "Coexisting", "searched" if study.stable_orbits else "closed form", motions=tuple(motions)
+        )
+
+
+def judged(study: Study) -> tuple[Level, str, str]:
+    """The level, the outcome in a few words, and the reason to stand behind it."""
+    levitation = study.equilibria[0]
+    if levitation.status != "admissible":
+        what = "just reaches" if levitation.status == "boundary" else "would lie beyond"
+        why = f"its whirl from unbalance {what} the wall of the touchdown bearing"
+        return "no-contact-free-motion", "Cannot run without contact", why
+    if not levitation.stable:
+        why = "its levitation is not damped, so that a disturbance does not die out"
+        return "no-contact-free-motion", f"Does not stay in levitation, zone {study.zone}", why
+    lost = _lost(study)
+    if lost:
+        outcome = f"Does not come back from all that it must survive, zone {study.zone}"
+        return "may-not-come-back", outcome, f"some {listed(lost)} are lost"
+    return (
+        "all-tried-came-back",
+        f"Came back each time from what it must survive, zone {study.zone}",
+        _reservations(study),
+    )
+
+
+def _reservations(study: Study) -> str:
+    """What has to be said where all that must be survived came back."""
+    parts = ["no guarantee, as disturbances are samples"]
+    if study.bearing_demand is not None and study.bearing_demand.doubtful:
+        parts.append(f"{study.bearing_demand.doubtful} disturbances ask for more than its magnetic bearings can give")
+    elsewhere = study.present.returned[1] if study.present else None
+    if elsewhere is not None and elsewhere.count < elsewhere.total:
+        lost = elsewhere.total - elsewhere.count
+        parts.append(f"{lost:,} of {elsewhere.total:,} starts elsewhere in the clearance did not come back")
+    return "; ".join(parts)
+
+
+def _lost(study: Study) -> list[str]:
+    """What must be survived and was lost, in words; empty if all came back."""
+    present, required, say = study.present, study.required, study.wording
+    if present is None or study.survives is None:
+        return []
+    parts = []
+    found = study.survives
+    if present.returned[0].count < present.returned[0].total or not meets(found.kick, required.kick):
+        parts.append(f"kicks of up to {say.velocity(required.kick)}")
+    for place, (name, size) in enumerate(_stated(study), start=2):
+        entry = getattr(found, name)
+        lost = present.returned[place].count < present.returned[place].total
+        if lost or (entry is not None and not meets(entry, size)):
+            parts.append(
+                {"shock": f"shocks of up to {say.acceleration(size)}", "blade_loss": "the loss of a blade"}[name]
+            )
+    return parts
+
+
+def _stated(study: Study) -> list[tuple[str, float]]:
+    """Kinds beyond kicks that must be survived, with their sizes, in the order of the disturbances followed."""
+    required = study.required
+    stated = [("shock", required.shock.peak)] if required.shock else []
+    return [*stated, *([("blade_loss", required.blade_loss)] if required.blade_loss else [])]

@@ -1,0 +1,140 @@
+"""Which values of a parameter leave only recovery: against fresh disturbances drawn without the code under test."""
+
+import numpy as np
+import pytest
+
+import carom as cm
+from carom.disturbances import AnyState, BaseShock, BladeLoss, Sample, VelocityKick
+from carom.models import Jeffcott, LinearRotor
+from carom.motions import settle
+from carom.outcome import InputError
+from carom.parameters import Parameters
+from carom.studies import check_recovery, find_recovery
+from carom.studies.ranges import Edge, Span
+from carom.studies.recovery import in_all
+
+SOURCE = Parameters(gamma=0.1, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7)
+SPEED = 1.3
+
+pytestmark = pytest.mark.jit_only
+
+
+def tried(count=400, fastest=SPEED):
+    return [Sample(VelocityKick(fastest), count), Sample(AnyState(fastest), count)]
+
+
+def fresh(rotor, count, seed, fastest=SPEED):
+    """Kicks and starts in the clearance, both bounded in the fixed frame: co-rotating positions and velocities."""
+    random = np.random.default_rng(seed)
+
+    def disc(radius):
+        return radius * np.sqrt(random.random(count)) * np.exp(2j * np.pi * random.random(count))
+
+    rest = rotor.equilibrium
+    places = np.concatenate([np.full(count, rest), disc(1.0)])
+    seen_in_the_room = disc(fastest)
+    speeds = np.concatenate([disc(fastest), seen_in_the_room - 1j * places[count:]])
+    return places, speeds
+
+
+@pytest.fixture(scope="module")
+def along_damping():
+    return find_recovery(SOURCE, "gamma", tried(), within=(0.1, 4.0), seed=3)
+
+
+def test_nothing_fresh_is_lost_inside_a_range(along_damping):
+    (span,) = along_damping.spans
+    assert span.low.kind == "simulated"
+    assert (span.high.value, span.high.kind) == (4.0, "")
+    for number, gamma in enumerate(np.geomspace(1.05 * span.low.value, span.high.value, 5)):
+        rotor = Jeffcott(SOURCE.replace(gamma=float(gamma)))
+        lost = ~settle(rotor, *fresh(rotor, 2000, 100 + number)).recovered
+        assert lost.sum() == 0
+
+
+def test_something_is_lost_just_beyond_its_end(along_damping):
+    (span,) = along_damping.spans
+    beyond = max(check.value for check in along_damping.checks if check.value < span.low.value)
+    assert beyond > 0.995 * span.low.value
+    (check,) = [check for check in along_damping.checks if check.value == beyond]
+    lost = check.example
+    assert lost.motion == span.low.motion
+    rotor = Jeffcott(SOURCE.replace(gamma=beyond))
+    starts = lost.model.starts(rotor, *(np.array([value]) for value in lost.values))
+    (outcome,) = settle(rotor, starts.positions, starts.velocities).outcomes
+    assert outcome == lost.motion.outcome
+
+
+def test_every_check_has_a_sample_of_its_own_and_all_of_it(along_damping):
+    for check in along_damping.clear:
+        assert [share.total for share in check.returned] == [400, 400]
+        assert [share.total for share in check.largest] == [96, 96]
+        assert check.tried == 992
+        assert check.recovers
+
+
+def test_the_same_seed_gives_the_same_range(along_damping):
+    again = find_recovery(SOURCE, "gamma", tried(), within=(0.1, 4.0), seed=3, threads=1)
+    assert again.spans == along_damping.spans
+    assert [(check.value, check.returned) for check in again.checks] == [
+        (check.value, check.returned) for check in along_damping.checks
+    ]
+
+
+def test_shocks_and_losses_of_a_blade_are_followed_too():
+    kinds = [Sample(BaseShock(0.5, 2.0), 100), Sample(BladeLoss(0.5), 100)]
+    check = check_recovery(SOURCE.replace(gamma=0.6), kinds, seed=1)
+    assert check.recovers
+    assert check.tried == 392
+    # With three times the unbalance the rotor cannot levitate.
+    lost = check_recovery(SOURCE.replace(gamma=0.6), [Sample(BladeLoss(3.0), 100)], seed=1)
+    assert lost.drawn.count == 0
+    assert lost.example.model.kind == "blade-loss"
+
+
+def test_any_parameter_of_any_model():
+    rotor = LinearRotor.in_fixed_frame(
+        mass=[[1.0]],
+        damping=[[0.4]],
+        stiffness=[[1.5]],
+        forcing=[0.1],
+        planes=[[1.0]],
+        friction=[0.1],
+        restitution=[0.6],
+        drive=[30.0],
+    )
+    name = next(name for name in rotor.varied if "friction" in name)
+    found = find_recovery(rotor, name, [Sample(VelocityKick(0.8), 60)], within=(0.02, 0.9))
+    assert found.along.name == name
+    assert found.clear
+    machine = cm.load("examples/keogh-cole.toml", ["damping=4000 N s/m"])
+    kicks = [Sample(VelocityKick.of(machine, "50 mm/s"), 60)]
+    along_speed = find_recovery(machine, "speed", kicks, within=("1500 rpm", "1900 rpm"))
+    moved = along_speed.checks[0].value
+    assert all(share.total == 60 for share in along_speed.clear[0].returned), moved
+
+
+def test_where_nothing_levitates_nothing_recovers():
+    found = find_recovery(SOURCE, "gamma", tried(50), within=[Span(Edge(0.02), Edge(0.06))])
+    assert found.spans == ()
+    assert all(check.example.motion is None for check in found.checks)
+
+
+def test_samples_keep_their_proportions():
+    kinds = in_all([Sample(VelocityKick(1.0), 600), Sample(AnyState(1.0), 400)], 10_000)
+    assert [sample.count for sample in kinds] == [6000, 4000]
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"disturbances": []}, "disturbances"),
+        ({"along": "gama"}, "gama"),
+        ({"within": (2.0, 1.0)}, "gamma"),
+        ({"within": (0.0, 1.0)}, "within"),
+    ],
+)
+def test_what_cannot_be_searched_is_refused(options, message):
+    given = {"along": "gamma", "disturbances": tried(10)} | options
+    with pytest.raises(InputError, match=message):
+        find_recovery(SOURCE, **given)

@@ -1,0 +1,104 @@
+"""What a machine survives: brackets that fresh disturbances, drawn and followed without the search, must not break."""
+
+import math
+
+import numpy as np
+import pytest
+
+import carom as cm
+from carom.disturbances import BladeLoss
+from carom.models import Jeffcott
+from carom.motions import settle, simulate
+from carom.parameters import Parameters, Required, Shock
+from carom.progress import Reporter
+from carom.studies.survives import meets, required_disturbances, survives
+
+SOURCE = Parameters(gamma=0.2, omega=0.76, rho=0.2, phi=0.21, mu=0.15, d=0.7, radius_ratio=400 / 7)
+REQUIRED = Required(kick=1.0, shock=Shock(peak=2.0, duration=2.0), blade_loss=0.4)
+
+pytestmark = pytest.mark.jit_only
+
+
+@pytest.fixture(scope="module")
+def found():
+    return survives(Jeffcott(SOURCE), REQUIRED, Reporter.of(None, "test"))
+
+
+def lost_kicks(rotor, speed, count, seed):
+    random = np.random.default_rng(seed)
+    kicks = speed * np.sqrt(random.random(count)) * np.exp(2j * math.pi * random.random(count))
+    return int((~settle(rotor, np.full(count, rotor.equilibrium), kicks).recovered).sum())
+
+
+def test_bracket_of_kicks(found):
+    rotor, kick = Jeffcott(SOURCE), found.kick
+    assert 0.0 < kick.harmless <= kick.all_back < kick.size
+    assert kick.size - kick.all_back < 0.01 * kick.size
+    assert lost_kicks(rotor, kick.all_back, 4000, 11) == 0
+    starting = rotor.equilibrium, kick.size * np.exp(1j * kick.angle)
+    assert simulate(rotor, cm.State(*starting), settle=True).outcome == kick.outcome
+
+
+def test_bracket_of_losses_of_a_blade(found):
+    loss = found.blade_loss
+    assert loss.all_back < loss.size
+    after, phases = Jeffcott(SOURCE.replace(rho=loss.all_back)), np.linspace(0.0, 2.0 * math.pi, 721)
+    # The unbalance before the loss turned back by the phase of that after it: the frame turns with the latter.
+    places = Jeffcott(SOURCE).equilibrium * np.exp(-1j * phases)
+    assert settle(after, places, np.zeros(721, complex)).recovered.all()
+    lost = BladeLoss(loss.size).starts(Jeffcott(SOURCE), np.array([loss.angle]))
+    machine = Jeffcott(SOURCE.replace(rho=loss.size))
+    assert not settle(machine, lost.positions, lost.velocities).recovered.any()
+
+
+def test_shocks_are_of_the_duration_required(found):
+    assert found.duration == 2.0
+    assert found.shock.largest >= 4.0 * 2.0
+    assert 0.0 < found.shock.harmless < found.shock.all_back
+
+
+def test_sizes_do_not_depend_on_what_is_required(found):
+    # Another requirement searches another range, in other steps: the brackets must overlap.
+    other = survives(Jeffcott(SOURCE), Required(kick=0.8, shock=None, blade_loss=None), Reporter.of(None, "test"))
+    assert other.kick.harmless == found.kick.harmless
+    assert other.kick.size == pytest.approx(found.kick.size, rel=5e-3)
+    assert other.shock is None
+
+
+def test_the_speed_of_the_shaft_does_not_move_the_yardstick():
+    """A spindle at two speeds: what must be survived is the same in mm/s, and so are nearly the brackets."""
+    sizes = []
+    for speed in ("3000 rpm", "10000 rpm"):
+        machine = cm.parameters.Machine(
+            mass=3.2,
+            damping=350.0,
+            stiffness=4e5,
+            eccentricity=1e-6,
+            clearance=0.25e-3,
+            rotor_radius=0.015,
+            speed=speed,
+            friction=0.2,
+            restitution=0.7,
+        )
+        result = cm.study(machine)
+        si = result.rotor.scales.velocity
+        assert result.required.kick * si == pytest.approx(math.sqrt(4.0 * 9.80665 * 0.25e-3), rel=1e-12)
+        sizes.append(result.survives.kick.size * si)
+    assert sizes[0] == pytest.approx(sizes[1], rel=0.1)
+
+
+def test_without_stable_levitation_nothing_is_survived():
+    tell = Reporter.of(None, "test")
+    assert survives(Jeffcott(SOURCE.replace(gamma=0.0)), REQUIRED, tell) is None
+    assert survives(Jeffcott(SOURCE.replace(gamma=0.05, rho=0.6)), REQUIRED, tell) is None
+
+
+def test_meets(found):
+    assert meets(found.kick, found.kick.all_back)
+    assert not meets(found.kick, found.kick.size)
+
+
+def test_required_kinds():
+    kinds = [sample.model.kind for sample in required_disturbances(REQUIRED, 1000)]
+    assert kinds == ["kick", "state", "shock", "blade-loss"]
+    assert [sample.count for sample in required_disturbances(Required(1.0, None, None), 1000)] == [600, 400]
