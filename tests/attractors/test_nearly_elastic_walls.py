@@ -65,7 +65,6 @@ def test_what_is_not_proven_to_fade_is_undecided_and_neither_survives_nor_comes_
 
 @pytest.mark.parametrize("seed", range(sized(3, 1, 40)))
 def test_no_motion_without_slip_survives_on_random_machines(seed):
-    """Neither is any motion lost that comes back at a less elastic wall: both shares of coming back are those of the same starts."""
     random = np.random.default_rng(seed)
     parameters = Parameters(
         gamma=10.0 ** random.uniform(-3.0, -0.3),
