@@ -73,6 +73,7 @@ CALLS = {
     "bifurcations.sample_attractors": lambda m: cm.bifurcations.sample_attractors(
         m, "gamma", (0.4, 0.5), FEW, values=1
     ),
+    "closed_forms.fading_speed": cm.closed_forms.fading_speed,
     "closed_forms.find_equilibria": cm.find_equilibria,
     "closed_forms.harmless_blade_loss": cm.closed_forms.harmless_blade_loss,
     "closed_forms.harmless_kick": cm.closed_forms.harmless_kick,
@@ -133,7 +134,7 @@ GENERAL = {
 SLOW = {"studies.study": sized(False, False, True)}
 """Those that take seconds, and whether they are called here."""
 NAMES = [name for name in CALLS if SLOW.get(name, True)]
-PACKAGES = [name for name, home in cm._HOMES.items() if home == "carom" and name != "proofs"] + ["studies.safety"]
+PACKAGES = [name for name, home in cm._HOMES.items() if home == "carom" and name != "proofs"]
 """Public packages; ``proofs`` needs a library that may be missing."""
 
 

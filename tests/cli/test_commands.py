@@ -248,7 +248,7 @@ def test_study_for_people(carom, machine):
 
     assert (code, err) == (0, "")
     for words in (
-        "May not come back",
+        "Does not come back from all that it must survive",
         "Recommendation",
         "3,408 N s/m",
         "zone D",

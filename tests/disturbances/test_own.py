@@ -144,7 +144,7 @@ def test_a_study_of_own_disturbances():
 
     assert study.attractors.sample == Sample(Shove(0.3), 20, seed=1)
     assert study.to_dict()["disturbances"]["count"] == 20
-    assert "20 given disturbances of the kind shove" in study.verdict.text
+    assert "20 given disturbances of the kind shove" in " ".join(fact.text for fact in study.facts)
 
 
 def test_a_kind_names_one_class():

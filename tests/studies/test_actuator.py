@@ -184,7 +184,7 @@ def test_a_study_says_what_the_bearings_cannot_give():
     assert 0 < beyond.sum() < len(beyond)
     assert not (demand.disturbances[1] > 1.0).any()
     assert demand.doubtful == beyond.sum()
-    text = next(finding.text for finding in result.verdict.findings if finding.topic == "Magnetic bearings")
+    text = next(fact.text for fact in result.facts if fact.topic == "Magnetic bearings")
     assert "at most 500 N of force and 1,000 A of current" in text
     assert f"{beyond.sum()} of {len(beyond)} disturbances ask for more force than that" in text
     assert f"None of {len(beyond)} disturbances ask for more current than that" in text
@@ -194,7 +194,7 @@ def test_a_study_says_what_the_bearings_cannot_give():
         in text
     )
     assert f"{demand.doubtful} of the {len(beyond)} that came back are among them" in text
-    assert f"{demand.doubtful} of them ask for more than its magnetic bearings can give" in result.verdict.headline
+    assert f"{demand.doubtful} disturbances ask for more than its magnetic bearings can give" in result.verdict.headline
     document = json.loads(as_json(result.to_dict()))["bearing_demand"]
     assert document["came_back_beyond"] == demand.doubtful
     assert document["disturbances"][0]["beyond"] == beyond.sum()

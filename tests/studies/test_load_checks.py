@@ -96,9 +96,9 @@ def test_a_study_says_it():
     case = Case("calm", calm, None, Zones(), LoadLimits(force="1 N", impulse="1 kN s"))
     found = cm.study(case, cm.disturbances.Sample(cm.disturbances.VelocityKick(1.5), 20))
     assert found.loads.disturbances > 0
-    (said,) = [finding.text for finding in found.verdict.findings if finding.topic == "Touchdown loads"]
+    said = "\n".join(fact.text for fact in found.facts if fact.topic == "Touchdown loads")
     assert said == found.loads.words
     assert "limit 1,000 N s: kept by all" in said
     assert found.to_dict()["loads"]["limits"][0]["name"] == "impulse"
     silent = dataclasses.replace(found, loads=None)
-    assert "Touchdown loads" not in {finding.topic for finding in silent.verdict.findings}
+    assert "Touchdown loads" not in {fact.topic for fact in silent.facts}

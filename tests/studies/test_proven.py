@@ -13,7 +13,6 @@ from carom.proofs import check, prove
 from carom.studies.document import study_document
 from carom.studies.proven import is_proven, proven_words
 from carom.studies.summaries import motion_rows
-from carom.studies.verdict import verdict
 
 
 @pytest.fixture(scope="module")
@@ -49,10 +48,10 @@ def test_orbit_is_marked_only_if_its_claims_agree(proof):
 @pytest.mark.jit_only
 def test_study_shows_its_proof():
     plain = study_once(PAPER)
-    assert "Proven" not in [finding.topic for finding in plain.verdict.findings]
+    assert "Proven" not in [fact.topic for fact in plain.facts]
     proven = replace(plain, proof=prove(plain.case.parameters))
 
-    assert "Proven" in [finding.topic for finding in verdict(proven).findings]
+    assert "Proven" in [fact.topic for fact in proven.facts]
     remarks = {row.name: row.remark for row in motion_rows(proven)}
     assert remarks["orbit B1,d"].startswith("proven")
     assert "proven" not in {row.name: row.remark for row in motion_rows(plain)}["orbit B1,d"]
