@@ -82,7 +82,7 @@ def least_gain_change(
     >>> gains = cm.map_gains(machine, cm.Grid(kicks, (4, 6)), shape=(3, 3))
     >>> change = cm.basins.least_gain_change(gains, wanted=0.3)
     >>> print(change if change is None else change.share.count)
-    8
+    13
     """
     if not 0.0 < wanted <= 1.0:
         raise InputError("wanted", wanted, "a share above 0 and at most 1")

@@ -43,17 +43,19 @@ def unfinished(directory: Path, *, folder: bool = False) -> Iterator[Path]:
     told by a lock; where the file system has none, nothing is removed.
     """
     _clear(directory)
-    # Its name is chosen before it is made, so that it is removed after an interruption at any moment.
-    part = directory / f".carom.{secrets.token_hex(8)}.part"
-    handle = None
+    handle, part = None, directory
     try:
         while handle is None:
+            # Chosen before it is made, so that it is removed after an interruption at any moment; never used twice, since
+            # another process may still be about to remove what had the name before.
+            part = directory / f".carom.{secrets.token_hex(8)}.part"
             handle = _made(part, folder)
         yield part
     finally:
         if handle is not None:
             os.close(handle)
-        _remove(part)
+        if part != directory:
+            _remove(part)
 
 
 def _made(part: Path, folder: bool) -> int | None:

@@ -193,7 +193,7 @@ def find_recovery(
     >>> kicks = cm.disturbances.Sample(cm.disturbances.VelocityKick.of(machine, "50 mm/s"), 200)
     >>> found = cm.studies.find_recovery(machine, "damping", [kicks], within=("2000 N s/m", "8000 N s/m"))
     >>> len(found.spans), found.spans[0].low.motion
-    (1, 'forward-rub')
+    (1, 'synchronous rub')
     """
     rotor = model_of(machine)
     varied = axis(rotor, along)

@@ -149,7 +149,7 @@ def run_sweep(
     >>> kicks = cm.disturbances.VelocityKick.of(machine, "100 mm/s")
     >>> plan = cm.sweeps.plan_sweep(machine, axes, cm.disturbances.Sample(kicks, 10, seed=1))
     >>> cm.run_sweep(plan).dataset.recovered.values
-    array([0.1, 0.3, 1. ])
+    array([0. , 0.2, 1. ])
     """
     if workers is not None and workers < 1:
         raise InputError("--workers", workers, "must be a whole number of at least 1")
