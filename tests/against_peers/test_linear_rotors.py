@@ -194,7 +194,8 @@ def test_basins_and_settling_of_a_rotor_with_two_planes():
     plan = Grid(KickPlane(2.0), (4, 3))
     basin = map_basins(model, plan)
     starts = plan.starts(model)
-    for place in np.ndindex(basin.outcomes.shape):
+    for place in np.argwhere(starts.exists):  # cells in the corners lie outside the disc of kicks
+        place = tuple(place)
         alone = simulate(model, State(starts.positions[place], starts.velocities[place]), settle=True)
         assert basin.outcomes[place] == alone.outcome
         assert basin.dataset["time"].values[place] == pytest.approx(alone.time, rel=1e-12)

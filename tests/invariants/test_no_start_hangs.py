@@ -19,7 +19,7 @@ from compilation import sized
 from carom.models import Jeffcott
 from carom.motions.starts import State
 from carom.motions.trajectories import Trajectory, simulate
-from carom.outcome import Phase
+from carom.outcome import Outcome, Phase
 from carom.parameters import Parameters
 
 MACHINES = 50
@@ -108,7 +108,10 @@ def test_every_start_ends(seed, record_property):
         state = start(random, parameters)
         motion = simulate(rotor, state, UNTIL, settle=True, patience=PATIENCE, max_events=MOST_EVENTS)
         outcomes[motion.outcome.label] += 1
-        assert motion.outcome.settled, f"{motion.outcome.label} from {state} of {parameters}"
+        # Bounces off a nearly elastic wall that are too low to tell how they end have an end of their own.
+        assert motion.outcome.settled or motion.outcome is Outcome.LOW_BOUNCES, (
+            f"{motion.outcome.label} from {state} of {parameters}"
+        )
         assert math.isfinite(motion.time)
         assert np.isfinite(motion.segment_amplitudes).all()
         position, _ = rotor.system.state(motion.segment_amplitudes)
