@@ -32,7 +32,7 @@ CHATTER = int(Outcome.CHATTER)
 LEVITATED, BOUNCING, MIXED = int(Outcome.LEVITATED), int(Outcome.BOUNCING), int(Outcome.MIXED)
 ROLLING = int(Outcome.ROLLING)
 CHATTER_HEIGHT = 1e-13
-"""Height of a bounce, in clearances, below which a chatter counts as complete; penetration is allowed to 1e-12."""
+"""Height of a bounce, in clearances, below which a chatter counts as complete; penetration is allowed to 1e-12 at least."""
 STALLED = 64
 """Events in a row without progress in time after which double precision cannot decide what follows."""
 STALLED_TOGETHER = 16_384
