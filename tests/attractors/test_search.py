@@ -294,7 +294,7 @@ def test_progress_grows_to_one():
 @pytest.mark.jit_only
 def test_argument_says_what_it_rests_on(found):
     assert "200 disturbances (seed 0): 120 kicks of the levitating rotor" in found.argument
-    assert "80 starts anywhere in the clearance, at up to 1 c_r Omega in the fixed frame, and" in found.argument
+    assert "80 starts anywhere in the clearance, at up to 1 c_r Ω in the fixed frame, and" in found.argument
     assert "evidence, not proof" in found.argument
 
 

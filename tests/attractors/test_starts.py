@@ -155,7 +155,7 @@ def test_set_is_the_sample_and_says_what_it_holds():
     assert starts.exists.all()
     assert chosen.words(rotor) == (
         "50 disturbances (seed 3): 30 kicks of the levitating rotor and 20 starts anywhere in the clearance, at up to "
-        "1.5 c_r Omega in the fixed frame"
+        "1.5 c_r Ω in the fixed frame"
     )
     scaled = Jeffcott(SOURCE.replace(gamma=0.05, scales=Scales(mass=50.0, clearance=0.7e-3, speed=184.2)))
     assert chosen.words(scaled) == (

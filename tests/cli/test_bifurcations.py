@@ -56,7 +56,7 @@ def test_run_up_with_all_motions(capsys):
     (levitation,) = [branch for branch in document["equilibria"] if branch["kind"] == "contact-free"]
     there = dict(zip(levitation["values"], levitation["admissible"], strict=True))
     assert (document["disturbances"]["count"], document["disturbances"]["seed"]) == (4, 3)
-    assert "up to 1.29 c_r Omega in the fixed frame" in document["disturbances"]["words"]
+    assert "up to 1.29 c_r Ω in the fixed frame" in document["disturbances"]["words"]
     for sample in samples:
         assert sample["share"] == sample["count"] / 4
         assert sample["count"] + sample["known_starts"] > 0

@@ -10,7 +10,7 @@ from studies import QUICK
 
 from carom import __version__
 from carom.closed_forms.equilibria import find_equilibria
-from carom.disturbances import BladeLoss
+from carom.disturbances import BaseShock, BladeLoss
 from carom.models import Jeffcott
 from carom.motions import simulate
 from carom.orbits.single_impact import find_orbits
@@ -148,6 +148,48 @@ def test_a_lost_blade_is_followed_in_the_machine_after_it(carom, machine):
     assert value["start"]["U"] == pytest.approx([state.position.real, state.position.imag])
     assert value["outcome"] == motion.outcome.label
     assert len(value["impacts"]) == len(motion.contacts)
+
+
+def test_a_shock_is_read_as_a_study_reads_it_and_echoed(carom, machine):
+    case, options = load(machine), ("simulate", machine, "--shock")
+    value = document(carom(*options, "20 g, 11 ms, 30 deg", "--json"))
+
+    shock = BaseShock.of(case, "20 g", "11 ms")
+    state = shock.release(case, math.radians(30.0))
+    assert complex(*value["start"]["U"]) == pytest.approx(state.position, abs=1e-12)
+    assert complex(*value["start"]["V"]) == pytest.approx(state.velocity, abs=1e-12)
+    assert value["outcome"] == simulate(case, state).outcome.label
+    taken = value["disturbance"]
+    assert taken["words"] == "Shock of the base: half-sine, 20 g for 11 ms at 30°"
+    assert (taken["peak_si"], taken["duration_si"]) == (pytest.approx(20 * 9.80665), pytest.approx(0.011))
+    assert document(carom(*options, "20 g", "--json")) == document(carom(*options, "20 g, 11 ms", "--json"))
+    _, out, _ = carom(*options, "20 g")
+    assert out.startswith("Shock of the base: half-sine, 20 g for 11 ms at 0°.\n")
+    for text in ("20", "20 g, 11", "20 g, 11 ms, 30", "20 g, 11 ms, 30 deg, 1"):
+        code, _, err = carom(*options, text)
+        assert code == 2
+        assert err.startswith("carom: --shock = ")
+        assert err.count("\n") == 1
+
+
+@pytest.mark.parametrize(
+    ("option", "words"),
+    [
+        (("--kick", "60 mm/s,30 deg"), "Kick: 60 mm/s at 30°"),
+        (
+            ("--blade-loss", "5000 g mm,30 deg"),
+            "Loss of a blade: unbalance from 15,000 g mm to 5,000 g mm, turned by 30°",
+        ),
+        # at U = 0.5 and U' = 0 the rotor turns with the shaft: 0.35 mm times 184.2 rad/s
+        (("--start", "0.5,0,0,0"), "Start: 0.35 mm from the centre at 0°, 64.5 mm/s at 90° in the fixed frame"),
+    ],
+)
+def test_a_motion_says_which_disturbance_it_took(carom, machine, option, words):
+    _, out, _ = carom("simulate", machine, *option, "--until", "5")
+    value = document(carom("simulate", machine, *option, "--until", "5", "--json"))
+
+    assert " ".join(out.split()).startswith(f"{words}.")
+    assert value["disturbance"]["words"] == words
 
 
 def test_loads_are_compared_with_stated_limits(carom, machine, tmp_path):

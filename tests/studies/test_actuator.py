@@ -21,8 +21,8 @@ from carom.motions import State, simulate
 from carom.orbits import orbits_within_reach
 from carom.outcome import Phase
 from carom.parameters import Case, Machine, Parameters, Scales, Zones, load
+from carom.parameters.told import number
 from carom.studies.actuator import Centre, actuator_words, bearing_demand, largest_along, largest_jumps, limits_of
-from carom.studies.wording import number
 
 KEOGH = "examples/keogh-cole.toml"
 BEARINGS = ["magnetic_bearings=2", "force_current_factor=70 N/A", "negative_stiffness=210 N/mm"]

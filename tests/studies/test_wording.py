@@ -5,8 +5,9 @@ import math
 import pytest
 
 from carom.parameters import Scales
+from carom.parameters.told import number
 from carom.studies.ranges import Edge, Span
-from carom.studies.wording import Wording, counted, listed, number
+from carom.studies.wording import Wording, counted, listed
 
 SI = Wording(Scales(mass=50.0, clearance=0.7e-3, speed=184.2))
 PLAIN = Wording(None)

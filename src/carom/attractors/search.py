@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -123,10 +123,10 @@ class AttractorSet(Result):
             return self.sample.fastest
         return max((entry.start.speed for entry in self.disturbances), default=0.0)
 
-    def words(self, speed: Callable[[float], str] | None = None) -> str:
-        """Say which disturbances were tried; ``speed`` writes one given in ``c_r Ω``."""
+    def words(self) -> str:
+        """Say which disturbances were tried."""
         if isinstance(self.sample, DisturbanceSet):
-            return self.sample.words(self.rotor, speed)
+            return self.sample.words(self.rotor)
         kind = f" of the kind {self.sample.model.kind}" if self.sample else ""
         return f"{len(self.disturbances)} given disturbances{kind}"
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any, Literal
 
@@ -20,6 +20,7 @@ from carom.motions.starts import Kick, State
 from carom.orbits.orbit import Orbit
 from carom.outcome import InputError
 from carom.parameters import Scales, own_size, usual_kick
+from carom.parameters.told import told
 
 Kind = Literal["kick", "start", "orbit", "rub", "whirl"]
 
@@ -137,21 +138,15 @@ class DisturbanceSet:
         kicked = VelocityKick(self.fastest).starts(rotor, sizes, angles)
         return Starts.joined([kicked, anywhere.starts(rotor, *values)])
 
-    def words(self, rotor: Model, speed: Callable[[float], str] | None = None) -> str:
-        """Describe the disturbances for a given rotor.
-
-        Parameters
-        ----------
-        speed : callable, optional
-            Formats a speed given in ``c_r Ω``; by default in this unit and, where the scales are known, in mm/s.
-        """
-        write, kicks = speed or _speed_of(rotor), self.kicks(rotor)
+    def words(self, rotor: Model) -> str:
+        """Describe the disturbances for a given rotor."""
+        kicks = self.kicks(rotor)
         parts = []
         if kicks:
             parts.append(f"{kicks} kicks of the levitating rotor")
         if self.count > kicks:
             parts.append(f"{self.count - kicks} starts anywhere in the clearance")
-        found = f"{' and '.join(parts)}, at up to {write(self.fastest)} in the fixed frame"
+        found = f"{' and '.join(parts)}, at up to {told(self.fastest, 'velocity', rotor.scales)} in the fixed frame"
         return f"{self.count} disturbances (seed {self.seed}): {found}"
 
     @property
@@ -159,17 +154,8 @@ class DisturbanceSet:
         """Describe the disturbances for rotors in general, whether they can levitate or not."""
         return (
             f"{self.count} disturbances (seed {self.seed}): kicks of the levitating rotor and starts anywhere in the clearance, "
-            f"at up to {self.fastest:.3g} c_r Omega in the fixed frame"
+            f"at up to {told(self.fastest, 'velocity', None)} in the fixed frame"
         )
-
-
-def _speed_of(rotor: Model) -> Callable[[float], str]:
-    scales = rotor.scales
-
-    def write(speed: float) -> str:
-        return f"{speed:.3g} c_r Omega" + (f" ({1e3 * speed * scales.velocity:.3g} mm/s)" if scales else "")
-
-    return write
 
 
 def starts_at(rotor: Model, states: Sequence[State]) -> Starts:

@@ -20,6 +20,7 @@ from carom.basins.losses import SmallestLoss, size_coordinate
 from carom.basins.shares import Share, starts_enough
 from carom.closed_forms.thresholds import harmless_blade_loss, harmless_shock, harmless_unbalance_step
 from carom.disturbances import BaseShock, BladeLoss, Sample, UnbalanceStep
+from carom.disturbances.echo import plan_words
 from carom.outcome import InputError
 from carom.results import fields_of
 
@@ -54,7 +55,10 @@ def basin_document(
         "integrity": _integrity(basin),
         "basin_entropy": _entropy(basin),
         "parameters": basin.parameters.as_dict(),
-        "disturbances": json.loads(attributes["disturbances"]),
+        "disturbances": {
+            **json.loads(attributes["disturbances"]),
+            "words": plan_words(basin.plan, basin.parameters.rho, scales),
+        },
         "criteria": attributes["criteria"],
         "source": attributes["source"],
     }

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
+
+from carom.disturbances.echo import plan_words, told_eccentricity
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -15,23 +17,12 @@ if TYPE_CHECKING:
     from carom.outcome import Outcome
     from carom.parameters import Field, Scales
 
-_NAMES = {
-    "kick": "velocity kicks out of levitation",
-    "kick-plane": "velocity kicks out of levitation",
-    "shock": "half-sine shocks of the base",
-    "unbalance-step": "steps of the unbalance to what it is",
-    "blade-loss": "losses of a blade at levitation",
-    "release": "releases from the wall",
-    "slice": "positions at one velocity",
-    "state": "positions and velocities",
-}
-
 
 def print_basin(screen: Console, basin: Basin, smallest: SmallestLoss | None, harmless: float) -> None:
     """Print the disturbances tried, where they end, and the smallest that is lost."""
     from carom.cli.fitting import fitted, plain_table
 
-    screen.print(_tried(basin))
+    screen.print(f"Disturbances: {plan_words(basin.plan, basin.parameters.rho, basin.scales)}.")
     drawn = basin.share_recovered.drawn
     numbers = ("starts", "share", *(["95 % interval"] if drawn else []), "known after (median)")
     table = plain_table("", "where they end", *numbers, right=numbers)
@@ -107,24 +98,6 @@ def _sure(found: GainMap, wanted: float, reach: int) -> str:
     return f"{text}."
 
 
-def _tried(basin: Basin) -> str:
-    plan = basin.plan
-    size = plan.model.coordinates[0]
-    cells = getattr(plan, "shape", None)
-    how = f"a grid of {' x '.join(map(str, cells))}" if cells else f"a sample (seed {getattr(plan, 'seed', 0)})"
-    text = f"{basin.starts} {_NAMES[plan.model.kind]}, {how}"
-    if plan.model.kind in ("kick", "kick-plane", "shock", "unbalance-step"):
-        text += f", {size.words} up to {_size(size, size.high, basin.scales)}"
-    if plan.model.kind == "blade-loss":
-        text += f", {size.words}: all around; {_after(basin)}"
-    if plan.model.kind == "state":
-        speed = plan.model.coordinates[2]
-        text += f", {speed.words} up to {_size(speed, speed.high, basin.scales)}"
-    if plan.model.kind == "shock":
-        text += f" for {_time(getattr(plan.model, 'duration', math.nan), basin.scales)}"
-    return text + "."
-
-
 def _touching(basin: Basin) -> str:
     """Say how many disturbances touched the wall, and how many of these came back."""
     met, back = int(basin.touched.sum()), int((basin.touched & basin.recovered).sum())
@@ -186,23 +159,11 @@ def _losses(basin: Basin, smallest: SmallestLoss | None, harmless: float) -> lis
     return lines
 
 
-def _after(basin: Basin) -> str:
-    return f"eccentricity from {_eccentricity(basin, basin.parameters.rho)} to {_eccentricity(basin, basin.plan.model.describe()['eccentricity_after'])}"
-
-
-def _eccentricity(basin: Basin, value: Any) -> str:
-    """An eccentricity given in clearances, with the unbalance that it is if the mass is known."""
-    if basin.scales is None:
-        return f"{value:.5g} c_r"
-    length = value * basin.scales.length
-    return f"{1e3 * length:.5g} mm ({value:.5g} c_r, {1e6 * basin.scales.mass * length:,.5g} g mm)"
-
-
 def _blade_losses(basin: Basin, smallest: SmallestLoss) -> list[str]:
     """Say which unbalances after the loss of a blade are survived."""
 
     def shown(value: float) -> str:
-        return _eccentricity(basin, value)
+        return told_eccentricity(value, basin.scales)
 
     lines = []
     if smallest.size is not None and smallest.outcome is not None:
@@ -285,6 +246,6 @@ def _time(value: float, scales: Scales | None) -> str:
 
 
 def _value(field: Field, value: float) -> str:
-    from carom.studies.wording import number
+    from carom.parameters.told import number
 
     return f"{field.words} {number(field.in_usual_unit(value), 5)} {field.usual_unit}".rstrip()

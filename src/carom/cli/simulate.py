@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -11,6 +11,7 @@ from carom.cli.terminal import AsJson, MachineFile, Settings, check_output, cons
 from carom.outcome import InputError
 
 if TYPE_CHECKING:
+    from carom.disturbances.echo import Echo
     from carom.models import Model
     from carom.motions.starts import Kick, State
     from carom.motions.trajectories import Trajectory
@@ -37,6 +38,14 @@ def simulate(
         typer.Option(
             metavar="SPEED[,ANGLE]",
             help="Instead of --start: a velocity kick out of levitation, such as '50 mm/s,30 deg'.",
+        ),
+    ] = None,
+    shock: Annotated[
+        str | None,
+        typer.Option(
+            metavar="PEAK,DURATION[,ANGLE]",
+            help="Instead of --start: a half-sine shock of the base at levitation, such as '5 g, 11 ms, 30 deg'; the motion is "
+            "logged from its end.",
         ),
     ] = None,
     blade_loss: Annotated[
@@ -76,7 +85,10 @@ def simulate(
         for option, path in targets.items():
             check_file(option, path)
     with progress("simulating (the kernels are compiled on first use)") as tell:
-        rotor, given, end = _read(case, start, kick, blade_loss, until)
+        rotor, given, end, echo = _read(
+            case, {"--start": start, "--kick": kick, "--shock": shock, "--blade-loss": blade_loss}, until
+        )
+        taken = echo.document(case.parameters.scales)
         motion = _follow(rotor, given, kick, end, tell if out is None else tell.part(0.0, 0.4))
         if targets:
             from carom.cli.logs import write_csv, write_netcdf
@@ -85,19 +97,20 @@ def simulate(
             for option, path in targets.items():
                 writers[option](motion, path)
         if out is not None:
-            _write(out, case, motion, tell.part(0.4, 1.0, "drawing"), decaying=end is None)
+            _write(out, case, motion, taken, tell.part(0.4, 1.0, "drawing"), decaying=end is None)
     if as_json:
         from carom.studies import trajectory_document
 
-        print_document(trajectory_document(motion, case.limits))
+        print_document({"disturbance": taken} | trajectory_document(motion, case.limits))
     else:
         from carom.cli.tables import print_motion
 
+        console().print(f"{echo.words}.")
         print_motion(console(), case, motion)
     say_where(out)
 
 
-def _write(out: str, case: Case, motion: Trajectory, tell: Reporter, *, decaying: bool) -> None:
+def _write(out: str, case: Case, motion: Trajectory, taken: dict[str, Any], tell: Reporter, *, decaying: bool) -> None:
     """Write the path, its touchdown over time if there is a contact, and the document.
 
     The figures of a motion that is followed until it is proven to return to levitation show it ``decaying`` further.
@@ -114,7 +127,7 @@ def _write(out: str, case: Case, motion: Trajectory, tell: Reporter, *, decaying
         touched = len(shown.contacts) or shown.lasting_contacts
         over_time = plots.touchdown(shown, energy_ledger(shown)) if touched else plots.radius(shown, case.zones)
         output.figure("touchdown" if touched else "radius", over_time)
-        output.document("simulation", trajectory_document(motion, case.limits))
+        output.document("simulation", {"disturbance": taken} | trajectory_document(motion, case.limits))
 
 
 def _shown(motion: Trajectory) -> tuple[Trajectory, str | None]:
@@ -133,23 +146,36 @@ def _shown(motion: Trajectory) -> tuple[Trajectory, str | None]:
 
 
 def _read(
-    case: Case, start: str | None, kick: str | None, blade_loss: str | None, until: str | None
-) -> tuple[Model, State | Kick, float | None]:
-    """Read the machine that moves, its start and the end, and refuse wrong input before the kernels are loaded."""
-    from carom.cli.starts import read_blade_loss, read_kick, read_start, read_time
+    case: Case, options: dict[str, str | None], until: str | None
+) -> tuple[Model, State | Kick, float | None, Echo]:
+    """Read the machine that moves, its start, the end and what was taken; refuse wrong input before kernels are loaded."""
+    from carom.cli.starts import read_blade_loss, read_kick, read_shock, read_start, read_time
+    from carom.disturbances import echo
 
-    scales, options = case.parameters.scales, {"--start": start, "--kick": kick, "--blade-loss": blade_loss}
+    scales, rotor = case.parameters.scales, _rotor(case)
     chosen = {option: text for option, text in options.items() if text is not None}
     if len(chosen) != 1:
         given = " with ".join(f"{option} {text}" for option, text in chosen.items()) or None
-        allowed = "give one of --start RE,IM,VRE,VIM, --kick SPEED[,ANGLE] and --blade-loss AFTER[,PHASE]"
+        allowed = (
+            "give one of --start RE,IM,VRE,VIM, --kick SPEED[,ANGLE], --shock PEAK,DURATION[,ANGLE] and "
+            "--blade-loss AFTER[,PHASE]"
+        )
         raise InputError("--start", given, allowed)
     end = None if until is None else read_time(until, scales)
-    if blade_loss is not None:
-        loss, phase = read_blade_loss(blade_loss, scales)
-        return *loss.release(_rotor(case), phase), end
-    begun = read_kick(str(kick), scales) if start is None else read_start(start, scales)
-    return _rotor(case), begun, end
+    ((option, text),) = chosen.items()
+    if option == "--blade-loss":
+        loss, phase = read_blade_loss(text, scales)
+        said = echo.echo_of_blade_loss(rotor.value("rho"), loss.eccentricity_after, phase, scales)
+        return *loss.release(rotor, phase), end, said
+    if option == "--shock":
+        pulse, angle = read_shock(text, case)
+        said = echo.echo_of_shock(pulse.peak, pulse.duration, angle, scales)
+        return rotor, pulse.release(rotor, angle), end, said
+    if option == "--kick":
+        kick = read_kick(text, scales)
+        return rotor, kick, end, echo.echo_of_kick(float(kick.speed), float(kick.angle), scales)
+    state = read_start(text, scales)
+    return rotor, state, end, echo.echo_of_start(state, scales)
 
 
 def _rotor(case: Case) -> Model:

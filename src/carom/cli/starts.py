@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
 from carom.outcome import InputError, together
 from carom.parameters import (
@@ -19,13 +19,14 @@ from carom.parameters import (
     Field,
     Requirement,
     Scales,
+    Shock,
     read_quantity,
     read_size,
 )
 from carom.parameters.quantities import comma_advice, without_separators
 
 if TYPE_CHECKING:
-    from carom.disturbances import BladeLoss
+    from carom.disturbances import BaseShock, BladeLoss
     from carom.models import Axis
     from carom.motions.starts import Kick, State
 
@@ -62,6 +63,17 @@ def read_blade_loss(text: str, scales: Scales | None) -> tuple[BladeLoss, float]
     from carom.disturbances import BladeLoss
 
     return BladeLoss(read_unbalance("--blade-loss", after, scales)), turned
+
+
+def read_shock(text: str, machine: Case) -> tuple[BaseShock, float]:
+    """Read ``PEAK,DURATION`` or ``PEAK,DURATION,ANGLE``: a shock of the base as a study reads it, and its direction."""
+    scales, parts = machine.parameters.scales, text.split(",")
+    shock, angle = (",".join(parts[:2]), parts[2].strip()) if len(parts) == 3 else (text, "0")
+    given = cast(Shock, with_requirement(machine, shock=shock).requirement.own(scales).shock)
+    from carom.disturbances import BaseShock
+
+    turned = _size("--shock", angle, "angle", scales) if angle.strip("0.") else 0.0
+    return BaseShock(given.peak, given.duration), turned
 
 
 def _with_angle(option: str, text: str, allowed: str, scales: Scales | None) -> tuple[str, float]:

@@ -17,6 +17,7 @@ from rich.text import Text
 from carom.cli.fitting import fitted, plain_table
 from carom.motions import Trajectory, touchdown_loads
 from carom.parameters.indentation import indentation_of_hit
+from carom.parameters.told import number
 from carom.studies import Study, Wording, check_loads
 from carom.studies.advice_facts import CHANGES
 from carom.studies.facts import Topic, about, paragraphs
@@ -28,7 +29,7 @@ from carom.studies.summaries import (
     simple_motion_rows,
     threshold_rows,
 )
-from carom.studies.wording import counted, no_rigid_wall, number
+from carom.studies.wording import counted, no_rigid_wall
 
 if TYPE_CHECKING:
     from carom.closed_forms.equilibria import Equilibrium

@@ -14,6 +14,7 @@ from carom.outcome import InputError
 
 if TYPE_CHECKING:
     from carom.models import Model, Subject
+    from carom.motions.starts import State
 
 LONGEST_SHOCK = 1e4
 """Longest duration, in ``1/Ω``: every pulse is followed to its end, over at most some 1600 turns of the shaft."""
@@ -166,6 +167,34 @@ class BaseShock(Disturbance):
             return displaced(rotor, np.zeros(peaks.shape, complex), np.zeros(peaks.shape), False)
         positions, velocities, undecided, touched = states_after_shocks(rotor, peaks, self.duration, directions)
         return Starts(positions, velocities, np.ones(peaks.shape, bool), undecided, touched)
+
+    def release(self, machine: Subject, direction: float = 0.0) -> State:
+        """Return the state at the end of one shock of the largest peak, for :func:`carom.simulate`.
+
+        Contacts during the pulse are part of it.
+
+        Parameters
+        ----------
+        machine : Machine, Case, Parameters or model
+        direction : float
+            Of the acceleration, rad.
+
+        Raises
+        ------
+        InputError
+            The rotor cannot levitate inside the wall, or grazes it during the pulse so that what follows is undecided.
+        """
+        from carom.models import model_of
+        from carom.motions.starts import State
+
+        starts = self.starts(model_of(machine), np.array([self.peak]), np.array([float(direction)]))
+        if not starts.exists[0]:
+            radius = f"|U*| = {model_of(machine).system.rest_radius:.6g}"
+            raise InputError("disturbance", radius, "needs levitation inside the wall before the shock")
+        if starts.undecided[0]:
+            words = "another peak or direction: with this one the rotor grazes the wall during the pulse, which is undecided"
+            raise InputError("peak", self.peak, words)
+        return State.of(starts.positions[0], starts.velocities[0])
 
 
 def outward_from(machine: Subject) -> complex:

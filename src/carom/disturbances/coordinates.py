@@ -10,13 +10,13 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from carom.outcome import InputError
-from carom.parameters import GRAVITY, UNITS, Scales
+from carom.parameters import UNITS, Scales
+from carom.parameters.told import number, shown_in
 
 if TYPE_CHECKING:
     from carom.models import Model
 
 TURN = 2.0 * math.pi
-_SHOWN = {"m/s": (1e3, "mm/s"), "m": (1e3, "mm"), "m/s^2": (1.0 / GRAVITY, "g")}
 ON_WALL = 1e-12
 """Distance from the wall, in clearances, within which a start counts as on it."""
 
@@ -77,15 +77,12 @@ class Coordinate:
 
     def shown_in(self, scales: Scales | None) -> tuple[float, str]:
         """Unit in which people are told values, and by what to multiply them: mm/s, mm and g where the scales are known."""
-        if scales is None or not self.scale:
-            return 1.0, self.units[0]
-        factor, unit = _SHOWN.get(self.units[1], (1.0, self.units[1]))
-        return self.si(scales) * factor, unit
+        return shown_in(self.scale, scales) if self.scale else (1.0, "rad")
 
     def told(self, value: float, scales: Scales | None, digits: int = 3) -> str:
         """A value as text in this unit."""
         factor, unit = self.shown_in(scales)
-        return f"{float(f'{factor * value:.{digits}g}'):,.12g} {unit}"
+        return f"{number(factor * value, digits)} {unit}"
 
 
 def angle_coordinate(name: str, words: str) -> Coordinate:

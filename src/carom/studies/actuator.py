@@ -38,8 +38,9 @@ from carom.motions.trajectories import Trajectory, simulate
 from carom.orbits.orbit import Orbit
 from carom.outcome import Outcome
 from carom.parameters import Case
+from carom.parameters.told import number
 from carom.studies.recovery import coordinates_at_largest
-from carom.studies.wording import listed, number
+from carom.studies.wording import listed
 
 if TYPE_CHECKING:
     from carom.studies.assembly import Study

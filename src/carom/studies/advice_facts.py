@@ -8,13 +8,14 @@ from typing import TYPE_CHECKING, Any
 
 from carom.closed_forms.thresholds import Gain
 from carom.parameters import DIMENSIONLESS_FIELDS
+from carom.parameters.told import number
 from carom.studies.advice import WANTED, Bound, Change, Margin, evidence_of, stated
 from carom.studies.endings import motion_words
 from carom.studies.facts import Evidence, Fact
 from carom.studies.ranges import EVENTS, Edge
 from carom.studies.recovery import Check, Lost
 from carom.studies.verdict_facts import judged
-from carom.studies.wording import counted, listed, number, present_values
+from carom.studies.wording import counted, listed, present_values
 
 if TYPE_CHECKING:
     from carom.studies.assembly import Study

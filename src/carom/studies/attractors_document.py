@@ -25,6 +25,7 @@ def attractors_document(
         "parameters": parameters.as_dict(),
         "attractors": entries,
         "share": share.document if share else None,
+        "disturbances": found.words(),
         "starts": total,
         "known_starts": len(found.endings) - total,
         "seed": getattr(found.sample, "seed", None),

@@ -9,11 +9,12 @@ from carom.closed_forms.thresholds import Gain
 from carom.closed_forms.whirl import Rolling, Runaway, rolling, runaway_speed
 from carom.parameters import GRAVITY
 from carom.parameters.indentation import gives_way, indentation_of_force, indentation_of_hit
+from carom.parameters.told import number
 from carom.studies.advice import gain_of
 from carom.studies.endings import came_back, ending_phrase, hardest_impulse, motion_words, touching
 from carom.studies.facts import Topic
 from carom.studies.ranges import Motion
-from carom.studies.wording import counted, listed, no_rigid_wall, number, steel_words
+from carom.studies.wording import counted, listed, no_rigid_wall, steel_words
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -169,7 +170,7 @@ def names_of(orbits: list[Orbit]) -> str:
 
 def _disturbances(study: Study) -> str:
     say, found = study.wording, study.attractors
-    text = f"Simulated to where they settle: {found.words(say.velocity)}. {_endings(study)}"
+    text = f"Simulated to where they settle: {found.words()}. {_endings(study)}"
     hardest = hardest_impulse(found)
     if hardest > 0:
         text += f" The hardest hit had a normal impulse of {say.impulse(hardest)}{_of_hit(study, hardest)}."

@@ -10,8 +10,8 @@ from typing import Any
 from carom.attractors import AttractorSet
 from carom.motions import TouchdownLoads, simulate, touchdown_loads
 from carom.parameters import LIMIT_FIELDS, LoadLimits
+from carom.parameters.told import number
 from carom.results import fields_of
-from carom.studies.wording import number
 
 
 @dataclass(frozen=True)

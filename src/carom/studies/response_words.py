@@ -6,8 +6,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from carom.parameters.told import number
 from carom.studies.standards import CRITICALLY_DAMPED, RPM, vibration_limit
-from carom.studies.wording import listed, number
+from carom.studies.wording import listed
 
 if TYPE_CHECKING:
     from carom.studies.response import Stretch, UnbalanceResponse

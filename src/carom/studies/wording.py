@@ -7,28 +7,13 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from carom.closed_forms.thresholds import Gain
-from carom.parameters import DIMENSIONLESS_FIELDS, ENTRIES, GRAVITY, MACHINE_FIELDS, PHYSICAL_PARTNER, Case, Scales
+from carom.parameters import DIMENSIONLESS_FIELDS, ENTRIES, MACHINE_FIELDS, PHYSICAL_PARTNER, Case, Scales
 from carom.parameters.indentation import gives_way
 from carom.parameters.numbers import CONVERSIONS
+from carom.parameters.told import number, told
 from carom.studies.ranges import Span
 
-_RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 _PREFIXES = ((1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "µ"), (1e-9, "n"))
-
-
-def number(value: float, digits: int = 4) -> str:
-    """Write a number with the given significant digits and thousands separators: ``1,400``, ``0.0725``, ``2.38×10⁹``."""
-    if value == 0:
-        return "0"
-    if not math.isfinite(value):
-        return str(value)
-    rounded = float(f"{value:.{digits - 1}e}")
-    if not 1e-4 <= abs(rounded) < 1e8:
-        mantissa, exponent = f"{rounded:.{digits - 1}e}".split("e")
-        return f"{float(mantissa):g}×10{str(int(exponent)).translate(_RAISED)}"
-    decimals = max(0, digits - 1 - math.floor(math.log10(abs(rounded))))
-    text = f"{rounded:,.{decimals}f}"
-    return text.rstrip("0").rstrip(".") if "." in text else text
 
 
 def counted(count: int, noun: str) -> str:
@@ -80,13 +65,11 @@ class Wording:
 
     def velocity(self, value: float) -> str:
         """A velocity of the rotor centre given in ``c_r Ω``; always in mm/s, so that those of a page compare at a glance."""
-        return self._plain(1e3 * value if self.scales else value, "velocity", "mm/s", "c_r Ω")
+        return told(value, "velocity", self.scales)
 
     def acceleration(self, value: float) -> str:
         """An acceleration of the housing given in ``c_r Ω²``, in multiples of that of free fall."""
-        if self.scales is None:
-            return f"{number(value, 3)} c_r Ω²"
-        return f"{number(value * self.scales.acceleration / GRAVITY, 3)} g"
+        return told(value, "acceleration", self.scales)
 
     def unbalance(self, value: float) -> str:
         """An unbalance given as an eccentricity in ``c_r``, in g mm."""

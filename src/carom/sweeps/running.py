@@ -90,7 +90,7 @@ class Tally:
 
 def rate_words(rate: float, noun: str) -> str:
     """Write a number per second."""
-    from carom.studies.wording import number  # it loads the kernels
+    from carom.parameters.told import number
 
     return f"{number(rate, 3)} {noun}/s"
 

@@ -15,9 +15,9 @@ from carom.explorer.computing.kicks import KickMap
 from carom.explorer.computing.motions import MotionTable
 from carom.models import Jeffcott
 from carom.parameters import Scales
+from carom.parameters.told import number
 from carom.plots.style import LOOKS
 from carom.studies import Wording
-from carom.studies.wording import number
 
 Message = dict[str, Any]
 

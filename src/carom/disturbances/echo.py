@@ -1,0 +1,125 @@
+"""What was done to a rotor, in a sentence: sizes in the units of people, velocities in the fixed frame."""
+
+from __future__ import annotations
+
+import cmath
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from carom.disturbances.plans import Grid, Plan
+from carom.parameters import UNITS, Scales
+from carom.parameters.told import told, told_angle
+
+if TYPE_CHECKING:
+    from carom.motions.starts import State
+
+_NAMES = {
+    "kick": "velocity kicks out of levitation",
+    "kick-plane": "velocity kicks out of levitation",
+    "shock": "half-sine shocks of the base",
+    "unbalance-step": "steps of the unbalance to what it is",
+    "blade-loss": "losses of a blade at levitation",
+    "release": "releases from the wall",
+    "slice": "positions at one velocity",
+    "state": "positions and velocities",
+}
+
+
+@dataclass(frozen=True)
+class Echo:
+    """One disturbance as it was taken.
+
+    Attributes
+    ----------
+    kind : {"kick", "shock", "blade-loss", "start"}
+    words : str
+        Such as ``"Kick: 60 mm/s at 30°"``; angles are measured from the real axis of the co-rotating frame at the start.
+    sizes : mapping of str to (float, str)
+        Each size in units of the equations, with its property of :class:`~carom.parameters.Scales`; empty for angles.
+    """
+
+    kind: str
+    words: str
+    sizes: Mapping[str, tuple[float, str]]
+
+    def document(self, scales: Scales | None) -> dict[str, Any]:
+        """Return it as plain data, with sizes in SI units too where the scales are known."""
+        document: dict[str, Any] = {"kind": self.kind, "words": self.words}
+        for name, (value, scale) in self.sizes.items():
+            document[name] = value
+            if scales and scale in UNITS:
+                document[f"{name}_si"] = value * float(getattr(scales, scale))
+        return document
+
+
+def echo_of_kick(speed: float, angle: float, scales: Scales | None) -> Echo:
+    """A velocity kick out of levitation."""
+    words = f"Kick: {told(speed, 'velocity', scales)} at {told_angle(angle)}"
+    return Echo("kick", words, {"speed": (speed, "velocity"), "angle": (angle, "")})
+
+
+def echo_of_shock(peak: float, duration: float, angle: float, scales: Scales | None) -> Echo:
+    """A half-sine shock of the base, whose motion begins at its end."""
+    size = f"{told(peak, 'acceleration', scales)} for {told(duration, 'time', scales)} at {told_angle(angle)}"
+    words = f"Shock of the base: half-sine, {size}"
+    sizes = {"peak": (peak, "acceleration"), "duration": (duration, "time"), "angle": (angle, "")}
+    return Echo("shock", words, sizes)
+
+
+def echo_of_blade_loss(before: float, after: float, phase: float, scales: Scales | None) -> Echo:
+    """A loss of a blade, by the eccentricities before and after it, in clearances."""
+    first, last = (told(size, "unbalance", scales) for size in (before, after))
+    words = f"Loss of a blade: unbalance from {first} to {last}, turned by {told_angle(phase)}"
+    kind = "unbalance" if scales else "length"
+    return Echo("blade-loss", words, {"before": (before, kind), "after": (after, kind), "phase": (phase, "")})
+
+
+def echo_of_start(state: State, scales: Scales | None) -> Echo:
+    """A start of the planar rotor at any state."""
+    place, speed = complex(state.position), complex(state.velocity + 1j * state.position)
+    at = f"{told(abs(place), 'length', scales)} from the centre at {told_angle(cmath.phase(place))}"
+    words = (
+        f"Start: {at}, {told(abs(speed), 'velocity', scales)} at {told_angle(cmath.phase(speed))} in the fixed frame"
+    )
+    return Echo(
+        "start",
+        words,
+        {
+            "radius": (abs(place), "length"),
+            "angle": (cmath.phase(place), ""),
+            "speed": (abs(speed), "velocity"),
+            "direction": (cmath.phase(speed), ""),
+        },
+    )
+
+
+def plan_words(plan: Plan, before: float, scales: Scales | None) -> str:
+    """Say which disturbances a plan tries on a machine with an eccentricity ``before`` them, in clearances."""
+    model = plan.model
+    how = f"a grid of {' x '.join(map(str, plan.shape))}" if isinstance(plan, Grid) else f"a sample (seed {plan.seed})"
+    parts = [f"{plan.count} {_NAMES.get(model.kind, model.noun)}", how]
+    if model.size is not None:
+        size = model.size
+        parts.append(f"{size.words} up to {_both(size.high, size.scale, scales)}")
+    given = model.describe()
+    if model.kind == "blade-loss":
+        after = float(str(given["eccentricity_after"]))
+        parts.append(f"{model.coordinates[0].words}: all around")
+        return f"{', '.join(parts)}; eccentricity from {told_eccentricity(before, scales)} to {told_eccentricity(after, scales)}"
+    if model.kind == "shock":
+        parts[-1] += f" for {told(float(str(given['duration'])), 'time', scales)}"
+    return ", ".join(parts)
+
+
+def _both(value: float, kind: str, scales: Scales | None) -> str:
+    own = told(value, kind, None, 4)
+    return own if scales is None else f"{told(value, kind, scales, 4)} ({own})"
+
+
+def told_eccentricity(value: float, scales: Scales | None) -> str:
+    """Write an eccentricity given in clearances, with the unbalance that it is if the mass is known."""
+    own = told(value, "length", None, 5)
+    if scales is None:
+        return own
+    return f"{told(value, 'length', scales, 5)} ({own}, {told(value, 'unbalance', scales, 5)})"
