@@ -159,7 +159,7 @@ def test_set_is_the_sample_and_says_what_it_holds():
     )
     scaled = Jeffcott(SOURCE.replace(gamma=0.05, scales=Scales(mass=50.0, clearance=0.7e-3, speed=184.2)))
     assert chosen.words(scaled) == (
-        "50 disturbances (seed 3): 50 starts anywhere in the clearance, at up to 1.5 c_r Omega (193 mm/s) in the fixed frame"
+        "50 disturbances (seed 3): 50 starts anywhere in the clearance, at up to 193 mm/s in the fixed frame"
     )
 
 

@@ -45,7 +45,7 @@ def test_text_and_files(carom, dimensionless, tmp_path):
     code, out, _ = carom("attractors", dimensionless, "--starts", "24", "--exponents")
     assert "-inf: contact takes the direction away" in out
     assert "exact" in out
-    assert f"of {written['share']['of']} up to 1 c_r Omega come back (" in " ".join(out.split())
+    assert f"of {written['share']['of']} up to 1 c_r Ω come back (" in " ".join(out.split())
     kicks = int(0.6 * 24)
     assert written["share"]["estimate"] * kicks == pytest.approx(round(written["share"]["estimate"] * kicks))
     assert written["share"]["low"] <= written["share"]["estimate"] <= written["share"]["high"]

@@ -242,6 +242,7 @@ def test_which_unbalances_are_survived(carom, machine, tmp_path):
     code, out, err = carom(*words, "--after", "0.4 mm", "--json")
     assert (code, err) == (0, "")
     document = json.loads(out)
+    assert " at levitation, a grid of 24, phase of the unbalance after the loss" in document["disturbances"]["words"]
     assert document["disturbances"]["model"] == {"kind": "blade-loss", "eccentricity_after": pytest.approx(4 / 7)}
     low, high = document["smallest_unrecovered_blade_loss_bracket"]
     assert 0.0 < low < high < 4 / 7

@@ -42,6 +42,7 @@ def test_table_tells_what_was_done(carom, sweep_file, store):
 
     assert (code, err) == (0, "")
     assert out.startswith("Sweep of keogh-cole (study): 4 damping x 2 friction\n")
+    assert "Disturbances: none, closed forms only." in out
     rows = [line.split() for line in out.splitlines()]
     assert ["done", "8"] in rows
     assert ["failed", "0"] in rows
@@ -89,6 +90,7 @@ def test_json_is_one_object(carom, sweep_file, store):
     assert document | {"seconds": 0, "rate": 0} == {
         "store": str(store),
         "kind": "study",
+        "disturbances": "none, closed forms only",
         "axes": {"damping": 4, "friction": 2},
         "points": 8,
         "done": 8,

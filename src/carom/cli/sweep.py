@@ -104,6 +104,7 @@ def _document(plan: SweepPlan, tally: Tally, failures: list[dict[str, Any]]) -> 
     return {
         "store": str(tally.store),
         "kind": plan.task.kind,
+        "disturbances": plan.task.words,
         "axes": {axis.name: axis.count for axis in plan.axes},
         "points": tally.points,
         "done": tally.done,
@@ -135,6 +136,7 @@ def _print(plan: SweepPlan, tally: Tally, failures: list[dict[str, Any]]) -> Non
     table.add_row("all", f"{tally.points:,}")
     grid = " x ".join(f"{axis.count} {axis.name}" for axis in plan.axes)
     screen.print(f"Sweep of {plan.name} ({plan.task.kind}): {grid}")
+    screen.print(f"Disturbances: {plan.task.words}.")
     screen.print(table)
     if tally.computed:
         rate = rate_words(tally.rate, "points")

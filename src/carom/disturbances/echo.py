@@ -94,8 +94,8 @@ def echo_of_start(state: State, scales: Scales | None) -> Echo:
     )
 
 
-def plan_words(plan: Plan, before: float, scales: Scales | None) -> str:
-    """Say which disturbances a plan tries on a machine with an eccentricity ``before`` them, in clearances."""
+def plan_words(plan: Plan, before: float | None, scales: Scales | None) -> str:
+    """Say which disturbances a plan tries on a machine with an eccentricity ``before`` them, in clearances, if there is one."""
     model = plan.model
     how = f"a grid of {' x '.join(map(str, plan.shape))}" if isinstance(plan, Grid) else f"a sample (seed {plan.seed})"
     parts = [f"{plan.count} {_NAMES.get(model.kind, model.noun)}", how]
@@ -106,7 +106,8 @@ def plan_words(plan: Plan, before: float, scales: Scales | None) -> str:
     if model.kind == "blade-loss":
         after = float(str(given["eccentricity_after"]))
         parts.append(f"{model.coordinates[0].words}: all around")
-        return f"{', '.join(parts)}; eccentricity from {told_eccentricity(before, scales)} to {told_eccentricity(after, scales)}"
+        start = "" if before is None else f"from {told_eccentricity(before, scales)} "
+        return f"{', '.join(parts)}; eccentricity {start}to {told_eccentricity(after, scales)}"
     if model.kind == "shock":
         parts[-1] += f" for {told(float(str(given['duration'])), 'time', scales)}"
     return ", ".join(parts)

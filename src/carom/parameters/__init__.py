@@ -16,6 +16,7 @@
 ``indentation``           whether a rigid wall is a valid model under a load
 ``requirement``           :class:`Requirement`: what a machine must survive
 ``machine_file``          :func:`load`: file and settings -> :class:`Case`
+``told``                  sizes and numbers as people write them: mm/s, g, degrees
 ``in_terms``              :func:`in_terms_of`: values in the terms of the file
 ========================  =================================================================
 """

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 
 from carom.disturbances import Grid, KickPlane, Plan, Sample, VelocityKick
+from carom.disturbances.echo import plan_words
 from carom.outcome import Outcome
 from carom.sweeps.variables import Dimension, Variable, with_si
 
@@ -73,6 +74,11 @@ class BasinsTask:
     def starts(self) -> int:
         """Disturbances at each point."""
         return self.tried.count
+
+    @property
+    def words(self) -> str:
+        """Say which disturbances are tried at each point."""
+        return f"{plan_words(self.tried, None, self.scales)}, at each point"
 
     @property
     def seconds(self) -> float:

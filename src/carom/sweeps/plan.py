@@ -50,6 +50,10 @@ class Task(Protocol):
         """Motions at each point."""
 
     @property
+    def words(self) -> str:
+        """Say which disturbances are tried at each point."""
+
+    @property
     def seconds(self) -> float:
         """Estimated computing time of a point, in seconds."""
 

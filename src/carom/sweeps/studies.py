@@ -98,6 +98,16 @@ class StudyTask:
         return with_si(found, self.has_scales)
 
     @property
+    def words(self) -> str:
+        """Say which disturbances are tried at each point."""
+        if not self.disturbances:
+            return "none, closed forms only"
+        kinds = "kicks of the levitating rotor and starts anywhere in the clearance"
+        return (
+            f"{self.disturbances} at each point: {kinds}, at up to the speed that must be survived, in the fixed frame"
+        )
+
+    @property
     def seconds(self) -> float:
         """Estimated computing time of a point, in seconds."""
         search = _COST_OF_SEARCH + self.disturbances * _COST_OF_CHECK if self.least_damping else 0.0

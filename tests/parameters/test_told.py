@@ -1,0 +1,55 @@
+"""Sizes as people write them: one text for a size, wherever it is told."""
+
+import pytest
+
+from carom.attractors import DisturbanceSet
+from carom.basins.shares import Population
+from carom.disturbances import VelocityKick
+from carom.disturbances.echo import echo_of_kick
+from carom.models import Jeffcott
+from carom.parameters import Parameters, Scales
+from carom.parameters.told import number, told, told_angle
+from carom.studies.wording import Wording
+
+SCALES = Scales(mass=50.0, clearance=0.7e-3, speed=184.2)
+NUMBERS = Parameters(gamma=0.1, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7)
+
+
+@pytest.mark.parametrize(
+    ("value", "kind", "text"),
+    [
+        (0.5, "velocity", "64.5 mm/s"),  # 0.5 * 0.7 mm * 184.2 rad/s
+        (50.0, "velocity", "6,450 mm/s"),
+        (0.5, "length", "0.35 mm"),
+        (2.0, "acceleration", "4.84 g"),  # 2 * 0.7e-3 * 184.2² / 9.80665
+        (0.5, "unbalance", "17,500 g mm"),
+        (2.0, "time", "10.9 ms"),
+    ],
+)
+def test_sizes_are_told_in_the_units_of_people(value, kind, text):
+    assert told(value, kind, SCALES) == text
+
+
+def test_without_scales_units_are_those_of_the_equations():
+    assert told(0.5, "velocity", None) == "0.5 c_r Ω"
+    assert told(0.5, "acceleration", None) == "0.5 c_r Ω²"
+    assert told(0.5, "time", None) == "0.5 1/Ω"
+
+
+def test_angles_and_numbers():
+    assert told_angle(0.5235987755982988) == "30°"
+    assert number(1400.0) == "1,400"
+
+
+@pytest.mark.parametrize("scales", [None, SCALES])
+@pytest.mark.parametrize("speed", [0.0123456, 0.5, 12.3456, 98765.4])
+def test_a_speed_is_the_same_text_wherever_it_is_told(scales, speed):
+    text = told(speed, "velocity", scales)
+
+    assert text.endswith("mm/s" if scales else "c_r Ω")
+    assert Wording(scales).velocity(speed) == text
+    assert VelocityKick(speed).coordinates[0].told(speed, scales) == text
+    assert Population.of_model(VelocityKick(speed), scales).words == f"kicks up to {text}"
+    assert echo_of_kick(speed, 0.0, scales).words == f"Kick: {text} at 0°"
+    rotor = Jeffcott(NUMBERS.replace(scales=scales))
+    assert f"at up to {text} in the fixed frame" in DisturbanceSet(10, fastest=speed).words(rotor)
