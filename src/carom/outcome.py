@@ -43,6 +43,15 @@ class Outcome(IntEnum):
         return self.name.lower().replace("_", "-")
 
     @property
+    def words(self) -> str:
+        """What people call the motion, for example ``"rolling backward whirl"``; of one not known, why it is not.
+
+        Everything that is written for people takes the name from here; :class:`~carom.attractors.MotionName` adds what tells
+        motions of one outcome apart.
+        """
+        return _WORDS[self]
+
+    @property
     def settled(self) -> bool:
         """Whether the motion has settled, so that its further course is known."""
         return self >= Outcome.LEVITATED
@@ -67,6 +76,21 @@ class Phase(IntEnum):
         return self.name.lower().replace("_", "-")
 
 
+_WORDS = {
+    Outcome.CLEAR: "flight without contact",
+    Outcome.CONTACT: "contact",
+    Outcome.GRAZING: "grazes the wall, undecided",
+    Outcome.TIME_REACHED: "time reached",
+    Outcome.EVENT_LIMIT: "limit of events reached",
+    Outcome.CHATTER: "chatter, ends in lasting contact",
+    Outcome.LOW_BOUNCES: "low bounces along the wall, undecided",
+    Outcome.LEVITATED: "levitation",
+    Outcome.BOUNCING: "bouncing",
+    Outcome.MIXED: "bouncing with rub",
+    Outcome.FORWARD_RUB: "forward rub",
+    Outcome.BACKWARD_WHIRL: "sliding backward whirl",
+    Outcome.ROLLING: "rolling backward whirl",
+}
 _MEANINGS = {
     Outcome.CLEAR: "The flight stays inside the clearance until its horizon.",
     Outcome.CONTACT: "The flight reaches the wall with an outward radial velocity.",
@@ -82,11 +106,11 @@ _MEANINGS = {
         "whether they fade to lasting contact is not known."
     ),
     Outcome.LEVITATED: "The rotor returns to levitation: no later flight can reach the wall.",
-    Outcome.BOUNCING: "The rotor keeps bouncing on the touchdown bearing.",
-    Outcome.MIXED: "The rotor keeps alternating between bounces and lasting contact.",
-    Outcome.FORWARD_RUB: "The rotor rubs along the touchdown bearing in forward whirl.",
-    Outcome.BACKWARD_WHIRL: "The rotor slides round the touchdown bearing in dry-friction backward whirl.",
-    Outcome.ROLLING: "The rotor rolls round the touchdown bearing in backward whirl without slip.",
+    Outcome.BOUNCING: "The rotor goes on bouncing on the touchdown bearing.",
+    Outcome.MIXED: "The rotor goes on bouncing with rub: bounces and lasting contact alternate.",
+    Outcome.FORWARD_RUB: "The rotor ends in forward rub: it slides along the touchdown bearing in the sense of rotation, or turns with the shaft.",
+    Outcome.BACKWARD_WHIRL: "The rotor ends in sliding backward whirl: dry friction drives it round the touchdown bearing.",
+    Outcome.ROLLING: "The rotor ends in rolling backward whirl: it rolls round the touchdown bearing without slip.",
 }
 
 

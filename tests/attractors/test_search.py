@@ -30,7 +30,7 @@ def random_starts(count, fastest, seed=0):
 
 def shares(rotor, starts):
     found = find_attractors(rotor, starts, known=False)
-    return {member.name: member.share for member in found}
+    return {member.name: member.share_of_disturbances for member in found}
 
 
 @pytest.fixture(scope="module")
@@ -98,7 +98,7 @@ def test_irregular_bouncing_at_gamma_0_082_lasts():
     irregular = found["irregular bouncing"]
     followed = [ending.impacts for ending in found.ending_on("irregular bouncing")]
 
-    assert irregular.share > 0.8
+    assert irregular.share_of_disturbances > 0.8
     assert (irregular.name.multiplicity, irregular.period) == (0, None)
     # A look ends just before its last impact.
     assert min(followed) >= 0.999 * found.patience
@@ -157,7 +157,7 @@ def test_counts_and_shares_add_up(found):
 
     assert len(disturbances) == 200
     assert sum(member.count for member in found) == 200
-    assert sum(member.share for member in found) == pytest.approx(1.0)
+    assert sum(member.share_of_disturbances for member in found) == pytest.approx(1.0)
     assert sum(member.known for member in found) == len(found.endings) - 200
     for member in found:
         assert len(found.ending_on(member.name)) == member.count + member.known > 0
@@ -191,7 +191,7 @@ def test_attractors_are_ordered_by_what_they_attract(found):
     counts = [member.count for member in found]
 
     assert counts == sorted(counts, reverse=True)
-    assert found.recovered == found["levitation"].share
+    assert found["levitation"].share_of_disturbances == found["levitation"].count / len(found.disturbances)
     assert {member.name for member in found.touching} == {"B1,d", "synchronous rub", "rolling backward whirl"}
 
 
@@ -202,7 +202,7 @@ def test_known_motion_is_found_though_no_disturbance_reaches_it():
     assert found["rolling backward whirl"].count == 0
     assert found["rolling backward whirl"].known == 2
     assert found["rolling backward whirl"].representative.kind == "whirl"
-    assert found["levitation"].share == 1.0
+    assert found["levitation"].share_of_disturbances == 1.0
     assert found.smallest_unrecovered_kick is None
 
 

@@ -257,7 +257,7 @@ def test_simulate_for_people(carom, machine):
     code, out, err = carom("simulate", machine, "--kick", "12.894 mm/s,2 rad")
 
     assert (code, err) == (0, "")
-    for words in ("rubs along the touchdown bearing", "283 impacts", "forward slip", "N s", "more: --csv FILE has all"):
+    for words in ("The rotor ends in forward rub", "283 impacts", "forward slip", "N s", "more: --csv FILE has all"):
         assert words in out
 
 

@@ -13,6 +13,9 @@ from carom.cli.app import main
 from carom.orbits.names import OrbitName
 from carom.outcome import Outcome
 from carom.plots import LOOKS, OUTCOMES
+from carom.plots.coexistence import ROWS
+from carom.plots.words import ending
+from carom.studies.endings import ending_words
 
 MACHINE = "examples/keogh-cole.toml"
 PAGE = Path("docs/reference/motions.md").read_text(encoding="utf-8")
@@ -93,6 +96,28 @@ def test_json_uses_these_names(command, capsys):
     found = set(names_in(document)) - ranges
     assert {"levitation", "synchronous rub", "B1,d"} <= found
     assert all(is_a_name(name) for name in found)
+
+
+@pytest.mark.parametrize("outcome", Outcome)
+def test_each_outcome_has_one_name_on_every_surface(outcome):
+    """Text, legend, end of a path and sentence take the words of the outcome; only rubs and periods are told further apart."""
+    assert ending(outcome) == outcome.words
+    assert outcome.label not in OUTCOMES or OUTCOMES[outcome.label].words == outcome.words
+    assert outcome.words in ending_words(outcome)
+    name = MotionName(outcome)
+    if not outcome.settled:
+        assert name == f"unresolved: {outcome.label}"
+        assert "ends" not in ending_words(outcome)
+        return
+    assert outcome.label in OUTCOMES
+    assert name.endswith("rub" if outcome is Outcome.FORWARD_RUB else outcome.words)
+    assert name in ROWS or outcome is Outcome.MIXED
+    assert outcome.words.split()[0] in outcome.meaning
+    assert not [words for words in FORBIDDEN if words in outcome.meaning]
+    if outcome is Outcome.FORWARD_RUB:
+        assert f"a *{outcome.words}*" in PAGE
+    else:
+        assert outcome.words in " ".join(NAMES) or outcome.words == "bouncing"
 
 
 def test_figures_use_these_names():

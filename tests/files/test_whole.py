@@ -8,7 +8,7 @@ import threading
 
 import pytest
 
-from carom.files import staged_directory, unfinished, write_whole
+from carom.files import staged_directory, unfinished, whole, write_whole
 
 KILLED = """
 import os, signal, sys
@@ -62,6 +62,30 @@ def test_files_of_others_stay(tmp_path, name):
     (tmp_path / name).write_text("mine")
     write_whole(tmp_path / "motion.nc", b"content")
     assert (tmp_path / name).read_text() == "mine"
+
+
+@pytest.mark.parametrize("folder", [False, True])
+def test_a_name_is_never_used_twice(tmp_path, monkeypatch, folder):
+    """What another process takes for left, and removes before it is locked, is made again by another name: that process may
+    still be about to remove what has the first name."""
+    tried, made = [], whole._made
+
+    def taken_at_first(part, is_folder):
+        tried.append(part)
+        return made(part, is_folder)
+
+    def lock(handle, *, wait=False):
+        if wait and len(tried) < 3:
+            whole._remove(tried[-1])
+        return True
+
+    monkeypatch.setattr(whole, "_made", taken_at_first)
+    monkeypatch.setattr(whole, "_lock", lock)
+    with unfinished(tmp_path, folder=folder) as part:
+        assert part == tried[-1]
+        assert part.is_dir() == folder
+        assert len(tried) == len(set(tried)) == 3
+    assert not list(tmp_path.iterdir())
 
 
 def test_many_may_write_at_the_same_time(tmp_path):

@@ -26,7 +26,7 @@ def test_equilibria_are_drawn_in_the_circle_of_each_plane():
 def test_shares_of_attractors_are_bars():
     found = carom.find_attractors(single().model, [carom.kick(0.01), carom.kick(0.02), carom.kick(3.0)])
     (drawn,) = found.plot("kicks").axes
-    assert [bar.get_width() for bar in drawn.patches] == [100.0 * member.share for member in found]
+    assert [bar.get_width() for bar in drawn.patches] == [100.0 * member.share_of_disturbances for member in found]
     assert [label.get_text() for label in drawn.get_yticklabels()] == [str(member.name) for member in found]
 
 

@@ -34,16 +34,22 @@ def test_endings_follow_a_verb(attractor, phrase):
     assert ending_phrase(attractor) == phrase
 
 
+SYNCHRONOUS, DRIFTING = MotionName(Outcome.FORWARD_RUB), MotionName(Outcome.FORWARD_RUB, drifting=True)
+
+
 @pytest.mark.parametrize(
-    ("outcome", "clause"),
+    ("outcome", "motions", "words"),
     [
-        (Outcome.FORWARD_RUB, " (ends in synchronous rub)"),
-        (Outcome.BOUNCING, " (ends bouncing)"),
-        (Outcome.GRAZING, " (its end was not found)"),
+        (Outcome.FORWARD_RUB, (), "it ends in forward rub"),
+        (Outcome.FORWARD_RUB, (MotionName(Outcome.LEVITATED), SYNCHRONOUS), "it ends in synchronous rub"),
+        (Outcome.FORWARD_RUB, (SYNCHRONOUS, DRIFTING), "it ends in forward rub"),
+        (Outcome.BOUNCING, (), "it ends bouncing"),
+        (Outcome.GRAZING, (), "its end was not found: grazes the wall, undecided"),
+        (Outcome.LOW_BOUNCES, (), "its end was not found: low bounces along the wall, undecided"),
     ],
 )
-def test_outcomes_in_brackets(outcome, clause):
-    assert ending_words(outcome) == clause
+def test_outcomes_in_sentences(outcome, motions, words):
+    assert ending_words(outcome, motions) == words
 
 
 def test_motions_that_stand_alone():

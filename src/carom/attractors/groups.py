@@ -38,8 +38,9 @@ class Attractor(Result):
         Mean direction of the whirl of the rotor centre in the fixed frame.
     count : int
         Disturbances that end here.
-    share : float
-        The same as a share of all disturbances.
+    share_of_disturbances : float
+        The same as a share of all disturbances: of kicks and starts elsewhere alike, so not the share of kicks that
+        :func:`carom.basins.share_of_kicks` gives.
     known : int
         Starts next to motions known in closed form that end here.
     representative : Start
@@ -61,7 +62,7 @@ class Attractor(Result):
     period: float | None
     whirl: Whirl
     count: int
-    share: float
+    share_of_disturbances: float
     known: int
     representative: Start
     state: State
@@ -107,7 +108,7 @@ def attractor_of(name: MotionName, endings: Sequence[Ending], state: State) -> A
         period=settled.period,
         whirl=whirl_of(settled),
         count=len(hit),
-        share=len(hit) / total if total else 0.0,
+        share_of_disturbances=len(hit) / total if total else 0.0,
         known=len(here) - len(hit),
         representative=min(hit, key=lambda start: (start.kind != "kick", start.speed), default=first.start),
         state=settled.motion.final,

@@ -41,13 +41,13 @@ class MotionName(str):
         number: int = 1,
     ) -> MotionName:
         """Make the text from the parts."""
-        text: str = _NAMES.get(outcome, f"unresolved: {outcome.label}")
+        text: str = outcome.words if outcome.settled else f"unresolved: {outcome.label}"
         if orbit is not None:
             text = orbit
         elif outcome in _REPEATING:
-            text = f"{f'{multiplicity}-impact' if multiplicity else 'irregular'} {_REPEATING[outcome]}"
-        elif outcome is Outcome.FORWARD_RUB and drifting:
-            text = "drifting rub"
+            text = f"{f'{multiplicity}-impact' if multiplicity else 'irregular'} {outcome.words}"
+        elif outcome is Outcome.FORWARD_RUB:
+            text = "drifting rub" if drifting else "synchronous rub"
         return super().__new__(cls, f"{text} ({number})" if number > 1 else text)
 
     def __getnewargs__(self) -> tuple[Any, ...]:  # for copies and pickles
@@ -70,13 +70,7 @@ class MotionName(str):
         return self.outcome in _REPEATING and not self.multiplicity
 
 
-_REPEATING = {Outcome.BOUNCING: "bouncing", Outcome.MIXED: "bouncing with rub"}
-_NAMES = {
-    Outcome.LEVITATED: "levitation",
-    Outcome.FORWARD_RUB: "synchronous rub",
-    Outcome.BACKWARD_WHIRL: "sliding backward whirl",
-    Outcome.ROLLING: "rolling backward whirl",
-}
+_REPEATING = (Outcome.BOUNCING, Outcome.MIXED)
 
 LEVITATION = MotionName(Outcome.LEVITATED)
 SYNCHRONOUS_RUB = MotionName(Outcome.FORWARD_RUB)

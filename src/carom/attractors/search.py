@@ -105,11 +105,6 @@ class AttractorSet(Result):
         return tuple(member for member in self.members if member.touches)
 
     @property
-    def recovered(self) -> float:
-        """Share of the disturbances that came back to levitation."""
-        return sum(member.share for member in self.members if member.name.outcome is Outcome.LEVITATED)
-
-    @property
     def smallest_unrecovered_kick(self) -> float | None:
         """Smallest kick tried that did not come back to levitation, in ``c_r Ω``; ``None`` if all did."""
         kicks = [ending for ending in self.endings if ending.start.kind == "kick"]

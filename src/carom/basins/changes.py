@@ -34,7 +34,8 @@ class GainChange:
     changes : tuple of float
         Changes relative to the present values.
     share : Share
-        Share that comes back with the new values: of a sample that the search has not seen.
+        Share that comes back with the new values: of a sample drawn after the bisection, the first of a few along the
+        rest of the way whose interval suffices.
     """
 
     values: tuple[float, float]

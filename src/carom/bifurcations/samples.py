@@ -119,7 +119,7 @@ def _sample(value: float, rotor: Model, found: Attractor) -> AttractorSample:
         found.name.outcome.label,
         found.whirl,
         found.count,
-        found.share,
+        found.share_of_disturbances,
         found.known,
         _impacts(rotor, found),
         found.survival,

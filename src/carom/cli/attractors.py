@@ -101,7 +101,7 @@ def _numbers(entry: Attractor, character: Character, total: int) -> tuple[str, .
         largest = f"{character.rates[0]:.3g}"
     impacts = character.orbit.impacts if character.orbit else entry.name.multiplicity
     return (
-        f"{100.0 * entry.share:.3g} % ({100.0 * low:.2g} to {100.0 * high:.2g})",
+        f"{100.0 * entry.share_of_disturbances:.3g} % ({100.0 * low:.2g} to {100.0 * high:.2g})",
         str(impacts) if impacts else "-",
         f"{period:.6g}" if period else "-",
         largest,

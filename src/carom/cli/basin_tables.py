@@ -132,7 +132,7 @@ def _losses(basin: Basin, smallest: SmallestLoss | None, harmless: float) -> lis
     noun = _LOSSES[smallest.kind]
     lines = []
     if smallest.size is not None:
-        ending = f"; it ends {_ending(basin, smallest.outcome)}" if smallest.outcome else ""
+        ending = f"; {_ending(basin, smallest.outcome)}" if smallest.outcome else ""
         where = _where(basin, smallest)
         lines.append(f"Smallest {noun} found that does not come back: {shown(smallest.size)}, {where}{ending}.")
     if smallest.all_back is None:
@@ -169,8 +169,8 @@ def _blade_losses(basin: Basin, smallest: SmallestLoss) -> list[str]:
     if smallest.size is not None and smallest.outcome is not None:
         angle = math.degrees(smallest.angle or 0.0)
         lines.append(
-            f"Smallest unbalance found that is not survived: {shown(smallest.size)}, {angle:+.0f} deg from the one before; the rotor "
-            f"ends in {smallest.outcome.label.replace('-', ' ')}."
+            f"Smallest unbalance found that is not survived: {shown(smallest.size)}, {angle:+.0f} deg from the one before; "
+            f"{_ending(basin, smallest.outcome)}."
         )
     if smallest.all_back is None and smallest.size is not None:
         lines.append(
@@ -234,11 +234,9 @@ def _size(coordinate: Coordinate, value: float, scales: Scales | None, digits: i
 
 
 def _ending(basin: Basin, outcome: Outcome) -> str:
-    """Name the motion with an outcome, if only one of the basin has it; otherwise what they have in common."""
-    from carom.studies.endings import ending_phrase
+    from carom.studies.endings import ending_words
 
-    names = [name for name in basin.motions if name.outcome is outcome]
-    return ending_phrase(names[0]) if len(names) == 1 else f"in {outcome.label.replace('-', ' ')}"
+    return ending_words(outcome, basin.motions)
 
 
 def _time(value: float, scales: Scales | None) -> str:

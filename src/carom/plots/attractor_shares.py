@@ -29,9 +29,15 @@ def attractors(found: AttractorSet, title: str | None = None, *, axes: Axes | No
         outcome = member.name.outcome
         look = OUTCOMES.get("irregular" if member.name.irregular else outcome.label, OUTCOMES["time-reached"])
         hatch = None if member.settled else "////"
-        drawn.barh(row, 100.0 * member.share, 0.7, color=look.colour, hatch=hatch, edgecolor="white", lw=0.0)
+        drawn.barh(
+            row, 100.0 * member.share_of_disturbances, 0.7, color=look.colour, hatch=hatch, edgecolor="white", lw=0.0
+        )
         drawn.annotate(
-            f"{member.count} of {total}", (100.0 * member.share, row), (4, 0), textcoords="offset points", va="center"
+            f"{member.count} of {total}",
+            (100.0 * member.share_of_disturbances, row),
+            (4, 0),
+            textcoords="offset points",
+            va="center",
         )
     drawn.set_yticks(range(len(found)), [member.name.words for member in found])
     drawn.invert_yaxis()

@@ -26,14 +26,6 @@ ROWS = (
     "rolling backward whirl",
 )
 """From top to bottom."""
-_OF_OUTCOME = {
-    "levitated": "levitation",
-    "forward-rub": "synchronous rub",
-    "bouncing": "bouncing",
-    "mixed": "bouncing with rub",
-    "rolling": "rolling backward whirl",
-    "backward-whirl": "sliding backward whirl",
-}
 _COLOURS = {
     "levitation": OUTCOMES["levitated"].colour,
     "synchronous rub": OUTCOMES["forward-rub"].colour,
@@ -151,7 +143,8 @@ def _joined(intervals: list[Interval]) -> list[Interval]:
 def _row_of_sample(sample: AttractorSample) -> str:
     if sample.irregular:
         return "irregular bouncing"
-    return "drifting rub" if sample.name.startswith("drifting rub") else _OF_OUTCOME[sample.outcome]
+    words = str(OUTCOMES[sample.outcome].words)
+    return next((row for row in ("synchronous rub", "drifting rub") if sample.name.startswith(row)), words)
 
 
 def _dot(axes: Axes, sample: AttractorSample, height: float, unit: float) -> None:

@@ -36,6 +36,7 @@ from typing import Any, ParamSpec
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
+from carom.outcome import Outcome
 from carom.plots.arrangement import arrange, write_plain_ticks
 from carom.plots.sheet import ONE_COLUMN as ONE_COLUMN
 from carom.plots.sheet import drawing
@@ -118,17 +119,17 @@ REGIMES = (
 
 OUTCOMES = MappingProxyType(
     {
-        "levitated": Look("#009e73", "levitation"),
-        "bouncing": Look("#0072b2", "bouncing", hatch="...."),
-        "irregular": Look("#3d3d3d", "irregular bouncing", hatch="...."),
-        "mixed": Look("#56b4e9", "bouncing with rub"),
-        "forward-rub": Look("#cc79a7", "forward rub", hatch="\\\\\\\\"),
-        "backward-whirl": Look("#7a4fa3", "sliding backward whirl", hatch="xxxx"),
-        "rolling": Look("#882255", "rolling backward whirl", hatch="////"),
-        "grazing": Look("#000000", "grazes the wall, undecided"),
-        "time-reached": Look("#a6a6a6", "time reached"),
-        "event-limit": Look("#a6a6a6", "limit of events reached"),
-        "low-bounces": Look("#a6a6a6", "low bounces along the wall, undecided"),
+        "levitated": Look("#009e73", Outcome.LEVITATED.words),
+        "bouncing": Look("#0072b2", Outcome.BOUNCING.words, hatch="...."),
+        "irregular": Look("#3d3d3d", f"irregular {Outcome.BOUNCING.words}", hatch="...."),
+        "mixed": Look("#56b4e9", Outcome.MIXED.words),
+        "forward-rub": Look("#cc79a7", Outcome.FORWARD_RUB.words, hatch="\\\\\\\\"),
+        "backward-whirl": Look("#7a4fa3", Outcome.BACKWARD_WHIRL.words, hatch="xxxx"),
+        "rolling": Look("#882255", Outcome.ROLLING.words, hatch="////"),
+        "grazing": Look("#000000", Outcome.GRAZING.words),
+        "time-reached": Look("#a6a6a6", Outcome.TIME_REACHED.words),
+        "event-limit": Look("#a6a6a6", Outcome.EVENT_LIMIT.words),
+        "low-bounces": Look("#a6a6a6", Outcome.LOW_BOUNCES.words),
     }
 )
 """Looks of endings, by the label of their :class:`~carom.outcome.Outcome`; irregular bouncing has a look of its own."""

@@ -6,7 +6,7 @@ import math
 from typing import TYPE_CHECKING
 
 from carom.outcome import Outcome
-from carom.plots.style import LOOKS, OUTCOMES
+from carom.plots.style import LOOKS
 
 if TYPE_CHECKING:
     from carom.orbits.orbit import Orbit
@@ -38,9 +38,7 @@ def orbit_title(orbit: Orbit) -> str:
 
 def ending(outcome: Outcome) -> str:
     """Describe how a motion ended, briefly enough for a legend."""
-    if outcome.label in OUTCOMES:
-        return OUTCOMES[outcome.label].words
-    return "chatter, ends in lasting contact" if outcome is Outcome.CHATTER else outcome.label.replace("-", " ")
+    return outcome.words
 
 
 def number(value: float, digits: int = 4) -> str:

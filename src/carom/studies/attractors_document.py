@@ -44,7 +44,7 @@ def _attractor(entry: Attractor, total: int, character: Character, exponents: bo
         "word": str(orbit.word) if orbit else None,
         "impacts": (orbit.impacts if orbit else entry.name.multiplicity) or None,
         "period": orbit.period if orbit else entry.period,
-        "share": [entry.share, *(exact_interval(entry.count, total) if total else (0.0, 1.0))],
+        "share": [entry.share_of_disturbances, *(exact_interval(entry.count, total) if total else (0.0, 1.0))],
         "count": entry.count,
         "known_starts": entry.known,
         "lasting": character.lasting,

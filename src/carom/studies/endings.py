@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 from carom.attractors import Attractor, AttractorSet, Ending, MotionName
 from carom.outcome import Outcome
 
@@ -17,14 +19,17 @@ def motion_words(motion: str) -> str:
     return motion.words if isinstance(motion, MotionName) else str(motion)
 
 
-def ending_words(outcome: Outcome) -> str:
-    """A clause on the outcome of a disturbance that is lost: `` (ends in synchronous rub)``."""
+def ending_words(outcome: Outcome, motions: Iterable[MotionName] = ()) -> str:
+    """Say where a disturbance with an outcome ends: ``it ends in synchronous rub``; undecided outcomes are no ends.
+
+    The motion has its own name if it is the only one of the known motions with this outcome.
+    """
     if not outcome.settled:
-        return " (its end was not found)"
-    return f" (ends {_BOUNCING.get(outcome) or f'in {MotionName(outcome)}'})"
-
-
-_BOUNCING = {Outcome.BOUNCING: "bouncing", Outcome.MIXED: "bouncing with rub"}
+        return f"its end was not found: {outcome.words}"
+    names = [name for name in motions if name.outcome is outcome]
+    if len(names) == 1:
+        return f"it ends {ending_phrase(names[0])}"
+    return f"it ends {'' if outcome in (Outcome.BOUNCING, Outcome.MIXED) else 'in '}{outcome.words}"
 
 
 def touching(found: AttractorSet) -> tuple[Ending, ...]:

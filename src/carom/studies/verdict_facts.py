@@ -90,7 +90,8 @@ def _survived(study: Study, name: str, found: SmallestLoss) -> Fact:
     else:
         if found.all_back is not None:
             parts.append(f"all tried came back up to {size(found.all_back)}")
-        ends = ending_words(found.outcome) if found.outcome is not None else ""
+        motions = [entry.name for entry in study.attractors]
+        ends = f" ({ending_words(found.outcome, motions).removeprefix('it ')})" if found.outcome is not None else ""
         parts.append(f"smallest lost {size(found.size)}{ends}")
     label, of = KINDS[name], ""
     if name == "shock" and study.survives is not None:

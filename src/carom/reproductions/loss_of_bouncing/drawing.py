@@ -10,6 +10,8 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
+from carom.attractors.names import SYNCHRONOUS_RUB
+from carom.outcome import Outcome
 from carom.plots.diagrams import POINTS, branch_line, mark_point
 from carom.plots.figure import StyledFigure
 from carom.plots.style import LOOKS, OUTCOMES, TWO_COLUMNS, styled
@@ -163,11 +165,11 @@ def _destinations(axes: Axes, samples: tuple[BouncingSample, ...]) -> list[Patch
 _ENDS = {
     "bouncing": "periodic bouncing",
     "irregular": "irregular bouncing, not seen to end",
-    "mixed": "bouncing with rub",
-    "forward-rub": "synchronous rub",
-    "levitated": "levitation",
-    "backward-whirl": "sliding backward whirl",
-    "rolling": "rolling backward whirl",
+    "mixed": Outcome.MIXED.words,
+    "forward-rub": SYNCHRONOUS_RUB,
+    "levitated": Outcome.LEVITATED.words,
+    "backward-whirl": Outcome.BACKWARD_WHIRL.words,
+    "rolling": Outcome.ROLLING.words,
 }
 
 
