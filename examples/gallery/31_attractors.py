@@ -11,5 +11,5 @@ import carom as cm
 machine = cm.load("../keogh-cole.toml")
 found = cm.find_attractors(machine, count=100, seed=1)
 for attractor in found:
-    print(f"{attractor.name:18s} {attractor.share:6.1%}")
+    print(f"{attractor.name:18s} {attractor.share_of_disturbances:6.1%}")
 figure = found.plot()

@@ -274,7 +274,7 @@ def _attractor(entry: Attractor, parameters: Parameters) -> dict[str, Any]:
         "outcome": entry.name.outcome.label,
         "settled": entry.settled,
         "multiplicity": entry.name.multiplicity,
-        **fields_of(entry, "period", "whirl", "count", "share"),
+        **fields_of(entry, "period", "whirl", "count", "share_of_disturbances"),
         "known_starts": entry.known,
         **fields_of(entry, "largest_impulse", "largest_force"),
         **document_of(entry.survival),
