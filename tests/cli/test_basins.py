@@ -272,3 +272,53 @@ def test_unbalances_that_cannot_be_tried(carom, machine, options, words):
     code, out, err = carom("basins", machine, "--disturbance", "blade-loss", "--grid", "4", *options)
     assert (code, out) == (2, "")
     assert words in err
+
+
+RIG = "examples/tum-test-rig.toml"
+GAINS = ("basins", RIG, "--starts", "4", "--gains", "3x2", "--plane", "proportional_gain,derivative_gain")
+
+
+def test_a_map_takes_and_tells_gains_in_the_terms_of_the_machine(carom):
+    options = (*GAINS, "--x", "4500 A/m,9000 A/m", "--y", "12 A s/m,3 A s/m")
+    code, out, err = carom(*options)
+    found = json.loads(carom(*options, "--json")[1])["gains"]
+
+    assert (code, err) == (0, "")
+    text = " ".join(out.split())
+    assert "4,500 A/m to 9,000 A/m" in text
+    assert "3 A s/m to 12 A s/m" in text
+    # Two bearings of 50 N/A and -100 N/mm: k = 2 (50 P - 1e5), c = 2 * 50 D.
+    assert found["parameters"] == ["stiffness", "damping"]
+    np.testing.assert_allclose(found["values"][0], [2 * (50 * gain - 1e5) for gain in (4500, 6750, 9000)], rtol=1e-12)
+    np.testing.assert_allclose(found["values"][1], [300.0, 1200.0], rtol=1e-12)
+    assert found["terms"] == [
+        {"entry": "proportional_gain", "unit": "A/m", "values": [4500.0, 6750.0, 9000.0]},
+        {"entry": "derivative_gain", "unit": "A s/m", "values": [3.0, 12.0]},
+    ]
+
+
+def test_a_map_over_another_term_than_that_of_the_file_is_told_in_it(carom, machine):
+    words = ("basins", machine, "--starts", "4", "--gains", "2x2", "--plane", "damping_ratio,friction")
+    found = json.loads(carom(*words, "--x", "0.05,0.2", "--json")[1])["gains"]
+
+    stiffness, mass = 9.8e5, 50.0
+    np.testing.assert_allclose(found["values"][0], [2 * ratio * (stiffness * mass) ** 0.5 for ratio in (0.05, 0.2)])
+    assert found["terms"][0] == {"entry": "damping_ratio", "unit": "", "values": [0.05, 0.2]}
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        (("--x", "4500,9000"), "--x = 4500: proportional_gain "),
+        (("--x", "4500 A/m"), "--x = 4500 A/m: must be two different values of proportional_gain"),
+        (("--x", "10 A/m,9000 A/m"), "--x = "),
+        (("--plane", "stiffness,damping_ratio"), "damping_ratio changes with stiffness"),
+        (("--plane", "stiffness,proportional_gain"), "must be two names"),
+    ],
+)
+def test_gains_that_cannot_be_mapped(carom, options, words):
+    code, out, err = carom(*GAINS, *options)
+
+    assert (code, out) == (2, "")
+    assert words in err
+    assert err.count("\n") == 1

@@ -22,6 +22,7 @@ from carom.closed_forms.thresholds import harmless_blade_loss, harmless_shock, h
 from carom.disturbances import BaseShock, BladeLoss, Sample, UnbalanceStep
 from carom.disturbances.echo import plan_words
 from carom.outcome import InputError
+from carom.parameters import Case, in_terms_of
 from carom.results import fields_of
 
 
@@ -134,6 +135,15 @@ def _entropy(basin: Basin) -> dict[str, Any] | None:
     except InputError:
         return None
     return fields_of(found, "whole", "boundary", "side", "fractal")
+
+
+def terms_of(gains: GainMap, case: Case) -> list[dict[str, Any]]:
+    """Return the values of both parameters of a gain map in the terms of a machine's file: entry, unit and values."""
+    told = []
+    for varied in gains.axes:
+        stated = [in_terms_of(case, varied.name, float(value), digits=6) for value in gains.dataset[varied.name].values]
+        told.append({"entry": stated[0].entry, "unit": stated[0].unit, "values": [each.value for each in stated]})
+    return told
 
 
 def _gains(gains: GainMap, change: GainChange | None, wanted: float) -> dict[str, Any]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import re
 from dataclasses import dataclass
+from decimal import Decimal
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
@@ -13,7 +14,7 @@ from carom.outcome import InputError
 
 if TYPE_CHECKING:
     from carom.disturbances import Disturbance, Plan
-    from carom.parameters import Case, Parameters
+    from carom.parameters import Case, Machine
 
 CELLS = 60
 RELEASES = 360
@@ -71,7 +72,11 @@ GainsWanted = Annotated[
 ]
 Plane = Annotated[
     str | None,
-    typer.Option(metavar="NAME,NAME", help="The two parameters, by default stiffness,damping (P and D gain)."),
+    typer.Option(
+        metavar="NAME,NAME",
+        help="The two parameters, by default stiffness,damping; or what a machine file states them by, such as "
+        "proportional_gain,derivative_gain.",
+    ),
 ]
 FirstRange = Annotated[
     str | None,
@@ -92,16 +97,20 @@ Out = Annotated[
 
 @dataclass(frozen=True)
 class Gains:
-    """The gain map requested by the options: names and ranges of its two parameters, and the share that must come back."""
+    """The gain map requested by the options: names and ranges of its two parameters, and the share that must come back.
+
+    ``told_by`` is the machine in whose terms its values are told.
+    """
 
     names: tuple[str, str]
     ranges: tuple[Any, Any]
     shape: tuple[int, int]
     wanted: float
+    told_by: Case
 
 
 def read_gains(
-    parameters: Parameters, cells: str | None, plane: str | None, x: str | None, y: str | None, wanted: float | None
+    case: Case, cells: str | None, plane: str | None, x: str | None, y: str | None, wanted: float | None
 ) -> Gains | None:
     """Return the gain map requested, or ``None``; options that belong to one are refused without ``--gains``."""
     more = {"--plane": plane, "--x": x, "--y": y, "--wanted": wanted}
@@ -116,8 +125,8 @@ def read_gains(
     share = WANTED if wanted is None else wanted
     if not 0.0 < share <= 1.0:
         raise InputError("--wanted", share, "must be a share above 0 and at most 1, such as 0.99")
-    names, ranges = _plane(parameters, plane, x, y)
-    return Gains(names, ranges, (shape[0], shape[1]), share)
+    names, ranges, told_by = _plane(case, plane, x, y)
+    return Gains(names, ranges, (shape[0], shape[1]), share, told_by)
 
 
 def read_plan(
@@ -197,19 +206,45 @@ def _cells(option: str, text: str, dimensions: int) -> tuple[int, ...]:
 
 
 def _plane(
-    parameters: Parameters, plane: str | None, x: str | None, y: str | None
-) -> tuple[tuple[str, str], tuple[Any, Any]]:
-    """Return the names and ranges of the two parameters of a gain map."""
-    from carom.cli.starts import read_range
+    case: Case, plane: str | None, x: str | None, y: str | None
+) -> tuple[tuple[str, str], tuple[Any, Any], Case]:
+    """Return the names and ranges of the two parameters of a gain map, and the machine that states them as the plane does."""
+    from carom.cli.starts import read_entry_range, read_range
     from carom.models import axis
+    from carom.parameters.terms import TERMS, set_by
 
-    given = plane or ("stiffness,damping" if parameters.scales else "omega,gamma")
-    names = [name.strip() for name in given.split(",")]
+    given = plane or ("stiffness,damping" if case.parameters.scales else "omega,gamma")
+    entries = [name.strip() for name in given.split(",")]
+    names = [set_by(entry) if entry in TERMS else entry for entry in entries]
     if len(names) != 2 or names[0] == names[1]:
         raise InputError("--plane", given, "must be two names with a comma between them, such as stiffness,damping")
-    first, second = (axis(parameters, name) for name in names)
-    ranges = [
-        None if text is None else read_range(option, text, varied)
-        for varied, option, text in ((first, "--x", x), (second, "--y", y))
-    ]
-    return (first.name, second.name), (ranges[0], ranges[1])
+    axes = [axis(case.parameters, name) for name in names]
+    ranges, told_by = [], case
+    for option, text, entry, varied, other in zip(("--x", "--y"), (x, y), entries, axes, reversed(names), strict=True):
+        if entry not in TERMS:
+            ranges.append(None if text is None else read_range(option, text, varied))
+            continue
+        if other in TERMS[entry].needs:
+            allowed = f"{entry} changes with {other}, which is the other parameter; use {varied.name}"
+            raise InputError("--plane", given, allowed)
+        told_by = _stated_by(told_by, entry)
+        ranges.append(None if text is None else read_entry_range(option, text, told_by, entry))
+    return (axes[0].name, axes[1].name), (ranges[0], ranges[1]), told_by
+
+
+def _stated_by(case: Case, entry: str) -> Case:
+    """The same machine with a field stated by this entry, as ``--set`` would; its value changes by rounding alone."""
+    from carom.parameters.terms import TERMS, set_by
+
+    machine = case.machine
+    if machine is None or entry in machine.given.get(set_by(entry), {}):
+        return case
+    needed = (set_by(entry), *TERMS[entry].needs)
+    return case.replace(**{entry: float(TERMS[entry].entry({name: _exact(machine, name) for name in needed}))})
+
+
+def _exact(machine: Machine, name: str) -> Decimal:
+    value = getattr(machine, name)
+    if value is None:
+        raise InputError("--plane", name, "needed for a gain: the machine file must state it")
+    return Decimal(repr(value))

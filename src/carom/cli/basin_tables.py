@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from carom.basins import Basin, GainChange, GainMap, SmallestLoss
     from carom.disturbances import Coordinate
     from carom.outcome import Outcome
-    from carom.parameters import Field, Scales
+    from carom.parameters import Case, Scales
 
 
 def print_basin(screen: Console, basin: Basin, smallest: SmallestLoss | None, harmless: float) -> None:
@@ -49,12 +49,19 @@ def print_basin(screen: Console, basin: Basin, smallest: SmallestLoss | None, ha
         screen.print(line)
 
 
-def print_gains(screen: Console, found: GainMap, change: GainChange | None, wanted: float) -> None:
-    """Print what a gain map says about the present machine."""
+def print_gains(screen: Console, found: GainMap, change: GainChange | None, wanted: float, case: Case) -> None:
+    """Print what a gain map says about the present machine, in the terms of its file."""
     share = found.dataset["recovered"].values
     able = found.dataset["levitates"].values > 0.0
     back, of_what = found.present_share, found.population.words
-    here = ", ".join(_value(axis.field, value) for axis, value in zip(found.axes, found.present, strict=True))
+    names = [axis.name for axis in found.axes]
+    here = ", ".join(_value(case, name, value) for name, value in zip(names, found.present, strict=True))
+    ends = [found.dataset[name].values[[0, -1]].tolist() for name in names]
+    told = [
+        (_value(case, name, low), _value(case, name, high, named=False))
+        for name, (low, high) in zip(names, ends, strict=True)
+    ]
+    screen.print(f"Map: {'; '.join(f'{low} to {high}' for low, high in told)}.")
     screen.print(f"Present machine: {here}; {back.words}.")
     shape = " x ".join(str(size) for size in share.shape)
     reach = int((share >= wanted).sum())
@@ -76,8 +83,8 @@ def print_gains(screen: Console, found: GainMap, change: GainChange | None, want
         screen.print("No change is needed.")
     else:
         parts = ", ".join(
-            f"{_value(axis.field, value)} ({100 * part:+.3g} %)"
-            for axis, value, part in zip(found.axes, change.values, change.changes, strict=True)
+            f"{_value(case, name, value)} ({100 * part:+.3g} %)"
+            for name, value, part in zip(names, change.values, change.changes, strict=True)
         )
         screen.print(f"Least change found for {100 * wanted:g} %: {parts}; {change.share.words}.")
 
@@ -243,7 +250,9 @@ def _time(value: float, scales: Scales | None) -> str:
     return f"{value:.4g} /Ω" if scales is None else f"{value * scales.time:.3g} s"
 
 
-def _value(field: Field, value: float) -> str:
-    from carom.parameters.told import number
+def _value(case: Case, name: str, value: float, *, named: bool = True) -> str:
+    from carom.parameters import in_terms_of
+    from carom.parameters.terms import SETTABLE
 
-    return f"{field.words} {number(field.in_usual_unit(value), 5)} {field.usual_unit}".rstrip()
+    stated = in_terms_of(case, name, value, digits=5)
+    return f"{SETTABLE[stated.entry].words} {stated.text}" if named else stated.text

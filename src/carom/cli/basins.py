@@ -57,11 +57,11 @@ def basins(
             "release": release,
         }
         plan = options.read_plan(case, disturbance, sizes, grid, starts, seed)
-        asked = options.read_gains(case.parameters, gains, plane, x, y, wanted)
+        asked = options.read_gains(case, gains, plane, x, y, wanted)
         check_output(out)
         source = _source(machine, settings)
         from carom.basins import map_basins, smallest_loss
-        from carom.basins.document import basin_document
+        from carom.basins.document import basin_document, terms_of
         from carom.basins.losses import has_sizes
         from carom.closed_forms import harmless_kick
         from carom.models import Jeffcott
@@ -75,6 +75,8 @@ def basins(
         found, change = (None, None) if asked is None else _map(rotor, plan, asked, threads, source, tell)
         share_wanted = {} if asked is None else {"wanted": asked.wanted}
         document = basin_document(basin, smallest, harmless, found, change, **share_wanted)
+        if found is not None and asked is not None:
+            document["gains"]["terms"] = terms_of(found, asked.told_by)
         if out is not None:
             tell(0.97, "drawing")
             with output_directory(out, case) as output:
@@ -91,7 +93,7 @@ def basins(
 
         print_basin(console(), basin, smallest, harmless)
         if found is not None and asked is not None:
-            print_gains(console(), found, change, asked.wanted)
+            print_gains(console(), found, change, asked.wanted, asked.told_by)
     say_where(out)
 
 

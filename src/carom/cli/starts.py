@@ -24,6 +24,7 @@ from carom.parameters import (
     read_size,
 )
 from carom.parameters.quantities import comma_advice, without_separators
+from carom.parameters.terms import SETTABLE, set_by
 
 if TYPE_CHECKING:
     from carom.disturbances import BaseShock, BladeLoss
@@ -162,6 +163,23 @@ def read_range(option: str, text: str, varied: Axis) -> tuple[float, float]:
     if first == second:
         raise InputError(option, text, allowed)
     return min(first, second), max(first, second)
+
+
+def read_entry_range(option: str, text: str, case: Case, entry: str) -> tuple[float, float]:
+    """Read a range of an entry of the machine file, in either order, as one of the parameter that it states."""
+    allowed = f"must be two different values of {entry} with a comma between them"
+    first, second = (_stated(option, part, case, entry) for part in _split(option, text, (2,), allowed))
+    if first == second:
+        raise InputError(option, text, allowed)
+    return min(first, second), max(first, second)
+
+
+def _stated(option: str, text: str, case: Case, entry: str) -> float:
+    try:
+        read_quantity(_of_command_line(SETTABLE[entry]), text)
+        return float(getattr(case.replace(**{entry: text}).machine, set_by(entry)))
+    except InputError as problem:
+        raise InputError(option, problem.errors[0].value, f"{entry} {problem.errors[0].allowed}") from None
 
 
 def _split(option: str, text: str, counts: tuple[int, ...], allowed: str) -> list[str]:
