@@ -11,6 +11,7 @@ from sweep_tasks import Failing, basins_plan
 from carom import plots
 from carom.outcome import InputError
 from carom.parameters import Case, Machine, Zones
+from carom.parameters.told import shown_from_si
 from carom.plots.sweeps import cell_edges
 from carom.sweeps import GridAxis, open_sweep, run_sweep
 from carom.sweeps.plan import SweepPlan
@@ -147,7 +148,7 @@ def test_cells_of_a_geometric_axis_stay_on_it():
     ("name", "label"),
     [
         ("levitation_radius", r"radius of levitation ($c_\mathrm{r}$)"),
-        ("levitation_radius_si", "radius of levitation (m)"),
+        ("levitation_radius_si", "radius of levitation (mm)"),
         ("rub_force", r"normal force of the stable synchronous rub ($m$ $c_\mathrm{r}$ $\Omega^2$)"),
         ("stable_orbits", "stable orbits with one impact a period"),
     ],
@@ -158,6 +159,14 @@ def test_bar_has_words_and_unit(studies, name, label):
     assert figure.axes[1].get_ylabel() == label
     assert figure.axes[0].get_xlabel().endswith("(rpm)")
     assert figure.axes[0].get_ylabel().endswith("(N s/m)")
+
+
+def test_lengths_and_speeds_are_drawn_in_the_units_of_people(studies):
+    alone = studies.sel(damping=500.0)
+    (line,) = plots.sweep_map(alone, "levitation_radius_si").axes[0].lines
+    np.testing.assert_allclose(line.get_ydata(), 1e3 * alone["levitation_radius_si"].values, rtol=1e-15)
+    assert shown_from_si("m/s") == (1e3, "mm/s")
+    assert shown_from_si("N") == (1.0, "N")
 
 
 def test_one_axis_is_a_line(studies):

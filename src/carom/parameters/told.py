@@ -47,6 +47,12 @@ def shown_in(kind: str, scales: Scales | None) -> tuple[float, str]:
     return float(getattr(scales, kind)) * factor, unit
 
 
+def shown_from_si(unit: str) -> tuple[float, str]:
+    """Return the unit in which people are told a length, speed or acceleration given in an SI unit, and by what to multiply it."""
+    kinds = {UNITS[kind][1]: kind for kind in ("length", "velocity", "acceleration")}
+    return _SHOWN[kinds[unit]] if unit in kinds else (1.0, unit)
+
+
 def told(value: float, kind: str, scales: Scales | None, digits: int = 3) -> str:
     """Write a size given in units of the equations in this unit: ``60 mm/s``, ``5 g``."""
     factor, unit = shown_in(kind, scales)

@@ -14,6 +14,7 @@ from matplotlib.patheffects import withStroke
 from matplotlib.ticker import PercentFormatter
 
 from carom.outcome import InputError
+from carom.parameters.told import shown_in
 from carom.plots.plane import Floats, one_axes
 from carom.plots.style import ONE_COLUMN, TWO_COLUMNS, styled
 from carom.plots.sweeps import blank_cells, cell_edges, colour_bar, shaded_cells
@@ -81,10 +82,8 @@ def gain_map(
     values = np.ma.masked_invalid(found.dataset[measure].values)
     bar = _MEASURES[measure][0]
     if measure == "smallest_unrecovered_kick":
-        scales = found.rotor.scales
-        values, bar = (
-            (values, rf"{bar} ($c_r \Omega$)") if scales is None else (1e3 * values * scales.velocity, f"{bar} (mm/s)")
-        )
+        factor, unit = shown_in("velocity", found.rotor.scales)
+        values, bar = factor * values, f"{bar} ({unit})"
     grounded = found.dataset["levitates"].values == 0.0
     edges = cell_edges(x), cell_edges(y)
     _shades(figure, drawn, edges, np.ma.masked_where(grounded, values), bar, _MEASURES[measure][1])

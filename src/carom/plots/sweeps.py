@@ -21,6 +21,7 @@ from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter, PercentFor
 
 from carom.outcome import InputError
 from carom.parameters import SETTABLE, Field
+from carom.parameters.told import shown_from_si
 from carom.plots.plane import Floats, legend_above, one_axes
 from carom.plots.style import ONE_COLUMN, TWO_COLUMNS, Look, styled
 from carom.plots.words import parameter_label, parameter_unit
@@ -98,7 +99,7 @@ def sweep_map(
     """
     if name not in data:
         raise InputError("name", name, f"one of: {', '.join(map(str, data.data_vars))}")
-    values, plan = data[name], json.loads(data.attrs["plan"])
+    values, plan = _as_told(data[name]), json.loads(data.attrs["plan"])
     spacings = {axis["name"]: axis["spacing"] for axis in plan["axes"]}
     dimensions = [str(dimension) for dimension in values.dims]
     if not 1 <= len(dimensions) <= 2 or not set(dimensions) <= spacings.keys():
@@ -130,6 +131,16 @@ def sweep_map(
     if title:
         drawn.set_title(title)
     return figure
+
+
+def _as_told(values: xarray.DataArray) -> xarray.DataArray:
+    """Return a variable in the unit in which people are told it: speeds in mm/s."""
+    if "si_of" not in values.attrs:
+        return values
+    factor, unit = shown_from_si(values.attrs.get("units", "1"))
+    return (
+        (factor * values).assign_attrs(values.attrs | {"units": unit}).rename(values.name) if factor != 1.0 else values
+    )
 
 
 def _mark(axes: Axes, present: list[float], places: list[np.ndarray]) -> None:

@@ -9,6 +9,7 @@ import numpy as np
 from carom.bifurcations import Diagram, EquilibriumBranch, OrbitBranch, find_bifurcations
 from carom.explorer.computing.controls import Control, unit_of
 from carom.models import Jeffcott
+from carom.parameters.told import shown_in
 from carom.plots.diagrams import BOUNDARIES, POINTS
 from carom.plots.style import LOOKS
 from carom.progress import ShowProgress
@@ -63,7 +64,7 @@ class Picture:
 def picture_along(rotor: Jeffcott, control: Control, progress: ShowProgress = None) -> Picture:
     """Compute the diagram over the whole slider of a parameter."""
     unit = unit_of(control.name)
-    speed, words = (1.0, "c_r Ω") if rotor.scales is None else (1e3 * rotor.scales.velocity, "mm/s")
+    speed, words = shown_in("velocity", rotor.scales)
     diagram = find_bifurcations(rotor, control.name, (unit * control.low, unit * control.high), progress=progress)
     heights = [branch.radial_speed[branch.admissible] for branch in diagram.orbits]
     return Picture(

@@ -15,7 +15,7 @@ from carom.explorer.computing.kicks import KickMap
 from carom.explorer.computing.motions import MotionTable
 from carom.models import Jeffcott
 from carom.parameters import Scales
-from carom.parameters.told import number
+from carom.parameters.told import number, shown_in
 from carom.plots.style import LOOKS
 from carom.studies import Wording
 
@@ -29,23 +29,10 @@ def control_message(control: Control) -> Message:
 
 def units_message(scales: Scales | None) -> Message:
     """Factors and units of times, speeds and impulses on the page."""
-    if scales is None:
-        return {
-            "time": 1.0,
-            "time_unit": "1/Ω",
-            "speed": 1.0,
-            "speed_unit": "c_r Ω",
-            "impulse": 1.0,
-            "impulse_unit": "m c_r Ω",
-        }
-    return {
-        "time": 1e3 * scales.time,
-        "time_unit": "ms",
-        "speed": 1e3 * scales.velocity,
-        "speed_unit": "mm/s",
-        "impulse": scales.impulse,
-        "impulse_unit": "N s",
-    }
+    message: Message = {}
+    for name, kind in (("time", "time"), ("speed", "velocity"), ("impulse", "impulse")):
+        message[name], message[f"{name}_unit"] = shown_in(kind, scales)
+    return message
 
 
 def basin_message(found: KickMap, rotor: Jeffcott) -> Message:
