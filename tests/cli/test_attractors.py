@@ -36,6 +36,7 @@ def test_text_and_files(carom, dimensionless, tmp_path):
     assert "6-impact bouncing" in out
     assert "It closes by Newton's method" in out
     assert "an attractor that none of them reaches is not listed" in out
+    assert "e+02" not in out
     assert "Lyapunov exponents" not in out
     assert str(tmp_path / "out") in err
     files = {str(path.relative_to(tmp_path / "out")) for path in (tmp_path / "out").rglob("*.*")}

@@ -63,7 +63,7 @@ def _print(case: Case, found: AttractorSet, characters: list[Character], exponen
     from carom.cli.fitting import fitted, plain_table
 
     screen = console()
-    columns = ("motion", "kind", "lasting", "share", "impacts", "period", "largest exponent")
+    columns = ("motion", "kind", "lasting", "disturbances", "impacts", "period", "largest exponent")
     table = plain_table("Motions on which disturbances end", *columns, right=columns[3:], no_wrap=columns[3:])
     for entry, character in zip(found, characters, strict=True):
         table.add_row(
@@ -88,7 +88,7 @@ def _print(case: Case, found: AttractorSet, characters: list[Character], exponen
 
 
 def _numbers(entry: Attractor, character: Character, total: int) -> tuple[str, ...]:
-    """Share, impacts, period and largest exponent across the motion, as text."""
+    """Share of all disturbances, impacts, period and largest exponent across the motion, as text."""
     from carom.attractors import exact_interval
 
     low, high = exact_interval(entry.count, total) if total else (0.0, 1.0)
@@ -101,11 +101,16 @@ def _numbers(entry: Attractor, character: Character, total: int) -> tuple[str, .
         largest = f"{character.rates[0]:.3g}"
     impacts = character.orbit.impacts if character.orbit else entry.name.multiplicity
     return (
-        f"{100.0 * entry.share_of_disturbances:.3g} % ({100.0 * low:.2g} to {100.0 * high:.2g})",
+        f"{100.0 * entry.share_of_disturbances:.3g} % ({_end(low)} to {_end(high)})",
         str(impacts) if impacts else "-",
         f"{period:.6g}" if period else "-",
         largest,
     )
+
+
+def _end(share: float) -> str:
+    """An end of an interval in per cent: two digits, or three where two would be a power of ten."""
+    return f"{100.0 * share:.{2 if share < 0.995 else 3}g}"
 
 
 def _exponents(found: AttractorSet, characters: list[Character]):  # type: ignore[no-untyped-def]
