@@ -92,7 +92,7 @@ def test_attractors_that_own_disturbances_reach(basin):
 
     assert [ending.start.state for ending in found.endings] == states(PLAN)
     assert [ending.attractor.outcome for ending in found.endings] == basin.outcomes[basin.exists].tolist()
-    assert {member.name: member.share for member in found} == pytest.approx(basin.fractions)
+    assert {member.name: member.share_of_disturbances for member in found} == pytest.approx(basin.fractions)
     assert found.sample == PLAN
     assert "of the kind shove" in found.argument
     one = cm.find_attractors(MACHINE, Shove(0.4), count=15, seed=3, known=False)

@@ -152,7 +152,7 @@ def _read(
     from carom.cli.starts import read_blade_loss, read_kick, read_shock, read_start, read_time
     from carom.disturbances import echo
 
-    scales, rotor = case.parameters.scales, _rotor(case)
+    scales = case.parameters.scales
     chosen = {option: text for option, text in options.items() if text is not None}
     if len(chosen) != 1:
         given = " with ".join(f"{option} {text}" for option, text in chosen.items()) or None
@@ -165,17 +165,19 @@ def _read(
     ((option, text),) = chosen.items()
     if option == "--blade-loss":
         loss, phase = read_blade_loss(text, scales)
+        rotor = _rotor(case)
         said = echo.echo_of_blade_loss(rotor.value("rho"), loss.eccentricity_after, phase, scales)
         return *loss.release(rotor, phase), end, said
     if option == "--shock":
         pulse, angle = read_shock(text, case)
+        rotor = _rotor(case)
         said = echo.echo_of_shock(pulse.peak, pulse.duration, angle, scales)
         return rotor, pulse.release(rotor, angle), end, said
     if option == "--kick":
         kick = read_kick(text, scales)
-        return rotor, kick, end, echo.echo_of_kick(float(kick.speed), float(kick.angle), scales)
+        return _rotor(case), kick, end, echo.echo_of_kick(float(kick.speed), float(kick.angle), scales)
     state = read_start(text, scales)
-    return rotor, state, end, echo.echo_of_start(state, scales)
+    return _rotor(case), state, end, echo.echo_of_start(state, scales)
 
 
 def _rotor(case: Case) -> Model:
