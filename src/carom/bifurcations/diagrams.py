@@ -26,6 +26,7 @@ from carom.models.axes import Axis, Ends, axis, read_interval
 from carom.orbits.names import RubbingName
 from carom.orbits.orbit import Orbit
 from carom.orbits.rubbing import rubbing_orbits
+from carom.orbits.search import Searched, check_impacts
 from carom.orbits.single_impact import find_orbits
 from carom.outcome import InputError
 from carom.parameters import Parameters
@@ -56,7 +57,9 @@ class Diagram(Result):
     rolling : RollingBranch
     orbits : tuple of OrbitBranch
     several : tuple of OrbitBranch
-        Orbits with several impacts a period that a search and period doublings lead to; empty unless asked for.
+        Orbits with several impacts a period that a search and special points of other branches lead to; empty unless asked for.
+    search : Searched or None
+        How much was searched for them.
     rubbing : tuple of OrbitBranch
         Periodic motions with a stretch of lasting contact; empty unless asked for.
     points : tuple of Bifurcation
@@ -78,6 +81,7 @@ class Diagram(Result):
     rolling: RollingBranch
     orbits: tuple[OrbitBranch, ...]
     several: tuple[OrbitBranch, ...]
+    search: Searched | None
     rubbing: tuple[OrbitBranch, ...]
     points: tuple[Bifurcation, ...]
     attractors: tuple[AttractorSample, ...] = ()
@@ -133,8 +137,8 @@ def find_bifurcations(
     interval : tuple of float or str
         In SI units if the parameter is physical; text has a unit, ``("300 N s/m", "2000 N s/m")``.
     impacts : int
-        Follow orbits with up to so many impacts a period too: those born in period doublings, and those that a search
-        at 9 values finds.  Unlike the orbits with one impact, some may be missing.
+        Follow orbits with at most so many impacts a period: those that begin at special points of others, and those that a search
+        at 9 values finds.  Unlike the orbits with one impact, some with several may be missing.
     virtual : bool
         Follow all orbits, including those of higher pairs that are virtual at all of these values.
     lasting : bool
@@ -148,7 +152,8 @@ def find_bifurcations(
     Raises
     ------
     InputError
-        Empty interval, unknown parameter, values out of the range of the parameter, ``impacts`` below 1, or another
+        Empty interval, unknown parameter, values out of the range of the parameter, ``impacts`` that is no whole
+        number from 1 to 64, or another
         model than the planar rotor without ``attractors``.
 
     See Also
@@ -164,14 +169,13 @@ def find_bifurcations(
     >>> [point.kind for point in diagram.points if point.name == "B1,d"]
     ['fold']
     """
-    if impacts < 1:
-        raise InputError("impacts", impacts, "a whole number of at least 1")
+    check_impacts(impacts)
     model = model_of(machine) if attractors and not (virtual or lasting or impacts > 1) else jeffcott_of(machine)
     along = axis(model, parameter)
     limits = read_interval(along, interval)
     tell = Reporter.of(progress, "following motions")
     nothing = np.empty(0)
-    found, rolling, followed = _Followed((), (), (), ()), RollingBranch(nothing, nothing, nothing > 0.0), 0.0
+    found, rolling, followed = _Followed((), (), None, (), ()), RollingBranch(nothing, nothing, nothing > 0.0), 0.0
     if isinstance(model, Jeffcott):
         followed = 1.0 if not attractors else FOLLOWING_SHARE
         chosen = _Chosen(impacts, virtual, lasting)
@@ -186,6 +190,7 @@ def find_bifurcations(
         rolling=rolling,
         orbits=found.orbits,
         several=found.several,
+        search=found.searched,
         rubbing=found.rubbing,
         points=found.points,
         attractors=sample_attractors(
@@ -222,6 +227,7 @@ class _Followed(NamedTuple):
 
     orbits: tuple[OrbitBranch, ...]
     several: tuple[OrbitBranch, ...]
+    searched: Searched | None
     rubbing: tuple[OrbitBranch, ...]
     points: tuple[Bifurcation, ...]
 
@@ -244,9 +250,10 @@ def _follow(
                 rubbing.append(renamed(branch, RubbingName(motion.impacts, len(rubbing) + 1)))
         single((done + 1) / SAMPLES)
     several: tuple[OrbitBranch, ...] = ()
+    searched: Searched | None = None
     if chosen.impacts > 1:
         at, rest = (Jeffcott(parameters), along, limits, chosen.impacts, branches), tell.part(SINGLE_SHARE, 1.0)
-        several = several_impacts(*at, virtual=chosen.virtual, tell=rest)
+        several, searched = several_impacts(*at, virtual=chosen.virtual, tell=rest)
     points: list[Bifurcation] = [
         *steady_points(parameters, along, limits),
         *(point for branch in branches for point in branch.special),
@@ -254,7 +261,7 @@ def _follow(
     # A branch ends by halving its period in a doubling of another: one point.
     points += [point for branch in several for point in branch.special if point.kind != HALVING]
     points += [point for branch in rubbing for point in branch.special]
-    return _Followed(tuple(branches), several, tuple(rubbing), tuple(sorted(points, key=lambda point: point.value)))
+    return _Followed(tuple(branches), several, searched, tuple(rubbing), tuple(sorted(points, key=lambda point: point.value)))
 
 
 def _orbits(parameters: Parameters) -> Iterator[Orbit]:

@@ -1,30 +1,29 @@
-"""Branches of orbits with several impacts a period, for diagrams: from period doublings, and from a search at some values."""
+"""Branches of orbits with several impacts a period, for diagrams: from special points of known branches, and from a search at some values."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
+from functools import reduce
 
 import numpy as np
 
 from carom.bifurcations.branches import OrbitBranch
+from carom.bifurcations.neighbours import NEIGHBOURS, neighbour
 from carom.bifurcations.points import HALVING, Bifurcation
 from carom.bifurcations.words import continue_orbit, renamed, switched
 from carom.models import Model
 from carom.models.axes import Axis
-from carom.motions.starts import State
 from carom.orbits.names import CountedName
-from carom.orbits.orbit import Orbit
-from carom.orbits.search import orbits_of_several_impacts, random_start
+from carom.orbits.orbit import Orbit, orbit_near
+from carom.orbits.search import Search, Searched
 from carom.orbits.shooting import Start, pack_free
 from carom.outcome import CaromError
 from carom.progress import Reporter
 
 VALUES = 9
 """Number of values of the parameter at which orbits are searched."""
-STARTS = 12
-"""Number of random starts at each; motions from beside the known orbits are looked through too."""
-BESIDE = 1e-3
-"""Relative change of the velocity of a start beside an orbit."""
+GUESSES, SETTLED, FRESH = 300, 2000, 500
+"""Guesses at each value for each number of impacts, motions followed until they settle, and fresh ones (:class:`~carom.orbits.search.Search`)."""
 SAME = 1e-6
 """Distance of the nodes, and of the durations, below which two orbits are the same."""
 
@@ -38,11 +37,12 @@ def several_impacts(
     *,
     virtual: bool,
     tell: Reporter,
-) -> tuple[OrbitBranch, ...]:
-    """Branches of orbits with 2 up to a number of impacts a period.
+) -> tuple[tuple[OrbitBranch, ...], Searched]:
+    """Branches of orbits with 2 up to a number of impacts a period, and what was searched.
 
-    They are born in period doublings of known branches, or pass through orbits that a search finds at evenly spaced
-    values.  What a search does not come near to is missing.
+    They are born in period doublings of known branches, or meet them where an impact grazes or vanishes, or friction begins to stop
+    the slip; or they pass through orbits that a search finds at evenly spaced values, and orbits found at one value are
+    followed to all others.  What a search does not come near to is missing.
 
     Parameters
     ----------
@@ -57,13 +57,12 @@ def several_impacts(
     def add(branch: OrbitBranch) -> None:
         number = 1 + sum(known.impacts == branch.impacts for known in found)
         found.append(renamed(branch, CountedName(branch.impacts, number)))
-        follow_doublings(branch.special)
+        leave(branch.special)
 
-    def follow_doublings(points: Sequence[Bifurcation]) -> None:
+    def leave(points: Sequence[Bifurcation]) -> None:
+        """Follow the branches that begin at special points of another."""
         for point in points:
-            if point.kind != "period-doubling" or 2 * point.orbit.impacts > impacts:
-                continue
-            if any(_begins_at(branch, point) for branch in found) or not (virtual or point.admissible):
+            if not (virtual or point.admissible) or not _begins_another(point, impacts, [*singles, *found]):
                 continue
             try:
                 add(switched(point.kind, point.orbit, along.name, limits, virtual=virtual))
@@ -71,29 +70,38 @@ def several_impacts(
                 continue
 
     for single in singles:
-        follow_doublings(single.special)
-    for done, value in enumerate(np.linspace(*limits, VALUES).tolist()):
+        leave(single.special)
+    done: list[Searched] = []
+    for place, value in enumerate(np.linspace(*limits, VALUES).tolist()):
         rotor = along.move(model, value)
-        for orbit in orbits_of_several_impacts(rotor, impacts, _starts(rotor, value, singles, found)):
-            if not any(lies_on(orbit, value, branch) for branch in found):
+        search = Search(rotor, impacts, _known(rotor, value, [*singles, *found]))
+        part = tell.part(place / VALUES, (place + 1) / VALUES)
+        done.append(search.run(SETTLED, GUESSES, FRESH, [0, place], part))
+        for orbit in search.found:
+            if orbit.admissible and orbit.impacts > 1 and not any(lies_on(orbit, value, branch) for branch in found):
                 add(continue_orbit(orbit, along.name, limits, virtual=virtual))
-        tell((done + 1) / VALUES)
-    return tuple(found)
+    return tuple(found), reduce(Searched.and_then, done)
 
 
-def _starts(
-    rotor: Model, value: float, singles: Sequence[OrbitBranch], found: Sequence[OrbitBranch]
-) -> Iterator[State]:
-    """States beside the known orbits at a value of the parameter, then random ones."""
-    known: list[OrbitBranch] = [*singles, *found]
-    for branch in known:
-        nearest = int(np.argmin(np.abs(branch.values - value)))
-        if branch.admissible[nearest]:
-            before = branch.orbits[nearest].departure
-            yield State(before.position, before.velocity * (1.0 + BESIDE))
-    random = np.random.default_rng(0)
-    for _ in range(STARTS):
-        yield random_start(rotor, random)
+def _begins_another(point: Bifurcation, impacts: int, known: Sequence[OrbitBranch]) -> bool:
+    """Whether a branch of orbits with 2 up to a number of impacts begins at a special point, which is not known."""
+    if point.kind == "period-doubling":
+        return 2 * point.orbit.impacts <= impacts and not any(_begins_at(branch, point) for branch in known)
+    if point.kind not in NEIGHBOURS or not point.orbit.word.flies:
+        return False
+    try:
+        word, start = neighbour(point.kind, point.orbit)
+    except CaromError:
+        return False
+    other = orbit_near(point.orbit.rotor, word, start) if 1 < word.impacts <= impacts else None
+    return other is not None and not any(lies_on(other, point.value, branch) for branch in known)
+
+
+def _known(rotor: Model, value: float, branches: Sequence[OrbitBranch]) -> list[Orbit]:
+    """Orbits of known branches at a value of the parameter."""
+    starts = ((branch, start) for branch in branches for start in branch.starts_at(value, rotor))
+    orbits = (orbit_near(rotor, branch.word, start) for branch, start in starts)
+    return [orbit for orbit in orbits if orbit is not None and orbit.admissible]
 
 
 def lies_on(orbit: Orbit, value: float, branch: OrbitBranch) -> bool:

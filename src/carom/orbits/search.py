@@ -1,78 +1,142 @@
-"""Search for orbits with any number of impacts a period, over starts of simulations."""
+"""The search for orbits with at most a number of impacts a period, with or without lasting contact.
+
+Most motions from random starts stop bouncing soon, and unstable orbits attract none: a search must not wait until motions settle.  Any
+stretch of a motion that is a few impacts long is a guess for Newton's method, which costs less than the simulation.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, fields, replace
 from typing import ClassVar
 
 import numpy as np
 
 from carom.models import Model
-from carom.motions.ensembles import settle
-from carom.motions.starts import State
+from carom.motions.ensembles import Endings, settle
+from carom.motions.starts import State, check_whole
 from carom.motions.trajectories import Trajectory, simulate
-from carom.orbits.names import CountedName
+from carom.orbits.names import CountedName, OrbitName
 from carom.orbits.orbit import Orbit, OrbitSequence, lasts, orbit_of_links, same_orbit
 from carom.orbits.recognising import orbit_of_motion, segments_of
-from carom.orbits.shooting import Start, converged, pack
+from carom.orbits.shooting import Start, closed_flights, converged, links_of, pack
 from carom.orbits.word import Word
-from carom.outcome import InputError, Outcome
+from carom.outcome import InputError, Outcome, Phase, shown
 from carom.progress import Reporter
 from carom.results import Result, in_a_line
 
-STARTS = 100
-"""Default number of starts."""
-SETTLED = 200
-"""Motions for each start that are followed in an ensemble until they settle, for orbits that attract few starts."""
-SLOWER = 50
-"""The same number is divided by this for rotors whose motions are not followed side by side."""
+GUESSES, MOST_IMPACTS = 1500, 64
+"""Default number of guesses for each number of impacts, and the most impacts that are searched."""
+EARLY, NEAREST = 3, 1
+"""Stretches of a motion taken for each number of impacts: the first ones, before it comes near to what attracts it, and those
+that come back closest."""
+FRUITLESS = 200
+"""Motions in a row without any guess, after which the search ends."""
+IMPACTS = 4
+"""Impacts of these motions, in multiples of the largest number of impacts a period."""
+LONGEST = 1000.0
+"""Time in ``1/Ω`` for which each is followed."""
+LANDING, LANDS = 0.05, 2000
+"""Share of the motions that are followed through landings and lift-offs, and their most events."""
+SETTLED, SLOWER = 20_000, 50
+"""Motions that are followed until they settle, for orbits that attract few starts; divided by the second number for rotors
+whose motions are not followed side by side."""
+FRESH = 2000
+"""Fresh motions that measure which share ends on the orbits found; divided by the same for such rotors."""
 GIVEN_UP = 1000
-"""Impacts after which such a motion is given up."""
+"""Impacts after which a motion that does not settle is given up."""
 ENDS = 200
 """Most ends of such motions, different ones, that are closed to orbits."""
-FOLLOWED = 300
-"""Impacts of each simulated motion."""
-LONGEST = 1000.0
-"""Time in ``1/Ω`` for which each motion is followed."""
-GUESSES = 4
-"""Stretches of each motion that Newton's method begins from: those that come back closest to where they began."""
 FASTEST = 1.5
-"""Velocities of the starts, in ``c_r Ω``, are up to this."""
+"""Velocities of the starts in the fixed frame, in ``c_r Ω``, are up to this."""
+BESIDE = (1e-2, 0.5)
+"""Relative changes of the velocity, least and largest, of a start beside a known orbit."""
 KIND = 3
 """Decimals to which the states of ends must agree to count as one."""
 NEAR = 1e-4
-"""Relative distance from a known orbit below which a stretch is not tried."""
-SAME = 1e-7
-"""Relative distance below which two solutions are the same."""
+"""Relative distance from a known solution below which a stretch is not tried."""
+LEAST = 1e-9
+"""Least duration of a flight, in ``1/Ω``."""
+
+
+@dataclass(frozen=True)
+class Searched:
+    """How much a search for orbits has tried, and what share of fresh motions ended on the orbits known afterwards.
+
+    Attributes
+    ----------
+    settled : int
+        Number of motions that were followed until they settled; the orbits on which these end are closed.
+    motions : int
+        Number of further motions, whose stretches are the guesses.
+    guesses : int
+        Number of stretches from which Newton's method was begun; those on a known orbit are left out.
+    repeats : int
+        Number of those that led to a known solution.
+    failures : int
+        Number of those from which it converged to no orbit.
+    last_new : int
+        Number of the guess, from 1, that led to the last new orbit; 0 if none did.
+    virtual : int
+        Number of solutions that are not motions of the machine.
+    fresh : int
+        Number of fresh motions from random starts, which the search has not used.
+    on_listed : int
+        Number of those that ended on one of the orbits.
+    on_others : int
+        Number of those that ended on another periodic motion with no more impacts than were searched.
+    """
+
+    settled: int
+    motions: int
+    guesses: int
+    repeats: int
+    failures: int
+    last_new: int
+    virtual: int
+    fresh: int
+    on_listed: int
+    on_others: int
+
+    @property
+    def share_on_listed(self) -> float:
+        """Share of the fresh motions that ended on one of the orbits."""
+        return self.on_listed / self.fresh
+
+    def and_then(self, later: Searched) -> Searched:
+        """Both searches together, of which the given one came later."""
+        sums = {each.name: getattr(self, each.name) + getattr(later, each.name) for each in fields(self)}
+        sums["last_new"] = self.guesses + later.last_new if later.last_new else self.last_new
+        return Searched(**sums)
+
+    @property
+    def words(self) -> str:
+        """The same in three sentences."""
+        newest = f"guess {self.last_new} led to the last new orbit" if self.last_new else "none led to a further orbit"
+        return (
+            f"Orbits with several impacts or lasting contact were searched, which does not prove that these are all: {self.settled} motions "
+            f"were followed until they settled; stretches of {self.motions} others gave {self.guesses} guesses for Newton's method, of "
+            f"which {self.repeats} led to known orbits and {self.failures} to none; {newest}. Solutions that are not motions: {self.virtual}. "
+            f"Of {self.fresh} fresh motions {self.on_listed} ended on an orbit listed here and {self.on_others} on another one with as few impacts."
+        )
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class FoundOrbits(Result, OrbitSequence):
-    """Orbits with a given number of impacts a period that a search has found; look one up by index or name, ``found["P2,1"]``.
+    """Orbits with at most a number of impacts a period; look one up by index or name, ``found["P2,1"]``.
 
-    A search proves nothing: an orbit that no start came near to is missing.
+    Those known before come first, under their names: of the planar rotor all with one impact.  The others come from a search, which
+    proves nothing: an orbit to which no guess led is missing.
 
     Attributes
     ----------
     rotor : Model
     impacts : int
+        Most impacts a period.
     members : tuple of Orbit
-        Admissible ones, stable or not, the shortest period first.
-    virtual : int
-        Number of solutions that are not motions of the machine.
-    settled : int
-        Number of motions that were followed until they settled; the orbits on which these end come first.
-    starts : int
-        Number of further motions that were simulated.
-    guesses : int
-        Number of stretches of them from which Newton's method was begun.
-    repeats : int
-        Number of those that led to a known solution, and to no other when that was deflated.
-    failures : int
-        Number of those from which it converged to no solution.
-    last_new : int
-        Number of the start, from 1, that led to the last new orbit; 0 if none did.
+        Admissible ones, stable or not; of those found the fewest impacts first, then the shortest period.
+    search : Searched
+        How much was tried.
     """
 
     if_none: ClassVar[str] = "none, no orbits were found"
@@ -80,13 +144,7 @@ class FoundOrbits(Result, OrbitSequence):
     rotor: Model
     impacts: int
     members: tuple[Orbit, ...]
-    virtual: int
-    settled: int
-    starts: int
-    guesses: int
-    repeats: int
-    failures: int
-    last_new: int
+    search: Searched
 
     def rows(self) -> list[tuple[str, str]]:
         """Each orbit, and how much was searched."""
@@ -98,83 +156,58 @@ class FoundOrbits(Result, OrbitSequence):
 
     @property
     def argument(self) -> str:
-        """How much was searched, in one sentence."""
-        newest = (
-            f"the last new orbit came from start {self.last_new}" if self.last_new else "none led to a further orbit"
-        )
-        return (
-            f"Found by a search, which proves nothing: {self.settled} motions were followed until they settled; {self.starts} "
-            f"simulated starts gave {self.guesses} guesses for Newton's method, of which {self.repeats} led to known orbits "
-            f"and {self.failures} to none; {newest}; solutions that are not motions: {self.virtual}."
-        )
+        """How much was searched, and what share of fresh motions ended on the orbits, in a few sentences."""
+        return self.search.words
 
 
-def search_orbits(rotor: Model, impacts: int, starts: int, seed: int, tell: Reporter) -> FoundOrbits:
-    """Search orbits with a number of impacts a period.
+def search_orbits(
+    rotor: Model, impacts: int, guesses: int, seed: int, known: Sequence[Orbit], tell: Reporter
+) -> FoundOrbits:
+    """Search orbits with at most a number of impacts a period.
 
-    Motions of an ensemble are followed until they settle; the orbits on which they end are closed.  Then, from each start a motion is simulated.  Stretches of so many impacts that nearly come back to where they began are
-    corrected by Newton's method.  Known solutions are deflated, so that the iteration leads to others.
+    Motions of an ensemble are followed until they settle; the orbits on which they end are closed.  Then stretches of other
+    motions are corrected by Newton's method.  At last fresh motions are followed until they settle.
+
+    Parameters
+    ----------
+    guesses : int
+        Stretches that are corrected, for each number of impacts.
+    known : sequence of Orbit
+        Orbits that are known to exist.
 
     Raises
     ------
     InputError
-        ``impacts`` or ``starts`` is below 1.
+        ``impacts`` or ``guesses`` is no whole number, below 1 or too large; or ``seed`` is no whole number of at least 0.
     """
-    for name, number in (("impacts", impacts), ("starts", starts)):
-        if number < 1:
-            raise InputError(name, number, "a whole number of at least 1")
-    search = _Search(rotor, impacts)
-    settled = starts * SETTLED // (1 if rotor.system.is_planar else SLOWER)
-    search.settle(settled, np.random.default_rng([seed, 1]))
-    random = np.random.default_rng(seed)
-    for start in range(1, starts + 1):
-        search.look_through(start, _followed(rotor, random_start(rotor, random)))
-        tell(start / starts)
-    admissible = sorted((orbit for orbit in search.found if orbit.admissible), key=lambda orbit: orbit.period)
-    members = tuple(
-        replace(orbit, name=CountedName(impacts, number)) for number, orbit in enumerate(admissible, start=1)
-    )
-    virtual = len(search.found) - len(members)
-    return FoundOrbits(
-        rotor,
-        impacts,
-        members,
-        virtual,
-        settled,
-        starts,
-        search.guesses,
-        search.repeats,
-        search.failures,
-        search.last_new,
-    )
+    check_impacts(impacts)
+    check_whole("guesses", guesses, 1)
+    check_whole("seed", seed, 0)
+    search = Search(rotor, impacts, known)
+    done = search.run(SETTLED, guesses, FRESH, [seed], tell)
+    return FoundOrbits(rotor, impacts, search.named(), done)
 
 
-def orbits_of_several_impacts(rotor: Model, impacts: int, starts: Iterable[State]) -> list[Orbit]:
-    """Admissible orbits with 2 up to a number of impacts a period, from the motions of some starts; a search, as above."""
-    searches = [_Search(rotor, count) for count in range(2, impacts + 1)]
-    for number, start in enumerate(starts, start=1):
-        motion = _followed(rotor, start)
-        for search in searches:
-            search.look_through(number, motion)
-    return [orbit for search in searches for orbit in search.found if orbit.admissible]
+def check_impacts(impacts: int) -> None:
+    """Refuse a most number of impacts a period that is no whole number, below 1 or too large."""
+    check_whole("impacts", impacts, 1)
+    if impacts > MOST_IMPACTS:
+        raise InputError("impacts", shown(impacts), f"a whole number from 1 to {MOST_IMPACTS}")
 
 
-def _followed(rotor: Model, start: State) -> Trajectory:
-    return simulate(rotor, start, LONGEST, stop_at_chatter=True, max_events=FOLLOWED)
+def random_starts(
+    rotor: Model, random: np.random.Generator, count: int, *, on_wall: bool = False
+) -> tuple[np.ndarray, np.ndarray]:
+    """Random positions inside all walls, or on one, and velocities, complex, shape (count,) or, for n > 1 coordinates, (count, n).
 
-
-def random_start(rotor: Model, random: np.random.Generator) -> State:
-    """State with random coordinates inside all walls, and random velocities."""
-    positions, velocities = random_starts(rotor, random, 1)
-    return State.of(positions[0], velocities[0])
-
-
-def random_starts(rotor: Model, random: np.random.Generator, count: int) -> tuple[np.ndarray, np.ndarray]:
-    """Random positions inside all walls and random velocities, complex, shape (count,) or, for n > 1 coordinates, (count, n)."""
+    The velocities are random in the fixed frame: those of bounces that whirl backward are far from zero in the frame that turns.
+    """
     system = rotor.system
     arrays, n = system.arrays, len(system.rest)
     directions = random.normal(size=(count, 2, n, 2)) @ [1.0, 1j]
     shares, speeds = np.sqrt(random.uniform(size=count)), FASTEST * np.sqrt(random.uniform(size=count))
+    if on_wall:
+        shares[:] = 1.0
 
     def reach(sizes: np.ndarray) -> np.ndarray:
         states = np.concatenate([sizes[:, None] * directions[:, 0], np.zeros((count, n))], axis=1)
@@ -185,81 +218,171 @@ def random_starts(rotor: Model, random: np.random.Generator, count: int) -> tupl
     while (far := reach(sizes) > 1.0).any():
         sizes = np.where(far, 0.5 * sizes, sizes)
     positions = sizes[:, None] * directions[:, 0]
-    velocities = (speeds / np.abs(directions[:, 1]).max(axis=1))[:, None] * directions[:, 1]
+    velocities = (speeds / np.abs(directions[:, 1]).max(axis=1))[:, None] * directions[:, 1] - 1j * positions
     return (positions, velocities) if n > 1 else (positions[:, 0], velocities[:, 0])
 
 
-def _is_among(unknowns: np.ndarray, known: Sequence[np.ndarray], within: float) -> bool:
-    """Whether a solution is one of the known ones, to within a relative distance."""
-    return any(np.abs(unknowns - other).max() < within * (1.0 + np.abs(other).max()) for other in known)
+def _orbits_of_ends(rotor: Model, count: int, random: np.random.Generator) -> Iterator[tuple[Orbit, int]]:
+    """Orbits on which motions from random starts end, with the number of motions; an orbit may come several times."""
+    ends: Endings = settle(
+        rotor, *random_starts(rotor, random, count), patience=GIVEN_UP, max_events=GIVEN_UP
+    )
+    ends = ends[((ends.outcomes == Outcome.BOUNCING) & (ends.multiplicities > 0)) | (ends.outcomes == Outcome.MIXED)]
+    if not len(ends.times):
+        return
+    states = np.stack([ends.positions, ends.velocities], axis=1).reshape(len(ends.times), -1)
+    _, different, numbers = np.unique(states.round(KIND), axis=0, return_index=True, return_counts=True)
+    for place, number in zip(different[:ENDS].tolist(), numbers[:ENDS].tolist(), strict=True):
+        orbit = orbit_of_motion(simulate(rotor, State.of(ends.positions[place], ends.velocities[place]), settle=True))
+        if orbit is not None:
+            yield orbit, number
 
 
-class _Search:
-    """What a search has found so far."""
+class Search:
+    """What a search has found so far.
 
-    def __init__(self, rotor: Model, impacts: int) -> None:
+    Parameters
+    ----------
+    known : sequence of Orbit
+        Orbits that are not to be found again.
+    """
+
+    def __init__(self, rotor: Model, impacts: int, known: Sequence[Orbit] = ()) -> None:
         self.rotor, self.impacts = rotor, impacts
         self.found: list[Orbit] = []
-        self.known: dict[Word, list[np.ndarray]] = {}
-        self.guesses = self.repeats = self.failures = self.last_new = 0
+        self.solutions: dict[Word, list[np.ndarray]] = {}
+        self.motions = self.guesses = self.repeats = self.failures = self.last_new = 0
+        for orbit in known:
+            self._add(orbit)
 
-    def settle(self, count: int, random: np.random.Generator) -> None:
-        """Close the orbits on which motions from random starts end."""
-        ends = settle(self.rotor, *random_starts(self.rotor, random, count), patience=GIVEN_UP, max_events=GIVEN_UP)
-        ends = ends[(ends.outcomes == Outcome.BOUNCING) & (ends.multiplicities == self.impacts)]
-        if not len(ends.times):
-            return
-        states = np.stack([ends.positions, ends.velocities], axis=1).reshape(len(ends.times), -1)
-        _, different = np.unique(states.round(KIND), axis=0, return_index=True)
-        for place in different[:ENDS]:
-            start = State.of(ends.positions[place], ends.velocities[place])
-            orbit = orbit_of_motion(simulate(self.rotor, start, settle=True))
-            if orbit is None or orbit.impacts != self.impacts or any(same_orbit(orbit, other) for other in self.found):
-                continue
-            self.found.append(orbit)
-            self._remember(orbit.word, Start(orbit.nodes, orbit.durations))
+    def named(self) -> tuple[Orbit, ...]:
+        """The admissible orbits, those found under new names."""
+        listed = [orbit for orbit in self.found if orbit.admissible]
+        counts = dict.fromkeys(range(self.impacts + 1), 0)
+        named = [orbit for orbit in listed if isinstance(orbit.name, OrbitName)]
+        for orbit in sorted((each for each in listed if each not in named), key=lambda each: (each.impacts, each.period)):
+            counts[orbit.impacts] += 1
+            named.append(replace(orbit, name=CountedName(orbit.impacts, counts[orbit.impacts])))
+        return tuple(named)
 
-    def look_through(self, start: int, motion: Trajectory) -> None:
-        """Correct the stretches of the motion from a start that come back closest."""
+    def run(self, settled: int, guesses: int, fresh: int, seed: Sequence[int], tell: Reporter) -> Searched:
+        """Search, with so many guesses for each number of impacts.
+
+        Fewer motions are followed until they settle, of both kinds, if they are not followed side by side.
+        """
+        slower = 1 if self.rotor.system.is_planar else SLOWER
+        settled, fresh = -(-settled // slower), -(-fresh // slower)
+        for orbit, _ in _orbits_of_ends(self.rotor, settled, np.random.default_rng([*seed, 1])):
+            self._add(orbit)
+        tell(0.3)
+        self._guess(guesses, np.random.default_rng([*seed, 2]), tell.part(0.3, 0.9))
+        ended = [0, 0]
+        for orbit, number in _orbits_of_ends(self.rotor, fresh, np.random.default_rng([*seed, 3])):
+            if orbit.impacts <= self.impacts:
+                ended[not any(same_orbit(orbit, other) for other in self.found)] += number
+        tell(1.0)
+        virtual = sum(not orbit.admissible for orbit in self.found)
+        return Searched(
+            settled, self.motions, self.guesses, self.repeats, self.failures, self.last_new, virtual, fresh, *ended
+        )
+
+    def _guess(self, guesses: int, random: np.random.Generator, tell: Reporter) -> None:
+        """Correct stretches of motions from random starts and from beside known orbits, so many for each number of impacts."""
+        tried = np.zeros(self.impacts + 1, int)
+        fruitless = 0
+        while tried[1:].min() < guesses and fruitless < FRUITLESS:
+            before = tried.sum()
+            for count, word, guess in self._stretches(self._start(random), random.uniform() < LANDING):
+                if tried[count] < guesses and not self._is_known(word, guess, NEAR):
+                    tried[count] += 1
+                    self._correct(word, guess)
+            self.motions += 1
+            fruitless = 0 if tried.sum() > before else fruitless + 1
+            tell(float(tried.sum()) / (guesses * self.impacts))
+
+    def _start(self, random: np.random.Generator) -> State:
+        """A random start, or every third time one beside a known orbit."""
+        beside = [orbit for orbit in self.found if orbit.admissible and orbit.word.flies]
+        if self.motions % 3 or not beside:
+            positions, velocities = random_starts(self.rotor, random, 1, on_wall=True)
+            return State.of(positions[0], velocities[0])
+        known = beside[int(random.integers(len(beside)))].departure
+        velocity = np.array(known.velocity, complex)
+        change = np.exp(random.uniform(*np.log(BESIDE))) * (random.normal(size=(*velocity.shape, 2)) @ [1.0, 1j])
+        return State.of(np.array(known.position), velocity + np.abs(velocity).max() * change)
+
+    def _stretches(self, start: State, landing: bool) -> Iterable[tuple[int, Word, Start]]:
+        """Stretches of a motion that come back closest, with their number of impacts; through a landing, from lift-off to lift-off."""
+        most = LANDS if landing else IMPACTS * (self.impacts + 1)
+        motion = simulate(self.rotor, start, LONGEST, stop_at_chatter=not landing, max_events=most)
+        events = np.arange(len(motion.event_planes))
+        flying = motion.segment_phases == Phase.FLIGHT
+        lifts = events[~flying[events, motion.event_planes] & flying[events + 1, motion.event_planes]]
+        if landing:
+            yield from self._cut(motion, lifts[1:] if len(lifts) > 3 else lifts, range(1, 4), contact=True)
         impacts = np.flatnonzero(motion.is_impact)
-        if len(impacts) <= self.impacts:
-            return
-        states = self.rotor.system.states_of(motion.arrivals[impacts])
-        times = motion.segment_starts[1:][impacts]
-        # Low bounces change little because they are short; planes that strike at one instant take no time.
-        lasted = times[self.impacts :] - times[: -self.impacts]
-        changes = np.abs(states[self.impacts :] - states[: -self.impacts]).max(axis=1)
-        apart = np.divide(changes, lasted, out=np.full_like(changes, np.inf), where=lasted > 0.0)
-        for first in np.argsort(apart, kind="stable")[:GUESSES]:
-            self.correct(start, motion, int(impacts[first]), int(impacts[first + self.impacts]))
+        yield from self._cut(motion, impacts, range(1, self.impacts + 1), contact=False)
 
-    def correct(self, start: int, motion: Trajectory, first: int, last: int) -> None:
-        """Correct one stretch of a motion, unless it lies on a known orbit."""
-        if last - first != self.impacts:
+    def _cut(
+        self, motion: Trajectory, marks: np.ndarray, counts: Iterable[int], *, contact: bool
+    ) -> Iterator[tuple[int, Word, Start]]:
+        """Stretches from one of the marked events to a later one."""
+        if len(marks) < 2:
             return
-        word, guess = segments_of(motion, first, last)
-        known = self.known.setdefault(word, [])
-        unknowns = pack(guess)
-        if _is_among(unknowns, known, NEAR):
-            return
+        nodes = motion.segment_amplitudes[marks + 1] if contact else motion.arrivals[marks]
+        states, times = self.rotor.system.states_of(nodes), motion.segment_starts[1:][marks]
+        for count in counts:
+            # Low bounces change little because they are short; planes that strike at one instant take no time.
+            lasted = times[count:] - times[:-count]
+            changes = np.abs(states[count:] - states[:-count]).max(axis=1)
+            apart = np.divide(changes, lasted, out=np.full_like(changes, np.inf), where=lasted > 0.0)
+            nearest = np.argsort(apart, kind="stable")[:NEAREST].tolist()
+            for first in dict.fromkeys([*range(min(EARLY, len(apart))), *nearest]):
+                begin, end = int(marks[first]), int(marks[first + count])
+                if not contact and end - begin != count:
+                    continue
+                try:
+                    word, guess = segments_of(motion, begin, end)
+                except InputError:  # an impact at one plane while another stays in contact has no word
+                    continue
+                if word.impacts <= self.impacts:
+                    yield max(word.impacts, 1), word, guess
+
+    def _correct(self, word: Word, guess: Start) -> None:
+        """Correct one stretch of a motion."""
         self.guesses += 1
-        links = converged(self.rotor, word, guess)
-        if links is not None and _is_among(pack(links.start), known, SAME):
-            links = converged(self.rotor, word, guess, known)
-            if links is None or not lasts(word, links.start):
-                self.repeats += 1
-                return
+        links = None
+        if word.flies:
+            solved = closed_flights(self.rotor, word, guess)
+            links = None if solved is None or solved.durations.min() < LEAST else links_of(self.rotor, word, solved)
+        else:
+            links = converged(self.rotor, word, guess)
         if links is None or not lasts(word, links.start):
             self.failures += 1
-            return
-        orbit = orbit_of_links(self.rotor, word, links)
-        self._remember(word, links.start)
-        if orbit.impacts == self.impacts and not any(same_orbit(orbit, other) for other in self.found):
-            self.found.append(orbit)
-            self.last_new = start if orbit.admissible else self.last_new
+        elif self._is_known(word, links.start, NEAR):
+            self.repeats += 1
+        elif self._add(orbit_of_links(self.rotor, word, links)):
+            self.last_new = self.guesses if self.found[-1].admissible else self.last_new
+        else:
+            self.repeats += 1
 
-    def _remember(self, word: Word, solution: Start) -> None:
-        """Deflate a solution, whichever impact it begins with."""
-        for places in range(len(word)):
-            turned = Start(np.roll(solution.nodes, -places, axis=0), np.roll(solution.durations, -places))
-            self.known.setdefault(word.turned(places), []).append(pack(turned))
+    def _is_known(self, word: Word, solution: Start, within: float) -> bool:
+        """Whether a solution is a known one, to within a relative distance."""
+        unknowns = pack(solution)
+        known = self.solutions.get(word, ())
+        # Entry by entry: a solution with one huge duration is not near to everything.
+        return any((np.abs(unknowns - other) < within * (1.0 + np.abs(other))).all() for other in known)
+
+    def _add(self, orbit: Orbit) -> bool:
+        """Keep an orbit; whether it is new and has no more impacts than are searched."""
+        if orbit.impacts > self.impacts or any(same_orbit(orbit, other) for other in self.found):
+            return False
+        self.found.append(orbit)
+        most = max(1, self.impacts // max(orbit.impacts, 1))
+        for place in range(len(orbit.word)):
+            turned = Start(np.roll(orbit.nodes, -place, axis=0), np.roll(orbit.durations, -place))
+            for times in range(1, most + 1):
+                several = Start(np.tile(turned.nodes, (times, 1)), np.tile(turned.durations, times))
+                word = orbit.word.turned(place).repeated(times)
+                self.solutions.setdefault(word, []).append(pack(several))
+        return True

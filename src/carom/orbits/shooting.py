@@ -14,7 +14,6 @@ equations hold beyond the onset too.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import NamedTuple
@@ -253,7 +252,7 @@ def unpack_free(word: Word, unknowns: np.ndarray) -> Start:
     return unpack(whole, len(word))
 
 
-def converged(rotor: Model, word: Word, start: Start, known: Sequence[np.ndarray] = ()) -> Links | None:
+def converged(rotor: Model, word: Word, start: Start) -> Links | None:
     """Solve the equations of an orbit by Newton's method from a start nearby.
 
     Parameters
@@ -261,9 +260,6 @@ def converged(rotor: Model, word: Word, start: Start, known: Sequence[np.ndarray
     rotor : Model
     word : Word
     start : Start
-    known : sequence of ndarray
-        Unknowns of orbits that the iteration has to avoid: the residual is multiplied by ``1 + 1/|u − u_k|²`` for each
-        (deflation, Farrell, Birkisson and Funke 2015), which only changes the length of the step.
 
     Returns
     -------
@@ -284,25 +280,14 @@ def converged(rotor: Model, word: Word, start: Start, known: Sequence[np.ndarray
             polished = links_of(rotor, word, unpack(unknowns + change, len(word)))
             # At a fold the derivative is singular, and the step leads anywhere.
             return polished if polished.size <= TOLERANCE else here
-        change *= _deflation(unknowns, change, known)
         moved, durations = np.abs(change.reshape(len(word), -1)[:, -1]), np.abs(here.start.durations)
         share = min(1.0, LONGEST_STEP * float((durations / np.maximum(moved, 1e-300))[word.kinds != Kind.LAND].min()))
         for _ in range(BACKTRACKS):
             there = links_of(rotor, word, unpack(unknowns + share * change, len(word)))
-            if there.size < size or known:
+            if there.size < size:
                 break
             share *= 0.5
         else:
             return here if size <= STALLED else None
         here = there
     return here if here.size <= STALLED else None
-
-
-def _deflation(unknowns: np.ndarray, change: np.ndarray, known: Sequence[np.ndarray]) -> float:
-    """Factor by which deflation changes a step of Newton's method."""
-    if not known:
-        return 1.0
-    apart = unknowns - np.array(known)
-    squares = (apart**2).sum(axis=1)
-    slope = float((-2.0 * (apart @ change) / squares**2 / (1.0 + 1.0 / squares)).sum())
-    return 1.0 / (1.0 - slope)

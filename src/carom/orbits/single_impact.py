@@ -17,7 +17,7 @@ from carom.orbits.admissibility import slip_stays_forward, why_virtual
 from carom.orbits.maps import Section
 from carom.orbits.names import OrbitName, Slip
 from carom.orbits.orbit import Orbit, OrbitSequence
-from carom.orbits.search import STARTS, FoundOrbits, search_orbits
+from carom.orbits.search import GUESSES, FoundOrbits, search_orbits
 from carom.orbits.shooting import Start
 from carom.orbits.stability import Multipliers, multipliers_of_all
 from carom.orbits.word import Kind, Word
@@ -93,7 +93,7 @@ def period_condition(machine: Subject, periods: np.ndarray) -> np.ndarray:
 def find_orbits(machine: Subject, longest_period: float | None = None) -> OrbitSet: ...
 @overload
 def find_orbits(
-    machine: Subject, *, impacts: int, starts: int = STARTS, seed: int = 0, progress: ShowProgress = None
+    machine: Subject, *, impacts: int, guesses: int = GUESSES, seed: int = 0, progress: ShowProgress = None
 ) -> FoundOrbits: ...
 @shows_progress
 def find_orbits(
@@ -101,11 +101,11 @@ def find_orbits(
     longest_period: float | None = None,
     *,
     impacts: int | None = None,
-    starts: int = STARTS,
+    guesses: int = GUESSES,
     seed: int = 0,
     progress: ShowProgress = None,
 ) -> OrbitSet | FoundOrbits:
-    """All orbits with one impact a period, synchronous with the shaft, or a search for those with several.
+    """All orbits with one impact a period, synchronous with the shaft, or a search for those with at most so many.
 
     With ``q = (1 + d)(1 + iμ)`` and the return of the flight to its start, ``a₁₂`` and ``a₂₂`` of
     :mod:`carom.closed_forms.periods`, the conditions of the source paper (4.3)–(4.5) are: the period is a root of
@@ -120,22 +120,24 @@ def find_orbits(
     longest_period : float, optional
         Search only periods up to this, in ``1/Ω``.
     impacts : int, optional
-        Search orbits with this many impacts a period instead, by Newton's method from stretches of simulated motions; what is
-        found is exact, but nothing proves that it is all.
-    starts, seed : int
-        Number of motions that this search simulates, and the seed of their random starts.
+        Orbits with at most this many impacts a period instead, with lasting contact too: those with one impact of the planar
+        rotor, and others by Newton's method from stretches of simulated motions; what is found is exact, but nothing proves that it is all.
+    guesses, seed : int
+        Number of stretches that this search tries for each number of impacts, and the seed of the random starts.
     progress : callable or bool, optional
         See :func:`~carom.motions.simulate`.
 
     Returns
     -------
     OrbitSet or FoundOrbits
-        All orbits with one impact, virtual ones included, each with its reason; or the admissible orbits that the search found.
+        All orbits with one impact, virtual ones included, each with its reason; or the admissible orbits with at most so many
+        impacts that are known, and what was searched.
 
     Raises
     ------
     InputError
-        Without damping there are infinitely many with one impact; give ``longest_period``.
+        Without damping there are infinitely many with one impact; give ``longest_period``.  ``impacts`` or ``guesses`` is no
+        whole number, or below 1.
 
     See Also
     --------
@@ -154,7 +156,9 @@ def find_orbits(
     2.328416 True
     """
     if impacts is not None:
-        return search_orbits(model_of(machine), impacts, starts, seed, Reporter.of(progress, "searching orbits"))
+        model, tell = model_of(machine), Reporter.of(progress, "searching orbits")
+        known = orbits_within_reach(model) if isinstance(model, Jeffcott) else ()
+        return search_orbits(model, impacts, guesses, seed, [orbit for orbit in known if orbit.admissible], tell)
     rotor = jeffcott_of(machine)
     condition = PeriodCondition.planar(rotor.parameters)
     roots = condition.roots(longest_period)
