@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from dataclasses import fields
 from typing import Any
 
-from carom.attractors import DisturbanceSet, document_of
+from carom.attractors import DisturbanceSet, document_of, exact_interval
 from carom.bifurcations.branches import OrbitBranch
 from carom.bifurcations.diagrams import Diagram
 from carom.bifurcations.regions import RegionMap
@@ -12,6 +13,7 @@ from carom.models.axes import Axis
 from carom.motions.settling import PATIENCE
 from carom.orbits.orbit import Orbit
 from carom.orbits.rubbing import lift_off_of
+from carom.orbits.search import Searched
 from carom.parameters import Parameters
 from carom.results import fields_of
 
@@ -41,6 +43,7 @@ def diagram_document(parameters: Parameters, diagram: Diagram) -> dict[str, Any]
             | _word(branch)
             for branch in diagram.several
         ],
+        "search": None if diagram.search is None else search_document(diagram.search),
         "equilibria": [
             fields_of(branch, "kind", "values", "radius", "normal_force", "admissible", "stable")
             for branch in diagram.equilibria
@@ -55,6 +58,14 @@ def diagram_document(parameters: Parameters, diagram: Diagram) -> dict[str, Any]
             for sample in diagram.attractors
         ],
         "disturbances": _disturbances(diagram.disturbances) if diagram.disturbances else None,
+    }
+
+
+def search_document(searched: Searched) -> dict[str, Any]:
+    """How much a search for orbits has tried, and the share of fresh motions that end on the orbits listed, with its interval of 95 %."""
+    return {
+        **fields_of(searched, *(each.name for each in fields(searched))),
+        "share_on_listed": [searched.share_on_listed, *exact_interval(searched.on_listed, searched.fresh)],
     }
 
 

@@ -19,10 +19,11 @@ from carom.bifurcations.points import CONTACT_CHANGES, EXTREMUM, HALVING, HOPF, 
 from carom.bifurcations.single_impact import special_orbit
 from carom.bifurcations.word_equations import BRIEF, FAR, GONE, LYING, Family
 from carom.continuation import Branch, SpecialPoint, Steps, continue_branch
+from carom.continuation.roots import bracketed_root, sign_change
 from carom.models.axes import Axis, Ends, axis, interval_around
 from carom.orbits.names import CountedName, OrbitName
-from carom.orbits.orbit import Orbit, orbit_near
-from carom.orbits.shooting import Links, Start, pack_free, unpack
+from carom.orbits.orbit import Orbit, multipliers_of, orbit_near
+from carom.orbits.shooting import Links, Start, converged, pack, pack_free, unpack
 from carom.orbits.word import Kind, Word
 from carom.outcome import CaromError, InputError
 from carom.parameters import Numbers
@@ -38,6 +39,8 @@ BESIDE = 1e-5
 """Distance from a border, relative to the parameter, at which the word beyond it is read from a simulated period."""
 NEARBY = 0.02
 """Range in which permanent contact is searched beyond the last orbit whose flight is followed, in sizes of the parameter."""
+NEAR_HALVING = 1e-5
+"""Half of the range in which the period doubling is located at which a branch ends, in sizes of the parameter."""
 BEYOND = 0.2
 """Half of the range, relative to the parameter, in which a branch is followed that is switched to without a range."""
 
@@ -240,6 +243,9 @@ def _special_point(
             period = float(np.interp(point.place, np.arange(len(branch)), branch.unknowns[:, -1]))
             period, speed = corrected(numbers, period, speed) or (period, speed)
         return special_orbit(point.kind, numbers, name.pair, period, speed, parameter, point.place)
+    if point.kind == HALVING:
+        value, unknowns = _halved(family, unknowns, value)
+        rotor = family.along.move(family.rotor, value)
     orbit = orbit_at(rotor, family.word, unknowns, name)
     return Bifurcation(
         point.kind,
@@ -254,6 +260,28 @@ def _special_point(
         place=point.place,
         shot=orbit,
     )
+
+
+def _halved(family: Family, unknowns: np.ndarray, value: float) -> tuple[float, np.ndarray]:
+    """Where both halves of a period are equal: the period doubling of the orbit of half the period, next to a point.
+
+    Their difference vanishes like a root of the parameter, so that it tells the place to half of all digits only.
+    """
+    half = Word(family.word[: len(family.word) // 2])
+    start = unpack(np.mean(np.split(unknowns, 2), axis=0), len(half))
+
+    def alone(there: float) -> Links | None:
+        # Not as an orbit, which may begin with another impact.
+        return converged(family.along.move(family.rotor, there), half, start)
+
+    def doubling(there: float) -> float:
+        links = alone(there)
+        return np.nan if links is None else float(np.prod(1.0 + multipliers_of(links).values).real)
+
+    bracket = sign_change(doubling, value - NEAR_HALVING * family.size, value + NEAR_HALVING * family.size)
+    exact = value if bracket is None else bracketed_root(doubling, *bracket)
+    links = alone(exact)
+    return (value, unknowns) if links is None else (exact, np.tile(pack(links.start), 2))
 
 
 def _permanent_contact(family: Family, unknowns: np.ndarray, value: float, place: float) -> Bifurcation | None:

@@ -25,7 +25,7 @@ Impacts = Annotated[
         metavar="N",
         min=1,
         max=64,
-        help="Also search and follow orbits with up to N impacts a period; some may be missing.",
+        help="Follow orbits with at most N impacts a period; those with several are searched, and some may be missing.",
     ),
 ]
 Virtual = Annotated[
@@ -83,8 +83,8 @@ def bifurcations(
 ) -> None:
     """Find the bifurcations along one parameter.
 
-    Follows all equilibria and all orbits with one impact a period; with --impacts N also the orbits of up to N impacts that a
-    search finds. Lists folds, period doublings, Neimark-Sacker points, grazing, boundary equilibria, non-smooth Hopf
+    Follows all equilibria and all orbits with one impact a period; with --impacts N orbits with at most N impacts, those
+    with several as a search finds them. Lists folds, period doublings, Neimark-Sacker points, grazing, boundary equilibria, non-smooth Hopf
     points, folds of rubs and the limit of rolling. Along the speed it is a run-up diagram: damping and stiffness stay
     fixed, their dimensionless values change with the speed.
     """
@@ -254,8 +254,8 @@ def _print_diagram(diagram: Diagram, present: float) -> None:
         screen.print(f"Orbits {branch.names[0]} to {branch.names[-1]}: ends {branch.stops[0]}, {branch.stops[1]}")
     for several in diagram.several:
         screen.print(f"Orbits {several.name} ({several.word}): ends {several.stops[0]}, {several.stops[1]}")
-    if diagram.several:
-        screen.print("Orbits with several impacts were searched at 9 values, which does not prove that these are all.")
+    if diagram.search is not None:
+        screen.print(f"At 9 values: {diagram.search.words}")
     for number, motion in enumerate(diagram.rubbing, start=1):
         whirl = "forward" if lift_off_of(motion.orbits[0]).whirl > 0 else "backward"
         ends = f"ends {motion.stops[0]}, {motion.stops[1]}"

@@ -21,23 +21,24 @@ def orbits(
     ] = None,
     impacts: Annotated[
         int | None,
-        typer.Option(metavar="N", min=1, help="Search orbits with N impacts a period instead, from simulated starts."),
+        typer.Option(metavar="N", min=1, help="List orbits with at most N impacts a period, with lasting contact too; those with several are searched."),
     ] = None,
-    starts: Annotated[
-        int | None, typer.Option(metavar="N", min=1, help="Number of starts of that search; 100 by default.")
+    guesses: Annotated[
+        int | None,
+        typer.Option(metavar="N", min=1, help="Guesses of that search for each number of impacts; 1500 by default."),
     ] = None,
     as_json: AsJson = False,
 ) -> None:
     """List equilibria and periodic orbits, stable or not.
 
-    Lists all orbits with one impact a period, with the argument that there are no more; or, with --impacts, the orbits that a
-    search finds, with the number of starts that it tried.
+    Lists all orbits with one impact a period, with the argument that there are no more; or, with --impacts N, the
+    orbits with at most N impacts that are known or that a search finds, with what it tried.
     """
     from carom.parameters import load
 
     case = load(machine, settings or ())
     if impacts is not None:
-        _search(case, impacts, starts, as_json)
+        _search(case, impacts, guesses, as_json)
         return
     longest = None
     if longest_period is not None:
@@ -62,14 +63,14 @@ def orbits(
     print_orbits(console(), case, steady, found)
 
 
-def _search(case: Case, impacts: int, starts: int | None, as_json: bool) -> None:
-    """Print the orbits with a number of impacts that a search finds."""
+def _search(case: Case, impacts: int, guesses: int | None, as_json: bool) -> None:
+    """Print the orbits with at most a number of impacts."""
     with progress("orbits (the kernels are compiled on first use)") as tell:
-        from carom.orbits.search import STARTS
+        from carom.orbits.search import GUESSES
         from carom.orbits.single_impact import find_orbits
         from carom.studies import found_orbits_document
 
-        found = find_orbits(case, impacts=impacts, starts=STARTS if starts is None else starts, progress=tell)
+        found = find_orbits(case, impacts=impacts, guesses=GUESSES if guesses is None else guesses, progress=tell)
     if as_json:
         print_document(found_orbits_document(case.parameters, found))
         return

@@ -26,7 +26,7 @@ def prove(
     impacts: Annotated[
         int,
         typer.Option(
-            metavar="N", help="Prove orbits with up to N impacts a period too, those that a simulation finds."
+            metavar="N", help="Prove orbits with at most N impacts a period, those with several that a search finds."
         ),
     ] = 1,
     along: Annotated[

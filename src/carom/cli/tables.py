@@ -111,18 +111,18 @@ def print_orbits(console: Console, case: Case, equilibria: tuple[Equilibrium, ..
 
 
 def print_found_orbits(console: Console, case: Case, found: FoundOrbits) -> None:
-    """Print the orbits with a number of impacts that a search has found."""
+    """Print the orbits with at most a number of impacts."""
     _print_parameters(console, case)
     if len(found):
-        title = f"Orbits with {counted(found.impacts, 'impact')} a period"
-        motions = plain_table(title, "orbit", "period", "state", "segments", no_wrap=("orbit", "period"))
+        title = f"Orbits with at most {counted(found.impacts, 'impact')} a period"
+        motions = plain_table(title, "orbit", "period", "state", "word", no_wrap=("orbit", "period"))
         say = Wording(case.parameters.scales)
         for orbit in found:
             state = "stable" if orbit.stable else "unstable"
             motions.add_row(orbit.name, say.time(orbit.period), state, orbit.segments)
         console.print(fitted(console, motions))
     else:
-        console.print(f"No orbit with {counted(found.impacts, 'impact')} a period was found.")
+        console.print(f"No orbit with at most {counted(found.impacts, 'impact')} a period was found.")
     _print_numbers(console, list(found))
     console.print()
     console.print(found.argument)

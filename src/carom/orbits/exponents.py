@@ -88,6 +88,11 @@ class LyapunovExponents(Result):
         return self.values * (self.time / self.impacts) if self.impacts else None
 
     @property
+    def error_per_impact(self) -> np.ndarray | None:
+        """Their standard errors, per impact too."""
+        return self.errors * (self.time / self.impacts) if self.impacts else None
+
+    @property
     def lost(self) -> int:
         """Number of directions that are taken away: how many exponents are minus infinity."""
         return int(np.isneginf(self.values).sum())

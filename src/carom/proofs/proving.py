@@ -7,6 +7,7 @@ from collections.abc import Iterable, Mapping
 from fractions import Fraction
 
 from carom.models import Subject
+from carom.motions.starts import check_whole
 from carom.outcome import InputError, shown
 from carom.progress import Reporter, ShowProgress, shows_progress
 from carom.proofs.balls import at_precision
@@ -41,7 +42,7 @@ def prove(
 ) -> Proof:
     """Prove what can be proven of a machine's equilibria and of its orbits with one impact a period.
 
-    With ``impacts`` above 1 the claims are also about orbits with up to so many impacts a period that a simulation finds.
+    With ``impacts`` above 1 the claims are also about orbits with at most so many impacts a period that a search finds.
     With ``along`` they are instead about bifurcation points along a parameter, and about all orbits with one impact a
     period for all its values in an interval: whether they are motions of the machine and whether they are stable.
     An undecided claim says why.
@@ -54,7 +55,7 @@ def prove(
     longest_period : number, optional
         Look only for periods up to this, in ``1/Ω``; by default for all.
     impacts : int
-        1 to 24.
+        At most so many a period, 1 to 24.
     along : str, optional
         A parameter, dimensionless or physical.
     interval : pair of numbers, optional
@@ -78,6 +79,7 @@ def prove(
     'proven'
     """
     hypotheses, tell = hypotheses_of(machine, settings), Reporter.of(progress, "proving")
+    check_whole("impacts", impacts, 1)
     if (along is None) is not (interval is None):
         raise InputError("along", shown(along), "needs an interval, and an interval needs a parameter")
     if along is not None and interval is not None:
@@ -91,8 +93,8 @@ def prove(
     options = {"longest_period": limit, "cells": MOST_CELLS}
     if impacts == 1:
         return proof_of("single-impact orbits", hypotheses, options, tell)
-    if not 1 <= impacts <= MOST_IMPACTS:
-        raise InputError("impacts", impacts, f"1 to {MOST_IMPACTS}")
+    if impacts > MOST_IMPACTS:
+        raise InputError("impacts", shown(impacts), f"a whole number from 1 to {MOST_IMPACTS}")
     return proof_of("orbits of several impacts", hypotheses, {**options, "impacts": impacts}, tell)
 
 

@@ -9,10 +9,8 @@ import numpy as np
 from flint import arb
 
 from carom.bifurcations import find_bifurcations
-from carom.core.planar import impact_jacobian
 from carom.models import Jeffcott
-from carom.motions import State, simulate
-from carom.orbits import Section, impact_map, orbits_within_reach
+from carom.orbits import Kind, find_orbits
 from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, Machine, Parameters
 from carom.parameters.exact import read_exact
 from carom.proofs.balls import ball_of
@@ -21,12 +19,6 @@ from carom.proofs.hypotheses import Hypotheses
 from carom.proofs.lines import Line
 
 _SAMPLES = 400
-STARTS, FOLLOWED = 24, 400.0
-"""Simulated motions, and the time for which each is followed, in ``1/Ω``."""
-FLIPPING, SIZES = -0.8, (0.02, 0.05, 0.1, 0.2, 0.4)
-"""Multipliers below which the neighbourhood of an orbit is searched, and distances from it."""
-NEAREST, MOST_SEEDS, FARTHEST = 4, 40, 0.5
-"""Near returns that are taken of a motion and of all, and the largest distance of a return."""
 
 
 def doubles_of(hypotheses: Hypotheses) -> Parameters:
@@ -89,60 +81,14 @@ def _touch(line: Line, period: float, speed: float, value: float) -> float:
     return period * max(tops, key=lambda k: heights[k], default=_SAMPLES // 2) / _SAMPLES
 
 
-def _flipped(rotor: Jeffcott, turned: float, count: int) -> Iterator[list[float]]:
-    """Motions that start from an orbit with a multiplier near or below −1, in its direction."""
-    for orbit in orbits_within_reach(rotor):
-        multipliers, directions = np.linalg.eig(_jacobian(rotor, orbit.period, orbit.radial_speed))
-        for multiplier, direction in zip(multipliers, directions.T, strict=True):
-            if count % 2 or not orbit.admissible or multiplier.imag or multiplier.real > FLIPPING:
-                continue
-            for size in SIZES:
-                place = orbit.section.angle, orbit.radial_speed, orbit.angular_speed
-                guess = _followed(rotor, Section(*(np.array(place) + size * direction.real)), turned, count)
-                if guess:
-                    yield guess
-
-
-def _jacobian(rotor: Jeffcott, period: float, speed: float) -> np.ndarray:
-    at = rotor.parameters
-    return impact_jacobian(at.gamma, at.omega, at.mu, at.d, period, speed)
-
-
-def _followed(rotor: Jeffcott, section: Section, turned: float, count: int) -> list[float]:
-    """Unknowns of a motion through some impacts; empty if it does not make so many."""
-    guess: list[float] = []
-    for _ in range(count):
-        step = impact_map(rotor, section) if section.radial_speed > 0.0 else None
-        if step is None or step.image is None:
-            return []
-        guess += [section.angle - turned, section.radial_speed, section.angular_speed, step.duration]
-        section = step.image
-    return guess
-
-
 def shooting_seeds(hypotheses: Hypotheses, impacts: int) -> Iterator[list[float]]:
-    """Near returns of simulated motions after 2 and up to ``impacts`` impacts, the nearest of each number first.
+    """Orbits with 2 up to a number of impacts a period, in forward slip, that a search finds.
 
     Each is a list of ``θ − arg U*``, ``ṙ``, ``θ̇`` and the time of the flight that follows, for each impact.
     """
     rotor = Jeffcott(doubles_of(hypotheses))
     turned = float(np.angle(rotor.equilibrium)) if rotor.equilibrium else 0.0
-    random = np.random.default_rng(0)
-    logs = []
-    for _ in range(STARTS):
-        place = 0.95 * np.sqrt(random.uniform()) * np.exp(2j * np.pi * random.uniform())
-        speed = random.normal(scale=0.7) + 1j * random.normal(scale=0.7)
-        motion = simulate(rotor, State(complex(place), complex(speed)), FOLLOWED, stop_at_chatter=True, max_events=2000)
-        met = motion.contacts
-        logs.append(np.array([met.time, met.angle - turned, met.radial_speed, met.angular_speed]).T)
-    for count in range(2, impacts + 1):
-        yield from _flipped(rotor, turned, count)
-        returns = []
-        for log in logs:
-            moved = log[count:] - log[:-count] if len(log) > count else np.empty((0, 4))
-            gaps = np.hypot(2 * np.sin(0.5 * moved[:, 1]), np.hypot(moved[:, 2], moved[:, 3]))
-            nearest = np.argsort(gaps)[:NEAREST]
-            returns += [(gaps[k], log[k : k + count + 1]) for k in nearest if gaps[k] < FARTHEST]
-        for _, piece in sorted(returns, key=lambda entry: entry[0])[:MOST_SEEDS]:
-            durations = np.diff(piece[:, 0])
-            yield [float(x) for row, time in zip(piece, durations, strict=False) for x in (*row[1:], time)]
+    for orbit in find_orbits(rotor, impacts=impacts):
+        if orbit.impacts > 1 and set(orbit.word.kinds.tolist()) == {Kind.IMPACT_FORWARD}:
+            steps = zip(orbit.sections, orbit.durations.tolist(), strict=True)
+            yield [x for at, time in steps for x in (at.angle - turned, at.radial_speed, at.angular_speed, time)]

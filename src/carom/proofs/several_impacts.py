@@ -1,4 +1,4 @@
-"""Claims about periodic motions with several impacts a period: those that a simulation shows are proven one by one."""
+"""Claims about periodic motions with several impacts a period: those that a search finds are proven one by one."""
 
 from __future__ import annotations
 

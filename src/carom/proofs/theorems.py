@@ -119,7 +119,7 @@ THEOREMS: Mapping[str, Theorem] = {
             *several_impact_claims(rotor, evidence, options),
         ],
         (
-            "that there are no other orbits with two or more impacts a period: those listed are what a search by simulation found",
+            "that there are no other orbits with two or more impacts a period: those listed are what a search found",
             "that there are no orbits with lasting contact or with impacts that stop the slip, and no irregular motions",
             "which disturbances lead to an orbit or to levitation: basins, and recovery from kicks above the harmless speed",
         ),

@@ -56,11 +56,17 @@ def _attractor(entry: Attractor, total: int, character: Character, exponents: bo
 
 def _exponents(character: Character) -> dict[str, Any] | None:
     """Exponents with their errors; ``None`` where they are not known."""
-    found = character.exponents
+    found, rates = character.exponents, character.rates
     if found is not None:
-        lists = {"per_time": found.values, "per_impact": found.per_impact, "error": found.errors}
+        lists = {
+            "per_time": found.values,
+            "per_impact": found.per_impact,
+            "error_per_time": found.errors,
+            "error_per_impact": found.error_per_impact,
+        }
         told = {name: values if values is None else values.tolist() for name, values in lists.items()}
         return told | {"lost": found.lost}
-    if character.rates is None:
+    if rates is None:
         return None
-    return {"per_time": character.rates.tolist(), "per_impact": None, "error": [0.0] * len(character.rates)}
+    nothing = {"per_impact": None, "error_per_impact": None}
+    return {"per_time": rates.tolist(), "error_per_time": [0.0] * len(rates), **nothing}

@@ -9,9 +9,12 @@ from __future__ import annotations
 from importlib.metadata import version
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from carom.attractors import Attractor, AttractorSet, Ending, document_of
 from carom.basins import Share
 from carom.bifurcations.boundary import BoundaryEquilibrium
+from carom.bifurcations.documents import search_document
 from carom.closed_forms.equilibria import Equilibrium
 from carom.closed_forms.thresholds import Gain
 from carom.closed_forms.whirl import rolling
@@ -54,18 +57,30 @@ def orbits_document(
 
 
 def found_orbits_document(parameters: Parameters, found: FoundOrbits) -> dict[str, Any]:
-    """Return the document of a search for orbits with a number of impacts."""
-    searched = fields_of(found, "settled", "starts", "guesses", "repeats", "failures", "last_new", "virtual")
+    """Return the document of orbits with at most a number of impacts."""
     return {
         "parameters": parameters.as_dict(),
         "impacts": found.impacts,
         "orbits": [
-            {**_orbit(entry, parameters.scales), "segments": entry.segments, "durations": entry.durations.tolist()}
-            for entry in found
+            {**_orbit(entry, parameters.scales), "word": str(entry.word), "contacts": _contacts(entry)} for entry in found
         ],
-        "search": searched,
+        "search": search_document(found.search),
         "argument": found.argument,
     }
+
+
+def _contacts(orbit: Orbit) -> list[dict[str, Any]]:
+    """What begins each segment of a period, with the state there, before an impact."""
+    begins = np.concatenate([[0.0], np.cumsum(orbit.durations)[:-1]]).tolist()
+    return [
+        {
+            "kind": "impact" if segment.kind.is_impact else segment.kind.label.rstrip("+-"),
+            "plane": segment.plane,
+            "time": begin,
+            **fields_of(section, "angle", "radial_speed", "angular_speed"),
+        }
+        for segment, begin, section in zip(orbit.word, begins, orbit.sections, strict=True)
+    ]
 
 
 def trajectory_document(trajectory: Trajectory, limits: LoadLimits | None = None) -> dict[str, Any]:
