@@ -12,6 +12,8 @@ from carom.bifurcations.documents import diagram_document
 from carom.bifurcations.several import lies_on
 from carom.files import as_json
 from carom.models import Jeffcott
+from carom.motions import simulate
+from carom.orbits import find_orbits
 from carom.orbits.orbit import orbit_near
 from carom.outcome import InputError
 from tests.machines import PAPER
@@ -29,12 +31,37 @@ def test_the_branch_born_in_the_period_doubling_is_there_once():
     found = [branch for branch in diagram().several if "period-halving" in branch.stops]
     assert [branch.name for branch in found] == ["P2,1"]
     (point,) = [each for each in diagram().points if each.kind == "period-doubling" and each.name == "B1,d"]
-    assert found[0].values.max() == pytest.approx(point.value, abs=1e-7)
+    (end,) = [each for each in found[0].special if each.kind == "period-halving"]
+    assert end.value == pytest.approx(point.value, abs=1e-14)
+    assert [each.kind for each in diagram().points if abs(each.value - point.value) < 1e-5] == ["period-doubling"]
     grazing = [each for each in diagram().points if each.kind == "grazing" and each.name == "P2,1"]
     more = [each for each in diagram().points if each.kind == "vanishing-impact" and each.orbit.impacts == 3]
     assert [each.value for each in grazing] == pytest.approx([0.08267431146], abs=1e-10)
     assert min(abs(each.value - grazing[0].value) for each in more) < 1e-10
     assert all(each.admissible for each in grazing)
+
+
+def test_the_family_of_three_impacts_that_is_stable_beside_that_of_one():
+    """Between the ends that the page on the loss of bouncing has from motions that settled on it; started at once, few do."""
+    found = find_bifurcations(PAPER, "gamma", (0.0875, 0.093), impacts=3)
+    (family,) = [branch for branch in found.several if branch.stable.any()]
+    ends = {point.kind: point for point in found.points if point.name == family.name}
+    assert {kind: point.value for kind, point in ends.items()} == pytest.approx(
+        {"period-doubling": 0.0877105, "neimark-sacker": 0.0916731}, abs=5e-8
+    )
+    assert family.impacts == 3
+    assert all(point.admissible for point in ends.values())
+    within = (family.values > 0.08772) & (family.values < 0.09167)
+    assert within.any()
+    assert np.array_equal(family.stable, within)
+    motion = simulate(
+        PAPER.replace(gamma=0.09), find_orbits(PAPER.replace(gamma=0.09), impacts=3)["P3,4"].departure, settle=True
+    )
+    assert motion.multiplicity == 3
+    document = diagram_document(PAPER, found)
+    assert document["search"]["on_others"] == 0
+    low, high = document["search"]["share_on_listed"][1:]
+    assert low < found.search.share_on_listed < high
 
 
 def test_every_orbit_found_lies_on_one_branch_and_names_are_unique():
@@ -75,6 +102,7 @@ def test_points_have_a_word_and_the_number_of_impacts():
 def test_without_impacts_there_are_none():
     plain = find_bifurcations(PAPER, "gamma", (0.0824, 0.0836))
     assert plain.several == ()
+    assert plain.search is diagram_document(PAPER, plain)["search"] is None
     assert [point.value for point in plain.points] == [
         point.value for point in diagram().points if not point.name.startswith("P")
     ]

@@ -104,9 +104,10 @@ def test_the_doubled_branch_begins_at_the_period_doubling():
     branch = doubled()
     assert "period-halving" in branch.stops
     (end,) = [point for point in branch.special if point.kind == "period-halving"]
-    # Next to its end the branch is a parabola, so an error of 1e-4 in the unknowns is one of 1e-8 in the damping.
-    assert end.value == pytest.approx(DOUBLING, abs=1e-6)
-    assert end.orbit.period == pytest.approx(2.0 * find_orbits(PAPER.replace(gamma=end.value))["B1,d"].period, abs=1e-4)
+    assert end.value == pytest.approx(DOUBLING, abs=1e-10)
+    assert end.orbit.period == pytest.approx(
+        2.0 * find_orbits(PAPER.replace(gamma=end.value))["B1,d"].period, abs=1e-12
+    )
     assert (branch.unknowns.shape[1], len(branch.word)) == (10, 2)
 
 
@@ -199,7 +200,7 @@ def test_the_next_period_doubling_of_the_doubled_branch():
     branch = point.switch((point.value - 3e-4, point.value + 3e-4))
     assert len(branch.word) == 4
     (end,) = [p for p in branch.special if p.kind == "period-halving"]
-    assert end.value == pytest.approx(point.value, abs=1e-6)
+    assert end.value == pytest.approx(point.value, abs=1e-11)
 
 
 def test_no_branch_begins_at_a_fold():

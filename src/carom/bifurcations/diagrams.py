@@ -28,7 +28,6 @@ from carom.orbits.orbit import Orbit
 from carom.orbits.rubbing import rubbing_orbits
 from carom.orbits.search import Searched, check_impacts
 from carom.orbits.single_impact import find_orbits
-from carom.outcome import InputError
 from carom.parameters import Parameters
 from carom.progress import Reporter, ShowProgress, shows_progress
 from carom.results import Result, in_a_line
@@ -261,7 +260,9 @@ def _follow(
     # A branch ends by halving its period in a doubling of another: one point.
     points += [point for branch in several for point in branch.special if point.kind != HALVING]
     points += [point for branch in rubbing for point in branch.special]
-    return _Followed(tuple(branches), several, searched, tuple(rubbing), tuple(sorted(points, key=lambda point: point.value)))
+    return _Followed(
+        tuple(branches), several, searched, tuple(rubbing), tuple(sorted(points, key=lambda point: point.value))
+    )
 
 
 def _orbits(parameters: Parameters) -> Iterator[Orbit]:

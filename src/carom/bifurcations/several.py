@@ -22,7 +22,7 @@ from carom.progress import Reporter
 
 VALUES = 9
 """Number of values of the parameter at which orbits are searched."""
-GUESSES, SETTLED, FRESH = 300, 2000, 500
+GUESSES, SETTLED, FRESH = 300, 1000, 300
 """Guesses at each value for each number of impacts, motions followed until they settle, and fresh ones (:class:`~carom.orbits.search.Search`)."""
 SAME = 1e-6
 """Distance of the nodes, and of the durations, below which two orbits are the same."""

@@ -21,7 +21,11 @@ def orbits(
     ] = None,
     impacts: Annotated[
         int | None,
-        typer.Option(metavar="N", min=1, help="List orbits with at most N impacts a period, with lasting contact too; those with several are searched."),
+        typer.Option(
+            metavar="N",
+            min=1,
+            help="List orbits with at most N impacts a period, with lasting contact too; those with several are searched.",
+        ),
     ] = None,
     guesses: Annotated[
         int | None,

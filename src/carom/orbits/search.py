@@ -16,7 +16,7 @@ from carom.models import Model
 from carom.motions.ensembles import Endings, settle
 from carom.motions.starts import State, check_whole
 from carom.motions.trajectories import Trajectory, simulate
-from carom.orbits.names import CountedName, OrbitName
+from carom.orbits.names import CountedName
 from carom.orbits.orbit import Orbit, OrbitSequence, lasts, orbit_of_links, same_orbit
 from carom.orbits.recognising import orbit_of_motion, segments_of
 from carom.orbits.shooting import Start, closed_flights, converged, links_of, pack
@@ -38,10 +38,10 @@ LONGEST = 1000.0
 """Time in ``1/Ω`` for which each is followed."""
 LANDING, LANDS = 0.05, 2000
 """Share of the motions that are followed through landings and lift-offs, and their most events."""
-SETTLED, SLOWER = 20_000, 50
+SETTLED, SLOWER = 10_000, 50
 """Motions that are followed until they settle, for orbits that attract few starts; divided by the second number for rotors
 whose motions are not followed side by side."""
-FRESH = 2000
+FRESH = 1000
 """Fresh motions that measure which share ends on the orbits found; divided by the same for such rotors."""
 GIVEN_UP = 1000
 """Impacts after which a motion that does not settle is given up."""
@@ -125,7 +125,7 @@ class Searched:
 class FoundOrbits(Result, OrbitSequence):
     """Orbits with at most a number of impacts a period; look one up by index or name, ``found["P2,1"]``.
 
-    Those known before come first, under their names: of the planar rotor all with one impact.  The others come from a search, which
+    Those known before come first, under their names: of the planar rotor all with one impact, and those from a lift-off to the next.  The others come from a search, which
     proves nothing: an orbit to which no guess led is missing.
 
     Attributes
@@ -224,9 +224,7 @@ def random_starts(
 
 def _orbits_of_ends(rotor: Model, count: int, random: np.random.Generator) -> Iterator[tuple[Orbit, int]]:
     """Orbits on which motions from random starts end, with the number of motions; an orbit may come several times."""
-    ends: Endings = settle(
-        rotor, *random_starts(rotor, random, count), patience=GIVEN_UP, max_events=GIVEN_UP
-    )
+    ends: Endings = settle(rotor, *random_starts(rotor, random, count), patience=GIVEN_UP, max_events=GIVEN_UP)
     ends = ends[((ends.outcomes == Outcome.BOUNCING) & (ends.multiplicities > 0)) | (ends.outcomes == Outcome.MIXED)]
     if not len(ends.times):
         return
@@ -259,8 +257,10 @@ class Search:
         """The admissible orbits, those found under new names."""
         listed = [orbit for orbit in self.found if orbit.admissible]
         counts = dict.fromkeys(range(self.impacts + 1), 0)
-        named = [orbit for orbit in listed if isinstance(orbit.name, OrbitName)]
-        for orbit in sorted((each for each in listed if each not in named), key=lambda each: (each.impacts, each.period)):
+        named = [orbit for orbit in listed if not isinstance(orbit.name, CountedName)]
+        for orbit in sorted(
+            (each for each in listed if each not in named), key=lambda each: (each.impacts, each.period)
+        ):
             counts[orbit.impacts] += 1
             named.append(replace(orbit, name=CountedName(orbit.impacts, counts[orbit.impacts])))
         return tuple(named)
@@ -276,15 +276,22 @@ class Search:
             self._add(orbit)
         tell(0.3)
         self._guess(guesses, np.random.default_rng([*seed, 2]), tell.part(0.3, 0.9))
-        ended = [0, 0]
-        for orbit, number in _orbits_of_ends(self.rotor, fresh, np.random.default_rng([*seed, 3])):
-            if orbit.impacts <= self.impacts:
-                ended[not any(same_orbit(orbit, other) for other in self.found)] += number
+        ended = self.measured(fresh, np.random.default_rng([*seed, 3]))
         tell(1.0)
         virtual = sum(not orbit.admissible for orbit in self.found)
         return Searched(
             settled, self.motions, self.guesses, self.repeats, self.failures, self.last_new, virtual, fresh, *ended
         )
+
+    def measured(self, fresh: int, random: np.random.Generator) -> tuple[int, int]:
+        """Number of motions from random starts that end on the orbits found, and on others with no more impacts than are searched."""
+        listed = others = 0
+        for orbit, number in _orbits_of_ends(self.rotor, fresh, random):
+            if any(same_orbit(orbit, other) for other in self.found):
+                listed += number
+            elif orbit.impacts <= self.impacts:
+                others += number
+        return listed, others
 
     def _guess(self, guesses: int, random: np.random.Generator, tell: Reporter) -> None:
         """Correct stretches of motions from random starts and from beside known orbits, so many for each number of impacts."""

@@ -17,6 +17,7 @@ from carom.orbits.admissibility import slip_stays_forward, why_virtual
 from carom.orbits.maps import Section
 from carom.orbits.names import OrbitName, Slip
 from carom.orbits.orbit import Orbit, OrbitSequence
+from carom.orbits.rubbing import rubbing_orbits
 from carom.orbits.search import GUESSES, FoundOrbits, search_orbits
 from carom.orbits.shooting import Start
 from carom.orbits.stability import Multipliers, multipliers_of_all
@@ -121,7 +122,7 @@ def find_orbits(
         Search only periods up to this, in ``1/Ω``.
     impacts : int, optional
         Orbits with at most this many impacts a period instead, with lasting contact too: those with one impact of the planar
-        rotor, and others by Newton's method from stretches of simulated motions; what is found is exact, but nothing proves that it is all.
+        rotor, those from a lift-off to the next (:func:`~carom.orbits.rubbing_orbits`), and others by Newton's method from stretches of simulated motions; what is found is exact, but nothing proves that it is all.
     guesses, seed : int
         Number of stretches that this search tries for each number of impacts, and the seed of the random starts.
     progress : callable or bool, optional
@@ -157,7 +158,7 @@ def find_orbits(
     """
     if impacts is not None:
         model, tell = model_of(machine), Reporter.of(progress, "searching orbits")
-        known = orbits_within_reach(model) if isinstance(model, Jeffcott) else ()
+        known = [*orbits_within_reach(model), *rubbing_orbits(model)] if isinstance(model, Jeffcott) else []
         return search_orbits(model, impacts, guesses, seed, [orbit for orbit in known if orbit.admissible], tell)
     rotor = jeffcott_of(machine)
     condition = PeriodCondition.planar(rotor.parameters)

@@ -62,7 +62,8 @@ def found_orbits_document(parameters: Parameters, found: FoundOrbits) -> dict[st
         "parameters": parameters.as_dict(),
         "impacts": found.impacts,
         "orbits": [
-            {**_orbit(entry, parameters.scales), "word": str(entry.word), "contacts": _contacts(entry)} for entry in found
+            {**_orbit(entry, parameters.scales), "word": str(entry.word), "contacts": _contacts(entry)}
+            for entry in found
         ],
         "search": search_document(found.search),
         "argument": found.argument,
