@@ -23,8 +23,8 @@ def test_branch(benchmark, impacts):
     if impacts == 1:
         arguments = find_orbits(source_paper_machine(0.1))["B1,d"], "gamma", (0.06, 0.17)
     else:
-        members = find_orbits(source_paper_machine(0.083), impacts=impacts)
-        arguments = members[0], "gamma", (0.0828, 0.0835)
+        found = find_orbits(source_paper_machine(0.083), impacts=impacts)
+        arguments = found[f"P{impacts},1"], "gamma", (0.0828, 0.0835)
     branch = benchmark.pedantic(continue_orbit, args=arguments, rounds=5, warmup_rounds=1)
     benchmark.extra_info.update(who=f"carom, impacts: {impacts}", unit="orbit", units=len(branch))
 

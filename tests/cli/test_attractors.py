@@ -23,6 +23,8 @@ def test_json(carom, dimensionless):
     assert low < bounce["share"][0] < high
     # The logarithms of the moduli of its multipliers over its period.
     assert bounce["exponents"]["per_time"] == pytest.approx([0.0, -0.0608718, -0.0874765, -0.0874765], abs=1e-6)
+    for unit in ("time", "impact"):
+        assert len(bounce["exponents"][f"error_per_{unit}"]) == len(bounce["exponents"][f"per_{unit}"]) == 4
     assert bounce["exponents"]["per_impact"][1] == pytest.approx(-0.1743106, abs=1e-5)
     assert found["synchronous rub"]["exponents"]["per_time"][2:] == [None, None]
     assert sum(entry["count"] for entry in found.values()) == 24

@@ -57,17 +57,26 @@ def test_orbits_as_json(carom, machine):
 
 
 def test_orbits_with_several_impacts(carom, dimensionless):
-    asked = ("orbits", dimensionless, "--set", "gamma=0.083", "--impacts", "2", "--starts", "25")
+    asked = ("orbits", dimensionless, "--set", "gamma=0.083", "--impacts", "2", "--guesses", "250")
     value = document(carom(*asked, "--json"))
     assert value["impacts"] == 2
-    assert value["search"]["starts"] == 25
+    assert value["search"]["guesses"] == 500
+    share, low, high = value["search"]["share_on_listed"]
+    assert low < share == value["search"]["on_listed"] / value["search"]["fresh"] < high
+    assert {entry["impacts"] for entry in value["orbits"]} == {1, 2}
     assert any(entry["stable"] and abs(entry["period"] - 5.9738) < 1e-4 for entry in value["orbits"])
     for entry in value["orbits"]:
-        assert set(entry) >= ORBIT_KEYS | {"segments", "durations"}
-        assert sum(entry["durations"]) == pytest.approx(entry["period"])
-    code, out, err = carom(*asked[:-1], "4")
+        assert set(entry) >= ORBIT_KEYS | {"word", "contacts"}
+        assert entry["word"] == " ".join(["impact+"] * entry["impacts"])
+        first, *later = entry["contacts"]
+        assert first == {"kind": "impact", "plane": 0, "time": 0.0} | {
+            key: entry[key] for key in ("angle", "radial_speed", "angular_speed")
+        }
+        assert len(later) == entry["impacts"] - 1
+        assert all(0.0 < contact["time"] < entry["period"] for contact in later)
+    code, out, err = carom(*asked[:-1], "40")
     assert (code, err) == (0, "")
-    for words in ("P2,1", "impact+ impact+", "4 simulated starts", "stable"):
+    for words in ("P2,1", "impact+ impact+", "80 guesses", "stable"):
         assert words in out
 
 
