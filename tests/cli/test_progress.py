@@ -14,7 +14,7 @@ MACHINE = "examples/keogh-cole.toml"
 PAPER = "examples/source-paper.toml"
 COMMANDS = {
     "simulate": ("simulate", MACHINE, "--kick", "51.576 mm/s,0.2 rad", "--until", "60", "--out", "OUT"),
-    "orbits": ("orbits", PAPER, "--impacts", "2", "--starts", "4"),
+    "orbits": ("orbits", PAPER, "--impacts", "2", "--guesses", "20"),
     "basins": ("basins", MACHINE, "--grid", "6x6"),
     "bifurcations": ("bifurcations", PAPER, "--along", "gamma", "--from", "0.1", "--to", "0.12"),
     "response": ("response", MACHINE, "--out", "OUT"),
