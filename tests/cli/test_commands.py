@@ -169,11 +169,15 @@ def test_a_shock_is_read_as_a_study_reads_it_and_echoed(carom, machine):
     assert complex(*value["start"]["V"]) == pytest.approx(state.velocity, abs=1e-12)
     assert value["outcome"] == simulate(case, state).outcome.label
     taken = value["disturbance"]
-    assert taken["words"] == "Shock of the base: half-sine, 20 g for 11 ms at 30°"
+    assert taken["words"] == (
+        "Shock of the base: half-sine, 20 g for 11 ms at 30°; the motion is logged from its end, without contacts during it"
+    )
     assert (taken["peak_si"], taken["duration_si"]) == (pytest.approx(20 * 9.80665), pytest.approx(0.011))
     assert document(carom(*options, "20 g", "--json")) == document(carom(*options, "20 g, 11 ms", "--json"))
     _, out, _ = carom(*options, "20 g")
-    assert out.startswith("Shock of the base: half-sine, 20 g for 11 ms at 0°.\n")
+    assert " ".join(out.split()).startswith(
+        "Shock of the base: half-sine, 20 g for 11 ms at 0°; the motion is logged from its end, without contacts during it. "
+    )
     for text in ("20", "20 g, 11", "20 g, 11 ms, 30", "20 g, 11 ms, 30 deg, 1"):
         code, _, err = carom(*options, text)
         assert code == 2

@@ -176,7 +176,7 @@ def test_degenerate_machines_end_in_bounded_work_and_never_in_a_wrong_theorem(ch
         ({"along": "gamma"}, "needs an interval"),
         ({"interval": ("0.1", "0.2")}, "needs an interval"),
         ({"along": "gamma", "interval": ("0.1", "0.2"), "impacts": 2}, "cannot be combined"),
-        ({"impacts": 0}, "a whole number of at least 1"),
+        ({"impacts": 0}, "1 to 24"),
         ({"impacts": 25}, "1 to 24"),
     ],
 )

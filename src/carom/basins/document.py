@@ -33,12 +33,13 @@ def basin_document(
     gains: GainMap | None = None,
     change: GainChange | None = None,
     wanted: float = WANTED,
+    told_by: Case | None = None,
 ) -> dict[str, Any]:
     """Document of all results about a basin.
 
     The smallest loss is of the same kind of disturbance; ``None`` if that has no size, or if there is no levitation to
     return to.  Kicks up to the speed ``harmless`` provably never reach the wall.  ``change`` reaches the share
-    ``wanted``.
+    ``wanted``.  With a machine ``told_by``, the values of a gain map are there in the terms of its file too.
     """
     scales = basin.scales
     attributes = basin.dataset.attrs
@@ -82,6 +83,8 @@ def basin_document(
             document[f"{name}_si"] = size * getattr(scales, scale)
     if gains is not None:
         document["gains"] = _gains(gains, change, wanted)
+        if told_by is not None:
+            document["gains"]["terms"] = _terms(gains, told_by)
     return document
 
 
@@ -137,8 +140,8 @@ def _entropy(basin: Basin) -> dict[str, Any] | None:
     return fields_of(found, "whole", "boundary", "side", "fractal")
 
 
-def terms_of(gains: GainMap, case: Case) -> list[dict[str, Any]]:
-    """Return the values of both parameters of a gain map in the terms of a machine's file: entry, unit and values."""
+def _terms(gains: GainMap, case: Case) -> list[dict[str, Any]]:
+    """The values of both parameters of a gain map in the terms of a machine's file: entry, unit and values."""
     told = []
     for varied in gains.axes:
         stated = [in_terms_of(case, varied.name, float(value), digits=6) for value in gains.dataset[varied.name].values]

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from carom.basins import Basin, GainChange, GainMap, SmallestLoss
     from carom.disturbances import Coordinate
     from carom.outcome import Outcome
-    from carom.parameters import Case, Scales
+    from carom.parameters import Case, InTerms, Scales
 
 
 def print_basin(screen: Console, basin: Basin, smallest: SmallestLoss | None, harmless: float) -> None:
@@ -66,8 +66,11 @@ def print_gains(screen: Console, found: GainMap, change: GainChange | None, want
     shape = " x ".join(str(size) for size in share.shape)
     reach = int((share >= wanted).sum())
     drawn = back.drawn
+    varied = " and ".join(
+        _stated(case, name, value).entry.replace("_", " ") for name, value in zip(names, found.present, strict=True)
+    )
     screen.print(
-        f"Of {shape} machines with other {found.axes[0].name} and {found.axes[1].name}, {reach} of {share.size} bring back at least "
+        f"Of {shape} machines with other {varied}, {reach} of {share.size} bring back at least "
         f"{100 * wanted:g} % of {of_what}{f' ({back.total} drawn at each)' if drawn else ''}; {100 * (1 - able.mean()):.3g} % cannot levitate."
     )
     if drawn:
@@ -251,8 +254,13 @@ def _time(value: float, scales: Scales | None) -> str:
 
 
 def _value(case: Case, name: str, value: float, *, named: bool = True) -> str:
-    from carom.parameters import in_terms_of
     from carom.parameters.terms import SETTABLE
 
-    stated = in_terms_of(case, name, value, digits=5)
+    stated = _stated(case, name, value)
     return f"{SETTABLE[stated.entry].words} {stated.text}" if named else stated.text
+
+
+def _stated(case: Case, name: str, value: float) -> InTerms:
+    from carom.parameters import in_terms_of
+
+    return in_terms_of(case, name, value, digits=5)

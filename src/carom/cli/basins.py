@@ -61,7 +61,7 @@ def basins(
         check_output(out)
         source = _source(machine, settings)
         from carom.basins import map_basins, smallest_loss
-        from carom.basins.document import basin_document, terms_of
+        from carom.basins.document import basin_document
         from carom.basins.losses import has_sizes
         from carom.closed_forms import harmless_kick
         from carom.models import Jeffcott
@@ -73,10 +73,10 @@ def basins(
         if harmless > 0.0 and has_sizes(plan.model):
             smallest = smallest_loss(rotor, plan.model, threads=threads, progress=tell.part(share, 2.0 * share))
         found, change = (None, None) if asked is None else _map(rotor, plan, asked, threads, source, tell)
-        share_wanted = {} if asked is None else {"wanted": asked.wanted}
-        document = basin_document(basin, smallest, harmless, found, change, **share_wanted)
-        if found is not None and asked is not None:
-            document["gains"]["terms"] = terms_of(found, asked.told_by)
+        if found is None or asked is None:
+            document = basin_document(basin, smallest, harmless)
+        else:
+            document = basin_document(basin, smallest, harmless, found, change, asked.wanted, asked.told_by)
         if out is not None:
             tell(0.97, "drawing")
             with output_directory(out, case) as output:

@@ -255,7 +255,7 @@ def _print_diagram(diagram: Diagram, present: float) -> None:
     for several in diagram.several:
         screen.print(f"Orbits {several.name} ({several.word}): ends {several.stops[0]}, {several.stops[1]}")
     if diagram.search is not None:
-        screen.print(f"At 9 values: {diagram.search.words}")
+        screen.print(f"Searched at 9 values, counted together. {diagram.search.words}")
     for number, motion in enumerate(diagram.rubbing, start=1):
         whirl = "forward" if lift_off_of(motion.orbits[0]).whirl > 0 else "backward"
         ends = f"ends {motion.stops[0]}, {motion.stops[1]}"

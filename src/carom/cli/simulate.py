@@ -43,7 +43,7 @@ def simulate(
     shock: Annotated[
         str | None,
         typer.Option(
-            metavar="PEAK,DURATION[,ANGLE]",
+            metavar="PEAK[,DURATION[,ANGLE]]",
             help="Instead of --start: a half-sine shock of the base at levitation, such as '5 g, 11 ms, 30 deg'; the motion is "
             "logged from its end.",
         ),
@@ -88,20 +88,13 @@ def simulate(
         rotor, given, end, echo = _read(
             case, {"--start": start, "--kick": kick, "--shock": shock, "--blade-loss": blade_loss}, until
         )
-        taken = echo.document(case.parameters.scales)
         motion = _follow(rotor, given, kick, end, tell if out is None else tell.part(0.0, 0.4))
         if targets:
-            from carom.cli.logs import write_csv, write_netcdf
-
-            writers = {"--csv": write_csv, "--netcdf": write_netcdf}
-            for option, path in targets.items():
-                writers[option](motion, path)
+            _write_logs(motion, targets)
         if out is not None:
-            _write(out, case, motion, taken, tell.part(0.4, 1.0, "drawing"), decaying=end is None)
+            _write(out, case, motion, echo, tell.part(0.4, 1.0, "drawing"), decaying=end is None)
     if as_json:
-        from carom.studies import trajectory_document
-
-        print_document({"disturbance": taken} | trajectory_document(motion, case.limits))
+        print_document(_document(case, motion, echo))
     else:
         from carom.cli.tables import print_motion
 
@@ -110,14 +103,29 @@ def simulate(
     say_where(out)
 
 
-def _write(out: str, case: Case, motion: Trajectory, taken: dict[str, Any], tell: Reporter, *, decaying: bool) -> None:
+def _write_logs(motion: Trajectory, targets: dict[str, str]) -> None:
+    """Write the contact log to the files that the options name."""
+    from carom.cli.logs import write_csv, write_netcdf
+
+    writers = {"--csv": write_csv, "--netcdf": write_netcdf}
+    for option, path in targets.items():
+        writers[option](motion, path)
+
+
+def _document(case: Case, motion: Trajectory, echo: Echo) -> dict[str, Any]:
+    """What was done to the rotor, then its motion."""
+    from carom.studies import trajectory_document
+
+    return {"disturbance": echo.document(case.parameters.scales)} | trajectory_document(motion, case.limits)
+
+
+def _write(out: str, case: Case, motion: Trajectory, echo: Echo, tell: Reporter, *, decaying: bool) -> None:
     """Write the path, its touchdown over time if there is a contact, and the document.
 
     The figures of a motion that is followed until it is proven to return to levitation show it ``decaying`` further.
     """
     from carom import plots
     from carom.motions.ledger import energy_ledger
-    from carom.studies import trajectory_document
 
     with output_directory(out, case) as output:
         tell(0.0)
@@ -127,7 +135,7 @@ def _write(out: str, case: Case, motion: Trajectory, taken: dict[str, Any], tell
         touched = len(shown.contacts) or shown.lasting_contacts
         over_time = plots.touchdown(shown, energy_ledger(shown)) if touched else plots.radius(shown, case.zones)
         output.figure("touchdown" if touched else "radius", over_time)
-        output.document("simulation", {"disturbance": taken} | trajectory_document(motion, case.limits))
+        output.document("simulation", _document(case, motion, echo))
 
 
 def _shown(motion: Trajectory) -> tuple[Trajectory, str | None]:
@@ -157,7 +165,7 @@ def _read(
     if len(chosen) != 1:
         given = " with ".join(f"{option} {text}" for option, text in chosen.items()) or None
         allowed = (
-            "give one of --start RE,IM,VRE,VIM, --kick SPEED[,ANGLE], --shock PEAK,DURATION[,ANGLE] and "
+            "give one of --start RE,IM,VRE,VIM, --kick SPEED[,ANGLE], --shock PEAK[,DURATION[,ANGLE]] and "
             "--blade-loss AFTER[,PHASE]"
         )
         raise InputError("--start", given, allowed)

@@ -67,14 +67,13 @@ def read_blade_loss(text: str, scales: Scales | None) -> tuple[BladeLoss, float]
 
 
 def read_shock(text: str, machine: Case) -> tuple[BaseShock, float]:
-    """Read ``PEAK,DURATION`` or ``PEAK,DURATION,ANGLE``: a shock of the base as a study reads it, and its direction."""
+    """Read ``PEAK``, ``PEAK,DURATION`` or ``PEAK,DURATION,ANGLE``: a shock of the base as a study reads it, and its direction."""
     scales, parts = machine.parameters.scales, text.split(",")
     shock, angle = (",".join(parts[:2]), parts[2].strip()) if len(parts) == 3 else (text, "0")
     given = cast(Shock, with_requirement(machine, shock=shock).requirement.own(scales).shock)
     from carom.disturbances import BaseShock
 
-    turned = _size("--shock", angle, "angle", scales) if angle.strip("0.") else 0.0
-    return BaseShock(given.peak, given.duration), turned
+    return BaseShock(given.peak, given.duration), _angle("--shock", angle, scales)
 
 
 def _with_angle(option: str, text: str, allowed: str, scales: Scales | None) -> tuple[str, float]:
@@ -82,8 +81,12 @@ def _with_angle(option: str, text: str, allowed: str, scales: Scales | None) -> 
     size, *angle = _split(option, text, (1, 2), allowed)
     if angle and (advice := comma_advice(text)) and (scales is not None or not size.strip("0.")):
         raise InputError(option, text, f"{allowed}; {advice}")
-    turned = _size(option, angle[0], "angle", scales) if angle and angle[0].strip("0.") else 0.0
-    return size, turned
+    return size, _angle(option, angle[0], scales) if angle else 0.0
+
+
+def _angle(option: str, text: str, scales: Scales | None) -> float:
+    """Read an angle, in rad; zero needs no unit."""
+    return _size(option, text, "angle", scales) if text.strip("0.") else 0.0
 
 
 def _size(option: str, text: str, kind: str, scales: Scales | None) -> float:

@@ -62,16 +62,16 @@ def echo_of_kick(speed: float, angle: float, scales: Scales | None) -> Echo:
 def echo_of_shock(peak: float, duration: float, angle: float, scales: Scales | None) -> Echo:
     """A half-sine shock of the base, whose motion begins at its end."""
     size = f"{told(peak, 'acceleration', scales)} for {told(duration, 'time', scales)} at {told_angle(angle)}"
-    words = f"Shock of the base: half-sine, {size}"
+    words = f"Shock of the base: half-sine, {size}; the motion is logged from its end, without contacts during it"
     sizes = {"peak": (peak, "acceleration"), "duration": (duration, "time"), "angle": (angle, "")}
     return Echo("shock", words, sizes)
 
 
 def echo_of_blade_loss(before: float, after: float, phase: float, scales: Scales | None) -> Echo:
     """A loss of a blade, by the eccentricities before and after it, in clearances."""
-    first, last = (told(size, "unbalance", scales) for size in (before, after))
-    words = f"Loss of a blade: unbalance from {first} to {last}, turned by {told_angle(phase)}"
-    kind = "unbalance" if scales else "length"
+    kind, noun = ("unbalance", "unbalance") if scales else ("length", "eccentricity")
+    first, last = (told(size, kind, scales) for size in (before, after))
+    words = f"Loss of a blade: {noun} from {first} to {last}, turned by {told_angle(phase)}"
     return Echo("blade-loss", words, {"before": (before, kind), "after": (after, kind), "phase": (phase, "")})
 
 

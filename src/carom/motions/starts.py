@@ -119,10 +119,12 @@ def time_until(until: object, scales: Scales | None) -> float:
     return time
 
 
-def check_whole(name: str, number: Any, least: int) -> None:
-    """Refuse what is no whole number, or too small."""
-    if isinstance(number, bool) or not (isinstance(number, Integral) and int(number) >= least):
-        raise InputError(name, number if number is None else shown(number), f"a whole number of at least {least}")
+def check_whole(name: str, number: Any, least: int, most: int | None = None) -> None:
+    """Refuse what is no whole number, too small, or above the most that is allowed, if there is one."""
+    whole = isinstance(number, Integral) and not isinstance(number, bool)
+    if not whole or int(number) < least or (most is not None and int(number) > most):
+        allowed = f"of at least {least}" if most is None else f"from {least} to {most}"
+        raise InputError(name, number if number is None else shown(number), f"a whole number {allowed}")
 
 
 def amplitudes_of(rotor: Model, state: State) -> tuple[np.ndarray, np.ndarray]:

@@ -21,7 +21,7 @@ from carom.orbits.orbit import Orbit, OrbitSequence, lasts, orbit_of_links, same
 from carom.orbits.recognising import orbit_of_motion, segments_of
 from carom.orbits.shooting import Start, closed_flights, converged, links_of, pack
 from carom.orbits.word import Word
-from carom.outcome import InputError, Outcome, Phase, shown
+from carom.outcome import InputError, Outcome, Phase
 from carom.progress import Reporter
 from carom.results import Result, in_a_line
 
@@ -111,13 +111,13 @@ class Searched:
 
     @property
     def words(self) -> str:
-        """The same in three sentences."""
+        """The same in a few sentences."""
         newest = f"guess {self.last_new} led to the last new orbit" if self.last_new else "none led to a further orbit"
         return (
             f"Orbits with several impacts or lasting contact were searched, which does not prove that these are all: {self.settled} motions "
             f"were followed until they settled; stretches of {self.motions} others gave {self.guesses} guesses for Newton's method, of "
             f"which {self.repeats} led to known orbits and {self.failures} to none; {newest}. Solutions that are not motions: {self.virtual}. "
-            f"Of {self.fresh} fresh motions {self.on_listed} ended on an orbit listed here and {self.on_others} on another one with as few impacts."
+            f"Of {self.fresh} fresh motions {self.on_listed} ended on an orbit listed here and {self.on_others} on other orbits with no more impacts than were searched."
         )
 
 
@@ -125,8 +125,8 @@ class Searched:
 class FoundOrbits(Result, OrbitSequence):
     """Orbits with at most a number of impacts a period; look one up by index or name, ``found["P2,1"]``.
 
-    Those known before come first, under their names: of the planar rotor all with one impact, and those from a lift-off to the next.  The others come from a search, which
-    proves nothing: an orbit to which no guess led is missing.
+    Those known before come first, under their names: of the planar rotor all with one impact, and those from a lift-off to the
+    next.  The others come from a search, which proves nothing: an orbit to which no guess led is missing.
 
     Attributes
     ----------
@@ -190,9 +190,7 @@ def search_orbits(
 
 def check_impacts(impacts: int) -> None:
     """Refuse a most number of impacts a period that is no whole number, below 1 or too large."""
-    check_whole("impacts", impacts, 1)
-    if impacts > MOST_IMPACTS:
-        raise InputError("impacts", shown(impacts), f"a whole number from 1 to {MOST_IMPACTS}")
+    check_whole("impacts", impacts, 1, MOST_IMPACTS)
 
 
 def random_starts(

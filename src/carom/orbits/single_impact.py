@@ -122,7 +122,8 @@ def find_orbits(
         Search only periods up to this, in ``1/Ω``.
     impacts : int, optional
         Orbits with at most this many impacts a period instead, with lasting contact too: those with one impact of the planar
-        rotor, those from a lift-off to the next (:func:`~carom.orbits.rubbing_orbits`), and others by Newton's method from stretches of simulated motions; what is found is exact, but nothing proves that it is all.
+        rotor, those from a lift-off to the next (:func:`~carom.orbits.rubbing_orbits`), and others by Newton's method from stretches
+        of simulated motions; what is found is exact, but nothing proves that it is all.
     guesses, seed : int
         Number of stretches that this search tries for each number of impacts, and the seed of the random starts.
     progress : callable or bool, optional

@@ -54,9 +54,9 @@ def shown_from_si(unit: str) -> tuple[float, str]:
 
 
 def told(value: float, kind: str, scales: Scales | None, digits: int = 3) -> str:
-    """Write a size given in units of the equations in this unit: ``60 mm/s``, ``5 g``."""
+    """Write a size given in units of the equations in this unit: ``60 mm/s``, ``5 g``; a time without scales as ``0.5/Ω``."""
     factor, unit = shown_in(kind, scales)
-    return f"{number(factor * value, digits)} {unit}"
+    return f"{number(factor * value, digits)}{unit[1:] if unit.startswith('1/') else f' {unit}'}"
 
 
 def told_angle(angle: float) -> str:

@@ -79,7 +79,7 @@ def prove(
     'proven'
     """
     hypotheses, tell = hypotheses_of(machine, settings), Reporter.of(progress, "proving")
-    check_whole("impacts", impacts, 1)
+    check_whole("impacts", impacts, 1, MOST_IMPACTS)
     if (along is None) is not (interval is None):
         raise InputError("along", shown(along), "needs an interval, and an interval needs a parameter")
     if along is not None and interval is not None:
@@ -93,8 +93,6 @@ def prove(
     options = {"longest_period": limit, "cells": MOST_CELLS}
     if impacts == 1:
         return proof_of("single-impact orbits", hypotheses, options, tell)
-    if impacts > MOST_IMPACTS:
-        raise InputError("impacts", shown(impacts), f"a whole number from 1 to {MOST_IMPACTS}")
     return proof_of("orbits of several impacts", hypotheses, {**options, "impacts": impacts}, tell)
 
 

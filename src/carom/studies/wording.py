@@ -72,12 +72,8 @@ class Wording:
         return told(value, "acceleration", self.scales)
 
     def unbalance(self, value: float) -> str:
-        """An unbalance given as an eccentricity in ``c_r``, in g mm."""
-        return (
-            f"{number(value, 3)} c_r"
-            if self.scales is None
-            else f"{number(1e6 * value * self.scales.unbalance, 3)} g mm"
-        )
+        """An unbalance given as an eccentricity in ``c_r``, in g mm; without scales as it is."""
+        return told(value, "unbalance" if self.scales else "length", self.scales)
 
     def size_of(self, kind: str) -> Callable[[float], str]:
         """How the size of a kick, a shock or a loss of a blade is written."""
