@@ -22,14 +22,16 @@ def motion_words(motion: str) -> str:
 def ending_words(outcome: Outcome, motions: Iterable[MotionName] = ()) -> str:
     """Say where a disturbance with an outcome ends: ``it ends in synchronous rub``; undecided outcomes are no ends.
 
-    The motion has its own name if it is the only one of the known motions with this outcome.
+    The motion has its own name if it is the only one of the known motions with this outcome.  Bouncing on no known orbit may
+    have been given up after its last impact that was followed, and is not told as an end.
     """
     if not outcome.settled:
         return f"its end was not found: {outcome.words}"
     names = [name for name in motions if name.outcome is outcome]
-    if len(names) == 1:
-        return f"it ends {ending_phrase(names[0])}"
-    return f"it ends {'' if outcome in (Outcome.BOUNCING, Outcome.MIXED) else 'in '}{outcome.words}"
+    known = names[0] if len(names) == 1 else None
+    if outcome in (Outcome.BOUNCING, Outcome.MIXED) and not (known and known.orbit):
+        return f"it goes on {outcome.words} as far as it was followed"
+    return f"it ends {ending_phrase(known) if known else f'in {outcome.words}'}"
 
 
 def touching(found: AttractorSet) -> tuple[Ending, ...]:

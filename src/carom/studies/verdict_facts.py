@@ -90,7 +90,8 @@ def _survived(study: Study, name: str, found: SmallestLoss) -> Fact:
     else:
         if found.all_back is not None:
             parts.append(f"all tried came back up to {size(found.all_back)}")
-        motions = [entry.name for entry in study.attractors]
+        # The motions of this machine are not those that a larger unbalance leaves.
+        motions = [] if name == "blade_loss" else [entry.name for entry in study.attractors]
         ends = f" ({ending_words(found.outcome, motions).removeprefix('it ')})" if found.outcome is not None else ""
         parts.append(f"smallest lost {size(found.size)}{ends}")
     label, of = KINDS[name], ""
