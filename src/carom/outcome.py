@@ -6,8 +6,9 @@ Kernels return an :class:`Outcome`; Python code turns it into a result that carr
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from enum import IntEnum
+from types import MappingProxyType
 from typing import Any, ParamSpec, TypeVar
 
 _LONGEST_VALUE, _LONGEST_WORDS = 160, 600
@@ -46,8 +47,8 @@ class Outcome(IntEnum):
     def words(self) -> str:
         """What people call the motion, for example ``"rolling backward whirl"``; of one not known, why it is not.
 
-        Everything that is written for people takes the name from here; :class:`~carom.attractors.MotionName` adds what tells
-        motions of one outcome apart.
+        Everything that is written for people takes the name from here, or from :data:`STEADY_WORDS` beside it;
+        :class:`~carom.attractors.MotionName` adds what tells motions of one outcome apart.
         """
         return _WORDS[self]
 
@@ -91,6 +92,13 @@ _WORDS = {
     Outcome.BACKWARD_WHIRL: "sliding backward whirl",
     Outcome.ROLLING: "rolling backward whirl",
 }
+STEADY_WORDS: Mapping[str, str] = MappingProxyType(
+    {"contact-free": Outcome.LEVITATED.words, "rub": "synchronous rub", "rolling": Outcome.ROLLING.words}
+)
+"""What people call the steady motions, by their code: ``kind`` of an equilibrium, ``motion`` of a special point."""
+DRIFTING_RUB = "drifting rub"
+"""The forward rub that is not steady."""
+IRREGULAR_BOUNCING = f"irregular {Outcome.BOUNCING.words}"
 _MEANINGS = {
     Outcome.CLEAR: "The flight stays inside the clearance until its horizon.",
     Outcome.CONTACT: "The flight reaches the wall with an outward radial velocity.",

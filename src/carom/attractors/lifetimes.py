@@ -11,6 +11,7 @@ from typing import ClassVar, Literal
 
 import numpy as np
 
+from carom.attractors.names import MotionName
 from carom.attractors.starts import DisturbanceSet, disturbances_of
 from carom.attractors.survival import ENOUGH, Survival, still_irregular
 from carom.disturbances import Plan
@@ -156,7 +157,7 @@ class Lifetimes(Result):
         if np.count_nonzero(among) < FEWEST:
             return "too few"
         if self.ended[among].all():
-            bouncing = all("bouncing" in end for end, one in zip(self.ends, among, strict=True) if one)
+            bouncing = all(Outcome.BOUNCING.words in end for end, one in zip(self.ends, among, strict=True) if one)
             return "periodic" if bouncing else "transient"
         long_enough = self.followed - self.discarded >= ENOUGH * (self.half_life or math.inf)
         return "transient" if long_enough else "undecided"
@@ -179,7 +180,7 @@ class Lifetimes(Result):
             middle = np.median(self.impacts[self.impacts > self.discarded])
             fitted = f"not at a constant rate, so there is no half-life; half of them lasted longer than {_impacts(float(middle))} impacts"
         names = {"undecided": "transient or attractor, undecided", "transient": "a transient"}
-        return f"{told}: {names.get(verdict, 'a transient to periodic bouncing')}; {fitted}."
+        return f"{told}: {names.get(verdict, f'a transient to periodic {Outcome.BOUNCING.words}')}; {fitted}."
 
 
 def _chance(count: int, chosen: int, share: float) -> float:
@@ -255,7 +256,7 @@ def _label(outcome: int, multiplicity: int) -> str:
     if outcome in REPEATING and not multiplicity:
         return "irregular"
     if outcome in REPEATING:
-        return f"{multiplicity}-impact bouncing" + (" with rub" if outcome == Outcome.MIXED else "")
+        return str(MotionName(Outcome(outcome), multiplicity))
     return Outcome(outcome).label
 
 

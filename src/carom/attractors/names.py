@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from carom.orbits.names import OrbitName
-from carom.outcome import Outcome
+from carom.outcome import DRIFTING_RUB, STEADY_WORDS, Outcome
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -47,7 +47,7 @@ class MotionName(str):
         elif outcome in _REPEATING:
             text = f"{f'{multiplicity}-impact' if multiplicity else 'irregular'} {outcome.words}"
         elif outcome is Outcome.FORWARD_RUB:
-            text = "drifting rub" if drifting else "synchronous rub"
+            text = DRIFTING_RUB if drifting else STEADY_WORDS["rub"]
         return super().__new__(cls, f"{text} ({number})" if number > 1 else text)
 
     def __getnewargs__(self) -> tuple[Any, ...]:  # for copies and pickles
@@ -62,7 +62,7 @@ class MotionName(str):
     @property
     def words(self) -> str:
         """The name for use without context: ``"bouncing on B1,d"`` for an orbit; for other motions the name itself."""
-        return f"bouncing on {self}" if self.orbit else str(self)
+        return f"{Outcome.BOUNCING.words} on {self}" if self.orbit else str(self)
 
     @property
     def irregular(self) -> bool:

@@ -18,13 +18,13 @@ from carom.disturbances import Disturbance, Grid, Plan, Sample, Starts
 from carom.models import Model, Subject, model_of
 from carom.motions.settling import PATIENCE
 from carom.motions.starts import Kick, State
-from carom.outcome import InputError, Outcome
+from carom.outcome import IRREGULAR_BOUNCING, InputError, Outcome
 from carom.progress import Reporter, ShowProgress, shows_progress
 from carom.results import Result, in_a_line
 
 RECOGNISED = (
     "Levitation is proven. A rub at rest is recognised by its rest and by its linearised sliding, other rubs by a full turn "
-    "that repeats, periodic bouncing by the recurrence of the state; irregular bouncing is only said to last as long as it was "
+    f"that repeats, periodic bouncing by the recurrence of the state; {IRREGULAR_BOUNCING} is only said to last as long as it was "
     "followed."
 )
 """How ends of motions are known, for rotors without closed forms."""

@@ -18,7 +18,7 @@ from carom.disturbances.following import require_start
 from carom.models import Model, Subject, model_of
 from carom.motions.starts import Kick, State
 from carom.orbits.orbit import Orbit
-from carom.outcome import InputError
+from carom.outcome import STEADY_WORDS, InputError
 from carom.parameters import Scales, own_size, usual_kick
 from carom.parameters.told import told
 
@@ -149,12 +149,11 @@ class DisturbanceSet:
         found = f"{' and '.join(parts)}, at up to {told(self.fastest, 'velocity', rotor.scales)} in the fixed frame"
         return f"{self.count} disturbances (seed {self.seed}): {found}"
 
-    @property
-    def general_words(self) -> str:
+    def general_words(self, scales: Scales | None) -> str:
         """Describe the disturbances for rotors in general, whether they can levitate or not."""
         return (
             f"{self.count} disturbances (seed {self.seed}): kicks of the levitating rotor and starts anywhere in the clearance, "
-            f"at up to {told(self.fastest, 'velocity', None)} in the fixed frame"
+            f"at up to {told(self.fastest, 'velocity', scales)} in the fixed frame"
         )
 
 
@@ -209,7 +208,7 @@ def known_starts(machine: Subject, orbits: Sequence[Orbit]) -> tuple[Start, ...]
                 starts.append(Start("orbit", state, f"a start next to {orbit.name}"))
     for rub in find_equilibria(rotor)[1:]:
         if rub.status == "admissible":
-            words = f"a start next to the {'stable' if rub.stable else 'unstable'} synchronous rub"
+            words = f"a start next to the {'stable' if rub.stable else 'unstable'} {STEADY_WORDS['rub']}"
             speeds = (-NUDGE, NUDGE) if rub.stable else (-PUSH, PUSH)
             starts += [Start("rub", State(rub.position, 1j * speed * rub.position), words) for speed in speeds]
     arrays, runaway = rotor.system.arrays, known_of(rotor).runaway

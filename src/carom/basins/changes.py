@@ -13,6 +13,8 @@ from carom.basins.gains import GainMap, measured
 from carom.basins.shares import Share
 from carom.disturbances import Plan
 from carom.outcome import InputError
+from carom.parameters import Case, in_terms_of
+from carom.parameters.in_terms import EXACT
 from carom.progress import Reporter, ShowProgress, shows_progress
 
 HALVINGS = 8
@@ -47,6 +49,21 @@ class GainChange:
     def size(self) -> float:
         """Root of the sum of the squared relative changes."""
         return math.hypot(*self.changes)
+
+
+def told_changes(found: GainMap, change: GainChange, told_by: Case | None) -> tuple[float, ...]:
+    """Relative changes of what a machine's file states both parameters by; without one, of the parameters themselves.
+
+    They differ where an entry is not proportional to its parameter, as a P gain beside a negative stiffness is not.
+    """
+    if told_by is None:
+        return change.changes
+    return tuple(
+        in_terms_of(told_by, varied.name, new, digits=EXACT).value
+        / in_terms_of(told_by, varied.name, now, digits=EXACT).value
+        - 1.0
+        for varied, now, new in zip(found.axes, found.present, change.values, strict=True)
+    )
 
 
 @shows_progress

@@ -20,13 +20,13 @@ from carom.models import Subject, model_of
 from carom.motions.ensembles import MOST_EVENTS
 from carom.motions.settling import PATIENCE, longest_time
 from carom.motions.starts import time_until
-from carom.outcome import InputError, Outcome
+from carom.outcome import STEADY_WORDS, InputError, Outcome
 from carom.parameters import Scales
 from carom.progress import ShowProgress, shows_progress
 
 CRITERIA = (
     "levitated: by the moduli of the modes no later flight can reach the wall (proof). "
-    "forward_rub: slides in a neighbourhood of the synchronous rub where all sliding converges to that rub (proof), or "
+    f"forward_rub: slides in a neighbourhood of the {STEADY_WORDS['rub']} where all sliding converges to that rub (proof), or "
     "within 1e-9 of the rub, or forward by the next criterion. "
     "rolling: whirls backward faster than the speed from which it is certain to run away to rolling (proof), or by the next "
     "criterion. backward_whirl: after a turn along the wall without flight the state has changed by less than 1e-9. "

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from carom.basins.changes import WANTED, GainChange
+from carom.basins.changes import WANTED, GainChange, told_changes
 from carom.basins.classification import Basin
 from carom.basins.entropy import basin_entropy
 from carom.basins.gains import GainMap
@@ -84,7 +84,7 @@ def basin_document(
     if gains is not None:
         document["gains"] = _gains(gains, change, wanted)
         if told_by is not None:
-            document["gains"]["terms"] = _terms(gains, told_by)
+            document["gains"]["terms"] = _terms(gains, change, told_by)
     return document
 
 
@@ -140,12 +140,20 @@ def _entropy(basin: Basin) -> dict[str, Any] | None:
     return fields_of(found, "whole", "boundary", "side", "fractal")
 
 
-def _terms(gains: GainMap, case: Case) -> list[dict[str, Any]]:
-    """The values of both parameters of a gain map in the terms of a machine's file: entry, unit and values."""
+def _terms(gains: GainMap, change: GainChange | None, case: Case) -> list[dict[str, Any]]:
+    """Both parameters of a gain map in the terms of a machine's file: entry, unit, values, and the relative change found."""
+    changes = (None, None) if change is None else told_changes(gains, change, case)
     told = []
-    for varied in gains.axes:
+    for varied, part in zip(gains.axes, changes, strict=True):
         stated = [in_terms_of(case, varied.name, float(value), digits=6) for value in gains.dataset[varied.name].values]
-        told.append({"entry": stated[0].entry, "unit": stated[0].unit, "values": [each.value for each in stated]})
+        told.append(
+            {
+                "entry": stated[0].entry,
+                "unit": stated[0].unit,
+                "values": [each.value for each in stated],
+                "change": part,
+            }
+        )
     return told
 
 

@@ -35,6 +35,7 @@ from carom.models import Jeffcott, Subject, jeffcott_of
 from carom.orbits.names import OrbitName
 from carom.orbits.orbit import Orbit
 from carom.orbits.single_impact import orbits_within_reach
+from carom.outcome import STEADY_WORDS
 from carom.parameters import DIMENSIONLESS_FIELDS, Parameters
 from carom.results import Result
 
@@ -121,9 +122,9 @@ class BoundaryEquilibrium(Result):
 
 
 _EQUILIBRIA = {
-    "persistence": ("levitation turns into a stable synchronous rub that begins without force (persistence)."),
+    "persistence": (f"levitation turns into a stable {STEADY_WORDS['rub']} that begins without force (persistence)."),
     "non-smooth fold": (
-        "levitation meets an unstable synchronous rub and both vanish (non-smooth fold): the rotor must go somewhere else."
+        f"levitation meets an unstable {STEADY_WORDS['rub']} and both vanish (non-smooth fold): the rotor must go somewhere else."
     ),
     "degenerate": "levitation ends on the wall between the two generic ways, persistence and non-smooth fold.",
 }

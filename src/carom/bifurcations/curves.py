@@ -25,7 +25,7 @@ from carom.bifurcations.points import Bifurcation
 from carom.closed_forms.thresholds import happens_to_rubs
 from carom.continuation import Branch, Steps, Watch, continue_branch, refined_points
 from carom.orbits.names import CountedName, OrbitName, combined
-from carom.outcome import InputError
+from carom.outcome import STEADY_WORDS, InputError
 from carom.parameters import Numbers
 from carom.results import Result
 
@@ -166,9 +166,9 @@ KINDS: dict[str, _Kind] = {
 }
 """Bifurcations that can be followed in two parameters."""
 _SUBJECTS = {
-    "boundary-equilibrium": "levitation",
-    "rub-fold": "synchronous rub",
-    "rolling-limit": "rolling backward whirl",
+    "boundary-equilibrium": STEADY_WORDS["contact-free"],
+    "rub-fold": STEADY_WORDS["rub"],
+    "rolling-limit": STEADY_WORDS["rolling"],
 }
 
 

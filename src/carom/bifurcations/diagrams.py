@@ -29,6 +29,7 @@ from carom.orbits.rubbing import rubbing_orbits
 from carom.orbits.search import Searched, check_impacts
 from carom.orbits.single_impact import find_orbits
 from carom.parameters import Parameters
+from carom.parameters.told import shown_in
 from carom.progress import Reporter, ShowProgress, shows_progress
 from carom.results import Result, in_a_line
 
@@ -100,6 +101,18 @@ class Diagram(Result):
     def branches(self) -> list[OrbitBranch]:
         """Branches of orbits with one impact a period, then those of orbits with several."""
         return [*self.orbits, *self.several]
+
+    @property
+    def speed_unit(self) -> str:
+        """Unit in which people are told speeds: mm/s where the machine is known."""
+        return shown_in("velocity", self.model.scales)[1]
+
+    def told_speeds(self, values: np.ndarray | float, speeds: np.ndarray | float) -> np.ndarray:
+        """Speeds in this unit, from those in ``c_r Ω`` of the machines that have these values of the parameter."""
+        factor, _ = shown_in("velocity", self.model.scales)
+        changes = self.parameter in ("clearance", "speed")
+        ratio = np.asarray(values) / self.axis.value(self.model) if changes else 1.0
+        return np.asarray(factor * ratio * np.asarray(speeds))
 
     @property
     def parameter(self) -> str:

@@ -14,7 +14,7 @@ from carom.motions.settling import PATIENCE
 from carom.orbits.orbit import Orbit
 from carom.orbits.rubbing import lift_off_of
 from carom.orbits.search import Searched
-from carom.parameters import Parameters
+from carom.parameters import Parameters, Scales
 from carom.results import fields_of
 
 
@@ -57,7 +57,7 @@ def diagram_document(parameters: Parameters, diagram: Diagram) -> dict[str, Any]
             | document_of(sample.survival)
             for sample in diagram.attractors
         ],
-        "disturbances": _disturbances(diagram.disturbances) if diagram.disturbances else None,
+        "disturbances": _disturbances(diagram.disturbances, parameters.scales) if diagram.disturbances else None,
     }
 
 
@@ -134,5 +134,6 @@ def _axis(axis: Axis) -> dict[str, Any]:
     return {"parameter": axis.name, "unit": axis.field.unit}
 
 
-def _disturbances(tried: DisturbanceSet) -> dict[str, Any]:
-    return fields_of(tried, "count", "seed", "fastest", words="general_words") | {"patience": PATIENCE}
+def _disturbances(tried: DisturbanceSet, scales: Scales | None) -> dict[str, Any]:
+    words = {"words": tried.general_words(scales), "patience": PATIENCE}
+    return fields_of(tried, "count", "seed", "fastest") | words

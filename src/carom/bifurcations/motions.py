@@ -12,6 +12,7 @@ from carom.closed_forms.thresholds import has_stable_rub
 from carom.closed_forms.whirl import rolling
 from carom.models import Subject, jeffcott_of
 from carom.orbits.names import OrbitName, combined, in_order
+from carom.outcome import STEADY_WORDS
 
 
 @dataclass(frozen=True)
@@ -63,10 +64,10 @@ class Motions:
             if names
         ]
         return (
-            "levitation" if self.contact_free else "levitation virtual",
-            "stable synchronous rub" if self.rub else "no stable rub",
+            f"{STEADY_WORDS['contact-free']}{'' if self.contact_free else ' virtual'}",
+            f"{'stable' if self.rub else 'no stable'} {STEADY_WORDS['rub']}",
             " and ".join(orbits) if orbits else "no impacting orbit",
-            "rolling backward whirl" if self.rolling else "no lasting rolling",
+            f"{'' if self.rolling else 'no lasting '}{STEADY_WORDS['rolling']}",
         )
 
     @property

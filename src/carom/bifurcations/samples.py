@@ -13,7 +13,7 @@ from carom.models import Model, Subject, model_of
 from carom.models.axes import Ends, axis, read_interval
 from carom.motions.settling import REPEATING
 from carom.motions.trajectories import simulate
-from carom.outcome import Outcome
+from carom.outcome import IRREGULAR_BOUNCING, Outcome
 from carom.progress import Reporter, ShowProgress
 from carom.results import Result
 
@@ -21,7 +21,6 @@ VALUES = 31
 """Values of the parameter at which disturbances are followed."""
 SHOWN_IMPACTS = 60
 LONGEST = 400.0
-TRANSIENT = "irregular transient"
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -98,7 +97,7 @@ def sample_attractors(
     -------
     tuple of AttractorSample
         In ascending order of the parameter.  Motions that were given up are left out.  Irregular bouncing that ends is
-        an ``"irregular transient"``, with the share of the disturbances that were in it for 1000 impacts or more.
+        ``"irregular bouncing"``, with the share of the disturbances that were in it for 1000 impacts or more.
     """
     model, tell = model_of(machine), Reporter.of(progress, "following disturbances")
     along = axis(model, parameter)
@@ -134,7 +133,9 @@ def _transient(value: float, found: AttractorSet) -> list[AttractorSample]:
     known = sum(ending.survival is not None for ending in found.endings) - through
     share = through / len(found.disturbances) if found.disturbances else 0.0
     label = Outcome.BOUNCING.label
-    return [AttractorSample(value, TRANSIENT, label, "none", through, share, known, np.empty(0), found.transient)]
+    return [
+        AttractorSample(value, IRREGULAR_BOUNCING, label, "none", through, share, known, np.empty(0), found.transient)
+    ]
 
 
 def _impacts(rotor: Model, attractor: Attractor) -> np.ndarray:

@@ -8,6 +8,7 @@ import typer
 
 from carom.cli.output import output_directory, say_where
 from carom.cli.terminal import AsJson, MachineFile, Settings, check_output, console, print_document, progress
+from carom.outcome import IRREGULAR_BOUNCING
 
 if TYPE_CHECKING:
     from carom.attractors import Attractor, AttractorSet, Character
@@ -78,7 +79,7 @@ def _print(case: Case, found: AttractorSet, characters: list[Character], exponen
         survival = f" {entry.survival.words[0].upper()}{entry.survival.words[1:]}." if entry.survival else ""
         screen.print(f"{entry.name}: {character.words}{survival}")
     if found.transient:
-        screen.print(f"Irregular bouncing of some disturbances ended: {found.transient.words}.")
+        screen.print(f"{IRREGULAR_BOUNCING.capitalize()} of some disturbances ended: {found.transient.words}.")
     if exponents:
         screen.print()
         screen.print(fitted(screen, _exponents(found, characters)))

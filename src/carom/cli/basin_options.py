@@ -14,7 +14,8 @@ from carom.outcome import InputError
 
 if TYPE_CHECKING:
     from carom.disturbances import Disturbance, Plan
-    from carom.parameters import Case, Machine
+    from carom.models import Axis
+    from carom.parameters import Case
 
 CELLS = 60
 RELEASES = 360
@@ -80,7 +81,11 @@ Plane = Annotated[
 ]
 FirstRange = Annotated[
     str | None,
-    typer.Option("--x", metavar="A,B", help="Range of the first parameter, by default half to twice its value."),
+    typer.Option(
+        "--x",
+        metavar="A,B",
+        help="Range of the first parameter; by default half to twice the value, of a gain that of what it sets.",
+    ),
 ]
 SecondRange = Annotated[str | None, typer.Option("--y", metavar="C,D", help="Range of the second parameter.")]
 Wanted = Annotated[
@@ -210,7 +215,6 @@ def _plane(
 ) -> tuple[tuple[str, str], tuple[Any, Any], Case]:
     """Return the names and ranges of the two parameters of a gain map, and the machine that states them as the plane does."""
     from carom.cli.starts import read_entry_range, read_range
-    from carom.models import axis
     from carom.parameters.terms import TERMS, set_by
 
     given = plane or ("stiffness,damping" if case.parameters.scales else "omega,gamma")
@@ -218,7 +222,7 @@ def _plane(
     names = [set_by(entry) if entry in TERMS else entry for entry in entries]
     if len(names) != 2 or names[0] == names[1]:
         raise InputError("--plane", given, "must be two names with a comma between them, such as stiffness,damping")
-    axes = [axis(case.parameters, name) for name in names]
+    axes = [_varied(case, given, entry, name) for entry, name in zip(entries, names, strict=True)]
     ranges, told_by = [], case
     for option, text, entry, varied, other in zip(("--x", "--y"), (x, y), entries, axes, reversed(names), strict=True):
         if entry not in TERMS:
@@ -227,12 +231,34 @@ def _plane(
         if other in TERMS[entry].needs:
             allowed = f"{entry} changes with {other}, which is the other parameter; use {varied.name}"
             raise InputError("--plane", given, allowed)
-        told_by = _stated_by(told_by, entry)
+        told_by = _stated_by(told_by, given, entry)
         ranges.append(None if text is None else read_entry_range(option, text, told_by, entry))
     return (axes[0].name, axes[1].name), (ranges[0], ranges[1]), told_by
 
 
-def _stated_by(case: Case, entry: str) -> Case:
+def _varied(case: Case, given: str, entry: str, name: str) -> Axis:
+    """The parameter that an entry of ``--plane`` states; what states none alone is refused, with why."""
+    from carom.models import axis
+    from carom.parameters import HELPER_FIELDS
+    from carom.parameters.fields import unknown_name
+    from carom.parameters.terms import TERMS
+
+    varied = case.parameters.varied
+    if name in varied:
+        return axis(case.parameters, name)
+    known = [*varied, *(term for term, (sets, *_) in TERMS.items() if sets in varied)]
+    if entry in HELPER_FIELDS:
+        words = HELPER_FIELDS[entry].words
+        allowed = f"{entry} ({words}) is no parameter of the rotor by itself; allowed: {', '.join(known)}"
+    elif entry in TERMS:
+        allowed = f"{entry} sets {name} of a machine in SI units; this one has {', '.join(varied)}"
+    else:
+        allowed = unknown_name(entry, None, dict.fromkeys(known), "the parameters").allowed
+        allowed = f"{entry}: {allowed}"
+    raise InputError("--plane", given, allowed)
+
+
+def _stated_by(case: Case, given: str, entry: str) -> Case:
     """The same machine with a field stated by this entry, as ``--set`` would; its value changes by rounding alone."""
     from carom.parameters.terms import TERMS, set_by
 
@@ -240,11 +266,9 @@ def _stated_by(case: Case, entry: str) -> Case:
     if machine is None or entry in machine.given.get(set_by(entry), {}):
         return case
     needed = (set_by(entry), *TERMS[entry].needs)
-    return case.replace(**{entry: float(TERMS[entry].entry({name: _exact(machine, name) for name in needed}))})
-
-
-def _exact(machine: Machine, name: str) -> Decimal:
-    value = getattr(machine, name)
-    if value is None:
-        raise InputError("--plane", name, "needed for a gain: the machine file must state it")
-    return Decimal(repr(value))
+    missing = [name for name in needed if getattr(machine, name) is None]
+    if missing:
+        allowed = f"{entry} needs {' and '.join(missing)}, which the machine file does not state"
+        raise InputError("--plane", given, allowed)
+    exact = {name: Decimal(repr(getattr(machine, name))) for name in needed}
+    return case.replace(**{entry: float(TERMS[entry].entry(exact))})

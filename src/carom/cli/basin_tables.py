@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from carom.disturbances.echo import plan_words, told_eccentricity
+from carom.outcome import IRREGULAR_BOUNCING, InputError
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -41,7 +42,7 @@ def print_basin(screen: Console, basin: Basin, smallest: SmallestLoss | None, ha
     )
     screen.print(f"Back to levitation: {basin.share_recovered.words}.")
     if basin.irregular:
-        screen.print(f"Irregular bouncing: {basin.irregular['survival']}.")
+        screen.print(f"{IRREGULAR_BOUNCING.capitalize()}: {basin.irregular['survival']}.")
     screen.print(_touching(basin))
     if basin.unresolved:
         screen.print(f"Given up before it was known where they end: {basin.unresolved} starts; they count as lost.")
@@ -51,6 +52,8 @@ def print_basin(screen: Console, basin: Basin, smallest: SmallestLoss | None, ha
 
 def print_gains(screen: Console, found: GainMap, change: GainChange | None, wanted: float, case: Case) -> None:
     """Print what a gain map says about the present machine, in the terms of its file."""
+    from carom.basins.changes import told_changes
+
     share = found.dataset["recovered"].values
     able = found.dataset["levitates"].values > 0.0
     back, of_what = found.present_share, found.population.words
@@ -87,7 +90,7 @@ def print_gains(screen: Console, found: GainMap, change: GainChange | None, want
     else:
         parts = ", ".join(
             f"{_value(case, name, value)} ({100 * part:+.3g} %)"
-            for name, value, part in zip(names, change.values, change.changes, strict=True)
+            for name, value, part in zip(names, change.values, told_changes(found, change, case), strict=True)
         )
         screen.print(f"Least change found for {100 * wanted:g} %: {parts}; {change.share.words}.")
 
@@ -215,7 +218,6 @@ def _where(basin: Basin, smallest: SmallestLoss) -> str:
 
 def _measures(basin: Basin) -> list[str]:
     from carom.basins import basin_entropy, integrity
-    from carom.outcome import InputError
 
     lines = []
     try:

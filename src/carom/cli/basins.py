@@ -82,8 +82,8 @@ def basins(
             with output_directory(out, case) as output:
                 output.figure("basins", basin.plot(smallest))
                 basin.save(output.directory / "basins.nc")
-                if found is not None:
-                    output.figure("gain-map", found.plot(change))
+                if found is not None and asked is not None:
+                    output.figure("gain-map", found.plot(change, told_by=asked.told_by))
                     found.save(output.directory / "gains.nc")
                 output.document("basins", document)
     if as_json:

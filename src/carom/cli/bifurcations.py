@@ -8,10 +8,10 @@ import typer
 
 from carom.cli.output import output_directory, say_where
 from carom.cli.terminal import AsJson, MachineFile, Settings, check_output, console, print_document, progress
-from carom.outcome import InputError, shown
+from carom.outcome import IRREGULAR_BOUNCING, STEADY_WORDS, InputError, Outcome, shown
 
 if TYPE_CHECKING:
-    from carom.bifurcations import Diagram
+    from carom.bifurcations import Bifurcation, Diagram
     from carom.models import Axis
     from carom.parameters import Parameters
     from carom.proofs import Proof
@@ -219,10 +219,6 @@ def _range(parameters: Parameters, varied: Axis, option: str, given: str | None)
     return NEAR[0] * present, min(NEAR[1] * present, varied.field.highest)
 
 
-_SUBJECTS = {"contact-free": "levitation", "rub": "synchronous rub", "rolling": "rolling backward whirl"}
-"""Names of the steady motions to which something happens."""
-
-
 def _shown(varied: Axis, value: float) -> str:
     """Write a value in the unit in which people usually say it."""
     return f"{varied.field.in_usual_unit(value):.10g} {varied.field.usual_unit}".rstrip()
@@ -237,15 +233,16 @@ def _print_diagram(diagram: Diagram, present: float) -> None:
     ends = " to ".join(_shown(diagram.axis, value) for value in diagram.interval)
     now = _shown(diagram.axis, present)
     screen.print(f"Bifurcations for {diagram.axis.field.words} {diagram.parameter} = {ends}; now {now}")
-    headings = (diagram.parameter, "what happens", "to", "period (1/Ω)", "radial speed (c_r Ω)", "")
+    unit = diagram.speed_unit
+    headings = (diagram.parameter, "what happens", "to", "period (1/Ω)", f"radial speed ({unit})", "")
     table = plain_table("", *headings)
     for point in diagram.points:
         table.add_row(
             _shown(diagram.axis, point.value),
             f"{named(point.kind)} ({point.detail})" if point.detail else named(point.kind),
-            _SUBJECTS.get(point.name, point.name),
+            STEADY_WORDS.get(point.name, point.name),
             "" if point.period != point.period else f"{point.period:.8g}",
-            "" if point.radial_speed != point.radial_speed else f"{round(point.radial_speed, 6) + 0.0:.6f}",
+            "" if point.radial_speed != point.radial_speed else _speed(diagram, point),
             "" if point.admissible else "virtual",
             style="" if point.admissible else "dim",
         )
@@ -259,9 +256,17 @@ def _print_diagram(diagram: Diagram, present: float) -> None:
     for number, motion in enumerate(diagram.rubbing, start=1):
         whirl = "forward" if lift_off_of(motion.orbits[0]).whirl > 0 else "backward"
         ends = f"ends {motion.stops[0]}, {motion.stops[1]}"
-        screen.print(f"Bouncing with rub {number} ({motion.word}, {whirl} whirl at the lift-off): {ends}")
+        screen.print(
+            f"{Outcome.MIXED.words.capitalize()} {number} ({motion.word}, {whirl} whirl at the lift-off): {ends}"
+        )
     if diagram.attractors:
         _print_attractors(diagram)
+
+
+def _speed(diagram: Diagram, point: Bifurcation) -> str:
+    """The radial speed at a special point: with six decimals in units of the equations, with four in mm/s."""
+    decimals = 6 if diagram.model.scales is None else 4
+    return f"{round(float(diagram.told_speeds(point.value, point.radial_speed)), decimals) + 0.0:.{decimals}f}"
 
 
 def _print_attractors(diagram: Diagram) -> None:
@@ -283,11 +288,11 @@ def _print_attractors(diagram: Diagram) -> None:
                 table.add_row(name, *ends, f"{len(alike)} of {values}", reached)
     screen.print(fitted(screen, table))
     screen.print(
-        f"At each of {values} values {tried.general_words}; and starts next to the motions known in closed form."
+        f"At each of {values} values {tried.general_words(diagram.model.scales)}; and starts next to the motions known in closed form."
     )
     lasting: dict[str, list[str]] = {}
     for sample in diagram.attractors:
         if sample.survival:
             lasting.setdefault(sample.survival.words, []).append(_shown(diagram.axis, sample.value))
     for words, places in lasting.items():
-        screen.print(f"Irregular bouncing: {words}; at {diagram.axis.name} = {', '.join(places)}")
+        screen.print(f"{IRREGULAR_BOUNCING.capitalize()}: {words}; at {diagram.axis.name} = {', '.join(places)}")

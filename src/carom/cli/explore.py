@@ -8,7 +8,7 @@ from typing import Annotated
 
 import typer
 
-from carom.cli.terminal import Settings
+from carom.cli.terminal import Settings, console
 from carom.outcome import CaromError
 
 _PORT = 5006
@@ -32,14 +32,21 @@ def explore(
     if find_spec("bokeh") is None:
         raise CaromError("carom explore needs Bokeh: pip install 'carom[explore]'")
     from carom.explorer.computing.exports import Origin
+    from carom.explorer.computing.kicks import opening_words
     from carom.explorer.example import example_file
     from carom.explorer.server import serve
 
     path = str(example_file()) if machine is None else machine
     case = load(path, settings or ())
-    serve(Origin(path, tuple(settings or ()), case), port, browser=browser, tell=_print_address)
+    serve(
+        Origin(path, tuple(settings or ()), case),
+        port,
+        browser=browser,
+        tell=lambda address: _print_opening(address, opening_words(case)),
+    )
 
 
-def _print_address(address: str) -> None:
+def _print_opening(address: str, words: str) -> None:
     typer.echo(address)
+    console().print(f"{words}.")
     sys.stdout.flush()

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from carom.cli.terminal import AsJson, Settings, console, print_document, progress
+from carom.cli.terminal import AsJson, Settings, check_output, console, print_document, progress
 from carom.outcome import InputError, shown
 
 if TYPE_CHECKING:
@@ -66,6 +66,7 @@ def prove(
         else:
             if (start is None or stop is None) and not (along is start is stop is None):
                 raise InputError("--along", shown(along), "needs --from and --to, and these need --along")
+            check_output(out)
             interval = None if start is None or stop is None else (start, stop)
             for option, end in zip(("--from", "--to"), interval or (), strict=False):
                 check_exact(option, end, str(along))

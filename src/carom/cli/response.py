@@ -8,9 +8,10 @@ import typer
 
 from carom.cli.output import output_directory, say_where
 from carom.cli.terminal import AsJson, MachineFile, Settings, check_output, console, print_document, progress
-from carom.outcome import InputError
+from carom.outcome import STEADY_WORDS, InputError
 
 if TYPE_CHECKING:
+    from carom.disturbances.echo import Echo
     from carom.parameters import Case
     from carom.studies.response import UnbalanceResponse
 
@@ -52,11 +53,13 @@ def response(
     interval, run = _read(case, start, end, operating)
     check_output(out)
     with progress("response over speed") as tell:
+        from carom.disturbances.echo import echo_of_unbalance
         from carom.studies.response import unbalance_response
 
         found = unbalance_response(case, interval, operating=run)
         tell(0.3, "response over speed")
-        document = found.to_dict() if as_json or out is not None else {}
+        echo = echo_of_unbalance(case.parameters.rho, found.interval, found.scales)
+        document = {"disturbance": echo.document(found.scales)} | found.to_dict() if as_json or out is not None else {}
         if out is not None:
             tell(0.4, "drawing")
             with output_directory(out, case) as output:
@@ -67,7 +70,7 @@ def response(
     if as_json:
         print_document(document)
     else:
-        _print(found, out)
+        _print(found, echo, out)
     say_where(out)
 
 
@@ -99,18 +102,18 @@ def _read(
     return interval, None if operating is None else read_range("--operating", operating, along)
 
 
-def _print(found: UnbalanceResponse, out: str | None) -> None:
+def _print(found: UnbalanceResponse, echo: Echo, out: str | None) -> None:
     from carom.cli.fitting import fitted, plain_table
     from carom.studies.response_words import rpm
 
     screen = console()
-    ends = " to ".join(rpm(speed) for speed in found.interval)
-    screen.print(f"{found.case.name}: response to the unbalance, {ends}")
+    screen.print(f"{found.case.name}: response to the unbalance")
+    screen.print(f"{echo.words}.")
     screen.print()
     for sentence in found.words:
         screen.print(sentence)
     screen.print()
-    columns = ("from", "to", "levitation", "synchronous rubs", "rolling backward whirl")
+    columns = ("from", "to", STEADY_WORDS["contact-free"], f"{STEADY_WORDS['rub']}s", STEADY_WORDS["rolling"])
     table = plain_table("Steady motions over speed", *columns, right=("from", "to"), no_wrap=("from", "to"))
     for stretch in found.stretches:
         steady = stretch.what

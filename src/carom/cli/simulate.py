@@ -37,15 +37,16 @@ def simulate(
         str | None,
         typer.Option(
             metavar="SPEED[,ANGLE]",
-            help="Instead of --start: a velocity kick out of levitation, such as '50 mm/s,30 deg'.",
+            help="Instead of --start: a velocity kick out of levitation, such as '50 mm/s,30 deg'; the angle counts in the sense of "
+            "rotation from the x axis that turns with the shaft, as the phase of the unbalance does.",
         ),
     ] = None,
     shock: Annotated[
         str | None,
         typer.Option(
             metavar="PEAK[,DURATION[,ANGLE]]",
-            help="Instead of --start: a half-sine shock of the base at levitation, such as '5 g, 11 ms, 30 deg'; the motion is "
-            "logged from its end.",
+            help="Instead of --start: a half-sine shock of the base at levitation, such as '5 g, 11 ms, 30 deg', the angle from "
+            "the same axis as it lies when the shock begins; the motion is logged from its end.",
         ),
     ] = None,
     blade_loss: Annotated[
@@ -179,13 +180,14 @@ def _read(
     if option == "--shock":
         pulse, angle = read_shock(text, case)
         rotor = _rotor(case)
-        said = echo.echo_of_shock(pulse.peak, pulse.duration, angle, scales)
+        said = echo.echo_of_shock(pulse.peak, pulse.duration, angle, rotor.unbalance_phase, scales)
         return rotor, pulse.release(rotor, angle), end, said
     if option == "--kick":
-        kick = read_kick(text, scales)
-        return _rotor(case), kick, end, echo.echo_of_kick(float(kick.speed), float(kick.angle), scales)
-    state = read_start(text, scales)
-    return _rotor(case), state, end, echo.echo_of_start(state, scales)
+        kick, rotor = read_kick(text, scales), _rotor(case)
+        said = echo.echo_of_kick(float(kick.speed), float(kick.angle), rotor.unbalance_phase, scales)
+        return rotor, kick, end, said
+    state, rotor = read_start(text, scales), _rotor(case)
+    return rotor, state, end, echo.echo_of_start(state, rotor.unbalance_phase, scales)
 
 
 def _rotor(case: Case) -> Model:

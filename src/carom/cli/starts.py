@@ -32,8 +32,10 @@ if TYPE_CHECKING:
     from carom.motions.starts import Kick, State
 
 _START = "must be four values RE,IM,VRE,VIM such as 0.5,0,0,0.1 or '0.3 mm,0 mm,5 mm/s,0 m/s'"
-_BLADE_LOSS = "must be AFTER or AFTER,PHASE such as '0.1 mm,30 deg' or '5000 g mm,30 deg', or dimensionless as 0.4,0.2"
-_KICK = "must be SPEED or SPEED,ANGLE such as '50 mm/s,30 deg', or dimensionless as 0.4,0.2"
+_BLADE_LOSS = "must be AFTER or AFTER,PHASE such as ", "'0.1 mm,30 deg' or '5000 g mm,30 deg'"
+_KICK = "must be SPEED or SPEED,ANGLE such as ", "'50 mm/s,30 deg'"
+_OWN = "0.4,0.2"
+"""Sizes with an angle of a machine in units of the equations."""
 
 
 def read_start(text: str, scales: Scales | None) -> State:
@@ -76,11 +78,12 @@ def read_shock(text: str, machine: Case) -> tuple[BaseShock, float]:
     return BaseShock(given.peak, given.duration), _angle("--shock", angle, scales)
 
 
-def _with_angle(option: str, text: str, allowed: str, scales: Scales | None) -> tuple[str, float]:
+def _with_angle(option: str, text: str, words: tuple[str, str], scales: Scales | None) -> tuple[str, float]:
     """Split a size and perhaps an angle, 0 by default; say what is meant by a comma that seems to mark decimals."""
+    allowed = words[0] + (words[1] if scales else _OWN)
     size, *angle = _split(option, text, (1, 2), allowed)
     if angle and (advice := comma_advice(text)) and (scales is not None or not size.strip("0.")):
-        raise InputError(option, text, f"{allowed}; {advice}")
+        raise InputError(option, text, f"{allowed}; {advice}{' with its unit' if scales and _is_bare(text) else ''}")
     return size, _angle(option, angle[0], scales) if angle else 0.0
 
 
@@ -195,6 +198,10 @@ def _split(option: str, text: str, counts: tuple[int, ...], allowed: str) -> lis
     if len(parts) not in counts or not all(parts):
         raise InputError(option, text, allowed)
     return parts
+
+
+def _is_bare(text: str) -> bool:
+    return not any(sign.isalpha() for sign in text)
 
 
 def _is_number(text: str) -> bool:

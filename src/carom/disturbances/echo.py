@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from carom.disturbances.plans import Grid, Plan
-from carom.parameters import UNITS, Scales
-from carom.parameters.told import told, told_angle
+from carom.parameters import MACHINE_FIELDS, UNITS, Scales
+from carom.parameters.told import number, told, told_angle
 
 if TYPE_CHECKING:
     from carom.motions.starts import State
@@ -32,9 +32,9 @@ class Echo:
 
     Attributes
     ----------
-    kind : {"kick", "shock", "blade-loss", "start"}
+    kind : {"kick", "shock", "blade-loss", "start", "unbalance"}
     words : str
-        Such as ``"Kick: 60 mm/s at 30°"``; angles are measured from the real axis of the co-rotating frame at the start.
+        Such as ``"Kick: 60 mm/s at 30°"``, and from where its angles count.
     sizes : mapping of str to (float, str)
         Each size in units of the equations, with its property of :class:`~carom.parameters.Scales`; empty for angles.
     """
@@ -53,35 +53,52 @@ class Echo:
         return document
 
 
-def echo_of_kick(speed: float, angle: float, scales: Scales | None) -> Echo:
-    """A velocity kick out of levitation."""
-    words = f"Kick: {told(speed, 'velocity', scales)} at {told_angle(angle)}"
+def angles_words(phase: float, when: str = "") -> str:
+    """From where angles count: the real axis of the co-rotating frame, from which the phase of the unbalance counts too."""
+    return f"angles count from the x axis that turns with the shaft{when}, in the sense of rotation (the unbalance lies at {told_angle(phase)})"
+
+
+def echo_of_kick(speed: float, angle: float, phase: float, scales: Scales | None) -> Echo:
+    """A velocity kick out of levitation; ``phase`` is that of the unbalance, as in the other echoes."""
+    words = f"Kick: {told(speed, 'velocity', scales)} at {told_angle(angle)}; {angles_words(phase)}"
     return Echo("kick", words, {"speed": (speed, "velocity"), "angle": (angle, "")})
 
 
-def echo_of_shock(peak: float, duration: float, angle: float, scales: Scales | None) -> Echo:
+def echo_of_shock(peak: float, duration: float, angle: float, phase: float, scales: Scales | None) -> Echo:
     """A half-sine shock of the base, whose motion begins at its end."""
     size = f"{told(peak, 'acceleration', scales)} for {told(duration, 'time', scales)} at {told_angle(angle)}"
-    words = f"Shock of the base: half-sine, {size}; the motion is logged from its end, without contacts during it"
+    words = (
+        f"Shock of the base: half-sine, {size}; {angles_words(phase, ', as it lies when the shock begins')}; "
+        "the motion is logged from its end, without contacts during it"
+    )
     sizes = {"peak": (peak, "acceleration"), "duration": (duration, "time"), "angle": (angle, "")}
     return Echo("shock", words, sizes)
 
 
-def echo_of_blade_loss(before: float, after: float, phase: float, scales: Scales | None) -> Echo:
-    """A loss of a blade, by the eccentricities before and after it, in clearances."""
+def echo_of_blade_loss(before: float, after: float, turned: float, scales: Scales | None) -> Echo:
+    """A loss of a blade, by the eccentricities before and after it, in clearances, and the angle between them."""
     kind, noun = ("unbalance", "unbalance") if scales else ("length", "eccentricity")
     first, last = (told(size, kind, scales) for size in (before, after))
-    words = f"Loss of a blade: {noun} from {first} to {last}, turned by {told_angle(phase)}"
-    return Echo("blade-loss", words, {"before": (before, kind), "after": (after, kind), "phase": (phase, "")})
+    words = f"Loss of a blade: {noun} from {first} to {last}, turned by {told_angle(turned)} in the sense of rotation"
+    return Echo("blade-loss", words, {"before": (before, kind), "after": (after, kind), "phase": (turned, "")})
 
 
-def echo_of_start(state: State, scales: Scales | None) -> Echo:
+def echo_of_unbalance(eccentricity: float, interval: tuple[float, float], scales: Scales) -> Echo:
+    """The unbalance at every speed of a range, by the eccentricity in clearances and speeds in rad/s."""
+    shown = MACHINE_FIELDS["speed"]
+    low, high = (f"{number(shown.in_usual_unit(speed), 6)} {shown.usual_unit}" for speed in interval)
+    words = f"Unbalance: {told(eccentricity, 'unbalance', scales)}, eccentricity {told(eccentricity, 'length', scales)}, at speeds from {low} to {high}"
+    sizes = {"unbalance": (eccentricity, "unbalance"), "eccentricity": (eccentricity, "length")}
+    ends = zip(("lowest_speed", "highest_speed"), interval, strict=True)
+    return Echo("unbalance", words, {**sizes, **{name: (speed / scales.speed, "speed") for name, speed in ends}})
+
+
+def echo_of_start(state: State, phase: float, scales: Scales | None) -> Echo:
     """A start of the planar rotor at any state."""
     place, speed = complex(state.position), complex(state.velocity + 1j * state.position)
     at = f"{told(abs(place), 'length', scales)} from the centre at {told_angle(cmath.phase(place))}"
-    words = (
-        f"Start: {at}, {told(abs(speed), 'velocity', scales)} at {told_angle(cmath.phase(speed))} in the fixed frame"
-    )
+    moves = f"{told(abs(speed), 'velocity', scales)} at {told_angle(cmath.phase(speed))} in the fixed frame"
+    words = f"Start: {at}, {moves}; {angles_words(phase, ', as it lies at the start')}"
     return Echo(
         "start",
         words,

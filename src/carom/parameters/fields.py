@@ -261,7 +261,10 @@ _OTHER_WORDS = 0.2
 _CONSTANTS = {"stiffness", "damping"}
 _NOT_MODELLED = (
     (({"gravity", "weight"},), "gravity is not modelled"),
-    (({"integral", "i"}, {"gain", "action", "time"}), "an integral gain is not modelled"),
+    (
+        ({"integral", "i"}, {"gain", "action", "time"}),
+        "an integral gain is not modelled: the levitation is a spring and a damper",
+    ),
     (({"delay", "filter", "bandwidth"},), "of the controller only P and D gain are modelled"),
     (({"inertia", "gyroscopic"},), "moments of inertia are not modelled"),
     (

@@ -21,7 +21,9 @@ _ROUNDING = {"up": ROUND_CEILING, "down": ROUND_FLOOR, "nearest": ROUND_HALF_EVE
 _EXACT = Context(prec=60)
 _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 _SECONDARY_DIGITS = 3
-_DIGITS = Field("digits", "", "significant digits", "a whole number", "", 1, 17, "4", whole=True)
+EXACT = 17
+"""Significant digits with which a value is told without rounding."""
+_DIGITS = Field("digits", "", "significant digits", "a whole number", "", 1, EXACT, "4", whole=True)
 
 
 @dataclass(frozen=True)

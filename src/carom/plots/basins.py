@@ -156,7 +156,8 @@ def _plane(basin: Basin, motions: list[MotionLook], smallest: SmallestLoss | Non
         velocity = complex(getattr(basin.plan.model, "velocity", 0.0))
         said = "at rest" if velocity == 0 else rf"at {velocity:.3g} $c_r\Omega$"
         axes.set_title(f"starts {said} in the fixed frame")
-        handles = [Line2D([], [], ls="none", marker="p", ms=5, mfc="white", mec="#1a1a1a", label="levitation")]
+        rest = LOOKS["contact-free"]
+        handles = [Line2D([], [], ls="none", marker=rest.marker, ms=5, mfc="white", mec="#1a1a1a", label=rest.words)]
     else:
         factor, label = _axis(x, basin.scales)
         across, label_across = _axis(y, basin.scales)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from matplotlib.axes import Axes
 
+from carom.outcome import DRIFTING_RUB, IRREGULAR_BOUNCING, STEADY_WORDS, Outcome
 from carom.plots.style import LOOKS, OUTCOMES
 
 if TYPE_CHECKING:
@@ -15,27 +16,20 @@ if TYPE_CHECKING:
 
 Interval = tuple[float, float]
 
-ROWS = (
-    "levitation",
-    "synchronous rub",
-    "drifting rub",
-    "bouncing",
-    "bouncing with rub",
-    "irregular bouncing",
-    "sliding backward whirl",
-    "rolling backward whirl",
-)
-"""From top to bottom."""
+LEVITATION, RUB, ROLLING = STEADY_WORDS.values()
+BOUNCING, WITH_RUB = Outcome.BOUNCING.words, Outcome.MIXED.words
 _COLOURS = {
-    "levitation": OUTCOMES["levitated"].colour,
-    "synchronous rub": OUTCOMES["forward-rub"].colour,
-    "drifting rub": OUTCOMES["forward-rub"].colour,
-    "bouncing": OUTCOMES["bouncing"].colour,
-    "bouncing with rub": OUTCOMES["mixed"].colour,
-    "irregular bouncing": OUTCOMES["irregular"].colour,
-    "sliding backward whirl": OUTCOMES["backward-whirl"].colour,
-    "rolling backward whirl": OUTCOMES["rolling"].colour,
+    LEVITATION: OUTCOMES["levitated"].colour,
+    RUB: OUTCOMES["forward-rub"].colour,
+    DRIFTING_RUB: OUTCOMES["forward-rub"].colour,
+    BOUNCING: OUTCOMES["bouncing"].colour,
+    WITH_RUB: OUTCOMES["mixed"].colour,
+    IRREGULAR_BOUNCING: OUTCOMES["irregular"].colour,
+    Outcome.BACKWARD_WHIRL.words: OUTCOMES["backward-whirl"].colour,
+    ROLLING: OUTCOMES["rolling"].colour,
 }
+ROWS = tuple(_COLOURS)
+"""From top to bottom."""
 _THICK = 4.5
 _LARGEST = 26.0
 
@@ -45,18 +39,18 @@ def rows_of(diagram: Diagram) -> list[str]:
     present = {_row_of_sample(sample) for sample in diagram.attractors}
     equilibria = {branch.kind: branch for branch in diagram.equilibria}
     exists = {
-        "levitation": equilibria["contact-free"].admissible.any(),
-        "synchronous rub": (equilibria["stable rub"].admissible & equilibria["stable rub"].stable).any(),
-        "bouncing": any(branch.admissible.any() for branch in diagram.branches),
-        "bouncing with rub": bool(diagram.rubbing),
-        "rolling backward whirl": diagram.rolling.holds.any(),
+        LEVITATION: equilibria["contact-free"].admissible.any(),
+        RUB: (equilibria["stable rub"].admissible & equilibria["stable rub"].stable).any(),
+        BOUNCING: any(branch.admissible.any() for branch in diagram.branches),
+        WITH_RUB: bool(diagram.rubbing),
+        ROLLING: diagram.rolling.holds.any(),
     }
     return [row for row in ROWS if exists.get(row, False) or row in present]
 
 
 def row_of_point(point: Bifurcation) -> str | None:
     """Return the row in which a special point is marked; ``None`` if it belongs to another panel."""
-    return {"rubbing": "bouncing with rub", "rolling": "rolling backward whirl"}.get(point.motion)
+    return {"rubbing": WITH_RUB, "rolling": ROLLING}.get(point.motion)
 
 
 def coexistence(axes: Axes, diagram: Diagram, unit: float) -> None:
@@ -88,13 +82,13 @@ def _ranges(diagram: Diagram) -> dict[str, tuple[list[Interval], list[Interval]]
     marks = [point.value for point in diagram.points if np.isnan(point.radial_speed)]
     levitation, rub = equilibria["contact-free"], equilibria["stable rub"]
     found = {
-        "levitation": (_on_grid(levitation.values, levitation.admissible & levitation.stable, marks), []),
-        "synchronous rub": (_on_grid(rub.values, rub.admissible & rub.stable, marks), []),
-        "rolling backward whirl": (_on_grid(diagram.rolling.values, diagram.rolling.holds, marks), []),
-        "bouncing": _on_orbits(diagram.branches),
+        LEVITATION: (_on_grid(levitation.values, levitation.admissible & levitation.stable, marks), []),
+        RUB: (_on_grid(rub.values, rub.admissible & rub.stable, marks), []),
+        ROLLING: (_on_grid(diagram.rolling.values, diagram.rolling.holds, marks), []),
+        BOUNCING: _on_orbits(diagram.branches),
     }
     if diagram.rubbing:
-        found["bouncing with rub"] = _on_orbits(diagram.rubbing)
+        found[WITH_RUB] = _on_orbits(diagram.rubbing)
     return found
 
 
@@ -142,9 +136,9 @@ def _joined(intervals: list[Interval]) -> list[Interval]:
 
 def _row_of_sample(sample: AttractorSample) -> str:
     if sample.irregular:
-        return "irregular bouncing"
+        return IRREGULAR_BOUNCING
     words = str(OUTCOMES[sample.outcome].words)
-    return next((row for row in ("synchronous rub", "drifting rub") if sample.name.startswith(row)), words)
+    return next((row for row in (RUB, DRIFTING_RUB) if sample.name.startswith(row)), words)
 
 
 def _dot(axes: Axes, sample: AttractorSample, height: float, unit: float) -> None:

@@ -14,6 +14,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
+from carom.outcome import IRREGULAR_BOUNCING, STEADY_WORDS
+from carom.parameters.told import shown_in
 from carom.plots.coexistence import coexistence, row_of_point, rows_of
 from carom.plots.figure import StyledFigure
 from carom.plots.plane import legend_above
@@ -46,8 +48,8 @@ POINTS = MappingProxyType(
         "radius-extremum": Look("#808080", "new extremum of the radius", marker="D"),
         "slip-stop": Look("#e69f00", "friction stops the slip", marker="P"),
         "non-smooth-hopf": Look("#009e73", "non-smooth Hopf bifurcation", marker="*"),
-        "boundary-equilibrium": Look("#009e73", "levitation meets the wall", marker="p"),
-        "rub-fold": Look("#cc79a7", "fold of synchronous rubs", marker="X"),
+        "boundary-equilibrium": Look("#009e73", f"{STEADY_WORDS['contact-free']} meets the wall", marker="p"),
+        "rub-fold": Look("#cc79a7", f"fold of {STEADY_WORDS['rub']}s", marker="X"),
         "contact-onset": Look("#7a4fa3", "lasting contact begins", marker="^"),
         "permanent-contact": Look("#7a4fa3", "contact becomes permanent", marker="o"),
         "rolling-limit": Look("#882255", "rolling no longer holds", marker="d"),
@@ -77,8 +79,8 @@ CURVES = MappingProxyType({kind: replace(POINTS[kind], marker="none", **look) fo
 
 BOUNDARIES = MappingProxyType(
     {
-        "persistence": Look("#009e73", "levitation turns into synchronous rub", marker="p"),
-        "non-smooth fold": Look("#009e73", "levitation and saddle of rub vanish", marker="8"),
+        "persistence": Look("#009e73", f"{STEADY_WORDS['contact-free']} turns into {STEADY_WORDS['rub']}", marker="p"),
+        "non-smooth fold": Look("#009e73", f"{STEADY_WORDS['contact-free']} and saddle of rub vanish", marker="8"),
     }
 )
 """Markers of boundary equilibria for which the fate of levitation is known (read-only)."""
@@ -97,7 +99,7 @@ _EQUILIBRIA = {"contact-free": "contact-free", "stable rub": "rub", "saddle rub"
 def bifurcation_diagram(diagram: Diagram, proof: Proof | None = None) -> Figure:
     """Draw all equilibria and single-impact orbits along a parameter, with their special points, in three panels.
 
-    Upper: the radial speed of the orbits at the impact.  Middle: the gap of levitation and the normal force
+    Upper: the radial speed of the orbits at the impact, in mm/s if the machine is known.  Middle: the gap of levitation and the normal force
     of the rubs, which must be positive.  Lower: which motions exist, with broad bars where they are stable, and the
     motions to which simulated disturbances settled.  The shaft speed is in rpm.
 
@@ -116,22 +118,22 @@ def bifurcation_diagram(diagram: Diagram, proof: Proof | None = None) -> Figure:
     upper, lower, below = figure.subplots(3, 1, sharex=True, height_ratios=(2.4, 1.1, strip))
     unit = parameter_unit(diagram.axis.field)
     for branch in diagram.orbits:
-        heights = np.array([point.radial_speed for point in branch.special])
-        branch_line(upper, branch, np.arange(len(branch)), branch.values / unit, branch.radial_speed, heights, unit)
+        _speed_line(upper, diagram, branch, branch.radial_speed, [point.radial_speed for point in branch.special])
     for several in diagram.several:
         for k, speeds in enumerate(several.radial_speeds.T):
-            heights = np.array([point.orbit.impact_speeds[k] for point in several.special])
-            branch_line(upper, several, np.arange(len(several)), several.values / unit, speeds, heights, unit)
+            there = [float(point.orbit.impact_speeds[k]) for point in several.special]
+            _speed_line(upper, diagram, several, speeds, there)
     for sample in diagram.attractors:
         values = np.full(len(sample.radial_speeds), sample.value / unit)
-        upper.plot(values, sample.radial_speeds, ls="none", **(_MET if sample.met else _UNMET), zorder=4)
+        speeds = diagram.told_speeds(sample.value, sample.radial_speeds)
+        upper.plot(values, speeds, ls="none", **(_MET if sample.met else _UNMET), zorder=4)
     upper.axhline(0.0, color="#1a1a1a", lw=0.5)
     for equilibrium in diagram.equilibria:
         _equilibrium_branch(lower, equilibrium, unit)
     lower.axhline(0.0, color=LOOKS["wall"].colour, lw=1.0)
     coexistence(below, diagram, unit)
     key = [] if proven is None else _proven_row(below, proven, unit)
-    upper.set_ylabel(r"radial speed at the impact, $\dot r$ ($c_r\Omega$)")
+    upper.set_ylabel(rf"radial speed at the impact, $\dot r$ ({_speed_unit(diagram)})")
     lower.set_ylabel("gap ($c_r$); force\n" r"of rub ($m c_r\Omega^2$)")
     below.set_xlabel(parameter_label(diagram.axis.field))
     present = _mark_present(diagram, (upper, lower, below), unit)
@@ -148,6 +150,22 @@ def bifurcation_diagram(diagram: Diagram, proof: Proof | None = None) -> Figure:
     if key:
         legend_above(upper, key, 2)
     return figure
+
+
+def _speed_unit(diagram: Diagram) -> str:
+    """The unit of speeds as mathematical text."""
+    return r"$c_r\Omega$" if diagram.model.scales is None else diagram.speed_unit
+
+
+def _speed_line(
+    axes: Axes, diagram: Diagram, branch: OrbitBranch, speeds: np.ndarray, at_special_points: list[float]
+) -> None:
+    """Draw speeds along a branch, in the unit in which people are told them."""
+    unit, places = parameter_unit(diagram.axis.field), np.arange(len(branch))
+    special = np.array([point.value for point in branch.special])
+    there = diagram.told_speeds(special, np.array(at_special_points))
+    told = diagram.told_speeds(branch.values, speeds)
+    branch_line(axes, branch, places, branch.values / unit, told, there, unit)
 
 
 def _mark_present(diagram: Diagram, panels: tuple[Axes, ...], unit: float) -> list[Line2D]:
@@ -187,7 +205,8 @@ def _mark_points(diagram: Diagram, panels: tuple[Axes, Axes, Axes], unit: float)
     seen = set()
     for point in diagram.points:
         row, look = row_of_point(point), BOUNDARIES.get(point.detail, POINTS[point.kind])
-        axes, height = (upper, point.radial_speed) if row is None else (below, heights.get(row))
+        speed = float(diagram.told_speeds(point.value, point.radial_speed))
+        axes, height = (upper, speed) if row is None else (below, heights.get(row))
         if height is not None and np.isnan(height):
             axes, height = lower, _height(diagram, point)
         if height is None:
@@ -291,9 +310,11 @@ def _mark(axes: Axes, look: Look, x: float, y: float, admissible: bool) -> None:
 
 def _limits(diagram: Diagram) -> tuple[float, float]:
     """Return the range of all admissible values, with a margin for virtual ones; its end is 0 if there are none."""
-    speeds = [branch.radial_speed[branch.admissible] for branch in diagram.orbits]
-    speeds += [branch.radial_speeds[branch.admissible].ravel() for branch in diagram.several]
-    speeds += [sample.radial_speeds for sample in diagram.attractors]
+    speeds = [
+        diagram.told_speeds(branch.values[branch.admissible, None], branch.radial_speeds[branch.admissible]).ravel()
+        for branch in diagram.branches
+    ]
+    speeds += [diagram.told_speeds(sample.value, sample.radial_speeds) for sample in diagram.attractors]
     shown = np.concatenate([*speeds, [0.0]])
     high = float(shown.max())
     return -0.12 * (high or 1.0), 1.1 * high
@@ -304,12 +325,14 @@ def _diagram_key(diagram: Diagram, marked: list[Look]) -> list[Line2D]:
     if diagram.orbits or diagram.several:
         for look, words in (("stable", "stable orbit"), ("unstable", "unstable orbit"), ("virtual", "virtual")):
             entries.append(LOOKS[look].entry(words))
-    entries.append(Line2D([], [], color=LOOKS["contact-free"].colour, lw=1.1, label="levitation: gap"))
+    entries.append(
+        Line2D([], [], color=LOOKS["contact-free"].colour, lw=1.1, label=f"{STEADY_WORDS['contact-free']}: gap")
+    )
     admissible = {branch.kind for branch in diagram.equilibria if branch.admissible.any()}
     for line, kind in (("-", "stable rub"), ("--", "saddle rub")):
         if kind not in admissible:
             continue
-        words = f"synchronous rub, {'stable' if kind == 'stable rub' else 'saddle'}: normal force"
+        words = f"{STEADY_WORDS['rub']}, {'stable' if kind == 'stable rub' else 'saddle'}: normal force"
         entries.append(Line2D([], [], color=LOOKS["rub"].colour, ls=line, lw=1.1, label=words))
     return entries + _attractor_key(diagram) + [look.entry() for look in marked]
 
@@ -323,12 +346,13 @@ def _attractor_key(diagram: Diagram) -> list[Line2D]:
     tried = diagram.disturbances
     ring: dict[str, Any] = {"ls": "none", "marker": "o", "mec": "#1a1a1a", "mew": 0.6}
     if tried and any(sample.met for sample in diagram.attractors):
-        words = f"share of {tried.count} disturbances up to {tried.fastest:.3g} $c_r\\Omega$"
+        factor, _ = shown_in("velocity", diagram.model.scales)
+        words = f"share of {tried.count} disturbances up to {number(factor * tried.fastest, 3)} {_speed_unit(diagram)}"
         entries.append(Line2D([], [], mfc="#ffffff", ms=4.0, **ring, label=words))
     if any(not sample.met for sample in diagram.attractors):
         entries.append(Line2D([], [], mfc="none", ms=2.0, **ring, label="met by none, only from a start next to it"))
     if any(sample.transient for sample in diagram.attractors):
-        words = "irregular bouncing that ends"
+        words = f"{IRREGULAR_BOUNCING} that ends"
         entries.append(Line2D([], [], ls="none", marker="x", ms=4.0, color="#1a1a1a", mew=0.8, label=words))
     return entries
 

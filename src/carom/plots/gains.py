@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from types import MappingProxyType
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -13,7 +14,10 @@ from matplotlib.patches import Patch
 from matplotlib.patheffects import withStroke
 from matplotlib.ticker import PercentFormatter
 
+from carom.basins.changes import told_changes
 from carom.outcome import InputError
+from carom.parameters import SETTABLE, in_terms_of
+from carom.parameters.in_terms import EXACT
 from carom.parameters.told import shown_in
 from carom.plots.plane import Floats, one_axes
 from carom.plots.style import ONE_COLUMN, TWO_COLUMNS, styled
@@ -23,6 +27,7 @@ from carom.plots.words import number, parameter_label, parameter_unit
 if TYPE_CHECKING:
     from carom.basins import GainChange, GainMap
     from carom.models import Axis
+    from carom.parameters import Case
 
 _LEVELS = MappingProxyType({0.5: ":", 0.9: "--", 0.99: "-"})
 """Shares at which contours are drawn, and their line styles."""
@@ -37,6 +42,7 @@ _MEASURES = {
 _HALF = 50
 """Number of characters of an entry of the legend that fit in half of the width."""
 _NAMES = {"stiffness": "P gain", "damping": "D gain"}
+"""What stiffness and damping are called; an entry of a machine's file that states them has its own name."""
 _JUDGED_BY = MappingProxyType({"boundary_basin_entropy": "basin_entropy", "smallest_unrecovered_kick": "recovered"})
 """Measures that may have no value at some machines; for each, the measure that shows whether it was computed."""
 _NONE = MappingProxyType(
@@ -55,6 +61,7 @@ def gain_map(
     title: str | None = None,
     *,
     measure: str = "recovered",
+    told_by: Case | None = None,
     axes: Axes | None = None,
 ) -> Figure:
     """Draw the share of disturbances that comes back, with contours, the present machine and the least change.
@@ -67,6 +74,8 @@ def gain_map(
         Least change that reaches a wanted share, to be drawn as an arrow.
     measure : {"recovered", "integrity", "basin_entropy", "boundary_basin_entropy", "smallest_unrecovered_kick"}
         The measure that the shades show; contours always show the share that comes back.
+    told_by : Case, optional
+        A machine in whose terms and units both parameters are told: ``derivative_gain`` in A s/m where its file has that.
 
     Raises
     ------
@@ -77,8 +86,11 @@ def gain_map(
     if measure not in known:
         raise InputError("measure", measure, f"one that this map has: {', '.join(known)}")
     figure, drawn = one_axes(axes, (0.7 * TWO_COLUMNS, 1.15 * ONE_COLUMN))
-    units = [parameter_unit(axis.field) for axis in found.axes]
-    x, y = (found.dataset[axis.name].values / unit for axis, unit in zip(found.axes, units, strict=True))
+    told = [_told(axis, now, told_by) for axis, now in zip(found.axes, found.present, strict=True)]
+    x, y = (
+        np.array([each.of(value) for value in found.dataset[axis.name].values.tolist()])
+        for axis, each in zip(found.axes, told, strict=True)
+    )
     values = np.ma.masked_invalid(found.dataset[measure].values)
     bar = _MEASURES[measure][0]
     if measure == "smallest_unrecovered_kick":
@@ -87,7 +99,7 @@ def gain_map(
     grounded = found.dataset["levitates"].values == 0.0
     edges = cell_edges(x), cell_edges(y)
     _shades(figure, drawn, edges, np.ma.masked_where(grounded, values), bar, _MEASURES[measure][1])
-    here = found.present[0] / units[0], found.present[1] / units[1]
+    here = told[0].of(found.present[0]), told[1].of(found.present[1])
     blank = {"no-levitation": grounded, "none": np.ma.getmaskarray(values) & ~grounded}
     words = {"none": _NONE.get(measure, "")}
     if found.present_share.count and _within(edges, here, grounded):
@@ -99,10 +111,12 @@ def gain_map(
     said = f"present machine: {number(100.0 * found.present_share.fraction, 3)} % come back"
     handles.append(Line2D([], [], marker="*", ms=9.0, mfc="white", mec="#1a1a1a", mew=0.7, ls="none", label=said))
     if change is not None and change.size > 0.0:
-        there = change.values[0] / units[0], change.values[1] / units[1]
-        handles.append(_arrow(drawn, here, there, found, change))
-    drawn.set_xlabel(_label(found.axes[0]))
-    drawn.set_ylabel(_label(found.axes[1]))
+        there = told[0].of(change.values[0]), told[1].of(change.values[1])
+        parts = zip(told, told_changes(found, change, told_by), strict=True)
+        said = ", ".join(f"{each.name} {100.0 * part:+.3g} %".replace("-", "\N{MINUS SIGN}") for each, part in parts)
+        handles.append(_arrow(drawn, here, there, f"least change found for {100 * change.wanted:g} %: {said}"))
+    drawn.set_xlabel(told[0].label)
+    drawn.set_ylabel(told[1].label)
     drawn.set_xlim(x[0], x[-1])
     drawn.set_ylim(y[0], y[-1])
     if title:
@@ -138,17 +152,10 @@ def _within(edges: tuple[Floats, Floats], place: tuple[float, float], cells: np.
     return 0 <= row < cells.shape[0] and 0 <= column < cells.shape[1] and bool(cells[row, column])
 
 
-def _arrow(
-    axes: Axes, here: tuple[float, float], there: tuple[float, float], found: GainMap, change: GainChange
-) -> Line2D:
+def _arrow(axes: Axes, here: tuple[float, float], there: tuple[float, float], label: str) -> Line2D:
     """Draw an arrow from the present machine along the least change; return its legend entry."""
     for colour, width in (("white", 1.6), ("#d55e00", 0.9)):
         axes.annotate("", there, here, arrowprops={"arrowstyle": "-|>", "color": colour, "lw": width, "shrinkA": 4})
-    changes = ", ".join(
-        f"{_NAMES.get(axis.name, axis.name)} {100.0 * part:+.3g} %".replace("-", "\N{MINUS SIGN}")
-        for axis, part in zip(found.axes, change.changes, strict=True)
-    )
-    label = f"least change found for {100 * change.wanted:g} %: {changes}"
     return Line2D([], [], color="#d55e00", lw=1.2, marker=">", markevery=[1], ms=4, label=label)
 
 
@@ -166,7 +173,26 @@ def _contours(axes: Axes, x: np.ndarray, y: np.ndarray, share: np.ndarray) -> li
     ]
 
 
-def _label(axis: Axis) -> str:
-    """Return the label of a parameter; stiffness and damping are named as gains of a position controller."""
-    name = _NAMES.get(axis.name)
-    return f"{name}: {parameter_label(axis.field)}" if name else parameter_label(axis.field)
+class _Told(NamedTuple):
+    """A parameter as a figure tells it: the label of its axis, its name in the legend, and a value in the unit of the label."""
+
+    label: str
+    name: str
+    of: Callable[[float], float]
+
+
+def _told(axis: Axis, now: float, case: Case | None) -> _Told:
+    """Tell a parameter in the terms of a machine's file; stiffness and damping are named as gains of a position controller."""
+    unit, field = parameter_unit(axis.field), axis.field
+    label, name = parameter_label(field), _NAMES.get(axis.name, "")
+    if case is None:
+        return _Told(f"{name}: {label}" if name else label, name or axis.name, lambda value: value / unit)
+    stated = in_terms_of(case, axis.name, now)
+    label = parameter_label(SETTABLE[stated.entry], stated.unit)
+    if stated.entry != axis.name:
+        name = ""
+    return _Told(
+        f"{name}: {label}" if name else label,
+        name or stated.entry.replace("_", " "),
+        lambda value: in_terms_of(case, axis.name, value, digits=EXACT).value,
+    )

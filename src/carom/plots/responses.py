@@ -9,6 +9,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from carom.outcome import STEADY_WORDS
 from carom.plots.figure import StyledFigure
 from carom.plots.plane import Floats, key
 from carom.plots.style import LOOKS, TWO_COLUMNS, ZONE_SHADES, Look, styled
@@ -19,10 +20,10 @@ if TYPE_CHECKING:
 
 RPM = math.pi / 30.0
 """One revolution per minute in rad/s."""
-_FREE = Look("#009e73", "levitation", line="-", width=1.5)
+_FREE = Look("#009e73", STEADY_WORDS["contact-free"], line="-", width=1.5)
 _VIRTUAL = Look("#4d4d4d", "virtual: beyond the clearance", line=":", width=1.4)
-_RUB = Look("#cc79a7", "synchronous rub, stable", line="-", width=3.0)
-_SADDLE = Look("#5c1f47", "synchronous rub, unstable", line="--", width=1.1)
+_RUB = Look("#cc79a7", f"{STEADY_WORDS['rub']}, stable", line="-", width=3.0)
+_SADDLE = Look("#5c1f47", f"{STEADY_WORDS['rub']}, unstable", line="--", width=1.1)
 _LIMIT = Look("#d55e00", "limit of API 617", line="-.", width=1.1)
 _PRESENT = Look("#1a1a1a", "present speed", line=(0.0, (4.0, 2.0)), width=0.9)
 _CRITICAL = Look("#0072b2", "critical speed", line=(0.0, (1.0, 1.5)), width=1.1)

@@ -32,7 +32,7 @@ def ring(basin: Basin, motions: list[MotionLook], title: str | None) -> Figure:
     said = motion.get(str(basin.plan.model.describe()["motion"]), "rolling without slip")
     axes.set_title(f"released from the wall, {said}")
     look = LOOKS["contact-free"]
-    rest = Line2D([], [], ls="none", marker=look.marker, ms=5.0, mfc=look.colour, mec="#1a1a1a", label="levitation")
+    rest = Line2D([], [], ls="none", marker=look.marker, ms=5.0, mfc=look.colour, mec="#1a1a1a", label=look.words)
     return finish(figure, motions, title, [rest], columns=1)
 
 

@@ -36,7 +36,7 @@ from typing import Any, ParamSpec
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from carom.outcome import Outcome
+from carom.outcome import IRREGULAR_BOUNCING, STEADY_WORDS, Outcome
 from carom.plots.arrangement import arrange, write_plain_ticks
 from carom.plots.sheet import ONE_COLUMN as ONE_COLUMN
 from carom.plots.sheet import drawing
@@ -97,8 +97,8 @@ LOOKS = MappingProxyType(
         "outside": Look("#a6a6a6", "virtual part, outside the clearance", line=":", width=0.8),
         "wall": Look("#1a1a1a", "clearance circle (touchdown bearing)", line="-", width=1.0),
         "path": Look("#3d4f66", "path of the rotor centre", line="-", width=0.6),
-        "contact-free": Look("#009e73", "levitation", marker="p"),
-        "rub": Look("#cc79a7", "synchronous rub", marker="s"),
+        "contact-free": Look("#009e73", STEADY_WORDS["contact-free"], marker="p"),
+        "rub": Look("#cc79a7", STEADY_WORDS["rub"], marker="s"),
         "slide": Look("#cc79a7", "lasting contact, sliding", line="-", width=2.0),
         "roll": Look("#882255", "lasting contact, rolling", line="--", width=2.0),
         "forward": Look("#56b4e9", "impact, forward whirl", marker="^"),
@@ -121,7 +121,7 @@ OUTCOMES = MappingProxyType(
     {
         "levitated": Look("#009e73", Outcome.LEVITATED.words),
         "bouncing": Look("#0072b2", Outcome.BOUNCING.words, hatch="...."),
-        "irregular": Look("#3d3d3d", f"irregular {Outcome.BOUNCING.words}", hatch="...."),
+        "irregular": Look("#3d3d3d", IRREGULAR_BOUNCING, hatch="...."),
         "mixed": Look("#56b4e9", Outcome.MIXED.words),
         "forward-rub": Look("#cc79a7", Outcome.FORWARD_RUB.words, hatch="\\\\\\\\"),
         "backward-whirl": Look("#7a4fa3", Outcome.BACKWARD_WHIRL.words, hatch="xxxx"),

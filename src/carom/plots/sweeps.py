@@ -19,7 +19,7 @@ from matplotlib.patches import Patch, PathPatch
 from matplotlib.path import Path
 from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter, PercentFormatter
 
-from carom.outcome import InputError
+from carom.outcome import STEADY_WORDS, InputError
 from carom.parameters import SETTABLE, Field
 from carom.parameters.told import shown_from_si
 from carom.plots.plane import Floats, legend_above, one_axes
@@ -42,7 +42,7 @@ _NONE = MappingProxyType(
     {
         "smallest_unrecovered_kick": "every kick tried came back",
         "smallest_unrecovered_kick_angle": "every kick tried came back",
-        "rub_force": "no stable synchronous rub",
+        "rub_force": f"no stable {STEADY_WORDS['rub']}",
         "orbit_impulse": "no stable orbit with one impact",
         "least_damping": "some are lost at all damping tried",
     }

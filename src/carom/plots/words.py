@@ -88,9 +88,9 @@ def parameter_unit(field: Field) -> float:
     return field.usual_size
 
 
-def parameter_label(field: Field) -> str:
-    """Return the words, symbol and unit of a parameter."""
-    unit = field.usual_unit
+def parameter_label(field: Field, unit: str | None = None) -> str:
+    """Return the words, symbol and unit of a parameter, by default the unit in which people usually say it."""
+    unit = field.usual_unit if unit is None else unit
     symbol = {"γ": r"\gamma", "ω": r"\omega", "ρ": r"\rho", "φ": r"\varphi", "μ": r"\mu", "Ω": r"\Omega"}.get(
         field.symbol, field.symbol
     )

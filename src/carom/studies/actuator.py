@@ -229,7 +229,7 @@ def bearing_demand(
         if orbit.admissible and orbit.stable:
             motion = orbit.trajectory()
             reached = zip(limits, largest_along(motion, limits), largest_jumps(motion, limits), strict=True)
-            motions += [Demand(f"bouncing on {orbit.name}", *each) for each in reached]
+            motions += [Demand(MotionName(Outcome.BOUNCING, 1, orbit=orbit.name).words, *each) for each in reached]
     if roll.holds:
         whirl = Centre.whirling(1.0, -roll.speed)
         motions += [Demand(ROLLING.words, limit, float(limit.asked(whirl))) for limit in limits]

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 from carom.closed_forms.thresholds import Gain
+from carom.outcome import Outcome
 from carom.parameters import DIMENSIONLESS_FIELDS
 from carom.parameters.told import number
 from carom.studies.advice import WANTED, Bound, Change, Margin, evidence_of, stated
@@ -134,7 +135,7 @@ def _details(study: Study, change: Change) -> Iterator[Fact]:
         yield _fact("Bearings", f"asked for at most {most} of the magnetic bearings", "sampled", detail=True)
     if change.whirl is not None:
         fast = study.wording.velocity(change.whirl.certain)
-        remains = f"rolling backward whirl: it surely begins if, in lasting contact, the centre moves backward faster than {fast}"
+        remains = f"{Outcome.ROLLING.words}: it surely begins if, in lasting contact, the centre moves backward faster than {fast}"
         yield _fact("Remains", remains, "closed form", detail=True)
 
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from carom.attractors.names import LEVITATION
 from carom.closed_forms.thresholds import Gain
 from carom.closed_forms.whirl import Rolling, Runaway, rolling, runaway_speed
+from carom.outcome import STEADY_WORDS
 from carom.parameters import GRAVITY
 from carom.parameters.indentation import gives_way, indentation_of_force, indentation_of_hit
 from carom.parameters.told import number
@@ -25,6 +26,7 @@ if TYPE_CHECKING:
     from carom.studies.assembly import Study
 
 MOST_NAMES = 8
+RUB, ROLLING = STEADY_WORDS["rub"], STEADY_WORDS["rolling"]
 
 
 def stable_rub(study: Study) -> Equilibrium | None:
@@ -68,8 +70,8 @@ def _loss_of_levitation(study: Study) -> list[str]:
 
 
 _LOSS = {
-    "persistence": "it turns into a synchronous rub whose force grows from zero",
-    "non-smooth fold": "it meets an unstable synchronous rub and both vanish, so that the rotor must go somewhere else",
+    "persistence": f"it turns into a {RUB} whose force grows from zero",
+    "non-smooth fold": f"it meets an unstable {RUB} and both vanish, so that the rotor must go somewhere else",
     "degenerate": "it ends on the wall",
 }
 
@@ -77,16 +79,16 @@ _LOSS = {
 def _rub(study: Study) -> str:
     rubs = [rub for rub in study.rubs if rub.status != "virtual"]
     if not rubs:
-        return "No synchronous rub exists: the unbalance cannot keep the rotor pressed against the bearing."
+        return f"No {RUB} exists: the unbalance cannot keep the rotor pressed against the bearing."
     stable = stable_rub(study)
     if stable is None:
         return (
-            "A synchronous rub exists. It is not stable in every direction, but it marks a way to stay in contact: the bearing force "
+            f"A {RUB} exists. It is not stable in every direction, but it marks a way to stay in contact: the bearing force "
             f"is {_rub_load(study, rubs[0])}."
         )
-    start = "A synchronous rub exists and is stable"
+    start = f"A {RUB} exists and is stable"
     if study.levitates:
-        start = "A synchronous rub coexists with levitation and is stable"
+        start = f"A {RUB} coexists with levitation and is stable"
     return (
         f"{start}: once it has settled there the rotor stays pressed against the touchdown bearing. "
         f"The bearing force would be {_rub_load(study, stable)}."
@@ -234,9 +236,9 @@ def _where_it_ends(study: Study, roll: Rolling) -> str:
     """Say with which load it ends in rolling, or that a rigid wall is no model of that."""
     indentation = indentation_of_force(study.case.parameters, roll.largest_force)
     if gives_way(indentation):
-        return f"Where that ends there is no model: rolling without slip, a rigid wall would carry a load at which {steel_words(indentation)}."
+        return f"Where that ends there is no model: in {ROLLING}, a rigid wall would carry a load at which {steel_words(indentation)}."
     force = _with_weight(study, roll.largest_force)
-    return f"It ends in rolling without slip, with {force}; once it rolls, it goes on rolling."
+    return f"It ends in {ROLLING}, with {force}, and stays in it."
 
 
 def _interrupted(study: Study, roll: Rolling) -> str:
@@ -300,7 +302,7 @@ def _recovery_words(study: Study, gain: Gain) -> str:
 
 _POSSIBLE: dict[Motion, str] = {
     "contact-free": "levitation exists",
-    "rub": "a synchronous rub can hold the rotor",
+    "rub": f"a {RUB} can hold the rotor",
     "single-impact": "orbits with one impact a period are possible",
     "stable-single-impact": "stable ones, which can hold the rotor,",
 }

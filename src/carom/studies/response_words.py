@@ -6,12 +6,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from carom.outcome import STEADY_WORDS
 from carom.parameters.told import number
 from carom.studies.standards import CRITICALLY_DAMPED, RPM, vibration_limit
 from carom.studies.wording import listed
 
 if TYPE_CHECKING:
     from carom.studies.response import Stretch, UnbalanceResponse
+
+RUB = STEADY_WORDS["rub"]
 
 
 def rpm(speed: float) -> str:
@@ -41,7 +44,7 @@ def _present(response: UnbalanceResponse) -> str:
         )
     lag = number(np.degrees(-np.angle(place)), 3)
     return (
-        f"At {rpm(speed)}, the present speed, the rotor whirls without contact with {micrometres(width)} peak to peak "
+        f"At {rpm(speed)}, the present speed, the rotor levitates with {micrometres(width)} peak to peak "
         f"({number(abs(place), 3)} of the clearance: zone {response.zone_at(speed)} of ISO 14839-2), {lag}° behind the unbalance. "
         f"API 617 allows {micrometres(allowed)} there{_ratio(width / allowed)}."
     )
@@ -113,20 +116,18 @@ def _contact(response: UnbalanceResponse) -> list[str]:
         free = [stretch for stretch in touching if not stretch.what.stable_rubs]
         found = [f"No levitation is possible {_from_to(touching)}: the response calculated there is virtual."]
         if held:
-            found.append(f"In contact, a stable synchronous rub can hold the rotor {_from_to(held)}.")
+            found.append(f"In contact, a stable {RUB} can hold the rotor {_from_to(held)}.")
         if free:
-            found.append(
-                f"No stable synchronous rub exists there {_from_to(free)}: the rotor bounces or whirls backward."
-            )
+            found.append(f"No stable {RUB} exists there {_from_to(free)}: the rotor bounces or whirls backward.")
     both = [stretch for stretch in stretches if stretch.what.contact_free and stretch.what.stable_rubs]
     if both:
         found.append(
-            f"Levitation and a stable synchronous rub are both possible {_from_to(both)}: which of them the rotor takes "
+            f"Levitation and a stable {RUB} are both possible {_from_to(both)}: which of them the rotor takes "
             "depends on how it came there."
         )
     rolls = [stretch for stretch in stretches if stretch.what.rolls]
     if rolls:
-        found.append(f"A rotor that rolls on the bearing in backward whirl goes on rolling {_from_to(rolls)}.")
+        found.append(f"Once begun, {STEADY_WORDS['rolling']} lasts {_from_to(rolls)}.")
     return [*found, "Bouncing motions are not part of this: carom bifurcations --along speed finds them."]
 
 

@@ -9,7 +9,7 @@ from carom.attractors.names import LEVITATION, SYNCHRONOUS_RUB
 from carom.closed_forms.equilibria import Equilibrium
 from carom.orbits.orbit import Orbit
 from carom.orbits.single_impact import OrbitSet
-from carom.outcome import shown
+from carom.outcome import STEADY_WORDS, shown
 from carom.parameters import DIMENSIONLESS_FIELDS, ENTRIES, HELPER_FIELDS, MACHINE_FIELDS, Case, Machine, Parameters
 from carom.parameters.indentation import indentation_of_force, indentation_of_hit
 from carom.parameters.terms import set_by
@@ -70,11 +70,11 @@ class ThresholdRow:
 
 
 MOTIONS: dict[Motion, str] = {
-    "contact-free": "levitation",
-    "rub": "synchronous rub",
+    "contact-free": STEADY_WORDS["contact-free"],
+    "rub": STEADY_WORDS["rub"],
     "single-impact": "orbits with one impact a period",
     "stable-single-impact": "stable orbits with one impact a period",
-    "rolling": "rolling backward whirl",
+    "rolling": STEADY_WORDS["rolling"],
 }
 """Names of the motions whose ranges are known."""
 

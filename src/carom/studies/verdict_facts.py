@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from carom.basins import SmallestLoss
 from carom.closed_forms.whirl import rolling
-from carom.outcome import Outcome
+from carom.outcome import STEADY_WORDS, Outcome
 from carom.results import fields_of
 from carom.studies.endings import ending_words
 from carom.studies.facts import Fact
@@ -160,14 +160,14 @@ def _others(study: Study) -> Iterator[Fact]:
     """Motions besides levitation that can hold the rotor, whether a disturbance reached them or not."""
     holds, motions = [], []
     if any(rub.status != "virtual" for rub in study.rubs):
-        holds.append("a stable synchronous rub" if stable_rub(study) else "a synchronous rub")
+        holds.append(f"a {'stable ' if stable_rub(study) else ''}{STEADY_WORDS['rub']}")
         motions.append(Outcome.FORWARD_RUB.label)
     if study.stable_orbits:
         names = names_of(list(study.stable_orbits))
-        holds.append(f"bouncing for ever ({names})")
+        holds.append(f"{Outcome.BOUNCING.words} for ever ({names})")
         motions += [orbit.name for orbit in study.stable_orbits]
     if rolling(study.rotor).holds:
-        holds.append("rolling backward whirl")
+        holds.append(Outcome.ROLLING.words)
         motions.append(Outcome.ROLLING.label)
     if holds:
         text = f"besides levitation there {'are' if len(holds) > 1 else 'is'} {listed(holds)}"

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from carom.outcome import InputError
+from carom.outcome import STEADY_WORDS, InputError
 from carom.parameters import DIMENSIONLESS_FIELDS, Zones
 from carom.sweeps.variables import Dimension, Variable, with_si
 
@@ -17,19 +17,20 @@ if TYPE_CHECKING:
     from carom.orbits.single_impact import OrbitSet
     from carom.parameters import Case, Required
 
+RUB = STEADY_WORDS["rub"]
 _SIMPLE = (
     Variable("levitates", "whether levitation exists and is stable", "flag", flags=("no", "yes")),
     Variable("levitation_radius", "radius of levitation", scale="length"),
     Variable("levitation_decay", "slowest decay of disturbances in levitation", unit="Omega"),
     Variable("zone", "zone of the amplitude of levitation", "flag", flags=("A", "B", "C", "D")),
-    Variable("rubs", "synchronous rubs", "count"),
-    Variable("rub_stable", "whether a stable synchronous rub exists", "flag", flags=("no", "yes")),
-    Variable("rub_force", "normal force of the stable synchronous rub", scale="force"),
+    Variable("rubs", f"{RUB}s", "count"),
+    Variable("rub_stable", f"whether a stable {RUB} exists", "flag", flags=("no", "yes")),
+    Variable("rub_force", f"normal force of the stable {RUB}", scale="force"),
     Variable("orbits", "orbits with one impact a period", "count"),
     Variable("stable_orbits", "stable orbits with one impact a period", "count"),
     Variable("orbits_complete", "whether there are provably no more of them", "flag", flags=("no", "yes")),
     Variable("orbit_impulse", "largest normal impulse of the stable orbits", scale="impulse"),
-    Variable("rolling_holds", "whether rolling backward whirl sustains itself", "flag", flags=("no", "yes")),
+    Variable("rolling_holds", f"whether {STEADY_WORDS['rolling']} sustains itself", "flag", flags=("no", "yes")),
     Variable("runaway_speed", "speed of backward whirl that surely runs away to rolling", unit="Omega"),
 )
 _SIMULATED = (

@@ -9,12 +9,15 @@ import numpy as np
 from carom.bifurcations import Diagram, EquilibriumBranch, OrbitBranch, find_bifurcations
 from carom.explorer.computing.controls import Control, unit_of
 from carom.models import Jeffcott
-from carom.parameters.told import shown_in
+from carom.outcome import STEADY_WORDS
 from carom.plots.diagrams import BOUNDARIES, POINTS
 from carom.plots.style import LOOKS
 from carom.progress import ShowProgress
 
-_STEADY = {"contact-free": ("contact-free", "levitation"), "stable rub": ("rub", "stable synchronous rub")}
+_STEADY = {
+    "contact-free": ("contact-free", STEADY_WORDS["contact-free"]),
+    "stable rub": ("rub", f"stable {STEADY_WORDS['rub']}"),
+}
 """Branches shown as bars: key of their look, and words."""
 
 
@@ -64,20 +67,23 @@ class Picture:
 def picture_along(rotor: Jeffcott, control: Control, progress: ShowProgress = None) -> Picture:
     """Compute the diagram over the whole slider of a parameter."""
     unit = unit_of(control.name)
-    speed, words = shown_in("velocity", rotor.scales)
     diagram = find_bifurcations(rotor, control.name, (unit * control.low, unit * control.high), progress=progress)
-    heights = [branch.radial_speed[branch.admissible] for branch in diagram.orbits]
+    heights = [_speeds(diagram, branch)[branch.admissible] for branch in diagram.orbits]
     return Picture(
         control=control,
-        speed_unit=words,
-        top=1.15 * speed * float(np.concatenate([*heights, [0.0]]).max() or 1.0),
-        lines=tuple(line for branch in diagram.orbits for line in _lines(branch, unit, speed)),
+        speed_unit=diagram.speed_unit,
+        top=1.15 * float(np.concatenate([*heights, [0.0]]).max() or 1.0),
+        lines=tuple(line for branch in diagram.orbits for line in _lines(branch, unit, _speeds(diagram, branch))),
         bars=tuple(bar for branch in diagram.equilibria for bar in _bars(branch, unit)),
-        points=tuple(_points(diagram, unit, speed)),
+        points=tuple(_points(diagram, unit)),
     )
 
 
-def _lines(branch: OrbitBranch, unit: float, speed: float) -> list[Line]:
+def _speeds(diagram: Diagram, branch: OrbitBranch) -> np.ndarray:
+    return diagram.told_speeds(branch.values, branch.radial_speed)
+
+
+def _lines(branch: OrbitBranch, unit: float, speeds: np.ndarray) -> list[Line]:
     looks = np.where(branch.admissible, np.where(branch.stable, "stable", "unstable"), "virtual")
     lines = []
     for kind in ("virtual", "unstable", "stable"):
@@ -85,7 +91,7 @@ def _lines(branch: OrbitBranch, unit: float, speed: float) -> list[Line]:
         # A stretch meets its neighbours at the first point beyond it.
         shown[:-1] |= (looks[1:] == kind) & (kind != "virtual")
         if shown.any():
-            y = np.where(shown, speed * branch.radial_speed, np.nan)
+            y = np.where(shown, speeds, np.nan)
             lines.append(Line(branch.values / unit, y, kind, LOOKS[kind].colour))
     return lines
 
@@ -103,11 +109,11 @@ def _bars(branch: EquilibriumBranch, unit: float) -> list[Bar]:
     ]
 
 
-def _points(diagram: Diagram, unit: float, speed: float) -> list[Point]:
+def _points(diagram: Diagram, unit: float) -> list[Point]:
     points = []
     for found in diagram.points:
         look = BOUNDARIES.get(found.detail, POINTS[found.kind])
-        height = 0.0 if np.isnan(found.radial_speed) else speed * found.radial_speed
+        height = 0.0 if np.isnan(found.radial_speed) else float(diagram.told_speeds(found.value, found.radial_speed))
         words = look.words if found.motion != "orbit" else f"{look.words}, {found.name}"
         points.append(Point(found.value / unit, height, words, look.colour, found.admissible))
     return points

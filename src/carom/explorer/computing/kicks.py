@@ -12,12 +12,16 @@ from carom.closed_forms import find_equilibria
 from carom.disturbances import Coordinate, Disturbance, Grid, KickPlane, Starts, outward_from
 from carom.models import Jeffcott
 from carom.motions import State
+from carom.outcome import STEADY_WORDS
 from carom.parameters import Case
+from carom.parameters.told import told
 from carom.plots.cells import MotionLook, motion_looks
 from carom.progress import ShowProgress
 
 NOWHERE = 255
 """Cell without a start."""
+FIRST = 0.31, 0.12
+"""The kick with which the page begins: its parts outward and in the sense of rotation, of the largest."""
 
 
 @dataclass(frozen=True)
@@ -78,10 +82,10 @@ def rest_of(rotor: Jeffcott) -> Rest:
     """The motion that kicks disturb: levitation, otherwise the stable rub, otherwise rest where levitation meets the wall."""
     place = rotor.equilibrium
     if abs(place) < 1.0:
-        return Rest("levitation", True, place, outward_from(rotor))
+        return Rest(STEADY_WORDS["contact-free"], True, place, outward_from(rotor))
     for found in find_equilibria(rotor):
         if found.kind == "rub" and found.status == "admissible" and found.stable:
-            return Rest("the synchronous rub", False, complex(found.position), complex(found.position))
+            return Rest(f"the {STEADY_WORDS['rub']}", False, complex(found.position), complex(found.position))
     on_wall = place / abs(place)
     return Rest("rest on the bearing", False, on_wall, on_wall)
 
@@ -138,6 +142,17 @@ def largest_kick(case: Case) -> float:
     """Largest kick, the one to be survived: in m/s if the machine is known, so that axes stay where the speed changes."""
     scales = case.parameters.scales
     return case.requirement.own(scales).kick * (scales.velocity if scales else 1.0)
+
+
+def opening_words(case: Case) -> str:
+    """What the page begins with: the kicks of the picture, and the one that is drawn."""
+    rotor = Jeffcott(case.parameters)
+    fastest = largest_kick(case) / (rotor.scales.velocity if rotor.scales else 1.0)
+    largest, outward, along = (told(part * fastest, "velocity", rotor.scales) for part in (1.0, *FIRST))
+    return (
+        f"{case.name}: kicks of up to {largest}, which disturb {rest_of(rotor).words}; drawn first is the kick of {outward} outward and "
+        f"{along} in the sense of rotation"
+    )
 
 
 def map_kicks(rotor: Jeffcott, cells: int, largest: float, progress: ShowProgress = None) -> KickMap:

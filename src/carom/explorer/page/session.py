@@ -14,7 +14,7 @@ from carom.explorer.computing.diagrams import picture_along
 from carom.explorer.computing.exports import Kick, Origin, as_options, as_python, as_toml
 from carom.explorer.computing.judgement import find_hardest, find_loss, judge
 from carom.explorer.computing.kicked_motion import follow_kick
-from carom.explorer.computing.kicks import KickMap, largest_kick, map_kicks, rest_of
+from carom.explorer.computing.kicks import FIRST, KickMap, largest_kick, map_kicks, rest_of
 from carom.explorer.computing.motions import table_of
 from carom.explorer.page import messages
 from carom.models import Jeffcott
@@ -79,7 +79,7 @@ class Session:
         self.largest = largest_kick(origin.case)
         rotor = Jeffcott(origin.case.parameters)
         first = "damping" if "damping" in self.controls else "gamma"
-        self._shown = _Shown(0, origin.case, {}, rotor, first, 0.31, 0.12)
+        self._shown = _Shown(0, origin.case, {}, rotor, first, *FIRST)
         self._cost, self._reported = PATIENCE / COARSE**2, 0.0
         self._diagrams: dict[tuple[Any, ...], Any] = {}
         self._quick = Worker(("basin", "motion", "table"))

@@ -110,7 +110,7 @@ def figure_5(pair: FirstPair, radii: RadiusDiagram) -> Figure:
             name_branch(axes, *name)
     kinds = ("fold", "non-smooth-hopf", "radius-extremum", "grazing", "period-doubling")
     entries = branch_key(kinds)
-    entries.insert(3, Line2D([], [], color=LOOKS["contact-free"].colour, lw=1.1, label="levitation"))
+    entries.insert(3, Line2D([], [], color=LOOKS["contact-free"].colour, lw=1.1, label=LOOKS["contact-free"].words))
     figure.legend(handles=entries, loc="outside lower center", ncols=5)
     return figure
 
