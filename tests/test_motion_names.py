@@ -9,8 +9,19 @@ from pathlib import Path
 
 import pytest
 
+from carom.outcome import DRIFTING_RUB, IRREGULAR_BOUNCING, STEADY_WORDS, Outcome
+
 PAGE = Path("docs/reference/motions.md")
 PACKAGES = ("plots", "cli", "report", "studies", "sweeps", "explorer")
+NAMING = (*PACKAGES, "attractors", "basins", "bifurcations", "disturbances", "motions", "orbits")
+"""Packages whose texts take the names of motions from their home; statements of proofs and of papers are texts of their own."""
+TOLD_APART = (
+    *STEADY_WORDS.values(),
+    DRIFTING_RUB,
+    IRREGULAR_BOUNCING,
+    *(Outcome(code).words for code in range(20, 26)),
+)
+"""All names of motions."""
 
 
 def ruled_out() -> list[str]:
@@ -40,5 +51,46 @@ def test_no_text_for_people_has_a_name_that_is_ruled_out(package):
         for path in Path("src/carom", package).rglob("*.py")
         for text in texts(path)
         if any(name in text.lower() for name in ruled_out())
+    ]
+    assert not found
+
+
+def is_written_out(text: str) -> bool:
+    """Whether a text is a name, perhaps with an adjective or as a plural, or a sentence with a name of several words; no heading."""
+    plain = re.sub(r"^(the |a |no |un|stable |periodic |virtual |[0-9]*-impact )+", "", text.strip())
+    codes = [outcome.label for outcome in Outcome]
+    return any(
+        (" " in name and name in text.lower())
+        or (name not in codes and re.fullmatch(rf"{name}s?( virtual)?[:,.]?", plain) is not None)
+        or re.fullmatch(rf"([0-9]*-impact )?{name} (on|with rub)", plain) is not None
+        for name in TOLD_APART
+    )
+
+
+def test_a_name_that_is_written_out_is_found():
+    found = (
+        "levitation",
+        "the levitation",
+        "no stable synchronous rub",
+        "A drifting rub holds it",
+        "bouncing on ",
+        "-impact bouncing with rub",
+    )
+    assert all(map(is_written_out, found))
+    assert not any(
+        map(
+            is_written_out,
+            ("bouncing", "Levitation", "rub", "came back to levitation", "levitation_radius", "backward whirl"),
+        )
+    )
+
+
+@pytest.mark.parametrize("package", NAMING)
+def test_names_of_motions_have_one_home(package):
+    found = [
+        (str(path), text)
+        for path in Path("src/carom", package).rglob("*.py")
+        for text in texts(path)
+        if is_written_out(text)
     ]
     assert not found

@@ -318,6 +318,51 @@ def test_other_failures_are_objects_of_json(monkeypatch, carom, machine, problem
     assert out.replace("\n", "").isprintable()
 
 
+NEEDED = {
+    "simulate": ("--kick", "50 mm/s"),
+    "bifurcations": ("--along", "gamma", "--from", "0.1", "--to", "0.2"),
+    "regions": ("--plane", "gamma,omega"),
+}
+"""Options that a command needs."""
+WRONG = {
+    "study": ("--kick", "6"),
+    "simulate": ("--shock", "6"),
+    "orbits": ("--impacts", "0"),
+    "attractors": ("--starts", "0"),
+    "prove": ("--impacts", "0"),
+    "response": ("--from", "5"),
+    "bifurcations": ("--seed", "x"),
+    "regions": ("--x", "1"),
+    "basins": ("--grid", "x"),
+}
+"""An option of each command with a value that is not allowed."""
+
+
+@pytest.mark.parametrize("command", WRONG)
+def test_every_error_of_every_command_is_an_object_of_json(carom, machine, tmp_path, command):
+    broken, wrong = tmp_path / "broken.toml", tmp_path / "wrong.toml"
+    broken.write_text("[machine\nmass=")
+    wrong.write_text('[machine]\nmass = "5 kgs"\n')
+    needed = NEEDED.get(command, ())
+    tried = [
+        (broken, *needed),
+        (wrong, *needed),
+        (tmp_path / "none.toml", *needed),
+        (machine, *needed, *WRONG[command]),
+        (machine, *needed, "--nonsense"),
+        (machine, *needed, "--set", "mass"),
+        (machine, *needed, "--out", broken / "below"),
+        needed,
+    ]
+    for given in tried:
+        if command == "orbits" and "--out" in given:
+            continue
+        code, out, err = carom(command, *given, "--json")
+        assert code == BAD_INPUT, given
+        assert "error" in json.loads(out), given
+        assert err.startswith("carom: ")
+
+
 def test_wrong_usage_is_an_object_of_json(carom, machine):
     code, out, err = carom("orbits", machine, "--impacts", "no", "--json")
     error = json.loads(out)["error"]

@@ -2,14 +2,20 @@
 
 from __future__ import annotations
 
+import io
 import json
 import math
 
 import numpy as np
 import pytest
+from rich.console import Console
 
-from carom.basins import Basin, GainMap
+from carom.basins import Basin, GainChange, GainMap, map_basins, map_gains
+from carom.basins.document import basin_document
+from carom.cli.basin_tables import print_gains
+from carom.disturbances import Grid, VelocityKick
 from carom.outcome import Outcome
+from carom.parameters import load
 
 pytestmark = pytest.mark.jit_only
 
@@ -292,8 +298,8 @@ def test_a_map_takes_and_tells_gains_in_the_terms_of_the_machine(carom):
     np.testing.assert_allclose(found["values"][0], [2 * (50 * gain - 1e5) for gain in (4500, 6750, 9000)], rtol=1e-12)
     np.testing.assert_allclose(found["values"][1], [300.0, 1200.0], rtol=1e-12)
     assert found["terms"] == [
-        {"entry": "proportional_gain", "unit": "A/m", "values": [4500.0, 6750.0, 9000.0]},
-        {"entry": "derivative_gain", "unit": "A s/m", "values": [3.0, 12.0]},
+        {"entry": "proportional_gain", "unit": "A/m", "values": [4500.0, 6750.0, 9000.0], "change": None},
+        {"entry": "derivative_gain", "unit": "A s/m", "values": [3.0, 12.0], "change": None},
     ]
 
 
@@ -303,7 +309,7 @@ def test_a_map_over_another_term_than_that_of_the_file_is_told_in_it(carom, mach
 
     stiffness, mass = 9.8e5, 50.0
     np.testing.assert_allclose(found["values"][0], [2 * ratio * (stiffness * mass) ** 0.5 for ratio in (0.05, 0.2)])
-    assert found["terms"][0] == {"entry": "damping_ratio", "unit": "", "values": [0.05, 0.2]}
+    assert found["terms"][0] == {"entry": "damping_ratio", "unit": "", "values": [0.05, 0.2], "change": None}
 
 
 @pytest.mark.parametrize(
@@ -314,6 +320,18 @@ def test_a_map_over_another_term_than_that_of_the_file_is_told_in_it(carom, mach
         (("--x", "10 A/m,9000 A/m"), "--x = "),
         (("--plane", "stiffness,damping_ratio"), "damping_ratio changes with stiffness"),
         (("--plane", "stiffness,proportional_gain"), "must be two names"),
+        (
+            ("--plane", "integral_gain,derivative_gain"),
+            (
+                "--plane = integral_gain,derivative_gain: integral_gain: unknown name in the parameters; an integral gain is not modelled: "
+                "the levitation is a spring and a damper; allowed: "
+            ),
+        ),
+        (("--plane", "kp,damping"), "did you mean proportional_gain?"),
+        (
+            ("--plane", "force_current_factor,damping"),
+            "force_current_factor (force over current of a bearing) is no parameter ",
+        ),
     ],
 )
 def test_gains_that_cannot_be_mapped(carom, options, words):
@@ -322,3 +340,43 @@ def test_gains_that_cannot_be_mapped(carom, options, words):
     assert (code, out) == (2, "")
     assert words in err
     assert err.count("\n") == 1
+
+
+@pytest.mark.parametrize(
+    ("given", "plane", "words"),
+    [
+        (
+            "machine",
+            "proportional_gain,damping",
+            "needs force_current_factor and negative_stiffness, which the machine file",
+        ),
+        (
+            "dimensionless",
+            "damping_ratio,rho",
+            "damping_ratio sets damping of a machine in SI units; this one has gamma, omega",
+        ),
+    ],
+)
+def test_entries_that_a_machine_cannot_be_stated_by(carom, request, given, plane, words):
+    code, out, err = carom("basins", request.getfixturevalue(given), "--gains", "2x2", "--plane", plane)
+
+    assert (code, out) == (2, "")
+    assert err.startswith(f"carom: --plane = {plane}: ")
+    assert words in err
+    assert err.count("\n") == 1
+
+
+def test_a_change_is_told_as_that_of_the_gain_and_not_of_the_stiffness():
+    rig = load(RIG)
+    plan = Grid(VelocityKick.of(rig, "1 m/s"), (4, 6))
+    found = map_gains(rig, plan, shape=(2, 2))
+    # Two bearings of 50 N/A and -100 N/mm: 390,000 N/m are 5,900 A/m, 30 % more stiffness and 18 % more gain.
+    change = GainChange((390_000.0, 600.0), (0.3, 0.2), found.present_share, 0.9)
+    screen = Console(file=io.StringIO(), width=200)
+    print_gains(screen, found, change, 0.9, rig)
+    document = basin_document(map_basins(rig, plan), None, 0.0, found, change, 0.9, rig)
+
+    text = " ".join(screen.file.getvalue().split())
+    assert "5,900 A/m (+18 %), derivative gain, current over velocity 6 A s/m (+20 %); " in text
+    assert [term["change"] for term in document["gains"]["terms"]] == pytest.approx([0.18, 0.2], rel=1e-12)
+    assert document["gains"]["least_change"]["changes"] == [0.3, 0.2]

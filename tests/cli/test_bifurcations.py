@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 
+import carom
 from carom.cli import main
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -34,6 +35,17 @@ def test_table_and_files(capsys, tmp_path):
     shown = capsys.readouterr().out
     assert "non-smooth Hopf" in shown
     assert "rpm" in shown
+    (row,) = [
+        line for line in shown.splitlines() if "non-smooth fold" not in line and " fold " in line and "B1,d" in line
+    ]
+    # B1,d at the fold, in mm/s of the machine that runs at that speed, not of the present one
+    fold = next(
+        point
+        for point in carom.find_bifurcations(carom.load(MACHINE), "speed", ("1000 rpm", "3000 rpm")).points
+        if (point.kind, point.name) == ("fold", "B1,d")
+    )
+    assert f"{0.7 * fold.radial_speed * fold.value:.4f}" in row
+    assert "radial speed (mm/s)" in shown
     names = {str(path.relative_to(tmp_path / "out")) for path in (tmp_path / "out").rglob("*.*")}
     assert names == {"bifurcations-speed.json", *(f"figures/bifurcations-speed.{ending}" for ending in ("svg", "png"))}
     document = json.loads((tmp_path / "out" / "bifurcations-speed.json").read_text())
@@ -56,7 +68,7 @@ def test_run_up_with_all_motions(capsys):
     (levitation,) = [branch for branch in document["equilibria"] if branch["kind"] == "contact-free"]
     there = dict(zip(levitation["values"], levitation["admissible"], strict=True))
     assert (document["disturbances"]["count"], document["disturbances"]["seed"]) == (4, 3)
-    assert "up to 1.29 c_r Ω in the fixed frame" in document["disturbances"]["words"]
+    assert "up to 166 mm/s in the fixed frame" in document["disturbances"]["words"]
     for sample in samples:
         assert sample["share"] == sample["count"] / 4
         assert sample["count"] + sample["known_starts"] > 0

@@ -1,5 +1,6 @@
 """What the commands print."""
 
+import cmath
 import json
 import math
 import re
@@ -13,11 +14,27 @@ from carom.closed_forms.equilibria import find_equilibria
 from carom.disturbances import BaseShock, BladeLoss
 from carom.models import Jeffcott
 from carom.motions import simulate
+from carom.motions.starts import kick
 from carom.orbits.single_impact import find_orbits
 from carom.parameters import load
 
 pytestmark = pytest.mark.jit_only
 
+COMMANDS = (
+    "study",
+    "simulate",
+    "orbits",
+    "attractors",
+    "prove",
+    "response",
+    "bifurcations",
+    "regions",
+    "basins",
+    "sweep",
+    "paper",
+    "explore",
+)
+ANGLES = "angles count from the x axis that turns with the shaft,"
 ORBIT_KEYS = {
     "name",
     "impacts",
@@ -170,14 +187,13 @@ def test_a_shock_is_read_as_a_study_reads_it_and_echoed(carom, machine):
     assert value["outcome"] == simulate(case, state).outcome.label
     taken = value["disturbance"]
     assert taken["words"] == (
-        "Shock of the base: half-sine, 20 g for 11 ms at 30°; the motion is logged from its end, without contacts during it"
+        "Shock of the base: half-sine, 20 g for 11 ms at 30°; angles count from the x axis that turns with the shaft, as it lies when the "
+        "shock begins, in the sense of rotation (the unbalance lies at 12°); the motion is logged from its end, without contacts during it"
     )
     assert (taken["peak_si"], taken["duration_si"]) == (pytest.approx(20 * 9.80665), pytest.approx(0.011))
     assert document(carom(*options, "20 g", "--json")) == document(carom(*options, "20 g, 11 ms", "--json"))
     _, out, _ = carom(*options, "20 g")
-    assert " ".join(out.split()).startswith(
-        "Shock of the base: half-sine, 20 g for 11 ms at 0°; the motion is logged from its end, without contacts during it. "
-    )
+    assert " ".join(out.split()).startswith("Shock of the base: half-sine, 20 g for 11 ms at 0°; angles count from ")
     for text in ("20", "20 g, 11", "20 g, 11 ms, 30", "20 g, 11 ms, 30 deg, 1"):
         code, _, err = carom(*options, text)
         assert code == 2
@@ -185,16 +201,35 @@ def test_a_shock_is_read_as_a_study_reads_it_and_echoed(carom, machine):
         assert err.count("\n") == 1
 
 
+def test_angles_count_from_the_axis_from_which_the_unbalance_counts(machine):
+    """A kick and the unbalance turned by the same angle give the same motion, turned by it."""
+    turn, until = math.radians(50.0), 40.0
+    one = simulate(load(machine), kick("60 mm/s", "30 deg"), until)
+    other = simulate(load(machine, [f"phi={0.21 + turn}"]), kick("60 mm/s", "80 deg"), until)
+
+    # Rounding grows by the impacts of some six turns of the shaft.
+    assert other.final.position == pytest.approx(one.final.position * cmath.rect(1.0, turn), abs=1e-9)
+
+
 @pytest.mark.parametrize(
     ("option", "words"),
     [
-        (("--kick", "60 mm/s,30 deg"), "Kick: 60 mm/s at 30°"),
+        (
+            ("--kick", "60 mm/s,30 deg"),
+            f"Kick: 60 mm/s at 30°; {ANGLES} in the sense of rotation (the unbalance lies at 12°)",
+        ),
         (
             ("--blade-loss", "5000 g mm,30 deg"),
-            "Loss of a blade: unbalance from 15,000 g mm to 5,000 g mm, turned by 30°",
+            "Loss of a blade: unbalance from 15,000 g mm to 5,000 g mm, turned by 30° in the sense of rotation",
         ),
         # at U = 0.5 and U' = 0 the rotor turns with the shaft: 0.35 mm times 184.2 rad/s
-        (("--start", "0.5,0,0,0"), "Start: 0.35 mm from the centre at 0°, 64.5 mm/s at 90° in the fixed frame"),
+        (
+            ("--start", "0.5,0,0,0"),
+            (
+                f"Start: 0.35 mm from the centre at 0°, 64.5 mm/s at 90° in the fixed frame; {ANGLES} as it lies at the start, in the sense "
+                "of rotation (the unbalance lies at 12°)"
+            ),
+        ),
     ],
 )
 def test_a_motion_says_which_disturbance_it_took(carom, machine, option, words):
@@ -356,10 +391,18 @@ def test_help_lists_the_commands(carom, arguments):
     assert {"study", "simulate", "orbits"} <= set(out.split())
 
 
-@pytest.mark.parametrize("command", ["study", "simulate", "orbits", "response"])
-def test_help_of_commands(carom, command):
+@pytest.mark.parametrize("command", COMMANDS)
+def test_help_of_commands_is_not_cut_off(carom, monkeypatch, command):
+    monkeypatch.setenv("COLUMNS", "80")
     code, out, _ = carom(command, "--help")
 
     assert code == 0
-    assert "--set" in out
-    assert "--json" in out
+    assert "--set" in out or command in ("sweep", "paper")
+    assert "--json" in out or command == "explore"
+    assert max(map(len, out.splitlines())) <= 80
+    assert not [line for line in out.splitlines() if line.rstrip().endswith(("…", "..."))]
+
+
+def test_help_says_from_where_angles_count(carom):
+    _, out, _ = carom("simulate", "--help")
+    assert "rotation from the x axis that turns with the shaft" in " ".join(out.split())

@@ -39,9 +39,14 @@ def test_the_address_is_the_first_line_and_an_interrupt_ends_it():
     options = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True}
     with subprocess.Popen([*CAROM, "--no-browser", "--port", "0"], **options) as process:
         assert process.stdout.readline().startswith("http://127.0.0.1:")
+        said = process.stdout.readline() + process.stdout.readline()
         process.send_signal(signal.SIGINT)
         out, err = process.communicate(timeout=120)
     assert (process.returncode, out, err) == (130, "", "carom: interrupted\n")
+    assert " ".join(said.split()) == (
+        "keogh-cole: kicks of up to 166 mm/s, which disturb levitation; drawn first is the kick of 51.4 mm/s outward and 19.9 mm/s in the "
+        "sense of rotation."
+    )
 
 
 def test_a_refused_port_leaves_no_event_loop_open(carom):

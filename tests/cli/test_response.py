@@ -32,6 +32,17 @@ def test_json(carom, machine):
     assert [over["from_si"], over["to_si"]] == document["speeds_si"]
 
 
+def test_the_unbalance_and_the_speeds_taken_are_echoed(carom, machine):
+    _, out, _ = carom("response", machine, "--from", "500 rpm", "--to", "12345 rpm")
+    taken = json.loads(carom("response", machine, "--from", "500 rpm", "--to", "12345 rpm", "--json")[1])["disturbance"]
+
+    words = "Unbalance: 15,000 g mm, eccentricity 0.3 mm, at speeds from 500 rpm to 12,345 rpm"
+    assert f"\n{words}.\n" in out
+    assert taken["words"] == words
+    assert taken["unbalance_si"] == pytest.approx(50.0 * 0.3e-3)
+    assert taken["highest_speed_si"] == pytest.approx(12345.0 * math.pi / 30.0)
+
+
 def test_text_and_files(carom, machine, tmp_path):
     code, out, err = carom("response", machine, "--operating", "1700 rpm,1800 rpm", "--out", tmp_path / "out")
     assert code == 0

@@ -45,10 +45,10 @@ def test_plain_disturbances_are_dimensionless_without_scales():
     [
         (read_kick, "60", "such as '50 mm/s'; this has no unit: write 60 mm/s or 60 m/s"),
         (read_kick, "50 mm/s,30", "such as '30 deg'; this has no unit: write 30 deg or 30 rad"),
-        (read_kick, "0,06", "or dimensionless as 0.4,0.2; decimals take a point, not a comma: write 0.06"),
+        (read_kick, "0,06", "such as '50 mm/s,30 deg'; decimals take a point, not a comma: write 0.06 with its unit"),
         (read_kick, "0,06 m/s", "decimals take a point, not a comma: write 0.06 m/s"),
         (read_kick, "1,500 mm/s", "a comma may mark decimals or thousands: write 1.500 mm/s or 1 500 mm/s"),
-        (read_kick, "60,30", "decimals take a point, not a comma: write 60.30"),
+        (read_kick, "60,30", "decimals take a point, not a comma: write 60.30 with its unit"),
         (read_blade_loss, "0.4", "this has no unit: write 0.4 mm or 0.4 m"),
         (read_blade_loss, "5,000 g mm", "write 5.000 g mm or 5 000 g mm"),
         (read_blade_loss, "0.1 mm,30", "this has no unit: write 30 deg or 30 rad"),

@@ -50,6 +50,6 @@ def test_a_speed_is_the_same_text_wherever_it_is_told(scales, speed):
     assert Wording(scales).velocity(speed) == text
     assert VelocityKick(speed).coordinates[0].told(speed, scales) == text
     assert Population.of_model(VelocityKick(speed), scales).words == f"kicks up to {text}"
-    assert echo_of_kick(speed, 0.0, scales).words == f"Kick: {text} at 0°"
+    assert echo_of_kick(speed, 0.0, 0.0, scales).words.startswith(f"Kick: {text} at 0°; angles count from ")
     rotor = Jeffcott(NUMBERS.replace(scales=scales))
     assert f"at up to {text} in the fixed frame" in DisturbanceSet(10, fastest=speed).words(rotor)

@@ -12,7 +12,7 @@ from matplotlib.contour import QuadContourSet
 import carom
 from carom import plots
 from carom.attractors import MotionName
-from carom.basins import least_gain_change, map_basins, map_gains, smallest_loss
+from carom.basins import GainChange, least_gain_change, map_basins, map_gains, smallest_loss
 from carom.disturbances import (
     AnyState,
     BaseShock,
@@ -184,6 +184,26 @@ def test_without_scales_units_are_those_of_the_equations():
 def test_a_grid_of_states_has_no_picture(rotor):
     with pytest.raises(InputError, match="sample"):
         plots.basin(map_basins(rotor, Grid(AnyState(1.0), (2, 2, 2, 2))))
+
+
+def test_a_gain_map_is_drawn_in_the_terms_of_the_machine():
+    rig = carom.load("examples/tum-test-rig.toml")
+    plan = Grid(VelocityKick.of(rig, "1 m/s"), (4, 6))
+    found = map_gains(rig, plan, shape=(4, 4))
+    change = GainChange((390_000.0, 600.0), (0.3, 0.2), found.present_share, 0.9)
+    figure = plots.gain_map(found, change, told_by=rig)
+    axes = figure.axes[0]
+
+    assert fits(figure)
+    assert axes.get_xlabel() == "proportional gain, current over displacement $P$ (A/m)"
+    assert axes.get_ylabel() == "derivative gain, current over velocity $D$ (A s/m)"
+    # Two bearings of 50 N/A and -100 N/mm: half to twice k = 2 (50 P - 1e5) and c = 2 * 50 D.
+    assert axes.get_xlim() == pytest.approx((3500.0, 8000.0))
+    assert axes.get_ylim() == pytest.approx((2.5, 10.0))
+    (star,) = [line for line in axes.get_lines() if line.get_gid() == "present"]
+    assert (star.get_xdata()[0], star.get_ydata()[0]) == pytest.approx((5000.0, 5.0))
+    # 390,000 N/m are 5,900 A/m: 30 % more stiffness, and 18 % more gain
+    assert "least change found for 90 %: proportional gain +18 %, derivative gain +20 %" in words(figure)
 
 
 def test_gain_map(rotor):

@@ -65,9 +65,9 @@ class Motions:
         ]
         return (
             f"{STEADY_WORDS['contact-free']}{'' if self.contact_free else ' virtual'}",
-            f"{'stable' if self.rub else 'no stable'} {STEADY_WORDS['rub']}",
+            f"stable {STEADY_WORDS['rub']}" if self.rub else "no stable rub",
             " and ".join(orbits) if orbits else "no impacting orbit",
-            f"{'' if self.rolling else 'no lasting '}{STEADY_WORDS['rolling']}",
+            STEADY_WORDS["rolling"] if self.rolling else "no lasting rolling",
         )
 
     @property

@@ -60,7 +60,8 @@ class Kick:
     speed : float or str
         Size of the kick: in clearances times ``Ω``, or text with a unit, such as ``"50 mm/s"``.
     angle : float or str
-        Direction in the co-rotating frame: in rad, or text with a unit, such as ``"30 deg"``.
+        Direction in the co-rotating frame, from its real axis, from which the phase of the unbalance counts too: in rad, or text
+        with a unit, such as ``"30 deg"``.
     """
 
     speed: float | str
@@ -87,7 +88,7 @@ def kick(speed: float | str, angle: float | str = 0.0) -> Kick:
     speed : float or str
         In ``c_r Ω``, or text with a unit, such as ``"50 mm/s"``.
     angle : float or str
-        Its direction in the co-rotating frame: in rad, or text with a unit, such as ``"30 deg"``.
+        Its direction in the co-rotating frame, from its real axis: in rad, or text with a unit, such as ``"30 deg"``.
 
     See Also
     --------

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 
 RPM = math.pi / 30.0
 """One revolution per minute in rad/s."""
+NO_LEVITATION = f"no {STEADY_WORDS['contact-free']}"
 _FREE = Look("#009e73", STEADY_WORDS["contact-free"], line="-", width=1.5)
 _VIRTUAL = Look("#4d4d4d", "virtual: beyond the clearance", line=":", width=1.4)
 _RUB = Look("#cc79a7", f"{STEADY_WORDS['rub']}, stable", line="-", width=3.0)
@@ -64,7 +65,7 @@ def _title(response: UnbalanceResponse, *, named: bool) -> str:
     radius = float(free.amplitude(np.array(present)))
     now = f"{2e6 * response.scales.clearance * radius:,.4g} µm peak to peak, zone {response.zone_at(present)}"
     where = f"at {present / RPM:,.0f} rpm" if named else f"{response.case.name} at {present / RPM:,.0f} rpm"
-    parts = [f"{where}: {now if radius <= 1.0 else 'no levitation'}"]
+    parts = [f"{where}: {now if radius <= 1.0 else NO_LEVITATION}"]
     if free.critical_speed is not None:
         parts.append(f"critical speed {free.critical_speed / RPM:,.0f} rpm")
         if free.amplification_factor is not None and math.isfinite(free.amplification_factor):
@@ -172,7 +173,7 @@ def _phases(axes: Axes, response: UnbalanceResponse, speeds: Floats) -> None:
 
 def _marks(axes: Axes, response: UnbalanceResponse) -> None:
     """Mark the present and the critical speed, and where no levitation is possible."""
-    words = "no levitation possible"
+    words = f"{NO_LEVITATION} possible"
     for stretch in response.stretches:
         if not stretch.what.contact_free:
             axes.axvspan(

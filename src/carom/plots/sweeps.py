@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 
 BLANKS = MappingProxyType(
     {
-        "no-levitation": Look("#e6e6e6", "no levitation", hatch=r"\\"),
+        "no-levitation": Look("#e6e6e6", f"no {STEADY_WORDS['contact-free']}", hatch=r"\\"),
         "none": Look("#ffffff", "no such value", hatch="////"),
         "waiting": Look("#ffffff", "not computed yet", hatch="...."),
         "failed": Look("#ffffff", "failed", hatch="xxxx"),

@@ -77,6 +77,21 @@ def test_bars_end_where_steady_motions_do(case, picture):
     assert points["fold of synchronous rubs"] - rub.high < step
 
 
+def test_impact_speeds_along_the_speed_are_those_of_each_machine(case):
+    (control,) = (one for one in controls_of(case) if one.name == "speed")
+    shown = picture_along(Jeffcott(case.parameters), control)
+    found = 0
+    for line in shown.lines:
+        if line.kind == "stable":
+            place = int(np.flatnonzero(np.isfinite(line.y))[-1])
+            there = case.replace(speed=f"{float(line.x[place])!r} rpm")
+            speeds = [1e3 * orbit.radial_speed * there.parameters.scales.velocity for orbit in carom.find_orbits(there)]
+            # A rounded speed of the shaft changes the orbit in the last digits.
+            assert min(abs(line.y[place] / speed - 1.0) for speed in speeds) < 1e-6
+            found += 1
+    assert found
+
+
 def test_a_diagram_along_the_speed_is_in_rpm(case):
     (control,) = (one for one in controls_of(case) if one.name == "speed")
     shown = picture_along(Jeffcott(case.replace(damping=3000.0).parameters), control)
