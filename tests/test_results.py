@@ -118,6 +118,22 @@ def test_no_result_falls_back_to_the_text_of_a_dataclass():
         )
 
 
+def test_speeds_and_times_of_a_machine_in_si_units_are_told_beside_the_numbers():
+    machine = carom.load("examples/keogh-cole.toml")
+    orbits = carom.find_orbits(machine)
+    orbit = orbits["B1,d"]
+    # 0.7 mm times 184.2 rad/s
+    period, speed = f"{orbit.period / 0.1842:.3g} ms", f"{0.7 * 184.2 * orbit.radial_speed:.3g} mm/s"
+
+    assert f"period {orbit.period:.6g} ({period}), radial speed {orbit.radial_speed:.6g} ({speed})" in repr(orbits)
+    assert f"period         {orbit.period:.6g} ({period})\n" in repr(orbit)
+    assert f"radial_speed   {orbit.radial_speed:.6g} ({speed})\n" in repr(orbit)
+    assert "  time              100 (543 ms)\n" in repr(carom.simulate(machine, carom.kick(0.8), 100.0))
+    diagram = carom.find_bifurcations(machine, "speed", ("1700 rpm", "1800 rpm"))
+    assert "from 1700 to 1800 rpm" in repr(diagram)
+    assert "1725.31 rpm  boundary-equilibrium, levitation" in repr(diagram)
+
+
 def test_text_of_what_is_found_is_short():
     orbits = carom.find_orbits(PAPER)
     motion = carom.simulate(PAPER, carom.kick(0.8), 100.0)

@@ -8,6 +8,7 @@ from enum import Enum
 from html import escape
 from importlib import import_module
 from numbers import Complex
+from types import MappingProxyType
 from typing import Any, ClassVar
 
 import numpy as np
@@ -20,6 +21,8 @@ WIDEST = 120
 FEW = 4
 """Largest size of an array whose numbers are shown one by one."""
 DIGITS = 6
+KINDS = MappingProxyType({"time": "time", "period": "time", "radial_speed": "velocity"})
+"""Attributes in units of the equations, each with its property of the scales of a rotor: in SI units, people are told more."""
 
 
 class Result:
@@ -64,7 +67,15 @@ class Result:
         """Pairs of label and text to show: by default the names of the attributes and their values."""
         names = self.shown or tuple(field.name for field in dataclasses.fields(self))  # type: ignore[arg-type]
         values = [(name, getattr(self, name)) for name in names]
-        return [(name, in_a_line(value)) for name, value in values if not callable(value)]
+        return [(name, in_a_line(value) + self._beside(name, value)) for name, value in values if not callable(value)]
+
+    def _beside(self, name: str, value: object) -> str:
+        """What people are told: a time or a speed in units of the equations with its unit, if the machine is known."""
+        scales = getattr(getattr(self, "rotor", None), "scales", None)
+        if name not in KINDS or scales is None or not isinstance(value, float):
+            return ""
+        # The layers forbid imports from above.
+        return str(import_module("carom.parameters.told").told_beside(value, KINDS[name], scales))
 
     def brief_rows(self) -> list[tuple[str, str]]:
         """Rows of the text form: all of them, unless a kind of result can have too many."""

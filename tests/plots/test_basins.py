@@ -181,6 +181,13 @@ def test_without_scales_units_are_those_of_the_equations():
     assert r"c_\mathrm{r}\Omega" in figure.axes[1].get_xlabel()
 
 
+@pytest.mark.parametrize(("scales", "speed"), [(SCALES, "50+0j mm/s"), (None, r"0.388+0j $c_r\Omega$")])
+def test_the_velocity_of_a_slice_is_told_in_the_unit_of_people(scales, speed):
+    machine = MACHINE.replace(scales=scales)
+    basin = map_basins(machine, Grid(StateSlice(0.05 / SCALES.velocity), (4, 4)))
+    assert plots.basin(basin).axes[0].get_title() == f"starts at {speed} in the fixed frame"
+
+
 def test_a_grid_of_states_has_no_picture(rotor):
     with pytest.raises(InputError, match="sample"):
         plots.basin(map_basins(rotor, Grid(AnyState(1.0), (2, 2, 2, 2))))

@@ -15,6 +15,7 @@ from carom.motions.starts import Kick, State
 from carom.motions.trajectories import Trajectory, simulate
 from carom.orbits.orbit import Orbit
 from carom.outcome import Outcome, Phase
+from carom.parameters.told import told
 from carom.results import Result
 
 FADING = "It still bounces as far as it was followed: friction stops its slip in every impact, and the bounces provably fade."
@@ -138,7 +139,7 @@ def _words(settled: SettledMotion, name: MotionName) -> str:
         if not settled.multiplicity:
             return f"The rotor {doing} irregularly: it did not repeat itself as far as it was followed."
         impacts = "one impact" if settled.multiplicity == 1 else f"{settled.multiplicity} impacts"
-        return f"The rotor {doing} ({name}): {impacts} in each period of {settled.period:.4g}/Omega."
+        return f"The rotor {doing} ({name}): {impacts} in each period of {told(settled.period, 'time', settled.motion.rotor.scales, 4)}."
     if settled.outcome is Outcome.FORWARD_RUB:
         how = "in step with the shaft" if settled.synchronous else "out of step with the shaft"
         return f"The rotor rubs along the touchdown bearing {how}."

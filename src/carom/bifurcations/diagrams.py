@@ -28,6 +28,7 @@ from carom.orbits.orbit import Orbit
 from carom.orbits.rubbing import rubbing_orbits
 from carom.orbits.search import Searched, check_impacts
 from carom.orbits.single_impact import find_orbits
+from carom.outcome import STEADY_WORDS
 from carom.parameters import Parameters
 from carom.parameters.told import shown_in
 from carom.progress import Reporter, ShowProgress, shows_progress
@@ -91,10 +92,18 @@ class Diagram(Result):
         """The motions, and each special point."""
         low, high = self.interval
         names = dict.fromkeys(name for branch in self.branches for name in branch.names)
+        field = self.axis.field
+        unit = f" {field.usual_unit}".rstrip()
         return [
-            (self.parameter, f"from {low:.6g} to {high:.6g}"),
+            (self.parameter, f"from {field.in_usual_unit(low):.6g} to {field.in_usual_unit(high):.6g}{unit}"),
             ("orbits", in_a_line(tuple(names))),
-            *((f"{point.value:.6g}", f"{point.kind}, {point.name}") for point in self.points),
+            *(
+                (
+                    f"{field.in_usual_unit(point.value):.6g}{unit}",
+                    f"{point.kind}, {STEADY_WORDS.get(point.name, point.name)}",
+                )
+                for point in self.points
+            ),
         ]
 
     @property

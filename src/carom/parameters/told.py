@@ -59,6 +59,11 @@ def told(value: float, kind: str, scales: Scales | None, digits: int = 3) -> str
     return f"{number(factor * value, digits)}{unit[1:] if unit.startswith('1/') else f' {unit}'}"
 
 
+def told_beside(value: float, kind: str, scales: Scales | None) -> str:
+    """What stands behind a number in units of the equations for people: `` (60 mm/s)``; nothing without scales."""
+    return "" if scales is None else f" ({told(value, kind, scales)})"
+
+
 def told_angle(angle: float) -> str:
     """Write an angle given in rad in degrees: ``30°``."""
     return f"{number(math.degrees(angle), 3)}°"

@@ -16,6 +16,7 @@ from matplotlib.ticker import MaxNLocator
 
 from carom.disturbances import outward_from
 from carom.outcome import InputError
+from carom.parameters.told import shown_in
 from carom.plots.cells import CHORDS, MotionLook, finish, ink, motion_looks, paint
 from carom.plots.figure import StyledFigure
 from carom.plots.plane import clearance_circle, label_frame, point
@@ -154,7 +155,10 @@ def _plane(basin: Basin, motions: list[MotionLook], smallest: SmallestLoss | Non
         label_frame(axes, "rotating", basin.scales)
         point(axes, complex(basin.rotor.system.arrays.offsets[0]), "contact-free", label="", colour="#ffffff")
         velocity = complex(getattr(basin.plan.model, "velocity", 0.0))
-        said = "at rest" if velocity == 0 else rf"at {velocity:.3g} $c_r\Omega$"
+        factor, unit = 1.0, r"$c_r\Omega$"
+        if basin.scales is not None:
+            factor, unit = shown_in("velocity", basin.scales)
+        said = "at rest" if velocity == 0 else f"at {factor * velocity:.3g} {unit}"
         axes.set_title(f"starts {said} in the fixed frame")
         rest = LOOKS["contact-free"]
         handles = [Line2D([], [], ls="none", marker=rest.marker, ms=5, mfc="white", mec="#1a1a1a", label=rest.words)]
