@@ -184,5 +184,5 @@ def _plain(name: str, value: object) -> object:
 def _from_plain(field: dataclasses.Field[Any], value: Any) -> Any:
     """Value of a field from plain data, in which complex numbers and tuples are lists."""
     if field.type in (complex, "complex"):
-        return complex(*value)
+        return complex(*value) if isinstance(value, list) else complex(value)
     return tuple(value) if isinstance(value, list) else value
