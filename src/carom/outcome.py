@@ -117,7 +117,7 @@ _MEANINGS = {
     Outcome.BOUNCING: "The rotor goes on bouncing on the touchdown bearing.",
     Outcome.MIXED: "The rotor goes on bouncing with rub: bounces and lasting contact alternate.",
     Outcome.FORWARD_RUB: "The rotor ends in forward rub: it slides along the touchdown bearing in the sense of rotation, or turns with the shaft.",
-    Outcome.BACKWARD_WHIRL: "The rotor ends in sliding backward whirl: dry friction drives it round the touchdown bearing.",
+    Outcome.BACKWARD_WHIRL: "The rotor ends in sliding backward whirl: dry friction, or negative damping, drives it round the touchdown bearing.",
     Outcome.ROLLING: "The rotor ends in rolling backward whirl: it rolls round the touchdown bearing without slip.",
 }
 

@@ -10,6 +10,7 @@ from machines import PAPER
 
 import carom
 from carom.basins import smallest_loss
+from carom.basins.losses import DIRECTIONS, SIZES
 from carom.disturbances import StateSlice, VelocityKick
 from carom.outcome import InputError, Outcome
 
@@ -44,6 +45,12 @@ def test_a_finer_scan_finds_no_smaller_one():
     rotor = carom.models.Jeffcott(MACHINE)
     found, finer = (smallest_loss(rotor, VelocityKick(1.0), directions=count, sizes=count) for count in (48, 200))
     assert found.size == pytest.approx(finer.size, rel=3e-3)
+
+
+def test_sizes_beyond_the_first_that_is_lost_are_not_tried():
+    """They cannot be the smallest, and motions that are lost are those that take long to follow."""
+    found = smallest_loss(carom.models.Jeffcott(MACHINE), VelocityKick(1.0))
+    assert found.fresh < found.tried < DIRECTIONS * SIZES
 
 
 def test_a_machine_that_always_comes_back():

@@ -10,6 +10,7 @@ import pytest
 
 from carom.bifurcations import Bifurcation, OrbitBranch, continue_orbit
 from carom.bifurcations.conditions import TESTS, conditions_at
+from carom.bifurcations.word_equations import Family
 from carom.models import Jeffcott, LinearRotor
 from carom.motions import State, simulate
 from carom.orbits import find_orbits, impact_map
@@ -201,6 +202,13 @@ def test_the_next_period_doubling_of_the_doubled_branch():
     assert len(branch.word) == 4
     (end,) = [p for p in branch.special if p.kind == "period-halving"]
     assert end.value == pytest.approx(point.value, abs=1e-11)
+
+
+def test_a_doubled_branch_whose_equations_are_singular_is_not_found(monkeypatch):
+    (point,) = [point for point in single().special if point.kind == "period-doubling"]
+    monkeypatch.setattr(Family, "jacobian", lambda self, u, p: np.zeros((len(u), len(u) + 1)))
+    with pytest.raises(CaromError, match="no orbit of twice the period was found"):
+        point.switch((0.078, 0.09))
 
 
 def test_no_branch_begins_at_a_fold():

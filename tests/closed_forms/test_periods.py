@@ -119,9 +119,9 @@ def test_starts_at_half_of_what_restitution_leaves():
 
 
 def exact_curvature(parameters: Parameters, periods: np.ndarray) -> np.ndarray:
-    """``F₁''`` from matrices: ``a'' = A²E(1 + E)(1 − E)⁻³`` with ``E = e^{AT}``."""
+    """``F₁''`` from matrices: ``a'' = A²E(1 + E)(1 − E)⁻³`` with ``E = e^{AT}``, and its negative with ``E = e^{−AT}``."""
     matrix = flight_matrix(parameters)
-    flown = expm(matrix * periods[:, None, None])
+    flown = expm(matrix * np.copysign(periods, parameters.gamma)[:, None, None])
     inverse = np.linalg.inv(np.eye(2) - flown)
     second = matrix @ matrix @ flown @ (np.eye(2) + flown) @ inverse @ inverse @ inverse
     return (slip_factor(parameters) * second[:, 1, 1]).real
@@ -144,6 +144,24 @@ def test_curvature_never_exceeds_its_bound():
         sharpest = max(sharpest, (curvatures.max(axis=0) / bounds).max())
     # The bound is of use: somewhere it is within a factor of ten.
     assert sharpest > 0.1
+
+
+def test_curvature_of_growing_modes_never_exceeds_its_bound_and_dies_out():
+    random = np.random.default_rng(8)
+    for _ in range(60):
+        parameters = random_parameters(random)
+        parameters = parameters.replace(gamma=-max(parameters.gamma, 0.05))
+        condition = condition_of(parameters)
+        middles = random.uniform(0.05, 60.0, 5)
+        half_widths = middles * 10 ** random.uniform(-4, -0.1, 5)
+        each = zip(middles, half_widths, strict=True)
+        bounds = [curvature_bound(condition.modes, condition.factor, middle, half) for middle, half in each]
+        inside = np.abs(middles + half_widths * np.linspace(-1, 1, 21)[:, None])
+        curvatures = np.abs(exact_curvature(parameters, inside.ravel())).reshape(inside.shape)
+        # The inverse of 1 − e^{AT} is as large as 1/T.
+        assert (curvatures <= bounds + 1e-12 / inside.min() ** 3).all()
+    paper = condition_of(PAPER.replace(gamma=-0.6))
+    assert curvature_bound(paper.modes, paper.factor, 80.0, 0.1) < 1e-8
 
 
 def test_nothing_lies_beyond_the_longest_period():
@@ -374,6 +392,21 @@ def test_negative_damping_needs_a_longest_period():
     roots = condition.roots(20.0)
     assert not roots.proven
     assert len(roots.periods) == sign_changes(PAPER.replace(gamma=-0.2), 20.0)
+
+
+def test_where_all_modes_grow_and_nothing_rebounds_roots_are_found_as_far_as_they_can_be_told():
+    """``F₁`` fades like ``e^{−δT}``; without the 1 that cancels it is ``−Re(q a₂₂(−T))`` of the modes run backward."""
+    growing = PAPER.replace(gamma=-0.65, omega=0.95, mu=0.08, d=0.0)
+    condition = condition_of(growing)
+    roots = condition.roots(condition.longest_told())
+    times = np.linspace(0.0, condition.longest_told(), 200_001)[1:]
+    backward = PeriodCondition(condition.modes * [-1.0, 1.0, 1.0], condition.factor)
+    # Run backward the residue of a driven pair stays, and a₂₂ changes its sign with λ.
+    signs = backward.value(times) - 1.0 > 0.0
+    assert len(roots.periods) == np.count_nonzero(signs[1:] != signs[:-1]) > 20
+    with pytest.raises(CaromError, match="cannot be told apart; give a shorter longest_period"):
+        condition.roots(1.1 * condition.longest_told())
+    assert condition_of(growing.replace(d=0.5)).longest_told() == np.inf
 
 
 @pytest.mark.parametrize("longest", [0.0, -1.0, np.nan, np.inf])

@@ -8,7 +8,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from carom.closed_forms.equilibria import find_equilibria
-from carom.closed_forms.whirl import rolling, runaway_speed
+from carom.closed_forms.whirl import hastening_speed, rolling, runaway_speed
 from carom.models import Jeffcott
 from carom.motions.ensembles import settle
 from carom.motions.starts import State
@@ -43,6 +43,35 @@ def whirl_speeds(motion, count=400):
 
 
 # ------------------------------------------------------------------------------------------------ runaway
+
+
+@pytest.mark.jit_only
+@settings(max_examples=60, deadline=None)
+@given(parameters=damped, angle=st.floats(-3.2, 3.2), backward=st.booleans())
+def test_without_friction_negative_damping_hastens_whirl_for_ever(parameters, angle, backward):
+    rotor = Jeffcott(parameters.replace(gamma=-max(parameters.gamma, 0.05), mu=0.0))
+    start = on_wall(angle, 1.001 * hastening_speed(rotor) * (-1.0 if backward else 1.0))
+
+    # As long as it is affordable to follow it: the speed grows like e^{|γ|t}.
+    motion = simulate(rotor, start, 3.0 / abs(rotor.parameters.gamma))
+
+    assert motion.outcome is Outcome.TIME_REACHED
+    # Beyond the speed of rolling the slip is backward; the contact goes on.
+    assert [0.0, *(each.end for each in motion.lasting_contacts)] == [
+        *(each.start for each in motion.lasting_contacts),
+        motion.time,
+    ]
+    assert (np.diff(np.abs(whirl_speeds(motion))) > 0.0).all()
+    # That it is proven ends it at once.
+    ending = settle(rotor, [start.position], [start.velocity], max_events=2)
+    assert ending.outcomes[0] == (Outcome.BACKWARD_WHIRL if backward else Outcome.FORWARD_RUB)
+    assert ending.times[0] == 0.0
+
+
+def test_friction_or_damping_bounds_the_speed_of_whirl():
+    assert hastening_speed(SOURCE) == math.inf
+    assert hastening_speed(SOURCE.replace(mu=0.0)) == math.inf
+    assert hastening_speed(SOURCE.replace(gamma=-0.1)) == math.inf
 
 
 @pytest.mark.jit_only

@@ -5,7 +5,7 @@ import pytest
 from compilation import COMPILED, sized
 from machines import PAPER
 
-from carom.core.planar_proofs import stays_inside
+from carom.core.planar_proofs import _farthest, stays_inside
 from carom.models import Jeffcott
 from carom.motions.ensembles import settle
 from carom.motions.starts import State
@@ -53,6 +53,24 @@ def test_what_is_proven_to_stay_inside_does():
 def test_without_damping_or_with_modes_that_decay_apart_nothing_is_proven():
     for machine in (PAPER.replace(gamma=0.0, omega=2.0), PAPER.replace(gamma=5.0, omega=0.5)):
         assert not stays_inside(Jeffcott(machine).system.arrays, np.array([0.001 + 0j, 0.001j]))
+
+
+def test_a_flight_that_reaches_the_wall_is_looked_at_no_farther():
+    """Most flights that are asked about have just left the wall: the first sample is enough."""
+    path = 0.1j, 0.9 + 0j, 0.05 + 0j, 0.3, -2.2, 200.0, 0.01
+    assert _farthest(*path, np.inf) > 1.03
+    assert _farthest(*path, 0.95) == pytest.approx(abs(0.1j + 0.95), abs=1e-12)
+
+
+@pytest.mark.jit_only
+def test_a_strongly_damped_flight_is_known_to_levitate_as_soon_as_it_does():
+    """Its slow mode takes 26,000 of 1/Ω to decay, two million blocks of flight, but it is free of contact within a turn."""
+    rotor = Jeffcott(PAPER.replace(gamma=482.8, omega=0.135, rho=12.05, mu=0.2, d=0.0))
+    angles = 2j * np.pi * np.arange(24) / 24
+    ends = settle(rotor, np.full(24, rotor.equilibrium), 6000.0 * np.exp(angles))
+    assert ends.recovered.all()
+    assert (ends.impacts > 0).all()
+    assert ends.times.max() < 100.0
 
 
 @pytest.mark.jit_only

@@ -33,6 +33,8 @@ from carom.progress import Reporter, ShowProgress, shows_progress
 
 DIRECTIONS, SIZES = 96, 96
 TOLERANCE = 1e-3
+TOGETHER = 768
+"""About as many starts of a scan are followed at once, at a few sizes; larger ones only if none of them is lost."""
 NARROWED = 4
 """Factor by which the spacing of directions is reduced from one round of refinement to the next."""
 BESIDE = 8
@@ -156,8 +158,8 @@ def smallest_loss(
 ) -> SmallestLoss:
     """Search for the smallest disturbance of a kind that does not return to levitation, finer than any grid.
 
-    All directions are scanned at increasing sizes between the proven harmless one and the largest.  In every direction
-    the first size that is lost is refined by bisection.  Then directions ever closer to the best one are scanned and
+    All directions are scanned at increasing sizes between the proven harmless one and the largest, up to the first at which some
+    are lost.  In each of these directions the size is refined by bisection.  Then directions ever closer to the best one are scanned and
     bisected below the best size so far, until they are ``tolerance`` rad apart.  Finally fresh starts are drawn below
     the best size; if some are lost, the search continues from the smallest of them.  Basins can be thinner than any
     sample, so a smaller loss is possible.
@@ -300,18 +302,22 @@ class _Search:
         )
 
     def scan(self, angles: np.ndarray, levels: np.ndarray) -> None:
-        """Scan directions at increasing sizes, the first of which is known to recover; bisect at the first lost one.
+        """Scan directions at increasing sizes, the first of which is known to recover, up to that at which some are lost.
 
-        A single size is only tried, not bisected.
+        These are bisected below it; what is lost farther out cannot be smaller.  A single size is only tried, not bisected.
         """
         bisect = len(levels) > 1
-        outcomes, gone = self._follow(levels[None, bisect:], angles[:, None])
-        hit = np.flatnonzero(gone.any(axis=1))
-        if not len(hit):
+        sizes, together = levels[bisect:], max(1, TOGETHER // len(angles))
+        for begin in range(0, len(sizes), together):
+            outcomes, gone = self._follow(sizes[None, begin : begin + together], angles[:, None])
+            if gone.any():
+                break
+        else:
             return
-        first = gone[hit].argmax(axis=1)
-        low, high = levels[first], levels[first + 1] if bisect else levels[first]
-        ends, angles = outcomes[hit, first], angles[hit]
+        place = int(gone.any(axis=0).argmax())
+        hit, first = np.flatnonzero(gone[:, place]), begin + place
+        ends, angles = outcomes[hit, place], angles[hit]
+        low, high = (np.full(len(hit), levels[each]) for each in (first, first + bisect))
         while ((high - low) > self.tolerance * high).any():
             middle = 0.5 * (low + high)
             found, gone = self._follow(middle, angles)

@@ -15,6 +15,7 @@ import numpy as np
 from carom.bifurcations.conditions import BOUNDLESS, FASTEST
 from carom.bifurcations.points import EXTREMUM, HALVING, HOPF, OF_CONTACT, ONSET, PERMANENT
 from carom.continuation import Watch
+from carom.continuation.equations import applied
 from carom.core.planar import flight_profile
 from carom.core.rub import wall_push
 from carom.core.segments import LEAST_PUSH, strike
@@ -241,8 +242,11 @@ class Family:
             residual = self.residual(u, p)
             if not np.isfinite(residual).all():
                 break
-            rows = np.vstack([self.jacobian(u, p) * np.append(np.ones(len(u)), self.size), np.append(tangent, 0.0)])
-            change = np.linalg.solve(rows, np.append(-residual, ASIDE - tangent @ (u - doubled)))
+            slopes = self.jacobian(u, p) * np.append(np.ones(len(u)), self.size)
+            misses = np.append(-residual, ASIDE - tangent @ (u - doubled))
+            change = applied(np.linalg.solve, slopes, np.append(tangent, 0.0), misses)
+            if change is None:
+                break
             u, p = u + change[:-1], p + self.size * float(change[-1])
             if np.abs(change).max() < 1e-12:
                 return u, min(max(p, self.limits[0]), self.limits[1])

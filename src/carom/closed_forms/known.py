@@ -13,7 +13,7 @@ import numpy as np
 from carom.closed_forms.absorbing import GIVEN_UP, RubNeighbourhood, neighbourhood_of
 from carom.closed_forms.equilibria import Equilibrium, find_equilibria
 from carom.closed_forms.fading import fading_speed
-from carom.closed_forms.whirl import rolling, runaway_speed
+from carom.closed_forms.whirl import hastening_speed, rolling, runaway_speed
 from carom.models import Jeffcott, Model
 
 ROTORS = 64
@@ -34,6 +34,8 @@ class Known:
     """Speed of backward whirl beyond which sliding is certain to run away to lasting rolling; infinite if there is none."""
     fading: float = 0.0
     """Speed after an impact that has stopped the slip up to which bounces are certain to fade to lasting rolling; 0 if there is none."""
+    hastening: float = np.inf
+    """Speed of whirl in the fixed frame beyond which sliding is certain to gain speed for ever; infinite if there is none."""
     rolling_force: float = 0.0
     """Largest normal force over a turn of rolling; 0 where that is not known."""
 
@@ -56,5 +58,6 @@ def _of_planar_rotor(model: Jeffcott) -> Known:
         around=neighbourhood_of(model, rub) if rub else None,
         runaway=whirl.certain * (1.0 + GIVEN_UP) if whirl.reaches_rolling and rolls.holds else np.inf,
         fading=fading_speed(model),
+        hastening=hastening_speed(model) * (1.0 + GIVEN_UP),
         rolling_force=rolls.largest_force,
     )

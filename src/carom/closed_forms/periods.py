@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,6 +17,8 @@ from carom.results import Result
 FIRST_WIDTH = 0.25
 """Width of the intervals at which the search begins, in ``1/Ω``."""
 MOST_INTERVALS = 1_000_000
+FADED = 1e-12
+"""Size of ``F₁`` that is too near its rounding error for roots to be told apart."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -101,6 +104,12 @@ class PeriodCondition:
         """Time beyond which ``F₁ > 0``; infinite without damping."""
         return periods.longest_period(self.modes, self.factor)
 
+    def longest_told(self) -> float:
+        """Time beyond which ``F₁`` cannot be told from zero: where all modes grow, it approaches ``1 − Re q = −d``."""
+        growth = float(self.modes[:, 0].real.min())
+        fades = growth > 0.0 and abs(1.0 - self.factor.real) < FADED
+        return -math.log(FADED) / growth if fades else math.inf
+
     def roots(self, longest_period: float | None = None) -> PeriodRoots:
         """All roots up to ``longest_period``; by default all roots there are.
 
@@ -114,7 +123,8 @@ class PeriodCondition:
         InputError
             No damping and no ``longest_period``.
         CaromError
-            The search would take unreasonable work (very weak damping); give a shorter ``longest_period``.
+            The search would take unreasonable work (very weak damping), or ``F₁`` cannot be told from zero (negative damping
+            without rebound); give a shorter ``longest_period``.
         """
         bound = self.longest_period()
         if longest_period is None and not np.isfinite(bound):
@@ -123,6 +133,10 @@ class PeriodCondition:
         end = bound if longest_period is None else longest_period
         if not (np.isfinite(end) and end > 0):
             raise InputError("longest_period", longest_period, "a finite time above 0, in 1/Omega")
+        if end > self.longest_told():
+            raise CaromError(
+                f"periods above {self.longest_told():.3g}/Omega cannot be told apart; give a shorter longest_period"
+            )
         count = int(np.ceil(end / FIRST_WIDTH))
         if count > MOST_INTERVALS:
             raise CaromError(f"periods up to {end:.3g}/Omega are too many to search; give a shorter longest_period")

@@ -151,6 +151,18 @@ def runaway_speed(machine: Subject) -> Runaway:
     return Runaway(certain, sustaining_speed(at), at.radius_ratio)
 
 
+def hastening_speed(machine: Subject) -> float:
+    """Speed of whirl in the fixed frame, in ``c_r Ω``, beyond which sliding gains speed for ever; infinite if there is none.
+
+    Without friction ``W' = −γW − ρ sin x``: with ``γ < 0`` the speed ``|W|`` grows wherever it exceeds ``ρ/|γ|``, and contact
+    lasts where ``W² > ω² + ρ``.  With friction it grows no further than to where ``μN`` balances the damping.
+    """
+    at = jeffcott_of(machine).parameters
+    if at.mu > 0.0 or at.gamma >= 0.0:
+        return math.inf
+    return max(at.rho / -at.gamma, math.hypot(at.omega, math.sqrt(at.rho)))
+
+
 def rolling(machine: Subject) -> Rolling:
     """Forces and limits of rolling on the bearing.
 

@@ -44,6 +44,11 @@ Where planes strike in turn at one instant their speeds fall by a factor each ti
 """
 SHORTEST = 1e-15
 """Duration that counts as no progress."""
+FIRST_LOOK = 4.0
+"""Blocks of a flight until it is first asked whether it levitates; then after twice as many each time, up to the recheck time.
+
+The flight of a strongly damped rotor may take millions of blocks until the slower mode has decayed.
+"""
 LEAST_LOSS = 1e-3
 """Smallest loss of speed per bounce used in the test for the end of a chatter; an elastic one would never end."""
 
@@ -134,20 +139,26 @@ def _fly(rotor, table, horizon, contact, memory, work, rub):
     state just before the impact.
     """
     state = work.current
-    elapsed = 0.0
+    elapsed, unproven = 0.0, 0.0
     settle = memory.patience > 0
+    span = min(FIRST_LOOK * table.durations[0], memory.recheck)
     while True:
         reaction, resting, plane = _reaction(rotor, contact, memory, work, rub)
         if reaction != CLEAR:
             copy(state, work.arrival)
             break
-        if settle and (levitates(rotor, state, work) or (elapsed > 0.0 and stays_inside(rotor, state))):
+        if settle and levitates(rotor, state, work):
             return LEVITATED, elapsed, plane
+        if settle and unproven >= memory.recheck:
+            unproven = 0.0
+            if stays_inside(rotor, state):
+                return LEVITATED, elapsed, plane
         # A plane that is not touched would be searched up to the horizon before the others are.
         by_leaps = settle or rotor.rows.shape[0] > 1
-        leap = min(horizon - elapsed, memory.recheck) if by_leaps else horizon - elapsed
+        leap = min(horizon - elapsed, span) if by_leaps else horizon - elapsed
         reaction, duration, plane = _leap(rotor, table, leap, contact, resting, work, rub)
-        elapsed += duration
+        elapsed, unproven = elapsed + duration, unproven + duration
+        span = min(2.0 * span, memory.recheck)
         if reaction != CLEAR:
             break
         copy(work.arrival, state)

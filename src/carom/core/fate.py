@@ -47,7 +47,7 @@ def memory(
     patience : int
         Impacts without recurrence after which a motion counts as aperiodic; zero to test no criterion.
     recheck : float
-        Time of free flight after which to test again whether the rotor levitates.
+        Longest time of free flight after which to test again whether the rotor levitates; then also by the expensive proof.
     stop_at_landing : bool
         End with ``CHATTER`` where bounces turn into lasting contact.
     resting : bool

@@ -160,7 +160,7 @@ def _measure(modes, factor, period):
 def _bounds(exponent, middle, half, wander):
     """Bounds of ``|g̃⁽ⁿ⁾|`` and ``|g⁽ⁿ⁾|`` at ``λT`` for periods on an interval, for ``n = 2`` and then ``n = 3``.
 
-    They hold within a distance ``wander`` of ``λT``, in directions in which ``Re z`` does not grow.
+    They hold within a distance ``wander`` of ``λT``, in directions in which ``|Re z|`` does not become smaller.
     """
     z = exponent * middle
     turns = math.floor(z.imag / TURN + 0.5)
@@ -172,7 +172,7 @@ def _bounds(exponent, middle, half, wander):
         inverse = 1.0 / distance
         cube = inverse * inverse * inverse
         second, third = 4.0 * (cube + _ZETA3 / TURN**3), 12.0 * (cube * inverse + _ZETA4 / TURN**4)
-    decay = -exponent.real * (middle - half)
+    decay = abs(exponent.real) * (middle - half)
     if decay > 0.0:
         ratio, rest = math.exp(-decay), -math.expm1(-decay)
         cube = rest * rest * rest
@@ -192,11 +192,12 @@ def _pair_bounds(driven, driving, middle, half):
         near = (size**3 * first + other**3 * second) / gap
         far = (size**3 * far_first + other**3 * far_second) / gap
     if gap * longest < 1.0:
-        # The pair lies within gap·T of its slower exponent, the driven one.
-        size = max(size, other)
-        second, far_second, third, far_third = _bounds(driven, middle, half, gap * longest)
+        # The pair lies within gap·T of its slower exponent: the driven one, or the driving one where both grow.
+        size, slower = max(size, other), driving if driving.real > 0.0 else driven
+        second, far_second, third, far_third = _bounds(slower, middle, half, gap * longest)
         near = min(near, size * size * (3.0 * second + size * longest * third))
-        far = min(far, size * size * (3.0 * far_second + size * longest * far_third))
+        if driven.real * driving.real > 0.0:
+            far = min(far, size * size * (3.0 * far_second + size * longest * far_third))
     return near, far
 
 
@@ -204,7 +205,7 @@ def _pair_bounds(driven, driving, middle, half):
 def curvature_bound(modes, factor, middle, half):
     """Bound of ``|F₁''|`` on an interval, the smaller of a bound from ``g̃`` and one from ``g``.
 
-    The second, ``|g⁽ⁿ⁾(z)| ≤ Σ mⁿ e^{m Re z}``, decays at long periods.
+    The second, ``|g⁽ⁿ⁾(z)| ≤ Σ mⁿ e^{−m|Re z|}``, decays at long periods: for modes that grow too, by ``g(z) = −1 − g(−z)``.
     """
     near, far = 0.0, 0.0
     for k in range(modes.shape[0]):

@@ -4,6 +4,7 @@
   the drift over later periods is too small to reach the wall.
 - *Forward rub*: the state lies in a neighbourhood of the synchronous rub which sliding never leaves
   (:mod:`carom.closed_forms.absorbing`).
+- *Forward rub* or *backward whirl* that gains speed for ever: a rotor without friction and with negative damping.
 - *Rolling*: backward whirl slides faster than a threshold speed (:mod:`carom.closed_forms.whirl`), or an impact stops the slip and
   leaves the wall so slowly that the bounces fade (:mod:`carom.closed_forms.fading`).
 """
@@ -28,6 +29,7 @@ def planar_proofs(
     shape: tuple[float, float, float] = (0.0, 0.0, 0.0),
     runaway: float = np.inf,
     fading: float = 0.0,
+    hastening: float = np.inf,
 ) -> np.record:
     """Constants of the proofs for one rotor; the defaults prove nothing.
 
@@ -42,6 +44,9 @@ def planar_proofs(
     fading : float
         Speed after an impact that has stopped the slip up to which bounces certainly fade to permanent rolling; zero to skip this
         test.
+    hastening : float
+        Speed of whirl in the fixed frame, either way round, above which sliding without friction certainly gains speed for ever;
+        infinite to skip this test.
     """
     friction, strength, phase = shape
     return record(
@@ -51,6 +56,7 @@ def planar_proofs(
         phase=np.asarray(phase, float),
         runaway=np.asarray(runaway, float),
         fading=np.asarray(fading, float),
+        hastening=np.asarray(hastening, float),
     )
 
 
@@ -85,15 +91,18 @@ def stays_inside(rotor, amplitudes):
     bend = slow_rate * slow_rate * math.sqrt(squared_modulus(slow)) + fast_rate * fast_rate * math.sqrt(
         squared_modulus(fast)
     )
-    least = room
+    least, limit = room, 1.0 - NEAR - SLACK
     for turns in range(1, TURNS + 1):
         span = 2.0 * math.pi * turns / abs(fast_rate)
         lag = abs(_wrapped(slow_rate * span))
         drift = math.sqrt(squared_modulus(slow)) * lag * lasts / span
         if drift + rounding < least:
             least = drift + rounding
-            farthest = _farthest(centre, slow, fast, slow_rate, fast_rate, span, math.sqrt(8.0 * SLACK / bend))
-            if farthest + SLACK + drift + rounding < 1.0 - NEAR:
+            step = math.sqrt(8.0 * SLACK / bend)
+            farthest = _farthest(centre, slow, fast, slow_rate, fast_rate, span, step, limit)
+            if farthest >= limit:
+                return False
+            if farthest + drift + rounding < limit:
                 return True
     return False
 
@@ -105,8 +114,11 @@ def _wrapped(angle):
 
 
 @kernel
-def _farthest(centre, slow, fast, slow_rate, fast_rate, span, step):
-    """Largest sample of ``|K + c₊e^{iω₊t} + c₋e^{iω₋t}|`` over a time span, at samples at most one step apart."""
+def _farthest(centre, slow, fast, slow_rate, fast_rate, span, step, limit):
+    """Largest sample of ``|K + c₊e^{iω₊t} + c₋e^{iω₋t}|`` over a time span, at samples at most one step apart.
+
+    The first sample that reaches the limit is enough.  Most flights that are asked about have just left the wall, or soon return.
+    """
     count = int(span / step) + 1
     largest = 0.0
     for i in range(count + 1):
@@ -118,6 +130,8 @@ def _farthest(centre, slow, fast, slow_rate, fast_rate, span, step):
             + fast * complex(math.cos(second), math.sin(second))
         )
         largest = max(largest, squared_modulus(place))
+        if largest >= limit * limit:
+            break
     return math.sqrt(largest)
 
 
@@ -141,6 +155,12 @@ def absorbed(proofs, rub, position, speed):
 def runs_away(proofs, speed):
     """Whether backward whirl that slides at this speed along growing angle provably ends in rolling."""
     return -(1.0 + speed) > proofs.runaway
+
+
+@kernel
+def hastens(proofs, speed):
+    """Whether whirl that slides at this speed along growing angle provably gains speed for ever."""
+    return abs(1.0 + speed) > proofs.hastening
 
 
 @kernel

@@ -8,7 +8,7 @@ from carom.core.contact_series import AWAY, FLIGHT, FORWARD_SLIP, ROLLING, rub_s
 from carom.core.fate import approaches_turn, at_rest, forget_rub, near_rub, same_state
 from carom.core.impact import set_on_wall, unit
 from carom.core.layout import NEAR, kernel, part
-from carom.core.planar_proofs import absorbed, runs_away
+from carom.core.planar_proofs import absorbed, hastens, runs_away
 from carom.core.rub import first_contact, first_transition, next_phase, rest_on_wall, turn_ahead
 from carom.core.taylor import series_step, sum_series
 from carom.outcome import Outcome
@@ -79,6 +79,8 @@ def _known_end(slips, position, speed, memory, rub):
         if rests and memory.resting > 0:
             return FORWARD_RUB
         memory.resting = -1 if rests else 1
+    if hastens(memory.proofs, speed):
+        return FORWARD_RUB if speed > -1.0 else BACKWARD_WHIRL
     return ROLLS_ON if slips and runs_away(memory.proofs, speed) else CONTACT
 
 

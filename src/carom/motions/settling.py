@@ -22,7 +22,7 @@ PATIENCE = 20_000
 Irregular transients of thousands of impacts are common.
 """
 LONG_FLIGHT = 3e4
-"""Longest free flight, in ``1/Ω``, before it is checked whether the rotor levitates."""
+"""Longest free flight, in ``1/Ω``, before the expensive proof is tried that the rotor levitates."""
 TIME_CONSTANTS = 40.0
 SHORTEST_LIMIT, LONGEST_LIMIT = 2e5, 2e7
 """Smallest and largest time, in ``1/Ω``, that a motion is given to settle: seconds of computing."""
@@ -59,6 +59,7 @@ def fresh_memory(rotor: Model, patience: int, stop_at_chatter: bool = False, *, 
             shape=(around.friction, around.strength, around.phase) if around else (0.0, 0.0, 0.0),
             runaway=known.runaway if patience > 0 and absorb else np.inf,
             fading=known.fading if patience > 0 and absorb else 0.0,
+            hastening=known.hastening if patience > 0 else np.inf,
         ),
     )
 
