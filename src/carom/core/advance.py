@@ -9,6 +9,7 @@ from carom.core.events import INSIDE, LEAVING, search
 from carom.core.fate import forget_rub, levitates, recurs
 from carom.core.flow import acceleration, copy, displacement, squared_modulus, velocity
 from carom.core.impact import move_plane, rebound, set_on_wall, unit
+from carom.core.joint import join, strike_together
 from carom.core.layout import kernel, part, passage, shared
 from carom.core.planar_proofs import fades_to_rolling, stays_inside
 from carom.core.rub import (
@@ -57,7 +58,7 @@ LEAST_LOSS = 1e-3
 def advance(rotor, table, amplitudes, until, contact, times, phases, planes, before, after, memory, work, rub):
     """Follow a motion until a given time, until the log is full, or until it settles.
 
-    Impacts at several planes in one instant are applied one after another, in the order of the planes.
+    Impacts at several planes in one instant are resolved together (:mod:`carom.core.joint`) and are one event, of one of these planes.
 
     Parameters
     ----------
@@ -140,6 +141,7 @@ def _fly(rotor, table, horizon, contact, memory, work, rub):
     """
     state = work.current
     elapsed, unproven = 0.0, 0.0
+    memory.turns = 0
     settle = memory.patience > 0
     span = min(FIRST_LOOK * table.durations[0], memory.recheck)
     while True:
@@ -185,7 +187,7 @@ def _touch(rotor, contact, plane, reaction, elapsed, memory, work, rub):
     """Impact or landing of a plane in the state ``work.arrival``; returns the outcome."""
     contact[plane] = FLIGHT
     if reaction == CONTACT:
-        outcome = _meet(rotor, contact, plane, elapsed, memory, work)
+        outcome = _meet(rotor, contact, plane, elapsed, memory, work, rub)
         if rotor.rows.shape[0] > 1 and outcome == CONTACT:
             _loosen(rotor, contact, plane, work.current, rub)
     else:
@@ -265,9 +267,10 @@ def _next_contact(rotor, table, horizon, contact, work):
 
 
 @passage
-def _meet(rotor, contact, plane, elapsed, memory, work):
+def _meet(rotor, contact, plane, elapsed, memory, work, rub):
     """Apply the impact to the arriving state; return CONTACT, or how the motion has settled."""
     normal, speed = displacement(rotor, plane, work.arrival), velocity(rotor, plane, work.arrival)
+    memory.turns = 0
     # Remove the rounding error of |y| = 1 from the state, to first order; the impact law does not need that.
     excess = 0.5 * (squared_modulus(normal) - 1.0)
     move_plane(rotor, plane, complex(-excess * normal.real, -excess * normal.imag), work.arrival)
@@ -284,6 +287,9 @@ def _meet(rotor, contact, plane, elapsed, memory, work):
     if memory.patience > 0 and fades_to_rolling(memory.proofs, rotor, work.arrival):
         copy(work.arrival, work.current)
         return ROLLING
+    if rotor.rows.shape[0] > 1 and join(rotor, contact, plane, work.arrival, rub):
+        strike_together(rotor, work.arrival, work.current, rub)
+        return CONTACT
     local = normal.conjugate() * speed
     change, _ = rebound(local, rotor.friction[plane], rotor.restitution[plane], rotor.drive[plane])
     change = normal * change

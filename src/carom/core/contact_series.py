@@ -116,7 +116,7 @@ def _coupled_forces(rotor, contact, k, work):
         work.matrix[2 * p, 2 * p], work.matrix[2 * p + 1, 2 * p + 1] = 1.0, 1.0
         if contact[p] > FLIGHT:
             _balance(rotor, contact, p, k, work)
-    _eliminate(work.matrix)
+    eliminate(work.matrix)
     for p in range(planes):
         work.force[p, k], work.grip[p, k] = 0j, 0.0
         if contact[p] > FLIGHT:
@@ -160,7 +160,7 @@ def _balance(rotor, contact, p, k, work):
 
 
 @kernel
-def _eliminate(matrix):
+def eliminate(matrix):
     """Solve linear equations in place; the last column holds the right sides, and then the solution."""
     size = matrix.shape[0]
     for column in range(size):

@@ -6,6 +6,9 @@
   are not known, changes by less than ``NEAR`` per unit time.
 - *Backward whirl*, *rolling* and forward rub that runs round the wall: after a full turn without flight the state has
   changed by less than ``NEAR`` and by less than ``NEAR`` per unit time, so a slow change is not taken for none.
+- The same, but never repeating: :data:`TURNS` full turns without an impact, in the second half of which the state changes from turn
+  to turn on average at least half as much as in the first, and by a thousandth at least.  Stick and slip of a rotor with several
+  coordinates need not keep time with its turns.
 - *Periodic*: the state at an impact recurs to within ``NEAR`` twice in a row after the same number of impacts.  The
   reference state is replaced after 1, 2, 4, 8 … impacts (Brent 1980), so no period is too long.  A motion that has
   recurred close to a repelling orbit only passes by it and is followed further (:mod:`carom.core.closing`).
@@ -22,10 +25,14 @@ import numpy as np
 
 from carom.core.block import basis_amplitudes
 from carom.core.flow import squared_modulus
-from carom.core.layout import NEAR, kernel, record
+from carom.core.layout import NEAR, kernel, part, record
 from carom.core.planar_proofs import planar_proofs
 
 NO_TURN, SET_OUT, ROUND = 0, 1, 2
+TURNS = 2048
+"""Full turns along the wall without recurrence after which a rub counts as one that never repeats, if it does not draw nearer."""
+UNLIKE = 1e-3
+"""Mean change from turn to turn, relative to the size of the state, above which it may: less may be a slow approach."""
 
 
 def memory(
@@ -76,6 +83,9 @@ def memory(
         turning=np.asarray(NO_TURN, np.int64),
         turn_time=np.asarray(0.0),
         turn_slipped=np.asarray(0, np.int64),
+        turns=np.asarray(0, np.int64),
+        early_change=np.asarray(0.0),
+        late_change=np.asarray(0.0),
         turn_position=np.asarray(0, np.complex128),
         turn_state=np.zeros(modes, np.complex128),
         proofs=planar_proofs() if proofs is None else proofs,
@@ -151,12 +161,36 @@ def _renew(memory, amplitudes):
 @kernel
 def same_state(first, second, tolerance):
     """Whether the distance of two states, relative to one plus their size, is within a tolerance."""
+    size, distance = _size_and_distance(first, second)
+    return distance <= tolerance * size
+
+
+@part
+def _size_and_distance(first, second):
+    """One plus the size of the second state, and its distance from the first."""
     size = 1.0
     distance = 0.0
     for k in range(first.shape[0]):
         size += math.sqrt(squared_modulus(second[k]))
         distance += math.sqrt(squared_modulus(first[k] - second[k]))
-    return distance <= tolerance * size
+    return size, distance
+
+
+@kernel
+def never_repeats(memory, amplitudes):
+    """Note a turn along the wall after which the state was another; return whether TURNS have passed and it will stay so."""
+    size, distance = _size_and_distance(memory.turn_state, amplitudes)
+    if memory.turns == 0:
+        memory.early_change, memory.late_change = 0.0, 0.0
+    memory.turns += 1
+    if 2 * memory.turns <= TURNS:
+        memory.early_change += distance / size
+    else:
+        memory.late_change += distance / size
+    if memory.turns < TURNS:
+        return False
+    memory.turns = 0
+    return memory.late_change >= 0.5 * max(memory.early_change, UNLIKE * TURNS)
 
 
 @kernel
@@ -200,7 +234,7 @@ def forget(memory):
     """Reset a memory for another motion of the same rotor."""
     memory.events, memory.renewal, memory.since = 0, 1, 0
     memory.candidate, memory.period, memory.rubbed, memory.lifting = 0, 0, 0, 0
-    memory.turning = NO_TURN
+    memory.turning, memory.turns = NO_TURN, 0
     memory.stalled, memory.lap = 0, math.inf
 
 

@@ -257,7 +257,7 @@ def _workspace_layout(modes: int) -> np.dtype:
 
 
 def rub_workspace(modes: int, planes: int = 1) -> np.record:
-    """Scratch arrays of lasting contact: Taylor coefficients of the motion at the contact planes."""
+    """Scratch arrays of contact: Taylor coefficients of the motion at the contact planes, and impulses of joint impacts."""
     return _blank(_rub_workspace_layout(modes, planes))
 
 
@@ -271,6 +271,10 @@ def _rub_workspace_layout(modes: int, planes: int) -> np.dtype:
             *((name, REAL, (ORDER + 1,)) for name in ("first_margin", "second_margin")),
             ("links", COMPLEX, (planes, planes, ORDER + 1)),
             ("matrix", REAL, (2 * planes, 2 * planes + 1)),
+            ("couplings", COMPLEX, (planes, planes)),
+            *((name, COMPLEX, (planes,)) for name in ("arrivals", "local", "impulses", "compression")),
+            *((name, REAL, (planes,)) for name in ("aims", "least")),
+            ("joined", np.dtype(np.int8), (planes,)),
         )
     )
 

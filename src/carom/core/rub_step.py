@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from carom.core.contact_series import AWAY, FLIGHT, FORWARD_SLIP, ROLLING, rub_series
-from carom.core.fate import approaches_turn, at_rest, forget_rub, near_rub, same_state
+from carom.core.fate import approaches_turn, at_rest, forget_rub, near_rub, never_repeats, same_state
 from carom.core.impact import set_on_wall, unit
 from carom.core.layout import NEAR, kernel, part
 from carom.core.planar_proofs import absorbed, hastens, runs_away
@@ -61,7 +61,8 @@ def rub_step(rotor, contact, amplitudes, horizon, memory, rub):
     if changed != NOWHERE:
         _change_contact(rotor, contact, changed, following, slip_stops, amplitudes, memory, rub)
     if turned:
-        if same_state(memory.turn_state, amplitudes, NEAR * min(1.0, memory.turn_time)):
+        recurred = same_state(memory.turn_state, amplitudes, NEAR * min(1.0, memory.turn_time))
+        if recurred or never_repeats(memory, amplitudes):
             backward = speed < 0.0 and memory.turn_time < 2.0 * math.pi
             rub_outcome = BACKWARD_WHIRL if backward else FORWARD_RUB
             return (rub_outcome if memory.turn_slipped > 0 else ROLLS_ON), duration, leading
