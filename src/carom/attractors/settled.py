@@ -151,9 +151,11 @@ def forces_on(settled: SettledMotion) -> tuple[float, float]:
         return 0.0, 0.0
     if settled.outcome is Outcome.ROLLING and (force := known_of(motion.rotor).rolling_force):
         return 0.0, force
-    impulses = motion.log_of(motion.is_impact).normal_impulse
+    hits = np.flatnonzero(motion.is_impact)
     # Of irregular bouncing only the later half is used: the first half may be a transient.
-    last = impulses[first_of_period(motion, settled.multiplicity) if settled.multiplicity else len(impulses) // 2 :]
+    first = first_of_period(motion, settled.multiplicity) if settled.multiplicity else len(hits) // 2
+    late = np.isin(np.arange(len(motion.is_impact)), hits[first:])
+    last = motion.log_of(late).normal_impulse
     touching = settled.outcome in (Outcome.FORWARD_RUB, Outcome.BACKWARD_WHIRL, Outcome.ROLLING)
     impulse = float(last.max()) if len(last) and not touching else 0.0
     if (motion.segment_phases == Phase.FLIGHT).all():

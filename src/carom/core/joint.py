@@ -13,6 +13,9 @@ The impulses do the work ``Σ m (−P(ṙ⁻ + ṙ⁺) + F(v⁻ + v⁺))/2`` on 
 positive, *Poisson's* is used: a compression with ``ṙ ≤ 0`` and the impulses ``P_c``, then an expansion with at least ``d P_c``, and
 friction as before in both.  Compression loses energy always.  Where the expansion gains more, which may be with
 unequal restitutions, its ``d`` is lowered until the energy stays the same.
+
+Every way in which the laws can hold (pressed or not, slip forward, backward or stopped) gives linear equations.  All are tried: six to
+the power of the number of planes, which are few.  With strong friction several may hold; then the impulses are those that lose most.
 """
 
 from __future__ import annotations
@@ -25,21 +28,16 @@ from carom.core.impact import unit
 from carom.core.layout import kernel, part
 from carom.core.rub import meets_wall
 
-FEW, MORE, MOST = 8, 8, 32_768
-"""Sweeps before the linear equations are tried first, factor to the next try, and sweeps of the last run.
-
-Sweeps find out which planes are pressed and where friction holds.  Then these equations give the impulses at once, while sweeps
-alone would converge slowly between planes that are closely coupled.
-"""
-CONVERGED = 4.4e-16
-"""Change of the impulses in a sweep, relative to the largest, that counts as rounding."""
-EXACT = 1e-12
-"""Error, relative to the largest speed and impulse, that a solution of the linear equations may leave in the inequalities."""
-NO_GAIN = 1e-13
+EXACT = 1e-11
+"""Error, relative to the largest speeds and impulses, that rounding may leave in the inequalities."""
+ROUNDING = 64 * 2.220446049250313e-16
+NO_GAIN = 1e-11
 """Work, relative to the sum of the moduli of its terms, that counts as none."""
 HALVINGS = 60
 ONE_INSTANT = 1e-12
 """Distance from its wall within which a plane strikes together with another: that within which a start counts as on the wall."""
+KINDS, STOPPED = 6, 2
+"""Ways in which the laws of a plane can hold: its number is three for a plane that is pressed, else zero, plus that of its slip."""
 
 
 @kernel
@@ -62,9 +60,8 @@ def strike_together(rotor, before, after, rub):
     for p in range(planes):
         rub.aims[p] = -rotor.restitution[p] * max(rub.arrivals[p].real, 0.0)
         rub.least[p] = 0.0
-        rub.local[p], rub.impulses[p] = rub.arrivals[p], 0j
-    _resolve(rotor, rub)
-    if _gains(rotor, rub):
+        rub.local[p] = rub.arrivals[p]
+    if not _resolve(rotor, rub) or _gains(rotor, rub):
         _resolve_by_poisson(rotor, rub)
     for k in range(after.shape[0]):
         after[k] = before[k]
@@ -78,11 +75,10 @@ def strike_together(rotor, before, after, rub):
 @part
 def _load(rotor, before, rub):
     """Local velocities ``u⁻`` and the matrix ``A``."""
-    planes = rotor.rows.shape[0]
-    for p in range(planes):
+    for p in range(rotor.rows.shape[0]):
         normal = unit(displacement(rotor, p, before))
         rub.arrivals[p] = normal.conjugate() * velocity(rotor, p, before)
-        for q in range(planes):
+        for q in range(rotor.rows.shape[0]):
             other = unit(displacement(rotor, q, before))
             rub.couplings[p, q] = normal.conjugate() * rotor.mobility[p, q] * other
 
@@ -91,161 +87,137 @@ def _load(rotor, before, rub):
 def _resolve_by_poisson(rotor, rub):
     """Impulses by Poisson's restitution, lowered where it would gain energy too."""
     high, low = 1.0, 0.0
-    _compress_and_expand(rotor, high, rub)
-    if not _gains(rotor, rub):
+    if _compress_and_expand(rotor, high, rub) and not _gains(rotor, rub):
         return
     for _ in range(HALVINGS):
         share = 0.5 * (low + high)
-        _compress_and_expand(rotor, share, rub)
-        if _gains(rotor, rub):
-            high = share
-        else:
+        if _compress_and_expand(rotor, share, rub) and not _gains(rotor, rub):
             low = share
+        else:
+            high = share
     _compress_and_expand(rotor, low, rub)
 
 
 @kernel
 def _compress_and_expand(rotor, share, rub):
-    """Impulses by Poisson's restitution with a share of the coefficients of restitution."""
+    """Impulses by Poisson's restitution with a share of the coefficients of restitution; return whether they obey the laws."""
     planes = rotor.rows.shape[0]
     for p in range(planes):
         rub.aims[p], rub.least[p] = 0.0, 0.0
-        rub.local[p], rub.impulses[p] = rub.arrivals[p], 0j
-    _resolve(rotor, rub)
+        rub.local[p] = rub.arrivals[p]
+    compressed = _resolve(rotor, rub)
     for p in range(planes):
         rub.compression[p] = rub.impulses[p]
         rub.least[p] = -share * rotor.restitution[p] * rub.impulses[p].real
-        rub.impulses[p] = 0j
-    _resolve(rotor, rub)
+    expanded = _resolve(rotor, rub)
     for p in range(planes):
         rub.impulses[p] += rub.compression[p]
+    return compressed and expanded
 
 
 @kernel
 def _gains(rotor, rub):
     """Whether the impulses do positive work on the contact points."""
+    work, terms = _work(rotor, rub.arrivals, rub.local, rub.impulses, rub)
+    return work > NO_GAIN * terms
+
+
+@part
+def _work(rotor, before, after, impulses, rub):
+    """Work of impulses on the contact points, and the sum of the moduli of its terms."""
     work, terms = 0.0, 0.0
     for p in range(rotor.rows.shape[0]):
         if rub.joined[p]:
-            mean = 0.5 * (rub.arrivals[p] + rub.local[p])
-            normal = rotor.masses[p] * rub.impulses[p].real * mean.real
-            along = rotor.masses[p] * rub.impulses[p].imag * (rotor.drive[p] + mean.imag)
-            work += normal + along
-            terms += rotor.masses[p] * abs(rub.impulses[p].real) * (abs(rub.arrivals[p].real) + abs(rub.local[p].real))
-            terms += abs(along)
-    return work > NO_GAIN * terms
+            normal = 0.5 * rotor.masses[p] * impulses[p].real
+            along = 0.5 * rotor.masses[p] * impulses[p].imag * (2.0 * rotor.drive[p] + before[p].imag + after[p].imag)
+            work += normal * (before[p].real + after[p].real) + along
+            terms += abs(normal) * (abs(before[p].real) + abs(after[p].real)) + abs(along)
+    return work, terms
 
 
 @kernel
 def _resolve(rotor, rub):
-    """Impulses from the velocities in ``rub.local``, which become those after; ``rub.aims`` and ``rub.least`` bound ``ṙ`` and ``P``."""
-    sweeps = FEW
-    while True:
-        for _ in range(sweeps):
-            change, size = _sweep(rotor, rub)
-            if change <= CONVERGED * size:
-                return
-        if sweeps >= MOST or _solve_at_once(rotor, rub):
-            return
-        sweeps *= MORE
+    """Find the impulses that obey the laws at every plane, from the velocities in ``rub.local``, which become those after.
 
-
-@kernel
-def _sweep(rotor, rub):
-    """Give each plane in turn the impulse that its own law asks for; return the largest change and impulse."""
+    ``rub.aims`` and ``rub.least`` bound ``ṙ`` from above and ``P`` from below.  Returns whether any obey them; otherwise those are
+    taken that come nearest.
+    """
     planes = rotor.rows.shape[0]
-    largest, size = 0.0, 0.0
+    found, best, nearest = False, 0.0, math.inf
     for p in range(planes):
-        if not rub.joined[p]:
+        rub.impulses[p] = 0j
+    for way in range(KINDS**planes):
+        if not _set_equations(rotor, way, rub):
             continue
-        without = rub.local[p] - rub.impulses[p]
-        push = max(without.real - rub.aims[p], rub.least[p])
-        slip = rotor.drive[p] + without.imag
-        grip = -math.copysign(min(rotor.friction[p] * push, abs(slip)), slip)
-        change = complex(-push, grip) - rub.impulses[p]
-        rub.impulses[p] += change
+        eliminate(rub.matrix)
+        error = _violation(rotor, rub)
+        work, _ = _work(rotor, rub.local, rub.tried_after, rub.tried, rub)
+        valid = error <= EXACT
+        if (valid and (not found or work < best)) or (not found and error < nearest):
+            found, best, nearest = valid, work, error
+            for p in range(planes):
+                rub.impulses[p] = rub.tried[p]
+    for p in range(planes):
         for q in range(planes):
-            rub.local[q] += rub.couplings[q, p] * change
-        largest = max(largest, abs(change.real) + abs(change.imag))
-        size = max(size, push + abs(grip))
-    return largest, size
+            rub.local[p] += rub.couplings[p, q] * rub.impulses[q]
+    return found
 
 
-@kernel
-def _solve_at_once(rotor, rub):
-    """Solve the equations that the impulses obey if the inequalities hold as they do now; return whether they still do.
+@part
+def _set_equations(rotor, way, rub):
+    """Write two linear equations of each plane for the impulses if the laws hold in a given way; return whether that can be.
 
-    If not, nothing changes.
+    A plane without impulse has one way only, and so has one that is not at its wall.
     """
     planes = rotor.rows.shape[0]
     last = 2 * planes
     rub.matrix[:] = 0.0
     for p in range(planes):
-        _equations_of(rotor, p, rub)
-    eliminate(rub.matrix)
-    size = 0.0
-    for p in range(planes):
-        size = max(size, abs(rub.matrix[2 * p, last]) + abs(rub.arrivals[p].real))
-    holds = True
-    for p in range(planes):
-        if rub.joined[p]:
-            holds = holds and _holds(rotor, p, EXACT * size, rub)
-    if holds:
-        for p in range(planes):
-            solved = complex(-rub.matrix[2 * p, last], rub.matrix[2 * p + 1, last])
-            change = solved - rub.impulses[p]
-            rub.impulses[p] = solved
-            for q in range(planes):
-                rub.local[q] += rub.couplings[q, p] * change
-    return holds
-
-
-@part
-def _presses(p, rub):
-    """Whether the normal impulse of a plane is more than the least."""
-    return -rub.impulses[p].real > rub.least[p]
-
-
-@part
-def _stops(rotor, p, rub):
-    """Whether friction stops the slip of a plane."""
-    return abs(rub.impulses[p].imag) < rotor.friction[p] * -rub.impulses[p].real
-
-
-@part
-def _equations_of(rotor, p, rub):
-    """Write the two linear equations of a plane for the normal and friction impulses of all."""
-    last = rub.matrix.shape[1] - 1
-    rub.matrix[2 * p, 2 * p], rub.matrix[2 * p + 1, 2 * p + 1] = 1.0, 1.0
-    if not rub.joined[p]:
-        return
-    presses, stops = _presses(p, rub), _stops(rotor, p, rub)
-    without = rub.local[p]
-    for q in range(rotor.rows.shape[0]):
-        if rub.joined[q]:
+        pressed, slip = (way % KINDS) // 3, (way % KINDS) % 3
+        way //= KINDS
+        if pressed == 0 and slip > 0 and rub.least[p] == 0.0:
+            return False
+        if not rub.joined[p] and pressed + slip > 0:
+            return False
+        rub.matrix[2 * p, 2 * p], rub.matrix[2 * p + 1, 2 * p + 1] = 1.0, 1.0
+        rub.matrix[2 * p, last] = rub.least[p]
+        for q in range(planes):
             coupling = rub.couplings[p, q]
-            without -= coupling * rub.impulses[q]
-            if presses:
+            if pressed == 1 and rub.joined[q]:
                 rub.matrix[2 * p, 2 * q], rub.matrix[2 * p, 2 * q + 1] = coupling.real, coupling.imag
-            if stops:
+            if slip == STOPPED and rub.joined[q]:
                 rub.matrix[2 * p + 1, 2 * q], rub.matrix[2 * p + 1, 2 * q + 1] = -coupling.imag, coupling.real
-    rub.matrix[2 * p, last] = without.real - rub.aims[p] if presses else rub.least[p]
-    if stops:
-        rub.matrix[2 * p + 1, last] = -(rotor.drive[p] + without.imag)
-    else:
-        rub.matrix[2 * p + 1, 2 * p] = -math.copysign(rotor.friction[p], rub.impulses[p].imag)
+        if pressed == 1:
+            rub.matrix[2 * p, last] = rub.local[p].real - rub.aims[p]
+        if slip == STOPPED:
+            rub.matrix[2 * p + 1, last] = -(rotor.drive[p] + rub.local[p].imag)
+        else:
+            rub.matrix[2 * p + 1, 2 * p] = rotor.friction[p] if slip == 0 else -rotor.friction[p]
+    return True
 
 
 @part
-def _holds(rotor, p, error, rub):
-    """Whether the solution of the linear equations obeys the inequalities of a plane."""
-    last = rub.matrix.shape[1] - 1
-    push, grip = rub.matrix[2 * p, last], rub.matrix[2 * p + 1, last]
-    after = rub.local[p]
-    for q in range(rotor.rows.shape[0]):
-        change = complex(-rub.matrix[2 * q, last], rub.matrix[2 * q + 1, last]) - rub.impulses[q]
-        after += rub.couplings[p, q] * change
-    slip = rotor.drive[p] + after.imag
-    right_way = push <= error or rotor.friction[p] == 0.0 or grip * slip <= error * abs(grip)
-    within = abs(grip) <= rotor.friction[p] * push + error
-    return push >= rub.least[p] - error and after.real <= rub.aims[p] + error and within and right_way
+def _violation(rotor, rub):
+    """Largest violation of the inequalities by the solution in ``rub.matrix``, relative; infinite if there was none.
+
+    Fills ``rub.tried`` and ``rub.tried_after``, the impulses and the velocities that they lead to.
+    """
+    planes = rotor.rows.shape[0]
+    last = 2 * planes
+    wrong, size = 0.0, 0.0
+    for p in range(planes):
+        rub.tried[p] = complex(-rub.matrix[2 * p, last], rub.matrix[2 * p + 1, last])
+    for p in range(planes):
+        if not rub.joined[p]:
+            continue
+        after = rub.local[p]
+        for q in range(planes):
+            after += rub.couplings[p, q] * rub.tried[q]
+        rub.tried_after[p] = after
+        push, grip, slip = -rub.tried[p].real, rub.tried[p].imag, rotor.drive[p] + after.imag
+        size = max(size, abs(rub.local[p].real) + abs(push) + abs(grip))
+        wrong = max(wrong, rub.least[p] - push, after.real - rub.aims[p], abs(grip) - rotor.friction[p] * push)
+        # Friction must not push along the slip; a slip that is stopped is zero to the rounding of its terms.
+        slipping = abs(slip) - ROUNDING * (abs(rotor.drive[p]) + abs(after.imag))
+        wrong = max(wrong, min(slipping, grip if slip > 0.0 else -grip))
+    return wrong / size if 0.0 < size < math.inf else math.inf

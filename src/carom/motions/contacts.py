@@ -17,7 +17,11 @@ if TYPE_CHECKING:
     import xarray
 
     from carom.models import Model
+    from carom.motions.blows import Blows
     from carom.parameters import Scales
+
+ALIKE = 1e-9
+"""Difference of radial speeds, relative to one plus the speed, above which an impact was not by Newton's restitution."""
 
 
 @dataclass(frozen=True)
@@ -90,8 +94,9 @@ def _units(quantity: str) -> tuple[str, str]:
 class ContactLog(Table):
     """Impacts of a motion, one entry per impact, in chronological order; all arrays have shape (n,).
 
-    The normal impulse is ``m_p (1 + d) ṙ`` with the effective mass ``m_p = 1/(W M⁻¹ Wᴴ)`` of the plane, which is the whole
-    mass for the planar rotor.  The slip velocity of the contact point is ``v = s + 1 + θ̇``.  The work on the contact point
+    Of a plane struck alone, the normal impulse is ``m_p (1 + d) ṙ`` with the effective mass ``m_p = 1/(W M⁻¹ Wᴴ)`` of the plane, which
+    is the whole mass for the planar rotor.  Of planes struck in one instant it is that of the joint solution
+    (:mod:`carom.core.joint`), and each plane has an entry.  The slip velocity of the contact point is ``v = s + 1 + θ̇``.  The work on the contact point
     follows from the mean of the velocities before and after; that of the drive is the kinetic energy gained without it.
     """
 
@@ -109,8 +114,11 @@ class ContactLog(Table):
     slip_before: np.ndarray = field(metadata=column("velocity", "slip velocity before impact"))
     slip_after: np.ndarray = field(metadata=column("velocity", "slip velocity after impact"))
     sticks: np.ndarray = field(metadata=column("1", "whether friction stopped the slip"))
+    by_poisson: np.ndarray = field(
+        metadata=column("1", "whether Poisson's restitution took the place of Newton's, which would have raised the energy")
+    )
     contact_work: np.ndarray = field(
-        metadata=column("energy", "work of the impact on the contact point, never positive")
+        metadata=column("energy", "work of the impact on the contact point, never positive in the sum over the planes")
     )
     drive_work: np.ndarray = field(metadata=column("energy", "work of the shaft's drive through friction"))
     scales: Scales | None = None
@@ -122,19 +130,19 @@ class ContactLog(Table):
         cls,
         rotor: Model,
         times: np.ndarray,
-        planes: np.ndarray,
+        blows: Blows,
         before: tuple[np.ndarray, np.ndarray],
         after: tuple[np.ndarray, np.ndarray],
     ) -> ContactLog:
-        """Log of impacts at given planes from their positions and velocities just before and just after, shape (n,)."""
+        """Log of impacts from their impulses, and positions and velocities just before and just after, shape (n,)."""
         angle, radial, angular = polar(*before)
         _, radial_after, angular_after = polar(*after)
-        arrays = rotor.system.arrays
+        arrays, planes = rotor.system.arrays, blows.planes
         drive, mass = arrays.drive[planes], arrays.masses[planes]
-        normal = mass * (radial - radial_after)
-        tangential = mass * (angular_after - angular)
+        normal, tangential = -mass * blows.impulses.real, mass * blows.impulses.imag
         slip, slip_after = drive + angular, drive + angular_after
         normal_work = -0.5 * normal * (radial + radial_after)
+        unlike = np.abs(radial_after + arrays.restitution[planes] * np.maximum(radial, 0.0)) > ALIKE * (1.0 + radial)
         return cls(
             time=times,
             plane=planes,
@@ -147,7 +155,8 @@ class ContactLog(Table):
             tangential_impulse=tangential,
             slip_before=slip,
             slip_after=slip_after,
-            sticks=arrays.friction[planes] * normal >= mass * np.abs(slip),
+            sticks=arrays.friction[planes] * normal >= np.abs(mass * slip_after - tangential),
+            by_poisson=np.isin(blows.events, blows.events[unlike & (normal > 0.0)]),
             contact_work=normal_work + 0.5 * tangential * (slip + slip_after),
             drive_work=-(drive - 1.0) * tangential,
             scales=rotor.scales,

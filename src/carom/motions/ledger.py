@@ -106,7 +106,7 @@ def energy_ledger(trajectory: Trajectory) -> EnergyLedger:
 
     def at_events(events: np.ndarray, values: np.ndarray) -> np.ndarray:
         shares = np.zeros(len(ends))
-        shares[1:-1][events] = values
+        np.add.at(shares, events + 1, values)
         return np.cumsum(shares)
 
     powers = [contact_power(trajectory.seen_at(plane), times) for plane in range(trajectory.segment_phases.shape[1])]
@@ -115,8 +115,8 @@ def energy_ledger(trajectory: Trajectory) -> EnergyLedger:
     if np.abs(skew).max() <= HERMITIAN * np.abs(matrices.stiffness).max():
         skew = np.zeros_like(skew)
     kinetic, spring = _stored(trajectory, matrices)
-    impact, landing = trajectory.is_impact, trajectory.is_landing
-    impacts, landings = trajectory.log_of(impact), trajectory.log_of(landing)
+    impact, landing = (trajectory.blows(each).events for each in (trajectory.is_impact, trajectory.is_landing))
+    impacts, landings = trajectory.log_of(trajectory.is_impact), trajectory.log_of(trajectory.is_landing)
     return EnergyLedger(
         times=edges[ends],
         kinetic=kinetic,

@@ -15,6 +15,7 @@ from carom.core.advance import advance
 from carom.core.layout import rub_workspace, workspace
 from carom.core.rub import fly_or_rub_all, forces_all
 from carom.models import Model, Subject, model_of
+from carom.motions.blows import Blows, blows_of
 from carom.motions.contacts import ContactHistory, ContactLog, LastingContact
 from carom.motions.settling import (
     LOW_FOR,
@@ -158,14 +159,28 @@ class Trajectory(Result):
     @cached_property
     def contacts(self) -> ContactLog:
         """Log of the impacts at the contact plane."""
-        return self.log_of(self.is_impact & (self.event_planes == self.plane))
+        return self._log(self.blows(self.is_impact).at(self.plane))
+
+    def blows(self, events: np.ndarray) -> Blows:
+        """Impulses at all planes in chosen events, bool, shape (n,), in chronological order and that of the planes."""
+        return blows_of(
+            self.rotor.system,
+            np.flatnonzero(events),
+            self.event_planes[events],
+            self.segment_phases[:-1][events] != Phase.FLIGHT,
+            self.arrivals[events],
+            self.segment_amplitudes[1:][events],
+        )
 
     def log_of(self, events: np.ndarray) -> ContactLog:
-        """Log of chosen events, bool, shape (n,)."""
-        planes = self.event_planes[events]
-        before = self.rotor.system.at_planes(self.arrivals[events], planes)
-        after = self.rotor.system.at_planes(self.segment_amplitudes[1:][events], planes)
-        return ContactLog.from_states(self.rotor, self.segment_starts[1:][events], planes, before, after)
+        """Log of chosen events, bool, shape (n,); of impacts at several planes in one instant each plane has an entry."""
+        return self._log(self.blows(events))
+
+    def _log(self, blows: Blows) -> ContactLog:
+        system, times = self.rotor.system, self.segment_starts[1:][blows.events]
+        before = system.at_planes(self.arrivals[blows.events], blows.planes)
+        after = system.at_planes(self.segment_amplitudes[1:][blows.events], blows.planes)
+        return ContactLog.from_states(self.rotor, times, blows, before, after)
 
     @cached_property
     def lasting_contacts(self) -> tuple[LastingContact, ...]:

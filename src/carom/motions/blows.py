@@ -1,0 +1,74 @@
+"""Impulses at contact planes in the events of a motion, also where several planes are struck in one instant."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from carom.models import System
+
+AT_WALL = 1e-9
+"""Distance from its wall up to which a plane may have been struck together with another (:data:`carom.core.joint.ONE_INSTANT`), with
+a margin for the rounding of states: of a plane that was not struck the equations give none but a rounding error."""
+NONE = 1e-12
+"""Impulse, relative to the largest in the event, below which a plane at its wall counts as not struck."""
+
+
+class Blows(NamedTuple):
+    """Impulses at planes; arrays of shape (k,)."""
+
+    events: np.ndarray
+    """Number of the event."""
+    planes: np.ndarray
+    """Contact plane."""
+    impulses: np.ndarray
+    """Impulse on the rotor per effective mass of the plane, ``−P + iF``: outward, and along growing angle.  Complex."""
+
+    def at(self, plane: int) -> Blows:
+        """Those at one plane."""
+        here = self.planes == plane
+        return Blows(*(part[here] for part in self))
+
+
+def blows_of(
+    system: System,
+    events: np.ndarray,
+    planes: np.ndarray,
+    lasting: np.ndarray,
+    before: np.ndarray,
+    after: np.ndarray,
+) -> Blows:
+    """Impulses that have changed the amplitudes of a rotor.
+
+    Of a plane struck alone the impulse is the change of its own velocity.  Where others are at their walls too, the impulses
+    follow from the changes of velocity at all of these: ``Δu_p = Σ_q A_pq π_q`` (:mod:`carom.core.joint`).  Of planes that always
+    move alike only the sum of their impulses counts, which is given to them in equal parts.
+
+    Parameters
+    ----------
+    events : ndarray of int, shape (n,)
+        Number of each event, to which its blows refer.
+    planes : ndarray of int, shape (n,)
+        Contact plane that the event is of.
+    lasting : ndarray of bool, shape (n, P)
+        Whether a plane was in lasting contact before the event.
+    before, after : ndarray of complex, shape (n, N)
+        Amplitudes just before and just after the event.
+    """
+    arrays, places = system.arrays, np.arange(len(events))
+    position = before @ arrays.rows.T + arrays.offsets
+    normal = position / np.abs(position)
+    changes = normal.conj() * ((after - before) @ arrays.rate_rows.T)
+    at_wall = lasting | (np.abs(position) >= 1.0 - AT_WALL)
+    at_wall[places, planes] = True
+    impulses = np.where(at_wall, changes, 0.0)
+    for event in np.flatnonzero(at_wall.sum(axis=1) > 1):
+        here = np.flatnonzero(at_wall[event])
+        couplings = normal[event, here].conj()[:, None] * arrays.mobility[np.ix_(here, here)] * normal[event, here]
+        impulses[event, here] = np.linalg.lstsq(couplings, changes[event, here])[0]
+    sizes = np.abs(impulses)
+    struck = sizes > NONE * sizes.max(axis=1, initial=0.0, keepdims=True)
+    struck[places, planes] |= ~struck.any(axis=1)
+    rows, columns = np.nonzero(struck)
+    return Blows(events[rows], columns, impulses[rows, columns])
