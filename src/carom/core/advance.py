@@ -36,13 +36,15 @@ CHATTER_HEIGHT = 1e-13
 """Height of a bounce, in clearances, below which a chatter counts as complete; penetration is allowed to 1e-12 at least."""
 STALLED = 64
 """Events in a row without progress in time after which double precision cannot decide what follows."""
-STALLED_TOGETHER = 16_384
-"""The same for several planes, between which impacts may alternate at one instant, the slower the closer the coupling."""
+STALLED_TOGETHER, AT_A_STAND = 4096, 1e-9
+"""Events of several planes within less than that time after which they count as jammed: no bounces of a chatter are so quick."""
 SHORTEST_LAP = 1e-6
 """Time within which impacts at several planes count as one when a motion is tested for recurrence.
 
 Where planes strike in turn at one instant their speeds fall by a factor each time: the state recurs, but is no orbit.
 """
+BLOCKS = 4.0
+"""Longest blocks of flight that one of several planes is searched for contact before the others are."""
 SHORTEST = 1e-15
 """Duration that counts as no progress."""
 FIRST_LOOK = 4.0
@@ -106,7 +108,12 @@ def advance(rotor, table, amplitudes, until, contact, times, phases, planes, bef
                 before[events, k] = work.arrival[k]
                 after[events, k] = state[k]
             events += 1
-            memory.stalled = memory.stalled + 1 if duration <= SHORTEST else 0
+            stands = duration <= SHORTEST
+            if rotor.rows.shape[0] > 1:
+                memory.stood += duration
+                stands = memory.stood <= AT_A_STAND
+            memory.stalled = memory.stalled + 1 if stands else 0
+            memory.stood = memory.stood if stands else 0.0
             if memory.stalled >= most_stalled:
                 outcome = GRAZING
     copy(state, amplitudes)
@@ -155,9 +162,7 @@ def _fly(rotor, table, horizon, contact, memory, work, rub):
             unproven = 0.0
             if stays_inside(rotor, state):
                 return LEVITATED, elapsed, plane
-        # A plane that is not touched would be searched up to the horizon before the others are.
-        by_leaps = settle or rotor.rows.shape[0] > 1
-        leap = min(horizon - elapsed, span) if by_leaps else horizon - elapsed
+        leap = min(horizon - elapsed, span) if settle else horizon - elapsed
         reaction, duration, plane = _leap(rotor, table, leap, contact, resting, work, rub)
         elapsed, unproven = elapsed + duration, unproven + duration
         span = min(2.0 * span, memory.recheck)
@@ -248,22 +253,33 @@ def _leap(rotor, table, horizon, contact, resting, work, rub):
 @passage
 def _next_contact(rotor, table, horizon, contact, work):
     """Earliest contact over all planes of the flight from ``work.current``; ``work.arrival`` holds the state there."""
-    outcome, target = CLEAR, NOWHERE
-    several = rotor.rows.shape[0] > 1
-    if several:
+    if rotor.rows.shape[0] == 1:
+        outcome, time = search(rotor, table, 0, horizon, LEAVING if contact[0] == FLIGHT else INSIDE, work)
+        contact[0] = AWAY
+        return outcome, time, (0 if outcome != CLEAR else NOWHERE)
+    return _next_contact_of_several(rotor, table, horizon, contact, work)
+
+
+@kernel
+def _next_contact_of_several(rotor, table, horizon, contact, work):
+    """:func:`_next_contact` of several planes, over a few blocks at a time: each is searched no further than the others."""
+    elapsed, outcome, target = 0.0, CLEAR, NOWHERE
+    while True:
+        time = min(horizon - elapsed, BLOCKS * table.durations[0])
         copy(work.current, work.departure)
-    for plane in range(rotor.rows.shape[0]):
-        if several:
+        for plane in range(rotor.rows.shape[0]):
             copy(work.departure, work.current)
-        found, time = search(rotor, table, plane, horizon, LEAVING if contact[plane] == FLIGHT else INSIDE, work)
-        contact[plane] = AWAY
-        if several and (found != CLEAR or plane == 0):
-            copy(work.arrival, work.nearest)
-        if found != CLEAR:
-            outcome, horizon, target = found, time, plane
-    if several:
+            found, met = search(rotor, table, plane, time, LEAVING if contact[plane] == FLIGHT else INSIDE, work)
+            contact[plane] = AWAY
+            if found != CLEAR or plane == 0:
+                copy(work.arrival, work.nearest)
+            if found != CLEAR:
+                outcome, time, target = found, met, plane
+        elapsed += time
         copy(work.nearest, work.arrival)
-    return outcome, horizon, target
+        if outcome != CLEAR or elapsed >= horizon:
+            return outcome, min(elapsed, horizon), target
+        copy(work.nearest, work.current)
 
 
 @passage

@@ -6,9 +6,9 @@
   are not known, changes by less than ``NEAR`` per unit time.
 - *Backward whirl*, *rolling* and forward rub that runs round the wall: after a full turn without flight the state has
   changed by less than ``NEAR`` and by less than ``NEAR`` per unit time, so a slow change is not taken for none.
-- The same, but never repeating: :data:`TURNS` full turns without an impact, in the second half of which the state changes from turn
-  to turn on average at least half as much as in the first, and by a thousandth at least.  Stick and slip of a rotor with several
-  coordinates need not keep time with its turns.
+- The same, but never repeating: twice :data:`TURNS` full turns without an impact, in the later of which the state changes from turn
+  to turn on average at least half as much as in the earlier, and by a thousandth at least.  Stick and slip of a rotor with
+  several coordinates need not keep time with its turns.
 - *Periodic*: the state at an impact recurs to within ``NEAR`` twice in a row after the same number of impacts.  The
   reference state is replaced after 1, 2, 4, 8 … impacts (Brent 1980), so no period is too long.  A motion that has
   recurred close to a repelling orbit only passes by it and is followed further (:mod:`carom.core.closing`).
@@ -29,10 +29,13 @@ from carom.core.layout import NEAR, kernel, part, record
 from carom.core.planar_proofs import planar_proofs
 
 NO_TURN, SET_OUT, ROUND = 0, 1, 2
-TURNS = 2048
-"""Full turns along the wall without recurrence after which a rub counts as one that never repeats, if it does not draw nearer."""
+TURNS = 512
+"""Full turns along the wall whose changes are added up, to compare them with those of as many before."""
 UNLIKE = 1e-3
-"""Mean change from turn to turn, relative to the size of the state, above which it may: less may be a slow approach."""
+"""Mean change from turn to turn, relative to the size of the state, above which they never repeat if it lasts.
+
+A change of less may be a slow approach.  One that loses half of a change as large as the state in so many turns begins with more.
+"""
 
 
 def memory(
@@ -72,6 +75,7 @@ def memory(
         recheck=np.asarray(recheck),
         stop_at_landing=np.asarray(stop_at_landing, np.int64),
         stalled=np.asarray(0, np.int64),
+        stood=np.asarray(0.0),
         lap=np.asarray(np.inf),
         events=np.asarray(0, np.int64),
         renewal=np.asarray(1, np.int64),
@@ -84,8 +88,8 @@ def memory(
         turn_time=np.asarray(0.0),
         turn_slipped=np.asarray(0, np.int64),
         turns=np.asarray(0, np.int64),
-        early_change=np.asarray(0.0),
-        late_change=np.asarray(0.0),
+        changes=np.asarray(0.0),
+        earlier_changes=np.asarray(0.0),
         turn_position=np.asarray(0, np.complex128),
         turn_state=np.zeros(modes, np.complex128),
         proofs=planar_proofs() if proofs is None else proofs,
@@ -178,19 +182,17 @@ def _size_and_distance(first, second):
 
 @kernel
 def never_repeats(memory, amplitudes):
-    """Note a turn along the wall after which the state was another; return whether TURNS have passed and it will stay so."""
-    size, distance = _size_and_distance(memory.turn_state, amplitudes)
+    """Note a turn along the wall after which the state was another; return whether so many have passed that it will stay so."""
     if memory.turns == 0:
-        memory.early_change, memory.late_change = 0.0, 0.0
+        memory.changes = 0.0
+    size, distance = _size_and_distance(memory.turn_state, amplitudes)
     memory.turns += 1
-    if 2 * memory.turns <= TURNS:
-        memory.early_change += distance / size
-    else:
-        memory.late_change += distance / size
-    if memory.turns < TURNS:
+    memory.changes += distance / size
+    if memory.turns % TURNS > 0:
         return False
-    memory.turns = 0
-    return memory.late_change >= 0.5 * max(memory.early_change, UNLIKE * TURNS)
+    lasts = memory.turns > TURNS and memory.changes >= max(0.5 * memory.earlier_changes, UNLIKE * TURNS)
+    memory.earlier_changes, memory.changes = memory.changes, 0.0
+    return lasts
 
 
 @kernel
@@ -235,7 +237,7 @@ def forget(memory):
     memory.events, memory.renewal, memory.since = 0, 1, 0
     memory.candidate, memory.period, memory.rubbed, memory.lifting = 0, 0, 0, 0
     memory.turning, memory.turns = NO_TURN, 0
-    memory.stalled, memory.lap = 0, math.inf
+    memory.stalled, memory.stood, memory.lap = 0, 0.0, math.inf
 
 
 @kernel

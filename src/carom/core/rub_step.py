@@ -13,7 +13,7 @@ from carom.core.rub import first_contact, first_transition, next_phase, rest_on_
 from carom.core.taylor import series_step, sum_series
 from carom.outcome import Outcome
 
-CONTACT, TIME_REACHED = int(Outcome.CONTACT), int(Outcome.TIME_REACHED)
+CONTACT, GRAZING, TIME_REACHED = int(Outcome.CONTACT), int(Outcome.GRAZING), int(Outcome.TIME_REACHED)
 FORWARD_RUB, BACKWARD_WHIRL, ROLLS_ON = (
     int(Outcome.FORWARD_RUB),
     int(Outcome.BACKWARD_WHIRL),
@@ -33,9 +33,10 @@ def rub_step(rotor, contact, amplitudes, horizon, memory, rub):
     in lasting contact.
     """
     rub_series(rotor, contact, amplitudes, rub)
-    step = min(series_step(rub), horizon)
-    duration, changed, following, slip_stops = _first_change(rotor, contact, step, rub)
-    leading = leading_plane(rotor, contact)
+    step, leading = series_step(rub), leading_plane(rotor, contact)
+    if step == 0.0:  # forces at several planes have grown without bound, until there are none (Painlevé)
+        return GRAZING, 0.0, leading
+    duration, changed, following, slip_stops = _first_change(rotor, contact, min(step, horizon), rub)
     turned, speed = False, 0.0
     if memory.patience > 0 and leading != NOWHERE:
         position = unit(rub.position[leading, 0])

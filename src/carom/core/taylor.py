@@ -17,13 +17,16 @@ NEWTON_STEPS = 8
 
 @kernel
 def series_step(work):
-    """Step with a truncation error below rounding, from the last two coefficients (Jorba and Zou 2005)."""
+    """Step with a truncation error below rounding, from the last two coefficients (Jorba and Zou 2005); zero if they are not finite."""
     modes = work.series.shape[1]
-    start, last, before = 0.0, 0.0, 0.0
+    start, last, before, total = 0.0, 0.0, 0.0, 0.0
     for m in range(modes):
+        total += abs(work.series[ORDER, m]) + abs(work.series[ORDER - 1, m])
         start = max(start, abs(work.series[0, m]))
         last = max(last, abs(work.series[ORDER, m]))
         before = max(before, abs(work.series[ORDER - 1, m]))
+    if not total < math.inf:
+        return 0.0
     scale = max(start, 1.0)
     radius = math.inf
     if last > 0.0:
