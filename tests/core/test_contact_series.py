@@ -116,9 +116,9 @@ def test_a_plane_that_does_not_slip_rolls_within_the_cone_of_friction_and_slips_
 def test_contact_at_one_plane_changes_with_what_happens_at_the_other():
     """From one rub at the first plane: the second comes to its wall, strikes, chatters and rubs as well."""
     amplitudes, contact = on_walls((0.35, 0.35), (0.0, 0.0), inside=(1,)), np.array([FORWARD_SLIP, AWAY])
-    log = EventLog.empty(400, 4, 2)
+    log = EventLog.empty(2000, 4, 2)
     outcome, time, count = advance(
-        SYSTEM.arrays, SYSTEM.table, amplitudes, 12.0, contact, *log, memory(4), workspace(4), rub_workspace(4, 2)
+        SYSTEM.arrays, SYSTEM.table, amplitudes, 60.0, contact, *log, memory(4), workspace(4), rub_workspace(4, 2)
     )
     assert time > 0.5
     phases = set(map(tuple, log.phases[:count].tolist()))

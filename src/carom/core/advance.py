@@ -9,7 +9,7 @@ from carom.core.events import INSIDE, LEAVING, search
 from carom.core.fate import forget_rub, levitates, recurs
 from carom.core.flow import acceleration, copy, displacement, squared_modulus, velocity
 from carom.core.impact import move_plane, rebound, set_on_wall, unit
-from carom.core.joint import join, strike_together
+from carom.core.joint import join, land_together, strike_together
 from carom.core.layout import kernel, part, passage, shared
 from carom.core.planar_proofs import fades_to_rolling, stays_inside
 from carom.core.rub import (
@@ -211,7 +211,7 @@ def _end_flight(rotor, contact, plane, reaction, memory, work, rub):
         return GRAZING
     if memory.stop_at_landing:
         return CHATTER
-    _land(rotor, plane, state)
+    _land(rotor, contact, plane, state, rub)
     memory.rubbed = 1
     forget_rub(memory)
     contact[plane] = next_phase(rotor, contact, plane, state, rub)
@@ -324,7 +324,7 @@ def _time_has_passed(memory, elapsed):
 
 
 @kernel
-def _land(rotor, plane, amplitudes):
+def _land(rotor, contact, plane, amplitudes, rub):
     """Complete a chatter: replace its remaining bounces by lasting contact from now on.
 
     Let ``v`` be the speed of the first rebound and ``τ`` the remaining duration of the chatter.  The bounces have the
@@ -334,6 +334,9 @@ def _land(rotor, plane, amplitudes):
     ``4hP/(N(1 − d²))`` where every impact stops the slip against a force ``P`` along the wall.  Both hold to leading
     order in ``v`` for the planar rotor.
     """
+    if rotor.rows.shape[0] > 1:
+        land_together(rotor, contact, plane, amplitudes, rub)
+        return
     normal = unit(displacement(rotor, plane, amplitudes))
     local = normal.conjugate() * velocity(rotor, plane, amplitudes)
     slip = rotor.drive[plane] + local.imag

@@ -22,7 +22,7 @@ from __future__ import annotations
 
 import math
 
-from carom.core.contact_series import AWAY, eliminate
+from carom.core.contact_series import AWAY, FLIGHT, FORWARD_SLIP, ROLLING, eliminate
 from carom.core.flow import displacement, squared_modulus, velocity
 from carom.core.impact import unit
 from carom.core.layout import kernel, part
@@ -70,6 +70,68 @@ def strike_together(rotor, before, after, rub):
             change = unit(displacement(rotor, p, before)) * rub.impulses[p]
             for k in range(after.shape[0]):
                 after[k] += rotor.columns[k, p] * change
+
+
+@kernel
+def land_together(rotor, contact, plane, amplitudes, rub):
+    """Put a plane to rest on its wall, in place, while those in lasting contact stay on theirs.
+
+    Their forces hold these, so their impulses may have either sign.  Friction is that of :func:`carom.core.advance.advance` for a
+    landing: along the slip, as the impulse is outward, and no more than the slip.
+    """
+    _load(rotor, amplitudes, rub)
+    slip = rotor.drive[plane] + rub.arrivals[plane].imag
+    for p in range(rotor.rows.shape[0]):
+        rub.joined[p] = p == plane or contact[p] > FLIGHT
+    share = math.copysign(rotor.friction[plane], slip)
+    if not _set_landing(rotor, contact, plane, share, 0.0, rub):  # planes that always move alike: one of them is enough
+        for p in range(rotor.rows.shape[0]):
+            rub.joined[p] = p == plane
+        _set_landing(rotor, contact, plane, share, 0.0, rub)
+    if abs(rub.matrix[2 * plane + 1, -1]) > abs(slip):
+        _set_landing(rotor, contact, plane, 0.0, slip, rub)
+    for p in range(rotor.rows.shape[0]):
+        if rub.joined[p]:
+            impulse = complex(-rub.matrix[2 * p, -1], rub.matrix[2 * p + 1, -1])
+            change = unit(displacement(rotor, p, amplitudes)) * impulse
+            for k in range(amplitudes.shape[0]):
+                amplitudes[k] += rotor.columns[k, p] * change
+
+
+@kernel
+def _set_landing(rotor, contact, plane, share, grip, rub):
+    """Solve for the impulses of a landing, with a friction of ``grip − share P`` at its plane; return whether there are any."""
+    last = rub.matrix.shape[1] - 1
+    rub.matrix[:] = 0.0
+    for p in range(rotor.rows.shape[0]):
+        rub.matrix[2 * p, 2 * p], rub.matrix[2 * p + 1, 2 * p + 1] = 1.0, 1.0
+        if not rub.joined[p]:
+            continue
+        rolls = p != plane and contact[p] == ROLLING
+        for q in range(rotor.rows.shape[0]):
+            if rub.joined[q]:
+                _write_coupling(rub.matrix, p, q, rub.couplings[p, q], True, rolls)
+        rub.matrix[2 * p, last] = rub.arrivals[p].real
+        if p == plane:
+            rub.matrix[2 * p + 1, 2 * p], rub.matrix[2 * p + 1, last] = share, grip
+        elif rolls:
+            rub.matrix[2 * p + 1, last] = -(rotor.drive[p] + rub.arrivals[p].imag)
+        else:
+            rub.matrix[2 * p + 1, 2 * p] = rotor.friction[p] if contact[p] == FORWARD_SLIP else -rotor.friction[p]
+    eliminate(rub.matrix)
+    size = 0.0
+    for row in range(last):
+        size += abs(rub.matrix[row, last])
+    return size < math.inf
+
+
+@part
+def _write_coupling(matrix, p, q, coupling, radially, along):
+    """Write what the impulses at plane ``q`` change at plane ``p``: of ``ṙ`` into the first of its equations, of the slip into the second."""
+    if radially:
+        matrix[2 * p, 2 * q], matrix[2 * p, 2 * q + 1] = coupling.real, coupling.imag
+    if along:
+        matrix[2 * p + 1, 2 * q], matrix[2 * p + 1, 2 * q + 1] = -coupling.imag, coupling.real
 
 
 @part
@@ -182,11 +244,8 @@ def _set_equations(rotor, way, rub):
         rub.matrix[2 * p, 2 * p], rub.matrix[2 * p + 1, 2 * p + 1] = 1.0, 1.0
         rub.matrix[2 * p, last] = rub.least[p]
         for q in range(planes):
-            coupling = rub.couplings[p, q]
-            if pressed == 1 and rub.joined[q]:
-                rub.matrix[2 * p, 2 * q], rub.matrix[2 * p, 2 * q + 1] = coupling.real, coupling.imag
-            if slip == STOPPED and rub.joined[q]:
-                rub.matrix[2 * p + 1, 2 * q], rub.matrix[2 * p + 1, 2 * q + 1] = -coupling.imag, coupling.real
+            if rub.joined[q]:
+                _write_coupling(rub.matrix, p, q, rub.couplings[p, q], pressed == 1, slip == STOPPED)
         if pressed == 1:
             rub.matrix[2 * p, last] = rub.local[p].real - rub.aims[p]
         if slip == STOPPED:
