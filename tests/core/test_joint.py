@@ -78,7 +78,9 @@ def _interleaved(driving, driven):
 def approaching(random, body):
     """A velocity with which at least one plane strikes."""
     while True:
-        velocity = (random.normal(size=len(body.mass)) + 1j * random.normal(size=len(body.mass))) * 10 ** random.uniform(-3, 1)
+        velocity = (
+            random.normal(size=len(body.mass)) + 1j * random.normal(size=len(body.mass))
+        ) * 10 ** random.uniform(-3, 1)
         if (body.local(velocity).real > 0.0).any():
             return velocity
 

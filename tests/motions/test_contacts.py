@@ -75,6 +75,7 @@ class TestContactLog:
             "slip_before": (log.slip_before * 0.7e-3 * 184.2, "m/s"),
             "slip_after": (log.slip_after * 0.7e-3 * 184.2, "m/s"),
             "sticks": (log.sticks, "1"),
+            "by_poisson": (log.by_poisson, "1"),
             "contact_work": (log.contact_work * 50.0 * (0.7e-3 * 184.2) ** 2, "J"),
             "drive_work": (log.drive_work * 50.0 * (0.7e-3 * 184.2) ** 2, "J"),
         }

@@ -139,7 +139,8 @@ def _words(settled: SettledMotion, name: MotionName) -> str:
         if not settled.multiplicity:
             return f"The rotor {doing} irregularly: it did not repeat itself as far as it was followed."
         impacts = "one impact" if settled.multiplicity == 1 else f"{settled.multiplicity} impacts"
-        return f"The rotor {doing} ({name}): {impacts} in each period of {told(settled.period, 'time', settled.motion.rotor.scales, 4)}."
+        period = told(settled.period or 0.0, "time", settled.motion.rotor.scales, 4)
+        return f"The rotor {doing} ({name}): {impacts} in each period of {period}."
     if settled.outcome is Outcome.FORWARD_RUB:
         how = "in step with the shaft" if settled.synchronous else "out of step with the shaft"
         return f"The rotor rubs along the touchdown bearing {how}."

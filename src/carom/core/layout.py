@@ -272,7 +272,10 @@ def _rub_workspace_layout(modes: int, planes: int) -> np.dtype:
             ("links", COMPLEX, (planes, planes, ORDER + 1)),
             ("matrix", REAL, (2 * planes, 2 * planes + 1)),
             ("couplings", COMPLEX, (planes, planes)),
-            *((name, COMPLEX, (planes,)) for name in ("arrivals", "local", "impulses", "compression", "tried", "tried_after")),
+            *(
+                (name, COMPLEX, (planes,))
+                for name in ("arrivals", "local", "impulses", "compression", "tried", "tried_after")
+            ),
             *((name, REAL, (planes,)) for name in ("aims", "least")),
             ("joined", np.dtype(np.int8), (planes,)),
         )

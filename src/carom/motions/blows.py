@@ -11,8 +11,8 @@ from carom.models import System
 AT_WALL = 1e-9
 """Distance from its wall up to which a plane may have been struck together with another (:data:`carom.core.joint.ONE_INSTANT`), with
 a margin for the rounding of states: of a plane that was not struck the equations give none but a rounding error."""
-NONE = 1e-12
-"""Impulse, relative to the largest in the event, below which a plane at its wall counts as not struck."""
+NONE, ROUNDING = 1e-12, 1e-14
+"""Impulse, relative to the largest in the event and to the terms of velocities, below which a plane at its wall was not struck."""
 
 
 class Blows(NamedTuple):
@@ -67,8 +67,8 @@ def blows_of(
         here = np.flatnonzero(at_wall[event])
         couplings = normal[event, here].conj()[:, None] * arrays.mobility[np.ix_(here, here)] * normal[event, here]
         impulses[event, here] = np.linalg.lstsq(couplings, changes[event, here])[0]
-    sizes = np.abs(impulses)
-    struck = sizes > NONE * sizes.max(axis=1, initial=0.0, keepdims=True)
+    sizes, terms = np.abs(impulses), np.abs(before) @ np.abs(arrays.rate_rows).T
+    struck = sizes > NONE * sizes.max(axis=1, initial=0.0, keepdims=True) + ROUNDING * terms
     struck[places, planes] |= ~struck.any(axis=1)
     rows, columns = np.nonzero(struck)
     return Blows(events[rows], columns, impulses[rows, columns])

@@ -21,7 +21,8 @@ if TYPE_CHECKING:
     from carom.parameters import Scales
 
 ALIKE = 1e-9
-"""Difference of radial speeds, relative to one plus the speed, above which an impact was not by Newton's restitution."""
+"""Difference of radial speeds, relative to one plus the speed, above which an impact was not by Newton's restitution; impulses
+below that are too small to tell."""
 
 
 @dataclass(frozen=True)
@@ -115,7 +116,9 @@ class ContactLog(Table):
     slip_after: np.ndarray = field(metadata=column("velocity", "slip velocity after impact"))
     sticks: np.ndarray = field(metadata=column("1", "whether friction stopped the slip"))
     by_poisson: np.ndarray = field(
-        metadata=column("1", "whether Poisson's restitution took the place of Newton's, which would have raised the energy")
+        metadata=column(
+            "1", "whether Poisson's restitution took the place of Newton's, which would have raised the energy"
+        )
     )
     contact_work: np.ndarray = field(
         metadata=column("energy", "work of the impact on the contact point, never positive in the sum over the planes")
@@ -156,7 +159,7 @@ class ContactLog(Table):
             slip_before=slip,
             slip_after=slip_after,
             sticks=arrays.friction[planes] * normal >= np.abs(mass * slip_after - tangential),
-            by_poisson=np.isin(blows.events, blows.events[unlike & (normal > 0.0)]),
+            by_poisson=np.isin(blows.events, blows.events[unlike & (-blows.impulses.real > ALIKE)]),
             contact_work=normal_work + 0.5 * tangential * (slip + slip_after),
             drive_work=-(drive - 1.0) * tangential,
             scales=rotor.scales,

@@ -166,7 +166,9 @@ def segments_of(motion: Trajectory, first: int, last: int, *, brief: bool = Fals
     between = motion.is_impact.copy()
     between[:first], between[last:] = False, False
     if motion.segment_phases.shape[1] > 1 and len(motion.blows(between).events) > between.sum():
-        raise InputError("motion", "impacts at several planes in one instant", "impacts at one plane at a time: others have no word")
+        raise InputError(
+            "motion", "impacts at several planes in one instant", "impacts at one plane at a time: others have no word"
+        )
     steps: list[tuple[Segment, np.ndarray, float]] = []
     struck_at: list[int] = []
     times = np.append(motion.segment_starts[1:], motion.time)
