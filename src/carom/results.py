@@ -13,6 +13,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
+from carom.arguments import checked
 from carom.outcome import InputError
 from carom.references import REFERENCES, Citations, carom_itself
 
@@ -82,6 +83,7 @@ class Result:
         return self.rows()
 
 
+@checked
 def citations(result: object) -> Citations:
     """What to cite for a result: carom, and the literature on which the methods behind it rest.
 

@@ -199,7 +199,7 @@ def test_rescaling_keeps_what_happens_in_si():
         (lambda: StateSlice(complex(math.inf, 0.0)), "velocity"),
         (lambda: Grid(VelocityKick(), (3,)), "grid"),
         (lambda: Grid(VelocityKick(), (3, 0)), "grid"),
-        (lambda: Sample(VelocityKick(), 0), "starts"),
+        (lambda: Sample(VelocityKick(), 0), "count"),
         (lambda: Sample(VelocityKick(), 5, seed=-1), "seed"),
     ],
 )

@@ -160,8 +160,8 @@ def test_progress_ends_at_one(machine):
     ("changes", "words"),
     [
         ({"positions": [0.1, 1.5]}, "start position = .*inside the wall"),
-        ({"positions": [0.1, np.nan]}, "start position = .*finite"),
-        ({"velocities": [np.inf, 0.0]}, "start velocity = .*finite"),
+        ({"positions": [0.1, np.nan]}, "^positions = .*: finite numbers"),
+        ({"velocities": [np.inf, 0.0]}, "^velocities = .*: finite numbers"),
         ({"until": -1.0}, "until = -1.0"),
         ({"max_events": 0}, "max_events = 0"),
         ({"max_events": 2.5}, "max_events = 2.5"),

@@ -96,7 +96,7 @@ def test_proof_of_something_else_is_refused_in_one_line(diagram, proof, changes,
 
 
 def test_what_is_no_proof_along_a_parameter_is_refused(diagram, proof):
-    with pytest.raises(InputError, match="a Proof, as"):
+    with pytest.raises(InputError, match=r"proof = proof\.json: a Proof"):
         diagram.plot(proof="proof.json")
     with pytest.raises(InputError, match="of one machine"):
         diagram.plot(proof=replace(proof, options={}))

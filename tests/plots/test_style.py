@@ -8,6 +8,7 @@ import matplotlib as mpl
 import pytest
 
 from carom import plots
+from carom.outcome import InputError
 
 
 def _draw_everything(damped, bouncing) -> None:
@@ -29,8 +30,8 @@ def test_settings_of_the_user_stay(damped, bouncing, settings):
 
 def test_settings_of_the_user_stay_after_an_error(damped):
     before = dict(mpl.rcParams)
-    with pytest.raises(AttributeError):
-        plots.orbit(damped.rotor)
+    with pytest.raises(InputError, match="one for each period"):
+        plots.period_condition(damped.orbits, [1.0], [1.0, 2.0])
     assert dict(mpl.rcParams) == before
 
 

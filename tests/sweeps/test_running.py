@@ -291,7 +291,10 @@ def test_threads_run_at_the_same_time(tmp_path):
 
 @pytest.mark.parametrize(
     ("options", "words"),
-    [({"workers": 0}, "--workers = 0"), ({"threads": True, "scheduler": "tcp://x:1"}, "--threads = given")],
+    [
+        ({"workers": 0}, "workers = 0: a whole number of at least 1"),
+        ({"threads": True, "scheduler": "tcp://x:1"}, "--threads = given"),
+    ],
 )
 def test_options_that_do_not_go(tmp_path, options, words):
     with pytest.raises(InputError, match=words):

@@ -7,6 +7,7 @@ from typing import ClassVar, Literal
 
 import numpy as np
 
+from carom.arguments import Count, checked
 from carom.attractors.groups import Attractor
 from carom.attractors.regularity import Rotation, rotation_of
 from carom.attractors.survival import Survival
@@ -71,7 +72,8 @@ class Character(Result):
     rotation: Rotation | None = None
 
 
-def character_of(machine: Subject, attractor: Attractor, impacts: int = MEASURED) -> Character:
+@checked
+def character_of(machine: Subject, attractor: Attractor, impacts: Count = MEASURED) -> Character:
     """Find out what kind of motion an attractor is.
 
     An undecided character says why.

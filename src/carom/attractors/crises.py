@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
+from carom.arguments import Count, checked
 from carom.attractors.lifetimes import Lifetimes, measure_lifetimes
 from carom.attractors.starts import DisturbanceSet
 from carom.models import Model, Subject, axis, model_of
@@ -54,13 +55,14 @@ class Crisis(Result):
         )
 
 
+@checked
 def locate_crisis(
     machine: Subject,
     name: str,
     lasting: float,
     ending: float,
     *,
-    steps: int = STEPS,
+    steps: Count = STEPS,
     tolerance: float = 0.0,
     starts: DisturbanceSet | None = None,
     **limits: Any,

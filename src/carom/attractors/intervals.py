@@ -4,18 +4,24 @@ from __future__ import annotations
 
 import math
 
+from carom.arguments import Whole, checked
+from carom.outcome import InputError
+
 CONFIDENCE = 0.95
 _HALVINGS = 60
 _SMALL = 1e-300
 
 
-def exact_interval(count: int, total: int) -> tuple[float, float]:
+@checked
+def exact_interval(count: Whole, total: Whole) -> tuple[float, float]:
     """Interval that contains a probability with at least 95 % confidence, from ``count`` successes in ``total`` trials.
 
     C. J. Clopper, E. S. Pearson, Biometrika 26, 404 (1934): with a probability outside it so many successes, or so few, would
     be seen in less than 2.5 % of all samples.  So it covers whatever the probability is.  Wilson's interval (1927), which
     covers 95 % on average over all probabilities, covers 84 % of the samples where nearly all or nearly none succeed.
     """
+    if count > total:
+        raise InputError("count", count, f"at most {total}, the number of trials")
     rare = 0.5 * (1.0 - CONFIDENCE)
     low = _quantile(count, total - count + 1, rare) if count else 0.0
     high = 1.0 - _quantile(total - count, count + 1, rare) if count < total else 1.0

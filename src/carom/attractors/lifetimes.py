@@ -7,10 +7,11 @@ from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import ClassVar, Literal
+from typing import Annotated, ClassVar, Literal
 
 import numpy as np
 
+from carom.arguments import Count, Seed, Whole, checked, whole
 from carom.attractors.names import MotionName
 from carom.attractors.starts import DisturbanceSet, disturbances_of
 from carom.attractors.survival import ENOUGH, Survival, still_irregular
@@ -18,7 +19,7 @@ from carom.disturbances import Plan
 from carom.models import Model, Subject, model_of
 from carom.motions.ensembles import settle
 from carom.motions.settling import CHATTER, PATIENCE, REPEATING
-from carom.motions.starts import Kick, State, check_whole
+from carom.motions.starts import Kick, State
 from carom.outcome import InputError, Outcome
 from carom.results import Result
 
@@ -75,6 +76,7 @@ class Lifetimes(Result):
         """Where the motions ended, the most frequent first."""
         return dict(Counter(self.ends).most_common())
 
+    @checked
     def share(self, impacts: np.ndarray) -> np.ndarray:
         """Share of the motions that still bounced irregularly after numbers of impacts, of those followed that far.
 
@@ -191,15 +193,16 @@ def _chance(count: int, chosen: int, share: float) -> float:
     )
 
 
+@checked
 def measure_lifetimes(
     machine: Subject,
     starts: DisturbanceSet | Plan | Sequence[State | Kick] | None = None,
     *,
-    impacts: int = PATIENCE,
-    discarded: int | None = None,
-    count: int = COUNT,
-    seed: int = 0,
-    threads: int | None = None,
+    impacts: Annotated[int, whole(2)] = PATIENCE,
+    discarded: Whole | None = None,
+    count: Count = COUNT,
+    seed: Seed = 0,
+    threads: Count | None = None,
 ) -> Lifetimes:
     """Follow many motions and note after how many impacts they stop bouncing irregularly.
 
@@ -229,10 +232,8 @@ def measure_lifetimes(
         A number is out of range, or a start is not possible.
     """
     rotor = model_of(machine)
-    check_whole("impacts", impacts, 2)
     if discarded is None:
         discarded = min(_discarded(rotor), impacts // 2)
-    check_whole("discarded", discarded, 0)
     if discarded >= impacts:
         raise InputError("discarded", discarded, f"less than the impacts followed, {impacts}")
     _, whole = disturbances_of(rotor, DisturbanceSet.of(rotor, count, seed) if starts is None else starts)

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from carom.arguments import checked
 from carom.orbits.names import OrbitName
 from carom.outcome import DRIFTING_RUB, STEADY_WORDS, Outcome
 
@@ -54,6 +55,7 @@ class MotionName(str):
         return self.outcome, self.multiplicity, self.drifting, self.orbit, self.number
 
     @classmethod
+    @checked
     def of(cls, parts: Mapping[str, Any]) -> MotionName:
         """Name from its parts as plain data, from :func:`dataclasses.asdict` or JSON."""
         orbit = OrbitName(**parts["orbit"]) if parts["orbit"] else None

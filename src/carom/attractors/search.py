@@ -8,6 +8,7 @@ from typing import ClassVar
 
 import numpy as np
 
+from carom.arguments import Count, Seed, Whole, checked
 from carom.attractors.following import SLOWER, Ending, follow_in_stages
 from carom.attractors.groups import Attractor, attractor_of
 from carom.attractors.naming import name_motions, orbits_of
@@ -89,6 +90,7 @@ class AttractorSet(Result):
         """Where the disturbances ended."""
         return tuple(ending for ending in self.endings if ending.start.disturbance)
 
+    @checked
     def ending_on(self, name: str) -> tuple[Ending, ...]:
         """Disturbances and other starts that ended on an attractor."""
         return tuple(ending for ending in self.endings if ending.attractor == name)
@@ -137,17 +139,18 @@ class AttractorSet(Result):
         )
 
 
+@checked
 @shows_progress
 def find_attractors(
     machine: Subject,
     disturbances: DisturbanceSet | Plan | Disturbance | Sequence[State | Kick] | None = None,
     *,
-    seed: int = 0,
-    count: int = DISTURBANCES,
+    seed: Seed = 0,
+    count: Count = DISTURBANCES,
     fastest: float | str | None = None,
     known: bool = True,
-    patience: int = PATIENCE,
-    threads: int | None = None,
+    patience: Whole = PATIENCE,
+    threads: Count | None = None,
     progress: ShowProgress = None,
 ) -> AttractorSet:
     """Follow disturbances, and starts next to every known motion, to the attractors on which they settle.

@@ -10,6 +10,7 @@ from typing import Any, Literal
 
 import numpy as np
 
+from carom.arguments import Seed, Whole, checked
 from carom.closed_forms.equilibria import find_equilibria
 from carom.closed_forms.known import known_of
 from carom.disturbances import FASTEST, AnyState, KickPlane, Plan, Starts, VelocityKick
@@ -73,6 +74,7 @@ class Start:
         return self.state.velocity + carried
 
 
+@checked
 @dataclass(frozen=True)
 class DisturbanceSet:
     """The standard set of disturbances, used unless another is given.
@@ -91,8 +93,8 @@ class DisturbanceSet:
         Largest kick and largest speed of the starts in the fixed frame, in ``c_r Ω``; :meth:`of` takes that of a machine.
     """
 
-    count: int = DISTURBANCES
-    seed: int = 0
+    count: Whole = DISTURBANCES
+    seed: Seed = 0
     fastest: float = FASTEST
 
     def __post_init__(self) -> None:
@@ -102,8 +104,9 @@ class DisturbanceSet:
             raise InputError("fastest", self.fastest, "a finite speed above 0, in c_r Omega")
 
     @classmethod
+    @checked
     def of(
-        cls, machine: Subject, count: int = DISTURBANCES, seed: int = 0, fastest: float | str | None = None
+        cls, machine: Subject, count: Whole = DISTURBANCES, seed: Seed = 0, fastest: float | str | None = None
     ) -> DisturbanceSet:
         """Set for a machine, by default up to its :func:`~carom.parameters.usual_kick`.
 
@@ -184,6 +187,7 @@ def disturbances_of(rotor: Model, tried: DisturbanceSet | Plan | Sequence[State 
     return [Start("kick" if one else "start", State.of(place, speed)) for one, place, speed in states_of], whole
 
 
+@checked
 def known_starts(machine: Subject, orbits: Sequence[Orbit]) -> tuple[Start, ...]:
     """Starts next to every motion known in closed form, so that none is missed because its basin is small.
 

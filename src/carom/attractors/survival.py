@@ -8,6 +8,7 @@ from typing import Any, ClassVar, Literal
 
 import numpy as np
 
+from carom.arguments import Count, Whole, checked
 from carom.attractors.intervals import CONFIDENCE, exact_interval
 from carom.models import Model, Subject, model_of
 from carom.motions.ensembles import Endings, settle
@@ -61,7 +62,8 @@ class Survival:
     interval: tuple[float, float]
 
     @classmethod
-    def of(cls, motions: int, impacts: int, died: int, looks: int, left: int, span: int = LOOK) -> Survival:
+    @checked
+    def of(cls, motions: Whole, impacts: Whole, died: Whole, looks: Whole, left: Whole, span: Count = LOOK) -> Survival:
         """Estimate from the number of looks at motions that had not left before, and how many of these had then left.
 
         A motion that no longer depends on its start leaves between two looks, ``span`` impacts apart, with a probability
@@ -89,7 +91,8 @@ class Survival:
         late = self.impacts >= ENOUGH * self.half_life and left <= self.most_left(self.impacts)
         return "transient" if left == 0 or late else "undecided"
 
-    def most_left(self, impacts: int) -> float:
+    @checked
+    def most_left(self, impacts: Count) -> float:
         """Most motions that may be left after so many impacts if all end at the rate of the fit: three deviations above the mean."""
         if self.half_life is None:
             return math.inf
@@ -179,15 +182,16 @@ def follow_further(rotor: Model, endings: Endings, chosen: np.ndarray, **limits:
     return Endings(**whole)
 
 
+@checked
 def follow_until_settled(
     machine: Subject,
     endings: Endings,
     *,
-    impacts: int,
-    threads: int | None = None,
+    impacts: Count,
+    threads: Count | None = None,
     earlier: Endings | None = None,
-    affordable: int = AFFORDABLE,
-    motions: int = MOTIONS,
+    affordable: Whole = AFFORDABLE,
+    motions: Count = MOTIONS,
 ) -> tuple[Endings, Survival | None]:
     """Follow irregular motions of an ensemble until they settle, if they do.
 
@@ -228,6 +232,7 @@ def follow_until_settled(
     return endings, survival
 
 
+@checked
 def document_of(survival: Survival | None) -> dict[str, Any]:
     """Document of the survival for JSON; without a survival the motion is not irregular."""
     if survival is None:

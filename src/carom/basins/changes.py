@@ -9,6 +9,7 @@ from itertools import count
 
 import numpy as np
 
+from carom.arguments import Count, checked
 from carom.basins.gains import GainMap, measured
 from carom.basins.shares import Share
 from carom.disturbances import Plan
@@ -66,9 +67,10 @@ def told_changes(found: GainMap, change: GainChange, told_by: Case | None) -> tu
     )
 
 
+@checked
 @shows_progress
 def least_gain_change(
-    found: GainMap, wanted: float = WANTED, *, threads: int | None = None, progress: ShowProgress = None
+    found: GainMap, wanted: float = WANTED, *, threads: Count | None = None, progress: ShowProgress = None
 ) -> GainChange | None:
     """Least relative change of the two parameters that brings back a wanted share of the disturbances.
 

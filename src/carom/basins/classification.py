@@ -10,6 +10,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
+from carom.arguments import Count, Whole, checked
 from carom.attractors import MotionName, document_of, follow_until_settled
 from carom.attractors.naming import name_motions
 from carom.basins.dataset import Mapped, dataset_of, provenance
@@ -19,7 +20,7 @@ from carom.disturbances.following import NO_START, follow, require_start
 from carom.models import Subject, model_of
 from carom.motions.ensembles import MOST_EVENTS
 from carom.motions.settling import PATIENCE, longest_time
-from carom.motions.starts import time_until
+from carom.motions.starts import Until, time_until
 from carom.outcome import STEADY_WORDS, InputError, Outcome
 from carom.parameters import Scales
 from carom.progress import ShowProgress, shows_progress
@@ -38,6 +39,7 @@ CRITERIA = (
 )
 
 
+@checked
 @dataclass(frozen=True, eq=False, repr=False)
 class Basin(Mapped):
     """Where each of many disturbances ends.
@@ -127,6 +129,7 @@ class Basin(Mapped):
         """Share that returns to levitation; starts that were given up count as lost.  Cells of a disc weigh by their area."""
         return Share.over(self.plan, self.recovered, self.exists, self.scales)
 
+    @checked
     def share_of(self, motion: str) -> Share:
         """Share of the disturbances that end on a motion.
 
@@ -141,15 +144,16 @@ class Basin(Mapped):
         return Share.over(self.plan, chosen, self.exists, self.scales, f"end in {motion}")
 
 
+@checked
 @shows_progress
 def map_basins(
     machine: Subject,
     disturbances: Plan,
     *,
-    until: float | str | None = None,
-    patience: int = PATIENCE,
-    max_events: int = MOST_EVENTS,
-    threads: int | None = None,
+    until: Until | None = None,
+    patience: Whole = PATIENCE,
+    max_events: Count = MOST_EVENTS,
+    threads: Count | None = None,
     source: Mapping[str, str] | None = None,
     progress: ShowProgress = None,
 ) -> Basin:

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 import numpy as np
 
+from carom.arguments import checked
 from carom.attractors import MotionName
 from carom.disturbances import Disturbance, Grid, Plan, Sample, Starts
 from carom.disturbances.following import NO_START
@@ -59,11 +60,13 @@ class Mapped(Result):
         """Disturbances that were tried, in units of this machine; with known scales they keep their size in SI units for others."""
         return plan_of(json.loads(self.dataset.attrs["disturbances"]))
 
+    @checked
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write a netCDF file atomically; see :func:`carom.files.netcdf.save`."""
         save(self.dataset, path)
 
     @classmethod
+    @checked
     def load(cls, path: str | os.PathLike[str]) -> Self:
         """Read a netCDF file written by :meth:`save`; refuse one that cannot be read or holds other results."""
         return cls(load(path, cls.needed))

@@ -12,6 +12,7 @@ from typing import ClassVar
 
 import numpy as np
 
+from carom.arguments import Count, checked
 from carom.basins.classification import Basin
 from carom.disturbances import Grid
 from carom.outcome import InputError
@@ -51,7 +52,8 @@ class BasinEntropy:
         return self.boundary > math.log(2.0)
 
 
-def basin_entropy(basin: Basin, side: int | None = None) -> BasinEntropy:
+@checked
+def basin_entropy(basin: Basin, side: Count | None = None) -> BasinEntropy:
     """Basin entropy and boundary basin entropy of starts on a grid.
 
     Parameters

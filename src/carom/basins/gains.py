@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, TypeAlias
 
 import numpy as np
 
+from carom.arguments import Count, Whole, checked
 from carom.basins.dataset import Mapped, provenance
 from carom.basins.entropy import entropies, usual_side
 from carom.basins.integrity_measures import safe_size
@@ -39,6 +40,7 @@ CHUNK = 50_000
 """Approximate number of starts in memory at a time."""
 
 
+@checked
 @dataclass(frozen=True, eq=False, repr=False)
 class GainMap(Mapped):
     """Measures of recoverability against two parameters.
@@ -88,6 +90,7 @@ class GainMap(Mapped):
         return {name: int(self.dataset.attrs[name]) for name in ("patience", "max_events")}
 
 
+@checked
 @shows_progress
 def map_gains(
     machine: Subject,
@@ -96,9 +99,9 @@ def map_gains(
     *,
     ranges: tuple[Ends | None, Ends | None] = (None, None),
     shape: tuple[int, int] = (16, 16),
-    patience: int = PATIENCE,
-    max_events: int = MOST_EVENTS,
-    threads: int | None = None,
+    patience: Whole = PATIENCE,
+    max_events: Count = MOST_EVENTS,
+    threads: Count | None = None,
     source: Mapping[str, str] | None = None,
     progress: ShowProgress = None,
 ) -> GainMap:

@@ -12,6 +12,7 @@ from typing import ClassVar
 
 import numpy as np
 
+from carom.arguments import checked
 from carom.basins.classification import Basin
 from carom.disturbances import BaseShock, Coordinate, Grid, KickPlane, StateSlice, VelocityKick
 from carom.outcome import InputError
@@ -45,6 +46,7 @@ class Integrity:
     whole: float
 
 
+@checked
 def integrity(basin: Basin) -> Integrity:
     """Integrity of the starts of a basin.
 

@@ -13,6 +13,7 @@ from typing import ClassVar
 
 import numpy as np
 
+from carom.arguments import Count, checked
 from carom.basins.shares import CONFIDENCE
 from carom.closed_forms.thresholds import harmless_kick, harmless_shock, harmless_unbalance_step
 from carom.disturbances import (
@@ -145,15 +146,16 @@ def _by_size(model: Disturbance) -> bool:
     return len(axes) == 2 and axes[0].low == 0.0 and axes[1].periodic
 
 
+@checked
 @shows_progress
 def smallest_loss(
     machine: Subject,
     model: Disturbance,
     *,
-    directions: int = DIRECTIONS,
-    sizes: int = SIZES,
+    directions: Count = DIRECTIONS,
+    sizes: Count = SIZES,
     tolerance: float = TOLERANCE,
-    threads: int | None = None,
+    threads: Count | None = None,
     progress: ShowProgress = None,
 ) -> SmallestLoss:
     """Search for the smallest disturbance of a kind that does not return to levitation, finer than any grid.

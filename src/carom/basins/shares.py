@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 
+from carom.arguments import Whole, checked
 from carom.attractors import AttractorSet, DisturbanceSet, exact_interval
 from carom.attractors.intervals import CONFIDENCE as CONFIDENCE
 from carom.disturbances import Disturbance, Plan, Sample, VelocityKick
@@ -83,8 +84,9 @@ class Share:
     does: str = "come back"
 
     @classmethod
+    @checked
     def of(
-        cls, count: int, total: int, *, drawn: bool, population: Population = STARTS, does: str = "come back"
+        cls, count: Whole, total: Whole, *, drawn: bool, population: Population = STARTS, does: str = "come back"
     ) -> Share:
         """Share ``count`` of ``total`` starts of equal weight."""
         share = count / total if total else math.nan
@@ -126,6 +128,7 @@ class Share:
         return {"of": of.of, "up_to": of.up_to, **si, **interval}
 
 
+@checked
 def share_of_kicks(found: AttractorSet) -> Share | None:
     """Share of the kicks that come back, of attractors found by kicks of all sizes and directions up to the largest.
 

@@ -9,6 +9,7 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
+from carom.arguments import checked
 from carom.bifurcations.neighbours import BORDERS, NEIGHBOURS, is_other, neighbour, read_beside, setting_out
 from carom.bifurcations.paths import Path
 from carom.bifurcations.points import Bifurcation
@@ -174,6 +175,7 @@ class Border(Result):
         ]
 
 
+@checked
 def examine_border(point: Bifurcation) -> Border:
     """Look at both sides of a special point at which the word of an orbit changes.
 

@@ -30,6 +30,7 @@ import math
 from dataclasses import dataclass
 from typing import Literal
 
+from carom.arguments import checked
 from carom.closed_forms.thresholds import BoundaryKind, Gain, boundary_balance, boundary_kind, ranges_of
 from carom.models import Jeffcott, Subject, jeffcott_of
 from carom.orbits.names import OrbitName
@@ -130,6 +131,7 @@ _EQUILIBRIA = {
 }
 
 
+@checked
 def boundary_equilibria(machine: Subject, gain: Gain = "gamma") -> tuple[BoundaryEquilibrium, ...]:
     """Find where the contact-free equilibrium meets the wall along a gain, and classify what happens.
 

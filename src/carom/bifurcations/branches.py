@@ -9,6 +9,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
+from carom.arguments import checked
 from carom.bifurcations.conditions import is_admissible, jacobian_at, name_of, with_slip
 from carom.bifurcations.points import Bifurcation
 from carom.bifurcations.solutions import Solution
@@ -100,6 +101,7 @@ class OrbitBranch(Result):
         )
         return tuple(Solution(name_of(at[0], self.name.pair, *at[1:]), *at) for at in each)
 
+    @checked
     def numbers_at(self, value: float) -> Numbers:
         """Parameters of the planar rotor at a value of the parameter; with negative ``mu`` for orbits with backward slip."""
         numbers = Numbers.of(self.rotor.parameters).moved(self.parameter, value)
@@ -169,6 +171,7 @@ class OrbitBranch(Result):
         """Which orbits have all multipliers inside the unit circle, bool, shape (m,)."""
         return np.abs(self.multipliers).max(axis=1) < 1.0
 
+    @checked
     def starts_at(self, value: float, rotor: Model | None = None) -> list[Start]:
         """Nodes and durations of its orbits at a value of the parameter, one for each time it passes there.
 

@@ -9,6 +9,7 @@ from typing import ClassVar, Literal
 
 import numpy as np
 
+from carom.arguments import checked
 from carom.bifurcations.conditions import (
     BOUNDLESS,
     FASTEST,
@@ -181,6 +182,7 @@ def can_be_followed(point: Bifurcation) -> bool:
     return point.kind in OF_WORDS
 
 
+@checked
 def continue_curve(bifurcation: Bifurcation, plane: Plane, steps: Steps | None = None) -> Curve:
     """Follow a bifurcation in the plane of two parameters.
 

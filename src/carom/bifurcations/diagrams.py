@@ -8,6 +8,7 @@ from typing import ClassVar, NamedTuple
 
 import numpy as np
 
+from carom.arguments import Seed, Whole, checked
 from carom.attractors import DisturbanceSet
 from carom.bifurcations.branches import OrbitBranch
 from carom.bifurcations.points import HALVING, Bifurcation
@@ -26,7 +27,7 @@ from carom.models.axes import Axis, Ends, axis, read_interval
 from carom.orbits.names import RubbingName
 from carom.orbits.orbit import Orbit
 from carom.orbits.rubbing import rubbing_orbits
-from carom.orbits.search import Searched, check_impacts
+from carom.orbits.search import Impacts, Searched
 from carom.orbits.single_impact import find_orbits
 from carom.outcome import STEADY_WORDS
 from carom.parameters import Parameters
@@ -129,17 +130,18 @@ class Diagram(Result):
         return self.axis.name
 
 
+@checked
 @shows_progress
 def find_bifurcations(
     machine: Subject,
     parameter: str,
     interval: Ends,
     *,
-    impacts: int = 1,
+    impacts: Impacts = 1,
     virtual: bool = False,
     lasting: bool = False,
-    attractors: int = 0,
-    seed: int = 0,
+    attractors: Whole = 0,
+    seed: Seed = 0,
     progress: ShowProgress = None,
 ) -> Diagram:
     """Find the branches of motions on an interval of a parameter, and their special points.
@@ -190,7 +192,6 @@ def find_bifurcations(
     >>> [point.kind for point in diagram.points if point.name == "B1,d"]
     ['fold']
     """
-    check_impacts(impacts)
     model = model_of(machine) if attractors and not (virtual or lasting or impacts > 1) else jeffcott_of(machine)
     along = axis(model, parameter)
     limits = read_interval(along, interval)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
+from carom.arguments import checked
 from carom.bifurcations.conditions import is_admissible, spectral_radii
 from carom.bifurcations.diagrams import LONGEST_PERIOD
 from carom.bifurcations.solutions import Solution, orbit_solutions
@@ -76,6 +77,7 @@ class Motions:
         return ", ".join(self.parts)
 
 
+@checked
 def motions_at(machine: Subject) -> Motions:
     """Count the simple motions of a machine.
 

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from carom.arguments import checked
 from carom.continuation import Watch
 from carom.models import Model
 from carom.models.axes import Axis, Ends, axis, read_interval
@@ -18,6 +19,7 @@ ROUNDING = 1e-9
 """Tolerance for points on the edge, in widths of the plane."""
 
 
+@checked
 @dataclass(frozen=True, init=False)
 class Plane:
     """Two parameters and their ranges.
@@ -58,10 +60,12 @@ class Plane:
         low, high = self.first_range
         return Watch(EDGE, lambda u, _: min(u[-1] - low, high - u[-1]) / (high - low), at_zero="limit")
 
+    @checked
     def place_of(self, at: Model | Parameters | Numbers) -> tuple[float, float]:
         """Values of both parameters, whether inside the plane or outside."""
         return at.value(self.first), at.value(self.second)
 
+    @checked
     def start_at(self, at: Model | Numbers) -> tuple[np.ndarray, np.ndarray]:
         """Place of a point from which a curve is followed, and typical sizes of both parameters there, shape (2,).
 
@@ -75,6 +79,7 @@ class Plane:
             raise InputError("parameters", tuple(start.tolist()), "a point of the plane")
         return start, np.maximum(np.abs(start), 0.1 * (highs - lows))
 
+    @checked
     def holds(self, x: float, y: float) -> bool:
         """Whether a point lies in the plane, within rounding."""
         return all(
@@ -89,6 +94,7 @@ class Plane:
             self.at(base, self.first_range[end], self.second_range[end])
         return found
 
+    @checked
     def at(self, base: Parameters, x: float, y: float) -> Parameters:
         """Parameters at a point of the plane."""
         return self.numbers_at(Numbers.of(base), x, y).parameters

@@ -7,9 +7,11 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal
 
+from carom.arguments import checked
 from carom.bifurcations.conditions import orbit_of
 from carom.closed_forms.thresholds import FOLD, ROLLING, WALL
 from carom.models import Subject, jeffcott_of
+from carom.models.axes import Ends
 from carom.orbits.names import OrbitName
 from carom.orbits.orbit import Orbit
 from carom.outcome import InputError
@@ -18,7 +20,6 @@ from carom.results import Result
 
 if TYPE_CHECKING:
     from carom.bifurcations.branches import OrbitBranch
-    from carom.models.axes import Ends
 
 MotionKind = Literal["orbit", "contact-free", "rub", "rolling", "rubbing"]
 HALVING = "period-halving"
@@ -91,6 +92,7 @@ class Bifurcation(Result):
     shot: Orbit | None = None
 
     @classmethod
+    @checked
     def near(cls, kind: str, machine: Subject, period: float = math.nan, radial_speed: float = math.nan) -> Bifurcation:
         """A point at or near a bifurcation, for a curve to start from.
 
@@ -128,6 +130,7 @@ class Bifurcation(Result):
             )
         return orbit_of(self.numbers, self.name.pair, self.period, self.radial_speed)
 
+    @checked
     def switch(self, interval: Ends | None = None) -> OrbitBranch:
         """Branch that is born here or goes on with the neighbouring word; see :func:`carom.bifurcations.words.switched`."""
         from carom.bifurcations.words import switched  # that module needs this one

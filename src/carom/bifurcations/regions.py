@@ -8,6 +8,7 @@ from typing import ClassVar
 
 import numpy as np
 
+from carom.arguments import Count, checked
 from carom.bifurcations.cells import Region, regions_between
 from carom.bifurcations.changes import UnexplainedChange
 from carom.bifurcations.curves import Codimension2Point, Curve, can_be_followed, continue_curve
@@ -74,6 +75,7 @@ class RegionMap(Result):
         first, *others = (region.motions.parts for region in self.regions)
         return tuple(part for place, part in enumerate(first) if all(parts[place] == part for parts in others))
 
+    @checked
     def orbits_of(self, kind: str) -> str:
         """Orbits that the curves of a kind belong to, such as ``"B1,b/d, B2,b"``; empty for equilibria."""
         names = {name for curve in self.curves if curve.kind == kind for name in curve.orbits}
@@ -134,12 +136,13 @@ def _joined(point: Codimension2Point, other: Codimension2Point) -> tuple[str, ..
     return *point.kinds, *(part for part in _parts(other) if part not in _parts(point))
 
 
+@checked
 @shows_progress
 def map_regions(
     machine: Subject,
     plane: Plane,
     *,
-    grid: int = 24,
+    grid: Count = 24,
     virtual: bool = False,
     lasting: bool = False,
     progress: ShowProgress = None,

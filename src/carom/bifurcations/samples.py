@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from carom.arguments import Count, checked
 from carom.attractors import Attractor, AttractorSet, DisturbanceSet, Survival, find_attractors
 from carom.attractors.settled import seen_in_contact
 from carom.disturbances import Plan
@@ -76,13 +77,14 @@ class AttractorSample(Result):
         return self.count > 0
 
 
+@checked
 def sample_attractors(
     machine: Subject,
     parameter: str,
     interval: Ends,
     disturbances: DisturbanceSet | Plan,
     *,
-    values: int = VALUES,
+    values: Count = VALUES,
     progress: ShowProgress = None,
 ) -> tuple[AttractorSample, ...]:
     """Follow disturbances until they settle, at evenly spaced values of a parameter.

@@ -16,6 +16,7 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
+from carom.arguments import checked
 from carom.bifurcations.branches import OrbitBranch
 from carom.bifurcations.conditions import (
     conditions_at,
@@ -118,6 +119,7 @@ class _Arc(NamedTuple):
     stable: bool
 
 
+@checked
 def orbit_windows(
     machine: Subject, parameter: str, values: Sequence[float], progress: ShowProgress = None
 ) -> OrbitWindows:

@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 
+from carom.arguments import checked
 from carom.bifurcations.branches import OrbitBranch, orbit_at, speeds_at
 from carom.bifurcations.conditions import BOUNDLESS, corrected, with_slip
 from carom.bifurcations.neighbours import BORDERS, is_other, neighbour, read_beside
@@ -54,6 +55,7 @@ def renamed(branch: OrbitBranch, name: CountedName) -> OrbitBranch:
     return replace(branch, name=name, special=special)
 
 
+@checked
 def continue_orbit(
     orbit: Orbit, parameter: str, interval: Ends, steps: Steps | None = None, *, virtual: bool = True
 ) -> OrbitBranch:

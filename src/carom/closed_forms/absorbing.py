@@ -25,6 +25,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from carom.arguments import Reals, checked
 from carom.closed_forms.equilibria import Equilibrium, find_equilibria
 from carom.closed_forms.thresholds import largest_pull
 from carom.core.planar_proofs import rub_potentials
@@ -64,7 +65,8 @@ class RubNeighbourhood:
     strength: float
     phase: float
 
-    def value(self, angles: np.ndarray, rates: np.ndarray) -> np.ndarray:
+    @checked
+    def value(self, angles: Reals, rates: Reals) -> np.ndarray:
         """``V`` of sliding states: angles in rad, angular speeds in the co-rotating frame in ``Ω``.
 
         Angles are reduced to the turn between the two saddles.
@@ -75,11 +77,13 @@ class RubNeighbourhood:
         potential = rub_potentials(np.ravel(ahead), self.friction, self.strength, self.phase).reshape(ahead.shape)
         return 0.5 * np.asarray(rates, float) ** 2 * weight + potential
 
-    def contains(self, angles: np.ndarray, rates: np.ndarray) -> np.ndarray:
+    @checked
+    def contains(self, angles: Reals, rates: Reals) -> np.ndarray:
         """Whether sliding states (on the wall, without radial speed) belong to it."""
         return self.value(angles, rates) < self.level
 
 
+@checked
 def rub_neighbourhood(machine: Subject) -> RubNeighbourhood | None:
     """Largest proven neighbourhood of the synchronous rub that attracts sliding; ``None`` if there is no such rub."""
     rotor = jeffcott_of(machine)

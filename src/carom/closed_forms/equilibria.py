@@ -9,6 +9,7 @@ from typing import Any, ClassVar, Literal, overload
 
 import numpy as np
 
+from carom.arguments import checked
 from carom.closed_forms.rub_stability import sliding_rates
 from carom.closed_forms.statics import COUNTED, rub_forces, static_state
 from carom.models import Jeffcott, Model, Subject, System, model_of
@@ -137,6 +138,7 @@ class EquilibriumSet(Result):
         return f"{found}. Rubs that are possible at every angle, such as those of a balanced rotor, are not listed."
 
 
+@checked
 def find_equilibria(machine: Subject) -> EquilibriumSet:
     """All equilibria: the contact-free one, then the synchronous rubs, the stable ones first.
 

@@ -30,6 +30,7 @@ from __future__ import annotations
 
 import math
 
+from carom.arguments import checked
 from carom.closed_forms.whirl import rolling
 from carom.models import Subject, jeffcott_of
 from carom.parameters import Parameters
@@ -41,6 +42,7 @@ SLOWEST = 1e-9
 """Speed, in ``c_r Ω``, below which no bounce can be told from rolling: if even that is too fast, nothing is proven."""
 
 
+@checked
 def fading_speed(machine: Subject) -> float:
     """Speed off the wall up to which a rotor that an impact has left without slip certainly goes over to rolling.
 

@@ -25,6 +25,7 @@ from typing import Literal
 
 import numpy as np
 
+from carom.arguments import checked
 from carom.closed_forms.periods import PeriodCondition
 from carom.core.flow import fly_all
 from carom.models import Subject, System, jeffcott_of, second_order_system
@@ -34,6 +35,7 @@ ON_WALL = 1e-9
 """Distance from the wall, in clearances, at which the equilibrium counts as on it."""
 
 
+@checked
 @dataclass(frozen=True)
 class ContactSystem:
     """``ü + αu̇ + βu = Γ`` inside ``|u| < σ`` with impacts of restitution ``d`` and friction ``μ``.
@@ -56,6 +58,7 @@ class ContactSystem:
     restitution: float = 1.0
 
     @classmethod
+    @checked
     def of_rotor(cls, machine: Subject) -> ContactSystem:
         """Return the planar rotor in the co-rotating frame, ``α = γ + 2i``, ``β = ω² − 1 + iγ``, ``Γ = ρe^{iφ}``."""
         parameters = jeffcott_of(machine).parameters
@@ -138,6 +141,7 @@ class NonSmoothHopf:
     cycles: tuple[LocalCycle, ...]
 
 
+@checked
 def non_smooth_hopf(system: ContactSystem, equilibrium_rate: complex) -> NonSmoothHopf:
     """Cycles that emerge where an equilibrium reaches the wall.
 
@@ -176,6 +180,7 @@ def non_smooth_hopf(system: ContactSystem, equilibrium_rate: complex) -> NonSmoo
     return NonSmoothHopf(system, float(rate.real), tuple(cycles))
 
 
+@checked
 def cycle_determinant(system: System, period: float, direction: complex = 1.0) -> float:
     """``det(reset · e^{MT} − 1)`` of the linearised contact at a boundary equilibrium, for any number of modes.
 

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 
+from carom.arguments import Reals, checked
 from carom.core import periods
 from carom.core.planar import planar_exponents
 from carom.models import System
@@ -62,7 +64,8 @@ class PeriodCondition:
     factor: complex
 
     @classmethod
-    def of(cls, system: System, slip: int = 1) -> PeriodCondition:
+    @checked
+    def of(cls, system: System, slip: Literal[-1, 1] = 1) -> PeriodCondition:
         """Return the condition for orbits with impacts at the first plane of a system and this direction of slip."""
         arrays = system.arrays
         row, column = arrays.rows[0], arrays.columns[:, 0]
@@ -72,25 +75,30 @@ class PeriodCondition:
         return cls(modes, complex(1.0 + arrays.restitution[0]) * complex(1.0, slip * arrays.friction[0]))
 
     @classmethod
-    def planar(cls, parameters: Parameters, slip: int = 1) -> PeriodCondition:
+    @checked
+    def planar(cls, parameters: Parameters, slip: Literal[-1, 1] = 1) -> PeriodCondition:
         """Return the condition for orbits of the planar rotor; its system need not be built."""
         driving, driven = planar_exponents(parameters.gamma, parameters.omega)
         modes = np.array([[driving, 0.0, 0.0], [driven, 0.0, 1.0]])
         return cls(modes, complex(1.0 + parameters.d) * complex(1.0, slip * parameters.mu))
 
-    def a12(self, periods: np.ndarray) -> np.ndarray:
+    @checked
+    def a12(self, periods: Reals) -> np.ndarray:
         """``a₁₂(T)``, complex, of the shape of ``periods``."""
         return self._returns(periods)[..., 0]
 
-    def a22(self, periods: np.ndarray) -> np.ndarray:
+    @checked
+    def a22(self, periods: Reals) -> np.ndarray:
         """``a₂₂(T)``, complex, of the shape of ``periods``."""
         return self._returns(periods)[..., 1]
 
-    def value(self, periods: np.ndarray) -> np.ndarray:
+    @checked
+    def value(self, periods: Reals) -> np.ndarray:
         """``F₁(T)``."""
         return 1.0 + (self.factor * self._returns(periods)[..., 1]).real
 
-    def slope(self, periods: np.ndarray) -> np.ndarray:
+    @checked
+    def slope(self, periods: Reals) -> np.ndarray:
         """``F₁'(T)``."""
         return (self.factor * self._returns(periods)[..., 2]).real
 
@@ -110,6 +118,7 @@ class PeriodCondition:
         fades = growth > 0.0 and abs(1.0 - self.factor.real) < FADED
         return -math.log(FADED) / growth if fades else math.inf
 
+    @checked
     def roots(self, longest_period: float | None = None) -> PeriodRoots:
         """All roots up to ``longest_period``; by default all roots there are.
 
@@ -137,9 +146,9 @@ class PeriodCondition:
             raise CaromError(
                 f"periods above {self.longest_told():.3g}/Omega cannot be told apart; give a shorter longest_period"
             )
-        count = int(np.ceil(end / FIRST_WIDTH))
-        if count > MOST_INTERVALS:
+        if end > MOST_INTERVALS * FIRST_WIDTH:
             raise CaromError(f"periods up to {end:.3g}/Omega are too many to search; give a shorter longest_period")
+        count = int(np.ceil(end / FIRST_WIDTH))
         intervals, complete = periods.isolate(self.modes, self.factor, float(end), count, MOST_INTERVALS + 2 * count)
         if not complete:
             raise CaromError(f"periods up to {end:.3g}/Omega are too near resonance; give a shorter longest_period")

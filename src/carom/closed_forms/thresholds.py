@@ -33,6 +33,7 @@ from typing import Literal, NamedTuple, Protocol, get_args
 
 import numpy as np
 
+from carom.arguments import checked
 from carom.models import Jeffcott, Subject, jeffcott_of
 from carom.outcome import InputError
 
@@ -153,6 +154,7 @@ def has_stable_rub(at: Values) -> bool:
     return (strip or wall_condition(at) > 0.0) and at.gamma + 2.0 * at.mu > 0.0 and at.d < 1.0
 
 
+@checked
 def rub_limit(machine: Subject) -> float:
     """Damping up to which a stable synchronous rub exists, with the other parameters unchanged.
 
@@ -275,6 +277,7 @@ def ranges_of(motion: Steady, at: Values, gain: Gain) -> Ranges:
 # ------------------------------------------------------------------------------------------------ harmless disturbances
 
 
+@checked
 def harmless_kick(machine: Subject) -> float:
     """Speed up to which a kick out of levitation provably never reaches the wall, in ``c_r Ω``.
 
@@ -300,6 +303,7 @@ def harmless_kick(machine: Subject) -> float:
     return _room(rotor) / _largest_response(rotor.parameters.gamma, rotor.parameters.omega)
 
 
+@checked
 def harmless_shock(machine: Subject, duration: float) -> float:
     """Peak acceleration up to which a half-sine shock of the base provably never brings the rotor to the wall.
 
@@ -319,6 +323,7 @@ def harmless_shock(machine: Subject, duration: float) -> float:
     return harmless_kick(rotor) * math.pi / (2.0 * duration)
 
 
+@checked
 def harmless_unbalance_step(machine: Subject) -> float:
     """Change of the eccentricity up to which a step of the unbalance provably never brings the rotor to the wall.
 
@@ -333,6 +338,7 @@ def harmless_unbalance_step(machine: Subject) -> float:
     )
 
 
+@checked
 def harmless_blade_loss(machine: Subject) -> float:
     """Change of the unbalance up to which the loss of a blade provably never brings the rotor to the wall.
 

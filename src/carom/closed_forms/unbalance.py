@@ -21,6 +21,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from carom.arguments import Positive, Reals, checked
 from carom.closed_forms.thresholds import largest_pull
 from carom.models import Jeffcott, Subject, jeffcott_of
 from carom.outcome import InputError
@@ -60,7 +61,8 @@ class SpeedResponse(Result):
     half_power: tuple[float, float] | None
     amplification_factor: float | None
 
-    def displacement(self, speeds: np.ndarray) -> np.ndarray:
+    @checked
+    def displacement(self, speeds: Reals) -> np.ndarray:
         """Displacement ``U*e^{−iφ}`` in the co-rotating frame, seen along the unbalance; of the shape of ``speeds``."""
         ratio = self.natural_frequency / np.asarray(speeds, float)
         stiffness = ratio * ratio - 1.0 + 2j * self.damping_ratio * ratio
@@ -68,16 +70,19 @@ class SpeedResponse(Result):
         response: np.ndarray = self.rotor.parameters.rho / np.where(nowhere, 1.0, stiffness)
         return np.where(nowhere, np.inf + 0j, response)
 
-    def amplitude(self, speeds: np.ndarray) -> np.ndarray:
+    @checked
+    def amplitude(self, speeds: Reals) -> np.ndarray:
         """Radius ``|U*|`` of the whirl, in clearances."""
         radius: np.ndarray = np.abs(self.displacement(speeds))
         return radius
 
-    def beyond(self, radius: float) -> tuple[float, float] | None:
+    @checked
+    def beyond(self, radius: Positive) -> tuple[float, float] | None:
         """Range of speeds at which the amplitude exceeds a radius above 0; its end may be infinite.  ``None``: nowhere."""
         return _range(self.natural_frequency, self.damping_ratio, self.rotor.parameters.rho / radius)
 
-    def rub_angles(self, speeds: np.ndarray) -> np.ndarray:
+    @checked
+    def rub_angles(self, speeds: Reals) -> np.ndarray:
         """Angles ``x`` of the synchronous rubs relative to the unbalance, in rad, shape (2, n) for speeds of shape (n,).
 
         With ``p = ρ√(1 + μ²)`` and ``δ = atan μ`` they solve ``p sin(x + δ) = −γ − μ(1 − ω²)``.  First the one with
@@ -108,6 +113,7 @@ class SpeedResponse(Result):
         return tuple(sorted({speed for speed in found if 0.0 < speed < math.inf}))
 
 
+@checked
 def speed_response(machine: Subject) -> SpeedResponse:
     """Response to the unbalance over the speed of the shaft, without contact, in closed form.
 

@@ -48,6 +48,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from carom.arguments import checked
 from carom.closed_forms.thresholds import (
     largest_pull,
     mean_rolling_force,
@@ -129,6 +130,7 @@ class Rolling:
         return 2.0 * math.pi / (1.0 + self.speed)
 
 
+@checked
 def runaway_speed(machine: Subject) -> Runaway:
     """Threshold of the runaway from sliding backward whirl to rolling.
 
@@ -163,6 +165,7 @@ def hastening_speed(machine: Subject) -> float:
     return max(at.rho / -at.gamma, math.hypot(at.omega, math.sqrt(at.rho)))
 
 
+@checked
 def rolling(machine: Subject) -> Rolling:
     """Forces and limits of rolling on the bearing.
 

@@ -11,6 +11,7 @@ import numpy as np
 from carom.disturbances.coordinates import Coordinate, Starts, angle_coordinate, complex_of
 from carom.disturbances.model import Disturbance
 from carom.outcome import InputError
+from carom.parameters import own_size
 
 if TYPE_CHECKING:
     from carom.models import Model, Subject
@@ -90,7 +91,7 @@ class BladeLoss(Disturbance):
         from carom.motions.starts import State
 
         rotor = model_of(machine)
-        starts = self.starts(rotor, np.array(float(phase)))
+        starts = self.starts(rotor, np.array(own_size("phase", phase, "angle", None)))
         if not starts.exists:
             radius = f"|U*| = {rotor.system.rest_radius:.6g}"
             raise InputError("disturbance", radius, "needs levitation inside the wall before the loss")

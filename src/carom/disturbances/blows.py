@@ -11,6 +11,7 @@ import numpy as np
 from carom.disturbances.coordinates import Coordinate, Starts, angle_coordinate, complex_of, displaced, speed_coordinate
 from carom.disturbances.model import FASTEST, Disturbance
 from carom.outcome import InputError
+from carom.parameters import own_size
 
 if TYPE_CHECKING:
     from carom.models import Model, Subject
@@ -187,7 +188,9 @@ class BaseShock(Disturbance):
         from carom.models import model_of
         from carom.motions.starts import State
 
-        starts = self.starts(model_of(machine), np.array([self.peak]), np.array([float(direction)]))
+        starts = self.starts(
+            model_of(machine), np.array([self.peak]), np.array([own_size("direction", direction, "angle", None)])
+        )
         if not starts.exists[0]:
             radius = f"|U*| = {model_of(machine).system.rest_radius:.6g}"
             raise InputError("disturbance", radius, "needs levitation inside the wall before the shock")

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from carom.arguments import Infinity, checked
 from carom.outcome import InputError
 from carom.parameters import UNITS, Scales
 from carom.parameters.told import number, shown_in
@@ -21,6 +22,7 @@ ON_WALL = 1e-12
 """Distance from the wall, in clearances, within which a start counts as on it."""
 
 
+@checked
 @dataclass(frozen=True)
 class Coordinate:
     """One coordinate of a disturbance and its range.
@@ -40,8 +42,8 @@ class Coordinate:
 
     name: str
     words: str
-    low: float
-    high: float
+    low: float | Infinity
+    high: float | Infinity
     scale: str = ""
     over_disc: bool = False
     periodic: bool = False

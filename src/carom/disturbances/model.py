@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 import numpy as np
 
+from carom.arguments import checked, is_number
 from carom.disturbances.coordinates import Coordinate, Starts
 from carom.outcome import InputError, shown
 from carom.parameters import Scales, own_size, usual_kick
@@ -57,9 +58,9 @@ class Disturbance:
             value = getattr(self, name)
             if isinstance(value, str):
                 raise InputError(name, value, f"a number; text with a unit is for {type(self).__name__}.of(machine, …)")
-            if not np.isfinite(value):
+            if not is_number(value):
                 raise InputError(name, value, f"a finite number, in the unit of {scale} of the equations")
-            if name in _SIZES and value <= 0.0:
+            if name in _SIZES and (isinstance(value, complex) or value <= 0.0):
                 raise InputError(name, value, "a size, above 0")
 
     @property
@@ -118,6 +119,7 @@ class Disturbance:
             given.setdefault("fastest", usual_kick(scales))
         return cls(**given)
 
+    @checked
     def rescaled(self, before: Scales | None, after: Scales | None, names: Collection[str] | None = None) -> Self:
         """Return the disturbance that is the same in SI units for a machine with other scales.
 
@@ -149,6 +151,7 @@ class Disturbance:
         return {"kind": self.kind, **numbers}
 
     @staticmethod
+    @checked
     def from_description(description: Mapping[str, Any]) -> Disturbance:
         """Disturbance from its description.
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Self, TypeAlias
 
 import numpy as np
 
+from carom.arguments import Count, Seed, Whole, checked
 from carom.disturbances.coordinates import Starts
 from carom.disturbances.model import Disturbance
 from carom.outcome import InputError
@@ -21,11 +22,13 @@ if TYPE_CHECKING:
 class _Plan:
     model: Disturbance
 
+    @checked
     def rescaled(self, before: Scales | None, after: Scales | None) -> Self:
         """Return the plan that is the same in SI units for a machine with other scales."""
         return replace(self, model=self.model.rescaled(before, after))
 
 
+@checked
 @dataclass(frozen=True)
 class Grid(_Plan):
     """Cells of equal width along every coordinate, each represented by its middle; by size and direction they weigh by area.
@@ -80,9 +83,12 @@ class Grid(_Plan):
 
     def starts(self, rotor: Model) -> Starts:
         """Starts, arrays of the shape of the grid."""
-        return self.model.starts(rotor, *np.meshgrid(*self.values(), indexing="ij"))
+        from carom.models import model_of
+
+        return self.model.starts(model_of(rotor), *np.meshgrid(*self.values(), indexing="ij"))
 
 
+@checked
 @dataclass(frozen=True)
 class Sample(_Plan):
     """A seeded random sample; a longer one of the same seed begins with the shorter.
@@ -107,14 +113,8 @@ class Sample(_Plan):
     200
     """
 
-    count: int
-    seed: int = 0
-
-    def __post_init__(self) -> None:
-        if self.count < 1:
-            raise InputError("starts", self.count, "a whole number of at least 1")
-        if self.seed < 0:
-            raise InputError("seed", self.seed, "a whole number of at least 0")
+    count: Count
+    seed: Seed = 0
 
     def values(self) -> tuple[np.ndarray, ...]:
         """Value of each coordinate at each start, shape (count,)."""
@@ -124,14 +124,17 @@ class Sample(_Plan):
         """Weight of each start in shares: ones."""
         return np.ones(self.count)
 
-    def fresh(self, number: int) -> Self:
+    @checked
+    def fresh(self, number: Whole) -> Self:
         """Return a sample of the same model that is independent of this one, and of those with other numbers."""
         seeds = np.random.SeedSequence(self.seed, spawn_key=(number,))
         return replace(self, seed=int(seeds.generate_state(1, np.uint64)[0]))
 
     def starts(self, rotor: Model) -> Starts:
         """Starts, arrays of shape (count,)."""
-        return self.model.starts(rotor, *self.values())
+        from carom.models import model_of
+
+        return self.model.starts(model_of(rotor), *self.values())
 
 
 Plan: TypeAlias = Grid | Sample

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, ClassVar, Literal
 
 import numpy as np
 
+from carom.arguments import checked
 from carom.disturbances.coordinates import (
     ON_WALL,
     Coordinate,
@@ -20,7 +21,6 @@ from carom.disturbances.coordinates import (
     within,
 )
 from carom.disturbances.model import FASTEST, Disturbance
-from carom.outcome import InputError
 
 if TYPE_CHECKING:
     from carom.models import Model
@@ -91,6 +91,7 @@ class UnbalanceStep(Disturbance):
         )
 
 
+@checked
 @dataclass(frozen=True)
 class ContactRelease(Disturbance):
     """Levitation is switched on with the rotor on the wall, at any angle.
@@ -106,10 +107,6 @@ class ContactRelease(Disturbance):
     motion: Release = "fixed"
     kind: ClassVar[str] = "release"
     noun: ClassVar[str] = "releases"
-
-    def __post_init__(self) -> None:
-        if self.motion not in ("fixed", "rotating", "rolling"):
-            raise InputError("motion", self.motion, 'one of "fixed", "rotating", "rolling"')
 
     @property
     def coordinates(self) -> tuple[Coordinate, ...]:

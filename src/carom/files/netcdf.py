@@ -33,8 +33,9 @@ def save(dataset: xarray.Dataset, path: str | os.PathLike[str]) -> None:
         # Encoded in memory first: the library that writes such files crashes the process when the disk is full.
         content = bytes(dataset.to_netcdf(engine="h5netcdf", encoding=encoding))
         write_whole(Path(path), content + _checksum(content))
-    except OSError as problem:
-        reason = os.strerror(problem.errno) if problem.errno else "this file system refuses"
+    except (OSError, ValueError) as problem:  # a ValueError tells of a null character
+        number = getattr(problem, "errno", None)
+        reason = os.strerror(number) if number else "this file system refuses"
         raise InputError("file", str(path), f"cannot be written ({reason}); give another path") from None
 
 

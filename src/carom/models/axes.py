@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TypeVar
 
+from carom.arguments import checked
 from carom.models.model import Model
 from carom.models.subjects import Subject, model_of
 from carom.outcome import InputError
@@ -33,6 +34,7 @@ class Axis:
         """Name of the parameter."""
         return self.field.name
 
+    @checked
     def value(self, model: Model) -> float:
         """Its value in a model, in SI units if it is physical."""
         return model.value(self.name)
@@ -48,6 +50,7 @@ class Axis:
         return model.replace(**{self.name: value})
 
 
+@checked
 def axis(machine: Subject, name: str) -> Axis:
     """Parameter of this name, of a model.
 

@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from carom.arguments import checked
 from carom.core.planar import planar_exponents
 from carom.models.model import Matrices, Rates
 from carom.models.system import System, second_order_system
@@ -87,6 +88,7 @@ class Jeffcott:
         """Parameters that can be varied."""
         return self.parameters.varied
 
+    @checked
     def value(self, name: str) -> float:
         """Value of a parameter (:meth:`carom.parameters.Parameters.value`)."""
         return self.parameters.value(name)
@@ -95,9 +97,11 @@ class Jeffcott:
         """Return the rotor with other parameters (:meth:`carom.parameters.Parameters.replace`)."""
         return Jeffcott(self.parameters.replace(**changes))
 
+    @checked
     def rates(self, name: str) -> Rates:
         """Return the derivatives of the equations of motion by a parameter."""
         at = self.parameters
+        at.value(name)  # refuses an unknown name
         gamma, omega, rho, phi, mu, d, radius_ratio = Numbers.of(at).rates(name)
         return Rates(
             np.array([[complex(-2.0 * at.omega * omega, -gamma), -gamma]]),

@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from carom.arguments import checked
 from carom.core.layout import rotor_record
 from carom.models import linear_parameters
 from carom.models.model import Matrices, Rates
@@ -68,6 +69,8 @@ class LinearRotor(Result):
     scales: Scales | None = None
 
     def __post_init__(self) -> None:
+        if not isinstance(self.scales, Scales | None):
+            raise InputError("scales", self.scales, "carom.parameters.Scales, or None")
         if self.translation is None:
             object.__setattr__(self, "translation", np.ones(_numbers("forcing", self.forcing, complex).shape))
         for names, kind in ((_COMPLEX, complex), (_REAL, float)):
@@ -186,6 +189,7 @@ class LinearRotor(Result):
         """Parameters that can be varied (:mod:`carom.models.linear_parameters`)."""
         return linear_parameters.fields(self)
 
+    @checked
     def value(self, name: str) -> float:
         """Value of a parameter.
 
@@ -214,6 +218,7 @@ class LinearRotor(Result):
             rotor = dataclasses.replace(rotor, **linear_parameters.moved(rotor, name, changes[name]))
         return rotor
 
+    @checked
     def rates(self, name: str) -> Rates | None:
         """Return the derivatives of the equations of motion by a parameter; ``None`` if there is nothing to multiply."""
         return linear_parameters.rates_of(self, name)
@@ -247,5 +252,5 @@ def _numbers(name: str, values: Any, kind: type) -> np.ndarray:
     """Array of the given numbers, a copy."""
     try:
         return np.array(values, kind)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise InputError(name, values, "an array of numbers") from None

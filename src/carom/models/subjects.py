@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import Any
 
+from carom.arguments import checked
 from carom.models.jeffcott import Jeffcott
 from carom.models.linear import LinearRotor
 from carom.models.model import Model
 from carom.outcome import InputError, shown
 from carom.parameters import Case, Machine, Parameters, Zones
 
-Subject = Model | Parameters | Machine | Case
+Subject = Machine | Case | Parameters | Model
 """Any description of a rotor."""
 _ALLOWED = "a Machine, a Case (as carom.load reads it from a file), Parameters or a model"
 
@@ -49,7 +51,8 @@ def jeffcott_of(subject: Subject) -> Jeffcott:
     raise InputError("machine", shown(subject), "the planar rotor: this result is not known for other models")
 
 
-def model_from(attributes: Mapping[str, str]) -> Model:
+@checked
+def model_from(attributes: Mapping[str, Any]) -> Model:
     """Model whose :meth:`~carom.models.model.Model.attributes` these are.
 
     Raises

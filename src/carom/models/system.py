@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from carom.arguments import Infinity, checked
 from carom.core.flow import fly_all
 from carom.core.layout import rotor_record
 from carom.core.table import flight_table
@@ -239,13 +240,14 @@ def _table(exponents: bytes, driven: bytes) -> np.record:
     return flight_table(np.frombuffer(exponents, np.complex128), np.frombuffer(driven, np.int8))
 
 
+@checked
 def second_order_system(
     *,
     exponents: tuple[complex, complex],
     equilibrium: complex,
     friction: float,
     restitution: float,
-    drive: float,
+    drive: float | Infinity,
     mass: float = 1.0,
 ) -> System:
     """System of ``ü + αu̇ + βu = Γ`` with one coordinate ``u``, which is also its displacement at the wall.

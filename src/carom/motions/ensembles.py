@@ -10,6 +10,7 @@ from typing import ClassVar, NamedTuple
 
 import numpy as np
 
+from carom.arguments import Count, Whole, checked
 from carom.core.contact_series import AWAY, FLIGHT
 from carom.core.counter import fresh_counter, next_number
 from carom.core.ensemble import MOTION, Task, Tools, follow_each
@@ -28,9 +29,9 @@ from carom.motions.settling import (
     may_be_low,
     settled,
 )
-from carom.motions.starts import LARGEST_SPEED, WALL_TOLERANCE, State, amplitudes_of, check_whole, time_until
+from carom.motions.starts import LARGEST_SPEED, WALL_TOLERANCE, State, Until, amplitudes_of, time_until
 from carom.motions.trajectories import EventLog, follow
-from carom.outcome import InputError, Outcome, Phase, shown
+from carom.outcome import InputError, Outcome, Phase
 from carom.progress import Reporter, ShowProgress, shows_progress
 from carom.results import Result
 
@@ -88,7 +89,8 @@ class Endings(Result):
         """Return some of the endings."""
         return Endings(**{name: values[chosen] for name, values in vars(self).items()})
 
-    def count(self, outcome: Outcome) -> int:
+    @checked
+    def count(self, outcome: Outcome | int) -> int:
         """Return how many motions have this outcome."""
         return int(np.count_nonzero(self.outcomes == outcome))
 
@@ -104,6 +106,7 @@ class Endings(Result):
         return recovered
 
 
+@checked
 @shows_progress
 def settle(
     machine: Subject | Sequence[Subject],
@@ -111,10 +114,10 @@ def settle(
     velocities: np.ndarray,
     *,
     which: np.ndarray | None = None,
-    until: float | str | None = None,
-    patience: int = PATIENCE,
-    max_events: int = MOST_EVENTS,
-    threads: int | None = None,
+    until: Until | None = None,
+    patience: Whole = PATIENCE,
+    max_events: Count = MOST_EVENTS,
+    threads: Count | None = None,
     progress: ShowProgress = None,
 ) -> Endings:
     """Follow many starts, each as :func:`~carom.motions.trajectories.simulate` would, and keep how they end.
@@ -177,10 +180,6 @@ def settle(
     positions, velocities = (np.broadcast_to(values, shape + coordinates) for values in (positions, velocities))
     which = np.broadcast_to(which, shape).ravel()
     _check_starts(positions, velocities, all(rotor.system.is_planar for rotor in rotors))
-    check_whole("patience", patience, 0)
-    check_whole("max_events", max_events, 1)
-    if threads is not None:
-        check_whole("threads", threads, 1)
     for rotor in rotors if until is not None or patience == 0 else ():
         time_until(until, rotor.scales)
     positions, velocities = (values.reshape(len(which), *coordinates) for values in (positions, velocities))
@@ -242,10 +241,7 @@ def _coordinates(rotors: Sequence[Model]) -> tuple[int, ...]:
 
 def _read(name: str, given: np.ndarray, coordinates: tuple[int, ...]) -> np.ndarray:
     """Complex numbers with a last axis of the coordinates."""
-    try:
-        values = np.asarray(given, complex)
-    except (TypeError, ValueError):
-        raise InputError(f"start {name}", shown(given), "complex numbers") from None
+    values = np.asarray(given, complex)
     if values.shape[values.ndim - len(coordinates) :] != coordinates:
         raise InputError(f"start {name}", values.shape, f"an array with a last axis of {coordinates[0]} coordinates")
     return values
@@ -275,10 +271,6 @@ def _machines(machine: Subject | Sequence[Subject], which: np.ndarray | None) ->
 
 
 def _check_starts(positions: np.ndarray, velocities: np.ndarray, planar: bool) -> None:
-    for name, values in (("position", positions), ("velocity", velocities)):
-        wrong = ~np.isfinite(values)
-        if wrong.any():
-            raise InputError(f"start {name}", values[wrong].flat[0], "finite numbers")
     fast = np.abs(velocities) > LARGEST_SPEED
     if fast.any():
         raise InputError("start velocity", velocities[fast].flat[0], f"a speed up to {LARGEST_SPEED:g}")

@@ -7,6 +7,7 @@ from typing import ClassVar
 
 import numpy as np
 
+from carom.arguments import checked
 from carom.models import Matrices
 from carom.motions.contacts import Table, column
 from carom.motions.trajectories import Trajectory
@@ -65,6 +66,7 @@ class EnergyLedger(Table):
         return float(missing / passed) if passed > 0.0 else 0.0
 
 
+@checked
 def energy_ledger(trajectory: Trajectory) -> EnergyLedger:
     """Compute the energy ledger of a motion of any linear rotor.
 

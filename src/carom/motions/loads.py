@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from carom.arguments import checked
 from carom.closed_forms.known import known_of
 from carom.motions.contacts import ContactLog
 from carom.motions.ledger import NODES, WEIGHTS, contact_power, pieces
@@ -84,6 +85,7 @@ class TouchdownLoads(Result):
         }
 
 
+@checked
 def touchdown_loads(trajectory: Trajectory) -> TouchdownLoads:
     """Evaluate the loads of a motion at its contact plane.
 

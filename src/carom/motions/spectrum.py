@@ -7,6 +7,7 @@ from typing import ClassVar
 
 import numpy as np
 
+from carom.arguments import Count, checked
 from carom.motions.trajectories import Trajectory
 from carom.outcome import InputError
 from carom.results import Result
@@ -33,8 +34,9 @@ class FullSpectrum(Result):
     resolution: float
 
 
+@checked
 def full_spectrum(
-    trajectory: Trajectory, since: float = 0.0, highest_order: float = 6.0, samples_per_turn: int = 64
+    trajectory: Trajectory, since: float = 0.0, highest_order: float = 6.0, samples_per_turn: Count = 64
 ) -> FullSpectrum:
     """Fourier transform of the last part of a motion in the fixed frame, with a Hann window.
 

@@ -3,23 +3,25 @@
 from __future__ import annotations
 
 import cmath
-import math
 from dataclasses import dataclass
-from numbers import Integral
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
 
+from carom.arguments import Kind, checked
 from carom.core.contact_series import AWAY, FLIGHT
 from carom.core.impact import set_on_wall
 from carom.models import Model
-from carom.outcome import InputError, shown
+from carom.outcome import InputError
 from carom.parameters import Scales, own_size
 
 LARGEST_SPEED = 1e100
 """Largest speed of a start: for far larger ones the bounds that prove a flight contact-free overflow."""
 WALL_TOLERANCE = 1e-12
 """Distance from ``|U| = 1`` within which a start counts as on the wall."""
+_TIME = "a finite time above 0, in 1/Omega or with a unit, such as '2 s'"
+Until = Annotated[float | str, Kind(lambda until: isinstance(until, str) or until > 0.0, _TIME)]
+"""Time to follow a motion: a number above 0, or text with a unit."""
 
 
 @dataclass(frozen=True)
@@ -51,6 +53,7 @@ class State:
         return cls(position, velocity) if np.ndim(position) else cls(complex(position), complex(velocity))
 
 
+@checked
 @dataclass(frozen=True)
 class Kick:
     """A velocity kick out of the contact-free equilibrium.
@@ -80,6 +83,7 @@ class Kick:
         return State.of(*(values if len(values) > 1 else values[0] for values in rotor.system.kicked(push)))
 
 
+@checked
 def kick(speed: float | str, angle: float | str = 0.0) -> Kick:
     """Velocity kick out of the contact-free equilibrium.
 
@@ -104,28 +108,12 @@ def kick(speed: float | str, angle: float | str = 0.0) -> Kick:
     return Kick(speed, angle)
 
 
-def time_until(until: object, scales: Scales | None) -> float:
+def time_until(until: float | str | None, scales: Scales | None) -> float:
     """Time to follow a motion, in ``1/Ω``, from a number or text with a unit; refuse what is no time above 0."""
-    given: Any = own_size("until", until, "time", scales) if isinstance(until, str) else until
-    try:
-        time = float(given)
-    except (TypeError, ValueError, OverflowError):
-        time = math.nan
-    if not 0.0 < time < math.inf:
-        raise InputError(
-            "until",
-            until if until is None else shown(until),
-            "a finite time above 0, in 1/Omega or with a unit, such as '2 s'",
-        )
+    time = until if until is None else own_size("until", until, "time", scales)
+    if time is None or time <= 0.0:
+        raise InputError("until", until, _TIME)
     return time
-
-
-def check_whole(name: str, number: Any, least: int, most: int | None = None) -> None:
-    """Refuse what is no whole number, too small, or above the most that is allowed, if there is one."""
-    whole = isinstance(number, Integral) and not isinstance(number, bool)
-    if not whole or int(number) < least or (most is not None and int(number) > most):
-        allowed = f"of at least {least}" if most is None else f"from {least} to {most}"
-        raise InputError(name, number if number is None else shown(number), f"a whole number {allowed}")
 
 
 def amplitudes_of(rotor: Model, state: State) -> tuple[np.ndarray, np.ndarray]:

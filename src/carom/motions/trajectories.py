@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, ClassVar, Literal, NamedTuple
 
 import numpy as np
 
+from carom.arguments import Count, Reals, Whole, checked
 from carom.core.advance import advance
 from carom.core.layout import rub_workspace, workspace
 from carom.core.rub import fly_or_rub_all, forces_all
@@ -27,7 +28,7 @@ from carom.motions.settling import (
     may_be_low,
     settled,
 )
-from carom.motions.starts import Kick, State, amplitudes_of, check_whole, time_until
+from carom.motions.starts import Kick, State, Until, amplitudes_of, time_until
 from carom.outcome import InputError, Outcome, Phase
 from carom.progress import Reporter, ShowProgress, shows_progress
 from carom.results import Result
@@ -130,7 +131,8 @@ class Trajectory(Result):
     arrivals: np.ndarray
     plane: int = 0
 
-    def seen_at(self, plane: int) -> Trajectory:
+    @checked
+    def seen_at(self, plane: Whole) -> Trajectory:
         """Return the same motion with the positions, contacts and forces of another contact plane.
 
         Raises
@@ -198,7 +200,8 @@ class Trajectory(Result):
         changes = np.flatnonzero(np.diff(self.segment_phases[:, self.plane])) + 1
         return list(pairwise([0, *changes, len(self.segment_phases)]))
 
-    def at(self, times: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    @checked
+    def at(self, times: Reals) -> tuple[np.ndarray, np.ndarray]:
         """State at given times, exact to rounding; at an impact, the state just after it.
 
         Parameters
@@ -220,7 +223,8 @@ class Trajectory(Result):
         amplitudes, _ = self._amplitudes_at(np.asarray(times, float))
         return self.rotor.system.state(amplitudes)
 
-    def at_plane(self, times: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    @checked
+    def at_plane(self, times: Reals) -> tuple[np.ndarray, np.ndarray]:
         """Displacement of the contact plane and its rate at given times, in its clearances; see :meth:`at`."""
         amplitudes, _ = self._amplitudes_at(np.asarray(times, float))
         return self.rotor.system.at_plane(amplitudes, self.plane)
@@ -246,7 +250,8 @@ class Trajectory(Result):
     def _workspace(self) -> np.record:
         return rub_workspace(self.segment_amplitudes.shape[1], self.segment_phases.shape[1])
 
-    def forces(self, times: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    @checked
+    def forces(self, times: Reals) -> tuple[np.ndarray, np.ndarray]:
         """Normal and friction force of lasting contact at the plane at given times, in ``m c_r Ω²``; zero in flight.
 
         Returns
@@ -257,23 +262,28 @@ class Trajectory(Result):
         amplitudes, phases = self._amplitudes_at(np.asarray(times, float))
         flat, shape = amplitudes.reshape(-1, amplitudes.shape[-1]), amplitudes.shape[:-1]
         arrays = self.rotor.system.arrays
-        found = forces_all(arrays, flat, phases.reshape(len(flat), -1), self._workspace())[:, self.plane]
+        found = forces_all(arrays, flat, phases.reshape(len(flat), phases.shape[-1]), self._workspace())[:, self.plane]
         normal, friction = arrays.masses[self.plane] * found.T
         return normal.reshape(shape), friction.reshape(shape)
 
-    def history(self, times: np.ndarray | None = None) -> ContactHistory:
+    @checked
+    def history(self, times: Reals | None = None) -> ContactHistory:
         """Forces, slip and powers of lasting contact at given times, by default those of :meth:`sample`."""
         times = self.sample() if times is None else np.asarray(times, float)
         _, phases = self._amplitudes_at(times)
         state, forces = self.at_plane(times), self.forces(times)
         return ContactHistory.from_states(self.rotor, self.plane, times, phases[..., self.plane], state, forces)
 
-    def to_dataset(self, times: np.ndarray | None = None) -> xarray.Dataset:
+    @checked
+    def to_dataset(self, times: Reals | None = None) -> xarray.Dataset:
         """Course of the motion at given times; see :func:`~carom.motions.storage.trajectory_dataset`."""
         from carom.motions.storage import trajectory_dataset
 
+        if times is not None and np.ndim(times) != 1:
+            raise InputError("times", np.shape(times), "times in one dimension")
         return trajectory_dataset(self, times)
 
+    @checked
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write the motion to a file; see :func:`~carom.motions.storage.save_trajectory`."""
         from carom.motions.storage import save_trajectory
@@ -281,19 +291,22 @@ class Trajectory(Result):
         save_trajectory(self, path)
 
     @staticmethod
+    @checked
     def load(path: str | os.PathLike[str]) -> Trajectory:
         """Read a motion from a file; see :func:`~carom.motions.storage.load_trajectory`."""
         from carom.motions.storage import load_trajectory
 
         return load_trajectory(path)
 
-    def sample(self, count: int = 2000) -> np.ndarray:
+    @checked
+    def sample(self, count: Count = 2000) -> np.ndarray:
         """Times for plotting: about ``count`` equally spaced ones, every event, and the last instant before each."""
         events = self.segment_starts[1:]
         even = np.linspace(0.0, self.time, count)
         return np.unique(np.concatenate([even, events, np.nextafter(events, 0.0)]))
 
-    def position(self, times: np.ndarray, frame: Literal["rotating", "fixed"] = "rotating") -> np.ndarray:
+    @checked
+    def position(self, times: Reals, frame: Literal["rotating", "fixed"] = "rotating") -> np.ndarray:
         """Position of the contact plane in its clearances, ``U`` in the co-rotating or ``Z = U e^{it}`` in the fixed frame.
 
         Raises
@@ -301,27 +314,27 @@ class Trajectory(Result):
         InputError
             Another frame is asked for.
         """
-        if frame not in ("rotating", "fixed"):
-            raise InputError("frame", repr(frame), "must be 'rotating' or 'fixed'")
         rotating, _ = self.at_plane(times)
         return rotating if frame == "rotating" else rotating * np.exp(1j * np.asarray(times))
 
-    def radius(self, times: np.ndarray) -> np.ndarray:
+    @checked
+    def radius(self, times: Reals) -> np.ndarray:
         """Distance of the contact plane from its bearing centre, in its clearances."""
         radius: np.ndarray = np.abs(self.at_plane(times)[0])
         return radius
 
 
+@checked
 @shows_progress
 def simulate(
     machine: Subject,
     start: State | Kick,
-    until: float | str | None = None,
+    until: Until | None = None,
     *,
     settle: bool | None = None,
     stop_at_chatter: bool = False,
-    patience: int = PATIENCE,
-    max_events: int = 1_000_000,
+    patience: Whole = PATIENCE,
+    max_events: Count = 1_000_000,
     progress: ShowProgress = None,
 ) -> Trajectory:
     """Follow a start through flights, impacts, sliding and rolling.
@@ -369,8 +382,6 @@ def simulate(
     amplitudes, contact = amplitudes_of(rotor, state)
     settle = until is None if settle is None else settle
     until = time_until(longest_time(rotor) if until is None and settle else until, rotor.scales)
-    check_whole("patience", patience, 0)
-    check_whole("max_events", max_events, 1)
     recollection = fresh_memory(rotor, patience if settle else 0, stop_at_chatter)
     first = amplitudes.copy()
     logs: list[EventLog] = []

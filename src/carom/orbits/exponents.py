@@ -5,13 +5,14 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import ClassVar, NamedTuple
+from typing import Annotated, ClassVar, NamedTuple
 
 import numpy as np
 
+from carom.arguments import Count, checked, whole
 from carom.core.growth import carry_orthogonal
 from carom.models import Model, Subject, model_of
-from carom.motions.starts import Kick, State, check_whole
+from carom.motions.starts import Kick, State
 from carom.motions.trajectories import Trajectory, simulate
 from carom.orbits.orbit import Orbit
 from carom.orbits.recognising import segments_of
@@ -110,13 +111,14 @@ class LyapunovExponents(Result):
         return value < -CONFIDENT * error
 
 
+@checked
 def lyapunov_exponents(
     machine: Subject,
     start: State | Kick,
-    impacts: int = 10_000,
+    impacts: Count = 10_000,
     *,
-    transient: int = 1000,
-    batches: int = 20,
+    transient: Count = 1000,
+    batches: Annotated[int, whole(2)] = 20,
 ) -> LyapunovExponents:
     """Lyapunov exponents of the motion from a start, by QR decomposition of the exact derivatives of its segments.
 
@@ -144,9 +146,6 @@ def lyapunov_exponents(
         The motion stops hitting the wall, has too few segments, its segments cannot be repeated to eight digits, or two
         planes touch at a time while one of the contacts lasts.
     """
-    check_whole("impacts", impacts, 1)
-    check_whole("transient", transient, 1)
-    check_whole("batches", batches, 2)
     rotor = model_of(machine)
     state = start.state(rotor) if isinstance(start, Kick) else start
     directions = np.eye(2 * len(rotor.system.exponents))[:, 1:]
@@ -170,6 +169,7 @@ def lyapunov_exponents(
     )  # fmt: skip
 
 
+@checked
 def orbit_exponents(orbit: Orbit) -> LyapunovExponents:
     """Lyapunov exponents of a periodic orbit from its multipliers: ``log|m|/T``, and 0 along the motion."""
     rotor, kept = orbit.rotor, _directions_kept(orbit.rotor, [orbit.word])

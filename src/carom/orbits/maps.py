@@ -7,15 +7,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from carom.arguments import Positive, checked
 from carom.core import variation
 from carom.core.fate import memory
 from carom.models import Subject, jeffcott_of, model_of
-from carom.motions.starts import State
+from carom.motions.starts import LARGEST_SPEED, State
 from carom.motions.trajectories import EventLog, Trajectory, follow, simulate
 from carom.outcome import InputError, Outcome, Phase, shown
 from carom.results import Result
 
 
+@checked
 @dataclass(frozen=True)
 class Section:
     """A state on the wall just before an impact, in the co-rotating frame.
@@ -33,8 +35,11 @@ class Section:
     angular_speed: float
 
     @classmethod
+    @checked
     def from_state(cls, position: complex, velocity: complex) -> Section:
         """Read a state on the wall in polar coordinates."""
+        if position == 0.0:
+            raise InputError("position", position, "a place on the wall")
         normal = position / abs(position)
         local = normal.conjugate() * velocity
         return cls(cmath.phase(position), local.real, local.imag / abs(position))
@@ -83,7 +88,8 @@ class StroboscopicMap(Result):
     jacobian: np.ndarray
 
 
-def impact_map(machine: Subject, section: Section, longest_flight: float = 1000.0) -> ImpactMap:
+@checked
+def impact_map(machine: Subject, section: Section, longest_flight: Positive = 1000.0) -> ImpactMap:
     """Impact map ``P_I`` of the source paper (section 3a), with its derivative.
 
     Parameters
@@ -104,6 +110,8 @@ def impact_map(machine: Subject, section: Section, longest_flight: float = 1000.
         raise InputError("machine", shown(machine), "a rotor of one coordinate, whose state the section is")
     if not section.radial_speed > 0.0:
         raise InputError("radial speed", section.radial_speed, "above 0: the rotor must be about to strike the wall")
+    if max(section.radial_speed, abs(section.angular_speed)) > LARGEST_SPEED:
+        raise InputError("section", section, f"speeds up to {LARGEST_SPEED:g}")
     state = section.state
     amplitudes = rotor.system.amplitudes(state.position, state.velocity)
     log = EventLog.empty(2, len(amplitudes))
@@ -119,6 +127,7 @@ def impact_map(machine: Subject, section: Section, longest_flight: float = 1000.
     return ImpactMap(Outcome.CONTACT, image, time, jacobian)
 
 
+@checked
 def stroboscopic_map(machine: Subject, state: State, period: float) -> StroboscopicMap:
     """State after a fixed time and its derivative, through any number of impacts.
 

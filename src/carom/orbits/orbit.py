@@ -9,6 +9,7 @@ from typing import Any, ClassVar, overload
 
 import numpy as np
 
+from carom.arguments import Reals, checked
 from carom.core.layout import rub_workspace
 from carom.core.margins import contact_margins, least_margins
 from carom.models import Model, Subject, model_of
@@ -219,11 +220,13 @@ class Orbit(Result):
         """How far it is from a change of its word."""
         return margins_of(self.links, self.rotor, self.word)
 
+    @checked
     def trajectory(self, periods: float = 1.0) -> Trajectory:
         """Follow an admissible orbit by simulation, from just after the first impact."""
         return simulate(self.rotor, self.departure, periods * self.period)
 
-    def path(self, times: np.ndarray) -> np.ndarray:
+    @checked
+    def path(self, times: Reals) -> np.ndarray:
         """Position ``U`` at times since the first impact, by the exact flights; for virtual orbits too.
 
         Parameters
@@ -274,6 +277,7 @@ def margins_of(links: Links, rotor: Model, word: Word) -> Margins:
     return Margins(radius, approach, speed, force, min(cone, rolling), sliding, push)
 
 
+@checked
 def orbit_near(machine: Subject, word: Word, start: Start, name: OrbitName | CountedName | None = None) -> Orbit | None:
     """Orbit of a word next to a start, by Newton's method; ``None`` if it does not converge.
 

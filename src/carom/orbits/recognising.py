@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 
+from carom.arguments import checked
 from carom.core.advance import SHORTEST_LAP
 from carom.models import Model
 from carom.motions.trajectories import Trajectory, simulate
@@ -26,6 +27,7 @@ AROUND = 1e-3
 """Distance, relative to one plus the size of the nodes, within which the orbit of a settled motion is searched for."""
 
 
+@checked
 def orbit_of_motion(motion: Trajectory) -> Orbit | None:
     """Close the periodic orbit on which a motion has settled.
 
@@ -174,7 +176,11 @@ def segments_of(motion: Trajectory, first: int, last: int, *, brief: bool = Fals
     times = np.append(motion.segment_starts[1:], motion.time)
     kinds, places = _impact_kinds(motion, first, last).tolist(), np.arange(first, last)
     planes = motion.event_planes[first:last]
-    known = {(kind, plane): Segment(Kind(kind), plane) for kind in set(kinds) for plane in set(planes.tolist())}
+    known = {
+        (kind, plane): Segment(Kind(kind), plane)
+        for kind, plane in set(zip(kinds, planes.tolist(), strict=True))
+        if plane >= 0
+    }
     phases = zip(*(motion.segment_phases[places + later, planes].tolist() for later in (0, 1)), strict=True)
     strikes = motion.is_impact[first:last].tolist()
     for event, strike, struck, plane, (before, after) in zip(

@@ -12,10 +12,12 @@ import math
 from dataclasses import dataclass, replace
 from functools import cache
 from itertools import pairwise
-from typing import Literal
+from typing import Annotated, Literal
 
 import numpy as np
 
+from carom.arguments import Count, checked
+from carom.arguments import Kind as ArgumentKind
 from carom.continuation.roots import bracketed_root, sign_change
 from carom.models import Jeffcott, Subject, jeffcott_of
 from carom.motions.starts import State
@@ -31,6 +33,8 @@ Whirl = Literal[1, -1]
 
 LONGEST = 8.0 * math.pi
 """Longest period, in ``1/Ω``: four turns of the shaft."""
+Longest = Annotated[float, ArgumentKind(lambda time: 0.0 < time <= 1e5, "a time above 0, up to 1e5, in 1/Omega")]
+"""Longest period of the orbits that are searched."""
 SAMPLES = 48
 HALVINGS = 10
 """Bisections between an angle that has a next lift-off and a neighbouring one that has none."""
@@ -66,7 +70,8 @@ class LiftOff(Result):
     landing_force: float
 
 
-def rubbing_orbits(machine: Subject, longest: float = LONGEST, samples: int = SAMPLES) -> tuple[Orbit, ...]:
+@checked
+def rubbing_orbits(machine: Subject, longest: Longest = LONGEST, samples: Count = SAMPLES) -> tuple[Orbit, ...]:
     """Periodic motions with one stretch of lasting contact a period, found from evenly spaced angles of lift-off.
 
     Stable and unstable ones are found; two whose angles lie closer than ``2π/samples`` may be missed.
@@ -123,6 +128,7 @@ def lift_off_state(rotor: Jeffcott, whirl: Whirl, angle: float) -> State | None:
     return State(position, 1j * (turning - 1.0) * position)
 
 
+@checked
 def lift_off_of(orbit: Orbit) -> LiftOff:
     """The lift-off of an orbit with lasting contact.
 

@@ -8,13 +8,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, fields, replace
-from typing import ClassVar
+from typing import Annotated, ClassVar
 
 import numpy as np
 
+from carom.arguments import whole
 from carom.models import Model
 from carom.motions.ensembles import Endings, settle
-from carom.motions.starts import State, check_whole
+from carom.motions.starts import State
 from carom.motions.trajectories import Trajectory, simulate
 from carom.orbits.names import CountedName
 from carom.orbits.orbit import Orbit, OrbitSequence, lasts, orbit_of_links, same_orbit
@@ -27,6 +28,8 @@ from carom.results import Result, in_a_line
 
 GUESSES, MOST_IMPACTS = 1500, 64
 """Default number of guesses for each number of impacts, and the most impacts that are searched."""
+Impacts = Annotated[int, whole(1, MOST_IMPACTS)]
+"""Most impacts a period of the orbits that are searched."""
 EARLY, NEAREST = 3, 1
 """Stretches of a motion taken for each number of impacts: the first ones, before it comes near to what attracts it, and those
 that come back closest."""
@@ -174,23 +177,10 @@ def search_orbits(
         Stretches that are corrected, for each number of impacts.
     known : sequence of Orbit
         Orbits that are known to exist.
-
-    Raises
-    ------
-    InputError
-        ``impacts`` or ``guesses`` is no whole number, below 1 or too large; or ``seed`` is no whole number of at least 0.
     """
-    check_impacts(impacts)
-    check_whole("guesses", guesses, 1)
-    check_whole("seed", seed, 0)
     search = Search(rotor, impacts, known)
     done = search.run(SETTLED, guesses, FRESH, [seed], tell)
     return FoundOrbits(rotor, impacts, search.named(), done)
-
-
-def check_impacts(impacts: int) -> None:
-    """Refuse a most number of impacts a period that is no whole number, below 1 or too large."""
-    check_whole("impacts", impacts, 1, MOST_IMPACTS)
 
 
 def random_starts(

@@ -10,6 +10,7 @@ from typing import ClassVar, overload
 
 import numpy as np
 
+from carom.arguments import Count, Positive, Reals, Seed, checked
 from carom.closed_forms.periods import PeriodCondition, PeriodRoots
 from carom.core.planar import impact_jacobian
 from carom.models import Jeffcott, Subject, jeffcott_of, model_of
@@ -18,7 +19,7 @@ from carom.orbits.maps import Section
 from carom.orbits.names import OrbitName, Slip
 from carom.orbits.orbit import Orbit, OrbitSequence
 from carom.orbits.rubbing import rubbing_orbits
-from carom.orbits.search import GUESSES, FoundOrbits, search_orbits
+from carom.orbits.search import GUESSES, FoundOrbits, Impacts, search_orbits
 from carom.orbits.shooting import Start
 from carom.orbits.stability import Multipliers, multipliers_of_all
 from carom.orbits.word import Kind, Word
@@ -89,7 +90,8 @@ class OrbitSet(Result, OrbitSequence):
         )
 
 
-def period_condition(machine: Subject, periods: np.ndarray) -> np.ndarray:
+@checked
+def period_condition(machine: Subject, periods: Reals) -> np.ndarray:
     """``F₁(T) = 1 + Re(q a₂₂(T))``, whose roots are the periods of single-impact orbits (source paper (4.4))."""
     rotor = jeffcott_of(machine)
     return PeriodCondition.planar(rotor.parameters).value(np.asarray(periods, float))
@@ -101,14 +103,15 @@ def find_orbits(machine: Subject, longest_period: float | None = None) -> OrbitS
 def find_orbits(
     machine: Subject, *, impacts: int, guesses: int = GUESSES, seed: int = 0, progress: ShowProgress = None
 ) -> FoundOrbits: ...
+@checked
 @shows_progress
 def find_orbits(
     machine: Subject,
-    longest_period: float | None = None,
+    longest_period: Positive | None = None,
     *,
-    impacts: int | None = None,
-    guesses: int = GUESSES,
-    seed: int = 0,
+    impacts: Impacts | None = None,
+    guesses: Count = GUESSES,
+    seed: Seed = 0,
     progress: ShowProgress = None,
 ) -> OrbitSet | FoundOrbits:
     """All orbits with one impact a period, synchronous with the shaft, or a search for those with at most so many.
@@ -182,6 +185,7 @@ def find_orbits(
     return OrbitSet(rotor, tuple(orbits), roots.periods, roots.longest_period, roots.proven, forward_only)
 
 
+@checked
 def orbits_within_reach(machine: Subject) -> OrbitSet:
     """All single-impact orbits; where little or no damping makes them too many, only those of shorter period.
 

@@ -7,6 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from carom.arguments import checked
+from carom.outcome import InputError
 from carom.results import Result
 
 
@@ -43,6 +45,7 @@ class Multipliers(Result):
         return "steadily to one side" if leader.real > 0 else "in alternation from impact to impact"
 
 
+@checked
 def multipliers(jacobian: np.ndarray) -> Multipliers:
     """Eigenvalues of the derivative of a return map.
 
@@ -50,7 +53,9 @@ def multipliers(jacobian: np.ndarray) -> Multipliers:
     ----------
     jacobian : ndarray, shape (n, n)
     """
-    return multipliers_of_all([jacobian])[0]
+    if np.ndim(jacobian) != 2 or len(set(np.shape(jacobian))) != 1 or not np.size(jacobian):
+        raise InputError("jacobian", np.shape(jacobian), "a square matrix")
+    return multipliers_of_all([np.asarray(jacobian)])[0]
 
 
 def multipliers_of_all(jacobians: Sequence[np.ndarray]) -> list[Multipliers]:

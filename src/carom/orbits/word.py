@@ -9,6 +9,7 @@ from functools import cached_property
 
 import numpy as np
 
+from carom.arguments import Count, Whole, checked
 from carom.core import segments
 from carom.outcome import InputError, Phase
 
@@ -68,6 +69,7 @@ _LABELS = {
 }
 
 
+@checked
 @dataclass(frozen=True)
 class Segment:
     """A part of an orbit.
@@ -80,12 +82,13 @@ class Segment:
     """
 
     kind: Kind
-    plane: int = 0
+    plane: Whole = 0
 
     def __str__(self) -> str:
         return f"{self.kind.label}@{self.plane}" if self.plane else self.kind.label
 
 
+@checked
 @dataclass(frozen=True)
 class Word(Sequence[Segment]):
     """The segments of one period, in their order.
@@ -114,7 +117,8 @@ class Word(Sequence[Segment]):
         self.conditions  # noqa: B018  # raises where a segment cannot follow another
 
     @classmethod
-    def of(cls, *kinds: Kind, plane: int = 0) -> Word:
+    @checked
+    def of(cls, *kinds: Kind, plane: Whole = 0) -> Word:
         """Word of segments at one plane."""
         return cls(tuple(Segment(kind, plane) for kind in kinds))
 
@@ -146,10 +150,12 @@ class Word(Sequence[Segment]):
         m = len(self)
         return next(k for k in range(1, m + 1) if m % k == 0 and self.segments[k:] + self.segments[:k] == self.segments)
 
-    def repeated(self, times: int) -> Word:
+    @checked
+    def repeated(self, times: Count) -> Word:
         """The word several times in a row."""
         return Word(self.segments * times)
 
+    @checked
     def turned(self, places: int) -> Word:
         """The same cycle, beginning with another segment."""
         return Word(self.segments[places:] + self.segments[:places])

@@ -10,6 +10,7 @@ from typing import Any, cast
 
 import pydantic
 
+from carom.arguments import checked
 from carom.outcome import CaromWarning, InputError, Problems, shown
 from carom.parameters.fields import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, PHYSICAL_PARTNER
 from carom.parameters.numbers import CONVERSIONS
@@ -132,6 +133,7 @@ class Machine(pydantic.BaseModel):
         return self._resolved.given
 
     @classmethod
+    @checked
     def load(cls, path: str | os.PathLike[str]) -> Machine:
         """Read the ``[machine]`` table of a TOML file.
 
@@ -161,6 +163,7 @@ class Machine(pydantic.BaseModel):
         return cast("Machine", machine)
 
     @classmethod
+    @checked
     def from_parameters(cls, parameters: Parameters, scales: Scales | None = None) -> Machine:
         """Return the machine that has the given dimensionless parameters.
 

@@ -9,6 +9,7 @@ from numbers import Real
 from pathlib import Path
 from typing import Any, cast
 
+from carom.arguments import checked
 from carom.outcome import InputError, Problems, printable, shown
 from carom.parameters.fields import (
     DIMENSIONLESS_FIELDS,
@@ -54,6 +55,7 @@ class Zones:
         """Names of the zones, from the smallest amplitude to the largest."""
         return ("A", "B", "C", "D")
 
+    @checked
     def zone(self, radius: float) -> str:
         """Return the zone of an amplitude: the largest distance of the rotor centre from the bearing centre, in clearances.
 
@@ -64,6 +66,7 @@ class Zones:
         return self.labels[sum(radius > limit for limit in self.limits)]
 
 
+@checked
 @dataclass(frozen=True)
 class Case:
     """What a command works on: the content of a machine file after all settings.
@@ -99,9 +102,6 @@ class Case:
     requirement: Requirement = field(default_factory=Requirement)
 
     def __post_init__(self) -> None:
-        for name, kind in (("parameters", Parameters), ("requirement", Requirement)):
-            if not isinstance(getattr(self, name), kind):
-                raise InputError(name, shown(getattr(self, name)), f"must be a carom.parameters.{kind.__name__}")
         self.requirement.own(self.parameters.scales)
 
     def replace(self, /, **changes: Any) -> Case:
@@ -126,6 +126,7 @@ class Case:
         return replace(self, parameters=machine.parameters.replace(**numbers), machine=machine)
 
 
+@checked
 def load(path: str | os.PathLike[str], settings: Iterable[str] = ()) -> Case:
     """Read a machine file and apply settings to it.
 

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from decimal import Decimal
 from typing import Any, Literal, get_args
 
+from carom.arguments import checked
 from carom.outcome import InputError, Problems, shown
 from carom.parameters.fields import DIMENSIONLESS_FIELDS, Field, unknown_name
 from carom.parameters.quantities import read_quantity
@@ -120,17 +121,20 @@ class Requirement:
         if (self.kick, self.shock, self.blade_loss) == (None, None, None):
             object.__setattr__(self, "source", "default")
 
+    @checked
     def changed_by(self, other: Requirement) -> Requirement:
         """Return this requirement with what another one states in its place."""
         stated = {name: value for name, value in vars(other).items() if value is not None}
         return self if other.source == "default" else dataclasses.replace(self, **stated)
 
+    @checked
     def complete(self, scales: Scales | None) -> Requirement:
         """Return this requirement with the usual kick, in its own units, where no kick is stated."""
         if self.kick is not None:
             return self
         return dataclasses.replace(self, kick=_fall_speed(scales) if scales else usual_kick(None))
 
+    @checked
     def own(self, scales: Scales | None) -> Required:
         """Return what is required in units of the equations.
 
@@ -198,6 +202,7 @@ class Requirement:
         return _read(entries, names, numbers.scales, "option")
 
     @classmethod
+    @checked
     def of_table(cls, table: Mapping[str, Any], scales: Scales | None) -> Requirement:
         """Read a table ``[survive]``.
 

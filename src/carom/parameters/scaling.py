@@ -9,6 +9,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from carom.arguments import checked
 from carom.outcome import InputError, shown
 from carom.parameters.fields import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, PARAMETERS, Field
 from carom.parameters.numbers import Numbers
@@ -207,6 +208,7 @@ class Parameters:
         """What :meth:`replace` can vary: dimensionless parameters, and with scales the fields of the machine too."""
         return DIMENSIONLESS_FIELDS if self.scales is None else PARAMETERS
 
+    @checked
     def value(self, name: str) -> float:
         """Present value of a parameter, in SI units if it is a physical one.
 

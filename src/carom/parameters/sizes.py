@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import NamedTuple
 
+from carom.arguments import checked
 from carom.outcome import InputError, shown
 from carom.parameters.fields import Field
 from carom.parameters.quantities import read_quantity, without_separators
@@ -56,6 +57,7 @@ class Size(NamedTuple):
         return self.value / float(getattr(scales, self.kind)) if self.in_si else self.value
 
 
+@checked
 def read_size(name: str, given: object, kind: str, scales: Scales | None, bare: bool = True) -> Size:
     """Read a size: a number without a unit, in quotes or not, is in units of the equations.
 
@@ -76,6 +78,8 @@ def read_size(name: str, given: object, kind: str, scales: Scales | None, bare: 
     InputError
         The value is not a size of this kind, or it has a unit and the scales are not known, or none where it needs one.
     """
+    if kind not in _KINDS:
+        raise InputError("kind", kind, f"one of: {', '.join(_KINDS)}")
     words, unit, usual, own, example = _KINDS[kind]
     needs_unit = scales is not None and not bare
     field = Field(name, "", "", words, "", -_HUGE, _HUGE, f"0.5 or '{example}'", bare=own)
@@ -97,6 +101,7 @@ def read_size(name: str, given: object, kind: str, scales: Scales | None, bare: 
     return Size(number, True, kind)
 
 
-def own_size(name: str, given: float | str, kind: str, scales: Scales | None) -> float:
+@checked
+def own_size(name: str, given: object, kind: str, scales: Scales | None) -> float:
     """Convert text with a unit to the units of the equations; a number is already in these."""
-    return read_size(name, given, kind, scales).own(scales) if isinstance(given, str) else given
+    return read_size(name, given, kind, scales).own(scales)

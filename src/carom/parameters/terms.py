@@ -20,6 +20,7 @@ from collections.abc import Callable, Iterable, Mapping
 from decimal import Decimal
 from typing import Any, NamedTuple
 
+from carom.arguments import checked
 from carom.outcome import InputError, Problems, shown
 from carom.parameters.fields import MACHINE_FIELDS, PARAMETERS, PHYSICAL_PARTNER, Field, by_name, unknown_name
 
@@ -250,6 +251,7 @@ def set_by(name: str) -> str:
     return TERMS[name].sets if name in TERMS else PHYSICAL_PARTNER.get(name, name)
 
 
+@checked
 def field_to_vary(name: str) -> Field:
     """Field of a parameter of the planar rotor; refuse an unknown name, and an entry that stands for a parameter."""
     if name not in PARAMETERS:
@@ -268,6 +270,7 @@ def no_such_parameter(name: str, given: object, varied: Mapping[str, Field], has
     return InputError(name, shown(given), allowed)
 
 
+@checked
 def field_to_set(name: str) -> Field:
     """Field of anything that a setting, or an axis of a sweep, may change."""
     if name not in SETTABLE:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from carom.arguments import checked
 from carom.plots.plane import one_axes
 from carom.plots.style import OUTCOMES, TWO_COLUMNS, styled
 
@@ -17,6 +18,7 @@ _ROW, _EDGES = 0.26, 0.9
 """Height of a row and of everything else [inch]."""
 
 
+@checked
 @styled
 def attractors(found: AttractorSet, title: str | None = None, *, axes: Axes | None = None) -> Figure:
     """Draw the share of the disturbances that end on each attractor, of any rotor.

@@ -14,6 +14,7 @@ from matplotlib.patches import Circle
 from matplotlib.projections.polar import PolarAxes
 from matplotlib.ticker import MaxNLocator
 
+from carom.arguments import checked
 from carom.disturbances import outward_from
 from carom.outcome import InputError
 from carom.parameters.told import shown_in
@@ -30,6 +31,7 @@ if TYPE_CHECKING:
     from carom.parameters import Scales
 
 
+@checked
 @styled
 def basin(basin: Basin, smallest: SmallestLoss | None = None, title: str | None = None) -> Figure:
     """Draw where disturbances end, as a picture that depends on their coordinates.

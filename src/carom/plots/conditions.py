@@ -9,8 +9,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import NullLocator
 from matplotlib.transforms import blended_transform_factory
-from numpy.typing import ArrayLike
 
+from carom.arguments import Reals, checked
+from carom.outcome import InputError
 from carom.plots.figure import narrow
 from carom.plots.placement import spread
 from carom.plots.plane import Floats, finish, one_axes
@@ -32,8 +33,9 @@ _LINEAR = 0.05
 """Value of F1 at which the scale changes from linear to logarithmic."""
 
 
+@checked
 @styled
-def period_condition(orbits: OrbitSet, periods: ArrayLike, values: ArrayLike, *, axes: Axes | None = None) -> Figure:
+def period_condition(orbits: OrbitSet, periods: Reals, values: Reals, *, axes: Axes | None = None) -> Figure:
     """Draw F1 over the period, its roots with the names of their orbits, and the bound that makes the list complete.
 
     Parameters
@@ -45,6 +47,8 @@ def period_condition(orbits: OrbitSet, periods: ArrayLike, values: ArrayLike, *,
     values : array_like, shape (n,)
         F1 at those periods (no unit).
     """
+    if np.ndim(periods) != 1 or np.shape(periods) != np.shape(values):
+        raise InputError("values", np.shape(values), f"one for each period, which have shape {np.shape(periods)}")
     figure, drawn = one_axes(axes, (ONE_COLUMN, ONE_COLUMN) if narrow() else (TWO_COLUMNS, 0.42 * TWO_COLUMNS))
     times, condition = np.asarray(periods, dtype=float), np.asarray(values, dtype=float)
     words = r"period condition $F_1(T)$, zero for an orbit with one impact a period"

@@ -14,6 +14,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
+from carom.arguments import checked
 from carom.outcome import IRREGULAR_BOUNCING, STEADY_WORDS
 from carom.parameters.told import shown_in
 from carom.plots.coexistence import coexistence, row_of_point, rows_of
@@ -95,6 +96,7 @@ _PRESENT: dict[str, Any] = {"color": "#1a1a1a", "lw": 0.8, "ls": (0, (1, 1.5)), 
 _EQUILIBRIA = {"contact-free": "contact-free", "stable rub": "rub", "saddle rub": "rub"}
 
 
+@checked
 @styled
 def bifurcation_diagram(diagram: Diagram, proof: Proof | None = None) -> Figure:
     """Draw all equilibria and single-impact orbits along a parameter, with their special points, in three panels.

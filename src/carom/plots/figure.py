@@ -24,11 +24,13 @@ from matplotlib.text import Text
 from matplotlib.textpath import TextToPath
 from matplotlib.transforms import Bbox
 
+from carom.arguments import checked
 from carom.plots.sheet import ONE_COLUMN, applied, drawing
 
 _heading: ContextVar[str] = ContextVar("_heading", default="")
 
 
+@checked
 @contextmanager
 def heading(text: str) -> Iterator[None]:
     """Write a line above every figure made inside a ``with`` block, such as the name of the machine."""

@@ -9,6 +9,7 @@ from pathlib import Path
 
 from matplotlib.figure import Figure
 
+from carom.arguments import checked
 from carom.files import write_whole
 from carom.outcome import InputError
 from carom.plots.sheet import drawing
@@ -21,6 +22,7 @@ _UNDATED: dict[str, dict[str, str | None]] = {
 }
 
 
+@checked
 def save(figure: Figure, path_stem: str | os.PathLike[str], formats: Sequence[str] = ("svg", "png")) -> list[Path]:
     """Write a figure in several formats; return the files in the order of `formats`.
 
@@ -48,6 +50,8 @@ def save(figure: Figure, path_stem: str | os.PathLike[str], formats: Sequence[st
         if name not in _UNDATED:
             raise InputError("format", name, f"must be one of {', '.join(_UNDATED)}")
     stem = Path(path_stem)
+    if not stem.name:
+        raise InputError("path_stem", path_stem, "a path that ends with a name")
     contents = {name: _rendered(figure, name) for name in formats}
     stem.parent.mkdir(parents=True, exist_ok=True)
     written = []

@@ -14,6 +14,7 @@ from matplotlib.patches import Patch
 from matplotlib.patheffects import withStroke
 from matplotlib.ticker import PercentFormatter
 
+from carom.arguments import checked
 from carom.basins.changes import told_changes
 from carom.outcome import InputError
 from carom.parameters import SETTABLE, in_terms_of
@@ -54,6 +55,7 @@ _NONE = MappingProxyType(
 """Why such a measure has no value at a machine that levitates."""
 
 
+@checked
 @styled
 def gain_map(
     found: GainMap,

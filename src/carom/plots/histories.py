@@ -12,6 +12,7 @@ from matplotlib.figure import Figure
 from matplotlib.transforms import blended_transform_factory
 from numpy.typing import ArrayLike, NDArray
 
+from carom.arguments import Count, checked
 from carom.outcome import Outcome
 from carom.plots.bands import bands_over_time, drawing_times
 from carom.plots.figure import narrow
@@ -28,11 +29,12 @@ _PERIODS = 3
 _Conversion = Callable[[ArrayLike], ArrayLike]
 
 
+@checked
 @styled
 def radius(
     motion: Trajectory | Orbit,
     zones: Zones | None = None,
-    periods: int = _PERIODS,
+    periods: Count = _PERIODS,
     title: str | None = None,
     *,
     axes: Axes | None = None,

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from carom.arguments import Count, checked
 from carom.outcome import InputError
 from carom.plots.bands import bands_on_the_circle, drawing_times, flying
 from carom.plots.figure import StyledFigure, narrow
@@ -35,8 +35,9 @@ if TYPE_CHECKING:
     from carom.orbits.orbit import Orbit
 
 
+@checked
 @styled
-def orbit(orbit: Orbit, periods: int | None = None, *, axes: Sequence[Axes] | None = None) -> Figure:
+def orbit(orbit: Orbit, periods: Count | None = None, *, axes: tuple[Axes, Axes] | None = None) -> Figure:
     """Draw a periodic orbit in the co-rotating and in the fixed frame.
 
     In the co-rotating frame the orbit closes after one period.  In the fixed frame it is quasi-periodic unless its
@@ -99,6 +100,7 @@ def _pattern_length(period: float) -> int:
     return int(counts[np.argmin(gaps)])
 
 
+@checked
 @styled
 def motion(
     trajectory: Trajectory,
@@ -106,7 +108,7 @@ def motion(
     fade: bool = False,
     title: str | None = None,
     *,
-    axes: Sequence[Axes] | None = None,
+    axes: tuple[Axes, Axes] | None = None,
 ) -> Figure:
     """Draw a simulated motion in the co-rotating and in the fixed frame.
 
@@ -166,7 +168,7 @@ def _levitation(axes: Axes, equilibrium: complex) -> None:
     point(axes, equilibrium, "contact-free", hollow=virtual, label=f"{words} (virtual)" if virtual else words)
 
 
-def _two_frames(axes: Sequence[Axes] | None) -> tuple[Figure, tuple[Axes, Axes]]:
+def _two_frames(axes: tuple[Axes, Axes] | None) -> tuple[Figure, tuple[Axes, Axes]]:
     if axes is None:
         if narrow():
             figure = StyledFigure(figsize=(ONE_COLUMN, 2.35 * ONE_COLUMN))

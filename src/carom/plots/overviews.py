@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
@@ -11,6 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
+from carom.arguments import checked
 from carom.plots.closeups import Closeup, closeups
 from carom.plots.figure import StyledFigure, narrow
 from carom.plots.placement import spread_angles
@@ -60,9 +61,10 @@ class _Drawn:
         return orbit_look(self.orbit)
 
 
+@checked
 @styled
 def equilibria_and_orbits(
-    orbits: OrbitSet, equilibria: Sequence[Equilibrium] = (), title: str | None = None, *, axes: Axes | None = None
+    orbits: OrbitSet, equilibria: Iterable[Equilibrium] = (), title: str | None = None, *, axes: Axes | None = None
 ) -> Figure:
     """Draw all equilibria and periodic orbits of a machine in the co-rotating frame.
 
@@ -92,6 +94,7 @@ def equilibria_and_orbits(
     return finish(figure, whole, axes, title, columns=3 if panels else 2)
 
 
+@checked
 def overview(study: Study, title: str | None = None) -> Figure:
     """Draw :func:`~carom.plots.equilibria_and_orbits` of a study; virtual orbits are left out if there are very many."""
     orbits = study.orbits
@@ -117,7 +120,7 @@ def _panels(axes: Axes | None, count: int) -> tuple[Figure, Axes, list[Axes]]:
 
 
 def _draw(
-    axes: Axes, equilibria: Sequence[Equilibrium], shown: Sequence[_Drawn], without_arrow: Sequence[_Drawn] = ()
+    axes: Axes, equilibria: Iterable[Equilibrium], shown: Sequence[_Drawn], without_arrow: Sequence[_Drawn] = ()
 ) -> None:
     virtual = sum(drawn.meaning == "virtual" for drawn in shown)
     many = virtual > _MOST_VIRTUAL
@@ -148,6 +151,7 @@ def _draw(
         )
 
 
+@checked
 @styled
 def equilibria(found: EquilibriumSet, title: str | None = None) -> Figure:
     """Draw the equilibria of any rotor, in the clearance circle of each contact plane.

@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patheffects import Normal, Stroke
 
+from carom.arguments import checked
 from carom.plots.arrangement import arrange
 from carom.plots.diagrams import CURVES, FAINT, curve_line
 from carom.plots.figure import StyledFigure
@@ -30,6 +31,7 @@ _LINE, _ROOM = 0.135, 9
 """Height of a line of the list of regions [inch], and number of lines that fit in the figure."""
 
 
+@checked
 @styled
 def region_map(found: RegionMap, proof: Proof | None = None) -> Figure:
     """Draw the curves of bifurcations in the plane of two parameters, the points where they meet and the regions.

@@ -9,6 +9,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from carom.arguments import checked
 from carom.outcome import STEADY_WORDS
 from carom.plots.figure import StyledFigure
 from carom.plots.plane import Floats, key
@@ -35,6 +36,7 @@ _LOWEST = 0.05
 """Least top of the panel, in clearances."""
 
 
+@checked
 @styled
 def unbalance_response(response: UnbalanceResponse) -> Figure:
     """Draw amplitude and phase over the speed of the shaft in two panels.

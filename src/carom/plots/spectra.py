@@ -10,6 +10,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from carom.arguments import checked
 from carom.plots.plane import Complex, one_axes
 from carom.plots.style import LOOKS, ONE_COLUMN, TWO_COLUMNS, styled
 from carom.plots.words import orbit_look, orbit_words
@@ -22,6 +23,7 @@ _SHAPES = ("o", "s", "^", "D", "v", "P", "X", "p", "<", ">", "h", "*")
 _LINEAR_UP_TO = 2.0
 
 
+@checked
 @styled
 def multipliers(orbits: Iterable[Orbit], *, axes: Axes | None = None) -> Figure:
     """Draw the non-trivial multipliers of orbits next to the unit circle: one marker shape for each orbit.
@@ -145,6 +147,7 @@ def _dots(axes: Axes, values: Complex, count: int) -> None:
     axes.plot(values.real, values.imag, ".", markersize=2.5, color=look.colour, label=words, zorder=2, gid="virtual")
 
 
+@checked
 @styled
 def spectrum(full: FullSpectrum, *, axes: Axes | None = None) -> Figure:
     """Draw the full spectrum of a motion over the multiple of the shaft speed: backward whirl left, forward right.

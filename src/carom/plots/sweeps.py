@@ -19,6 +19,7 @@ from matplotlib.patches import Patch, PathPatch
 from matplotlib.path import Path
 from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter, PercentFormatter
 
+from carom.arguments import checked
 from carom.outcome import STEADY_WORDS, InputError
 from carom.parameters import SETTABLE, Field
 from carom.parameters.told import shown_from_si
@@ -70,6 +71,7 @@ _FLAGS = ("#e9eff7", "#a9c3e0", "#cc8e3c", "#6b3f12")
 """Colours of the values of a flag, darker from each to the next: distinguishable by colour-blind readers and in greyscale."""
 
 
+@checked
 @styled
 def sweep_map(
     data: xarray.Dataset,

@@ -9,6 +9,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from carom.arguments import checked
 from carom.plots.cells import ink
 from carom.plots.figure import StyledFigure
 from carom.plots.histories import draw_radius
@@ -28,6 +29,7 @@ _WIDE_RANGE = 50.0
 """Ratio of the largest to the median contact force beyond which the axis is logarithmic."""
 
 
+@checked
 @styled
 def touchdown(trajectory: Trajectory, ledger: EnergyLedger, title: str | None = None) -> Figure:
     """Draw a touchdown, with the energies of its motion, in four panels over one time axis.
@@ -51,6 +53,7 @@ def touchdown(trajectory: Trajectory, ledger: EnergyLedger, title: str | None = 
     return figure
 
 
+@checked
 @styled
 def regimes(trajectory: Trajectory, *, axes: Axes | None = None) -> Figure:
     """Draw two ribbons over time: the regime (flight, sliding, rolling) and the direction of whirl."""
@@ -97,6 +100,7 @@ def _whirl(trajectory: Trajectory) -> list[tuple[float, float, bool]]:
     ]
 
 
+@checked
 @styled
 def forces(trajectory: Trajectory, *, axes: Axes | None = None) -> Figure:
     """Draw the normal and friction force of lasting contact over time, and the impulse of each impact.
@@ -124,10 +128,11 @@ def forces(trajectory: Trajectory, *, axes: Axes | None = None) -> Figure:
 def _contact_forces(axes: Axes, trajectory: Trajectory, scales: Scales | None) -> None:
     """Draw normal and friction force over the intervals of lasting contact."""
     times = _contact_times(trajectory)
-    forces = trajectory.forces(times)
+    gaps = np.isnan(times)
+    forces = np.full((2, len(times)), np.nan)
+    forces[:, ~gaps] = trajectory.forces(times[~gaps])
     unit, name = _unit_of(np.nanmax(forces[0]), scales.force if scales else None, "N")
     normal, friction = (part * unit for part in forces)
-    gaps = np.isnan(times)
     for values, look, words in (
         (normal, LOOKS["wall"], "normal force of lasting contact"),
         (np.abs(friction), LOOKS["roll"], "friction force, size"),
@@ -172,6 +177,7 @@ def _impulses(axes: Axes, trajectory: Trajectory, scales: Scales | None) -> None
     axes.plot([], [], "o", ms=1.8, color=look.colour, label="normal impulse (right axis)")
 
 
+@checked
 @styled
 def energies(ledger: EnergyLedger, *, axes: Axes | None = None) -> Figure:
     """Draw the energy of the rotor and the works that change it, circulatory ones where there are any."""

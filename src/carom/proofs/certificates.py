@@ -10,6 +10,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+from carom.arguments import checked
 from carom.outcome import CaromError, InputError, printable, shown
 from carom.progress import Reporter, ShowProgress, shows_progress
 from carom.proofs.balls import Enclosure
@@ -26,6 +27,7 @@ _WIDEST = 64
 _KEYS = ("format", "theorem", "options", "hypotheses", "bits", "claims", "not_claimed", "evidence")
 
 
+@checked
 @shows_progress
 def check(source: str | os.PathLike[str] | Mapping[str, Any], *, progress: ShowProgress = None) -> Proof:
     """Verify a certificate by itself.

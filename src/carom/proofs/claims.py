@@ -10,6 +10,7 @@ from pathlib import Path
 from textwrap import wrap
 from typing import Any, ClassVar, Literal, get_args, overload
 
+from carom.arguments import checked
 from carom.files import write_whole
 from carom.outcome import InputError
 from carom.proofs.balls import Enclosure
@@ -122,6 +123,7 @@ class Proof(Result, Sequence[Claim]):
     not_claimed: tuple[str, ...]
     evidence: Mapping[str, Any]
 
+    @checked
     def with_status(self, status: Status) -> tuple[Claim, ...]:
         """Claims of one status."""
         return tuple(claim for claim in self.claims if claim.status == status)
@@ -164,6 +166,7 @@ class Proof(Result, Sequence[Claim]):
             "evidence": dict(self.evidence),
         }
 
+    @checked
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write the certificate to a file."""
         write_whole(Path(path), json.dumps(self.document(), indent=1, ensure_ascii=False).encode())

@@ -16,6 +16,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any, Literal, cast
 
+from carom.arguments import checked
 from carom.models import Subject, jeffcott_of
 from carom.outcome import InputError, Problems, shown, together
 from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, PARAMETERS, Machine, load
@@ -118,7 +119,7 @@ class Hypotheses:
             if not all(isinstance(text, str) for table in tables for text in table.values()):
                 raise TypeError("text")
             read = cls(document["table"], *tables)
-        except (AttributeError, KeyError, TypeError) as problem:
+        except (AttributeError, IndexError, KeyError, TypeError) as problem:
             raise InputError("hypotheses", shown(problem), "must be those of a certificate") from None
         if read.document() != dict(document):
             raise InputError(
@@ -140,6 +141,7 @@ def dimensionless_of(machine: Mapping[str, Any]) -> dict[str, Any]:
     }
 
 
+@checked
 def hypotheses_of(
     machine: Subject | Hypotheses | str | os.PathLike[str] | Mapping[str, Given], settings: Iterable[str] = ()
 ) -> Hypotheses:
@@ -158,10 +160,13 @@ def hypotheses_of(
     InputError
         It is none of these, or a number is not allowed.
     """
+    given = list(settings)
+    if isinstance(machine, str | os.PathLike):
+        return _from_file(machine, given)
+    if given:
+        raise InputError("settings", given, "for a file only: give a machine with the values wanted")
     if isinstance(machine, Hypotheses):
         return machine
-    if isinstance(machine, str | os.PathLike):
-        return _from_file(machine, list(settings))
     if isinstance(machine, Mapping):
         return Hypotheses("dimensionless", {name: written_exactly(value) for name, value in machine.items()}, {})
     numbers = jeffcott_of(machine).parameters.as_dict()

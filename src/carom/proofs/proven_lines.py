@@ -11,7 +11,7 @@ import numpy as np
 
 from carom.bifurcations import Diagram, RegionMap
 from carom.models import Model, jeffcott_of
-from carom.outcome import InputError, shown
+from carom.outcome import InputError
 from carom.proofs.claims import Claim, Proof
 from carom.proofs.hypotheses import NUMBERS, Hypotheses
 from carom.proofs.lines import line_of
@@ -84,8 +84,6 @@ def proven_of_plane(proof: Proof, regions: RegionMap) -> ProvenLine:
 
 
 def _proven(proof: Proof, allowed: tuple[str, ...], model_at: Callable[[float], Model]) -> ProvenLine:
-    if not isinstance(proof, Proof):
-        raise InputError("proof", shown(proof), "a Proof, as carom.prove or carom.proofs.check returns it")
     along = proof.options.get("along")
     if along not in allowed:
         raise InputError(

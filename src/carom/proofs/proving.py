@@ -5,9 +5,10 @@ from __future__ import annotations
 import os
 from collections.abc import Iterable, Mapping
 from fractions import Fraction
+from typing import Annotated
 
+from carom.arguments import checked, whole
 from carom.models import Subject
-from carom.motions.starts import check_whole
 from carom.outcome import InputError, shown
 from carom.progress import Reporter, ShowProgress, shows_progress
 from carom.proofs.balls import at_precision
@@ -29,13 +30,14 @@ _EXPONENT = 4
 """Characters that the exponent of a time may have."""
 
 
+@checked
 @shows_progress
 def prove(
     machine: Subject | Hypotheses | str | os.PathLike[str] | Mapping[str, Given],
     settings: Iterable[str] = (),
     *,
     longest_period: Given | None = None,
-    impacts: int = 1,
+    impacts: Annotated[int, whole(1, MOST_IMPACTS)] = 1,
     along: str | None = None,
     interval: tuple[Given, Given] | None = None,
     progress: ShowProgress = None,
@@ -79,7 +81,6 @@ def prove(
     'proven'
     """
     hypotheses, tell = hypotheses_of(machine, settings), Reporter.of(progress, "proving")
-    check_whole("impacts", impacts, 1, MOST_IMPACTS)
     if (along is None) is not (interval is None):
         raise InputError("along", shown(along), "needs an interval, and an interval needs a parameter")
     if along is not None and interval is not None:

@@ -13,6 +13,7 @@ from jinja2 import Environment, StrictUndefined
 from markupsafe import Markup
 
 from carom import plots
+from carom.arguments import checked
 from carom.files import staged_directory, write_json
 from carom.files.directory import FIGURES, MANIFEST
 from carom.plots.sheet import drawing
@@ -37,6 +38,7 @@ class InlineFigure:
     svg: Markup
 
 
+@checked
 @shows_progress
 def write_report(study: Study, directory: str, *, png: bool = False, progress: ShowProgress = None) -> Path:
     """Write ``report.html``, ``study.json`` and the figures of a study; return the path of the page.
@@ -71,6 +73,7 @@ def write_report(study: Study, directory: str, *, png: bool = False, progress: S
     return Path(directory) / REPORT
 
 
+@checked
 def report_page(study: Study, figures: list[InlineFigure]) -> str:
     """Return the page as self-contained HTML."""
     environment = Environment(autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True)

@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar, get_args
 
+from carom.arguments import checked
 from carom.attractors import AttractorSet, find_attractors
 from carom.basins import Share
 from carom.bifurcations.boundary import BoundaryEquilibrium, boundary_equilibria
@@ -176,6 +177,7 @@ class Study(Result):
         return study_document(self)
 
 
+@checked
 @shows_progress
 def study(
     machine: Subject,

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from carom.arguments import checked
 from carom.attractors import Attractor, AttractorSet, Ending, document_of
 from carom.basins import Share
 from carom.bifurcations.boundary import BoundaryEquilibrium
@@ -25,7 +26,7 @@ from carom.motions.trajectories import Trajectory
 from carom.orbits.orbit import Orbit
 from carom.orbits.search import FoundOrbits
 from carom.orbits.single_impact import OrbitSet
-from carom.parameters import MACHINE_FIELDS, LoadLimits, Parameters, Scales
+from carom.parameters import MACHINE_FIELDS, LoadLimits, Machine, Parameters, Scales
 from carom.parameters.indentation import gives_way, indentation_of_force, indentation_of_hit
 from carom.results import fields_of
 from carom.studies.advice import gain_of
@@ -41,8 +42,9 @@ if TYPE_CHECKING:
     from carom.studies.assembly import Study
 
 
+@checked
 def orbits_document(
-    parameters: Parameters, equilibria: tuple[Equilibrium, ...], orbits: OrbitSet, machine: Any = None
+    parameters: Parameters, equilibria: tuple[Equilibrium, ...], orbits: OrbitSet, machine: Machine | None = None
 ) -> dict[str, Any]:
     """Return the document of equilibria and periodic orbits."""
     scales = parameters.scales
@@ -56,6 +58,7 @@ def orbits_document(
     }
 
 
+@checked
 def found_orbits_document(parameters: Parameters, found: FoundOrbits) -> dict[str, Any]:
     """Return the document of orbits with at most a number of impacts."""
     return {
@@ -84,6 +87,7 @@ def _contacts(orbit: Orbit) -> list[dict[str, Any]]:
     ]
 
 
+@checked
 def trajectory_document(trajectory: Trajectory, limits: LoadLimits | None = None) -> dict[str, Any]:
     """Return the document of one motion with its impacts and lasting contacts; velocities are those before impacts.
 

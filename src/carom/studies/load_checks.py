@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from carom.arguments import checked
 from carom.attractors import AttractorSet
 from carom.motions import TouchdownLoads, simulate, touchdown_loads
 from carom.parameters import LIMIT_FIELDS, LoadLimits
@@ -55,6 +56,7 @@ class LoadCheck:
         return f"{text}: exceeded{when}, as the motion goes on in contact"
 
 
+@checked
 def check_loads(loads: TouchdownLoads, limits: LoadLimits) -> tuple[LoadCheck, ...]:
     """Compare the loads of a motion with the limits that are stated; nothing without scales.
 
@@ -133,6 +135,7 @@ def loads_entry(check: LoadCheck) -> dict[str, Any]:
     return fields_of(check, "name", "exceeded", "endless", value_si="value", limit_si="limit", reached_after_si="after")
 
 
+@checked
 def worst_loads(found: AttractorSet, limits: LoadLimits) -> WorstLoads:
     """Follow all disturbances that touch to their ends and find the worst load for each limit."""
     checked: list[tuple[str, Sequence[LoadCheck]]] = []

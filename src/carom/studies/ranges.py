@@ -9,6 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
+from carom.arguments import checked
 from carom.attractors import MotionName
 from carom.closed_forms.thresholds import Gain, Steady, ranges_of
 from carom.parameters import Parameters
@@ -152,6 +153,7 @@ def _value(edge: Edge) -> float:
     return edge.value
 
 
+@checked
 def free_spans(ranges: tuple[MotionRange, ...], gain: Gain) -> tuple[Span, ...] | None:
     """Return where along one gain the contact-free motion exists, but neither a rub nor a single-impact orbit.
 

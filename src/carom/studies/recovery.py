@@ -17,6 +17,7 @@ from typing import ClassVar
 
 import numpy as np
 
+from carom.arguments import Count, Seed, checked
 from carom.attractors import MotionName
 from carom.attractors.naming import name_motions
 from carom.basins.shares import Population, Share
@@ -139,11 +140,13 @@ class Recovery(Result):
         """The values at which nothing was lost."""
         return tuple(check for check in self.checks if check.recovers)
 
+    @checked
     def span_at(self, value: float) -> Span | None:
         """Return the span that holds a value."""
         return next((span for span in self.spans if value in span), None)
 
 
+@checked
 @shows_progress
 def find_recovery(
     machine: Subject,
@@ -151,8 +154,8 @@ def find_recovery(
     disturbances: Sequence[Sample],
     *,
     within: Ends | Sequence[Span] | None = None,
-    seed: int = 0,
-    threads: int | None = None,
+    seed: Seed = 0,
+    threads: Count | None = None,
     progress: ShowProgress = None,
 ) -> Recovery:
     """Find the values of a parameter for which every disturbance tried comes back to levitation.
@@ -210,14 +213,15 @@ def find_recovery(
     return Recovery(rotor, varied, tuple(disturbances), spans, tuple(found), checks)
 
 
+@checked
 def check_recovery(
     machine: Subject,
     disturbances: Sequence[Sample],
     *,
     along: str = "gamma",
     value: float | None = None,
-    seed: int = 0,
-    threads: int | None = None,
+    seed: Seed = 0,
+    threads: Count | None = None,
 ) -> Check:
     """Follow all disturbances at one value of a parameter, by default its present one.
 

@@ -11,6 +11,7 @@ from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
+from carom.arguments import checked
 from carom.closed_forms import SpeedResponse, find_equilibria, rolling, speed_response
 from carom.models import Axis, Jeffcott, Subject, axis, case_of
 from carom.models.axes import Ends, read_interval
@@ -169,6 +170,7 @@ class UnbalanceResponse(Result):
         edges = [speed for limit in limits for speed in self.contact_free.beyond(limit) or ()]
         return stretches_between(self.interval, edges, self.zone_at)
 
+    @checked
     def zone_at(self, speed: float) -> str:
         """Letter of the zone of the contact-free amplitude at a speed; empty where that is virtual."""
         radius = float(self.contact_free.amplitude(np.array(speed)))
@@ -217,6 +219,7 @@ class UnbalanceResponse(Result):
         return response_document(self)
 
 
+@checked
 def unbalance_response(
     machine: Subject, interval: Ends | None = None, *, operating: Ends | None = None
 ) -> UnbalanceResponse:

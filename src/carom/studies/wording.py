@@ -6,6 +6,7 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from carom.arguments import checked
 from carom.closed_forms.thresholds import Gain
 from carom.parameters import DIMENSIONLESS_FIELDS, ENTRIES, MACHINE_FIELDS, PHYSICAL_PARTNER, Case, Scales
 from carom.parameters.indentation import gives_way
@@ -38,6 +39,7 @@ def steel_words(indentation: float) -> str:
     return f"even solid steel gives way by at least {share} {what}"
 
 
+@checked
 @dataclass(frozen=True)
 class Wording:
     """Turns dimensionless results into text.

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, Literal, cast
 
 import numpy as np
 
+from carom.arguments import Count, checked
 from carom.outcome import InputError, Problems, shown
 from carom.parameters import SETTABLE, Field, field_to_set, read_quantity
 
@@ -46,12 +47,13 @@ class GridAxis:
     own: Field | None = None
 
     @classmethod
+    @checked
     def between(
         cls,
         parameter: str | Axis,
-        low: float | str,
-        high: float | str,
-        count: int,
+        low: object,
+        high: object,
+        count: Count,
         spacing: Literal["linear", "log"] = "linear",
     ) -> GridAxis:
         """Evenly spaced values of a parameter, ends included.
@@ -77,14 +79,13 @@ class GridAxis:
         first, last = cast("list[float]", ends)
         if first == last:
             raise InputError(f"{where}.to", shown(high), "must be another value than from")
-        if spacing not in ("linear", "log"):
-            raise InputError(f"{where}.spacing", shown(spacing), 'must be "linear" or "log"')
         if spacing == "log" and not (first > 0 and last > 0):
             raise InputError(f"{where}.spacing", "log", "needs ends above 0")
         return cls(field.name, spacing, (first, last), int(count), _own(parameter))
 
     @classmethod
-    def of(cls, parameter: str | Axis, values: Sequence[float | str]) -> GridAxis:
+    @checked
+    def of(cls, parameter: str | Axis, values: Sequence[object]) -> GridAxis:
         """Values of a parameter one by one: numbers, in SI units if it is physical, or texts with a unit.
 
         Raises

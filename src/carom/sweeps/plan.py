@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
+from carom.arguments import Count, Seed, Whole, checked
 from carom.disturbances import Grid, Plan, Sample
 from carom.outcome import InputError, shown
 from carom.parameters import DIMENSIONLESS_FIELDS, HELPER_FIELDS, TERM_FIELDS, Case
@@ -23,6 +24,8 @@ from carom.sweeps.variables import STATUS
 if TYPE_CHECKING:
     from carom.models import Model, Subject
     from carom.sweeps.variables import Dimension, Variable
+else:
+    Model = Subject = object  # imported when a plan is made, and refused there
 
 MOST_CHUNKS = 1_000_000
 """Largest number of chunks of a sweep: each chunk is several files."""
@@ -123,18 +126,21 @@ class SweepPlan:
         """Number of chunks."""
         return math.prod(self.chunk_grid)
 
-    def place(self, number: int) -> tuple[int, ...]:
+    @checked
+    def place(self, number: Whole) -> tuple[int, ...]:
         """Return the index of a chunk in the grid of chunks."""
         return tuple(int(place) for place in np.unravel_index(number, self.chunk_grid))
 
-    def region(self, number: int) -> tuple[slice, ...]:
+    @checked
+    def region(self, number: Whole) -> tuple[slice, ...]:
         """Return the part of the grid that a chunk covers."""
         return tuple(
             slice(place * chunk, min((place + 1) * chunk, count))
             for place, chunk, count in zip(self.place(number), self.chunk_shape, self.shape, strict=True)
         )
 
-    def size(self, number: int) -> int:
+    @checked
+    def size(self, number: Whole) -> int:
         """Return the number of points of a chunk."""
         return math.prod(part.stop - part.start for part in self.region(number))
 
@@ -144,10 +150,16 @@ class SweepPlan:
         for place in np.ndindex(*(part.stop - part.start for part in region)):
             yield tuple(part.start + step for part, step in zip(region, place, strict=True))
 
+    @checked
     def values(self, point: tuple[int, ...]) -> dict[str, float]:
         """Return the values of the parameters that vary, at a point of the grid."""
+        if len(point) != len(self.shape) or any(
+            not 0 <= place < most for place, most in zip(point, self.shape, strict=True)
+        ):
+            raise InputError("point", point, f"indices of the grid of shape {self.shape}")
         return {axis.name: float(axis.values[place]) for axis, place in zip(self.axes, point, strict=True)}
 
+    @checked
     def case_at(self, point: tuple[int, ...]) -> Case | Model:
         """Return the machine at a point; a case is bit for bit the same as with ``--set``.
 
@@ -158,8 +170,10 @@ class SweepPlan:
         """
         return self.case.replace(**{**self.fixed, **self.values(point)})
 
+    @checked
     def seed_of(self, point: tuple[int, ...]) -> np.random.SeedSequence:
         """Return the seed of a point, which does not depend on its chunk or worker."""
+        self.values(point)  # refuses what is no point of the grid
         number = int(np.ravel_multi_index(point, self.shape))
         return np.random.SeedSequence(self.seed, spawn_key=(number,))
 
@@ -229,13 +243,14 @@ def check_varied(case: Case | Model, name: str) -> None:
         raise InputError(f"axes.{name}", shown(name), allowed)
 
 
+@checked
 def plan_sweep(
     machine: Subject,
     axes: Sequence[GridAxis],
     work: Plan | StudyTask,
     *,
-    seed: int | None = None,
-    chunk: int | None = None,
+    seed: Seed | None = None,
+    chunk: Count | None = None,
 ) -> SweepPlan:
     """Plan a sweep in Python; a sweep file is read by :func:`~carom.sweeps.load_sweep`.
 

@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from carom.arguments import Count, checked
 from carom.core.processors import available_cores
 from carom.outcome import InputError
 from carom.progress import Reporter, ShowProgress, duration_words, shows_progress
@@ -95,12 +96,13 @@ def rate_words(rate: float, noun: str) -> str:
     return f"{number(rate, 3)} {noun}/s"
 
 
+@checked
 @shows_progress
 def run_sweep(
     plan: SweepPlan,
     store: str | os.PathLike[str] | None = None,
     *,
-    workers: int | None = None,
+    workers: Count | None = None,
     threads: bool | None = None,
     scheduler: str | Client | None = None,
     retry_failed: bool = False,
@@ -151,8 +153,6 @@ def run_sweep(
     >>> cm.run_sweep(plan).dataset.recovered.values
     array([0. , 0.2, 1. ])
     """
-    if workers is not None and workers < 1:
-        raise InputError("--workers", workers, "must be a whole number of at least 1")
     if scheduler is not None and threads:
         raise InputError("--threads", "given", "not allowed with --scheduler, whose workers compute")
     if scheduler not in (None, "slurm") and workers is not None:

@@ -24,6 +24,7 @@ from typing import TYPE_CHECKING, Any, Self
 import numpy as np
 from filelock import FileLock, Timeout
 
+from carom.arguments import checked
 from carom.files import sync_directory, write_whole
 from carom.outcome import CaromWarning, InputError
 from carom.sweeps.chunk import MOST_FAILURES, Chunk
@@ -266,6 +267,7 @@ class SweepStore:
         )
 
 
+@checked
 def open_sweep(path: str | os.PathLike[str]) -> xarray.Dataset:
     """Open the store of a sweep, finished or not.
 

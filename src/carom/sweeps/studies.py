@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
+from carom.arguments import Whole, checked
 from carom.outcome import STEADY_WORDS, InputError
 from carom.parameters import DIMENSIONLESS_FIELDS, Zones
 from carom.sweeps.variables import Dimension, Variable, with_si
@@ -57,6 +58,7 @@ _COST_OF_DISTURBANCE = 0.0001
 _COST_OF_SEARCH, _COST_OF_CHECK = 0.6, 0.0002
 
 
+@checked
 @dataclass(frozen=True)
 class StudyTask:
     """A study at each point of the grid.
@@ -75,7 +77,7 @@ class StudyTask:
         :func:`plan_sweep`.
     """
 
-    disturbances: int = 0
+    disturbances: Whole = 0
     least_damping: bool = False
     zone_limits: tuple[float, float, float] = Zones().limits
     has_scales: bool = False

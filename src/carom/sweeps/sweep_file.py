@@ -10,6 +10,7 @@ from typing import Any, Literal, TypeAlias, TypeVar, cast
 
 import pydantic
 
+from carom.arguments import checked
 from carom.disturbances import MODELS, Sample
 from carom.outcome import InputError, Problems, shown, together
 from carom.parameters import (
@@ -92,6 +93,7 @@ _ALLOWED = {
 }
 
 
+@checked
 def load_sweep(path: str | os.PathLike[str], settings: Iterable[str] = ()) -> SweepPlan:
     """Read a sweep file.
 

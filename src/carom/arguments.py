@@ -1,0 +1,283 @@
+"""What functions take, by their annotations: anything else is refused in one line, before it is used.
+
+:func:`checked` reads the annotations of a public function, or of the fields of a dataclass, and compares with them what is
+given.  A ``float`` is a finite real number and an ``int`` a whole one (``True`` is neither), an array holds finite numbers, and
+classes, literals, sequences and mappings say themselves what they are.  Ranges are annotations too, such as :data:`Count`.
+What depends on other values, such as a size with a unit on the scales of a machine, is checked where it is read.
+"""
+
+from __future__ import annotations
+
+import builtins
+import cmath
+import inspect
+import math
+import types
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from functools import wraps
+from numbers import Complex, Integral, Real
+from typing import (
+    TYPE_CHECKING,
+    Annotated,
+    Any,
+    ForwardRef,
+    Literal,
+    NamedTuple,
+    ParamSpec,
+    TypeVar,
+    Union,
+    get_args,
+    get_origin,
+    overload,
+)
+
+from carom.outcome import InputError
+
+if TYPE_CHECKING:
+    import numpy as np  # loaded where an array is read: the parameters of a machine do without it
+
+_Given = ParamSpec("_Given")
+_Value = TypeVar("_Value")
+_Class = TypeVar("_Class", bound=type[Any])
+_MOST = 10**15
+"""Largest number of anything: far more than can be stored or awaited."""
+
+
+class Kind(NamedTuple):
+    """A kind of argument: whether a value is of it, and what it is in words.  Annotated to a type, a range of it."""
+
+    holds: Callable[[Any], bool]
+    words: str
+
+
+def whole(least: int, most: int = _MOST) -> Kind:
+    """Whole numbers of a range."""
+    words = f"of at least {least}" if most == _MOST else f"from {least} to {most}"
+    return Kind(lambda number: least <= number <= most, f"a whole number {words}")
+
+
+Whole = Annotated[int, whole(0)]
+"""A whole number of at least 0."""
+Count = Annotated[int, whole(1)]
+"""A whole number of at least 1."""
+Seed = Annotated[int, Kind(lambda number: number >= 0, "a whole number of at least 0")]
+"""Seed of a generator of random numbers."""
+Positive = Annotated[float, Kind(lambda number: number > 0.0, "a finite number above 0")]
+"""A finite number above 0."""
+Infinity = Annotated[Any, Kind(lambda number: isinstance(number, float) and math.isinf(number), "infinity")]
+"""Infinity, where a number may also be that: ``float | Infinity``."""
+Reals = Annotated["np.ndarray", Kind(lambda values: _kind_of_numbers(values) in "iuf", "finite real numbers")]
+"""Array of finite real numbers."""
+
+
+@overload
+def checked(target: _Class) -> _Class: ...
+@overload
+def checked(target: Callable[_Given, _Value]) -> Callable[_Given, _Value]: ...
+def checked(target: Any) -> Any:
+    """Let a function, or the constructor of a class, refuse what its annotations do not allow.
+
+    It raises :class:`~carom.outcome.InputError`, which names the argument, the value and what is allowed.
+    """
+    if isinstance(target, type):
+        target.__init__ = checked(target.__init__)  # type: ignore[misc]
+        return target
+    door: list[_Door] = []  # made at the first call: an annotation may name what is defined later
+
+    @wraps(target)
+    def wrapper(*args: Any, **kwargs: Any) -> Any:
+        if not door:
+            door.append(_Door.of(target))
+        door[0].check(args, kwargs)
+        return target(*args, **kwargs)
+
+    return wrapper
+
+
+_BY_PLACE = (
+    inspect.Parameter.POSITIONAL_ONLY,
+    inspect.Parameter.POSITIONAL_OR_KEYWORD,
+    inspect.Parameter.VAR_POSITIONAL,
+    inspect.Parameter.VAR_KEYWORD,
+)
+
+
+class _Door(NamedTuple):
+    """What a function takes: its arguments by place, the names of further ones by place and by name, and the kind of each."""
+
+    places: tuple[str, ...]
+    others: str
+    further: str
+    kinds: Mapping[str, Kind]
+
+    @classmethod
+    def of(cls, function: Callable[..., Any]) -> _Door:
+        """Read the annotations of a function."""
+        names, kinds = _Names(inspect.unwrap(function).__globals__), {"": _ANYTHING}
+        of_kind: dict[Any, list[str]] = {}
+        for name, parameter in inspect.signature(function).parameters.items():
+            written = parameter.annotation
+            if isinstance(written, str):
+                written = eval(written, {}, names)
+            kinds[name] = _ANYTHING if written is parameter.empty else _kind_of(written)
+            of_kind.setdefault(parameter.kind, []).append(name)
+        only, both, others, further = (of_kind.get(kind, []) for kind in _BY_PLACE)
+        return cls((*only, *both), "".join(others), "".join(further), kinds)
+
+    def check(self, args: tuple[Any, ...], kwargs: Mapping[str, Any]) -> None:
+        """Refuse the first argument that is not of its kind; Python itself refuses too many and too few."""
+        placed = ((self.places[n] if n < len(self.places) else self.others, value) for n, value in enumerate(args))
+        for name, value in placed:
+            if not self.kinds[name].holds(value):
+                raise InputError(name, value, self.kinds[name].words)
+        for name, value in kwargs.items():
+            kind = self.kinds[name if name in self.kinds else self.further]
+            if not kind.holds(value):
+                raise InputError(name, value, kind.words)
+
+
+class _ByName(type):
+    """Stand-in for a class that only type checkers import: an instance is what has a class of this name."""
+
+    def __instancecheck__(cls, value: object) -> bool:
+        return any(base.__name__ == cls.__name__ for base in type(value).__mro__)
+
+    def __getattr__(cls, name: str) -> type:
+        if name.startswith("_"):
+            raise AttributeError(name)
+        return _ByName(name, (), {})
+
+
+class _Names(dict[str, Any]):
+    """Names of a module, and those that only type checkers import."""
+
+    def __missing__(self, name: str) -> Any:
+        return getattr(builtins, name) if hasattr(builtins, name) else _ByName(name, (), {})
+
+
+def _is_whole(value: Any) -> bool:
+    """Whether a value is a whole number that a processor can hold."""
+    return not isinstance(value, bool) and isinstance(value, Integral) and abs(int(value)) < 2**64
+
+
+def _is_real(value: Any) -> bool:
+    """Whether a value is a finite real number that a double can hold."""
+    try:
+        return not isinstance(value, bool) and isinstance(value, Real) and math.isfinite(value)
+    except OverflowError:
+        return False
+
+
+def is_number(value: Any) -> bool:
+    """Whether a value is a finite number, real or complex."""
+    return _is_real(value) or (isinstance(value, Complex) and not isinstance(value, Real) and cmath.isfinite(value))
+
+
+def _kind_of_numbers(value: Any) -> str:
+    """Code of NumPy for the kind of a number or of an array of numbers, all finite; ``-`` for anything else."""
+    import numpy as np
+
+    try:
+        values = np.asarray(value)
+    except (TypeError, ValueError, OverflowError):
+        return "-"
+    return values.dtype.kind if values.dtype.kind in "iufc" and np.isfinite(values).all() else "-"
+
+
+_NUMBERS = Kind(lambda value: _kind_of_numbers(value) != "-", "finite numbers")
+_ANYTHING = Kind(lambda value: True, "anything")
+_PLAIN: Mapping[Any, Kind] = {
+    Any: _ANYTHING,
+    object: _ANYTHING,
+    type(None): Kind(lambda value: value is None, ""),
+    bool: Kind(lambda value: type(value).__name__ in ("bool", "bool_"), "True or False"),
+    int: Kind(_is_whole, "a whole number"),
+    float: Kind(_is_real, "a finite number"),
+    complex: Kind(is_number, "a finite number, real or complex"),
+    str: Kind(lambda value: isinstance(value, str), "text"),
+}
+
+
+def _kind_of(written: Any) -> Kind:
+    """Kind of argument that an annotation stands for."""
+    origin, parts = get_origin(written), get_args(written)
+    if origin is Annotated:
+        return _ranged(_kind_of(parts[0]), *written.__metadata__)
+    if origin in (Union, types.UnionType):
+        return _any_of([_kind_of(part) for part in parts])
+    if origin is Literal:
+        options = f"one of: {', '.join(map(str, parts))}"
+        return Kind(lambda value: any(_is_same(value, one) for one in parts), options)
+    if origin is tuple and parts[-1] is not ...:
+        return _fixed([_kind_of(part) for part in parts])
+    if origin in (tuple, list, Sequence, Iterable):
+        return _several(_kind_of(parts[0]), Iterable if origin is Iterable else Sequence)
+    if origin is Mapping:
+        return _mapping(*(_kind_of(part) for part in parts))
+    if origin is Callable:
+        return Kind(callable, "a function")
+    if isinstance(written, ForwardRef) or getattr(origin or written, "__name__", "") == "ndarray":
+        return _NUMBERS
+    return _PLAIN.get(written) or _instances(origin or written)
+
+
+def _is_same(value: object, option: object) -> bool:
+    return isinstance(value, type(option)) and not isinstance(value, bool) and value == option
+
+
+def _ranged(whole: Kind, limits: Kind) -> Kind:
+    return Kind(lambda value: whole.holds(value) and limits.holds(value), limits.words)
+
+
+def _any_of(kinds: Sequence[Kind]) -> Kind:
+    *words, last = dict.fromkeys(kind.words for kind in kinds if kind.words)
+    return Kind(
+        lambda value: any(kind.holds(value) for kind in kinds), f"{', '.join(words)} or {last}" if words else last
+    )
+
+
+def _fixed(kinds: Sequence[Kind]) -> Kind:
+    def holds(value: Any) -> bool:
+        fits = _is_sequence(value) and len(value) == len(kinds)
+        return fits and all(kind.holds(part) for kind, part in zip(kinds, value, strict=True))
+
+    words = list(dict.fromkeys(kind.words for kind in kinds))
+    return Kind(holds, f"{len(kinds)} values in brackets, {'each' if len(words) == 1 else 'namely'} {', '.join(words)}")
+
+
+def _several(one: Kind, container: Any) -> Kind:
+    def holds(value: Any) -> bool:
+        several = _is_sequence(value)
+        if container is Iterable:
+            several = isinstance(value, Iterable) and not isinstance(value, str | bytes | Mapping)
+        return several and (isinstance(value, Iterator) or all(map(one.holds, value)))  # an iterator would be used up
+
+    return Kind(holds, f"a sequence, each entry {one.words}")
+
+
+def _is_sequence(value: Any) -> bool:
+    """Whether a value is a sequence of several, or an array that can be read as one."""
+    several = isinstance(value, Sequence) or hasattr(value, "__array__")
+    return several and not isinstance(value, str | bytes) and getattr(value, "ndim", 1) > 0
+
+
+def _mapping(key: Kind, entry: Kind) -> Kind:
+    def holds(value: Any) -> bool:
+        return isinstance(value, Mapping) and all(key.holds(name) and entry.holds(one) for name, one in value.items())
+
+    return Kind(holds, f"a mapping from {key.words} to {entry.words}")
+
+
+def _instances(kind: type) -> Kind:
+    """Instances of a class, or what follows a protocol: to find that out takes long, so types are remembered."""
+    known: set[type] = set()
+
+    def holds(value: object) -> bool:
+        if type(value) in known:
+            return True
+        fits = isinstance(value, kind) and not isinstance(value, type)
+        if fits:
+            known.add(type(value))
+        return fits
+
+    return Kind(holds, f"{'an' if kind.__name__[0] in 'AEIO' else 'a'} {kind.__name__}")

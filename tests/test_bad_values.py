@@ -1,0 +1,187 @@
+"""Every public function refuses what it cannot use in one line that names the argument, before it does anything."""
+
+from __future__ import annotations
+
+import inspect
+import math
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from importlib import import_module
+from typing import Literal
+
+import numpy as np
+import pytest
+from machines import PAPER
+
+import carom as cm
+from carom.arguments import checked
+from carom.disturbances import BladeLoss, ContactRelease, Sample, VelocityKick
+from carom.models import LinearRotor
+from carom.outcome import InputError
+from carom.parameters import MACHINE_FIELDS, Case, Machine, Scales
+from carom.sweeps import plan_sweep
+
+PACKAGES = [name for name, home in cm._HOMES.items() if home == "carom" and name != "proofs"]
+"""Public packages; ``proofs`` needs a library that may be missing."""
+
+
+class Nothing:
+    """What no function takes."""
+
+
+PLAIN = {
+    "float": [math.nan, math.inf, True, 10**400, 1j, b"x", [0.1]],
+    "int": [2.5, True, 10**400, "2", math.nan, [2]],
+    "bool": ["x", 1, None, []],
+    "str": [1, b"x", None, ["x"]],
+    "array": ["x", math.nan, [None], 10**400, [[1.0], [1.0, 2.0]], {}],
+}
+"""Values that are none of a type, of arguments that may be of this type only."""
+KINDS = {
+    **dict.fromkeys(("float", "Positive", "Longest"), "float"),
+    **dict.fromkeys(("int", "Count", "Whole", "Seed", "Impacts"), "int"),
+    **dict.fromkeys(("np.ndarray", "Reals"), "array"),
+    "bool": "bool",
+    "str": "str",
+}
+ELSEWHERE = {
+    "parameters.own_size",
+    "parameters.read_size",
+    "parameters.read_quantity",
+    "parameters.unknown_name",
+    "parameters.in_terms_of",
+}
+"""Functions that name the argument as their caller wants, or have a test of their own."""
+
+
+def functions():
+    """Public functions by name, ``package.function``, and the methods of public classes that are checked."""
+    for package in PACKAGES:
+        module = import_module(f"carom.{package}")
+        for name in getattr(module, "__all__", []):
+            value = getattr(module, name)
+            if inspect.isfunction(value):
+                yield f"{package}.{name}", value
+            for attribute, method in vars(value).items() if inspect.isclass(value) else ():
+                plain = getattr(method, "__func__", method)
+                if getattr(plain, "__code__", None) is CHECKED and attribute != "__init__":
+                    yield f"{package}.{name}.{attribute}", plain
+
+
+CHECKED = checked(lambda: None).__code__
+
+
+def refused(call) -> InputError:
+    """The error that a call raises, which must be one of input, of one line."""
+    with pytest.raises(InputError) as caught:
+        call()
+    assert "\n" not in str(caught.value)
+    return caught.value
+
+
+def arguments():
+    """Function and argument, and values that it cannot be."""
+    free = ("Any", "object", "<class 'inspect._empty'>")
+    for name, function in functions():
+        for parameter in inspect.signature(function).parameters.values() if name not in ELSEWHERE else ():
+            written = str(parameter.annotation)
+            if written in free or parameter.kind in (parameter.VAR_POSITIONAL, parameter.VAR_KEYWORD):
+                continue
+            values = [Nothing(), *PLAIN.get(KINDS.get(written, ""), [])]
+            yield pytest.param(function, parameter.name, values, id=f"{name}-{parameter.name}")
+
+
+ARGUMENTS = list(arguments())
+
+
+@pytest.mark.parametrize(("function", "name", "values"), ARGUMENTS)
+def test_what_an_argument_cannot_be_is_refused_before_all_else(function, name, values):
+    if name == "machine" and function is plan_sweep:
+        return  # models are loaded late there, and refuse it
+    for value in values:
+        problem = refused(lambda: function(**{name: value}))  # noqa: B023  (called at once)
+        assert problem.field in (name, "machine")
+
+
+def test_most_arguments_are_tried():
+    assert sum(len(tried.values[2]) for tried in ARGUMENTS) > 800
+
+
+@pytest.fixture(scope="module")
+def motion():
+    return cm.simulate(PAPER, cm.kick(0.3), 10.0)
+
+
+AT_USE = {
+    "simulate": ("machine", lambda motion: cm.simulate(0.1)),
+    "load": ("settings", lambda motion: cm.load("x.toml", None)),
+    "load text": ("settings", lambda motion: cm.load("x.toml", "gamma=0.1")),
+    "at text": ("times", lambda motion: motion.at("x")),
+    "at nan": ("times", lambda motion: motion.at(math.nan)),
+    "until": ("until", lambda motion: cm.simulate(PAPER, cm.kick(0.3), True)),
+    "impacts": ("impacts", lambda motion: cm.find_orbits(PAPER, impacts=2.5)),
+    "kick": ("speed", lambda motion: cm.kick(10**400)),
+    "state": ("start position", lambda motion: cm.simulate(PAPER, cm.State("x"), 1.0)),
+    "scales": ("scales", lambda motion: LinearRotor(*LINEAR, scales="x")),
+    "mass": ("mass", lambda motion: LinearRotor(10**400, *LINEAR[1:])),
+    "sample": ("seed", lambda motion: Sample(VelocityKick(0.5), 3, True)),
+    "grid": ("model", lambda motion: cm.Grid("x", (2, 2))),
+    "kick model": ("fastest", lambda motion: VelocityKick([])),
+    "complex kick": ("fastest", lambda motion: VelocityKick(1j)),
+    "release": ("motion", lambda motion: ContactRelease(np.zeros(2))),
+    "phase": ("phase", lambda motion: BladeLoss(0.5).release(PAPER, "x")),
+    "direction": ("direction", lambda motion: cm.BaseShock(0.1, 1.0).release(PAPER, math.nan)),
+    "case": ("zones", lambda motion: Case("name", PAPER, None, "x")),
+    "plan of nothing": ("machine", lambda motion: Sample(VelocityKick(0.5), 3).starts("x")),
+    "period": ("longest_period", lambda motion: cm.find_orbits(PAPER, math.inf)),
+    "trials": ("count", lambda motion: cm.attractors.exact_interval(3, 2)),
+    "derivative": ("x", lambda motion: cm.models.Jeffcott(PAPER).rates("x")),
+    "jacobian": ("jacobian", lambda motion: cm.orbits.multipliers(np.zeros(3))),
+    "place": ("position", lambda motion: cm.orbits.Section.from_state(0.0, 1.0)),
+    "figure": ("path_stem", lambda motion: cm.plots.save(cm.plots.radius(motion), "")),
+    "dataset": ("times", lambda motion: motion.to_dataset(np.zeros((2, 2)))),
+    "lengths": ("values", lambda motion: cm.plots.period_condition(cm.find_orbits(PAPER, 10.0), [1.0], [1.0, 2.0])),
+}
+"""What is read later than at the door, or was read wrongly: the field named, and a call."""
+LINEAR = (np.eye(1), 0.4 * np.eye(1), np.eye(1), [0.1], np.eye(1), [0.1], [0.9], [50.0])
+
+
+@pytest.mark.parametrize("name", AT_USE)
+def test_a_bad_value_is_named(motion, name):
+    field, call = AT_USE[name]
+    assert refused(lambda: call(motion)).field == field
+
+
+def test_a_size_that_is_no_double_is_refused_by_machines():
+    for value in (10**400, math.nan, True, None, [], "x"):
+        assert "mass" in refused(lambda: Machine(**{**FIELDS, "mass": value})).field  # noqa: B023
+
+
+FIELDS = {name: getattr(Machine.from_parameters(PAPER, Scales(50.0, 7e-4, 184.2)), name) for name in MACHINE_FIELDS}
+
+
+def test_annotations_are_read_as_they_stand():
+    @checked
+    def take(
+        several: Sequence[float] = (),
+        names: Iterable[str] = (),
+        pair: tuple[float, str] | None = None,
+        table: Mapping[str, int] | None = None,
+        side: Literal["up", 1] = "up",
+        call: Callable[[], None] | None = None,
+        *rest: float,
+        **others: bool,
+    ) -> tuple[object, ...]:
+        return (several, names, pair, table, side, call, rest, others)
+
+    for fine in (
+        {"several": np.ones(2)}, {"several": [1, 2.5, np.float32(1.0)]}, {"names": {"a"}}, {"names": iter("ab")}, {"pair": (1, "a")},
+        {"pair": None}, {"table": {"a": np.int64(1)}}, {"side": 1}, {"call": len}, {"more": np.True_},
+    ):  # fmt: skip
+        assert take(**fine)
+    for name, bad in (
+        ("several", "ab"), ("several", np.float64(1.0)), ("several", [1j]), ("names", "ab"), ("names", {"a": 1}), ("names", [1]),
+        ("pair", (1.0,)), ("pair", ("a", 1.0)), ("table", {1: 1}), ("table", {"a": 0.5}), ("side", True), ("side", "down"),
+        ("call", 3), ("more", 1),
+    ):  # fmt: skip
+        assert refused(lambda: take(**{name: bad})).field == name  # noqa: B023
+    assert refused(lambda: take((), (), None, None, "up", None, math.nan)).field == "rest"
