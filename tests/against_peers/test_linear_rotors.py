@@ -42,7 +42,9 @@ def motions(rotor, until, count):
     """Motions after kicks in several directions, or from the centre if it cannot levitate."""
     if (np.abs(rotor.model.system.arrays.offsets) >= 1.0).any():
         none = np.zeros(len(rotor.mass), complex)
-        return [simulate(rotor.model, State(none, none + 0.3 * k), until) for k in range(count)]
+        # The planes land in turn: first the one towards which a start tilts.
+        tilts = np.resize([1.0, -1.0], len(none))
+        return [simulate(rotor.model, State(none, 0.3 * k * tilts ** (k % 2)), until) for k in range(count)]
     kicks = [(2.0, 1.3), (1.2, 0.3), (0.7, 2.5), *((1.0 + 0.2 * k, 1.7 * k) for k in range(count))]
     return [simulate(rotor.model, kick(*push), until) for push in kicks[:count]]
 
@@ -136,19 +138,16 @@ def test_energy_is_lost_to_damping_and_gained_from_unbalance_and_contact(rotor):
             ]
             before, after = (rotor.energy(*state) for state in states)
             assert after - before == pytest.approx(gained, abs=1e-10)
-        for plane in range(len(rotor.planes)):
-            chosen = motion.is_impact & (motion.event_planes == plane)
-            log = motion.log_of(chosen)
-            times, work = log.time, log.contact_work + log.drive_work
-            energies = [
-                rotor.energy(
-                    *to_fixed(
-                        times, *(np.reshape(p, (len(times), len(rotor.mass))) for p in system.state(states[chosen]))
-                    )
-                )
-                for states in (motion.arrivals, motion.segment_amplitudes[1:])
-            ]
-            assert np.allclose(energies[1] - energies[0], work, rtol=0, atol=1e-11)
+        chosen, log = motion.is_impact, motion.log_of(motion.is_impact)
+        events = np.searchsorted(np.flatnonzero(chosen), motion.blows(chosen).events)
+        times, work = motion.segment_starts[1:][chosen], np.bincount(events, log.contact_work + log.drive_work)
+        energies = [
+            rotor.energy(
+                *to_fixed(times, *(np.reshape(p, (len(times), len(rotor.mass))) for p in system.state(states[chosen])))
+            )
+            for states in (motion.arrivals, motion.segment_amplitudes[1:])
+        ]
+        assert np.allclose(energies[1] - energies[0], work, rtol=0, atol=1e-11)
 
 
 def test_a_synchronous_rub_at_two_planes_attracts_as_its_exponents_say():

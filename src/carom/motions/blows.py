@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from carom.models import System
+from carom.motions.contacts import polar
 
 AT_WALL = 1e-9
 """Distance from its wall up to which a plane may have been struck together with another (:data:`carom.core.joint.ONE_INSTANT`), with
@@ -56,10 +57,14 @@ def blows_of(
     before, after : ndarray of complex, shape (n, N)
         Amplitudes just before and just after the event.
     """
-    arrays, places = system.arrays, np.arange(len(events))
-    position = before @ arrays.rows.T + arrays.offsets
+    arrays, places, count = system.arrays, np.arange(len(events)), lasting.shape[1]
+    states = [[system.at_planes(each, np.full(len(events), p)) for p in range(count)] for each in (before, after)]
+    position = np.stack([place for place, _ in states[0]], axis=-1)
     normal = position / np.abs(position)
-    changes = normal.conj() * ((after - before) @ arrays.rate_rows.T)
+    speeds = [
+        np.stack([radial + 1j * along for _, radial, along in (polar(*at) for at in each)], axis=-1) for each in states
+    ]
+    changes = speeds[1] - speeds[0]
     at_wall = lasting | (np.abs(position) >= 1.0 - AT_WALL)
     at_wall[places, planes] = True
     impulses = np.where(at_wall, changes, 0.0)
