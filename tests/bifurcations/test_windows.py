@@ -4,11 +4,12 @@ import numpy as np
 import pytest
 from compilation import sized
 
-from carom.bifurcations import orbit_windows
+from carom.bifurcations import orbit_windows, windows
 from carom.bifurcations.conditions import conditions_at, corrected
 from carom.bifurcations.solutions import orbit_solutions
 from carom.models import Jeffcott
 from carom.orbits.single_impact import orbits_within_reach
+from carom.outcome import CaromError
 from carom.parameters import Numbers, Parameters
 
 WITHOUT_REBOUND = Parameters(
@@ -104,3 +105,30 @@ def test_newtons_method_says_where_it_finds_no_orbit():
     solution = orbit_solutions(CLOSE_SPEEDS, 40.0)[0]
     near = corrected(solution.numbers, 1.001 * solution.period, 1.001 * solution.radial_speed)
     assert near == pytest.approx((solution.period, solution.radial_speed), rel=1e-10)
+
+
+MANY_ORBITS = Parameters(
+    gamma=0.00874, omega=0.82953, rho=0.2195, phi=0.3, mu=0.44998, d=0.9995, radius_ratio=156.02761
+)  # fmt: skip
+"""Weakly damped and nearly elastic: dozens of orbits, of long periods, none of them stable."""
+
+
+def test_orbits_of_long_periods_are_moved_to_the_next_value_in_small_steps(monkeypatch):
+    """In one step Newton's method moves none of them, so that each would be followed as a branch, up to six hundred in all."""
+    values = np.geomspace(0.5, 2.0, 30)[:5] * MANY_ORBITS.omega
+    followed = []
+    monkeypatch.setattr(windows, "continue_orbit", lambda orbit, *rest: followed.append(orbit) or fail())
+    windows.orbit_windows(MANY_ORBITS, "omega", values.tolist())
+    assert 0 < len(followed) < 50
+
+
+def fail():
+    raise CaromError("not followed")
+
+
+def test_where_too_many_orbits_would_be_followed_stable_ones_are_not_searched(monkeypatch):
+    values = (np.geomspace(0.5, 2.0, 30)[:3] * MANY_ORBITS.omega).tolist()
+    monkeypatch.setattr(windows, "MOST_FOLLOWED", 10)
+    found = orbit_windows(MANY_ORBITS, "omega", values)
+    assert found.stable is None
+    assert [(window.low.value, window.high.value) for window in found.possible] == [(values[0], values[-1])]

@@ -46,6 +46,12 @@ SHORT, VANISHED = 3e-3, 1e-4
 FAR = -1.0
 """Margin at which an orbit without a partner at the next value is not followed: it surely stays virtual."""
 
+MOST_FOLLOWED = 100
+"""Orbits, mostly unstable ones, that are followed from one value to the next: each takes some hundredths of a second."""
+
+SUBSTEPS = (1, 8, 64)
+"""Steps from one value to the next in which an orbit is moved there: those of long periods need many."""
+
 Level = Literal["possible", "stable"]
 
 
@@ -92,14 +98,15 @@ class OrbitWindows:
         Values at which all orbits were searched.
     possible : tuple of Window
         Windows where some orbit is admissible, stable or not.
-    stable : tuple of Window
-        Windows where some admissible orbit is stable.
+    stable : tuple of Window or None
+        Windows where some admissible orbit is stable; ``None`` where that was not searched, as more than :data:`MOST_FOLLOWED`
+        orbits would have to be followed.
     """
 
     parameter: str
     values: tuple[float, ...]
     possible: tuple[Window, ...]
-    stable: tuple[Window, ...]
+    stable: tuple[Window, ...] | None
 
 
 class _Member(NamedTuple):
@@ -142,25 +149,23 @@ def orbit_windows(
     for done, value in enumerate(values):
         columns.append(_members(along.move(rotor, value)))
         tell(0.7 * (done + 1) / len(values))
-    cells = list(pairwise(values))
-    partners = [_partners(*pair) for pair in pairwise(columns)]
-    near = {level: _near_zero(columns, partners, level) for level in _LEVELS}
-    pieces: dict[Level, list[Window]] = {level: [] for level in _LEVELS}
-    for place, (low, high) in enumerate(cells):
-        left, right, pairs = columns[place], columns[place + 1], partners[place]
-        whole = {level: _holds_between(left, right, pairs, near[level][place], level) for level in _LEVELS}
-        for level in _LEVELS:
-            if whole[level]:
+    cells = _cells(values, columns)
+    levels = _LEVELS
+    if sum(len(cell.to_follow(levels)) for cell in cells) > MOST_FOLLOWED:
+        levels = ("possible",)
+    pieces: dict[Level, list[Window]] = {level: [] for level in levels}
+    for place, cell in enumerate(cells):
+        low, high = cell.ends
+        for level in levels:
+            if cell.holds(level):
                 pieces[level].append(Window(WindowEnd(low), WindowEnd(high)))
-        if not all(whole.values()):
-            open_levels = [level for level in _LEVELS if not whole[level]]
-            chosen = _to_follow(left, right, pairs, [(level, near[level][place]) for level in open_levels])
-            for arc in _followed(chosen, parameter, (low, high)):
-                for level in _LEVELS:
-                    if not whole[level] and getattr(arc, level):
-                        pieces[level].append(Window(arc.low, arc.high))
+        for arc in _followed(cell.to_follow(levels), parameter, cell.ends):
+            for level in levels:
+                if not cell.holds(level) and getattr(arc, level):
+                    pieces[level].append(Window(arc.low, arc.high))
         tell(0.7 + 0.3 * (place + 1) / len(cells))
-    return OrbitWindows(parameter, tuple(values), _joined(pieces["possible"]), _joined(pieces["stable"]))
+    stable = _joined(pieces["stable"]) if "stable" in pieces else None
+    return OrbitWindows(parameter, tuple(values), _joined(pieces["possible"]), stable)
 
 
 _LEVELS: tuple[Level, ...] = ("possible", "stable")
@@ -209,11 +214,12 @@ def _partners(left: list[_Member], right: list[_Member]) -> dict[int, int]:
         places = [index for index, member in enumerate(right) if (member.solution.numbers.mu < 0.0) == backward]
         if not places:
             continue
-        numbers = right[places[0]].solution.numbers
         others = np.array([right[index].solution[2:] for index in places])
-        for place, (solution, *_) in enumerate(left):
-            if (solution.numbers.mu < 0.0) == backward:
-                guess = corrected(numbers, solution.period, solution.radial_speed)
+        for place, (solution, possible, _) in enumerate(left):
+            if (solution.numbers.mu < 0.0) != backward:
+                continue
+            for steps in SUBSTEPS if possible > FAR else SUBSTEPS[:1]:
+                guess = _moved(solution, right[places[0]].solution.numbers, steps)
                 if guess is None:
                     continue
                 nearest = int(np.argmin(np.abs(others - guess).max(axis=1)))
@@ -224,7 +230,18 @@ def _partners(left: list[_Member], right: list[_Member]) -> dict[int, int]:
                     and partner not in found.values()
                 ):
                     found[place] = partner
+                    break
     return found
+
+
+def _moved(solution: Solution, numbers: Numbers, steps: int) -> tuple[float, float] | None:
+    """Period and radial speed to which a solution moves while the parameters change to others in some steps."""
+    start, end = np.array(solution.numbers[:-1]), np.array(numbers[:-1])
+    at: tuple[float, float] | None = (solution.period, solution.radial_speed)
+    for share in np.linspace(0.0, 1.0, steps + 1)[1:].tolist():
+        if at is not None:
+            at = corrected(Numbers(*((1.0 - share) * start + share * end).tolist()), *at)
+    return at
 
 
 def _same(period: float, speed: float, other_period: float, other_speed: float) -> bool:
@@ -253,30 +270,50 @@ def _near_zero(columns: list[list[_Member]], partners: list[dict[int, int]], lev
     return near
 
 
-def _holds_between(
-    left: list[_Member], right: list[_Member], pairs: dict[int, int], near: set[int], level: Level
-) -> bool:
-    """Whether one orbit has the property at both values, and is taken to have it between them."""
-    return any(
-        getattr(left[one], level) > 0.0 and getattr(right[other], level) > 0.0 and one not in near
-        for one, other in pairs.items()
-    )
+class _Cell(NamedTuple):
+    """Orbits at two neighbouring values, which of them continue into each other, and which may change and change back between."""
+
+    ends: tuple[float, float]
+    left: list[_Member]
+    right: list[_Member]
+    pairs: dict[int, int]
+    near: dict[Level, set[int]]
+
+    def holds(self, level: Level) -> bool:
+        """Whether one orbit has the property at both values, and is taken to have it between them."""
+        return any(
+            getattr(self.left[one], level) > 0.0
+            and getattr(self.right[other], level) > 0.0
+            and one not in self.near[level]
+            for one, other in self.pairs.items()
+        )
+
+    def to_follow(self, levels: tuple[Level, ...]) -> list[Solution]:
+        """Solutions that change between the values, or may change, if that can matter; of a pair the one with the larger margin."""
+        open_levels = [level for level in levels if not self.holds(level)]
+        if not open_levels:
+            return []
+        chosen = [member for k, member in enumerate(self.left) if k not in self.pairs and member.possible > FAR]
+        chosen += [
+            member for k, member in enumerate(self.right) if k not in self.pairs.values() and member.possible > FAR
+        ]
+        for one, other in self.pairs.items():
+            before, after = self.left[one], self.right[other]
+            if any(
+                one in self.near[level] or (getattr(before, level) > 0.0) != (getattr(after, level) > 0.0)
+                for level in open_levels
+            ):
+                chosen.append(max(before, after, key=lambda member: member.possible))
+        return [member.solution for member in sorted(chosen, key=lambda member: -member.possible)]
 
 
-def _to_follow(
-    left: list[_Member], right: list[_Member], pairs: dict[int, int], open_levels: list[tuple[Level, set[int]]]
-) -> list[Solution]:
-    """Solutions that change between two values, or may change; of a pair the one with the larger margin."""
-    chosen = [member for index, member in enumerate(left) if index not in pairs and member.possible > FAR]
-    chosen += [member for index, member in enumerate(right) if index not in pairs.values() and member.possible > FAR]
-    for one, other in pairs.items():
-        before, after = left[one], right[other]
-        if any(
-            one in near or (getattr(before, level) > 0.0) != (getattr(after, level) > 0.0)
-            for level, near in open_levels
-        ):
-            chosen.append(max(before, after, key=lambda member: member.possible))
-    return [member.solution for member in sorted(chosen, key=lambda member: -member.possible)]
+def _cells(values: Sequence[float], columns: list[list[_Member]]) -> list[_Cell]:
+    partners = [_partners(*pair) for pair in pairwise(columns)]
+    near = {level: _near_zero(columns, partners, level) for level in _LEVELS}
+    return [
+        _Cell(ends, columns[k], columns[k + 1], partners[k], {level: near[level][k] for level in _LEVELS})
+        for k, ends in enumerate(pairwise(values))
+    ]
 
 
 def _followed(solutions: Iterable[Solution], parameter: str, interval: tuple[float, float]) -> list[_Arc]:

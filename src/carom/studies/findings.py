@@ -275,6 +275,10 @@ def _remedies_along(study: Study, gain: Gain) -> list[str]:
         entry = study.range_of(motion, gain)
         if entry is not None and (entry.spans or motion != "stable-single-impact"):
             parts.append(f"{words} {say.where(gain, entry.spans, entry.searched)}")
+    if study.range_of("single-impact", gain) and not study.range_of("stable-single-impact", gain):
+        parts.append(
+            f"{_POSSIBLE['stable-single-impact'].rstrip(',')} were not searched: there are too many orbits to follow"
+        )
     along = name if say.scales is None else f"{name[0].upper()}{name[1:]}"  # A symbol keeps its case: Ω is not ω.
     return [f"{along} (this machine: {own}): {'; '.join(parts)}.", _recovery_words(study, gain)]
 

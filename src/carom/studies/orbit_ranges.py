@@ -24,23 +24,25 @@ def single_impact_ranges(parameters: Parameters, gain: Gain, progress: ShowProgr
     """Find where single-impact orbits are motions of the machine (:func:`~carom.bifurcations.orbit_windows`).
 
     Damping is searched from a fraction of the machine's own to where the rotor is far overdamped; stiffness from a
-    quarter of the machine's own to four times it.  Return the ranges of all admissible orbits, and of the stable ones;
-    none if no search is possible: for stiffness without damping, or with so little that there are too many orbits to
+    quarter of the machine's own to four times it.  Return the ranges of all admissible orbits, and of the stable ones if there are not
+    too many orbits to follow; none if no search is possible: for stiffness without damping, or with so little that there are too many orbits to
     list.
     """
     values = _values(parameters, gain)
     if values is None:
         return ()
     searched, step = Span(Edge(values[0]), Edge(values[-1])), values[1] / values[0] - 1.0
-    found: tuple[tuple[Window, ...], ...] = (), ()  # a balanced rotor has no such orbit
+    possible: tuple[Window, ...] = ()  # a balanced rotor has no such orbit
+    stable: tuple[Window, ...] | None = ()
     if parameters.rho > 0.0:
         windows = orbit_windows(parameters, gain, values, progress)
-        found = windows.possible, windows.stable
-    spans = [tuple(_span(parameters, gain, window, bool(stable)) for window in found[stable]) for stable in (0, 1)]
-    return (
-        MotionRange("single-impact", gain, spans[0], searched, step),
-        MotionRange("stable-single-impact", gain, spans[1], searched, step),
-    )
+        possible, stable = windows.possible, windows.stable
+    spans = tuple(_span(parameters, gain, window, stable=False) for window in possible)
+    found = [MotionRange("single-impact", gain, spans, searched, step)]
+    if stable is not None:
+        spans = tuple(_span(parameters, gain, window, stable=True) for window in stable)
+        found.append(MotionRange("stable-single-impact", gain, spans, searched, step))
+    return tuple(found)
 
 
 def _values(parameters: Parameters, gain: Gain) -> list[float] | None:
@@ -69,7 +71,7 @@ def _can_search(parameters: Parameters) -> bool:
     return parameters.gamma > 0.0 and longest_within_reach(Jeffcott(parameters)) is None
 
 
-def _span(parameters: Parameters, gain: Gain, window: Window, stable: bool) -> Span:
+def _span(parameters: Parameters, gain: Gain, window: Window, *, stable: bool) -> Span:
     return Span(_edge(parameters, gain, window.low, 1.0, stable), _edge(parameters, gain, window.high, -1.0, stable))
 
 
