@@ -104,7 +104,8 @@ _MEANINGS = {
     Outcome.CONTACT: "The flight reaches the wall with an outward radial velocity.",
     Outcome.GRAZING: (
         "The path touches the wall so nearly tangentially that double precision cannot decide whether it hits; "
-        "move the start by more than 1e-12 to decide. Without damping a motion may go on grazing for ever."
+        "move the start by more than 1e-12 to decide. Without damping a motion may go on grazing for ever; "
+        "and planes that jam under strong friction may leave no forces that obey the laws."
     ),
     Outcome.TIME_REACHED: "The motion was followed to the time asked for without settling.",
     Outcome.EVENT_LIMIT: "The motion was stopped at the largest allowed number of events; raise max_events.",

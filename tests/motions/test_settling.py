@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 import pytest
-from linear_rotors import tilting
+from linear_rotors import random_rotor, tilting
 from machines import PAPER
 from sliding_motions import ahead_of, assert_slides_to_the_rub
 
@@ -212,3 +212,23 @@ def test_a_motion_that_passes_by_a_repelling_orbit_goes_on():
     assert least_recurrence(system, amplitudes, contact, 1) == 1
     assert least_recurrence(system, amplitudes, contact, 6) == 1
     assert least_recurrence(system, amplitudes, contact, 0) == 0
+
+
+def test_a_whirl_that_never_repeats_is_known_for_what_it_is():
+    """Its stick and slip do not keep time with its turns: it never recurs, and goes on turning backward in contact."""
+    rotor = random_rotor(10_008, n=4, planes=1)
+    motion = simulate(rotor, carom.kick(2.0, angle=1.0))
+    assert motion.outcome is Outcome.BACKWARD_WHIRL
+    later = simulate(rotor, motion.final, 400.0)
+    assert (later.segment_phases[1:] != Phase.FLIGHT).all()  # it starts on the wall, in flight for no time
+    assert {Phase.FORWARD_SLIP, Phase.ROLLING} <= set(later.segment_phases.ravel().tolist())
+    turns = np.unwrap(np.angle(later.at_plane(np.linspace(0.0, 400.0, 40_000))[0])) / (2.0 * np.pi)
+    # Backward in the fixed frame, which the co-rotating one turns through forward.
+    assert turns[-1] - turns[0] < -1.5 * 400.0 / (2.0 * np.pi)
+
+
+def test_planes_that_jam_stop_a_motion():
+    """With ``μ = 1`` and closely coupled planes: pressed to its wall without contact there, and off it with contact."""
+    motion = simulate(random_rotor(10_178, n=3, planes=2), carom.kick(1.0, angle=1.6), max_events=20_000)
+    assert motion.outcome is Outcome.GRAZING
+    assert np.isfinite(motion.segment_amplitudes).all()
