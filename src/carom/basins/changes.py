@@ -51,20 +51,19 @@ class GainChange:
         """Root of the sum of the squared relative changes."""
         return math.hypot(*self.changes)
 
+    def told(self, found: GainMap, told_by: Case | None) -> tuple[float, ...]:
+        """Relative changes of what a machine's file states both parameters by; without one, of the parameters themselves.
 
-def told_changes(found: GainMap, change: GainChange, told_by: Case | None) -> tuple[float, ...]:
-    """Relative changes of what a machine's file states both parameters by; without one, of the parameters themselves.
-
-    They differ where an entry is not proportional to its parameter, as a P gain beside a negative stiffness is not.
-    """
-    if told_by is None:
-        return change.changes
-    return tuple(
-        in_terms_of(told_by, varied.name, new, digits=EXACT).value
-        / in_terms_of(told_by, varied.name, now, digits=EXACT).value
-        - 1.0
-        for varied, now, new in zip(found.axes, found.present, change.values, strict=True)
-    )
+        They differ where an entry is not proportional to its parameter, as a P gain beside a negative stiffness is not.
+        """
+        if told_by is None:
+            return self.changes
+        return tuple(
+            in_terms_of(told_by, varied.name, new, digits=EXACT).value
+            / in_terms_of(told_by, varied.name, now, digits=EXACT).value
+            - 1.0
+            for varied, now, new in zip(found.axes, found.present, self.values, strict=True)
+        )
 
 
 @checked

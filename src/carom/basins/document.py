@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from carom.basins.changes import WANTED, GainChange, told_changes
+from carom.basins.changes import WANTED, GainChange
 from carom.basins.classification import Basin
 from carom.basins.entropy import basin_entropy
 from carom.basins.gains import GainMap
@@ -142,7 +142,7 @@ def _entropy(basin: Basin) -> dict[str, Any] | None:
 
 def _terms(gains: GainMap, change: GainChange | None, case: Case) -> list[dict[str, Any]]:
     """Both parameters of a gain map in the terms of a machine's file: entry, unit, values, and the relative change found."""
-    changes = (None, None) if change is None else told_changes(gains, change, case)
+    changes = (None, None) if change is None else change.told(gains, case)
     told = []
     for varied, part in zip(gains.axes, changes, strict=True):
         stated = [in_terms_of(case, varied.name, float(value), digits=6) for value in gains.dataset[varied.name].values]

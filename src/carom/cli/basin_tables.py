@@ -52,8 +52,6 @@ def print_basin(screen: Console, basin: Basin, smallest: SmallestLoss | None, ha
 
 def print_gains(screen: Console, found: GainMap, change: GainChange | None, wanted: float, case: Case) -> None:
     """Print what a gain map says about the present machine, in the terms of its file."""
-    from carom.basins.changes import told_changes
-
     share = found.dataset["recovered"].values
     able = found.dataset["levitates"].values > 0.0
     back, of_what = found.present_share, found.population.words
@@ -90,7 +88,7 @@ def print_gains(screen: Console, found: GainMap, change: GainChange | None, want
     else:
         parts = ", ".join(
             f"{_value(case, name, value)} ({100 * part:+.3g} %)"
-            for name, value, part in zip(names, change.values, told_changes(found, change, case), strict=True)
+            for name, value, part in zip(names, change.values, change.told(found, case), strict=True)
         )
         screen.print(f"Least change found for {100 * wanted:g} %: {parts}; {change.share.words}.")
 

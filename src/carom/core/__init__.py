@@ -10,6 +10,7 @@ Nothing here knows units, files or results.  A kernel sees a rotor as the arrays
 ``block``            one block of flight: possible roots, state at a time
 ``events``           certified first crossing of the wall
 ``impact``           laws of impact and friction
+``joint``            impacts of several planes in one instant
 ``contact_series``   lasting contact as Taylor series
 ``taylor``           length of a step, sums and zeros of Taylor series
 ``rub``              when lasting contact changes, and what follows

@@ -1,17 +1,18 @@
 """Motions of the rotor: followed from one start or many, and evaluated.
 
-==================  =======================================================================
+==================  =============================================================================
 ``starts``          states, and kicks out of levitation
 ``trajectories``    one motion
 ``storage``         motions as datasets and files
 ``ensembles``       many motions, on all cores; only their endings are kept
 ``settling``        the record by which settling is recognised
 ``recurrence``      whether a motion that has recurred repeats or leaves, for rotors of several modes
+``blows``           impulses at the planes in each event, also where several are struck in one instant
 ``contacts``        load on the bearing: the log of impacts, stretches of lasting contact
 ``loads``           loads of a touchdown: forces, impulses, heat
 ``ledger``          energies of a motion
 ``spectrum``        forward and backward whirl at each multiple of the shaft speed
-==================  =======================================================================
+==================  =============================================================================
 """
 
 from carom.motions.contacts import ContactHistory, ContactLog, LastingContact

@@ -15,7 +15,6 @@ from matplotlib.patheffects import withStroke
 from matplotlib.ticker import PercentFormatter
 
 from carom.arguments import checked
-from carom.basins.changes import told_changes
 from carom.outcome import InputError
 from carom.parameters import SETTABLE, in_terms_of
 from carom.parameters.in_terms import EXACT
@@ -114,7 +113,7 @@ def gain_map(
     handles.append(Line2D([], [], marker="*", ms=9.0, mfc="white", mec="#1a1a1a", mew=0.7, ls="none", label=said))
     if change is not None and change.size > 0.0:
         there = told[0].of(change.values[0]), told[1].of(change.values[1])
-        parts = zip(told, told_changes(found, change, told_by), strict=True)
+        parts = zip(told, change.told(found, told_by), strict=True)
         said = ", ".join(f"{each.name} {100.0 * part:+.3g} %".replace("-", "\N{MINUS SIGN}") for each, part in parts)
         handles.append(_arrow(drawn, here, there, f"least change found for {100 * change.wanted:g} %: {said}"))
     drawn.set_xlabel(told[0].label)
