@@ -305,8 +305,16 @@ def test_simulate_for_people(carom, machine):
     code, out, err = carom("simulate", machine, "--kick", "12.894 mm/s,2 rad")
 
     assert (code, err) == (0, "")
-    for words in ("The rotor ends in forward rub", "283 impacts", "forward slip", "N s", "more: --csv FILE has all"):
+    for words in (
+        "The rotor ends in synchronous rub",
+        "283 impacts",
+        "forward slip",
+        "N s",
+        "more: --csv FILE has all",
+    ):
         assert words in out
+    row = next(line for line in out.splitlines() if " impact " in line)
+    assert row.split() == ["37.00448", "impact", "-144.9°", "4.31", "forward", "0.421", "-0.0631", "7.49"]
 
 
 def test_simulate_without_contact(carom, machine):

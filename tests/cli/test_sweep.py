@@ -53,6 +53,15 @@ def test_table_tells_what_was_done(carom, sweep_file, store):
     assert data.levitates.values.tolist() == [[1.0, 1.0]] * 4
 
 
+def test_seed_told_is_that_of_the_sweep(carom, sweep_file, store):
+    sampled = '[basins]\nstarts = 3\n[basins.disturbance]\nkind = "kick"\nfastest = "0.1 m/s"\n'
+    sweep_file.write_text("seed = 7\n" + sweep_file.read_text().replace("[study]\n", sampled))
+    _, out, _ = carom("sweep", sweep_file, "--out", store, "--threads", "--workers", 1)
+
+    assert "Seed 7." in " ".join(out.split())
+    assert "seed 0" not in out
+
+
 def test_same_command_goes_on(carom, sweep_file, store):
     carom("sweep", sweep_file, "--out", store, "--threads")
     code, out, _ = carom("sweep", sweep_file, "--out", store)

@@ -36,6 +36,21 @@ def rotor():
     return carom.models.Jeffcott(QUIET)
 
 
+@pytest.mark.parametrize(
+    ("given", "plain"),
+    [
+        (Grid(VelocityKick(0.5), np.array([2, 3])), Grid(VelocityKick(0.5), (2, 3))),
+        (Grid(VelocityKick(0.5), (np.int64(2), np.int64(3))), Grid(VelocityKick(0.5), (2, 3))),
+        (Sample(VelocityKick(0.5), np.int64(6), np.int64(1)), Sample(VelocityKick(0.5), 6, 1)),
+    ],
+    ids=["array", "numbers", "sample"],
+)
+def test_whole_numbers_of_numpy_are_taken(given, plain):
+    assert given == plain
+    assert hash(given) == hash(plain)
+    assert carom.map_basins(PAPER, given).dataset.attrs == carom.map_basins(PAPER, plain).dataset.attrs
+
+
 def test_kicks_are_those_of_simulate(rotor):
     starts = VelocityKick(1.0).starts(rotor, np.array([0.3, 0.7]), np.array([0.2, 4.0]))
     for place, (speed, angle) in enumerate([(0.3, 0.2), (0.7, 4.0)]):

@@ -204,6 +204,11 @@ def test_attributes_make_the_same_rotor_again():
         ({"mass": "heavy"}, "mass"),
         ({"drive": [[1.0, 2.0], [3.0]]}, "drive"),
         ({"forcing": [[1.0, 2.0], [3.0]]}, "forcing"),
+        ({"mass": np.eye(2, dtype=bool)}, "mass"),
+        ({"forcing": ["0.2", "0.0"]}, "forcing"),
+        ({"restitution": np.array([True, True])}, "restitution"),
+        ({"friction": ["0.1", "0.1"]}, "friction"),
+        ({"friction": np.array([0.1 + 1j, 0.1])}, "friction"),
     ],
 )
 def test_bad_matrices_are_refused(changes, named):

@@ -1,6 +1,7 @@
 """Advice: attacked with fresh disturbances of the fixed frame, in the terms of the file, within what the bearings can give."""
 
 import math
+import re
 
 import numpy as np
 import pytest
@@ -90,8 +91,11 @@ def test_gains_are_advised_where_the_file_has_gains():
     assert set(entries.items()) <= {("gamma", "derivative_gain"), ("omega", "proportional_gain")}
     for change in result.recommendation.changes:
         text = next(fact.text for fact in about(result.facts, "Recommendation") if change.terms.text in fact.text)
-        assert " A s/m" in text or " A/m" in text
+        unit = "A s/m" if change.gain == "gamma" else "A/m"
+        assert re.search(rf"tried (up|down) to [\d,.]+ {unit}$", text)
         assert change.check.recovers
+    beyond = [fact.text for fact in about(result.facts, "Recommendation") if fact.label == "Tried"]
+    assert all(re.search(r"values? (up|down) to [\d,.]+ A( s)?/m$", text) for text in beyond)
 
 
 def test_no_advice_beyond_the_limits_of_the_bearings():
@@ -101,6 +105,9 @@ def test_no_advice_beyond_the_limits_of_the_bearings():
     ample = cm.study(case_of(machine_of(current_limit="5000 A")))
     assert ample.recommendation.kind == "change"
     assert all(change.demand <= 1.0 for change in ample.recommendation.changes)
+    asked = [fact.text for fact in about(ample.facts, "Recommendation") if fact.label == "Bearings"]
+    assert asked
+    assert all("asked at this value" in text and "values beyond it may ask for more" in text for text in asked)
     scarce = cm.study(case_of(machine_of(current_limit="1 A")))
     assert scarce.recommendation.kind == "nothing-buildable"
     assert all(change.demand > 1.0 for change in scarce.recommendation.changes)

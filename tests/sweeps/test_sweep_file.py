@@ -120,6 +120,12 @@ def test_shock_is_read_in_standard_gravities(write):
     np.testing.assert_allclose([read.peak, read.duration], [meant.peak, meant.duration], rtol=1e-15)
 
 
+def test_the_example_names_the_kinds_of_disturbances():
+    (line,) = [line for line in (EXAMPLES / "sweep-gains.toml").read_text().splitlines() if line.startswith("kind = ")]
+    kind, others = line.removeprefix("kind = ").split("# or ")
+    assert [kind.strip(' "'), *others.split(", ")] == list(MODELS)
+
+
 @pytest.mark.parametrize("name", ["sweep-gains.toml", "sweep-speed.toml"])
 def test_examples_are_plans(name):
     plan = load_sweep(EXAMPLES / name)

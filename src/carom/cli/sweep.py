@@ -136,7 +136,8 @@ def _print(plan: SweepPlan, tally: Tally, failures: list[dict[str, Any]]) -> Non
     table.add_row("all", f"{tally.points:,}")
     grid = " x ".join(f"{axis.count} {axis.name}" for axis in plan.axes)
     screen.print(f"Sweep of {plan.name} ({plan.task.kind}): {grid}")
-    screen.print(f"Disturbances: {plan.task.words}.")
+    seed = f" Seed {plan.seed}." if plan.task.starts else ""
+    screen.print(f"Disturbances: {plan.task.words}.{seed}")
     screen.print(table)
     if tally.computed:
         rate = rate_words(tally.rate, "points")

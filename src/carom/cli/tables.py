@@ -14,8 +14,11 @@ from rich.padding import Padding
 from rich.table import Table
 from rich.text import Text
 
+from carom.attractors import MotionName
+from carom.attractors.settled import settled_motion
 from carom.cli.fitting import fitted, plain_table
 from carom.motions import Trajectory, touchdown_loads
+from carom.outcome import Outcome
 from carom.parameters.indentation import indentation_of_hit
 from carom.parameters.told import number
 from carom.studies import Study, Wording, check_loads
@@ -158,7 +161,7 @@ def print_motion(console: Console, case: Case, motion: Trajectory) -> None:
     """Print how a motion ended, and its contacts."""
     say = Wording(case.parameters.scales)
     log, contacts = motion.contacts, motion.lasting_contacts
-    console.print(Text(motion.outcome.meaning, style="bold"))
+    console.print(Text(_end_words(motion), style="bold"))
     if motion.multiplicity:
         console.print(f"It repeats after {counted(motion.multiplicity, 'impact')}.")
     turns = number(motion.time / (2.0 * math.pi), 3)
@@ -178,6 +181,16 @@ def print_motion(console: Console, case: Case, motion: Trajectory) -> None:
         f"At the end: U = {_complex(final.position)} c_r, U' = {_complex(final.velocity)} c_r Ω (co-rotating frame), "
         f"r = {say.radius(abs(final.position))}"
     )
+
+
+def _end_words(motion: Trajectory) -> str:
+    """Say how a motion ended; a forward rub by the name that studies give it."""
+    if motion.outcome is not Outcome.FORWARD_RUB:
+        return motion.outcome.meaning
+    settled = settled_motion(motion)
+    name = MotionName(motion.outcome, drifting=not settled.synchronous)
+    how = "turns with the shaft" if settled.synchronous else "slides in the sense of rotation"
+    return f"The rotor ends in {name}: it stays in contact with the touchdown bearing and {how}."
 
 
 def _print_loads(console: Console, say: Wording, case: Case, motion: Trajectory) -> None:
@@ -233,14 +246,18 @@ def _thresholds(study: Study) -> Table:
 
 def _events(say: Wording, motion: Trajectory) -> Table:
     """Return the table of impacts and lasting contacts in order of time; the middle of a long log is left out."""
-    numbers = ("time", "angle", "speed towards wall", "normal impulse", "friction impulse", "slip")
-    headings = ("time", "contact", "angle", "speed towards wall", "whirl", "normal impulse", "friction impulse", "slip")
+    speed, impulse, slip = (_unit_of(told(1.0)) for told in (say.velocity, say.impulse, say.slip))
+    time = f"time, {'ms' if say.scales else '1/Ω'}"
+    speeds, slips = f"speed towards wall, {speed}", f"slip, {slip}"
+    normal, friction = f"normal impulse, {impulse}", f"friction impulse, {impulse}"
+    numbers = (time, "angle", speeds, normal, friction, slips)
+    headings = (time, "contact", "angle", speeds, "whirl", normal, friction, slips)
     table = plain_table("Contacts", *headings, right=numbers, no_wrap=(*numbers, "whirl"))
     rows = _event_rows(say, motion)
     hidden = len(rows) - FIRST_EVENTS - LAST_EVENTS
     if hidden > 1:
-        note = ("…", f"{number(hidden, 12)} more: --csv FILE has all")
-        rows = [*rows[:FIRST_EVENTS], note, *rows[-LAST_EVENTS:]]
+        rows = [*rows[:FIRST_EVENTS], ("…",), *rows[-LAST_EVENTS:]]
+        table.caption, table.caption_justify = f"… {number(hidden, 12)} more: --csv FILE has all", "left"
     for row in rows:
         table.add_row(*row)
     return table
@@ -251,7 +268,7 @@ def _event_rows(say: Wording, motion: Trajectory) -> list[tuple[str, ...]]:
     factor = 1.0 if say.scales is None else 1e3 * say.scales.time
 
     def moment(time: float) -> str:
-        return f"{number(factor * time, 7)}{' ms' if say.scales else ''}"
+        return number(factor * time, 7)
 
     entries: list[tuple[float, tuple[str, ...]]] = []
     for place, time in enumerate(log.time.tolist()):
@@ -259,17 +276,26 @@ def _event_rows(say: Wording, motion: Trajectory) -> list[tuple[str, ...]]:
             moment(time),
             "impact",
             f"{math.degrees(log.angle[place]):.1f}°",
-            say.velocity(float(log.radial_speed[place])),
+            _number_of(say.velocity(float(log.radial_speed[place]))),
             "forward" if log.angular_speed[place] > -1.0 else "backward",
-            say.impulse(float(log.normal_impulse[place])),
-            say.impulse(float(log.tangential_impulse[place])),
-            "stops" if log.sticks[place] else say.slip(float(log.slip_after[place])),
+            _number_of(say.impulse(float(log.normal_impulse[place]))),
+            _number_of(say.impulse(float(log.tangential_impulse[place]))),
+            "stops" if log.sticks[place] else _number_of(say.slip(float(log.slip_after[place]))),
         )
         entries.append((time, row))
     for contact in motion.lasting_contacts:
         words = f"{contact.phase.label.replace('-', ' ')} for {say.time(contact.end - contact.start)}"
         entries.append((contact.start, (moment(contact.start), words)))
     return [row for _, row in sorted(entries, key=lambda entry: entry[0])]
+
+
+def _number_of(told: str) -> str:
+    """The number of a size such as ``60 mm/s``, for a column whose heading has the unit."""
+    return told.partition(" ")[0]
+
+
+def _unit_of(told: str) -> str:
+    return told.partition(" ")[2]
 
 
 def _complex(value: complex) -> str:

@@ -111,10 +111,16 @@ def echo_of_start(state: State, phase: float, scales: Scales | None) -> Echo:
     )
 
 
-def plan_words(plan: Plan, before: float | None, scales: Scales | None) -> str:
-    """Say which disturbances a plan tries on a machine with an eccentricity ``before`` them, in clearances, if there is one."""
+def plan_words(plan: Plan, before: float | None, scales: Scales | None, *, drawn: str | None = None) -> str:
+    """Say which disturbances a plan tries on a machine with an eccentricity ``before`` them, in clearances, if there is one.
+
+    ``drawn`` says how a sample is drawn where its own seed does not count.
+    """
     model = plan.model
-    how = f"a grid of {' x '.join(map(str, plan.shape))}" if isinstance(plan, Grid) else f"a sample (seed {plan.seed})"
+    if isinstance(plan, Grid):
+        how = f"a grid of {' x '.join(map(str, plan.shape))}"
+    else:
+        how = drawn or f"a sample (seed {plan.seed})"
     parts = [f"{plan.count} {_NAMES.get(model.kind, model.noun)}", how]
     if model.size is not None:
         size = model.size

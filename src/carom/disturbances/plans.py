@@ -54,6 +54,7 @@ class Grid(_Plan):
     shape: tuple[int, ...]
 
     def __post_init__(self) -> None:
+        object.__setattr__(self, "shape", tuple(map(int, self.shape)))  # as JSON and hashes need them, not NumPy's
         names = [coordinate.name for coordinate in self.model.coordinates]
         if len(self.shape) != len(names) or any(cells < 1 for cells in self.shape):
             given = "x".join(map(str, self.shape)) or None
@@ -115,6 +116,10 @@ class Sample(_Plan):
 
     count: Count
     seed: Seed = 0
+
+    def __post_init__(self) -> None:
+        for name in ("count", "seed"):
+            object.__setattr__(self, name, int(getattr(self, name)))  # as JSON needs it, not NumPy's
 
     def values(self) -> tuple[np.ndarray, ...]:
         """Value of each coordinate at each start, shape (count,)."""

@@ -251,6 +251,10 @@ class LinearRotor(Result):
 def _numbers(name: str, values: Any, kind: type) -> np.ndarray:
     """Array of the given numbers, a copy."""
     try:
-        return np.array(values, kind)
+        given = np.array(values)
     except (TypeError, ValueError, OverflowError):
-        raise InputError(name, values, "an array of numbers") from None
+        given = np.array("ragged")
+    real = kind is not complex
+    if given.dtype.kind not in ("iuf" if real else "iufc"):  # NumPy makes numbers of True, text and complex ones too
+        raise InputError(name, values, f"an array of {'real ' if real else ''}numbers")
+    return given.astype(kind)

@@ -88,7 +88,7 @@ def _place(study: Study, radius: float) -> str:
 
 def _change(study: Study, change: Change) -> str:
     """The change in the terms of the machine file, what it is in others, and how far beyond it was tried."""
-    say, gain, terms = study.wording, change.gain, change.terms
+    gain, terms = change.gain, change.terms
     beside = [
         *terms.beside,
         "there is none now" if math.isinf(change.ratio) else f"{_name(study, gain)} × {number(change.ratio, 3)}",
@@ -98,7 +98,7 @@ def _change(study: Study, change: Change) -> str:
     if change.bound == "about":
         return text
     farthest = max((check.value for check in change.beyond), key=lambda at: abs(at - change.value))
-    return f"{text}, tried {'up' if farthest > change.value else 'down'} to {say.gain(gain, farthest)}"
+    return f"{text}, tried {'up' if farthest > change.value else 'down'} to {stated(study.case, gain, farthest).text}"
 
 
 def _entry_words(entry: str) -> str:
@@ -132,7 +132,9 @@ def _details(study: Study, change: Change) -> Iterator[Fact]:
             if change.demand > 1.0
             else f"{number(100.0 * change.demand, 3)} % of the limit"
         )
-        yield _fact("Bearings", f"asked for at most {most} of the magnetic bearings", "sampled", detail=True)
+        beyond = "; values beyond it may ask for more" if change.beyond else ""
+        asked = f"asked at this value for at most {most} of the magnetic bearings{beyond}"
+        yield _fact("Bearings", asked, "sampled", detail=True)
     if change.whirl is not None:
         fast = study.wording.velocity(change.whirl.certain)
         remains = f"{Outcome.ROLLING.words}: it surely begins if, in lasting contact, the centre moves backward faster than {fast}"
@@ -141,13 +143,13 @@ def _details(study: Study, change: Change) -> Iterator[Fact]:
 
 def _tried(study: Study, change: Change) -> str:
     """Say how many disturbances were followed at the value and beyond it, and how many came back."""
-    say, gain, value = study.wording, change.gain, change.value
+    gain, value = change.gain, change.value
     text = check_words(study, change.check)
     if not change.beyond:
         return f"{text}; no value beyond it was tried"
     last = max((check.value for check in change.beyond), key=lambda at: abs(at - value))
     each = min(check.tried for check in change.beyond)
-    places = f"{counted(len(change.beyond), 'value')} {'up' if last > value else 'down'} to {say.gain(gain, last)}"
+    places = f"{counted(len(change.beyond), 'value')} {'up' if last > value else 'down'} to {stated(study.case, gain, last).text}"
     return f"{text}; beyond it none was lost of {each:,} at {'each of ' if len(change.beyond) > 1 else ''}{places}"
 
 
@@ -170,7 +172,7 @@ def _forced(study: Study, gain: Gain, check: Check) -> str:
     """Say which disturbance was lost at a nearer value."""
     lost = check.tried - check.drawn.count - sum(share.count for share in check.largest)
     example = f", such as {lost_words(study, check.example)}" if check.example else ""
-    return f"at {study.wording.gain(gain, check.value)} {lost:,} of {check.tried:,} {'was' if lost == 1 else 'were'} lost{example}"
+    return f"at {stated(study.case, gain, check.value).text} {lost:,} of {check.tried:,} {'was' if lost == 1 else 'were'} lost{example}"
 
 
 def lost_words(study: Study, lost: Lost) -> str:

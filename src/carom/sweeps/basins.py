@@ -78,7 +78,7 @@ class BasinsTask:
     @property
     def words(self) -> str:
         """Say which disturbances are tried at each point."""
-        return f"{plan_words(self.tried, None, self.scales)}, at each point"
+        return f"{plan_words(self.tried, None, self.scales, drawn='a sample of its own')}, at each point"
 
     @property
     def seconds(self) -> float:
