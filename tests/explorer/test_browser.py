@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import shutil
 import subprocess
 import sys
@@ -120,6 +121,12 @@ def said(page, expression: str):
     return page.evaluate(f"() => {expression}")
 
 
+def shown_of(case):
+    """The basin that the page shows when nothing moves."""
+    largest = carom.disturbances.KickPlane(case.requirement.own(case.parameters.scales).kick)
+    return carom.map_basins(case, carom.Grid(largest, (120, 120)))
+
+
 def drag(page, name: str, shares: tuple[float, ...]) -> None:
     """Drag a slider to shares of its length, one after another, and let it go at the last."""
     slider = page.locator(f'[data-name="{name}"] .slider')
@@ -148,7 +155,7 @@ def painted(page, canvas: str) -> int:
 def test_it_loads_and_shows_the_machine(page):
     expect(page).to_have_title("keogh-cole – carom explore")
     answered(page, "table")
-    basin = carom.map_basins(carom.load(MACHINE), carom.Grid(carom.disturbances.KickPlane(), (120, 120)))
+    basin = shown_of(carom.load(MACHINE))
     page.wait_for_function("() => carom.basin.message.size === 120")
     assert said(page, "document.getElementById('share').textContent") == f"{100 * basin.share_recovered.fraction:.3g} %"
     assert page.locator("#legend li").count() == len(basin.motions) + 1
@@ -165,7 +172,7 @@ def test_dragging_a_slider_moves_the_basin_and_letting_go_refines_it(page):
     page.wait_for_function("() => carom.basin.message.size === 120")
     value = said(page, "carom.controls.value('damping')")
     case = carom.load(MACHINE, [f"damping={value} N s/m"])
-    basin = carom.map_basins(case, carom.Grid(carom.disturbances.KickPlane(), (120, 120)))
+    basin = shown_of(case)
     assert said(page, "document.getElementById('share').textContent") == f"{100 * basin.share_recovered.fraction:.3g} %"
     answered(page, "diagram", number)
     assert said(page, "carom.begun.parts.cursor.location") == pytest.approx(value, rel=1e-12)
@@ -257,6 +264,49 @@ def test_a_wrong_value_is_one_line_and_the_page_goes_on(page):
     answered(page, "basin", said(page, "carom.number"))
     page.locator("#reset").click()
     expect(page.locator("#box-damping")).to_have_value("1400")
+
+
+def test_a_wrong_value_in_the_address_leaves_the_rest_of_the_machine(open_page):
+    page = open_page("#damping=a+lot&friction=0.1")
+    expect(page.locator("#problem")).to_contain_text("damping = a lot: must be")
+    expect(page.locator("#box-friction")).to_have_value("0.1")
+    assert said(page, "carom.controls.value('friction')") == 0.1
+    assert said(page, "document.getElementById('sentence').textContent") != "Loading the kernels …"
+    page.close()
+
+
+def test_a_wrong_value_does_not_hide_what_is_still_computed(page):
+    page.locator("#box-damping").fill("2600")
+    page.keyboard.press("Enter")
+    number = said(page, "carom.number")
+    page.locator("#box-damping").fill("a lot")
+    page.keyboard.press("Enter")
+    expect(page.locator("#problem")).to_be_visible()
+    answered(page, "verdict", number)
+    assert said(page, "carom.basin.message.number") == number
+    expect(page.locator("#hardest.old, #headline.old")).to_have_count(0)
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "value"),
+    [
+        ("speed", "20 Hz", 1200.0),
+        ("speed", "1 759 rpm", 1759.0),
+        ("eccentricity", "300 um", 0.3),
+        ("stiffness", "980 N/mm", 980_000.0),
+    ],
+)
+def test_typed_units_place_slider_and_cursor(page, name, text, value):
+    page.locator(f"#box-{name}").fill(text)
+    page.keyboard.press("Enter")
+    number = said(page, "carom.number")
+    answered(page, "diagram", number)
+    # As exact as the server tells it, with twelve digits.
+    assert said(page, f"carom.controls.value('{name}')") == pytest.approx(value, rel=1e-11)
+    assert said(page, "carom.begun.parts.cursor.location") == pytest.approx(value, rel=1e-11)
+    low, high = (float(page.locator(f'[data-name="{name}"]').get_attribute(f"data-{end}")) for end in ("low", "high"))
+    share = math.log(value / low) / math.log(high / low) if name == "stiffness" else (value - low) / (high - low)
+    assert float(page.locator(f'[data-name="{name}"] .slider').input_value()) == pytest.approx(1000 * share, abs=1)
 
 
 def test_two_pages_are_independent(page, open_page):

@@ -72,7 +72,7 @@ def test_a_machine_is_answered_with_everything(page):
     assert answers["verdict"][-1]["text"] == "It may not."
     assert answers["diagram"][-1]["name"] == "damping"
     assert "2500.0 N s/m" in answers["exports"][-1]["toml"]
-    assert answers["problem"][-1]["text"] == ""
+    assert answers["reply"][-1]["text"] == ""
 
 
 def test_while_a_slider_is_held_only_what_is_quick_is_done(page):
@@ -80,7 +80,7 @@ def test_while_a_slider_is_held_only_what_is_quick_is_done(page):
     basin = page.numbered("basin", 1)
     assert basin["size"] <= 8
     page.numbered("table", 1)
-    assert {name for name, _ in page.seen} == {"problem", "motion", "table", "basin"}
+    assert {name for name, _ in page.seen} == {"reply", "motion", "table", "basin"}
 
 
 def test_while_a_slider_moves_on_only_the_picture_is_computed(page, monkeypatch):
@@ -101,12 +101,59 @@ def test_the_picture_is_as_fine_as_it_can_follow_the_hand(page):
 
 def test_a_wrong_value_changes_nothing_and_the_page_goes_on(page):
     page.session.show(request(1, held=True, damping="a lot"))
-    problem = page.until("problem")
+    problem = page.until("reply")
     assert problem["names"] == ["damping"]
     assert problem["text"].startswith("damping = a lot: must be a damping in N s/m")
     page.session.show(request(2, held=True, damping="2000"))
-    assert page.until("problem") == {"number": 2, "text": "", "names": []}
+    reply = page.until("reply")
+    assert (reply["number"], reply["shown"], reply["text"], reply["names"]) == (2, 2, "", [])
     assert page.numbered("basin", 2)["levitates"]
+
+
+def test_a_page_that_begins_with_a_wrong_value_shows_the_machine_without_it(page):
+    page.session.show(request(1, held=True, damping="a lot", friction="0.1"))
+    reply = page.until("reply")
+    assert (reply["shown"], reply["names"]) == (1, ["damping"])
+    assert (reply["values"]["damping"], reply["values"]["friction"]) == (1400.0, 0.1)
+    assert page.numbered("basin", 1)["levitates"]
+
+
+def test_a_wrong_value_leaves_what_is_shown_and_other_sliders_still_move(page):
+    page.session.show(request(1, held=True, damping="2500"))
+    page.session.show(request(2, held=True, damping="a lot"))
+    page.session.show(request(3, held=True, damping="a lot", friction="0.1"))
+    values = [page.numbered("reply", number)["values"] for number in (1, 2, 3)]
+    assert [value["damping"] for value in values] == [2500.0] * 3
+    assert [value["friction"] for value in values] == [values[0]["friction"]] * 2 + [0.1]
+    assert page.numbered("basin", 3)["levitates"]
+
+
+def test_a_wrong_value_does_not_swallow_what_is_being_computed(page, monkeypatch):
+    begun, go_on = threading.Event(), threading.Event()
+
+    def slow(rotor, fastest, tell):
+        begun.set()
+        go_on.wait(SOON)
+        tell(carom.progress.Progress(1.0, "found"))
+        return SimpleNamespace(value="none found")
+
+    monkeypatch.setattr(sessions, "find_loss", slow)
+    page.session.show(request(1))
+    assert begun.wait(SOON)
+    page.session.show(request(2, damping="a lot"))
+    assert page.numbered("reply", 2)["shown"] == 1
+    go_on.set()
+    assert page.numbered("loss", 1)["value"] == "none found"
+    assert page.numbered("verdict", 1)["text"] == "It may not."
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "value"),
+    [("speed", "20 Hz", 1200.0), ("speed", "1 759 rpm", 1759.0), ("eccentricity", "300 um", 0.3), ("stiffness", "980 N/mm", 980_000.0)],
+)  # fmt: skip
+def test_what_is_typed_is_told_in_the_unit_of_its_slider(page, name, text, value):
+    page.session.show(request(1, held=True, **{name: text}))
+    assert page.until("reply")["values"][name] == pytest.approx(value, rel=1e-11)  # as many digits are told
 
 
 def test_a_machine_whose_orbits_cannot_be_computed_is_told_as_such(page, monkeypatch):

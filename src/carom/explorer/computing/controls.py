@@ -77,8 +77,17 @@ _DIMENSIONLESS: Mapping[str, _Kind] = {
 
 def controls_of(case: Case) -> tuple[Control, ...]:
     """Controls of a machine: in engineering units, or of a dimensionless one its numbers."""
-    kinds = _DIMENSIONLESS if case.machine is None else _KINDS
-    return tuple(_control(name, kind, case.parameters.value(name)) for name, kind in kinds.items())
+    values = values_of(case)
+    return tuple(_control(name, kind, values[name]) for name, kind in _kinds_of(case).items())
+
+
+def values_of(case: Case) -> dict[str, float]:
+    """Values of a machine's controls, in their units."""
+    return {name: float(f"{case.parameters.value(name) / unit_of(name):.12g}") for name in _kinds_of(case)}
+
+
+def _kinds_of(case: Case) -> Mapping[str, _Kind]:
+    return _DIMENSIONLESS if case.machine is None else _KINDS
 
 
 def unit_of(name: str) -> float:
@@ -87,8 +96,7 @@ def unit_of(name: str) -> float:
     return read_quantity(PARAMETERS[name], f"1 {unit}") if unit else 1.0
 
 
-def _control(name: str, kind: _Kind, si: float) -> Control:
-    value = float(f"{si / unit_of(name):.12g}")
+def _control(name: str, kind: _Kind, value: float) -> Control:
     logarithmic = kind.logarithmic and value > 0.0
     high = min(max(kind.reach * value, kind.least), kind.most) or 1.0
     low = value / kind.reach if logarithmic or name == "speed" else 0.0
@@ -101,7 +109,7 @@ def with_settings(case: Case, settings: Mapping[str, str]) -> Case:
     A value is text: a number in the unit shown on the page, or with a unit of its own.  Unknown names and values that are not
     allowed are refused, all at once.
     """
-    kinds = _DIMENSIONLESS if case.machine is None else _KINDS
+    kinds = _kinds_of(case)
     problems = Problems()
     numbers = {}
     for name, text in settings.items():

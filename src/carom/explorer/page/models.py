@@ -19,10 +19,14 @@ class Requests(DataModel):
 
 
 class Answers(DataModel):
-    """What the server has found; each answer is a dictionary made by :mod:`carom.explorer.page.messages`."""
+    """What the server has found; each answer is a dictionary made by :mod:`carom.explorer.page.messages`.
+
+    ``reply`` answers each request for a machine at once: ``number`` of the request, ``shown``, the number of the request whose
+    machine is shown, ``values`` of its controls in their units, and in ``text`` and ``names`` what could not be used.
+    """
 
     state = Any(default=None)
-    problem = Any(default="")
+    reply = Any(default=None)
     basin = Any(default=None)
     motion = Any(default=None)
     table = Any(default=None)

@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from carom.explorer.background import Job, Worker
-from carom.explorer.computing.controls import Control, controls_of, with_settings
+from carom.explorer.computing.controls import Control, controls_of, values_of, with_settings
 from carom.explorer.computing.diagrams import picture_along
 from carom.explorer.computing.exports import Kick, Origin, as_options, as_python, as_toml
 from carom.explorer.computing.judgement import find_hardest, find_loss, judge
@@ -54,6 +54,8 @@ class _Shown:
     along: str
     radial: float
     tangential: float
+    held: bool = False
+    """Whether a slider is being dragged."""
 
 
 Work = Callable[[_Shown, Callable[[Progress], None]], messages.Message]
@@ -92,18 +94,15 @@ class Session:
 
     def show(self, request: Mapping[str, Any]) -> None:
         """Show another machine; see :class:`carom.explorer.page.models.Requests`."""
-        settings = {str(name): str(text) for name, text in dict(request.get("settings", {})).items()}
+        asked = {str(name): str(text) for name, text in dict(request.get("settings", {})).items()}
         number, held = int(request.get("number", 0)), bool(request.get("held", False))
-        try:
-            case = with_settings(self.origin.case, settings)
-        except InputError as problem:
-            self._answer(
-                "problem", {"number": number, "text": str(problem), "names": [one.field for one in problem.errors]}
-            )
-            return
-        self._answer("problem", {"number": number, "text": "", "names": []})
-        along = str(request.get("along") or self._shown.along)
+        settings, case, problem = self._usable(asked)
         before = self._shown
+        if problem is not None and before.number and (settings, held) == (before.settings, before.held):
+            # Nothing is to be shown anew, so what is being computed goes on.
+            self._reply(number, problem)
+            return
+        along = str(request.get("along") or before.along)
         self._shown = _Shown(
             number,
             case,
@@ -112,12 +111,35 @@ class Session:
             along if along in self.controls else before.along,
             before.radial,
             before.tangential,
+            held,
         )
+        self._reply(number, problem)
         self._long.drop()
         self._ask(self._quick, "basin", self._coarse, "basin", None if held else self._finish)
         pause = PAUSE if held else 0.0
         self._ask_quick("motion", self._motion, pause)
         self._ask_quick("table", lambda shown, tell: messages.table_message(table_of(shown.rotor)), pause)
+
+    def _usable(self, asked: Mapping[str, str]) -> tuple[Mapping[str, str], Case, InputError | None]:
+        """Settings with what cannot be used left as it is shown, their machine, and what cannot be used."""
+        try:
+            return asked, with_settings(self.origin.case, asked), None
+        except InputError as problem:
+            refused, shown = {one.field for one in problem.errors}, self._shown
+            kept = {name: text for name, text in asked.items() if name not in refused}
+            kept.update({name: shown.settings[name] for name in asked if name in refused & shown.settings.keys()})
+            try:
+                return kept, with_settings(self.origin.case, kept), problem
+            except InputError:  # values that are refused only together
+                return shown.settings, shown.case, problem
+
+    def _reply(self, number: int, problem: InputError | None) -> None:
+        """Say which machine is shown after a request, and what of it could not be used."""
+        shown = self._shown
+        reply = {"number": number, "shown": shown.number, "values": values_of(shown.case), "text": "", "names": []}
+        if problem is not None:
+            reply.update(text=str(problem), names=[one.field for one in problem.errors])
+        self._answer("reply", reply)
 
     def _finish(self) -> None:
         """Start everything that takes longer than a moment."""
