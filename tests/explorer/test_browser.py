@@ -50,9 +50,9 @@ SOON = 120_000
 
 
 @contextmanager
-def served(port: int = 0):
+def served(port: int = 0, *settings: str):
     """Run the program; yield the process and the address it prints."""
-    command = [sys.executable, "-c", PROGRAM, str(MACHINE), "--no-browser", "--port", str(port)]
+    command = [sys.executable, "-c", PROGRAM, str(MACHINE), *settings, "--no-browser", "--port", str(port)]
     with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
         try:
             address = process.stdout.readline().strip()
@@ -369,6 +369,24 @@ def test_a_server_that_stops_and_comes_back(open_page):
         with served(int(where.rstrip("/").rpartition(":")[2])):
             page.wait_for_function("() => document.getElementById('gone').hidden && carom.basin && carom.basin.message")
             assert said(page, "document.getElementById('share').textContent") == "100 %"
+        page.close()
+
+
+def test_what_was_set_for_one_machine_is_not_set_for_another(open_page):
+    with served() as (first, where):
+        page = open_page("", where)
+        page.locator("#box-damping").fill("6000")
+        page.keyboard.press("Enter")
+        answered(page, "basin", 2)
+        assert "damping=6000" in said(page, "location.hash")
+        first.terminate()
+        first.wait()
+        expect(page.locator("#gone")).to_be_visible(timeout=SOON)
+        with served(int(where.rstrip("/").rpartition(":")[2]), "--set", "mass=40 kg"):
+            page.wait_for_function("() => document.getElementById('gone').hidden && carom.basin && carom.basin.message")
+            expect(page.locator("#box-damping")).to_have_value("1400")
+            expect(page.locator("#problem")).to_contain_text("set for another machine")
+            assert said(page, "location.hash") == ""
         page.close()
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
 import shlex
 from collections.abc import Mapping
@@ -39,6 +40,11 @@ class Origin:
     path: str
     settings: tuple[str, ...]
     case: Case
+
+    @property
+    def mark(self) -> str:
+        """Text that differs from machine to machine: what is set on a page is not meant for another one."""
+        return hashlib.sha256(f"{self.case.name}\n{as_toml(self.case)}".encode()).hexdigest()[:10]
 
     def all_settings(self, changes: Mapping[str, str]) -> tuple[str, ...]:
         """``name=value`` for every parameter that differs from the file, those changed on the page last."""

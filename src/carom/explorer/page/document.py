@@ -46,6 +46,7 @@ def fill(document: Document, origin: Origin, ready: threading.Event) -> Session:
     document.template = _template()
     document.template_variables.update(
         name=origin.case.name,
+        mark=origin.mark,
         controls=[control_message(control) for control in session.controls.values()],
         style=_text("page.css"),
         script="\n".join(_text(name) for name in SCRIPTS),

@@ -6,7 +6,8 @@ carom.moved = null;
 carom.held = false;
 
 (() => {
-  const settings = {};
+  const settings = {}, machine = at("controls").dataset.machine;
+  let notice = "";
   const rows = [...document.querySelectorAll(".control")].map((row) => {
     const data = row.dataset;
     return { row, name: data.name, unit: data.unit, low: +data.low, high: +data.high, value: +data.value, log: data.log === "1",
@@ -27,8 +28,9 @@ carom.held = false;
     carom.number += 1;
     carom.held = held;
     carom.requests.machine = { number: carom.number, settings: { ...settings }, held, along: carom.moved || "" };
-    const words = new URLSearchParams(settings).toString();
-    if (!held) history.replaceState(null, "", words ? `#${words}` : location.pathname);
+    if (held) return;
+    const words = Object.keys(settings).length ? `#${new URLSearchParams({ of: machine, ...settings })}` : location.pathname;
+    history.replaceState(null, "", words);
   };
   // While a slider is held the next step is sent when the picture of the last one is there, or after a moment.
   let due = false, waitingFor = 0, timer = 0;
@@ -82,8 +84,10 @@ carom.held = false;
   // The server reads what was typed: its values place the sliders and the mark in the diagram.
   carom.controls.reply = (reply) => {
     carom.shown = reply.shown;
-    at("problem").hidden = !reply.text;
-    at("problem").textContent = reply.text;
+    const words = reply.text || notice;
+    notice = "";
+    at("problem").hidden = !words;
+    at("problem").textContent = words;
     for (const one of rows) {
       one.box.classList.toggle("wrong", reply.names.includes(one.name));
       if (carom.held || reply.number < carom.number) continue;
@@ -94,7 +98,12 @@ carom.held = false;
   };
   // The address keeps what was changed: it can be sent to a colleague, and survives a restart of the server.
   carom.controls.begin = () => {
-    for (const [name, text] of new URLSearchParams(location.hash.slice(1))) {
+    const kept = new URLSearchParams(location.hash.slice(1));
+    if ((kept.get("of") || machine) !== machine) {
+      notice = "The address holds values that were set for another machine. They are left out.";
+      for (const name of [...kept.keys()]) kept.delete(name);
+    }
+    for (const [name, text] of kept) {
       const one = rows.find((row) => row.name === name);
       if (!one) continue;
       settings[name] = text;
