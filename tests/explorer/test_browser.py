@@ -418,6 +418,30 @@ def test_a_connection_that_breaks_within_a_message(open_page):
     page.close()
 
 
+def test_malformed_messages_are_not_told_in_the_terminal(open_page):
+    with served() as (process, where):
+        page = open_page("", where)
+        for token, text in (("junk", "nonsense"), ("", "nonsense"), ("", "[")):
+            closed = page.evaluate(
+                """async ([address, token, text]) => {
+                  token ||= (await (await fetch(".")).text()).match(/"token":"([^"]+)"/)[1];
+                  const socket = new WebSocket(address, ["bokeh", token]);
+                  return new Promise((done) => {
+                    socket.onmessage = () => { for (let part = 0; part < 3; part += 1) socket.send(text); };
+                    socket.onclose = () => done("closed");
+                  });
+                }""",
+                [where.replace("http", "ws") + "ws", token, text],
+            )
+            assert closed == "closed"
+        page.locator("#box-damping").fill("6000")
+        page.keyboard.press("Enter")
+        answered(page, "basin", 2)
+        page.close()
+        process.terminate()
+        assert process.stderr.read() == ""
+
+
 def test_a_foreign_page_gets_nothing(browser, address):
     context = browser.new_context()
     page = context.new_page()
@@ -426,6 +450,12 @@ def test_a_foreign_page_gets_nothing(browser, address):
     # On a page of its own, an attacker reaches neither the page nor the connection.
     page.route("http://attacker.test/*", lambda route: route.fulfill(body="<p>hello</p>", content_type="text/html"))
     page.goto("http://attacker.test/")
+    # The browser shows an error in the frame instead.
+    said(
+        page,
+        f"(() => {{ const f = document.createElement('iframe'); f.src = '{address}'; document.body.append(f); return new Promise((done) => {{ f.onload = () => done(0); }}); }})()",
+    )
+    assert page.frames[1].locator("#basin").count() == 0
     assert said(page, f"fetch('{address}').then(() => 'read', () => 'refused')") == "refused"
     socket = address.replace("http", "ws") + "ws"
     opening = f"new Promise(done => {{ const s = new WebSocket('{socket}'); s.onopen = () => done('open'); s.onerror = () => done('refused'); }})"

@@ -160,11 +160,6 @@ class Session:
         if request.get("chosen"):
             self._answer("exports", self._exports())
 
-    def drop_work(self) -> None:
-        """Interrupt all work: nobody looks at the page."""
-        self._quick.drop()
-        self._long.drop()
-
     def cancel(self) -> None:
         """Interrupt what takes long."""
         self._long.drop()
