@@ -205,7 +205,7 @@ def test_a_diagram_is_kept_while_only_its_own_slider_moves(page, monkeypatch):
     assert made == ["damping", "damping"]
 
 
-def test_what_takes_long_can_be_stopped(page, monkeypatch):
+def test_what_takes_long_can_be_stopped_and_goes_on(page, monkeypatch):
     begun = threading.Event()
 
     def endless(rotor, fastest, tell):
@@ -222,6 +222,12 @@ def test_what_takes_long_can_be_stopped(page, monkeypatch):
     )
     page.session.cancel()
     page.until("state", lambda state: state["kind"] == "cancelled")
+    monkeypatch.setattr(sessions, "find_loss", lambda rotor, fastest, tell: SimpleNamespace(value="none found"))
+    page.session.resume()
+    assert page.numbered("loss", 1)["value"] == "none found"
+    page.until("state", lambda state: state["kind"] == "idle")
+    # The picture was fine before the work was stopped, and is not made again.
+    assert [value["size"] for name, value in page.seen if name == "basin"] == [8, 10]
     page.session.show(request(2, held=True))
     assert page.numbered("basin", 2)
 

@@ -42,6 +42,7 @@ def fill(document: Document, origin: Origin, ready: threading.Event) -> Session:
         "machine": session.show,
         "kick": session.kick,
         "cancel": lambda _: session.cancel(),
+        "resume": lambda _: session.resume(),
     }
     for name, act in asked.items():
         requests.on_change(name, partial(_act, act))

@@ -11,11 +11,13 @@ class Requests(DataModel):
 
     ``machine`` holds ``number``, ``settings`` (text by name), ``held`` (whether a slider is being dragged) and ``along``
     (the control moved last); ``kick`` holds ``number``, ``radial`` and ``tangential``, as shares of the largest kick.
+    ``cancel`` and ``resume`` count how often what takes long was stopped, and begun again.
     """
 
     machine = Any(default=None)
     kick = Any(default=None)
     cancel = Any(default=0)
+    resume = Any(default=0)
 
 
 class Answers(DataModel):

@@ -84,6 +84,7 @@ class Session:
         self._shown = _Shown(0, origin.case, {}, rotor, first, *FIRST)
         self._cost, self._reported = PATIENCE / COARSE**2, 0.0
         self._diagrams: dict[tuple[Any, ...], Any] = {}
+        self._left: dict[str, Work] = {}
         self._quick = Worker(("basin", "motion", "table"))
         self._long = Worker(tuple(_LONG), self._report)
 
@@ -115,6 +116,7 @@ class Session:
         )
         self._reply(number, problem)
         self._long.drop()
+        self._left = {}
         self._ask(self._quick, "basin", self._coarse, "basin", None if held else self._finish)
         pause = PAUSE if held else 0.0
         self._ask_quick("motion", self._motion, pause)
@@ -144,11 +146,14 @@ class Session:
     def _finish(self) -> None:
         """Start everything that takes longer than a moment."""
         self._answer("exports", self._exports())
-        self._ask_long("fine", lambda shown, tell: self._picture(shown, FINE, tell), "basin")
-        self._ask_long("loss", lambda shown, tell: vars(find_loss(shown.rotor, self._fastest(shown), tell)))
-        self._ask_long("hardest", lambda shown, tell: vars(find_hardest(shown.rotor, self._fastest(shown), tell)))
-        self._ask_long("diagram", self._diagram)
-        self._ask_long("verdict", lambda shown, tell: {"text": judge(shown.case, tell).headline})
+        self._left = {
+            "fine": lambda shown, tell: self._picture(shown, FINE, tell),
+            "loss": lambda shown, tell: vars(find_loss(shown.rotor, self._fastest(shown), tell)),
+            "hardest": lambda shown, tell: vars(find_hardest(shown.rotor, self._fastest(shown), tell)),
+            "diagram": self._diagram,
+            "verdict": lambda shown, tell: {"text": judge(shown.case, tell).headline},
+        }
+        self.resume()
 
     def kick(self, request: Mapping[str, Any]) -> None:
         """Show the motion after another kick, whose parts are given as shares of the largest."""
@@ -164,6 +169,13 @@ class Session:
         """Interrupt what takes long."""
         self._long.drop()
         self._answer("state", {"kind": "cancelled"})
+
+    def resume(self) -> None:
+        """Start again what takes long and has not been done for the machine shown."""
+        for kind, work in tuple(self._left.items()):
+            self._ask(self._long, kind, work, "basin" if kind == "fine" else kind)
+        if not self._left:
+            self._answer("state", {"kind": "idle"})
 
     def _fastest(self, shown: _Shown) -> float:
         scales = shown.rotor.scales
@@ -210,9 +222,6 @@ class Session:
     def _ask_quick(self, kind: str, work: Work, pause: float = 0.0) -> None:
         self._ask(self._quick, kind, work, kind, pause=pause)
 
-    def _ask_long(self, kind: str, work: Work, name: str = "") -> None:
-        self._ask(self._long, kind, work, name or kind)
-
     def _ask(
         self,
         worker: Worker,
@@ -238,6 +247,8 @@ class Session:
                 self._answer(name, {"number": shown.number, "refused": f"unexpected {type(result).__name__}: {result}"})
             else:
                 self._answer(name, {**result, "number": shown.number})
+            if self._shown.number == shown.number:
+                self._left.pop(kind, None)
             if kind == tuple(_LONG)[-1]:
                 self._answer("state", {"kind": "idle"})
             if afterwards is not None and self._shown.number == shown.number:

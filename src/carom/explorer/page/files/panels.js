@@ -8,6 +8,7 @@ carom.panels = { exports: null };
     const box = at("state");
     clearInterval(compiling);
     at("cancel").hidden = state.kind !== "working";
+    at("resume").hidden = state.kind !== "cancelled";
     if (state.kind === "compiling") {
       const began = performance.now();
       const say = () => {
@@ -25,7 +26,7 @@ carom.panels = { exports: null };
       box.querySelector("span").textContent = state.kind === "cancelled" ? "Stopped. What had been found is shown." : "";
     }
   };
-  at("cancel").addEventListener("click", () => { carom.requests.cancel = (carom.requests.cancel || 0) + 1; });
+  for (const wish of ["cancel", "resume"]) at(wish).addEventListener("click", () => { carom.requests[wish] += 1; });
 
   const tile = (name, value, remark, old = false) => {
     at(name).textContent = value;
