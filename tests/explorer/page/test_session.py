@@ -46,7 +46,9 @@ def page(monkeypatch):
     monkeypatch.setattr(sessions, "COARSEST", 4)
     monkeypatch.setattr(sessions, "FINE", 10)
     # A study takes seconds; the verdict has a test of its own.
-    monkeypatch.setattr(sessions, "judge", lambda case, tell: SimpleNamespace(headline="It may not."))
+    monkeypatch.setattr(
+        sessions, "judge", lambda case, tell: SimpleNamespace(lead="It may not.", survived=("Kick: no.",))
+    )
     ready = threading.Event()
     ready.set()
     opened = Page(ready)
@@ -69,7 +71,7 @@ def test_a_machine_is_answered_with_everything(page):
     assert {name for name, values in answers.items() if values[-1] and values[-1].get("number") == 1} >= {
         "basin", "motion", "table", "loss", "hardest", "diagram", "verdict",
     }  # fmt: skip
-    assert answers["verdict"][-1]["text"] == "It may not."
+    assert answers["verdict"][-1] == {"lead": "It may not.", "survived": ["Kick: no."], "number": 1}
     assert answers["diagram"][-1]["name"] == "damping"
     assert "2500.0 N s/m" in answers["exports"][-1]["toml"]
     assert answers["reply"][-1]["text"] == ""
@@ -144,7 +146,7 @@ def test_a_wrong_value_does_not_swallow_what_is_being_computed(page, monkeypatch
     assert page.numbered("reply", 2)["shown"] == 1
     go_on.set()
     assert page.numbered("loss", 1)["value"] == "none found"
-    assert page.numbered("verdict", 1)["text"] == "It may not."
+    assert page.numbered("verdict", 1)["lead"] == "It may not."
 
 
 @pytest.mark.parametrize(

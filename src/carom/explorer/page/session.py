@@ -151,7 +151,7 @@ class Session:
             "loss": lambda shown, tell: vars(find_loss(shown.rotor, self._fastest(shown), tell)),
             "hardest": lambda shown, tell: vars(find_hardest(shown.rotor, self._fastest(shown), tell)),
             "diagram": self._diagram,
-            "verdict": lambda shown, tell: {"text": judge(shown.case, tell).headline},
+            "verdict": lambda shown, tell: messages.verdict_message(judge(shown.case, tell)),
         }
         self.resume()
 

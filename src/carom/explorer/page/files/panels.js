@@ -43,7 +43,7 @@ carom.panels = { exports: null };
     tile("share", message.share, message.share_remark);
     if (exact.loss !== message.number) tile("lost", message.lost, message.lost_remark);
     if (exact.hardest !== message.number) at("hardest").classList.add("old");
-    if (exact.verdict !== message.number) at("headline").classList.add("old");
+    if (exact.verdict !== message.number) for (const card of ["headline", "tried"]) at(card).classList.add("old");
     if (carom.held) for (const what of ["motion", "figures", "table"]) pale(what, true);
   };
   carom.panels.loss = (message) => {
@@ -56,8 +56,14 @@ carom.panels = { exports: null };
   };
   carom.panels.verdict = (message) => {
     exact.verdict = message.number;
-    at("headline").classList.remove("old");
-    at("headline").textContent = message.refused || message.text;
+    for (const card of ["headline", "tried"]) at(card).classList.remove("old");
+    at("headline").textContent = message.refused || message.lead;
+    at("tried").hidden = Boolean(message.refused);
+    at("survived").replaceChildren(...(message.survived || []).map((words) => {
+      const item = document.createElement("li");
+      item.textContent = words;
+      return item;
+    }));
   };
   carom.panels.table = carom.unhurried((message) => {
     const body = document.querySelector("#motions tbody");
