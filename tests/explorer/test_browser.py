@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 import shutil
 import subprocess
 import sys
@@ -237,7 +238,13 @@ def test_arrow_keys_move_the_kick(page):
 
 
 @pytest.mark.parametrize(
-    ("kind", "part"), [("toml", "damping = "), ("options", "--set 'damping=2500 N s/m'"), ("python", "cm.map_basins(")]
+    ("kind", "part"),
+    [
+        ("toml", "damping = "),
+        ("options", "--set 'damping=2500 N s/m'"),
+        ("command", "carom simulate "),
+        ("python", "cm.map_basins("),
+    ],
 )
 def test_the_machine_is_copied(page, kind, part):
     page.locator("#box-damping").fill("2500")
@@ -246,6 +253,20 @@ def test_the_machine_is_copied(page, kind, part):
     page.locator(f'[data-copy="{kind}"]').click()
     expect(page.locator("#copied")).to_contain_text("is in the clipboard")
     assert part in said(page, "navigator.clipboard.readText()")
+
+
+def test_the_command_that_is_copied_follows_the_kick_that_is_shown(page):
+    box = page.locator("#basin").bounding_box()
+    page.mouse.click(box["x"] + 0.7 * box["width"], box["y"] + 0.4 * box["height"])
+    page.wait_for_function(
+        "() => ['radial', 'tangential'].every((part) => carom.motion.message.kick[part] === carom.basin.kick[part])"
+    )
+    size, angle = re.match(r"A kick of ([\d.]+) mm/s at ([\d.]+)°", page.locator("#motion-words").inner_text()).groups()
+    page.wait_for_function("() => carom.panels.exports.command.includes('--kick')")
+    page.locator('[data-copy="command"]').click()
+    expect(page.locator("#copied")).to_contain_text("is in the clipboard")
+    copied = re.search(r"--kick '([\d.]+) mm/s,([\d.]+) deg'", said(page, "navigator.clipboard.readText()")).groups()
+    assert [f"{float(part):.3g}" for part in copied] == [size, angle]
 
 
 def test_without_a_clipboard_the_text_is_selected(page):

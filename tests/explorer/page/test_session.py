@@ -180,7 +180,7 @@ def test_a_kick_is_followed(page):
     page.session.kick({"number": 1, "radial": 0.5, "tangential": -0.25})
     motion = page.until("motion")
     assert motion["kick"] == {"radial": 0.5, "tangential": -0.25}
-    assert motion["words"].startswith("A kick of 92.6 mm/s ends in bouncing on B1,d; hardest impulse")
+    assert motion["words"].startswith("A kick of 92.6 mm/s at 185° ends in bouncing on B1,d; hardest impulse")
 
 
 @pytest.mark.parametrize("radial", [1.5, float("nan"), float("inf")])
@@ -192,7 +192,9 @@ def test_kicks_outside_the_picture_are_not_followed(page, radial):
 
 def test_a_chosen_kick_is_in_the_program_that_can_be_copied(page):
     page.session.kick({"number": 1, "radial": 0.5, "tangential": 0.0, "chosen": True})
-    assert "cm.State(" in page.until("exports")["python"]
+    exports = page.until("exports")
+    assert 'cm.kick("82.8532136 mm/s", ' in exports["python"]
+    assert "--kick '82.8532136 mm/s,21" in exports["command"]
 
 
 @pytest.mark.jit_only

@@ -11,7 +11,7 @@ from typing import Any
 from carom.explorer.background import Job, Worker
 from carom.explorer.computing.controls import Control, controls_of, values_of, with_settings
 from carom.explorer.computing.diagrams import picture_along
-from carom.explorer.computing.exports import Kick, Origin, as_options, as_python, as_toml
+from carom.explorer.computing.exports import Kick, Origin, as_command, as_options, as_python, as_toml
 from carom.explorer.computing.judgement import find_hardest, find_loss, judge
 from carom.explorer.computing.kicked_motion import follow_kick
 from carom.explorer.computing.kicks import FIRST, KickMap, largest_kick, map_kicks, rest_of
@@ -212,11 +212,12 @@ class Session:
 
     def _exports(self) -> messages.Message:
         shown, fastest = self._shown, self._fastest(self._shown)
-        kick = Kick(shown.radial * fastest, shown.tangential * fastest, fastest)
+        kick = Kick(rest_of(shown.rotor), shown.radial * fastest, shown.tangential * fastest, fastest)
         return {
             "toml": as_toml(shown.case),
             "options": as_options(self.origin, shown.settings),
-            "python": as_python(self.origin, shown.settings, rest_of(shown.rotor), kick, self.controls[shown.along]),
+            "command": as_command(self.origin, shown.settings, shown.rotor.scales, kick),
+            "python": as_python(shown.case, kick, self.controls[shown.along]),
         }
 
     def _ask_quick(self, kind: str, work: Work, pause: float = 0.0) -> None:

@@ -82,7 +82,7 @@ carom.panels = { exports: null };
     at("argument").textContent = message.argument;
   });
 
-  const words = { toml: "machine file", options: "options of the command line", python: "program" };
+  const words = { toml: "machine file", options: "options of the command line", command: "command", python: "program" };
   for (const button of document.querySelectorAll("[data-copy]")) {
     button.addEventListener("click", async () => {
       const text = carom.panels.exports ? carom.panels.exports[button.dataset.copy] : "";
