@@ -346,6 +346,19 @@ def test_two_pages_are_independent(page, open_page):
     second.close()
 
 
+def test_terms_of_engineers_are_read_and_kept_in_the_address(page, open_page):
+    page.locator("#box-eccentricity").fill("5000 g mm")
+    page.keyboard.press("Enter")
+    answered(page, "basin", said(page, "carom.number"))
+    expect(page.locator("#problem")).to_be_hidden()
+    # The rotor has 50 kg.
+    assert said(page, "carom.controls.value('eccentricity')") == pytest.approx(0.1, rel=1e-11)
+    again = open_page(said(page, "location.hash"))
+    expect(again.locator("#box-eccentricity")).to_have_value("5000 g mm")
+    assert said(again, "carom.controls.value('eccentricity')") == pytest.approx(0.1, rel=1e-11)
+    again.close()
+
+
 def test_what_was_set_is_in_the_address(open_page):
     page = open_page("#damping=6000+N+s%2Fm&friction=0.1")
     assert said(page, "document.getElementById('share').textContent") == "100 %"

@@ -48,6 +48,7 @@ def shown(given, changes):
         (origin(KEOGH, "damping_ratio=10 %"), {"stiffness": "1234567"}),
         (origin(KEOGH, "unbalance=9000 g mm"), {"eccentricity": "0.2 mm"}),
         (origin(RIG), {"speed": "1500", "friction": "0.1"}),
+        (origin(RIG), {"eccentricity": "90 g mm", "stiffness": "6000 A/m", "damping": "7 A s/m"}),
         (origin(RIG, "balance_grade=G 16", "force_current_factor=55 N/A"), {"speed": "1500", "damping": "700"}),
     ],
 )

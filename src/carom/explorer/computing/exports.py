@@ -11,7 +11,7 @@ import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from carom.explorer.computing.controls import Control, controls_of, unit_of, with_unit
+from carom.explorer.computing.controls import Control, controls_of, term_of, unit_of, with_unit
 from carom.explorer.computing.kicks import Rest
 from carom.motions import State
 from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, Case, Scales
@@ -73,7 +73,10 @@ class Origin:
             for setting in self.settings
             if set_by(_name(setting)) not in moved
         ]
-        return (*kept, *(f"{name}={with_unit(units[name], text)}" for name, text in changes.items()))
+        return (
+            *kept,
+            *(f"{term_of(self.case, name, text)}={with_unit(units[name], text)}" for name, text in changes.items()),
+        )
 
     def _in_si(self, setting: str) -> str:
         """A setting of a dimensionless number or of a term as one of the field that it sets.

@@ -107,7 +107,9 @@ carom.held = false;
       const one = rows.find((row) => row.name === name);
       if (!one) continue;
       settings[name] = text;
-      one.box.value = text.endsWith(` ${one.unit}`) ? text.slice(0, -one.unit.length - 1) : text;
+      // The unit stands beside the box; that of "90 g mm" is another one.
+      const number = text.endsWith(` ${one.unit}`) ? text.slice(0, -one.unit.length - 1) : "";
+      one.box.value = number && Number.isFinite(Number(number)) ? number : text;
       carom.moved = name;
       mark(one);
     }
