@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import asyncio
+import gc
 import json
 import re
 import socket
 import threading
-from contextlib import contextmanager
+import weakref
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 import pytest
@@ -19,11 +21,10 @@ from carom.outcome import InputError
 pytest.importorskip("bokeh", reason="needs the extra carom[explore]")
 
 from tornado.httpclient import AsyncHTTPClient, HTTPRequest
-from tornado.websocket import websocket_connect
+from tornado.websocket import WebSocketClosedError, websocket_connect
 
 from carom.explorer import server as servers
-from carom.explorer.page.session import Session
-from carom.explorer.server import WATCH, Explorer
+from carom.explorer.server import LEFT, Explorer
 
 MACHINE = str(Path(__file__).parents[2] / "examples" / "keogh-cole.toml")
 
@@ -110,31 +111,110 @@ def test_a_port_that_does_not_exist_is_refused(port):
         Explorer(Origin(MACHINE, (), carom.load(MACHINE)), port)
 
 
+def workers():
+    return [thread for thread in threading.enumerate() if thread.name == "carom explore"]
+
+
+def connect(explorer, run, token=None, protocol="bokeh"):
+    """Open a session, as a page does with the key in its text."""
+    token = token or re.search(r'"token":"([^"]+)"', status(run, explorer.address).body.decode())[1]
+    request = HTTPRequest(
+        explorer.address.replace("http", "ws") + "ws", headers={"Origin": explorer.address.rstrip("/")}
+    )
+    connection = run(websocket_connect(request, subprotocols=[protocol, token]))
+    run(connection.read_message())
+    return connection
+
+
+def all_closed(explorer, run):
+    """Wait until no session is left."""
+
+    async def wait():
+        while explorer._server.get_sessions("/"):
+            await asyncio.sleep(0.05)
+
+    run(asyncio.wait_for(wait(), 60.0))
+
+
 def test_stopping_ends_the_work_of_every_page():
     with serving() as (explorer, run):
-        assert status(run, explorer.address).code == 200
-        working = [thread for thread in threading.enumerate() if thread.name == "carom explore"]
+        connect(explorer, run)
+        working = workers()
         assert len(working) == 2
     for thread in working:
         thread.join(30.0)
         assert not thread.is_alive()
 
 
-def test_a_page_that_is_closed_stops_its_work(monkeypatch):
-    dropped = threading.Event()
-    monkeypatch.setattr(Session, "drop_work", lambda self: dropped.set())
+def test_a_page_that_is_closed_ends_its_work_and_gives_its_memory_back():
     with serving() as (explorer, run):
-        page = status(run, explorer.address).body.decode()
-        token = re.search(r'"token":"([^"]+)"', page)[1]
-        address = explorer.address.replace("http", "ws") + "ws"
-        origin = explorer.address.rstrip("/")
-        connection = run(
-            websocket_connect(HTTPRequest(address, headers={"Origin": origin}), subprotocols=["bokeh", token])
-        )
-        run(connection.read_message())
-        dropped.clear()
-        run(asyncio.sleep(3 * WATCH / 1000))
-        assert not dropped.is_set()
+        connection = connect(explorer, run)
+        run(asyncio.sleep(3 * LEFT / 1000))
+        (session,) = explorer._server.get_sessions("/")
+        document, working = weakref.ref(session.document), workers()
+        del session
         connection.close()
-        run(asyncio.to_thread(dropped.wait, 60.0))
-        assert dropped.is_set()
+        all_closed(explorer, run)
+        for thread in working:
+            thread.join(30.0)
+            assert not thread.is_alive()
+        run(asyncio.sleep(0.1))
+        gc.collect()
+        assert document() is None
+
+
+def test_asking_for_the_page_is_cheap():
+    with serving() as (explorer, run):
+        first = status(run, explorer.address).body.decode()
+        for _ in range(1000):
+            assert status(run, explorer.address).code == 200
+        assert explorer._server.get_sessions("/") == []
+        assert workers() == []
+        second = status(run, explorer.address).body.decode()
+        # Nothing but the key is made anew.
+        keys = [re.search(r'"token":"([^"]+)"', text)[1] for text in (first, second)]
+        assert keys[0] != keys[1]
+        assert first.replace(keys[0], "") == second.replace(keys[1], "")
+
+
+@pytest.mark.parametrize("path", ["autoload.js?bokeh-autoload-element=1", "metadata", "favicon.ico", "elsewhere"])
+def test_what_the_page_does_not_use_is_closed(path):
+    with serving() as (explorer, run):
+        assert status(run, explorer.address + path).code == 404
+        assert explorer._server.get_sessions("/") == []
+
+
+def test_no_page_shows_it_in_a_frame():
+    with serving() as (explorer, run):
+        headers = status(run, explorer.address).headers
+        assert headers["X-Frame-Options"] == "DENY"
+        assert headers["Content-Security-Policy"] == "frame-ancestors 'none'"
+
+
+def test_as_many_pages_as_there_can_be(monkeypatch):
+    monkeypatch.setattr(servers, "MOST", 2)
+    with serving() as (explorer, run):
+        pages = [connect(explorer, run) for _ in range(2)]
+        refused = status(run, explorer.address)
+        assert refused.code == 503
+        assert refused.body.startswith(b"2 pages of carom explore are open")
+        with pytest.raises(Exception, match="503"):
+            connect(explorer, run, "any")
+        for page in pages:
+            page.close()
+        all_closed(explorer, run)
+        assert status(run, explorer.address).code == 200
+
+
+def test_malformed_sessions_leave_the_page_answering():
+    patch = [json.dumps({"msgid": "1", "msgtype": "PATCH-DOC"}), "{}", "{}"]
+    with serving() as (explorer, run):
+        for place in range(50):
+            token, protocol = [(None, "bokeh"), ("junk", "bokeh"), (None, "other")][place % 3]
+            connection = connect(explorer, run, token, protocol)
+            for part in (patch, ["nonsense"] * 3)[place % 2]:
+                with suppress(WebSocketClosedError):
+                    run(connection.write_message(part))
+            connection.close()
+        all_closed(explorer, run)
+        connect(explorer, run).close()

@@ -1,9 +1,15 @@
-"""The server: one address on this machine, which refuses requests of foreign pages."""
+"""The server: one address on this machine, which refuses requests of foreign pages and answers all others for little.
+
+A page is the same text for all; a session, which costs threads and memory, begins with the connection of the page.  Foreign pages can
+ask for the text, but neither connect nor show it in a frame of theirs.
+"""
 
 from __future__ import annotations
 
 import asyncio
 import errno
+import logging
+import os
 import socket
 import threading
 import uuid
@@ -17,16 +23,17 @@ from bokeh.application.handlers.function import FunctionHandler
 from bokeh.document import Document
 from bokeh.server.server import BaseServer
 from bokeh.server.tornado import BokehTornado
+from bokeh.util.token import generate_jwt_token, generate_session_id
 from tornado.httpserver import HTTPServer
 from tornado.httputil import HTTPServerRequest
-from tornado.ioloop import IOLoop, PeriodicCallback
+from tornado.ioloop import IOLoop
 from tornado.web import ErrorHandler, RequestHandler
 
 from carom.explorer.computing.exports import Origin
 from carom.explorer.computing.kicked_motion import follow_kick
 from carom.explorer.computing.kicks import largest_kick, map_kicks
 from carom.explorer.computing.motions import table_of
-from carom.explorer.page.document import fill
+from carom.explorer.page.document import TOKEN, fill, write_page
 from carom.explorer.page.session import Session
 from carom.models import Jeffcott
 from carom.outcome import CaromError, InputError
@@ -35,8 +42,10 @@ HERE = "127.0.0.1"
 NAMES = (HERE, "localhost")
 """Names under which a browser on this machine asks for the page."""
 PORT = 5006
-LEFT, WATCH = 10_000, 500
-"""Milliseconds after which the session of a closed page ends, and between two checks for closed pages."""
+LEFT = 500
+"""Milliseconds after which the session of a closed page ends with all its work, and between two checks for closed pages."""
+MOST = 32
+"""Pages that can be open at a time."""
 
 
 class _Alive(RequestHandler):
@@ -50,16 +59,52 @@ class _Alive(RequestHandler):
         self.write({"server": self.number})
 
 
-class _Tornado(BokehTornado):
-    """Refuses requests under a name other than those of this machine: a foreign page could let its own name resolve to it."""
+class _Page(RequestHandler):
+    """Answers with the page: the same text with a fresh key, by which the page opens its session."""
 
-    def __init__(self, applications: Any, hosts: list[str], **options: Any) -> None:
+    def initialize(self, text: str) -> None:
+        self.text = text
+
+    def set_default_headers(self) -> None:
+        self.set_header("Cache-Control", "no-store")
+        self.set_header("Content-Security-Policy", "frame-ancestors 'none'")
+        self.set_header("X-Frame-Options", "DENY")
+
+    def get(self) -> None:
+        self.write(self.text.replace(TOKEN, generate_jwt_token(generate_session_id())))
+
+
+class _Full(_Page):
+    """Says that no further page can be opened."""
+
+    def get(self) -> None:
+        self.set_status(503)
+        self.set_header("Content-Type", "text/plain; charset=utf-8")
+        self.write(
+            f"{MOST} pages of carom explore are open, which is as many as there can be. Close one, and load this one again."
+        )
+
+
+class _Tornado(BokehTornado):
+    """Refuses requests under a name other than those of this machine: a foreign page could let its own name resolve to it.
+
+    Of the addresses that Bokeh serves all are closed but the connection and its scripts: some begin a session with each request.
+    """
+
+    def __init__(self, applications: Any, hosts: list[str], origin: Origin, **options: Any) -> None:
         self._hosts = frozenset(hosts)
         super().__init__(applications, extra_websocket_origins=hosts, **options)
+        self._text = write_page(origin, self.resources())
 
     def find_handler(self, request: HTTPServerRequest, **options: Any) -> Any:
         if request.host.lower() not in self._hosts:
             return self.get_handler_delegate(request, ErrorHandler, {"status_code": 403})
+        if request.path in ("/", "/ws") and len(self.get_sessions("/")) >= MOST:
+            return self.get_handler_delegate(request, _Full, {"text": ""})
+        if request.path == "/":
+            return self.get_handler_delegate(request, _Page, {"text": self._text})
+        if request.path not in ("/ws", "/alive") and not request.path.startswith("/static/"):
+            return self.get_handler_delegate(request, ErrorHandler, {"status_code": 404})
         return super().find_handler(request, **options)
 
 
@@ -84,26 +129,25 @@ class Explorer:
         self.port = bound.getsockname()[1]
         self.loop = IOLoop.current()
         ready, hosts = threading.Event(), [f"{name}:{self.port}" for name in NAMES]
-        self._sessions: weakref.WeakKeyDictionary[Document, Session] = weakref.WeakKeyDictionary()
+        self._sessions: weakref.WeakSet[Session] = weakref.WeakSet()
 
         def open_page(document: Document) -> None:
-            self._sessions[document] = fill(document, origin, ready)
+            self._sessions.add(fill(document, origin, ready))
 
         application = Application(FunctionHandler(open_page))
         self._tornado = _Tornado(
             {"/": application},
             hosts,
+            origin,
             extra_patterns=[("/alive", _Alive, {"number": uuid.uuid4().hex})],
             use_index=False,
             unused_session_lifetime_milliseconds=LEFT,
-            check_unused_sessions_milliseconds=LEFT // 2,
+            check_unused_sessions_milliseconds=LEFT,
         )
         http = HTTPServer(self._tornado)
         http.add_socket(bound)
         self._server = BaseServer(self.loop, self._tornado, http)
         self._server.start()
-        self._watch = PeriodicCallback(self._drop_work_of_closed_pages, WATCH)
-        self._watch.start()
         threading.Thread(target=_compile, args=(origin, ready), name="carom compile", daemon=True).start()
 
     @property
@@ -120,16 +164,10 @@ class Explorer:
 
     def stop(self) -> None:
         """Close the port and end all sessions."""
-        self._watch.stop()
         self._server.stop()
         self._server.unlisten()
-        for session in self._sessions.values():
+        for session in self._sessions:
             session.close()
-
-    def _drop_work_of_closed_pages(self) -> None:
-        for page in self._server.get_sessions("/"):
-            if page.connection_count == 0 and page.document in self._sessions:
-                self._sessions[page.document].drop_work()
 
 
 def serve(origin: Origin, port: int = PORT, *, browser: bool = True, tell: Callable[[str], None] = print) -> None:
@@ -144,6 +182,8 @@ def serve(origin: Origin, port: int = PORT, *, browser: bool = True, tell: Calla
     tell : callable
         Receives the address, once it is served.
     """
+    if not os.environ.get("CAROM_DEBUG"):
+        _keep_quiet()
     loop = asyncio.new_event_loop()
     asyncio.set_event_loop(loop)
     try:
@@ -155,6 +195,12 @@ def serve(origin: Origin, port: int = PORT, *, browser: bool = True, tell: Calla
     finally:
         asyncio.set_event_loop(None)
         loop.close()
+
+
+def _keep_quiet() -> None:
+    """Keep out of the terminal what the libraries say of requests that are malformed."""
+    for library in ("bokeh", "tornado"):
+        logging.getLogger(library).setLevel(logging.CRITICAL)
 
 
 def _bind(port: int) -> socket.socket:

@@ -80,3 +80,26 @@ def test_nothing_else_is_taken_for_a_number(case, text):
 def test_only_controls_can_be_set(case):
     with pytest.raises(InputError, match="clearance = 1 mm: one of: stiffness, damping"):
         with_settings(case, {"clearance": "1 mm"})
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "setting"),
+    [
+        ("eccentricity", "90 g mm", "unbalance=90 g mm"),
+        ("eccentricity", "G 2.5", "balance_grade=G 2.5"),
+        ("stiffness", "6000 A/m", "proportional_gain=6000 A/m"),
+        ("stiffness", "60 Hz", "natural_frequency=60 Hz"),
+        ("damping", "7 A s/m", "derivative_gain=7 A s/m"),
+        ("damping", "10 %", "damping_ratio=10 %"),
+    ],
+)
+def test_what_engineers_state_instead_is_read_too(name, text, setting):
+    path = EXAMPLES / "tum-test-rig.toml"
+    assert with_settings(carom.load(path), {name: text}).machine == carom.load(path, [setting]).machine
+
+
+def test_a_gain_without_a_magnetic_bearing_is_refused_by_the_box_it_stands_in(case):
+    with pytest.raises(
+        InputError, match=r"^stiffness = 6000 A/m: is a proportional gain[^\n]*force_current_factor[^\n]*$"
+    ):
+        with_settings(case, {"stiffness": "6000 A/m"})

@@ -2,20 +2,25 @@
 
 from __future__ import annotations
 
+import json
 import shlex
 from dataclasses import replace
-from importlib import import_module
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 from compilation import sized
 
 import carom
+from carom.basins import Basin
+from carom.bifurcations import Diagram
+from carom.cli import main
 from carom.explorer.computing import exports
 from carom.explorer.computing.controls import controls_of, with_settings
-from carom.explorer.computing.exports import Kick, Origin, as_options, as_python, as_toml
+from carom.explorer.computing.exports import Kick, Origin, as_command, as_options, as_python, as_toml
 from carom.explorer.computing.kicks import rest_of
-from carom.models import Jeffcott
+from carom.models import Jeffcott, model_of
+from carom.motions import Trajectory
 from carom.parameters import Requirement, Shock
 
 EXAMPLES = Path(__file__).parents[3] / "examples"
@@ -43,6 +48,7 @@ def shown(given, changes):
         (origin(KEOGH, "damping_ratio=10 %"), {"stiffness": "1234567"}),
         (origin(KEOGH, "unbalance=9000 g mm"), {"eccentricity": "0.2 mm"}),
         (origin(RIG), {"speed": "1500", "friction": "0.1"}),
+        (origin(RIG), {"eccentricity": "90 g mm", "stiffness": "6000 A/m", "damping": "7 A s/m"}),
         (origin(RIG, "balance_grade=G 16", "force_current_factor=55 N/A"), {"speed": "1500", "damping": "700"}),
     ],
 )
@@ -67,30 +73,76 @@ def test_the_file_says_what_must_be_survived(path, tmp_path):
     assert carom.load(tmp_path / "machine.toml").requirement == case.requirement
 
 
+def pictures(monkeypatch):
+    """Have pictures written without being drawn; return what is written."""
+    written: list[str] = []
+    picture = SimpleNamespace(savefig=written.append)
+    for result in (Basin, Trajectory, Diagram):
+        monkeypatch.setattr(result, "plot", lambda self: picture)
+    return written
+
+
 @pytest.mark.jit_only
 @pytest.mark.parametrize("changes", [{"damping": "2500"}, {"damping": "300"}])
-def test_the_program_runs_and_computes_what_is_shown(changes, capsys, monkeypatch):
+def test_the_program_runs_anywhere_and_computes_what_is_shown(changes, capsys, monkeypatch, tmp_path):
     given = origin()
-    rotor = Jeffcott(shown(given, changes).parameters)
+    case = shown(given, changes)
+    rotor = Jeffcott(case.parameters)
     (along,) = (one for one in controls_of(given.case) if one.name == "damping")
-    program = as_python(given, changes, rest_of(rotor), Kick(0.3, 0.1, 1.5), along)
-    names: dict[str, object] = {}
-    for name in ("Basin", "Trajectory", "Diagram"):
-        module = next(
-            m
-            for m in map(
-                import_module,
-                ("carom.basins.classification", "carom.motions.trajectories", "carom.bifurcations.diagrams"),
-            )
-            if hasattr(m, name)
-        )
-        monkeypatch.setattr(getattr(module, name), "plot", lambda self: None, raising=False)
+    program = as_python(case, Kick(rest_of(rotor), 0.3, 0.1, 1.5), along)
+    assert given.path not in program
+    monkeypatch.chdir(tmp_path)
+    written, names = pictures(monkeypatch), {}
     exec(program.replace("(120, 120)", str((sized(20, 4),) * 2)), names)
     motion = carom.simulate(rotor, rest_of(rotor).kicked(0.3, 0.1), settle=True)
     assert names["motion"].outcome == motion.outcome
+    # The size and the angle of the kick are written with nine digits.
+    assert complex(names["motion"].start.velocity) == pytest.approx(complex(motion.start.velocity), abs=1e-8)
     assert names["basin"].rotor.parameters == rotor.parameters
     assert names["diagram"].interval == pytest.approx((280.0, 7000.0))
     assert motion.outcome.meaning in capsys.readouterr().out
+    assert written == [
+        name for name in ("basin.png", "motion.png", "diagram.png") if name != "basin.png" or rest_of(rotor).levitates
+    ]
+
+
+@pytest.mark.parametrize(
+    ("given", "changes"),
+    [
+        (origin(), {"damping": "2500"}),
+        (origin(), {"damping": "300"}),
+        (origin(PAPER), {}),
+        (origin(RIG), {"speed": "1500"}),
+    ],
+)
+def test_machines_are_told_in_the_program(given, changes):
+    case = shown(given, changes)
+    kick = Kick(rest_of(Jeffcott(case.parameters)), 0.1, 0.0, 1.0)
+    program = as_python(case, kick, controls_of(case)[0])
+    names: dict[str, object] = {}
+    exec(program[: program.index("basin =")], names)
+    assert model_of(names["machine"]).parameters == Jeffcott(case.parameters).parameters
+
+
+@pytest.mark.jit_only
+@pytest.mark.parametrize(
+    ("given", "changes"),
+    [
+        (origin(), {"damping": "2500"}),
+        (origin(), {"damping": "300"}),
+        (origin(PAPER), {"gamma": "0.3"}),
+        (origin(), {"speed": "1500"}),
+    ],
+)
+def test_the_command_follows_the_kick_that_is_shown(given, changes, capsys):
+    rotor = Jeffcott(shown(given, changes).parameters)
+    kick = Kick(rest_of(rotor), 0.3, 0.1, 1.5)
+    words = shlex.split(as_command(given, changes, rotor.scales, kick))
+    assert main([*words[1:], "--json"]) == 0
+    start = json.loads(capsys.readouterr().out)["start"]
+    found = complex(*start["V"])
+    # Size and angle are written with nine digits.
+    assert found == pytest.approx(complex(kick.state.velocity), abs=1e-8)
 
 
 def test_paths_and_texts_are_quoted(tmp_path):
@@ -98,6 +150,6 @@ def test_paths_and_texts_are_quoted(tmp_path):
     path.write_text(Path(KEOGH).read_text(encoding="utf-8"), encoding="utf-8")
     given = origin(str(path))
     rotor = Jeffcott(given.case.parameters)
-    program = as_python(given, {}, rest_of(rotor), Kick(0.1, 0.0, 1.0), controls_of(given.case)[0])
-    compile(program, "program", "exec")
+    command = as_command(given, {}, rotor.scales, Kick(rest_of(rotor), 0.1, 0.0, 1.0))
+    assert shlex.split(command)[2] == str(path)
     assert "'" not in exports.as_options(given, {"friction": "0.2"})

@@ -63,7 +63,7 @@ def test_each_flight_has_the_colour_of_its_cell():
 def test_a_small_kick_never_strikes():
     kicked = follow_kick(ROTOR, rest_of(ROTOR), 1e-4, 0.0)
     assert (kicked.outcome, kicked.hardest, len(kicked.impact_times), kicked.spans) == ("levitated", 0.0, 0, ())
-    assert kicked.words == "A kick of 0.0001 c_r Ω ends in levitation without an impact."
+    assert kicked.words == "A kick of 0.0001 c_r Ω at 217° ends in levitation without an impact."
     assert kicked.whole
 
 

@@ -15,9 +15,10 @@ from carom.explorer.computing.exports import Origin
 bokeh = pytest.importorskip("bokeh", reason="needs the extra carom[explore]")
 
 from bokeh.document import Document  # noqa: E402
+from bokeh.resources import Resources  # noqa: E402
 
 from carom.explorer.page import document as documents  # noqa: E402
-from carom.explorer.page.document import SCRIPTS, fill  # noqa: E402
+from carom.explorer.page.document import SCRIPTS, fill, write_page  # noqa: E402
 from carom.explorer.page.figures import looks, make_figures  # noqa: E402
 from carom.explorer.page.models import Answers  # noqa: E402
 from carom.plots import LOOKS  # noqa: E402
@@ -34,10 +35,13 @@ def filled():
     session.close()
 
 
-def rendered(document):
-    roots = {root.name: {"elementid": f"e{place}", "id": root.id} for place, root in enumerate(document.roots)}
-    given = {"bokeh_css": "", "bokeh_js": "", "plot_script": "", "roots": roots}
-    return document.template.render(**given, **document.template_variables)
+@pytest.fixture(scope="module")
+def page():
+    return written(carom.load(MACHINE))
+
+
+def written(case):
+    return write_page(Origin(MACHINE, (), case), Resources(mode="server", root_url=""))
 
 
 def test_it_holds_the_figures_and_what_browser_and_server_share(filled):
@@ -52,8 +56,14 @@ def test_only_wishes_come_back_from_the_browser(filled):
     assert back == {"Requests", "Answers"}
 
 
-def test_the_page_has_a_slider_and_a_box_for_every_control(filled):
-    page = rendered(filled)
+def test_the_page_has_a_place_for_each_figure_of_any_session(filled, page):
+    (roots,) = re.findall(r'"roots":(\{[^}]*\})', page)
+    assert list(json.loads(roots)) == [root.id for root in filled.roots]
+    for place in json.loads(roots).values():
+        assert f'id="{place}"' in page
+
+
+def test_the_page_has_a_slider_and_a_box_for_every_control(filled, page):
     assert re.findall(r'data-name="(\w+)"', page) == [
         "stiffness",
         "damping",
@@ -67,23 +77,20 @@ def test_the_page_has_a_slider_and_a_box_for_every_control(filled):
 
 
 def test_names_of_machines_are_not_taken_for_markup():
-    document = Document()
     case = carom.load(MACHINE)
     strange = type(case)('<script>alert("x")</script>', case.parameters, case.machine, case.zones)
-    fill(document, Origin(MACHINE, (), strange), threading.Event()).close()
-    assert "<script>alert" not in rendered(document)
+    assert "<script>alert" not in written(strange)
 
 
-def test_every_script_is_on_the_page_and_nothing_is_fetched_from_elsewhere(filled):
-    page = rendered(filled)
+def test_every_script_is_on_the_page_and_nothing_is_fetched_from_elsewhere(page):
     assert {path.name for path in FILES.glob("*.js")} == set(SCRIPTS)
     for name in SCRIPTS:
         assert (FILES / name).read_text(encoding="utf-8").strip() in page
     assert not re.findall(r"https?://", page)
 
 
-def test_the_scripts_use_only_what_the_page_and_the_answers_have(filled):
-    page, scripts = rendered(filled), "\n".join((FILES / name).read_text(encoding="utf-8") for name in SCRIPTS)
+def test_the_scripts_use_only_what_the_page_and_the_answers_have(page):
+    scripts = "\n".join((FILES / name).read_text(encoding="utf-8") for name in SCRIPTS)
     for name in re.findall(r'\bat\("([\w-]+)"\)', scripts):
         assert f'id="{name}"' in page, name
     shown = re.search(r"const shows = \{(.*?)\};", scripts, flags=re.DOTALL)[1]
@@ -96,8 +103,8 @@ def test_the_scripts_use_only_what_the_page_and_the_answers_have(filled):
         assert name in parts or name in ("push",), name
 
 
-def test_colours_are_those_of_the_figures(filled):
-    found = json.loads(filled.template_variables["looks"])
+def test_colours_are_those_of_the_figures(page):
+    found = json.loads(re.search(r"window\.carom_looks = (\{.*?\});", page)[1])
     assert found == looks()
     assert found["forward"] == LOOKS["forward"].colour
 

@@ -46,7 +46,9 @@ def page(monkeypatch):
     monkeypatch.setattr(sessions, "COARSEST", 4)
     monkeypatch.setattr(sessions, "FINE", 10)
     # A study takes seconds; the verdict has a test of its own.
-    monkeypatch.setattr(sessions, "judge", lambda case, tell: SimpleNamespace(headline="It may not."))
+    monkeypatch.setattr(
+        sessions, "judge", lambda case, tell: SimpleNamespace(lead="It may not.", survived=("Kick: no.",))
+    )
     ready = threading.Event()
     ready.set()
     opened = Page(ready)
@@ -69,10 +71,10 @@ def test_a_machine_is_answered_with_everything(page):
     assert {name for name, values in answers.items() if values[-1] and values[-1].get("number") == 1} >= {
         "basin", "motion", "table", "loss", "hardest", "diagram", "verdict",
     }  # fmt: skip
-    assert answers["verdict"][-1]["text"] == "It may not."
+    assert answers["verdict"][-1] == {"lead": "It may not.", "survived": ["Kick: no."], "number": 1}
     assert answers["diagram"][-1]["name"] == "damping"
     assert "2500.0 N s/m" in answers["exports"][-1]["toml"]
-    assert answers["problem"][-1]["text"] == ""
+    assert answers["reply"][-1]["text"] == ""
 
 
 def test_while_a_slider_is_held_only_what_is_quick_is_done(page):
@@ -80,7 +82,7 @@ def test_while_a_slider_is_held_only_what_is_quick_is_done(page):
     basin = page.numbered("basin", 1)
     assert basin["size"] <= 8
     page.numbered("table", 1)
-    assert {name for name, _ in page.seen} == {"problem", "motion", "table", "basin"}
+    assert {name for name, _ in page.seen} == {"reply", "motion", "table", "basin"}
 
 
 def test_while_a_slider_moves_on_only_the_picture_is_computed(page, monkeypatch):
@@ -101,12 +103,59 @@ def test_the_picture_is_as_fine_as_it_can_follow_the_hand(page):
 
 def test_a_wrong_value_changes_nothing_and_the_page_goes_on(page):
     page.session.show(request(1, held=True, damping="a lot"))
-    problem = page.until("problem")
+    problem = page.until("reply")
     assert problem["names"] == ["damping"]
     assert problem["text"].startswith("damping = a lot: must be a damping in N s/m")
     page.session.show(request(2, held=True, damping="2000"))
-    assert page.until("problem") == {"number": 2, "text": "", "names": []}
+    reply = page.until("reply")
+    assert (reply["number"], reply["shown"], reply["text"], reply["names"]) == (2, 2, "", [])
     assert page.numbered("basin", 2)["levitates"]
+
+
+def test_a_page_that_begins_with_a_wrong_value_shows_the_machine_without_it(page):
+    page.session.show(request(1, held=True, damping="a lot", friction="0.1"))
+    reply = page.until("reply")
+    assert (reply["shown"], reply["names"]) == (1, ["damping"])
+    assert (reply["values"]["damping"], reply["values"]["friction"]) == (1400.0, 0.1)
+    assert page.numbered("basin", 1)["levitates"]
+
+
+def test_a_wrong_value_leaves_what_is_shown_and_other_sliders_still_move(page):
+    page.session.show(request(1, held=True, damping="2500"))
+    page.session.show(request(2, held=True, damping="a lot"))
+    page.session.show(request(3, held=True, damping="a lot", friction="0.1"))
+    values = [page.numbered("reply", number)["values"] for number in (1, 2, 3)]
+    assert [value["damping"] for value in values] == [2500.0] * 3
+    assert [value["friction"] for value in values] == [values[0]["friction"]] * 2 + [0.1]
+    assert page.numbered("basin", 3)["levitates"]
+
+
+def test_a_wrong_value_does_not_swallow_what_is_being_computed(page, monkeypatch):
+    begun, go_on = threading.Event(), threading.Event()
+
+    def slow(rotor, fastest, tell):
+        begun.set()
+        go_on.wait(SOON)
+        tell(carom.progress.Progress(1.0, "found"))
+        return SimpleNamespace(value="none found")
+
+    monkeypatch.setattr(sessions, "find_loss", slow)
+    page.session.show(request(1))
+    assert begun.wait(SOON)
+    page.session.show(request(2, damping="a lot"))
+    assert page.numbered("reply", 2)["shown"] == 1
+    go_on.set()
+    assert page.numbered("loss", 1)["value"] == "none found"
+    assert page.numbered("verdict", 1)["lead"] == "It may not."
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "value"),
+    [("speed", "20 Hz", 1200.0), ("speed", "1 759 rpm", 1759.0), ("eccentricity", "300 um", 0.3), ("stiffness", "980 N/mm", 980_000.0)],
+)  # fmt: skip
+def test_what_is_typed_is_told_in_the_unit_of_its_slider(page, name, text, value):
+    page.session.show(request(1, held=True, **{name: text}))
+    assert page.until("reply")["values"][name] == pytest.approx(value, rel=1e-11)  # as many digits are told
 
 
 def test_a_machine_whose_orbits_cannot_be_computed_is_told_as_such(page, monkeypatch):
@@ -131,7 +180,7 @@ def test_a_kick_is_followed(page):
     page.session.kick({"number": 1, "radial": 0.5, "tangential": -0.25})
     motion = page.until("motion")
     assert motion["kick"] == {"radial": 0.5, "tangential": -0.25}
-    assert motion["words"].startswith("A kick of 92.6 mm/s ends in bouncing on B1,d; hardest impulse")
+    assert motion["words"].startswith("A kick of 92.6 mm/s at 185° ends in bouncing on B1,d; hardest impulse")
 
 
 @pytest.mark.parametrize("radial", [1.5, float("nan"), float("inf")])
@@ -143,7 +192,9 @@ def test_kicks_outside_the_picture_are_not_followed(page, radial):
 
 def test_a_chosen_kick_is_in_the_program_that_can_be_copied(page):
     page.session.kick({"number": 1, "radial": 0.5, "tangential": 0.0, "chosen": True})
-    assert "cm.State(" in page.until("exports")["python"]
+    exports = page.until("exports")
+    assert 'cm.kick("82.8532136 mm/s", ' in exports["python"]
+    assert "--kick '82.8532136 mm/s,21" in exports["command"]
 
 
 @pytest.mark.jit_only
@@ -158,7 +209,7 @@ def test_a_diagram_is_kept_while_only_its_own_slider_moves(page, monkeypatch):
     assert made == ["damping", "damping"]
 
 
-def test_what_takes_long_can_be_stopped(page, monkeypatch):
+def test_what_takes_long_can_be_stopped_and_goes_on(page, monkeypatch):
     begun = threading.Event()
 
     def endless(rotor, fastest, tell):
@@ -175,6 +226,12 @@ def test_what_takes_long_can_be_stopped(page, monkeypatch):
     )
     page.session.cancel()
     page.until("state", lambda state: state["kind"] == "cancelled")
+    monkeypatch.setattr(sessions, "find_loss", lambda rotor, fastest, tell: SimpleNamespace(value="none found"))
+    page.session.resume()
+    assert page.numbered("loss", 1)["value"] == "none found"
+    page.until("state", lambda state: state["kind"] == "idle")
+    # The picture was fine before the work was stopped, and is not made again.
+    assert [value["size"] for name, value in page.seen if name == "basin"] == [8, 10]
     page.session.show(request(2, held=True))
     assert page.numbered("basin", 2)
 

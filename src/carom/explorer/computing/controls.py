@@ -8,6 +8,8 @@ from dataclasses import dataclass, replace
 
 from carom.outcome import InputError, Problems, printable, shown
 from carom.parameters import PARAMETERS, Case, read_quantity
+from carom.parameters.fields import Field
+from carom.parameters.terms import TERM_FIELDS, set_by
 
 _BARE = re.compile(r"[\s\d.,'+-]*\d[\s\d.,']*(?:[eE][+-]?\d+)?\s*")
 """A number without a unit, which is in the unit shown beside its box."""
@@ -77,8 +79,17 @@ _DIMENSIONLESS: Mapping[str, _Kind] = {
 
 def controls_of(case: Case) -> tuple[Control, ...]:
     """Controls of a machine: in engineering units, or of a dimensionless one its numbers."""
-    kinds = _DIMENSIONLESS if case.machine is None else _KINDS
-    return tuple(_control(name, kind, case.parameters.value(name)) for name, kind in kinds.items())
+    values = values_of(case)
+    return tuple(_control(name, kind, values[name]) for name, kind in _kinds_of(case).items())
+
+
+def values_of(case: Case) -> dict[str, float]:
+    """Values of a machine's controls, in their units."""
+    return {name: float(f"{case.parameters.value(name) / unit_of(name):.12g}") for name in _kinds_of(case)}
+
+
+def _kinds_of(case: Case) -> Mapping[str, _Kind]:
+    return _DIMENSIONLESS if case.machine is None else _KINDS
 
 
 def unit_of(name: str) -> float:
@@ -87,8 +98,7 @@ def unit_of(name: str) -> float:
     return read_quantity(PARAMETERS[name], f"1 {unit}") if unit else 1.0
 
 
-def _control(name: str, kind: _Kind, si: float) -> Control:
-    value = float(f"{si / unit_of(name):.12g}")
+def _control(name: str, kind: _Kind, value: float) -> Control:
     logarithmic = kind.logarithmic and value > 0.0
     high = min(max(kind.reach * value, kind.least), kind.most) or 1.0
     low = value / kind.reach if logarithmic or name == "speed" else 0.0
@@ -98,22 +108,53 @@ def _control(name: str, kind: _Kind, si: float) -> Control:
 def with_settings(case: Case, settings: Mapping[str, str]) -> Case:
     """Return the machine with other values of its controls.
 
-    A value is text: a number in the unit shown on the page, or with a unit of its own.  Unknown names and values that are not
-    allowed are refused, all at once.
+    A value is text: a number in the unit shown on the page, with a unit of its own, or in a term that a machine file may state
+    instead, such as ``90 g mm`` for the eccentricity.  Unknown names and values that are not allowed are refused, all at once.
     """
-    kinds = _DIMENSIONLESS if case.machine is None else _KINDS
+    kinds = _kinds_of(case)
     problems = Problems()
-    numbers = {}
+    entries: dict[str, str | float] = {}
     for name, text in settings.items():
         if name not in kinds:
             problems.errors.append(InputError(shown(name), shown(text), f"one of: {', '.join(kinds)}"))
             continue
-        field = replace(PARAMETERS[name], bare=kinds[name].unit)
-        given = problems.attempt(read_quantity, field, with_unit(kinds[name].unit, text))
-        if given is not None:
-            numbers[name] = given
+        entry = problems.attempt(_entry, case, name, text)
+        if entry is not None:
+            entries.update([entry])
     problems.raise_all()
-    return case.replace(**numbers)
+    return case.replace(**entries)
+
+
+def _entry(case: Case, name: str, text: str) -> tuple[str, str | float]:
+    """The entry of a machine file that a text sets, with its value: the control itself, or a term that stands for it."""
+    unit = _kinds_of(case)[name].unit
+    try:
+        return name, read_quantity(replace(PARAMETERS[name], bare=unit), with_unit(unit, text))
+    except InputError:
+        term = term_of(case, name, text)
+        if term == name:
+            raise
+    try:
+        case.replace(**{term: text})
+    except InputError as problem:
+        # It may need what the file does not state, such as the force over current of a bearing.
+        raise InputError(name, shown(text), f"is a {TERM_FIELDS[term].words}: {problem}".replace("\n", "; ")) from None
+    return term, text
+
+
+def term_of(case: Case, name: str, text: str) -> str:
+    """The entry of a machine file in which a text for a control is stated; the control itself if no term has such a unit."""
+    if case.machine is None or _reads(PARAMETERS[name], with_unit(_kinds_of(case)[name].unit, text)):
+        return name
+    return next((term for term in TERM_FIELDS if set_by(term) == name and _reads(TERM_FIELDS[term], text)), name)
+
+
+def _reads(field: Field, text: str) -> bool:
+    try:
+        read_quantity(field, text)
+    except InputError:
+        return False
+    return True
 
 
 def with_unit(unit: str, text: str) -> str:

@@ -1,25 +1,44 @@
-"""The machine on the page as a machine file, as options of the command line, and as a program."""
+"""The machine on the page as a machine file, as options, as a command, and as a program."""
 
 from __future__ import annotations
 
+import cmath
+import hashlib
 import json
+import math
 import shlex
+import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from carom.explorer.computing.controls import Control, controls_of, unit_of, with_unit
+from carom.explorer.computing.controls import Control, controls_of, term_of, unit_of, with_unit
 from carom.explorer.computing.kicks import Rest
-from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, Case
+from carom.motions import State
+from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, Case, Scales
 from carom.parameters.terms import set_by
+from carom.parameters.told import shown_in
 
 
 @dataclass(frozen=True)
 class Kick:
-    """The kick shown: its parts and the largest one of the picture, in ``c_r Ω``."""
+    """The kick shown: what it disturbs, its parts and the largest one of the picture, in ``c_r Ω``."""
 
+    rest: Rest
     radial: float
     tangential: float
     fastest: float
+
+    @property
+    def state(self) -> State:
+        """The rotor just after it."""
+        return self.rest.kicked(self.radial, self.tangential)
+
+    def texts(self, scales: Scales | None) -> tuple[str, str]:
+        """Size and angle as ``simulate --kick`` reads them: the angle counts from the real axis of the co-rotating frame."""
+        velocity = complex(self.state.velocity)
+        factor, unit = shown_in("velocity", scales)
+        size = f"{factor * abs(velocity):.9g}" + (f" {unit}" if scales else "")
+        return size, f"{math.degrees(cmath.phase(velocity)) % 360.0:.9g} deg"
 
 
 @dataclass(frozen=True)
@@ -40,6 +59,11 @@ class Origin:
     settings: tuple[str, ...]
     case: Case
 
+    @property
+    def mark(self) -> str:
+        """Text that differs from machine to machine: what is set on a page is not meant for another one."""
+        return hashlib.sha256(f"{self.case.name}\n{as_toml(self.case)}".encode()).hexdigest()[:10]
+
     def all_settings(self, changes: Mapping[str, str]) -> tuple[str, ...]:
         """``name=value`` for every parameter that differs from the file, those changed on the page last."""
         units = {control.name: control.unit for control in controls_of(self.case)}
@@ -49,7 +73,10 @@ class Origin:
             for setting in self.settings
             if set_by(_name(setting)) not in moved
         ]
-        return (*kept, *(f"{name}={with_unit(units[name], text)}" for name, text in changes.items()))
+        return (
+            *kept,
+            *(f"{term_of(self.case, name, text)}={with_unit(units[name], text)}" for name, text in changes.items()),
+        )
 
     def _in_si(self, setting: str) -> str:
         """A setting of a dimensionless number or of a term as one of the field that it sets.
@@ -84,32 +111,59 @@ def as_toml(case: Case) -> str:
     return "\n".join(["[dimensionless]", *lines]) + f"\n{zones}\n{case.requirement.to_toml(has_scales=False)}"
 
 
-def as_python(origin: Origin, changes: Mapping[str, str], rest: Rest, kick: Kick, along: Control) -> str:
-    """A program that computes what the page shows: basin, motion, orbits and the diagram along a parameter."""
-    settings = json.dumps(list(origin.all_settings(changes)), ensure_ascii=False)
+def as_command(origin: Origin, changes: Mapping[str, str], scales: Scales | None, kick: Kick) -> str:
+    """The command that follows the kick shown; the scales are those of the machine on the page."""
+    if kick.rest.levitates:
+        start = f"--kick {shlex.quote(','.join(kick.texts(scales)))}"
+    else:
+        position, velocity = complex(kick.state.position), complex(kick.state.velocity)
+        start = f"--start={position.real!r},{position.imag!r},{velocity.real!r},{velocity.imag!r}"
+    return " ".join(filter(None, ("carom simulate", shlex.quote(origin.path), as_options(origin, changes), start)))
+
+
+def as_python(case: Case, kick: Kick, along: Control) -> str:
+    """A program that computes what the page shows, and draws it: basin, motion, orbits and the diagram along a parameter.
+
+    It holds the machine itself, so that it runs in any folder.
+    """
     unit = unit_of(along.name)
     low, high = (float(f"{unit * end:.12g}") for end in (along.low, along.high))
-    state = rest.kicked(kick.radial, kick.tangential)
+    rest, state = kick.rest, kick.state
     if rest.levitates:
         module, kicks = "carom.disturbances", f"KickPlane({kick.fastest!r})"
+        size, angle = kick.texts(case.parameters.scales)
+        size = json.dumps(size) if case.parameters.scales else size
+        start = f"cm.kick({size}, {json.dumps(angle)})"
     else:
         module, kicks = "carom.explorer.computing.kicks", f"RestKick({kick.fastest!r}, {rest.position!r})"
+        start = f"cm.State({state.position!r}, {state.velocity!r})"
     return f"""import carom as cm
 from {module} import {kicks.partition("(")[0]}
 
-machine = cm.load({json.dumps(origin.path, ensure_ascii=False)}, {settings})
+machine = {_constructed(case)}
 
 basin = cm.map_basins(machine, cm.Grid({kicks}, (120, 120)))
 print(basin.share_recovered.words)
-{"basin.plot()" if rest.levitates else "print(basin.fractions)"}
+{'basin.plot().savefig("basin.png")' if rest.levitates else "print(basin.fractions)"}
 
-motion = cm.simulate(machine, cm.State({state.position!r}, {state.velocity!r}), settle=True)
+motion = cm.simulate(machine, {start}, settle=True)
 print(motion.outcome.meaning)
-motion.plot()
+motion.plot().savefig("motion.png")
 
 orbits = cm.find_orbits(machine)
 print(orbits)
 
 diagram = cm.find_bifurcations(machine, {json.dumps(along.name)}, ({low!r}, {high!r}))
-diagram.plot()
+diagram.plot().savefig("diagram.png")
 """
+
+
+def _constructed(case: Case) -> str:
+    """The machine as an expression, from the entries of its file."""
+    tables = tomllib.loads(as_toml(case))
+    (kind, name) = ("machine", "Machine") if case.machine is not None else ("dimensionless", "Parameters")
+    entries = "".join(
+        f"    {entry}={json.dumps(value, ensure_ascii=False) if isinstance(value, str) else repr(value)},\n"
+        for entry, value in tables[kind].items()
+    )
+    return f"cm.parameters.{name}(\n{entries})"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import cmath
 import math
 from dataclasses import dataclass
 
@@ -13,6 +14,7 @@ from carom.models import Jeffcott
 from carom.motions import LastingContact, Trajectory, settle, simulate
 from carom.motions.settling import REPEATING
 from carom.outcome import Outcome
+from carom.parameters.told import told_angle
 from carom.plots.cells import MotionLook
 from carom.plots.style import OUTCOMES, REGIMES
 from carom.progress import ShowProgress
@@ -111,7 +113,7 @@ def follow_kick(
         words=_words(
             rotor,
             motion,
-            math.hypot(radial, tangential),
+            complex(start.velocity),
             hardest,
             MotionLook(0, name, look, look.colour, 1.0).plain_words,
         ),
@@ -141,9 +143,10 @@ def _span(stretch: LastingContact) -> Span:
     return Span(stretch.start, stretch.end, look.words, look.colour)
 
 
-def _words(rotor: Jeffcott, motion: Trajectory, size: float, hardest: float, ending: str) -> str:
+def _words(rotor: Jeffcott, motion: Trajectory, kick: complex, hardest: float, ending: str) -> str:
     say, count = Wording(rotor.scales), len(motion.contacts.time)
-    begin, force = f"A kick of {say.velocity(size)}", f"hardest impulse {say.impulse(hardest)}"
+    angle = told_angle(cmath.phase(kick) % math.tau)
+    begin, force = f"A kick of {say.velocity(abs(kick))} at {angle}", f"hardest impulse {say.impulse(hardest)}"
     if motion.outcome in REPEATING:
         return f"{begin} ends in {ending}; {force}."
     impacts = "without an impact" if count == 0 else f"after {counted(count, 'impact')}; {force}"

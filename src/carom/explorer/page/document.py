@@ -1,4 +1,4 @@
-"""The document of one page: shared objects, figures, template and session."""
+"""The page as text, and the document of one page: shared objects, figures and session."""
 
 from __future__ import annotations
 
@@ -10,10 +10,16 @@ from importlib.resources import files
 from typing import Any
 
 import jinja2
+from bokeh.core.types import ID
 from bokeh.document import Document
+from bokeh.embed.bundle import bundle_for_objs_and_resources
+from bokeh.embed.elements import html_page_for_render_items
+from bokeh.embed.util import RenderItem
 from bokeh.events import ConnectionLost, DocumentReady
 from bokeh.models import CustomJS
+from bokeh.resources import Resources
 
+from carom.explorer.computing.controls import controls_of
 from carom.explorer.computing.exports import Origin
 from carom.explorer.page.figures import looks, make_figures
 from carom.explorer.page.messages import control_message
@@ -21,6 +27,7 @@ from carom.explorer.page.models import Answers, Requests
 from carom.explorer.page.session import Session
 
 SCRIPTS = ("common.js", "controls.js", "basin.js", "clearance.js", "plots.js", "panels.js", "main.js")
+TOKEN = "key-of-a-session"
 
 
 def fill(document: Document, origin: Origin, ready: threading.Event) -> Session:
@@ -35,6 +42,7 @@ def fill(document: Document, origin: Origin, ready: threading.Event) -> Session:
         "machine": session.show,
         "kick": session.kick,
         "cancel": lambda _: session.cancel(),
+        "resume": lambda _: session.resume(),
     }
     for name, act in asked.items():
         requests.on_change(name, partial(_act, act))
@@ -42,15 +50,7 @@ def fill(document: Document, origin: Origin, ready: threading.Event) -> Session:
         document.add_root(plot)
     # What no plot refers to is not part of the document.
     figures.plots["history"].tags = [requests, answers, *figures.parts.values()]
-    document.title = f"{origin.case.name} – carom explore"
-    document.template = _template()
-    document.template_variables.update(
-        name=origin.case.name,
-        controls=[control_message(control) for control in session.controls.values()],
-        style=_text("page.css"),
-        script="\n".join(_text(name) for name in SCRIPTS),
-        looks=json.dumps(looks()),
-    )
+    document.title = _title(origin)
     begin = CustomJS(
         args={"requests": requests, "answers": answers, "parts": figures.parts, "plots": figures.plots}, code=_BEGIN
     )
@@ -61,6 +61,31 @@ def fill(document: Document, origin: Origin, ready: threading.Event) -> Session:
     document.js_on_event(ConnectionLost, CustomJS(code=_LOST))
     document.on_session_destroyed(lambda context: session.close())
     return session
+
+
+def write_page(origin: Origin, resources: Resources) -> str:
+    """The page of a machine as text, the same for all who ask: :data:`TOKEN` stands for the key of a session in it."""
+    # The figures of every session have these names, so that the page need not know its document.
+    places = {plot: ID(f"place-{name}") for name, plot in make_figures().plots.items()}
+    return html_page_for_render_items(
+        bundle_for_objs_and_resources(None, resources),
+        {},
+        [RenderItem(token=TOKEN, roots=places, use_for_title=True)],
+        _title(origin),
+        template=_template(),
+        template_variables={
+            "name": origin.case.name,
+            "mark": origin.mark,
+            "controls": [control_message(control) for control in controls_of(origin.case)],
+            "style": _text("page.css"),
+            "script": "\n".join(_text(name) for name in SCRIPTS),
+            "looks": json.dumps(looks()),
+        },
+    )
+
+
+def _title(origin: Origin) -> str:
+    return f"{origin.case.name} – carom explore"
 
 
 def _act(act: Callable[[Any], None], name: str, old: object, new: object) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
+from bokeh.core.types import ID
 from bokeh.models import ColumnDataSource, HoverTool, Range1d
 from bokeh.models.annotations import Span
 from bokeh.plotting import figure
@@ -34,7 +35,8 @@ def make_figures() -> Figures:
     """Make all figures, empty."""
     parts: dict[str, Any] = {}
     plots = {"history": _history(parts), "section": _section(parts), "diagram": _diagram(parts)}
-    for plot in plots.values():
+    for name, plot in plots.items():
+        plot._id = ID(name)  # Bokeh has no public way to name an object; the text of the page refers to these
         for model in plot.references():
             model.syncable = False  # what the browser draws is not sent back
     return Figures(plots, parts)

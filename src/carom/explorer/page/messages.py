@@ -17,7 +17,7 @@ from carom.models import Jeffcott
 from carom.parameters import Scales
 from carom.parameters.told import number, shown_in
 from carom.plots.style import LOOKS
-from carom.studies import Wording
+from carom.studies import Verdict, Wording
 
 Message = dict[str, Any]
 
@@ -87,6 +87,11 @@ def motion_message(motion: KickedMotion, rotor: Jeffcott) -> Message:
 def table_message(table: MotionTable) -> Message:
     """Rows of the table, and the argument that they are all."""
     return {"rows": [asdict(row) for row in table.rows], "argument": table.argument}
+
+
+def verdict_message(found: Verdict) -> Message:
+    """The verdict in a sentence, and what is survived of each kind of disturbance."""
+    return {"lead": found.lead, "survived": list(found.survived)}
 
 
 def diagram_message(picture: Picture) -> Message:

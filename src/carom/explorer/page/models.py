@@ -11,18 +11,24 @@ class Requests(DataModel):
 
     ``machine`` holds ``number``, ``settings`` (text by name), ``held`` (whether a slider is being dragged) and ``along``
     (the control moved last); ``kick`` holds ``number``, ``radial`` and ``tangential``, as shares of the largest kick.
+    ``cancel`` and ``resume`` count how often what takes long was stopped, and begun again.
     """
 
     machine = Any(default=None)
     kick = Any(default=None)
     cancel = Any(default=0)
+    resume = Any(default=0)
 
 
 class Answers(DataModel):
-    """What the server has found; each answer is a dictionary made by :mod:`carom.explorer.page.messages`."""
+    """What the server has found; each answer is a dictionary made by :mod:`carom.explorer.page.messages`.
+
+    ``reply`` answers each request for a machine at once: ``number`` of the request, ``shown``, the number of the request whose
+    machine is shown, ``values`` of its controls in their units, and in ``text`` and ``names`` what could not be used.
+    """
 
     state = Any(default=None)
-    problem = Any(default="")
+    reply = Any(default=None)
     basin = Any(default=None)
     motion = Any(default=None)
     table = Any(default=None)

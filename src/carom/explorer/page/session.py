@@ -9,9 +9,9 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from carom.explorer.background import Job, Worker
-from carom.explorer.computing.controls import Control, controls_of, with_settings
+from carom.explorer.computing.controls import Control, controls_of, values_of, with_settings
 from carom.explorer.computing.diagrams import picture_along
-from carom.explorer.computing.exports import Kick, Origin, as_options, as_python, as_toml
+from carom.explorer.computing.exports import Kick, Origin, as_command, as_options, as_python, as_toml
 from carom.explorer.computing.judgement import find_hardest, find_loss, judge
 from carom.explorer.computing.kicked_motion import follow_kick
 from carom.explorer.computing.kicks import FIRST, KickMap, largest_kick, map_kicks, rest_of
@@ -54,6 +54,8 @@ class _Shown:
     along: str
     radial: float
     tangential: float
+    held: bool = False
+    """Whether a slider is being dragged."""
 
 
 Work = Callable[[_Shown, Callable[[Progress], None]], messages.Message]
@@ -82,6 +84,7 @@ class Session:
         self._shown = _Shown(0, origin.case, {}, rotor, first, *FIRST)
         self._cost, self._reported = PATIENCE / COARSE**2, 0.0
         self._diagrams: dict[tuple[Any, ...], Any] = {}
+        self._left: dict[str, Work] = {}
         self._quick = Worker(("basin", "motion", "table"))
         self._long = Worker(tuple(_LONG), self._report)
 
@@ -92,18 +95,15 @@ class Session:
 
     def show(self, request: Mapping[str, Any]) -> None:
         """Show another machine; see :class:`carom.explorer.page.models.Requests`."""
-        settings = {str(name): str(text) for name, text in dict(request.get("settings", {})).items()}
+        asked = {str(name): str(text) for name, text in dict(request.get("settings", {})).items()}
         number, held = int(request.get("number", 0)), bool(request.get("held", False))
-        try:
-            case = with_settings(self.origin.case, settings)
-        except InputError as problem:
-            self._answer(
-                "problem", {"number": number, "text": str(problem), "names": [one.field for one in problem.errors]}
-            )
-            return
-        self._answer("problem", {"number": number, "text": "", "names": []})
-        along = str(request.get("along") or self._shown.along)
+        settings, case, problem = self._usable(asked)
         before = self._shown
+        if problem is not None and before.number and (settings, held) == (before.settings, before.held):
+            # Nothing is to be shown anew, so what is being computed goes on.
+            self._reply(number, problem)
+            return
+        along = str(request.get("along") or before.along)
         self._shown = _Shown(
             number,
             case,
@@ -112,21 +112,48 @@ class Session:
             along if along in self.controls else before.along,
             before.radial,
             before.tangential,
+            held,
         )
+        self._reply(number, problem)
         self._long.drop()
+        self._left = {}
         self._ask(self._quick, "basin", self._coarse, "basin", None if held else self._finish)
         pause = PAUSE if held else 0.0
         self._ask_quick("motion", self._motion, pause)
         self._ask_quick("table", lambda shown, tell: messages.table_message(table_of(shown.rotor)), pause)
 
+    def _usable(self, asked: Mapping[str, str]) -> tuple[Mapping[str, str], Case, InputError | None]:
+        """Settings with what cannot be used left as it is shown, their machine, and what cannot be used."""
+        try:
+            return asked, with_settings(self.origin.case, asked), None
+        except InputError as problem:
+            refused, shown = {one.field for one in problem.errors}, self._shown
+            kept = {name: text for name, text in asked.items() if name not in refused}
+            kept.update({name: shown.settings[name] for name in asked if name in refused & shown.settings.keys()})
+            try:
+                return kept, with_settings(self.origin.case, kept), problem
+            except InputError:  # values that are refused only together
+                return shown.settings, shown.case, problem
+
+    def _reply(self, number: int, problem: InputError | None) -> None:
+        """Say which machine is shown after a request, and what of it could not be used."""
+        shown = self._shown
+        reply = {"number": number, "shown": shown.number, "values": values_of(shown.case), "text": "", "names": []}
+        if problem is not None:
+            reply.update(text=str(problem), names=[one.field for one in problem.errors])
+        self._answer("reply", reply)
+
     def _finish(self) -> None:
         """Start everything that takes longer than a moment."""
         self._answer("exports", self._exports())
-        self._ask_long("fine", lambda shown, tell: self._picture(shown, FINE, tell), "basin")
-        self._ask_long("loss", lambda shown, tell: vars(find_loss(shown.rotor, self._fastest(shown), tell)))
-        self._ask_long("hardest", lambda shown, tell: vars(find_hardest(shown.rotor, self._fastest(shown), tell)))
-        self._ask_long("diagram", self._diagram)
-        self._ask_long("verdict", lambda shown, tell: {"text": judge(shown.case, tell).headline})
+        self._left = {
+            "fine": lambda shown, tell: self._picture(shown, FINE, tell),
+            "loss": lambda shown, tell: vars(find_loss(shown.rotor, self._fastest(shown), tell)),
+            "hardest": lambda shown, tell: vars(find_hardest(shown.rotor, self._fastest(shown), tell)),
+            "diagram": self._diagram,
+            "verdict": lambda shown, tell: messages.verdict_message(judge(shown.case, tell)),
+        }
+        self.resume()
 
     def kick(self, request: Mapping[str, Any]) -> None:
         """Show the motion after another kick, whose parts are given as shares of the largest."""
@@ -138,15 +165,17 @@ class Session:
         if request.get("chosen"):
             self._answer("exports", self._exports())
 
-    def drop_work(self) -> None:
-        """Interrupt all work: nobody looks at the page."""
-        self._quick.drop()
-        self._long.drop()
-
     def cancel(self) -> None:
         """Interrupt what takes long."""
         self._long.drop()
         self._answer("state", {"kind": "cancelled"})
+
+    def resume(self) -> None:
+        """Start again what takes long and has not been done for the machine shown."""
+        for kind, work in tuple(self._left.items()):
+            self._ask(self._long, kind, work, "basin" if kind == "fine" else kind)
+        if not self._left:
+            self._answer("state", {"kind": "idle"})
 
     def _fastest(self, shown: _Shown) -> float:
         scales = shown.rotor.scales
@@ -183,18 +212,16 @@ class Session:
 
     def _exports(self) -> messages.Message:
         shown, fastest = self._shown, self._fastest(self._shown)
-        kick = Kick(shown.radial * fastest, shown.tangential * fastest, fastest)
+        kick = Kick(rest_of(shown.rotor), shown.radial * fastest, shown.tangential * fastest, fastest)
         return {
             "toml": as_toml(shown.case),
             "options": as_options(self.origin, shown.settings),
-            "python": as_python(self.origin, shown.settings, rest_of(shown.rotor), kick, self.controls[shown.along]),
+            "command": as_command(self.origin, shown.settings, shown.rotor.scales, kick),
+            "python": as_python(shown.case, kick, self.controls[shown.along]),
         }
 
     def _ask_quick(self, kind: str, work: Work, pause: float = 0.0) -> None:
         self._ask(self._quick, kind, work, kind, pause=pause)
-
-    def _ask_long(self, kind: str, work: Work, name: str = "") -> None:
-        self._ask(self._long, kind, work, name or kind)
 
     def _ask(
         self,
@@ -221,6 +248,8 @@ class Session:
                 self._answer(name, {"number": shown.number, "refused": f"unexpected {type(result).__name__}: {result}"})
             else:
                 self._answer(name, {**result, "number": shown.number})
+            if self._shown.number == shown.number:
+                self._left.pop(kind, None)
             if kind == tuple(_LONG)[-1]:
                 self._answer("state", {"kind": "idle"})
             if afterwards is not None and self._shown.number == shown.number:

@@ -50,6 +50,17 @@ carom.basin = { message: null, kick: { radial: 0.31, tangential: 0.12 } };
       pen.setLineDash([5, 4]); pen.strokeStyle = "rgba(0,0,0,.75)"; pen.lineWidth = 1.5;
       pen.beginPath(); pen.arc(toX(0), toY(0), span * message.harmless / 2, 0, 7); pen.stroke(); pen.setLineDash([]);
     }
+    // From where angles count: the x axis that turns with the shaft, as in `carom simulate --kick`.
+    const [across, up] = [message.outward[0], -message.outward[1]];
+    pen.font = "600 12px system-ui, sans-serif"; pen.textAlign = "center"; pen.textBaseline = "middle";
+    for (const [line, ink] of [[4, "rgba(0,0,0,.65)"], [2, "#fff"]]) {
+      pen.strokeStyle = ink; pen.lineWidth = line;
+      pen.beginPath(); pen.moveTo(toX(0.92 * across), toY(0.92 * up)); pen.lineTo(toX(across), toY(up)); pen.stroke();
+    }
+    pen.strokeStyle = "rgba(0,0,0,.75)"; pen.lineWidth = 3; pen.fillStyle = "#fff";
+    pen.strokeText("0°", toX(0.84 * across), toY(0.84 * up));
+    pen.fillText("0°", toX(0.84 * across), toY(0.84 * up));
+    pen.font = "12px system-ui, sans-serif";
     const kick = carom.basin.kick, kx = toX(kick.radial), ky = toY(kick.tangential);
     for (const [line, ink] of [[4, "rgba(0,0,0,.65)"], [2, "#fff"]]) {
       pen.strokeStyle = ink; pen.lineWidth = line;

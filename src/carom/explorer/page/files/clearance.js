@@ -28,6 +28,10 @@ carom.motion = { message: null, now: 0, frame: "rotating" };
     pen.strokeStyle = colour("wall"); pen.lineWidth = 2; pen.beginPath(); pen.arc(middle, middle, reach, 0, 7); pen.stroke();
     pen.strokeStyle = colour("rule"); pen.lineWidth = 1; pen.beginPath();
     pen.moveTo(toX(-1), middle); pen.lineTo(toX(1), middle); pen.moveTo(middle, toY(-1)); pen.lineTo(middle, toY(1)); pen.stroke();
+    if (carom.motion.frame === "rotating") {
+      pen.fillStyle = colour("ink"); pen.font = "600 12px system-ui, sans-serif"; pen.textAlign = "center"; pen.textBaseline = "middle";
+      pen.fillText("0°", toX(1.065), middle);
+    }
     if (!message || message.refused) return;
     const { times } = message, now = carom.motion.now, last = index(times, now);
     const stroke = (from, to, ink, width, alpha) => {

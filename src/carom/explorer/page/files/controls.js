@@ -1,15 +1,17 @@
 // Sliders and boxes. The machine is sent as the texts of those that were changed; everything else is the file's.
 carom.controls = {};
 carom.number = 0;
+carom.shown = 0; // the number of the machine that the server shows: a later one may have been refused
 carom.moved = null;
 carom.held = false;
 
 (() => {
-  const settings = {};
+  const settings = {}, machine = at("controls").dataset.machine;
+  let notice = "";
   const rows = [...document.querySelectorAll(".control")].map((row) => {
     const data = row.dataset;
     return { row, name: data.name, unit: data.unit, low: +data.low, high: +data.high, value: +data.value, log: data.log === "1",
-      slider: row.querySelector(".slider"), box: row.querySelector(".box"), shown: row.querySelector(".box").value };
+      now: +data.value, slider: row.querySelector(".slider"), box: row.querySelector(".box"), shown: row.querySelector(".box").value };
   });
 
   const place = (one, value) => {
@@ -20,18 +22,15 @@ carom.held = false;
     const share = where / 1000;
     return Number((one.log ? one.low * (one.high / one.low) ** share : one.low + share * (one.high - one.low)).toPrecision(4));
   };
-  carom.controls.value = (name) => {
-    const one = rows.find((row) => row.name === name);
-    const number = parseFloat(one.box.value);
-    return one.held === undefined ? (Number.isFinite(number) ? number : one.value) : one.held;
-  };
+  carom.controls.value = (name) => rows.find((row) => row.name === name).now;
 
   const send = (held) => {
     carom.number += 1;
     carom.held = held;
     carom.requests.machine = { number: carom.number, settings: { ...settings }, held, along: carom.moved || "" };
-    const words = new URLSearchParams(settings).toString();
-    if (!held) history.replaceState(null, "", words ? `#${words}` : location.pathname);
+    if (held) return;
+    const words = Object.keys(settings).length ? `#${new URLSearchParams({ of: machine, ...settings })}` : location.pathname;
+    history.replaceState(null, "", words);
   };
   // While a slider is held the next step is sent when the picture of the last one is there, or after a moment.
   let due = false, waitingFor = 0, timer = 0;
@@ -48,22 +47,19 @@ carom.held = false;
   const mark = (one) => one.row.classList.toggle("changed", one.name in settings);
   const moved = (one, held) => {
     const value = valueAt(one, +one.slider.value);
-    one.held = value;
+    one.now = value;
     one.box.value = carom.short(value);
     settings[one.name] = `${carom.short(value)} ${one.unit}`.trim();
     carom.moved = one.name;
     mark(one);
     if (carom.showCursor) carom.showCursor(one.name, value);
     if (held) step();
-    else { due = false; clearTimeout(timer); waitingFor = 0; one.held = undefined; send(false); }
+    else { due = false; clearTimeout(timer); waitingFor = 0; send(false); }
   };
   const typed = (one) => {
     const text = one.box.value.trim();
     if (text === one.shown && !(one.name in settings)) return;
     if (text === one.shown) delete settings[one.name]; else settings[one.name] = text;
-    const number = parseFloat(text);
-    one.held = undefined;
-    if (Number.isFinite(number)) one.slider.value = place(one, number);
     carom.moved = one.name;
     mark(one);
     send(false);
@@ -80,25 +76,40 @@ carom.held = false;
     for (const one of rows) {
       delete settings[one.name];
       one.box.value = one.shown;
-      one.slider.value = place(one, one.value);
       mark(one);
     }
     send(false);
   });
 
-  carom.controls.problem = (problem) => {
-    at("problem").hidden = !problem.text;
-    at("problem").textContent = problem.text;
-    for (const one of rows) one.box.classList.toggle("wrong", problem.names.includes(one.name));
+  // The server reads what was typed: its values place the sliders and the mark in the diagram.
+  carom.controls.reply = (reply) => {
+    carom.shown = reply.shown;
+    const words = reply.text || notice;
+    notice = "";
+    at("problem").hidden = !words;
+    at("problem").textContent = words;
+    for (const one of rows) {
+      one.box.classList.toggle("wrong", reply.names.includes(one.name));
+      if (carom.held || reply.number < carom.number) continue;
+      one.now = reply.values[one.name];
+      one.slider.value = place(one, one.now);
+      if (carom.showCursor) carom.showCursor(one.name, one.now);
+    }
   };
   // The address keeps what was changed: it can be sent to a colleague, and survives a restart of the server.
   carom.controls.begin = () => {
-    for (const [name, text] of new URLSearchParams(location.hash.slice(1))) {
+    const kept = new URLSearchParams(location.hash.slice(1));
+    if ((kept.get("of") || machine) !== machine) {
+      notice = "The address holds values that were set for another machine. They are left out.";
+      for (const name of [...kept.keys()]) kept.delete(name);
+    }
+    for (const [name, text] of kept) {
       const one = rows.find((row) => row.name === name);
       if (!one) continue;
       settings[name] = text;
-      one.box.value = text.endsWith(` ${one.unit}`) ? text.slice(0, -one.unit.length - 1) : text;
-      if (Number.isFinite(parseFloat(text))) one.slider.value = place(one, parseFloat(text));
+      // The unit stands beside the box; that of "90 g mm" is another one.
+      const number = text.endsWith(` ${one.unit}`) ? text.slice(0, -one.unit.length - 1) : "";
+      one.box.value = number && Number.isFinite(Number(number)) ? number : text;
       carom.moved = name;
       mark(one);
     }

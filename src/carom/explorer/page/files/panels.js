@@ -8,6 +8,7 @@ carom.panels = { exports: null };
     const box = at("state");
     clearInterval(compiling);
     at("cancel").hidden = state.kind !== "working";
+    at("resume").hidden = state.kind !== "cancelled";
     if (state.kind === "compiling") {
       const began = performance.now();
       const say = () => {
@@ -25,7 +26,7 @@ carom.panels = { exports: null };
       box.querySelector("span").textContent = state.kind === "cancelled" ? "Stopped. What had been found is shown." : "";
     }
   };
-  at("cancel").addEventListener("click", () => { carom.requests.cancel = (carom.requests.cancel || 0) + 1; });
+  for (const wish of ["cancel", "resume"]) at(wish).addEventListener("click", () => { carom.requests[wish] += 1; });
 
   const tile = (name, value, remark, old = false) => {
     at(name).textContent = value;
@@ -42,7 +43,7 @@ carom.panels = { exports: null };
     tile("share", message.share, message.share_remark);
     if (exact.loss !== message.number) tile("lost", message.lost, message.lost_remark);
     if (exact.hardest !== message.number) at("hardest").classList.add("old");
-    if (exact.verdict !== message.number) at("headline").classList.add("old");
+    if (exact.verdict !== message.number) for (const card of ["headline", "tried"]) at(card).classList.add("old");
     if (carom.held) for (const what of ["motion", "figures", "table"]) pale(what, true);
   };
   carom.panels.loss = (message) => {
@@ -55,8 +56,14 @@ carom.panels = { exports: null };
   };
   carom.panels.verdict = (message) => {
     exact.verdict = message.number;
-    at("headline").classList.remove("old");
-    at("headline").textContent = message.refused || message.text;
+    for (const card of ["headline", "tried"]) at(card).classList.remove("old");
+    at("headline").textContent = message.refused || message.lead;
+    at("tried").hidden = Boolean(message.refused);
+    at("survived").replaceChildren(...(message.survived || []).map((words) => {
+      const item = document.createElement("li");
+      item.textContent = words;
+      return item;
+    }));
   };
   carom.panels.table = carom.unhurried((message) => {
     const body = document.querySelector("#motions tbody");
@@ -75,7 +82,7 @@ carom.panels = { exports: null };
     at("argument").textContent = message.argument;
   });
 
-  const words = { toml: "machine file", options: "options of the command line", python: "program" };
+  const words = { toml: "machine file", options: "options of the command line", command: "command", python: "program" };
   for (const button of document.querySelectorAll("[data-copy]")) {
     button.addEventListener("click", async () => {
       const text = carom.panels.exports ? carom.panels.exports[button.dataset.copy] : "";
