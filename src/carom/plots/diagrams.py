@@ -98,7 +98,7 @@ _EQUILIBRIA = {"contact-free": "contact-free", "stable rub": "rub", "saddle rub"
 
 @checked
 @styled
-def bifurcation_diagram(diagram: Diagram, proof: Proof | None = None) -> Figure:
+def bifurcation_diagram(diagram: Diagram, proof: Proof | None = None, virtual: bool = False) -> Figure:
     """Draw all equilibria and single-impact orbits along a parameter, with their special points, in three panels.
 
     Upper: the radial speed of the orbits at the impact, in mm/s if the machine is known.  Middle: the gap of levitation and the normal force
@@ -107,6 +107,11 @@ def bifurcation_diagram(diagram: Diagram, proof: Proof | None = None) -> Figure:
 
     With a proof along the same parameter, a row below these bars shows where all orbits with one impact a period are
     proven, and the proven points.
+
+    Parameters
+    ----------
+    virtual : bool
+        Draw virtual orbits and equilibria and their special points too, faint.
 
     Raises
     ------
@@ -120,18 +125,19 @@ def bifurcation_diagram(diagram: Diagram, proof: Proof | None = None) -> Figure:
     upper, lower, below = figure.subplots(3, 1, sharex=True, height_ratios=(2.4, 1.1, strip))
     unit = parameter_unit(diagram.axis.field)
     for branch in diagram.orbits:
-        _speed_line(upper, diagram, branch, branch.radial_speed, [point.radial_speed for point in branch.special])
+        there = [point.radial_speed for point in branch.special]
+        _speed_line(upper, diagram, branch, branch.radial_speed, there, virtual)
     for several in diagram.several:
         for k, speeds in enumerate(several.radial_speeds.T):
             there = [float(point.orbit.impact_speeds[k]) for point in several.special]
-            _speed_line(upper, diagram, several, speeds, there)
+            _speed_line(upper, diagram, several, speeds, there, virtual)
     for sample in diagram.attractors:
         values = np.full(len(sample.radial_speeds), sample.value / unit)
         speeds = diagram.told_speeds(sample.value, sample.radial_speeds)
         upper.plot(values, speeds, ls="none", **(_MET if sample.met else _UNMET), zorder=4)
     upper.axhline(0.0, color="#1a1a1a", lw=0.5)
     for equilibrium in diagram.equilibria:
-        _equilibrium_branch(lower, equilibrium, unit)
+        _equilibrium_branch(lower, equilibrium, unit, virtual)
     lower.axhline(0.0, color=LOOKS["wall"].colour, lw=1.0)
     coexistence(below, diagram, unit)
     key = [] if proven is None else _proven_row(below, proven, unit)
@@ -146,9 +152,9 @@ def bifurcation_diagram(diagram: Diagram, proof: Proof | None = None) -> Figure:
     if not highest:
         words = "no possible orbit found along this range"
         upper.text(0.5, 0.5, words, transform=upper.transAxes, ha="center", va="center", gid="no orbit")
-    marked = _mark_points(diagram, (upper, lower, below), unit)
+    marked = _mark_points(diagram, (upper, lower, below), unit, virtual)
     figure.align_ylabels([upper, lower])
-    figure.legend(handles=[*_diagram_key(diagram, marked), *present], loc="outside lower center", ncols=4)
+    figure.legend(handles=[*_diagram_key(diagram, marked, virtual), *present], loc="outside lower center", ncols=4)
     if key:
         legend_above(upper, key, 2)
     return figure
@@ -160,14 +166,19 @@ def _speed_unit(diagram: Diagram) -> str:
 
 
 def _speed_line(
-    axes: Axes, diagram: Diagram, branch: OrbitBranch, speeds: np.ndarray, at_special_points: list[float]
+    axes: Axes,
+    diagram: Diagram,
+    branch: OrbitBranch,
+    speeds: np.ndarray,
+    at_special_points: list[float],
+    virtual: bool,
 ) -> None:
     """Draw speeds along a branch, in the unit in which people are told them."""
     unit, places = parameter_unit(diagram.axis.field), np.arange(len(branch))
     special = np.array([point.value for point in branch.special])
     there = diagram.told_speeds(special, np.array(at_special_points))
     told = diagram.told_speeds(branch.values, speeds)
-    branch_line(axes, branch, places, branch.values / unit, told, there, unit)
+    branch_line(axes, branch, places, branch.values / unit, told, there, unit, virtual=virtual)
 
 
 def _mark_present(diagram: Diagram, panels: tuple[Axes, ...], unit: float) -> list[Line2D]:
@@ -199,13 +210,15 @@ def _proven_row(below: Axes, proven: ProvenLine, unit: float) -> list[Line2D]:
     return proven_line(below, proven, "proven: these orbits with one impact a period and no others", 0.0, unit)
 
 
-def _mark_points(diagram: Diagram, panels: tuple[Axes, Axes, Axes], unit: float) -> list[Look]:
+def _mark_points(diagram: Diagram, panels: tuple[Axes, Axes, Axes], unit: float, virtual: bool) -> list[Look]:
     """Mark the special points in the panels; return the looks of the visible ones, each once."""
     upper, lower, below = panels
     rows = rows_of(diagram)
     heights = dict(zip(rows, below.get_yticks()[: len(rows)], strict=True))
     seen = set()
     for point in diagram.points:
+        if not (point.admissible or virtual):
+            continue
         row, look = row_of_point(point), BOUNDARIES.get(point.detail, POINTS[point.kind])
         speed = float(diagram.told_speeds(point.value, point.radial_speed))
         axes, height = (upper, speed) if row is None else (below, heights.get(row))
@@ -228,12 +241,13 @@ def branch_line(
     heights: np.ndarray,
     special_heights: np.ndarray | None = None,
     unit: float = 1.0,
+    virtual: bool = True,
 ) -> None:
     """Draw a quantity along a branch; its look changes at the special points.
 
     It is known at ascending places on the branch (see :class:`~carom.bifurcations.Bifurcation`), shape (n,), and at the
     special points, where it is interpolated by default.  `values` are those of the parameter in the unit drawn; `unit`
-    is the divisor of the parameter of special points.
+    is the divisor of the parameter of special points.  Stretches of virtual orbits are left out unless `virtual` is set.
     """
     special = [point for point in branch.special if places[0] <= point.place <= places[-1]]
     extra = np.array([point.place for point in special])
@@ -251,6 +265,8 @@ def branch_line(
     nearest = np.where(whole[1:], where[1:], np.floor(where[:-1])).astype(int)
     stretches = looks[np.minimum(nearest, len(looks) - 1)]
     for first, last, look in _runs(np.append(stretches, stretches[-1:])):
+        if look == "virtual" and not virtual:
+            continue
         alpha = 0.6 if look == "virtual" else 1.0
         axes.plot(x[first : last + 1], y[first : last + 1], **LOOKS[look].stroke, alpha=alpha)
 
@@ -263,10 +279,12 @@ def _runs(looks: np.ndarray) -> list[tuple[int, int, str]]:
     return [(first, last, str(looks[first])) for first, last in zip(starts, ends, strict=True)]
 
 
-def _equilibrium_branch(axes: Axes, branch: EquilibriumBranch, unit: float) -> None:
+def _equilibrium_branch(axes: Axes, branch: EquilibriumBranch, unit: float, virtual: bool) -> None:
     look = LOOKS[_EQUILIBRIA[branch.kind]]
     height = _heights(branch)
     for allowed, alpha in ((branch.admissible, 1.0), (~branch.admissible, 0.35)):
+        if alpha < 1.0 and not virtual:
+            continue
         shown = np.where(allowed, height, np.nan)
         axes.plot(
             branch.values / unit,
@@ -322,10 +340,15 @@ def _limits(diagram: Diagram) -> tuple[float, float]:
     return -0.12 * (high or 1.0), 1.1 * high
 
 
-def _diagram_key(diagram: Diagram, marked: list[Look]) -> list[Line2D]:
+def _diagram_key(diagram: Diagram, marked: list[Look], virtual: bool) -> list[Line2D]:
     entries = []
     if diagram.orbits or diagram.several:
-        for look, words in (("stable", "stable orbit"), ("unstable", "unstable orbit"), ("virtual", "virtual")):
+        words_of = {
+            "stable": "stable orbit",
+            "unstable": "unstable orbit",
+            **({"virtual": "virtual"} if virtual else {}),
+        }
+        for look, words in words_of.items():
             entries.append(LOOKS[look].entry(words))
     entries.append(
         Line2D([], [], color=LOOKS["contact-free"].colour, lw=1.1, label=f"{STEADY_WORDS['contact-free']}: gap")
@@ -359,10 +382,12 @@ def _attractor_key(diagram: Diagram) -> list[Line2D]:
     return entries
 
 
-def curve_line(axes: Axes, curve: Curve, units: np.ndarray) -> None:
-    """Draw a curve in the plane of two parameters, faint if only virtual motions have it."""
+def curve_line(axes: Axes, curve: Curve, units: np.ndarray, virtual: bool = True) -> None:
+    """Draw a curve in the plane of two parameters, faint or not at all where only virtual motions have it."""
     look = CURVES[curve.kind]
     x, y = (curve.points / units).T
     for first, last, real in _runs(np.where(curve.admissible, "real", "virtual")):
+        if real == "virtual" and not virtual:
+            continue
         alpha = 1.0 if real == "real" else FAINT
         axes.plot(x[first : last + 1], y[first : last + 1], **look.stroke, alpha=alpha)
