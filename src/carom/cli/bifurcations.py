@@ -29,7 +29,11 @@ Impacts = Annotated[
     ),
 ]
 Virtual = Annotated[
-    bool, typer.Option("--virtual", help="Also follow orbits of higher pairs that are virtual at all values examined, and draw virtual motions.")
+    bool,
+    typer.Option(
+        "--virtual",
+        help="Also follow orbits of higher pairs that are virtual at all values examined, and draw virtual motions.",
+    ),
 ]
 Lasting = Annotated[
     bool,

@@ -122,12 +122,11 @@ def _roots(axes: Axes, orbits: OrbitSet) -> None:
     ):
         if chosen.any():
             _mark(axes, factor * roots[chosen], face, edge, size, words)
-    named = physical
+    possible = [[orbit for orbit in found if orbit.admissible] for found in members]
     labels = [
-        f"{_name(found)}\n$T$ = {factor * root:#.4g}" for found, root in zip(members, roots, strict=True) if found
+        f"{_name(found)}\n$T$ = {factor * root:#.4g}" for found, root in zip(possible, roots, strict=True) if found
     ]
-    shown = [label for label, wanted in zip(labels, named[~empty], strict=True) if wanted][:_MOST_NAMES]
-    _name_roots(axes, factor * roots[named][:_MOST_NAMES], shown)
+    _name_roots(axes, factor * roots[physical][:_MOST_NAMES], labels[:_MOST_NAMES])
 
 
 def _mark(axes: Axes, roots: Floats, face: str, edge: str, size: float, words: str) -> None:
@@ -171,7 +170,7 @@ def _belongs(orbit: Orbit, root: float) -> bool:
 
 
 def _name(found: list[Orbit]) -> str:
-    """Return one name for both orbits of a root, ``B1,a/c``."""
+    """Return one name for the orbits of a root, ``B1,a/c``."""
     from carom.orbits.names import combined
 
     return orbit_symbol(combined(orbit.name for orbit in found))

@@ -37,6 +37,8 @@ _PIECES = 60
 """Number of tints of a path that fades."""
 _MARGIN = 1.25
 """Size of an enlarged square, relative to what it shows."""
+_TOP_AXIS = 0.42
+"""Height of the ticks and the label of an axis at the top [inch]."""
 _FRAMES = {"rotating": ("co-rotating frame", "U"), "fixed": ("fixed frame", "Z")}
 
 
@@ -292,9 +294,13 @@ def legend_below(axes: Axes) -> Legend:
     return axes.legend(handles, words, loc="upper center", bbox_to_anchor=(0.5, -0.16), ncols=min(2, len(words)))
 
 
-def legend_above(axes: Axes, handles: Sequence[Artist], columns: int) -> Legend:
-    """Add a legend above axes and below the title, where a legend of the figure would overlap the title."""
-    return axes.legend(handles=handles, loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=columns)
+def legend_above(axes: Axes, handles: Sequence[Artist], columns: int, *, aside: bool = False) -> Legend:
+    """Add a legend above axes and below the title, where a legend of the figure would overlap the title.
+
+    `aside` leaves room for an axis with its label at the top.
+    """
+    above = _TOP_AXIS / float(axes.bbox.height / axes.figure.dpi) if aside else 0.0
+    return axes.legend(handles=handles, loc="lower center", bbox_to_anchor=(0.5, 1.0 + above), ncols=columns)
 
 
 def _unique(drawn: Iterable[Axes]) -> tuple[Sequence[Artist], list[str]]:

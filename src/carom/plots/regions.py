@@ -17,10 +17,11 @@ from carom.plots.arrangement import arrange
 from carom.plots.diagrams import CURVES, FAINT, curve_line
 from carom.plots.figure import StyledFigure
 from carom.plots.numerals import name_regions
+from carom.plots.parameter_axes import label_parameter
 from carom.plots.plane import Floats, legend_above
 from carom.plots.proven import proven_line
 from carom.plots.style import TWO_COLUMNS, styled
-from carom.plots.words import parameter_label, parameter_unit, with_symbols
+from carom.plots.words import parameter_unit, with_symbols
 
 if TYPE_CHECKING:
     from carom.bifurcations import Region, RegionMap
@@ -56,7 +57,7 @@ def region_map(found: RegionMap, proof: Proof | None = None, virtual: bool = Fal
     listed: set[int] = set()
     while True:  # what is listed changes the layout a little, so that another name may find no room
         figure, axes, units = _drawn(found, proof, virtual, names, sorted(listed))
-        without = name_regions(axes, found, units, names, listed, virtual=virtual)
+        without = name_regions(axes, found, units, [with_symbols(name) for name in names], listed, virtual=virtual)
         if without <= listed:
             return figure
         listed |= without
@@ -71,6 +72,7 @@ def _drawn(
         lines.append(f"everywhere: {', '.join(found.everywhere)}")
     columns = 2 if max(map(len, lines), default=0) <= _LONGEST_HALF else 1
     rows = -(-len(lines) // columns)
+    lines = [with_symbols(line) for line in lines]
     figure = StyledFigure(figsize=(TWO_COLUMNS, _HEIGHT * TWO_COLUMNS + _LINE * rows))
     drawn = figure.subplots()
     units = np.array([parameter_unit(axis.field) for axis in found.axes])
@@ -82,11 +84,14 @@ def _drawn(
     for curve in found.curves:
         if curve.kind != "non-smooth-hopf":
             curve_line(drawn, curve, units, virtual)
-    drawn.set_xlabel(parameter_label(found.axes[0].field))
-    drawn.set_ylabel(parameter_label(found.axes[1].field))
+    scales = found.model.scales
+    aside = label_parameter(drawn, "x", found.axes[0].field, scales, own=drawn)
+    label_parameter(drawn, "y", found.axes[1].field, scales, own=drawn)
     drawn.set_xlim(*(np.array(found.plane.first_range) / units[0]))
     drawn.set_ylim(*(np.array(found.plane.second_range) / units[1]))
-    legend_above(drawn, [*_curve_key(found, virtual), *_mark_points(drawn, found, units, virtual), *key], 3)
+    legend_above(
+        drawn, [*_curve_key(found, virtual), *_mark_points(drawn, found, units, virtual), *key], 3, aside=aside
+    )
     if lines:
         handles = [Line2D([], [], ls="none", label=words) for words in lines]
         figure.legend(handles=handles, loc="outside lower center", ncols=columns, handlelength=0.0, fontsize=6.5)
@@ -110,12 +115,9 @@ def _draw_proof(axes: Axes, found: RegionMap, proof: Proof, units: np.ndarray) -
 def _name(found: RegionMap, region: Region) -> str:
     """Return the motions that a region has and not all have, one kind a line."""
     absent = ("no ", f"{STEADY_WORDS['contact-free']} virtual")
-    parts = [
-        with_symbols(part)
-        for part in region.motions.parts
-        if part not in found.everywhere and not part.startswith(absent)
-    ]
-    return "\n".join(parts) or "none of these motions"
+    parts = [part for part in region.motions.parts if part not in found.everywhere and not part.startswith(absent)]
+    lines = [line for part in parts for line in part.removeprefix("stable ").split(" and ")]
+    return "\n".join(lines) or "none of these motions"
 
 
 def _curve_key(found: RegionMap, virtual: bool) -> list[Line2D]:
@@ -125,7 +127,7 @@ def _curve_key(found: RegionMap, virtual: bool) -> list[Line2D]:
     for kind, look in CURVES.items():
         if any(curve.kind == kind for curve in shown):
             orbits = found.orbits_of(kind)
-            lines.append(look.entry(f"{look.words}: {orbits}" if orbits else ""))
+            lines.append(look.entry(f"{look.words}: {with_symbols(orbits)}" if orbits else ""))
     if not all(np.all(curve.admissible) for curve in shown) and virtual:
         lines.append(Line2D([], [], color=_BLACK, lw=1.1, alpha=FAINT, label="faint: virtual motions only"))
     return lines
