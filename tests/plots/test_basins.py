@@ -280,3 +280,19 @@ def test_gain_map_of_dimensionless_parameters():
     axes = plots.gain_map(found, title="a title").axes[0]
     assert r"\omega" in axes.get_xlabel()
     assert axes.get_title() == "a title"
+
+
+def test_a_motion_has_one_name_and_one_colour_in_every_figure(damped):
+    """Shares of attractors and of a basin."""
+    figure = plots.attractors(carom.find_attractors(damped.rotor, count=40))
+    (axes,) = figure.axes
+    bars = {label.get_text(): patch for label, patch in zip(axes.get_yticklabels(), axes.patches, strict=True)}
+    picture = plots.basin(map_basins(damped.rotor, Grid(VelocityKick(1.0), (8, 12))))
+    entries = {
+        text.get_text().rsplit(", ", 1)[0]: patch
+        for text, patch in zip(picture.legends[0].get_texts(), picture.legends[0].get_patches(), strict=True)
+    }
+    assert r"bouncing on $B_{\mathrm{1,d}}$" in bars.keys() & entries.keys()
+    for name in bars.keys() & entries.keys():
+        assert bars[name].get_facecolor() == entries[name].get_facecolor(), name
+        assert (bars[name].get_hatch() or "") == (entries[name].get_hatch() or ""), name

@@ -89,5 +89,5 @@ def test_amplitudes_of_a_machine_are_in_mm(bouncing):
     full = carom.motions.full_spectrum(bouncing)
     (axes,) = plots.spectrum(full).axes
     assert axes.get_ylabel() == "amplitude (mm)"
-    top = max(np.max(line.get_ydata()) for line in axes.lines)
+    top = max(np.max(line.get_ydata()) for line in axes.lines if len(line.get_xdata()) > 2)
     assert top == pytest.approx(0.7 * abs(full.amplitudes).max())
