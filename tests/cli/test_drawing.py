@@ -87,7 +87,9 @@ def test_maps_of_a_sweep(drawn, tmp_path, capsys):
     words = ("sweep", str(file), "--out", str(tmp_path / "store"), "--threads")
     assert main((*words, "--figures", str(tmp_path / "maps"))) == 0
     stems = ("recovered", "smallest_unrecovered_kick")
-    assert {path.name for path in (tmp_path / "maps").iterdir()} == {f"{s}.{e}" for s in stems for e in ("svg", "png")}
+    assert {path.name for path in (tmp_path / "maps" / "figures").iterdir()} == {
+        f"{s}.{e}" for s in stems for e in ("svg", "png")
+    }
     assert headings(drawn) == [NAMED] * 2
     (star,) = [line for line in drawn[0].axes[0].lines if line.get_gid() == "present"]
     assert (star.get_xdata()[0], star.get_ydata()[0]) == pytest.approx((980_000.0, 1758.98), rel=1e-5)

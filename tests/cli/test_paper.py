@@ -53,7 +53,7 @@ def test_everything_to_a_directory(carom, tmp_path, monkeypatch):
     assert "figure-6.svg" in err
     assert [entry["name"] for entry in document["figures"]] == ["figure-6"]
     for ending in ("svg", "png"):
-        assert (place / f"figure-6.{ending}").stat().st_size > 20_000
+        assert (place / "figures" / f"figure-6.{ending}").stat().st_size > 20_000
     assert not list(tmp_path.glob("deep/.*"))
 
 

@@ -17,7 +17,12 @@ def _motions(gamma: float) -> SimpleNamespace:
     )
     rotor = carom.models.Jeffcott(parameters)
     return SimpleNamespace(
-        rotor=rotor, orbits=carom.find_orbits(rotor), equilibria=carom.find_equilibria(rotor), scales=scales
+        rotor=rotor,
+        orbits=carom.find_orbits(rotor),
+        equilibria=carom.find_equilibria(rotor),
+        scales=scales,
+        mm=1e3 * scales.length,
+        ms=1e3 * scales.time,
     )
 
 

@@ -73,7 +73,7 @@ def test_legends_titles_and_labels_are_within_the_page(damped):
 
 
 def test_numbers_at_second_axes_are_plain_text(damped):
-    figure = plots.radius(damped.orbits["B1,d"])
+    figure = plots.radius(damped.orbits["B1,a"])
     labels = [
         text.get_text()
         for axes in figure.axes[0].child_axes

@@ -133,7 +133,7 @@ def test_shares_at_each_size_are_stacked_to_a_hundred(rotor):
         (Grid(BaseShock.of(MACHINE, "8 g", "5 ms"), (6, 8)), ("peak acceleration of the base (g)",)),
         (Grid(UnbalanceStep.of(MACHINE, "0.2 mm"), (6, 8)), ("eccentricity before the step (mm)",)),
         (Grid(KickPlane(1.0), (10, 10)), ("kick outward (mm/s)", "kick in the sense of rotation (mm/s)")),
-        (Grid(StateSlice(), (12, 12)), ("Re $U$", "Im $U$", "0.7 mm")),
+        (Grid(StateSlice(), (12, 12)), ("Re $U$ (mm)", "Im $U$ (mm)")),
         (Grid(ContactRelease("rotating"), (20,)), ("released from the wall, at rest in the co-rotating frame",)),
         (Grid(BladeLoss.of(MACHINE, "0.25 mm"), (20,)), ("phase of the unbalance after the loss", "to 0.25 mm")),
         (
@@ -178,10 +178,10 @@ def test_hatching_covers_its_cells_to_their_rim(rotor, plan):
 def test_without_scales_units_are_those_of_the_equations():
     rotor = carom.models.Jeffcott(MACHINE.replace(scales=None))
     figure = plots.basin(map_basins(rotor, Grid(VelocityKick(1.0), (5, 6))))
-    assert r"c_\mathrm{r}\Omega" in figure.axes[1].get_xlabel()
+    assert r"($c_\mathrm{r}\,\Omega$)" in figure.axes[1].get_xlabel()
 
 
-@pytest.mark.parametrize(("scales", "speed"), [(SCALES, "50+0j mm/s"), (None, r"0.388+0j $c_r\Omega$")])
+@pytest.mark.parametrize(("scales", "speed"), [(SCALES, "50+0j mm/s"), (None, r"0.388+0j $c_\mathrm{r}\,\Omega$")])
 def test_the_velocity_of_a_slice_is_told_in_the_unit_of_people(scales, speed):
     machine = MACHINE.replace(scales=scales)
     basin = map_basins(machine, Grid(StateSlice(0.05 / SCALES.velocity), (4, 4)))
@@ -280,3 +280,19 @@ def test_gain_map_of_dimensionless_parameters():
     axes = plots.gain_map(found, title="a title").axes[0]
     assert r"\omega" in axes.get_xlabel()
     assert axes.get_title() == "a title"
+
+
+def test_a_motion_has_one_name_and_one_colour_in_every_figure(damped):
+    """Shares of attractors and of a basin."""
+    figure = plots.attractors(carom.find_attractors(damped.rotor, count=40))
+    (axes,) = figure.axes
+    bars = {label.get_text(): patch for label, patch in zip(axes.get_yticklabels(), axes.patches, strict=True)}
+    picture = plots.basin(map_basins(damped.rotor, Grid(VelocityKick(1.0), (8, 12))))
+    entries = {
+        text.get_text().rsplit(", ", 1)[0]: patch
+        for text, patch in zip(picture.legends[0].get_texts(), picture.legends[0].get_patches(), strict=True)
+    }
+    assert r"bouncing on $B_{\mathrm{1,d}}$" in bars.keys() & entries.keys()
+    for name in bars.keys() & entries.keys():
+        assert bars[name].get_facecolor() == entries[name].get_facecolor(), name
+        assert (bars[name].get_hatch() or "") == (entries[name].get_hatch() or ""), name

@@ -8,12 +8,12 @@ import carom
 from carom import plots
 
 
-def test_wall_is_the_unit_circle_in_both_frames(damped, read):
+def test_wall_is_the_clearance_in_mm_in_both_frames(damped, read):
     figure = plots.orbit(damped.orbits["B1,d"])
     assert len(figure.axes) == 2
     for axes in figure.axes:
         (wall,) = read.lines(axes, "wall")
-        np.testing.assert_allclose(np.hypot(wall.get_xdata(), wall.get_ydata()), 1.0)
+        np.testing.assert_allclose(np.hypot(wall.get_xdata(), wall.get_ydata()), 0.7)
         assert axes.get_aspect() == 1.0
 
 
@@ -22,15 +22,15 @@ def test_orbit_closes_in_the_rotating_frame_and_strikes_once_a_period_in_the_fix
     rotating, fixed = plots.orbit(orbit, periods=7).axes
     (path,) = read.lines(rotating, "path")
     x, y = path.get_data()
-    assert (x[0], y[0]) == pytest.approx((orbit.position.real, orbit.position.imag))
+    assert complex(x[0], y[0]) == pytest.approx(damped.mm * orbit.position)
     assert (x[-1], y[-1]) == pytest.approx((x[0], y[0]))
     # theta' = -1.368 before the impact: backward in the fixed frame, as angular speed -1 is standstill there.
     assert (read.marked(rotating, "backward"), read.marked(rotating, "forward")) == (1, 0)
     assert (read.marked(fixed, "backward"), read.marked(fixed, "forward")) == (7, 0)
     (strikes,) = read.lines(fixed, "backward")
     turned = orbit.angle + orbit.period * np.arange(1, 8)
-    np.testing.assert_allclose(strikes.get_xdata(), np.cos(turned), atol=1e-9)
-    np.testing.assert_allclose(strikes.get_ydata(), np.sin(turned), atol=1e-9)
+    np.testing.assert_allclose(strikes.get_xdata(), damped.mm * np.cos(turned), atol=1e-9)
+    np.testing.assert_allclose(strikes.get_ydata(), damped.mm * np.sin(turned), atol=1e-9)
 
 
 def test_fixed_frame_shows_as_many_periods_as_bring_it_nearest_to_closing(damped, read):
@@ -44,9 +44,9 @@ def test_words_of_an_orbit(damped, read):
     figure = plots.orbit(damped.orbits["B1,d"])
     assert figure.get_suptitle() == r"$B_{\mathrm{1,d}}$ — admissible, stable"
     rotating, fixed = figure.axes
-    assert rotating.get_title() == r"co-rotating frame, period $T$ = 2.864 $/\,\Omega$ (15.5 ms)"
-    assert rotating.get_xlabel() == r"position Re $U$ (units of $c_\mathrm{r}$ = 0.7 mm)"
-    assert fixed.get_ylabel() == r"position Im $Z$ (units of $c_\mathrm{r}$ = 0.7 mm)"
+    assert rotating.get_title() == r"co-rotating frame, period $T$ = 15.5 ms"
+    assert rotating.get_xlabel() == "position Re $U$ (mm)"
+    assert fixed.get_ylabel() == "position Im $Z$ (mm)"
     assert read.legend(figure) == [
         "clearance circle (touchdown bearing)",
         "orbit (admissible, stable)",
@@ -64,9 +64,9 @@ def test_part_of_a_virtual_orbit_beyond_the_wall_is_faint_and_dotted(weak, read)
         (inside,), (outside,) = read.lines(axes, "path"), read.lines(axes, "outside")
         assert outside.get_linestyle() == ":"
         assert outside.get_color() == plots.LOOKS["outside"].colour
-        assert np.nanmax(np.hypot(*inside.get_data())) <= 1.0 + 1e-9
-        assert np.nanmax(np.hypot(*outside.get_data())) > 1.2
-        assert np.ptp(axes.get_xlim()) > 2.5
+        assert np.nanmax(np.hypot(*inside.get_data())) <= weak.mm * (1.0 + 1e-9)
+        assert np.nanmax(np.hypot(*outside.get_data())) > 1.2 * weak.mm
+        assert np.ptp(axes.get_xlim()) > 2.5 * weak.mm
     assert "virtual part, outside the clearance" in read.legend(figure)
     # The contact-free point lies beyond the wall as well: hollow.
     (point,) = read.lines(figure.axes[0], "contact-free")
@@ -99,15 +99,15 @@ def test_motion_shows_every_impact_in_both_frames_by_whirl_direction(bouncing, r
         assert len(read.lines(axes, "path")) == 1
 
 
-def test_motion_starts_and_ends_where_it_does(bouncing, read):
+def test_motion_starts_and_ends_where_it_does(damped, bouncing, read):
     rotating, fixed = plots.motion(bouncing).axes
     for axes, turn in ((rotating, 1.0), (fixed, np.exp(1j * bouncing.time))):
         (end,) = read.lines(axes, "end")
-        last = bouncing.final.position * turn
+        last = damped.mm * bouncing.final.position * turn
         assert (end.get_xdata()[0], end.get_ydata()[0]) == pytest.approx((last.real, last.imag))
 
 
-def test_motion_without_its_transient(bouncing, read):
+def test_motion_without_its_transient(damped, bouncing, read):
     rotating, _ = plots.motion(bouncing, since=50.0).axes
     assert (
         read.marked(rotating, "forward") + read.marked(rotating, "backward") == (bouncing.contacts.time >= 50.0).sum()
@@ -115,7 +115,7 @@ def test_motion_without_its_transient(bouncing, read):
     (start,) = read.lines(rotating, "start")
     (path,) = [line for line in read.lines(rotating, "path") if len(line.get_xdata()) > 2]
     assert len(path.get_xdata()) >= 2000, "the part that is shown is drawn smoothly"
-    first = bouncing.position(np.array([50.0]))[0]
+    first = damped.mm * bouncing.position(np.array([50.0]))[0]
     assert (start.get_xdata()[0], start.get_ydata()[0]) == pytest.approx((first.real, first.imag))
 
 
@@ -136,10 +136,10 @@ def test_faded_motion_begins_paler_than_it_ends(bouncing, read):
     assert "path of the rotor centre (early part pale)" in read.legend(figure)
 
 
-def test_fading_ends_with_the_flight_not_with_the_contact_after_it(rubbing):
+def test_fading_ends_with_the_flight_not_with_the_contact_after_it(damped, rubbing):
     figure = plots.motion(rubbing, fade=True)
     (path,) = [drawn for drawn in figure.axes[0].collections if drawn.get_gid() == "path"]
-    contact = rubbing.position(np.array([rubbing.lasting_contacts[0].start]))[0]
+    contact = damped.mm * rubbing.position(np.array([rubbing.lasting_contacts[0].start]))[0]
     assert np.allclose(path.get_segments()[-1][-1], (contact.real, contact.imag), atol=1e-3)
 
 
@@ -157,7 +157,7 @@ def test_lasting_contact_is_a_band_on_the_wall(rubbing, chattering, read):
     figure = plots.motion(rubbing)
     for axes in figure.axes:
         (band,) = read.lines(axes, "slide")
-        np.testing.assert_allclose(np.hypot(*band.get_data())[np.isfinite(band.get_xdata())], 1.0)
+        np.testing.assert_allclose(np.hypot(*band.get_data())[np.isfinite(band.get_xdata())], 0.7)
         assert read.lines(axes, "roll") == []
         assert band.get_linewidth() > 1.5 * read.lines(axes, "wall")[0].get_linewidth()
     assert "lasting contact, sliding" in read.legend(figure)
@@ -189,7 +189,31 @@ def test_motion_that_never_leaves_the_wall(damped, read, fade):
     for axes in (rotating, fixed):
         assert len(read.lines(axes, "slide")) == 1
     (band,) = read.lines(plots.radius(motion).axes[0], "slide")
-    assert (np.nanmin(band.get_xdata()), np.nanmax(band.get_xdata())) == (0.0, 10.0)
+    assert (np.nanmin(band.get_xdata()), np.nanmax(band.get_xdata())) == pytest.approx((0.0, 10.0 * damped.ms))
+
+
+@pytest.mark.jit_only
+def test_of_a_long_motion_the_last_turns_are_drawn(damped, read):
+    long = carom.simulate(damped.rotor, carom.kick(0.35, angle=0.2), until=600.0)
+    figure = plots.motion(long)
+    rotating, fixed = figure.axes
+    turn = 2.0 * np.pi
+    (path,) = [line for line in read.lines(fixed, "path") if len(line.get_xdata()) > 2]
+    start = complex(path.get_xdata()[0], path.get_ydata()[0])
+    assert start == pytest.approx(damped.mm * long.position(np.array([600.0 - 8.0 * turn]), "fixed")[0])
+    shown = (long.contacts.time >= 600.0 - 8.0 * turn).sum()
+    assert read.marked(fixed, "backward") + read.marked(fixed, "forward") == shown
+    first = (long.contacts.time <= 4.0 * turn).sum()
+    assert read.marked(rotating, "backward") + read.marked(rotating, "forward") == shown + first
+    (points,) = read.lines(fixed, "once a turn")
+    times = turn * np.arange(len(points.get_xdata()))
+    assert times[-1] < 600.0 - 8.0 * turn <= times[-1] + turn
+    there = points.get_xdata() + 1j * points.get_ydata()
+    np.testing.assert_allclose(there, damped.mm * long.position(times, "fixed"), atol=1e-9)
+    words = read.legend(figure)
+    assert {"path of the rotor centre, last 8 turns", "before: once a turn of the shaft"} <= set(words)
+    whole = plots.motion(long, turns=100)
+    assert not any("turn" in text for text in read.legend(whole))
 
 
 def test_own_axes(damped, bouncing, read):

@@ -8,25 +8,26 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
-from carom.plots.numerals import number_regions
+from carom.plots.numerals import name_regions
 
 
 def line(*points):
-    return SimpleNamespace(points=np.array(points, dtype=float))
+    return SimpleNamespace(points=np.array(points, dtype=float), admissible=np.ones(len(points), bool))
 
 
 def region(*places):
     return SimpleNamespace(point=places[0], places=np.array(places, dtype=float))
 
 
-def numbered(found):
-    """Axes with the numerals of a plane over the unit square, 100 x 100 points large."""
+def numbered(found, names=None):
+    """Axes with the names of a plane over the unit square, 100 x 100 points large; by default numerals only."""
     figure = Figure(figsize=(100 / 72, 100 / 72), dpi=144)
     axes = figure.add_axes((0, 0, 1, 1))
     axes.set(xlim=(0, 1), ylim=(0, 1))
     for curve in found.curves:
         axes.plot(*curve.points.T)
-    number_regions(axes, found, np.ones(2))
+    every = range(1, len(found.regions) + 1)
+    axes.without = name_regions(axes, found, np.ones(2), names or [""] * len(every), () if names else every)
     figure.draw_without_rendering()
     return axes
 
@@ -86,3 +87,26 @@ def test_numerals_keep_clear_of_points_where_curves_meet_and_of_the_machine(mark
     axes = numbered(plane(region((0.5, 0.5)), **marked))
     low, high = boxes(axes)["1"]
     assert not ((low <= 0.5) & (high >= 0.5)).all()
+
+
+def test_a_region_with_room_has_its_name_and_a_thin_one_its_numeral():
+    curves = [line((0, height), (1, height)) for height in (0.5, 0.56)]
+    found = plane(region((0.5, 0.25)), region((0.5, 0.53)), curves=curves)
+    axes = numbered(found, ["levitation\nsynchronous rub", "levitation"])
+    written = boxes(axes)
+    assert set(written) == {"levitation\nsynchronous rub", "2"}
+    assert axes.without == {2}
+    low, high = written["levitation\nsynchronous rub"]
+    assert 0 < low[1] < high[1] < 0.5
+    assert 0 < low[0] < high[0] < 1
+
+
+def test_a_name_is_one_line_where_its_region_is_low():
+    found = plane(region((0.5, 0.08)), curves=[line((0, 0.16), (1, 0.16))])
+    assert set(boxes(numbered(found, ["rest\nrub"]))) == {"rest, rub"}
+
+
+def test_a_virtual_curve_that_is_hidden_takes_no_room():
+    hidden = line((0, 0.5), (1, 0.5))
+    hidden.admissible[:] = False
+    assert set(boxes(numbered(plane(region((0.5, 0.5)), curves=[hidden]), ["levitation"]))) == {"levitation"}

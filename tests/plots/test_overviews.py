@@ -17,7 +17,7 @@ def test_every_equilibrium_is_at_its_place(damped, read):
     whole = figure.axes[0]
     for kind in ("contact-free", "rub"):
         drawn = [complex(line.get_xdata()[0], line.get_ydata()[0]) for line in read.lines(whole, kind)]
-        wanted = [point.position for point in damped.equilibria if point.kind == kind]
+        wanted = [damped.mm * point.position for point in damped.equilibria if point.kind == kind]
         np.testing.assert_allclose(sorted(drawn, key=abs), sorted(wanted, key=abs))
     saddle, stable = sorted(read.lines(whole, "rub"), key=lambda line: line.get_xdata()[0])
     assert saddle.get_markerfacecolor() == "white"
@@ -35,7 +35,7 @@ def test_words(damped, read):
         "periodic orbit: admissible, stable",
         "periodic orbit: admissible, unstable",
     }
-    assert figure.axes[0].get_xlabel() == r"position Re $U$ (units of $c_\mathrm{r}$ = 0.7 mm)"
+    assert figure.axes[0].get_xlabel() == "position Re $U$ (mm)"
 
 
 def test_every_orbit_is_named_once_small_ones_in_a_panel(damped):
@@ -46,14 +46,23 @@ def test_every_orbit_is_named_once_small_ones_in_a_panel(damped):
     assert _texts(right) == {r"$B_{\mathrm{1,c}}$"}
     assert whole.get_title() == "(a) co-rotating frame"
     for panel, names in ((left, ("B1,a", "B1,b")), (right, ("B1,c",))):
+        assert (panel.get_xlabel(), panel.get_ylabel()) == ("Re $U$ (mm)", "Im $U$ (mm)")
         for name in names:
-            position = damped.orbits[name].position
+            position = damped.mm * damped.orbits[name].position
             assert panel.get_xlim()[0] < position.real < panel.get_xlim()[1]
             assert panel.get_ylim()[0] < position.imag < panel.get_ylim()[1]
 
 
-def test_virtual_orbits_are_faint(weak, read):
+def test_virtual_orbits_are_hidden_unless_asked_for(weak, read):
     figure = plots.equilibria_and_orbits(weak.orbits, weak.equilibria)
+    (axes, *_) = figure.axes
+    assert len(read.lines(axes, "path")) == 1
+    assert read.lines(axes, "outside") == read.lines(axes, "virtual") == []
+    assert not any("virtual" in words for words in read.legend(figure) if "orbit" in words)
+
+
+def test_virtual_orbits_are_faint(weak, read):
+    figure = plots.equilibria_and_orbits(weak.orbits, weak.equilibria, virtual=True)
     whole = figure.axes[0]
     pale = plots.LOOKS["outside"]
     virtual = [orbit for orbit in weak.orbits if not orbit.admissible]
@@ -70,7 +79,7 @@ def test_many_virtual_orbits_do_not_hide_the_physical_ones(damped, read):
     rotor = carom.models.Jeffcott(damped.rotor.parameters.replace(gamma=0.02))
     orbits = carom.find_orbits(rotor)
     virtual = sum(not orbit.admissible for orbit in orbits)
-    figure = plots.equilibria_and_orbits(orbits, carom.find_equilibria(rotor))
+    figure = plots.equilibria_and_orbits(orbits, carom.find_equilibria(rotor), virtual=True)
     whole = figure.axes[0]
     assert len(read.lines(whole, "path")) == len(orbits) - virtual
     assert sum(len(line.get_xdata()) for line in read.lines(whole, "virtual")) == virtual

@@ -7,9 +7,14 @@ import pytest
 from drawn_legends import fits, legend_words
 from machines import PAPER
 
+import carom
 from carom import plots
 from carom.bifurcations import UnexplainedChange, motions_at
 from carom.bifurcations.documents import regions_document
+from carom.parameters import Scales
+from carom.plots.diagrams import FAINT
+
+SCALES = Scales(50.0, 0.7e-3, 184.2)
 
 
 @pytest.fixture(scope="module")
@@ -20,14 +25,15 @@ def figure(corner):
 def test_words_of_the_legend(corner, figure):
     words = legend_words(figure)
     for expected in (
-        "grazing: B1,d, B2,b, B3,b",
-        "period doubling: B1,d",
-        "Neimark–Sacker bifurcation: B1,d",
+        r"grazing: $B_{\mathrm{1,d}}$, $B_{\mathrm{2,b}}$, $B_{\mathrm{3,b}}$",
+        r"period doubling: $B_{\mathrm{1,d}}$",
+        r"Neimark–Sacker bifurcation: $B_{\mathrm{1,d}}$",
         "two at once",
         "resonance of the multipliers",
-        f"the machine as it is: region {corner.present_region}",
+        "the machine as it is",
     ):
         assert expected in words
+    assert not any(region in word for word in words for region in ("R1:", "R2:", "R3:", "R4:"))
 
 
 def test_no_curve_leaves_the_plane(corner):
@@ -39,14 +45,18 @@ def test_no_curve_leaves_the_plane(corner):
     assert (points <= highs + 1e-12).all()
 
 
-def test_figure_and_document_number_the_same_regions(corner, figure):
+def test_a_region_has_its_name_in_its_area_or_its_number_in_the_document(corner, figure):
     (axes,) = figure.axes
     document = regions_document(PAPER, corner)
-    listed = [word.split(": ")[0] for word in legend_words(figure) if word[0].isdigit()]
     numerals = sorted(int(text.get_text()) for text in axes.texts if text.get_gid() == "numeral")
-    numbers = [region["number"] for region in document["regions"]]
-    assert numbers == list(range(1, len(numbers) + 1)) == numerals
-    assert listed == [str(number) for number in numbers]
+    names = [text.get_text() for text in axes.texts if text.get_gid() == "name"]
+    listed = [int(word.split(": ")[0]) for word in legend_words(figure) if word[0].isdigit()]
+    assert listed == numerals
+    assert names
+    assert len(names) + len(numerals) == len(document["regions"])
+    for name in names:
+        assert "stable synchronous rub" not in name
+        assert "no " not in name
     present = document["present"]
     assert present["point"] == [PAPER.gamma, PAPER.omega]
     assert document["regions"][present["region"] - 1]["words"] == present["words"] == motions_at(PAPER).words
@@ -55,13 +65,39 @@ def test_figure_and_document_number_the_same_regions(corner, figure):
     assert np.abs(drawn - 0.077432506).min() < 1e-8
 
 
+def test_axes_of_a_machine_are_in_its_units(corner):
+    known = type(corner)(**{**vars(corner), "model": carom.models.Jeffcott(PAPER.replace(scales=SCALES))})
+    (axes,) = plots.region_map(known).axes
+    below, left = axes.child_axes
+    assert (below.get_xlabel(), left.get_ylabel()) == (
+        "damping of the levitation $c$ (N s/m)",
+        "stiffness of the levitation $k$ (N/m)",
+    )
+    assert below.get_xlim() == pytest.approx(np.array(axes.get_xlim()) * SCALES.damping)
+    assert left.get_ylim() == pytest.approx(np.array(axes.get_ylim()) ** 2 * SCALES.stiffness)
+    assert axes.get_xaxis().get_label_position() == "top"
+
+
+def test_curves_of_virtual_motions_are_hidden_unless_asked_for(corner, figure):
+    virtual = np.concatenate([curve.points[~curve.admissible] for curve in corner.curves])
+    assert len(virtual)
+
+    def faint(drawn):
+        return [line for line in drawn.axes[0].lines if line.get_alpha() == FAINT]
+
+    asked = plots.region_map(corner, virtual=True)
+    assert faint(figure) == []
+    assert faint(asked)
+    assert "faint: virtual motions only" in set(legend_words(asked)) - set(legend_words(figure))
+
+
 def test_resonances_the_machine_and_changes_without_a_curve_are_marked(corner):
     change = UnexplainedChange((0.05, 0.5), motions_at(PAPER), motions_at(PAPER.replace(gamma=0.2)), "for this test")
     marked = type(corner)(**{**vars(corner), "unexplained": (change,)})
-    figure = plots.region_map(marked)
+    figure = plots.region_map(marked, virtual=True)
     (axes,) = figure.axes
     places = {line.get_gid(): (line.get_xdata()[0], line.get_ydata()[0]) for line in axes.lines if line.get_gid()}
-    assert places[f"the machine as it is: region {corner.present_region}"] == (PAPER.gamma, PAPER.omega)
+    assert places["the machine as it is"] == (PAPER.gamma, PAPER.omega)
     assert places["change of motions on no curve found"] == (0.05, 0.5)
     ratios = {text.get_text() for text in axes.texts if text.get_gid() == "resonance"}
     assert ratios == {"1:2", "1:3"}

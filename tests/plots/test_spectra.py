@@ -6,6 +6,7 @@ from matplotlib.figure import Figure
 
 import carom
 from carom import plots
+from carom.plots.words import orbit_words
 
 
 def _values(axes, name):
@@ -58,14 +59,14 @@ def test_stable_is_filled_unstable_hollow(damped):
 def test_many_virtual_orbits_share_a_marker(damped, read):
     orbits = carom.find_orbits(carom.models.Jeffcott(damped.rotor.parameters.replace(gamma=0.02)))
     virtual = sum(not orbit.admissible for orbit in orbits)
-    figure = plots.multipliers(orbits)
+    figure = plots.multipliers(orbits, virtual=True)
     assert len(read.legend(figure)) == len(orbits) - virtual + 1
     values, _ = _values(figure.axes[0], "virtual")
     assert len(values) == 3 * virtual
 
 
 def test_no_orbits(read):
-    assert read.legend(plots.multipliers([])) == ["no periodic orbit"]
+    assert read.legend(plots.multipliers([])) == ["no possible periodic orbit"]
 
 
 def test_own_axes(damped):
@@ -74,3 +75,19 @@ def test_own_axes(damped):
     assert plots.multipliers(damped.orbits, axes=axes) is figure
     assert axes.get_legend() is not None
     assert figure.get_size_inches() == pytest.approx(Figure().get_size_inches())
+
+
+def test_virtual_orbits_are_hidden_unless_asked_for(weak):
+    possible = {orbit_words(orbit) for orbit in weak.orbits if orbit.admissible}
+    (axes,) = plots.multipliers(weak.orbits).axes
+    assert {text.get_text() for text in axes.figure.legends[0].get_texts()} == possible
+    asked = plots.multipliers(weak.orbits, virtual=True)
+    assert len(asked.legends[0].get_texts()) == len(weak.orbits) > len(possible)
+
+
+def test_amplitudes_of_a_machine_are_in_mm(bouncing):
+    full = carom.motions.full_spectrum(bouncing)
+    (axes,) = plots.spectrum(full).axes
+    assert axes.get_ylabel() == "amplitude (mm)"
+    top = max(np.max(line.get_ydata()) for line in axes.lines if len(line.get_xdata()) > 2)
+    assert top == pytest.approx(0.7 * abs(full.amplitudes).max())

@@ -124,7 +124,7 @@ def test_figures_are_files_too(written):
     assert names >= {"overview", "period-condition", "multipliers", "disturbance-synchronous-rub"}
     assert names >= {f"{kind}-{orbit.name.replace(',', '')}" for kind in ("orbit", "radius") for orbit in result.orbits}
     files = {file.name for file in (path.parent / "figures").iterdir()}
-    assert files == {f"{name}.svg" for name in names}
+    assert files == {f"{name}.{ending}" for name in names for ending in ("svg", "png")}
     listed = json.loads((path.parent / "study.json").read_text(encoding="utf-8"))["figures"]
     assert {f"figures/{name}" for name in files} == set(listed)
 
@@ -167,7 +167,7 @@ def test_any_machine_has_a_report(parameters, tmp_path):
 def test_figures_fit_a_telephone(written):
     """Letters of 7 points in a figure of one column are at least 9 pixels high on a screen 390 pixels wide."""
     _, path, _ = written
-    for file in (path.parent / "figures").iterdir():
+    for file in (path.parent / "figures").glob("*.svg"):
         width = float(re.search(r'viewBox="0 0 ([\d.]+) ', file.read_text(encoding="utf-8"))[1])
         assert width == pytest.approx(88.0 / 25.4 * 72.0, abs=0.1)
         assert 7.0 * 340.0 / width > 9.0
@@ -196,10 +196,10 @@ def test_recommendation_comes_first(written):
         assert part in words
 
 
-def test_png_on_request(written, monkeypatch, tmp_path):
+def test_figures_are_svg_and_png(written, monkeypatch, tmp_path):
     result, _, _ = written
     monkeypatch.setattr("carom.report.page.pictures", lambda study: pictures(study)[:1])
-    write_report(result, str(tmp_path), png=True)
+    write_report(result, str(tmp_path))
     assert {file.name for file in (tmp_path / "figures").iterdir()} == {"overview.svg", "overview.png"}
     assert json.loads((tmp_path / "study.json").read_text(encoding="utf-8"))["figures"] == [
         "figures/overview.svg",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import ClassVar, NamedTuple
 
 import numpy as np
@@ -119,10 +119,22 @@ class Diagram(Result):
 
     def told_speeds(self, values: np.ndarray | float, speeds: np.ndarray | float) -> np.ndarray:
         """Speeds in this unit, from those in ``c_r Ω`` of the machines that have these values of the parameter."""
-        factor, _ = shown_in("velocity", self.model.scales)
-        changes = self.parameter in ("clearance", "speed")
-        ratio = np.asarray(values) / self.axis.value(self.model) if changes else 1.0
-        return np.asarray(factor * ratio * np.asarray(speeds))
+        return self.told("velocity", values, speeds)
+
+    def told(self, kind: str, values: np.ndarray | float, sizes: np.ndarray | float) -> np.ndarray:
+        """Sizes in the unit in which people are told them, from units of the equations of the machines with these values.
+
+        The kind is a property of :class:`~carom.parameters.Scales`.
+        """
+        scales = self.model.scales
+        factor, _ = shown_in(kind, scales)
+        ratio: np.ndarray | float = 1.0
+        if scales is not None and self.parameter in ("mass", "clearance", "speed"):
+            # Every unit is a product of powers of the three, so a doubled scale shows the power.
+            doubled = replace(scales, **{self.parameter: 2.0 * getattr(scales, self.parameter)})
+            power = np.log2(getattr(doubled, kind) / getattr(scales, kind))
+            ratio = (np.asarray(values) / self.axis.value(self.model)) ** np.round(power)
+        return np.asarray(factor * ratio * np.asarray(sizes))
 
     @property
     def parameter(self) -> str:

@@ -29,7 +29,11 @@ Impacts = Annotated[
     ),
 ]
 Virtual = Annotated[
-    bool, typer.Option("--virtual", help="Also follow orbits of higher pairs that are virtual at all values examined.")
+    bool,
+    typer.Option(
+        "--virtual",
+        help="Also follow orbits of higher pairs that are virtual at all values examined, and draw virtual motions.",
+    ),
 ]
 Lasting = Annotated[
     bool,
@@ -121,7 +125,7 @@ def bifurcations(
     document = diagram_document(parameters, diagram)
     if out is not None:
         with output_directory(out, case) as output:
-            output.figure(f"bifurcations-{varied.name}", diagram.plot(proof=proven))
+            output.figure(f"bifurcations-{varied.name}", diagram.plot(proof=proven, virtual=virtual))
             output.document(f"bifurcations-{varied.name}", document)
     if as_json:
         print_document(document)
@@ -185,7 +189,7 @@ def regions(
     document = regions_document(parameters, found)
     if out is not None:
         with output_directory(out, case) as output:
-            output.figure(f"regions-{axes[0].name}-{axes[1].name}", found.plot(proof=proven))
+            output.figure(f"regions-{axes[0].name}-{axes[1].name}", found.plot(proof=proven, virtual=virtual))
             output.document(f"regions-{axes[0].name}-{axes[1].name}", document)
     if as_json:
         print_document(document)

@@ -25,8 +25,9 @@ class Output:
     def figure(self, name: str, figure: Figure) -> None:
         """Write a figure as SVG and PNG."""
         from carom import plots
+        from carom.files.directory import FIGURES
 
-        plots.save(figure, self.directory / "figures" / name)
+        plots.save(figure, self.directory / FIGURES / name)
 
     def document(self, name: str, document: dict[str, Any]) -> None:
         """Write a document as JSON."""

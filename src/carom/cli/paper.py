@@ -40,7 +40,7 @@ def paper(
     else:
         _print_reproduction(found)
     if written:
-        shown = ", ".join(path.name for path in written)
+        shown = ", ".join(str(path.relative_to(str(out))) for path in written)
         console(errors=as_json).print(f"Written to {out}: {shown}", soft_wrap=True)
 
 

@@ -36,7 +36,6 @@ def study(
     prove: Annotated[
         bool, typer.Option("--prove", help="Prove equilibria and orbits too; needs the extra carom[proof].")
     ] = False,
-    png: Annotated[bool, typer.Option("--png", help="With --out: write the figures as PNG too.")] = False,
     as_json: AsJson = False,
 ) -> None:
     """Study a machine: the verdict in words and numbers, and a report.
@@ -59,7 +58,7 @@ def study(
         if out is not None:
             from carom.report import write_report
 
-            report = write_report(result, out, png=png, progress=tell.part(share_of_study, 1.0))
+            report = write_report(result, out, progress=tell.part(share_of_study, 1.0))
     if as_json:
         print_document(result.to_dict())
         if report is not None:

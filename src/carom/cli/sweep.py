@@ -39,7 +39,10 @@ def sweep(
         bool, typer.Option("--retry-failed", help="Compute chunks with failed points again.")
     ] = False,
     figures: Annotated[
-        str | None, typer.Option(metavar="DIR", help="Draw maps of the results, as SVG and PNG, in this directory.")
+        str | None,
+        typer.Option(
+            metavar="DIR", help="Draw maps of the results, as SVG and PNG, in the folder figures of this directory."
+        ),
     ] = None,
     as_json: AsJson = False,
 ) -> None:
@@ -86,6 +89,7 @@ def _draw(plan: SweepPlan, tally: Tally, figures: str) -> None:
     """Draw the results over the axes of the sweep, with the machine as it is marked."""
     from carom import plots
     from carom.files import staged_directory
+    from carom.files.directory import FIGURES
     from carom.models import axis, model_of
     from carom.parameters import Case
     from carom.studies.wording import machine_heading
@@ -97,7 +101,7 @@ def _draw(plan: SweepPlan, tally: Tally, figures: str) -> None:
     data = open_sweep(str(tally.store))
     with staged_directory(figures, "--figures") as directory, plots.heading(words):
         for name in (name for name in _DRAWN if name in data):
-            plots.save(plots.sweep_map(data, name, present=present), directory / name)
+            plots.save(plots.sweep_map(data, name, present=present), directory / FIGURES / name)
 
 
 def _document(plan: SweepPlan, tally: Tally, failures: list[dict[str, Any]]) -> dict[str, Any]:

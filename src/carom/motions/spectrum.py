@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
@@ -11,6 +11,9 @@ from carom.arguments import Count, checked
 from carom.motions.trajectories import Trajectory
 from carom.outcome import InputError
 from carom.results import Result
+
+if TYPE_CHECKING:
+    from carom.parameters import Scales
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -25,6 +28,8 @@ class FullSpectrum(Result):
         In clearances.  A steady circle of radius ``r`` at an order on the grid shows the amplitude ``r``.
     resolution : float
         Smallest distance of two orders that can be distinguished, four grid steps (Hann window).
+    scales : carom.parameters.Scales or None
+        Those of the rotor.
     """
 
     figure: ClassVar[str] = "spectrum"
@@ -32,6 +37,7 @@ class FullSpectrum(Result):
     orders: np.ndarray
     amplitudes: np.ndarray
     resolution: float
+    scales: Scales | None = None
 
 
 @checked
@@ -85,4 +91,4 @@ def full_spectrum(
     amplitudes = amplitudes * np.exp(-1j * orders * times[0])
     kept = np.argsort(orders)
     kept = kept[np.abs(orders[kept]) <= highest_order]
-    return FullSpectrum(orders[kept], amplitudes[kept], 4.0 / turns)
+    return FullSpectrum(orders[kept], amplitudes[kept], 4.0 / turns, trajectory.rotor.scales)

@@ -131,7 +131,7 @@ HELPER_FIELDS: Mapping[str, Field] = by_name(
         "force_current_factor",
         "k_i",
         "force over current of a bearing",
-        "a force a current",
+        "a force per current",
         "N/A",
         1e-9,
         1e12,

@@ -4,14 +4,16 @@ Every function returns a :class:`matplotlib.figure.Figure` drawn with carom's ow
 does not change the user's settings or backend.  :mod:`carom.plots.style` explains what the colours mean.
 
 Where a function has the argument `axes`, it draws into these axes of the user; by default it makes a new figure.  A new
-figure is 180 mm wide (two columns of a page) unless its function says otherwise.  Lengths are in units of the clearance
-and times in units of ``1/Ω``, in SI units too if the machine is known.
+figure is 180 mm wide (two columns of a page) unless its function says otherwise.  What is drawn is in
+the units of the machine (ms, mm, mm/s, N, N s, rpm) if it is known in SI units, and otherwise in those of the equations.
+Long motions are thinned: the band of the radius, the last turns of the shaft, the position once a turn.  Virtual orbits
+are drawn where the argument `virtual` asks for them.
 
 Motions and orbits are drawn by ``motions``, ``histories``, ``touchdowns``, ``spectra``, ``overviews`` and ``conditions``; along
 parameters ``diagrams`` with ``coexistence`` and ``proven``, ``regions`` and ``responses``; disturbances ``basins`` with ``rings``,
 ``gains``, ``sweeps`` and ``attractor_shares``.  Shared are ``style`` (what colours mean), ``sheet`` (the style sheet),
 ``figure`` (a figure that keeps it), ``arrangement`` (layout), ``files``, ``plane`` (the clearance circle), ``bands``, ``cells``,
-``closeups``, ``numerals``, ``placement`` and ``words``.
+``closeups``, ``numerals``, ``placement``, ``parameter_axes`` and ``words``.
 """
 
 from __future__ import annotations

@@ -8,8 +8,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from carom.arguments import checked
+from carom.plots.cells import ink, looks_of
 from carom.plots.plane import one_axes
-from carom.plots.style import OUTCOMES, TWO_COLUMNS, styled
+from carom.plots.style import TWO_COLUMNS, styled
 
 if TYPE_CHECKING:
     from carom.attractors import AttractorSet
@@ -27,12 +28,17 @@ def attractors(found: AttractorSet, title: str | None = None, *, axes: Axes | No
     """
     figure, drawn = one_axes(axes, (TWO_COLUMNS, _EDGES + _ROW * len(found)))
     total = len(found.disturbances)
-    for row, member in enumerate(found):
-        outcome = member.name.outcome
-        look = OUTCOMES.get("irregular" if member.name.irregular else outcome.label, OUTCOMES["time-reached"])
-        hatch = None if member.settled else "////"
+    looks = looks_of([member.name for member in found], [member.share_of_disturbances for member in found])
+    by_row = sorted(looks, key=lambda look: look.index)
+    for row, (member, look) in enumerate(zip(found, by_row, strict=True)):
         drawn.barh(
-            row, 100.0 * member.share_of_disturbances, 0.7, color=look.colour, hatch=hatch, edgecolor="white", lw=0.0
+            row,
+            100.0 * member.share_of_disturbances,
+            0.7,
+            facecolor=look.colour,
+            hatch=look.look.hatch if member.settled else "////",
+            edgecolor=ink(look.colour),
+            lw=0.3,
         )
         drawn.annotate(
             f"{member.count} of {total}",
@@ -41,7 +47,7 @@ def attractors(found: AttractorSet, title: str | None = None, *, axes: Axes | No
             textcoords="offset points",
             va="center",
         )
-    drawn.set_yticks(range(len(found)), [member.name.words for member in found])
+    drawn.set_yticks(range(len(found)), [look.words for look in by_row])
     drawn.invert_yaxis()
     drawn.set_xlim(0.0, 115.0)
     drawn.set_xticks(range(0, 101, 20))

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from carom.plots.plane import Complex, Floats, Frame
 from carom.plots.style import LOOKS
+from carom.plots.words import clearance, told_in
 
 if TYPE_CHECKING:
     from carom.motions.contacts import LastingContact
@@ -30,17 +31,17 @@ def flying(trajectory: Trajectory, times: Floats) -> NDArray[np.bool_]:
     return free
 
 
-def drawing_times(trajectory: Trajectory, since: float = 0.0) -> Floats:
-    """Return the times at which a motion is drawn from a time on: dense in flight, only the two ends of a lasting contact.
+def drawing_times(trajectory: Trajectory, since: float = 0.0, until: float | None = None) -> Floats:
+    """Return the times at which a motion is drawn within a stretch: dense in flight, only the two ends of a lasting contact.
 
     In contact the radius is 1, and :func:`bands_on_the_circle` draws the rest.
     """
     # Enough points for smooth curves, but few enough for a small file.
-    shown = trajectory.time - since
-    even = np.linspace(since, trajectory.time, int(np.clip(60.0 * shown, 2000, 12000)))
+    end = trajectory.time if until is None else until
+    even = np.linspace(since, end, int(np.clip(60.0 * (end - since), 2000, 12000)))
     events = trajectory.segment_starts[1:]
     times = np.unique(np.concatenate([even, events, np.nextafter(events, 0.0)]))
-    times = times[times >= since]
+    times = times[(times >= since) & (times <= end)]
     ends = [moment for span in trajectory.lasting_contacts for moment in (span.start, span.end)]
     return times[flying(trajectory, times) | np.isin(times, ends)]
 
@@ -50,7 +51,9 @@ def bands_over_time(axes: Axes, trajectory: Trajectory) -> None:
     for kind in _KINDS:
         spans = [span for span in trajectory.lasting_contacts if span.kind == kind]
         times = np.array([moment for span in spans for moment in (span.start, span.end, np.nan)])
-        _band(axes, kind, times, np.where(np.isnan(times), np.nan, 1.0))
+        scales = trajectory.rotor.scales
+        wall = np.where(np.isnan(times), np.nan, clearance(scales))
+        _band(axes, kind, told_in("time", scales)[0] * times, wall)
 
 
 def bands_on_the_circle(axes: Axes, trajectory: Trajectory, frame: Frame, since: float = 0.0) -> None:
@@ -61,7 +64,7 @@ def bands_on_the_circle(axes: Axes, trajectory: Trajectory, frame: Frame, since:
             for span in trajectory.lasting_contacts
             if span.kind == kind and span.end > since
         ]
-        line = np.concatenate(arcs) if arcs else np.zeros(0, complex)
+        line = clearance(trajectory.rotor.scales) * np.concatenate(arcs) if arcs else np.zeros(0, complex)
         _band(axes, kind, line.real, line.imag)
 
 

@@ -17,13 +17,12 @@ from matplotlib.ticker import MaxNLocator
 from carom.arguments import checked
 from carom.disturbances import outward_from
 from carom.outcome import InputError
-from carom.parameters.told import shown_in
 from carom.plots.cells import CHORDS, MotionLook, finish, ink, motion_looks, paint
 from carom.plots.figure import StyledFigure
 from carom.plots.plane import clearance_circle, label_frame, point
 from carom.plots.rings import dial, ring
 from carom.plots.style import LOOKS, TWO_COLUMNS, styled
-from carom.plots.words import number
+from carom.plots.words import clearance, formula, number, told_in
 
 if TYPE_CHECKING:
     from carom.basins import Basin, SmallestLoss
@@ -150,16 +149,15 @@ def _plane(basin: Basin, motions: list[MotionLook], smallest: SmallestLoss | Non
     axes = figure.subplots()
     handles: list[Artist] = []
     if kind == "slice":
-        paint(axes, x.edges(cells[0]), y.edges(cells[1]), dataset["motion"].values, motions)
-        clearance_circle(axes, reach=1.05)
+        wall = clearance(basin.scales)
+        paint(axes, wall * x.edges(cells[0]), wall * y.edges(cells[1]), dataset["motion"].values, motions)
+        clearance_circle(axes, reach=1.05, wall=wall)
         for cells_drawn in axes.collections:  # those cut by the wall
-            cells_drawn.set_clip_path(Circle((0.0, 0.0), 1.0, transform=axes.transData))
+            cells_drawn.set_clip_path(Circle((0.0, 0.0), wall, transform=axes.transData))
         label_frame(axes, "rotating", basin.scales)
-        point(axes, complex(basin.rotor.system.arrays.offsets[0]), "contact-free", label="", colour="#ffffff")
+        point(axes, wall * complex(basin.rotor.system.arrays.offsets[0]), "contact-free", label="", colour="#ffffff")
         velocity = complex(getattr(basin.plan.model, "velocity", 0.0))
-        factor, unit = 1.0, r"$c_r\Omega$"
-        if basin.scales is not None:
-            factor, unit = shown_in("velocity", basin.scales)
+        factor, unit = told_in("velocity", basin.scales)
         said = "at rest" if velocity == 0 else f"at {factor * velocity:.3g} {unit}"
         axes.set_title(f"starts {said} in the fixed frame")
         rest = LOOKS["contact-free"]
@@ -212,12 +210,5 @@ def _bars(basin: Basin, motions: list[MotionLook], title: str | None) -> Figure:
 
 def _axis(coordinate: Coordinate, scales: Scales | None) -> tuple[float, str]:
     """Return the factor from dimensionless values to those shown, and the label with its unit."""
-    if scales is None or not coordinate.scale:
-        unit = {
-            "velocity": r"$c_\mathrm{r}\Omega$",
-            "length": r"$c_\mathrm{r}$",
-            "acceleration": r"$c_\mathrm{r}\Omega^2$",
-        }
-        return 1.0, f"{coordinate.words} ({unit.get(coordinate.scale, coordinate.units[0])})"
-    factor, unit_shown = coordinate.shown_in(scales)
-    return factor, f"{coordinate.words} ({unit_shown})"
+    factor, unit = coordinate.shown_in(scales)
+    return factor, f"{coordinate.words} ({formula(unit)})"

@@ -1,4 +1,4 @@
-"""What the pictures of basins share: the looks of motions, and cells painted in them."""
+"""The looks of motions, which pictures of basins and of attractors share, and cells painted in them."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ class MotionLook:
     Attributes
     ----------
     index : int
-        Its place in ``Basin.motions``.
+        Its place among the motions, such as in ``Basin.motions``.
     colour : str
         That of its outcome; paler for the second motion of one outcome.
     share : float
@@ -77,14 +77,20 @@ class MotionLook:
 
 
 def motion_looks(basin: Basin) -> list[MotionLook]:
-    """Return the looks of the motions, sorted by outcome; those of one outcome differ in paleness."""
+    """Return the looks of the motions of a basin, as :func:`looks_of` does."""
     shares = basin.fractions
+    return looks_of(basin.motions, [shares[name] for name in basin.motions])
+
+
+def looks_of(names: Sequence[MotionName], shares: Sequence[float]) -> list[MotionLook]:
+    """Return the looks of motions, sorted by outcome and share; those of one outcome differ in paleness."""
     shown: list[MotionLook] = []
-    for place, name in sorted(enumerate(basin.motions), key=lambda entry: (entry[1].outcome, -shares[entry[1]])):
+    for place in sorted(range(len(names)), key=lambda place: (names[place].outcome, -shares[place])):
+        name = names[place]
         look = OUTCOMES["irregular" if name.irregular else name.outcome.label]
         alike = sum(entry.look is look for entry in shown)
         colour = _paler(look.colour, _PALER[min(alike, len(_PALER) - 1)])
-        shown.append(MotionLook(place, name, look, colour, shares[name]))
+        shown.append(MotionLook(place, name, look, colour, shares[place]))
     return shown
 
 

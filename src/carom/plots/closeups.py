@@ -22,7 +22,7 @@ class Closeup:
     members: list[int] = field(default_factory=list)
     """Indices of the paths that it enlarges."""
     places: list[Complex] = field(default_factory=list)
-    """Everything that it must show: complex positions in units of the clearance."""
+    """Everything that it must show: complex positions."""
 
     @property
     def middle(self) -> complex:
@@ -45,16 +45,17 @@ class Closeup:
         return complex(every.real.min(), every.imag.min()), complex(every.real.max(), every.imag.max())
 
 
-def closeups(paths: Sequence[Complex], points: Sequence[complex]) -> list[Closeup]:
+def closeups(paths: Sequence[Complex], points: Sequence[complex], wall: float = 1.0) -> list[Closeup]:
     """Group small paths with the paths and points near them, in close-ups from left to right in the plane.
 
-    Positions are complex, in units of the clearance.  The two with the most members are kept.
+    Positions are complex, in the unit of the clearance `wall`.  The two with the most members are kept.
     """
+    small = _SMALL * wall
     found: list[Closeup] = []
     for i, line in enumerate(paths):
-        if float(np.abs(line - line[0]).max()) > _SMALL:
+        if float(np.abs(line - line[0]).max()) > small:
             continue
-        near = [closeup for closeup in found if closeup.distance(complex(line[0])) < _SMALL]
+        near = [closeup for closeup in found if closeup.distance(complex(line[0])) < small]
         home = near[0] if near else Closeup()
         if not near:
             found.append(home)
@@ -62,7 +63,7 @@ def closeups(paths: Sequence[Complex], points: Sequence[complex]) -> list[Closeu
         home.places.append(line)
     for point in points:
         for closeup in found:
-            if closeup.distance(point) < _SMALL:
+            if closeup.distance(point) < small:
                 closeup.places.append(np.array([point], dtype=complex))
                 break
     kept = sorted(found, key=lambda closeup: -len(closeup.members))[:_MOST]

@@ -16,7 +16,7 @@ from carom.plots.figure import narrow
 from carom.plots.placement import spread
 from carom.plots.plane import Floats, finish, one_axes
 from carom.plots.style import LOOKS, ONE_COLUMN, TWO_COLUMNS, styled
-from carom.plots.words import number, orbit_symbol, time_in_words
+from carom.plots.words import axis_label, orbit_symbol, time_in_words, told_in
 
 if TYPE_CHECKING:
     from carom.orbits.orbit import Orbit
@@ -26,7 +26,7 @@ _INK = LOOKS["path"].colour
 _SAME_PERIOD = 1e-6
 """Relative difference below which an orbit belongs to a root: far above rounding, far below the spacing of roots."""
 _MOST_NAMES = 10
-"""Largest number of names above the frame; if there are more roots, only those with an admissible orbit are named."""
+"""Largest number of names above the frame; only roots with an admissible orbit are named."""
 _NAME = 0.48
 """Room for a name above the frame [inch]."""
 _LINEAR = 0.05
@@ -50,16 +50,15 @@ def period_condition(orbits: OrbitSet, periods: Reals, values: Reals, *, axes: A
     if np.ndim(periods) != 1 or np.shape(periods) != np.shape(values):
         raise InputError("values", np.shape(values), f"one for each period, which have shape {np.shape(periods)}")
     figure, drawn = one_axes(axes, (ONE_COLUMN, ONE_COLUMN) if narrow() else (TWO_COLUMNS, 0.42 * TWO_COLUMNS))
-    times, condition = np.asarray(periods, dtype=float), np.asarray(values, dtype=float)
+    factor = told_in("time", orbits.rotor.scales)[0]
+    times, condition = factor * np.asarray(periods, dtype=float), np.asarray(values, dtype=float)
     words = r"period condition $F_1(T)$, zero for an orbit with one impact a period"
     drawn.plot(times, condition, color=_INK, lw=0.9, label=words, gid="condition")
     drawn.axhline(0.0, color="#1a1a1a", lw=0.5, gid="zero")
-    _limits(drawn, times, orbits.longest_period)
+    _limits(drawn, times, factor * orbits.longest_period)
     _bound(drawn, orbits)
     _roots(drawn, orbits)
-    scales = orbits.rotor.scales
-    unit = "" if scales is None else f" = {number(1e3 * scales.time, 3)} ms"
-    drawn.set_xlabel(rf"period $T$ (units of $1/\Omega${unit})")
+    drawn.set_xlabel(axis_label("period $T$", "time", orbits.rotor.scales))
     drawn.set_ylabel(_ordinate(drawn, condition))
     return finish(figure, drawn, axes)
 
@@ -93,10 +92,11 @@ def _limits(axes: Axes, times: Floats, bound: float) -> None:
 
 
 def _bound(axes: Axes, orbits: OrbitSet) -> None:
-    bound = orbits.longest_period
+    factor = told_in("time", orbits.rotor.scales)[0]
+    bound = factor * orbits.longest_period
     right = axes.get_xlim()[1]
     claim = "no root" if orbits.complete else "not searched"
-    words = rf"{claim} beyond $T_\mathrm{{max}}$ = {time_in_words(bound, orbits.rotor.scales)}"
+    words = rf"{claim} beyond $T_\mathrm{{max}}$ = {time_in_words(orbits.longest_period, orbits.rotor.scales)}"
     if bound < right:
         axes.axvspan(bound, right, color="#ebebeb", lw=0, zorder=0, label=words, gid="excluded")
         axes.axvline(bound, color="#808080", lw=0.7, linestyle="--", gid="bound")
@@ -106,6 +106,7 @@ def _bound(axes: Axes, orbits: OrbitSet) -> None:
 
 def _roots(axes: Axes, orbits: OrbitSet) -> None:
     """Mark the roots on the zero line; the names of their orbits stand above the frame."""
+    factor = told_in("time", orbits.rotor.scales)[0]
     roots = np.asarray(orbits.periods, dtype=float)
     if not len(roots):
         axes.plot([], [], linestyle="none", label="no root: no orbit with one impact a period")
@@ -120,11 +121,12 @@ def _roots(axes: Axes, orbits: OrbitSet) -> None:
         (empty, grey, grey, 3.0, "root without an orbit"),
     ):
         if chosen.any():
-            _mark(axes, roots[chosen], face, edge, size, words)
-    named = physical if len(roots) > _MOST_NAMES else ~empty
-    labels = [f"{_name(found)}\n$T$ = {root:#.4g}" for found, root in zip(members, roots, strict=True) if found]
-    shown = [label for label, wanted in zip(labels, named[~empty], strict=True) if wanted][:_MOST_NAMES]
-    _name_roots(axes, roots[named][:_MOST_NAMES], shown)
+            _mark(axes, factor * roots[chosen], face, edge, size, words)
+    possible = [[orbit for orbit in found if orbit.admissible] for found in members]
+    labels = [
+        f"{_name(found)}\n$T$ = {factor * root:#.4g}" for found, root in zip(possible, roots, strict=True) if found
+    ]
+    _name_roots(axes, factor * roots[physical][:_MOST_NAMES], labels[:_MOST_NAMES])
 
 
 def _mark(axes: Axes, roots: Floats, face: str, edge: str, size: float, words: str) -> None:
@@ -168,7 +170,7 @@ def _belongs(orbit: Orbit, root: float) -> bool:
 
 
 def _name(found: list[Orbit]) -> str:
-    """Return one name for both orbits of a root, ``B1,a/c``."""
+    """Return one name for the orbits of a root, ``B1,a/c``."""
     from carom.orbits.names import combined
 
     return orbit_symbol(combined(orbit.name for orbit in found))

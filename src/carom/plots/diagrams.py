@@ -16,13 +16,13 @@ from matplotlib.lines import Line2D
 
 from carom.arguments import checked
 from carom.outcome import IRREGULAR_BOUNCING, STEADY_WORDS
-from carom.parameters.told import shown_in
 from carom.plots.coexistence import coexistence, row_of_point, rows_of
 from carom.plots.figure import StyledFigure
+from carom.plots.parameter_axes import label_parameter, told_parameter
 from carom.plots.plane import legend_above
 from carom.plots.proven import proven_line
 from carom.plots.style import LOOKS, TWO_COLUMNS, Look, styled
-from carom.plots.words import number, parameter_label, parameter_unit
+from carom.plots.words import axis_label, number, parameter_unit, told_in
 
 if TYPE_CHECKING:
     from carom.bifurcations import (
@@ -98,15 +98,20 @@ _EQUILIBRIA = {"contact-free": "contact-free", "stable rub": "rub", "saddle rub"
 
 @checked
 @styled
-def bifurcation_diagram(diagram: Diagram, proof: Proof | None = None) -> Figure:
+def bifurcation_diagram(diagram: Diagram, proof: Proof | None = None, virtual: bool = False) -> Figure:
     """Draw all equilibria and single-impact orbits along a parameter, with their special points, in three panels.
 
-    Upper: the radial speed of the orbits at the impact, in mm/s if the machine is known.  Middle: the gap of levitation and the normal force
-    of the rubs, which must be positive.  Lower: which motions exist, with broad bars where they are stable, and the
+    Upper: the radial speed of the orbits at the impact, in mm/s if the machine is known.  Middle: the gap of levitation and, on the right axis, the
+    normal force of the rubs; both must be positive.  Lower: which motions exist, with broad bars where they are stable, and the
     motions to which simulated disturbances settled.  The shaft speed is in rpm.
 
     With a proof along the same parameter, a row below these bars shows where all orbits with one impact a period are
     proven, and the proven points.
+
+    Parameters
+    ----------
+    virtual : bool
+        Draw virtual orbits and equilibria and their special points too, faint.
 
     Raises
     ------
@@ -120,54 +125,60 @@ def bifurcation_diagram(diagram: Diagram, proof: Proof | None = None) -> Figure:
     upper, lower, below = figure.subplots(3, 1, sharex=True, height_ratios=(2.4, 1.1, strip))
     unit = parameter_unit(diagram.axis.field)
     for branch in diagram.orbits:
-        _speed_line(upper, diagram, branch, branch.radial_speed, [point.radial_speed for point in branch.special])
+        there = [point.radial_speed for point in branch.special]
+        _speed_line(upper, diagram, branch, branch.radial_speed, there, virtual)
     for several in diagram.several:
         for k, speeds in enumerate(several.radial_speeds.T):
             there = [float(point.orbit.impact_speeds[k]) for point in several.special]
-            _speed_line(upper, diagram, several, speeds, there)
+            _speed_line(upper, diagram, several, speeds, there, virtual)
     for sample in diagram.attractors:
         values = np.full(len(sample.radial_speeds), sample.value / unit)
         speeds = diagram.told_speeds(sample.value, sample.radial_speeds)
         upper.plot(values, speeds, ls="none", **(_MET if sample.met else _UNMET), zorder=4)
     upper.axhline(0.0, color="#1a1a1a", lw=0.5)
+    beside = lower.twinx()
     for equilibrium in diagram.equilibria:
-        _equilibrium_branch(lower, equilibrium, unit)
+        panel = lower if equilibrium.kind == "contact-free" else beside
+        _equilibrium_branch(panel, diagram, equilibrium, virtual)
     lower.axhline(0.0, color=LOOKS["wall"].colour, lw=1.0)
     coexistence(below, diagram, unit)
     key = [] if proven is None else _proven_row(below, proven, unit)
-    upper.set_ylabel(rf"radial speed at the impact, $\dot r$ ({_speed_unit(diagram)})")
-    lower.set_ylabel("gap ($c_r$); force\n" r"of rub ($m c_r\Omega^2$)")
-    below.set_xlabel(parameter_label(diagram.axis.field))
+    upper.set_ylabel(axis_label(r"radial speed at the impact, $\dot r$", "velocity", diagram.model.scales))
+    lower.set_ylabel(axis_label("gap of\nlevitation", "length", diagram.model.scales))
+    beside.set_ylabel(axis_label("force of rub", "force", diagram.model.scales))
+    aside = label_parameter(below, "x", diagram.axis.field, diagram.model.scales, own=upper)
     present = _mark_present(diagram, (upper, lower, below), unit)
     below.set_xlim(diagram.interval[0] / unit, diagram.interval[1] / unit)
-    lower.set_ylim(-0.25, max(0.6, max(_top(branch) for branch in diagram.equilibria)))
+    for panel, kinds in ((lower, ("contact-free",)), (beside, ("stable rub", "saddle rub"))):
+        top = max(_top(diagram, branch) for branch in diagram.equilibria if branch.kind in kinds)
+        panel.set_ylim(-0.25 * (top or 1.0), top or 1.0)
     lowest, highest = _limits(diagram)
     upper.set_ylim(lowest, highest or 1.0)
     if not highest:
         words = "no possible orbit found along this range"
         upper.text(0.5, 0.5, words, transform=upper.transAxes, ha="center", va="center", gid="no orbit")
-    marked = _mark_points(diagram, (upper, lower, below), unit)
+    marked = _mark_points(diagram, (upper, lower, below, beside), unit, virtual)
     figure.align_ylabels([upper, lower])
-    figure.legend(handles=[*_diagram_key(diagram, marked), *present], loc="outside lower center", ncols=4)
+    figure.legend(handles=[*_diagram_key(diagram, marked, virtual), *present], loc="outside lower center", ncols=4)
     if key:
-        legend_above(upper, key, 2)
+        legend_above(upper, key, 2, aside=aside)
     return figure
 
 
-def _speed_unit(diagram: Diagram) -> str:
-    """The unit of speeds as mathematical text."""
-    return r"$c_r\Omega$" if diagram.model.scales is None else diagram.speed_unit
-
-
 def _speed_line(
-    axes: Axes, diagram: Diagram, branch: OrbitBranch, speeds: np.ndarray, at_special_points: list[float]
+    axes: Axes,
+    diagram: Diagram,
+    branch: OrbitBranch,
+    speeds: np.ndarray,
+    at_special_points: list[float],
+    virtual: bool,
 ) -> None:
     """Draw speeds along a branch, in the unit in which people are told them."""
     unit, places = parameter_unit(diagram.axis.field), np.arange(len(branch))
     special = np.array([point.value for point in branch.special])
     there = diagram.told_speeds(special, np.array(at_special_points))
     told = diagram.told_speeds(branch.values, speeds)
-    branch_line(axes, branch, places, branch.values / unit, told, there, unit)
+    branch_line(axes, branch, places, branch.values / unit, told, there, unit, virtual=virtual)
 
 
 def _mark_present(diagram: Diagram, panels: tuple[Axes, ...], unit: float) -> list[Line2D]:
@@ -177,7 +188,7 @@ def _mark_present(diagram: Diagram, panels: tuple[Axes, ...], unit: float) -> li
         return []
     for panel in panels:
         panel.axvline(value / unit, gid="present", **_PRESENT)
-    words = f"present value: {number(value / unit)} {diagram.axis.field.usual_unit}".rstrip()
+    words = f"present value: {told_parameter(value, diagram.axis.field, diagram.model.scales)}"
     return [Line2D([], [], label=words, **_PRESENT)]
 
 
@@ -199,18 +210,20 @@ def _proven_row(below: Axes, proven: ProvenLine, unit: float) -> list[Line2D]:
     return proven_line(below, proven, "proven: these orbits with one impact a period and no others", 0.0, unit)
 
 
-def _mark_points(diagram: Diagram, panels: tuple[Axes, Axes, Axes], unit: float) -> list[Look]:
+def _mark_points(diagram: Diagram, panels: tuple[Axes, Axes, Axes, Axes], unit: float, virtual: bool) -> list[Look]:
     """Mark the special points in the panels; return the looks of the visible ones, each once."""
-    upper, lower, below = panels
+    upper, lower, below, beside = panels
     rows = rows_of(diagram)
     heights = dict(zip(rows, below.get_yticks()[: len(rows)], strict=True))
     seen = set()
     for point in diagram.points:
+        if not (point.admissible or virtual):
+            continue
         row, look = row_of_point(point), BOUNDARIES.get(point.detail, POINTS[point.kind])
         speed = float(diagram.told_speeds(point.value, point.radial_speed))
         axes, height = (upper, speed) if row is None else (below, heights.get(row))
         if height is not None and np.isnan(height):
-            axes, height = lower, _height(diagram, point)
+            axes, height = lower if point.motion == "contact-free" else beside, _height(diagram, point)
         if height is None:
             continue
         _mark(axes, look, point.value / unit, float(height), point.admissible)
@@ -228,12 +241,13 @@ def branch_line(
     heights: np.ndarray,
     special_heights: np.ndarray | None = None,
     unit: float = 1.0,
+    virtual: bool = True,
 ) -> None:
     """Draw a quantity along a branch; its look changes at the special points.
 
     It is known at ascending places on the branch (see :class:`~carom.bifurcations.Bifurcation`), shape (n,), and at the
     special points, where it is interpolated by default.  `values` are those of the parameter in the unit drawn; `unit`
-    is the divisor of the parameter of special points.
+    is the divisor of the parameter of special points.  Stretches of virtual orbits are left out unless `virtual` is set.
     """
     special = [point for point in branch.special if places[0] <= point.place <= places[-1]]
     extra = np.array([point.place for point in special])
@@ -251,6 +265,8 @@ def branch_line(
     nearest = np.where(whole[1:], where[1:], np.floor(where[:-1])).astype(int)
     stretches = looks[np.minimum(nearest, len(looks) - 1)]
     for first, last, look in _runs(np.append(stretches, stretches[-1:])):
+        if look == "virtual" and not virtual:
+            continue
         alpha = 0.6 if look == "virtual" else 1.0
         axes.plot(x[first : last + 1], y[first : last + 1], **LOOKS[look].stroke, alpha=alpha)
 
@@ -263,10 +279,13 @@ def _runs(looks: np.ndarray) -> list[tuple[int, int, str]]:
     return [(first, last, str(looks[first])) for first, last in zip(starts, ends, strict=True)]
 
 
-def _equilibrium_branch(axes: Axes, branch: EquilibriumBranch, unit: float) -> None:
+def _equilibrium_branch(axes: Axes, diagram: Diagram, branch: EquilibriumBranch, virtual: bool) -> None:
+    unit = parameter_unit(diagram.axis.field)
     look = LOOKS[_EQUILIBRIA[branch.kind]]
-    height = _heights(branch)
+    height = _heights(diagram, branch)
     for allowed, alpha in ((branch.admissible, 1.0), (~branch.admissible, 0.35)):
+        if alpha < 1.0 and not virtual:
+            continue
         shown = np.where(allowed, height, np.nan)
         axes.plot(
             branch.values / unit,
@@ -278,12 +297,15 @@ def _equilibrium_branch(axes: Axes, branch: EquilibriumBranch, unit: float) -> N
         )
 
 
-def _heights(branch: EquilibriumBranch) -> np.ndarray:
-    return 1.0 - branch.radius if branch.kind == "contact-free" else branch.normal_force
+def _heights(diagram: Diagram, branch: EquilibriumBranch) -> np.ndarray:
+    """The gap of levitation or the normal force of a rub, in the units in which people are told them."""
+    if branch.kind == "contact-free":
+        return diagram.told("length", branch.values, 1.0 - branch.radius)
+    return diagram.told("force", branch.values, branch.normal_force)
 
 
-def _top(branch: EquilibriumBranch) -> float:
-    heights = _heights(branch)[branch.admissible]
+def _top(diagram: Diagram, branch: EquilibriumBranch) -> float:
+    heights = _heights(diagram, branch)[branch.admissible]
     return 1.1 * float(heights.max()) if len(heights) else 0.0
 
 
@@ -295,7 +317,8 @@ def _height(diagram: Diagram, point: Bifurcation) -> float:
     known = np.isfinite(rubs[0].normal_force)
     nearest = int(np.argmin(np.where(known, np.abs(rubs[0].values - point.value), np.inf)))
     saddle = next(entry for entry in diagram.equilibria if entry.kind == "saddle rub")
-    return float(np.nanmean([rubs[0].normal_force[nearest], saddle.normal_force[nearest]]))
+    force = float(np.nanmean([rubs[0].normal_force[nearest], saddle.normal_force[nearest]]))
+    return float(diagram.told("force", point.value, force))
 
 
 def mark_point(axes: Axes, kind: str, x: float, y: float, admissible: bool = True) -> None:
@@ -322,10 +345,15 @@ def _limits(diagram: Diagram) -> tuple[float, float]:
     return -0.12 * (high or 1.0), 1.1 * high
 
 
-def _diagram_key(diagram: Diagram, marked: list[Look]) -> list[Line2D]:
+def _diagram_key(diagram: Diagram, marked: list[Look], virtual: bool) -> list[Line2D]:
     entries = []
     if diagram.orbits or diagram.several:
-        for look, words in (("stable", "stable orbit"), ("unstable", "unstable orbit"), ("virtual", "virtual")):
+        words_of = {
+            "stable": "stable orbit",
+            "unstable": "unstable orbit",
+            **({"virtual": "virtual"} if virtual else {}),
+        }
+        for look, words in words_of.items():
             entries.append(LOOKS[look].entry(words))
     entries.append(
         Line2D([], [], color=LOOKS["contact-free"].colour, lw=1.1, label=f"{STEADY_WORDS['contact-free']}: gap")
@@ -348,8 +376,8 @@ def _attractor_key(diagram: Diagram) -> list[Line2D]:
     tried = diagram.disturbances
     ring: dict[str, Any] = {"ls": "none", "marker": "o", "mec": "#1a1a1a", "mew": 0.6}
     if tried and any(sample.met for sample in diagram.attractors):
-        factor, _ = shown_in("velocity", diagram.model.scales)
-        words = f"share of {tried.count} disturbances up to {number(factor * tried.fastest, 3)} {_speed_unit(diagram)}"
+        factor, unit = told_in("velocity", diagram.model.scales)
+        words = f"share of {tried.count} disturbances up to {number(factor * tried.fastest, 3)} {unit}"
         entries.append(Line2D([], [], mfc="#ffffff", ms=4.0, **ring, label=words))
     if any(not sample.met for sample in diagram.attractors):
         entries.append(Line2D([], [], mfc="none", ms=2.0, **ring, label="met by none, only from a start next to it"))
@@ -359,10 +387,12 @@ def _attractor_key(diagram: Diagram) -> list[Line2D]:
     return entries
 
 
-def curve_line(axes: Axes, curve: Curve, units: np.ndarray) -> None:
-    """Draw a curve in the plane of two parameters, faint if only virtual motions have it."""
+def curve_line(axes: Axes, curve: Curve, units: np.ndarray, virtual: bool = True) -> None:
+    """Draw a curve in the plane of two parameters, faint or not at all where only virtual motions have it."""
     look = CURVES[curve.kind]
     x, y = (curve.points / units).T
     for first, last, real in _runs(np.where(curve.admissible, "real", "virtual")):
+        if real == "virtual" and not virtual:
+            continue
         alpha = 1.0 if real == "real" else FAINT
         axes.plot(x[first : last + 1], y[first : last + 1], **look.stroke, alpha=alpha)

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -27,12 +28,19 @@ from carom.plots.plane import (
     path,
     point,
 )
-from carom.plots.style import LOOKS, ONE_COLUMN, TWO_COLUMNS, styled
-from carom.plots.words import counted, ending, orbit_look, orbit_title, time_in_words, turns
+from carom.plots.style import LOOKS, ONE_COLUMN, TWO_COLUMNS, Look, styled
+from carom.plots.words import clearance, counted, ending, number, orbit_look, orbit_title, time_in_words, turns
 
 if TYPE_CHECKING:
     from carom.motions.trajectories import Trajectory
     from carom.orbits.orbit import Orbit
+
+_LONG = 3.0
+"""Ratio of the length of a motion to that of its last turns beyond which the rest is thinned."""
+_FIRST = 0.5
+"""Length of the beginning drawn of such a motion, relative to its last turns."""
+_BEGINNING = replace(LOOKS["path"], colour="#a7b3c2")
+_ONCE: dict[str, Any] = {"marker": ".", "ms": 3.4, "mew": 0.0, "color": "#5d6f87", "zorder": 1.5}
 
 
 @checked
@@ -56,19 +64,19 @@ def orbit(orbit: Orbit, periods: Count | None = None, *, axes: tuple[Axes, Axes]
     count = _pattern_length(orbit.period) if periods is None else periods
     figure, (left, right) = _two_frames(axes)
     scales = orbit.rotor.scales
-    once = orbit_path(orbit, 1)[1]
-    reach = max(1.12, 1.06 * float(np.abs(once).max()))
+    wall, once = clearance(scales), orbit_path(orbit, 1)[1]
+    reach = max(1.12, 1.06 * float(np.abs(once).max()) / wall)
     for drawn in (left, right):
-        clearance_circle(drawn, reach)
+        clearance_circle(drawn, reach, wall)
     _draw_orbit(left, orbit, "rotating", 1)
     _draw_orbit(right, orbit, "fixed", count)
     label_frame(left, "rotating", scales, f"period $T$ = {time_in_words(orbit.period, scales)}")
     label_frame(right, "fixed", scales, f"{counted(count, 'period')} = {turns(count * orbit.period)}")
-    _levitation(left, orbit.rotor.equilibrium)
-    inner = magnifier(left, once)
+    _levitation(left, orbit.rotor.equilibrium, wall)
+    inner = magnifier(left, once, wall=wall)
     if inner is not None:
         _draw_orbit(inner, orbit, "rotating", 1)
-        _levitation(inner, orbit.rotor.equilibrium)
+        _levitation(inner, orbit.rotor.equilibrium, wall)
     if axes is None:
         figure.suptitle(orbit_title(orbit))
         key(figure, (left, right), columns=3)
@@ -81,7 +89,8 @@ def _draw_orbit(axes: Axes, orbit: Orbit, frame: Frame, periods: int) -> None:
     # In the fixed frame the position is Z = U e^(it), with the time t in 1/Omega.
     turn = np.exp(1j * times) if frame == "fixed" else np.ones_like(times)
     line = line * turn
-    path(axes, line, look, label=f"orbit ({look.words})", width=None if periods == 1 else 0.6)
+    wall = clearance(orbit.rotor.scales)
+    path(axes, line, look, label=f"orbit ({look.words})", width=None if periods == 1 else 0.6, wall=wall)
     direction_arrow(axes, line[times <= orbit.period], look)
     per_period = (len(times) - 1) // periods
     struck = line[per_period::per_period]
@@ -107,10 +116,14 @@ def motion(
     since: float = 0.0,
     fade: bool = False,
     title: str | None = None,
+    turns: Count = 8,
     *,
     axes: tuple[Axes, Axes] | None = None,
 ) -> Figure:
     """Draw a simulated motion in the co-rotating and in the fixed frame.
+
+    Of a long motion the last turns of the shaft are drawn, in the co-rotating frame also the first ones, pale; between
+    them the position once a turn.
 
     Parameters
     ----------
@@ -120,6 +133,8 @@ def motion(
         Draw the beginning pale, to emphasize the motion that it settles to.
     title : str, optional
         Default: number of impacts and outcome in words.
+    turns : int
+        Number of last turns of the shaft that are drawn of a motion of more than three times as many.
     axes : sequence of two matplotlib.axes.Axes, optional
         For the co-rotating and the fixed frame.
 
@@ -131,29 +146,59 @@ def motion(
     if not 0.0 <= since <= trajectory.time:
         raise InputError("since", since, f"a time from 0 to the end of the motion at {trajectory.time:g}/Omega")
     figure, frames = _two_frames(axes)
-    scales = trajectory.rotor.scales
-    times = drawing_times(trajectory, since)
-    times = np.append(since, times[times > since])
-    contacts = trajectory.contacts
-    shown = contacts.time >= since
+    long = trajectory.time - since > _LONG * turns * math.tau
+    last = trajectory.time - turns * math.tau if long else since
     sides: tuple[tuple[Frame, Axes], ...] = (("rotating", frames[0]), ("fixed", frames[1]))
     for frame, drawn in sides:
-        clearance_circle(drawn)
-        label_frame(drawn, frame, scales)
-        line = trajectory.position(times, frame)
-        flight = np.where(flying(trajectory, times), line, complex(np.nan, np.nan))
-        (faded_path if fade else path)(drawn, flight, LOOKS["path"])
-        direction_arrow(drawn, flight, LOOKS["path"], fraction=0.9)
+        clearance_circle(drawn, wall=clearance(trajectory.rotor.scales))
+        label_frame(drawn, frame, trajectory.rotor.scales)
+        if long:
+            _before(drawn, trajectory, frame, since, last, _FIRST * turns * math.tau)
+        words = f"{LOOKS['path'].words}, last {counted(turns, 'turn')}" if long else LOOKS["path"].words
+        _stretch(drawn, trajectory, frame, (last, trajectory.time), replace(LOOKS["path"], words=words), fade)
         bands_on_the_circle(drawn, trajectory, frame, since)
-        if shown.any():
-            impacts(drawn, trajectory.position(contacts.time[shown], frame), contacts.angular_speed[shown])
-        point(drawn, complex(line[0]), "start", size=3.5)
-        point(drawn, complex(line[-1]), "end", size=5.5, label=f"end: {ending(trajectory.outcome)}")
-    _levitation(frames[0], complex(trajectory.rotor.system.arrays.offsets[trajectory.plane]))
+        ends = clearance(trajectory.rotor.scales) * trajectory.position(np.array([since, trajectory.time]), frame)
+        point(drawn, complex(ends[0]), "start", size=3.5)
+        point(drawn, complex(ends[1]), "end", size=5.5, label=f"end: {ending(trajectory.outcome)}")
+    wall = clearance(trajectory.rotor.scales)
+    _levitation(frames[0], complex(trajectory.rotor.system.arrays.offsets[trajectory.plane]), wall)
     if axes is None:
         figure.suptitle(title or _motion_title(trajectory))
         key(figure, frames, columns=4)
     return figure
+
+
+def _stretch(
+    axes: Axes, trajectory: Trajectory, frame: Frame, ends: tuple[float, float], look: Look, fade: bool = False
+) -> None:
+    """Draw the path and the impacts of a stretch of a motion."""
+    times = drawing_times(trajectory, *ends)
+    times = np.append(ends[0], times[times > ends[0]])
+    wall = clearance(trajectory.rotor.scales)
+    line = wall * trajectory.position(times, frame)
+    flight = np.where(flying(trajectory, times), line, complex(np.nan, np.nan))
+    if fade:
+        faded_path(axes, flight, look)
+    else:
+        path(axes, flight, look, wall=wall)
+    direction_arrow(axes, flight, look, fraction=0.9)
+    log = trajectory.contacts
+    shown = (log.time >= ends[0]) & (log.time <= ends[1])
+    if shown.any():
+        impacts(axes, trajectory.position(log.time[shown], frame) * complex(wall), log.angular_speed[shown])
+
+
+def _before(axes: Axes, trajectory: Trajectory, frame: Frame, since: float, last: float, beginning: float) -> None:
+    """Draw what comes before the last turns: the position once a turn, and in the co-rotating frame the first turns.
+
+    In the fixed frame the path of a few turns more would hide the last ones.
+    """
+    if frame == "rotating":
+        look = replace(_BEGINNING, words=f"its first {number(beginning / math.tau)} turns")
+        _stretch(axes, trajectory, frame, (since, since + beginning), look)
+    times = np.arange(since, last, math.tau)
+    places = clearance(trajectory.rotor.scales) * trajectory.position(times, frame)
+    axes.plot(places.real, places.imag, ls="none", **_ONCE, label="before: once a turn of the shaft", gid="once a turn")
 
 
 def _motion_title(trajectory: Trajectory) -> str:
@@ -161,11 +206,11 @@ def _motion_title(trajectory: Trajectory) -> str:
     return f"{counted(len(trajectory.contacts), 'impact')} in {time} \N{EM DASH} {ending(trajectory.outcome)}"
 
 
-def _levitation(axes: Axes, equilibrium: complex) -> None:
-    """Mark the contact-free equilibrium; hollow if it lies beyond the wall."""
+def _levitation(axes: Axes, equilibrium: complex, wall: float) -> None:
+    """Mark the contact-free equilibrium, given in clearances; hollow if it lies beyond the wall."""
     virtual = abs(equilibrium) > 1.0
     words = LOOKS["contact-free"].words
-    point(axes, equilibrium, "contact-free", hollow=virtual, label=f"{words} (virtual)" if virtual else words)
+    point(axes, wall * equilibrium, "contact-free", hollow=virtual, label=f"{words} (virtual)" if virtual else words)
 
 
 def _two_frames(axes: tuple[Axes, Axes] | None) -> tuple[Figure, tuple[Axes, Axes]]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -29,20 +29,19 @@ from carom.plots.plane import (
     point,
 )
 from carom.plots.style import LOOKS, ONE_COLUMN, TWO_COLUMNS, styled
-from carom.plots.words import orbit_look, orbit_symbol
+from carom.plots.words import axis_label, clearance, orbit_look, orbit_symbol
 
 if TYPE_CHECKING:
     from carom.closed_forms.equilibria import Equilibrium, EquilibriumSet
     from carom.orbits.orbit import Orbit
     from carom.orbits.single_impact import OrbitSet
+    from carom.parameters import Scales
     from carom.studies import Study
 
 _ORDER = {"virtual": 0, "unstable": 1, "stable": 2}
 _STATUS = {"admissible": "admissible", "boundary": "on the wall"}
 _MOST_VIRTUAL = 8
 """Number of virtual orbits above which their paths and names are left out, since they would hide the physical ones."""
-_MOST_IN_OVERVIEW = 16
-"""Number of virtual orbits above which the figure of a study leaves them out."""
 _FARTHEST = 3.0
 """Displacement beyond which an equilibrium is left out of a picture of a contact plane."""
 _LABEL_RING = 1.17
@@ -51,7 +50,7 @@ _LABEL_RING = 1.17
 
 @dataclass(frozen=True)
 class _Drawn:
-    """An orbit with its path over one period, complex positions in the co-rotating frame."""
+    """An orbit with its path over one period, complex positions in the co-rotating frame as they are drawn."""
 
     orbit: Orbit
     path: Complex
@@ -64,31 +63,44 @@ class _Drawn:
 @checked
 @styled
 def equilibria_and_orbits(
-    orbits: OrbitSet, equilibria: Iterable[Equilibrium] = (), title: str | None = None, *, axes: Axes | None = None
+    orbits: OrbitSet,
+    equilibria: Iterable[Equilibrium] = (),
+    title: str | None = None,
+    *,
+    virtual: bool = False,
+    axes: Axes | None = None,
 ) -> Figure:
     """Draw all equilibria and periodic orbits of a machine in the co-rotating frame.
 
     The contact-free point is levitation; the rub points lie on the circle; each orbit touches the circle at its
-    impact.  In a new figure, orbits too small to be seen are enlarged in panels of their own.  Virtual orbits are drawn
-    pale.
+    impact.  In a new figure, orbits too small to be seen are enlarged in panels of their own.
+
+    Parameters
+    ----------
+    virtual : bool
+        Draw virtual orbits too, pale.
     """
+    wanted = [orbit for orbit in orbits if orbit.admissible or virtual]
     shown = sorted(
-        (_Drawn(orbit, orbit_path(orbit, 1)[1]) for orbit in orbits), key=lambda drawn: _ORDER[drawn.meaning]
+        (_Drawn(orbit, orbit_path(orbit, 1)[1]) for orbit in wanted), key=lambda drawn: _ORDER[drawn.meaning]
     )
     physical = [drawn for drawn in shown if drawn.meaning != "virtual"]
-    crowded = closeups([drawn.path for drawn in physical], [e.position for e in equilibria]) if axes is None else []
+    wall = clearance(orbits.rotor.scales)
+    places = [wall * e.position for e in equilibria]
+    crowded = closeups([drawn.path for drawn in physical], places, wall) if axes is None else []
     figure, whole, panels = _panels(axes, len(crowded))
     hidden = [physical[i] for closeup in crowded for i in closeup.members]
-    clearance_circle(whole, reach=1.36)
+    clearance_circle(whole, 1.36, wall)
     label_frame(whole, "rotating", orbits.rotor.scales)
     named = shown if len(shown) - len(physical) <= _MOST_VIRTUAL else physical
-    _draw(whole, equilibria, shown, without_arrow=hidden)
+    _draw(whole, equilibria, shown, wall, without_arrow=hidden)
     tags = [(f"({letter})", closeup.middle) for letter, closeup in zip("bc", crowded, strict=False)]
-    _name(whole, [drawn for drawn in named if drawn not in hidden], _LABEL_RING, gap=0.14, tags=tags)
+    _name(whole, [drawn for drawn in named if drawn not in hidden], _LABEL_RING, wall, gap=0.14, tags=tags)
     for (tag, _), closeup, panel in zip(tags, crowded, panels, strict=True):
-        _enlarge(whole, panel, closeup, tag)
-        _draw(panel, equilibria, shown)
-        _name(panel, [physical[i] for i in closeup.members], 1.0 + 0.33 * closeup.half, gap=0.24 * closeup.half)
+        _enlarge(whole, panel, closeup, tag, orbits.rotor.scales)
+        _draw(panel, equilibria, shown, wall)
+        half = closeup.half / wall
+        _name(panel, [physical[i] for i in closeup.members], 1.0 + 0.33 * half, wall, gap=0.24 * half)
     if panels:
         whole.set_title("(a) co-rotating frame")
     return finish(figure, whole, axes, title, columns=3 if panels else 2)
@@ -96,12 +108,8 @@ def equilibria_and_orbits(
 
 @checked
 def overview(study: Study, title: str | None = None) -> Figure:
-    """Draw :func:`~carom.plots.equilibria_and_orbits` of a study; virtual orbits are left out if there are very many."""
-    orbits = study.orbits
-    possible = tuple(orbit for orbit in orbits if orbit.admissible)
-    if len(orbits) - len(possible) > _MOST_IN_OVERVIEW:
-        orbits = replace(orbits, members=possible)
-    return equilibria_and_orbits(orbits, study.equilibria, title)
+    """Draw :func:`~carom.plots.equilibria_and_orbits` of a study."""
+    return equilibria_and_orbits(study.orbits, study.equilibria, title)
 
 
 def _panels(axes: Axes | None, count: int) -> tuple[Figure, Axes, list[Axes]]:
@@ -120,20 +128,24 @@ def _panels(axes: Axes | None, count: int) -> tuple[Figure, Axes, list[Axes]]:
 
 
 def _draw(
-    axes: Axes, equilibria: Iterable[Equilibrium], shown: Sequence[_Drawn], without_arrow: Sequence[_Drawn] = ()
+    axes: Axes,
+    equilibria: Iterable[Equilibrium],
+    shown: Sequence[_Drawn],
+    wall: float,
+    without_arrow: Sequence[_Drawn] = (),
 ) -> None:
     virtual = sum(drawn.meaning == "virtual" for drawn in shown)
     many = virtual > _MOST_VIRTUAL
     for equilibrium in equilibria:
-        _draw_equilibrium(axes, equilibrium, complex(equilibrium.places[0]))
+        _draw_equilibrium(axes, equilibrium, wall * complex(equilibrium.places[0]))
     for drawn in shown:
         look = LOOKS["outside" if drawn.meaning == "virtual" else drawn.meaning]
         if drawn.meaning != "virtual" or not many:
-            path(axes, drawn.path, look, label="")
+            path(axes, drawn.path, look, label="", wall=wall)
         if drawn.meaning != "virtual" and drawn not in without_arrow:
             direction_arrow(axes, drawn.path, look)
         hollow = drawn.meaning != "stable"
-        point(axes, drawn.orbit.position, drawn.meaning, hollow=hollow, size=3.2, label="", layer=5.0)
+        point(axes, wall * drawn.orbit.position, drawn.meaning, hollow=hollow, size=3.2, label="", layer=5.0)
     for meaning in dict.fromkeys(drawn.meaning for drawn in reversed(shown)):
         look, line = LOOKS[meaning], LOOKS["outside" if meaning == "virtual" else meaning]
         note = f" ({virtual}, impacts only)" if meaning == "virtual" and many else ""
@@ -190,31 +202,39 @@ def _draw_equilibrium(axes: Axes, equilibrium: Equilibrium, place: complex) -> N
     )
 
 
-def _enlarge(whole: Axes, panel: Axes, closeup: Closeup, tag: str) -> None:
+def _enlarge(whole: Axes, panel: Axes, closeup: Closeup, tag: str, scales: Scales | None) -> None:
     """Frame the panel around its close-up and mark the same square in the whole circle."""
     middle, half = closeup.middle, closeup.half
-    look_closer(panel, middle, half)
+    look_closer(panel, middle, half, clearance(scales))
     panel.locator_params(nbins=4)
     panel.set_title(f"{tag} enlarged")
-    panel.set_xlabel("Re $U$")
-    panel.set_ylabel("Im $U$")
+    panel.set_xlabel(axis_label("Re $U$", "length", scales))
+    panel.set_ylabel(axis_label("Im $U$", "length", scales))
     corner = (middle.real - half, middle.imag - half)
     square = Rectangle(corner, 2.0 * half, 2.0 * half, fill=False, edgecolor="#808080", lw=0.4, zorder=6, gid="square")
     whole.add_patch(square)
 
 
 def _name(
-    axes: Axes, shown: Sequence[_Drawn], ring: float, gap: float, tags: Sequence[tuple[str, complex]] = ()
+    axes: Axes,
+    shown: Sequence[_Drawn],
+    ring: float,
+    wall: float,
+    gap: float,
+    tags: Sequence[tuple[str, complex]] = (),
 ) -> None:
-    """Write names on a ring around the clearance circle, joined to the impact points by thin lines."""
-    labels = [(orbit_symbol(d.orbit.name), d.orbit.position, LOOKS[d.meaning].colour) for d in shown]
+    """Write names on a ring around the clearance circle, joined to the impact points by thin lines.
+
+    The radius of the ring is in clearances.
+    """
+    labels = [(orbit_symbol(d.orbit.name), wall * d.orbit.position, LOOKS[d.meaning].colour) for d in shown]
     labels += [(tag, middle, "#1a1a1a") for tag, middle in tags]
     angles = spread_angles([np.angle(anchor) for _, anchor, _ in labels], gap)
     for (text, anchor, colour), angle in zip(labels, angles, strict=True):
         axes.annotate(
             text,
             xy=(anchor.real, anchor.imag),
-            xytext=(ring * np.cos(angle), ring * np.sin(angle)),
+            xytext=(ring * wall * np.cos(angle), ring * wall * np.sin(angle)),
             ha="center",
             va="center",
             fontsize=8,

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from carom.outcome import InputError
 from carom.plots.figure import StyledFigure
 from carom.plots.style import LOOKS, Look
-from carom.plots.words import axis_length, times_larger
+from carom.plots.words import axis_label, clearance, times_larger
 
 if TYPE_CHECKING:
     from carom.orbits.orbit import Orbit
@@ -37,23 +37,30 @@ _PIECES = 60
 """Number of tints of a path that fades."""
 _MARGIN = 1.25
 """Size of an enlarged square, relative to what it shows."""
+_TOP_AXIS = 0.42
+"""Height of the ticks and the label of an axis at the top [inch]."""
 _FRAMES = {"rotating": ("co-rotating frame", "U"), "fixed": ("fixed frame", "Z")}
 
 
-def clearance_circle(axes: Axes, reach: float = 1.12) -> None:
-    """Draw the circle that the rotor centre cannot leave, and set equal axes around it."""
-    _wall(axes, np.linspace(0.0, 2.0 * np.pi, 721))
+def clearance_circle(axes: Axes, reach: float = 1.12, wall: float = 1.0) -> None:
+    """Draw the circle that the rotor centre cannot leave, and set equal axes around it.
+
+    `reach` is how far the axes extend, in clearances; `wall` is the clearance as it is drawn.
+    """
+    _wall(axes, np.linspace(0.0, 2.0 * np.pi, 721), wall)
+    reach = reach * wall
     axes.set_xlim(-reach, reach)
     axes.set_ylim(-reach, reach)
-    step = 0.5 if reach < 1.5 else float(np.ceil(reach / 3.0))
+    decade = 10.0 ** np.floor(np.log10(0.5 * reach))
+    step = decade * max(nice for nice in (1.0, 2.0, 5.0) if nice * decade <= 0.5 * reach)
     whole = np.floor(reach / step)
     ticks = step * np.arange(-whole, whole + 1.0)
     axes.set_xticks(ticks)
     axes.set_yticks(ticks)
 
 
-def _wall(axes: Axes, angle: Floats) -> None:
-    axes.plot(np.cos(angle), np.sin(angle), **LOOKS["wall"].stroke, label=LOOKS["wall"].words, gid="wall")
+def _wall(axes: Axes, angle: Floats, wall: float) -> None:
+    axes.plot(wall * np.cos(angle), wall * np.sin(angle), **LOOKS["wall"].stroke, label=LOOKS["wall"].words, gid="wall")
     axes.set_aspect("equal")
 
 
@@ -63,17 +70,24 @@ def label_frame(axes: Axes, frame: Frame, scales: Scales | None, note: str = "")
     # With a given height, matplotlib need not measure the labels that the title must keep clear of.
     free = axes.xaxis.get_ticks_position() in ("bottom", "default")
     axes.set_title(f"{words}{', ' if note else ''}{note}", y=1.0 if free else None)
-    axes.set_xlabel(axis_length("position", rf"Re ${symbol}$", scales))
-    axes.set_ylabel(axis_length("position", rf"Im ${symbol}$", scales))
+    axes.set_xlabel(axis_label(rf"position Re ${symbol}$", "length", scales))
+    axes.set_ylabel(axis_label(rf"position Im ${symbol}$", "length", scales))
 
 
-def path(axes: Axes, position: Complex, look: Look, label: str | None = None, width: float | None = None) -> None:
-    """Draw a path; parts beyond the wall are faint and dotted, whatever its look.
+def path(
+    axes: Axes,
+    position: Complex,
+    look: Look,
+    label: str | None = None,
+    width: float | None = None,
+    wall: float = 1.0,
+) -> None:
+    """Draw a path; parts beyond the wall, at the radius `wall`, are faint and dotted, whatever its look.
 
     An empty `label` keeps the path out of the legend.
     """
-    # A small tolerance keeps the impact points themselves, at radius 1, out of the faint part.
-    outside = np.abs(position) > 1.0 + 1e-9
+    # A small tolerance keeps the impact points themselves, on the wall, out of the faint part.
+    outside = np.abs(position) > wall * (1.0 + 1e-9)
     beyond = LOOKS["outside"]
     for part, drawn, words in ((~outside, look, look.words), (outside, beyond, beyond.words)):
         if not part.any():
@@ -165,9 +179,9 @@ def impacts(axes: Axes, position: Complex, angular_speed: Floats, size: float | 
 
 
 def orbit_path(orbit: Orbit, periods: int) -> tuple[Floats, Complex]:
-    """Return evenly spaced times from an impact over whole periods, and positions in the co-rotating frame."""
+    """Return evenly spaced times [1/Omega] from an impact over whole periods, and positions as they are drawn."""
     times = np.linspace(0.0, periods * orbit.period, periods * max(400, int(60.0 * orbit.period)) + 1)
-    return times, orbit.path(times)
+    return times, orbit.path(times) * complex(clearance(orbit.rotor.scales))
 
 
 def marker_size(count: int) -> float:
@@ -212,21 +226,21 @@ def point(
     )
 
 
-def magnifier(axes: Axes, shown: Complex, words: str = "enlarged ") -> Axes | None:
+def magnifier(axes: Axes, shown: Complex, words: str = "enlarged ", wall: float = 1.0) -> Axes | None:
     """Open an enlarged view of the square around `shown` in the free part of the clearance circle.
 
     Its title is how many times it is enlarged, with `words` before it.  None if `shown` is large enough to be visible.
     """
     low, high = complex(shown.real.min(), shown.imag.min()), complex(shown.real.max(), shown.imag.max())
     middle, half = (low + high) / 2.0, _MARGIN * max(high.real - low.real, high.imag - low.imag) / 2.0
-    if half > 0.2 or half == 0.0:
+    if half > 0.2 * wall or half == 0.0:
         return None
-    centre = -0.28 * middle / abs(middle)
-    side = 0.9
+    centre = -0.28 * wall * middle / abs(middle)
+    side = 0.9 * wall
     inner = axes.inset_axes(
         (centre.real - side / 2, centre.imag - side / 2, side, side), transform=axes.transData, gid="magnifier"
     )
-    look_closer(inner, middle, half)
+    look_closer(inner, middle, half, wall)
     inner.set_xticks(())
     inner.set_yticks(())
     inner.set_title(f"{words}{times_larger(side / (2.0 * half))} times", fontsize=7, pad=2)
@@ -236,10 +250,10 @@ def magnifier(axes: Axes, shown: Complex, words: str = "enlarged ") -> Axes | No
     return inner
 
 
-def look_closer(axes: Axes, middle: complex, half: float) -> None:
+def look_closer(axes: Axes, middle: complex, half: float, wall: float = 1.0) -> None:
     """Show the square of half-width `half` around `middle`, with its piece of the clearance circle."""
     # Only the visible arc, so finely resolved that impact points lie on it at any enlargement.
-    _wall(axes, np.angle(middle) + np.linspace(-4.0 * half, 4.0 * half, 361))
+    _wall(axes, np.angle(middle) + np.linspace(-4.0, 4.0, 361) * half / wall, wall)
     axes.set_xlim(middle.real - half, middle.real + half)
     axes.set_ylim(middle.imag - half, middle.imag + half)
 
@@ -280,9 +294,13 @@ def legend_below(axes: Axes) -> Legend:
     return axes.legend(handles, words, loc="upper center", bbox_to_anchor=(0.5, -0.16), ncols=min(2, len(words)))
 
 
-def legend_above(axes: Axes, handles: Sequence[Artist], columns: int) -> Legend:
-    """Add a legend above axes and below the title, where a legend of the figure would overlap the title."""
-    return axes.legend(handles=handles, loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=columns)
+def legend_above(axes: Axes, handles: Sequence[Artist], columns: int, *, aside: bool = False) -> Legend:
+    """Add a legend above axes and below the title, where a legend of the figure would overlap the title.
+
+    `aside` leaves room for an axis with its label at the top.
+    """
+    above = _TOP_AXIS / float(axes.bbox.height / axes.figure.dpi) if aside else 0.0
+    return axes.legend(handles=handles, loc="lower center", bbox_to_anchor=(0.5, 1.0 + above), ncols=columns)
 
 
 def _unique(drawn: Iterable[Axes]) -> tuple[Sequence[Artist], list[str]]:

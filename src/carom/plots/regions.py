@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -11,70 +12,91 @@ from matplotlib.lines import Line2D
 from matplotlib.patheffects import Normal, Stroke
 
 from carom.arguments import checked
+from carom.outcome import STEADY_WORDS
 from carom.plots.arrangement import arrange
 from carom.plots.diagrams import CURVES, FAINT, curve_line
 from carom.plots.figure import StyledFigure
-from carom.plots.numerals import number_regions
-from carom.plots.plane import legend_above
+from carom.plots.numerals import name_regions
+from carom.plots.parameter_axes import label_parameter
+from carom.plots.plane import Floats, legend_above
 from carom.plots.proven import proven_line
 from carom.plots.style import TWO_COLUMNS, styled
-from carom.plots.words import parameter_label, parameter_unit
+from carom.plots.words import parameter_unit, with_symbols
 
 if TYPE_CHECKING:
     from carom.bifurcations import Region, RegionMap
     from carom.proofs import Proof
 
 _BLACK, _MACHINE, _UNEXPLAINED = "#1a1a1a", "#f0e442", "#cc0000"
-_LONGEST_HALF = 92
+_LONGEST_HALF = 100
 """Number of characters of a region's description that fit in half of the width."""
-_LINE, _ROOM = 0.135, 9
-"""Height of a line of the list of regions [inch], and number of lines that fit in the figure."""
+_HEIGHT, _LINE = 0.6, 0.135
+"""Height of the figure without the list of regions, relative to its width, and height of a line of this list [inch]."""
 
 
 @checked
 @styled
-def region_map(found: RegionMap, proof: Proof | None = None) -> Figure:
+def region_map(found: RegionMap, proof: Proof | None = None, virtual: bool = False) -> Figure:
     """Draw the curves of bifurcations in the plane of two parameters, the points where they meet and the regions.
 
-    Curves of virtual orbits are faint.  Regions have the numbers of the JSON document.  The numeral of a thin region
-    stands beside it, with a leader line.  A proof along one of the two parameters is shown on the line through the
-    present machine.
+    Each region has the names of its motions in its area, without those of all regions.  A region without room for them
+    has its number in the JSON document, thin ones beside them with a leader line, and is described below the axes.  A
+    proof along one of the two parameters is shown on the line through the present machine.
+
+    Parameters
+    ----------
+    virtual : bool
+        Draw the curves of virtual motions too, faint.
 
     Raises
     ------
     InputError
         The proof is along another parameter or of another machine.
     """
-    listed = [
-        f"{number}: {region.motions.source_region}: {_words(found, region)}"
-        for number, region in enumerate(found.regions, start=1)
-    ]
+    names = [_name(found, region) for region in found.regions]
+    listed: set[int] = set()
+    while True:  # what is listed changes the layout a little, so that another name may find no room
+        figure, axes, units = _drawn(found, proof, virtual, names, sorted(listed))
+        without = name_regions(axes, found, units, [with_symbols(name) for name in names], listed, virtual=virtual)
+        if without <= listed:
+            return figure
+        listed |= without
+
+
+def _drawn(
+    found: RegionMap, proof: Proof | None, virtual: bool, names: Sequence[str], listed: Sequence[int]
+) -> tuple[Figure, Axes, Floats]:
+    """Return a figure without the names in the areas, laid out, with its axes and the divisors of the parameters."""
+    lines = [f"{number}: {names[number - 1].replace(chr(10), ', ')}" for number in listed]
     if found.everywhere:
-        listed.append(f"everywhere: {', '.join(found.everywhere)}")
-    columns = 2 if max(map(len, listed), default=0) <= _LONGEST_HALF else 1
-    rows = -(-len(listed) // columns)
-    figure = StyledFigure(figsize=(TWO_COLUMNS, 0.72 * TWO_COLUMNS + _LINE * max(rows - _ROOM, 0)))
+        lines.append(f"everywhere: {', '.join(found.everywhere)}")
+    columns = 2 if max(map(len, lines), default=0) <= _LONGEST_HALF else 1
+    rows = -(-len(lines) // columns)
+    lines = [with_symbols(line) for line in lines]
+    figure = StyledFigure(figsize=(TWO_COLUMNS, _HEIGHT * TWO_COLUMNS + _LINE * rows))
     drawn = figure.subplots()
     units = np.array([parameter_unit(axis.field) for axis in found.axes])
     # Draw the broad line of non-smooth Hopf bifurcations below all others, and what is proven between them.
     for curve in found.curves:
         if curve.kind == "non-smooth-hopf":
-            curve_line(drawn, curve, units)
+            curve_line(drawn, curve, units, virtual)
     key = [] if proof is None else _draw_proof(drawn, found, proof, units)
     for curve in found.curves:
         if curve.kind != "non-smooth-hopf":
-            curve_line(drawn, curve, units)
-    drawn.set_xlabel(parameter_label(found.axes[0].field))
-    drawn.set_ylabel(parameter_label(found.axes[1].field))
+            curve_line(drawn, curve, units, virtual)
+    scales = found.model.scales
+    aside = label_parameter(drawn, "x", found.axes[0].field, scales, own=drawn)
+    label_parameter(drawn, "y", found.axes[1].field, scales, own=drawn)
     drawn.set_xlim(*(np.array(found.plane.first_range) / units[0]))
     drawn.set_ylim(*(np.array(found.plane.second_range) / units[1]))
-    lines = [*_curve_key(found), *_mark_points(drawn, found, units), *key]
-    legend_above(drawn, lines, 3)
-    handles = [Line2D([], [], ls="none", label=words) for words in listed]
-    figure.legend(handles=handles, loc="outside lower center", ncols=columns, handlelength=0.0, fontsize=6.5)
+    legend_above(
+        drawn, [*_curve_key(found, virtual), *_mark_points(drawn, found, units, virtual), *key], 3, aside=aside
+    )
+    if lines:
+        handles = [Line2D([], [], ls="none", label=words) for words in lines]
+        figure.legend(handles=handles, loc="outside lower center", ncols=columns, handlelength=0.0, fontsize=6.5)
     arrange(figure)
-    number_regions(drawn, found, units)
-    return figure
+    return figure, drawn, units
 
 
 def _draw_proof(axes: Axes, found: RegionMap, proof: Proof, units: np.ndarray) -> list[Line2D]:
@@ -90,24 +112,28 @@ def _draw_proof(axes: Axes, found: RegionMap, proof: Proof, units: np.ndarray) -
     )
 
 
-def _words(found: RegionMap, region: Region) -> str:
-    """Describe the motions of a region, without those that all regions have."""
-    return ", ".join(part for part in region.motions.parts if part not in found.everywhere)
+def _name(found: RegionMap, region: Region) -> str:
+    """Return the motions that a region has and not all have, one kind a line."""
+    absent = ("no ", f"{STEADY_WORDS['contact-free']} virtual")
+    parts = [part for part in region.motions.parts if part not in found.everywhere and not part.startswith(absent)]
+    lines = [line for part in parts for line in part.removeprefix("stable ").split(" and ")]
+    return "\n".join(lines) or "none of these motions"
 
 
-def _curve_key(found: RegionMap) -> list[Line2D]:
+def _curve_key(found: RegionMap, virtual: bool) -> list[Line2D]:
     """Return the legend entries of the curves, with their orbits."""
     lines = []
+    shown = [curve for curve in found.curves if virtual or np.any(curve.admissible)]
     for kind, look in CURVES.items():
-        if any(curve.kind == kind for curve in found.curves):
+        if any(curve.kind == kind for curve in shown):
             orbits = found.orbits_of(kind)
-            lines.append(look.entry(f"{look.words}: {orbits}" if orbits else ""))
-    if not all(np.all(curve.admissible) for curve in found.curves):
+            lines.append(look.entry(f"{look.words}: {with_symbols(orbits)}" if orbits else ""))
+    if not all(np.all(curve.admissible) for curve in shown) and virtual:
         lines.append(Line2D([], [], color=_BLACK, lw=1.1, alpha=FAINT, label="faint: virtual motions only"))
     return lines
 
 
-def _mark_points(axes: Axes, found: RegionMap, units: np.ndarray) -> list[Line2D]:
+def _mark_points(axes: Axes, found: RegionMap, units: np.ndarray, virtual: bool) -> list[Line2D]:
     """Mark meeting points, resonances, changes without a curve and the machine; return their legend entries."""
     entries: dict[str, Line2D] = {}
 
@@ -118,6 +144,8 @@ def _mark_points(axes: Axes, found: RegionMap, units: np.ndarray) -> list[Line2D
         entries.setdefault(words, Line2D([], [], ls="none", marker=marker, ms=size, mfc=filled, mec=edge, label=words))
 
     for point in found.codimension2:
+        if not (point.admissible or virtual):
+            continue
         resonance = point.resonance
         words = "resonance of the multipliers" if resonance else "two at once"
         mark(
@@ -143,5 +171,5 @@ def _mark_points(axes: Axes, found: RegionMap, units: np.ndarray) -> list[Line2D
     for change in found.unexplained:
         mark(change.point, "change of motions on no curve found", "x", 4.0, _UNEXPLAINED, _UNEXPLAINED)
     if found.present is not None:
-        mark(found.present, f"the machine as it is: region {found.present_region}", "*", 9.0, _MACHINE)
+        mark(found.present, "the machine as it is", "*", 9.0, _MACHINE)
     return list(entries.values())

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -22,9 +23,9 @@ if TYPE_CHECKING:
 RPM = math.pi / 30.0
 """One revolution per minute in rad/s."""
 NO_LEVITATION = f"no {STEADY_WORDS['contact-free']}"
-_FREE = Look("#009e73", STEADY_WORDS["contact-free"], line="-", width=1.5)
+_FREE = replace(LOOKS["contact-free"], line="-", width=1.5)
 _VIRTUAL = Look("#4d4d4d", "virtual: beyond the clearance", line=":", width=1.4)
-_RUB = Look("#cc79a7", f"{STEADY_WORDS['rub']}, stable", line="-", width=3.0)
+_RUB = replace(LOOKS["rub"], words=f"{STEADY_WORDS['rub']}, stable", line="-", width=3.0)
 _SADDLE = Look("#5c1f47", f"{STEADY_WORDS['rub']}, unstable", line="--", width=1.1)
 _LIMIT = Look("#d55e00", "limit of API 617", line="-.", width=1.1)
 _PRESENT = Look("#1a1a1a", "present speed", line=(0.0, (4.0, 2.0)), width=0.9)
@@ -42,7 +43,7 @@ def unbalance_response(response: UnbalanceResponse) -> Figure:
     """Draw amplitude and phase over the speed of the shaft in two panels.
 
     Upper: vibration in µm peak to peak, with the zones of ISO 14839-2 as bands, the wall, and the limit of API 617; on the
-    right as radius in clearances.  Where the contact-free response is virtual it is dotted, and these speeds are hatched.
+    right as radius in mm.  Where the contact-free response is virtual it is dotted, and these speeds are hatched.
     Rubs lie on the wall, an unstable one dashed upon the stable one.  Lower: the angle by which the rotor lags its
     unbalance.  The present and the critical speed are marked in both.
     """
@@ -123,9 +124,9 @@ def _amplitudes(axes: Axes, response: UnbalanceResponse, speeds: Floats, width: 
             zorder=5,
         )
     right = axes.secondary_yaxis(
-        "right", functions=(lambda value: np.asarray(value) / width, lambda share: np.asarray(share) * width)
+        "right", functions=(lambda width: 0.5e-3 * np.asarray(width), lambda radius: 2e3 * np.asarray(radius))
     )
-    right.set_ylabel("radius (clearances)")
+    right.set_ylabel("radius (mm)")
 
 
 def _limit(response: UnbalanceResponse) -> Floats:

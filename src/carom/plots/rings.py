@@ -13,7 +13,7 @@ from carom.plots.cells import CHORDS, MotionLook, finish, paint
 from carom.plots.figure import StyledFigure
 from carom.plots.plane import Floats, clearance_circle, label_frame, point
 from carom.plots.style import LOOKS, ONE_COLUMN
-from carom.plots.words import number
+from carom.plots.words import clearance, number, told_in
 
 if TYPE_CHECKING:
     from carom.basins import Basin
@@ -24,10 +24,11 @@ _RING = (0.82, 0.98)
 
 def ring(basin: Basin, motions: list[MotionLook], title: str | None) -> Figure:
     """Draw the places on the wall, coloured by the motion to which a release there leads."""
-    figure, axes = _painted_ring(basin, motions)
-    clearance_circle(axes, reach=1.05)
+    figure, axes = _painted_ring(basin, motions, clearance(basin.scales))
+    wall = clearance(basin.scales)
+    clearance_circle(axes, reach=1.05, wall=wall)
     label_frame(axes, "rotating", basin.scales)
-    point(axes, complex(basin.rotor.system.arrays.offsets[0]), "contact-free", label="")
+    point(axes, wall * complex(basin.rotor.system.arrays.offsets[0]), "contact-free", label="")
     motion = {"fixed": "at rest in the fixed frame", "rotating": "at rest in the co-rotating frame"}
     said = motion.get(str(basin.plan.model.describe()["motion"]), "rolling without slip")
     axes.set_title(f"released from the wall, {said}")
@@ -59,14 +60,13 @@ def dial(basin: Basin, motions: list[MotionLook], title: str | None) -> Figure:
 def _step_of_unbalance(basin: Basin) -> str:
     """Eccentricity before and after the loss of a blade."""
     ends = [basin.rotor.value("rho"), float(str(basin.plan.model.describe()["eccentricity_after"]))]
-    if basin.scales is None:
-        return f"eccentricity from {number(ends[0], 3)} to {number(ends[1], 3)} clearances"
-    before, after = (number(1e3 * end * basin.scales.length, 3) for end in ends)
-    return f"eccentricity from {before} mm to {after} mm"
+    factor, unit = told_in("length", basin.scales)
+    before, after = (number(factor * end, 3) for end in ends)
+    return f"eccentricity from {before} to {after} {unit}"
 
 
-def _painted_ring(basin: Basin, motions: list[MotionLook]) -> tuple[Figure, Axes]:
-    """A new figure with a ring of cells."""
+def _painted_ring(basin: Basin, motions: list[MotionLook], wall: float = 1.0) -> tuple[Figure, Axes]:
+    """A new figure with a ring of cells within the radius `wall`."""
     figure = StyledFigure(figsize=(ONE_COLUMN, 1.13 * ONE_COLUMN))
     axes = figure.subplots()
     cells = basin.dataset["motion"].values
@@ -76,5 +76,5 @@ def _painted_ring(basin: Basin, motions: list[MotionLook]) -> tuple[Figure, Axes
     def bend(angle: Floats, radius: Floats) -> tuple[Floats, Floats]:
         return radius * np.cos(angle), radius * np.sin(angle)
 
-    paint(axes, edges, np.array(_RING), np.repeat(cells, parts)[:, None], motions, bend)
+    paint(axes, edges, wall * np.array(_RING), np.repeat(cells, parts)[:, None], motions, bend)
     return figure, axes

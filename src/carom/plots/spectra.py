@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from carom.arguments import checked
 from carom.plots.plane import Complex, one_axes
 from carom.plots.style import LOOKS, ONE_COLUMN, TWO_COLUMNS, styled
-from carom.plots.words import orbit_look, orbit_words
+from carom.plots.words import orbit_look, orbit_words, told_in
 
 if TYPE_CHECKING:
     from carom.motions.spectrum import FullSpectrum
@@ -25,7 +25,7 @@ _LINEAR_UP_TO = 2.0
 
 @checked
 @styled
-def multipliers(orbits: Iterable[Orbit], *, axes: Axes | None = None) -> Figure:
+def multipliers(orbits: Iterable[Orbit], *, virtual: bool = False, axes: Axes | None = None) -> Figure:
     """Draw the non-trivial multipliers of orbits next to the unit circle: one marker shape for each orbit.
 
     An orbit is stable if all its multipliers lie inside the circle.  A multiplier that leaves it through +1 means a
@@ -33,9 +33,14 @@ def multipliers(orbits: Iterable[Orbit], *, axes: Axes | None = None) -> Figure:
     the unit circle has a logarithmic radius: a multiplier keeps its direction and is drawn at the distance 1 + log10 of
     its modulus.  The axis labels then say so and the axes have no numbers; circles show the modulus.
 
-    If there are more than twelve orbits, the virtual ones share one small marker.  A new figure is 88 mm wide.
+    A new figure is 88 mm wide.
+
+    Parameters
+    ----------
+    virtual : bool
+        Draw the multipliers of virtual orbits too; if there are more than twelve orbits, these share one small marker.
     """
-    every = list(orbits)
+    every = [orbit for orbit in orbits if orbit.admissible or virtual]
     grouped = [orbit for orbit in every if not orbit.admissible] if len(every) > len(_SHAPES) else []
     shown = [orbit for orbit in every if orbit not in grouped]
     entries = len(shown) + bool(grouped)
@@ -57,7 +62,7 @@ def multipliers(orbits: Iterable[Orbit], *, axes: Axes | None = None) -> Figure:
         values = np.concatenate([orbit.multipliers.values for orbit in grouped])
         _dots(drawn, _compress(values) if compressed else values, len(grouped))
     if not every:
-        drawn.plot([], [], linestyle="none", label="no periodic orbit")
+        drawn.plot([], [], linestyle="none", label="no periodic orbit" if virtual else "no possible periodic orbit")
     if axes is None:
         figure.legend(*drawn.get_legend_handles_labels(), loc="outside lower center", ncols=columns)
     else:
@@ -152,10 +157,11 @@ def _dots(axes: Axes, values: Complex, count: int) -> None:
 def spectrum(full: FullSpectrum, *, axes: Axes | None = None) -> Figure:
     """Draw the full spectrum of a motion over the multiple of the shaft speed: backward whirl left, forward right.
 
-    Amplitudes are in clearances, on a logarithmic axis.
+    Amplitudes are on a logarithmic axis, in mm if the machine is known and in clearances otherwise.
     """
     figure, drawn = one_axes(axes, (TWO_COLUMNS, 0.36 * TWO_COLUMNS))
-    sizes = np.abs(full.amplitudes)
+    factor, unit = told_in("length", full.scales)
+    sizes = factor * np.abs(full.amplitudes)
     floor = max(float(sizes.max()) * 1e-6, 1e-12)
     for part, meaning, words in (
         (full.orders <= 0, "backward", "backward whirl"),
@@ -174,6 +180,6 @@ def spectrum(full: FullSpectrum, *, axes: Axes | None = None) -> Figure:
     drawn.set_ylim(floor, 2.0 * float(sizes.max()))
     drawn.set_yscale("log")
     drawn.set_xlabel("multiple of the shaft speed")
-    drawn.set_ylabel("amplitude (units of $c_r$)")
+    drawn.set_ylabel(f"amplitude ({unit})")
     drawn.legend(loc="upper left")
     return figure

@@ -12,10 +12,10 @@ from matplotlib.figure import Figure
 from carom.arguments import checked
 from carom.plots.cells import ink
 from carom.plots.figure import StyledFigure
-from carom.plots.histories import draw_radius
+from carom.plots.histories import draw_radius, history_of, last_turns
 from carom.plots.plane import Floats, key, one_axes
 from carom.plots.style import LOOKS, REGIMES, TWO_COLUMNS, WORKS, Look, styled
-from carom.plots.words import axis_time
+from carom.plots.words import axis_time, told_in
 
 if TYPE_CHECKING:
     from carom.motions.ledger import EnergyLedger
@@ -25,6 +25,8 @@ if TYPE_CHECKING:
 _SAMPLES = 4000
 _LARGE = 1e5
 """Size in N and J from which kN and kJ are written."""
+_MOST_STEMS = 60
+"""Number of impacts above which impulses are points without stems, which would merge into an area."""
 _WIDE_RANGE = 50.0
 """Ratio of the largest to the median contact force beyond which the axis is logarithmic."""
 
@@ -35,18 +37,26 @@ def touchdown(trajectory: Trajectory, ledger: EnergyLedger, title: str | None = 
     """Draw a touchdown, with the energies of its motion, in four panels over one time axis.
 
     From top to bottom: distance from the centre; regime and whirl direction; impulses and contact forces; energies and
-    works.
+    works.  If the distance has too many swings for a curve, its band is drawn, and its last turns in a panel below.
     """
-    figure = StyledFigure(figsize=(TWO_COLUMNS, 1.16 * TWO_COLUMNS))
-    panels = figure.subplots(4, 1, sharex=True, height_ratios=[1.0, 0.32, 1.0, 1.0])
-    draw_radius(panels[0], trajectory)
+    history = history_of(trajectory)
+    last = last_turns(history)
+    heights = [1.0, 0.32, 1.0, 1.0, *([] if last is None else [1.0])]
+    figure = StyledFigure(figsize=(TWO_COLUMNS, 0.35 * sum(heights) * TWO_COLUMNS))
+    panels = figure.subplots(len(heights), 1, height_ratios=heights)
+    for panel in panels[1:4]:
+        panel.sharex(panels[0])
+    draw_radius(panels[0], history)
     regimes(trajectory, axes=panels[1])
     forces(trajectory, axes=panels[2])
     energies(ledger, axes=panels[3])
-    for panel, letter in zip(panels, "abcd", strict=True):
+    if last is not None:
+        draw_radius(panels[4], last)
+    for panel, letter in zip(panels, "abcde", strict=False):
         panel.set_title(f"({letter})", loc="left", y=1.0)
+    for panel in panels[:3]:
         panel.set_xlabel("")
-    panels[-1].set_xlabel(axis_time(trajectory.rotor.scales))
+        panel.tick_params(labelbottom=False)
     if title:
         figure.suptitle(title)
     key(figure, panels, columns=4)
@@ -58,7 +68,9 @@ def touchdown(trajectory: Trajectory, ledger: EnergyLedger, title: str | None = 
 def regimes(trajectory: Trajectory, *, axes: Axes | None = None) -> Figure:
     """Draw two ribbons over time: the regime (flight, sliding, rolling) and the direction of whirl."""
     figure, drawn = one_axes(axes, (TWO_COLUMNS, 0.2 * TWO_COLUMNS))
-    ends = np.append(trajectory.segment_starts, trajectory.time)
+    scales = trajectory.rotor.scales
+    unit = told_in("time", scales)[0]
+    ends = unit * np.append(trajectory.segment_starts, trajectory.time)
     shown = {}
     for first, last in trajectory.stretches():
         regime = REGIMES[int(trajectory.segment_phases[first, trajectory.plane])]
@@ -66,15 +78,15 @@ def regimes(trajectory: Trajectory, *, axes: Axes | None = None) -> Figure:
         shown[regime.words] = regime
     for start, end, forward in _whirl(trajectory):
         whirl = "forward" if forward else "backward"
-        _ribbon(drawn, start, end, 0.0, LOOKS[whirl])
+        _ribbon(drawn, unit * start, unit * end, 0.0, LOOKS[whirl])
         shown[f"{whirl} whirl"] = LOOKS[whirl]
     for words, look in shown.items():
         drawn.fill_between([], [], **_filled(look), label=words)
     drawn.set_ylim(-0.1, 2.1)
     drawn.set_yticks([0.475, 1.525], ["whirl", "regime"])
     drawn.tick_params(axis="y", length=0)
-    drawn.set_xlim(0.0, trajectory.time)
-    drawn.set_xlabel(axis_time(trajectory.rotor.scales))
+    drawn.set_xlim(0.0, unit * trajectory.time)
+    drawn.set_xlabel(axis_time(scales))
     if axes is None:
         key(figure, [drawn], columns=4)
     return figure
@@ -105,52 +117,53 @@ def _whirl(trajectory: Trajectory) -> list[tuple[float, float, bool]]:
 def forces(trajectory: Trajectory, *, axes: Axes | None = None) -> Figure:
     """Draw the normal and friction force of lasting contact over time, and the impulse of each impact.
 
-    Forces are in N and impulses in N s (right axis) if the machine is known, otherwise in ``m c_r Ω²`` and ``m c_r Ω``.
+    Forces are in N and impulses in N s (right axis) if the machine is known, otherwise in units of the equations.
     Without lasting contact there is no force to draw, and the panel says so.
     """
     figure, drawn = one_axes(axes, (TWO_COLUMNS, 0.4 * TWO_COLUMNS))
     scales = trajectory.rotor.scales
     if trajectory.lasting_contacts:
-        _contact_forces(drawn, trajectory, scales)
+        _contact_forces(drawn, trajectory)
     else:
         drawn.set_yticks([])
         words = "no lasting contact" if len(trajectory.contacts) else "no contact"
         drawn.text(0.5, 0.94, words, transform=drawn.transAxes, ha="center", va="top", gid="no force")
     drawn.set_xlabel(axis_time(scales))
-    drawn.set_xlim(0.0, trajectory.time)
+    drawn.set_xlim(0.0, told_in("time", scales)[0] * trajectory.time)
     if len(trajectory.contacts):
-        _impulses(drawn, trajectory, scales)
+        _impulses(drawn, trajectory)
     if axes is None:
         key(figure, figure.axes, columns=3)
     return figure
 
 
-def _contact_forces(axes: Axes, trajectory: Trajectory, scales: Scales | None) -> None:
+def _contact_forces(axes: Axes, trajectory: Trajectory) -> None:
     """Draw normal and friction force over the intervals of lasting contact."""
+    scales = trajectory.rotor.scales
     times = _contact_times(trajectory)
     gaps = np.isnan(times)
     forces = np.full((2, len(times)), np.nan)
     forces[:, ~gaps] = trajectory.forces(times[~gaps])
-    unit, name = _unit_of(np.nanmax(forces[0]), scales.force if scales else None, "N")
+    unit, name = _unit_of(np.nanmax(forces[0]), "force", scales)
+    moments = told_in("time", scales)[0] * times
     normal, friction = (part * unit for part in forces)
     for values, look, words in (
         (normal, LOOKS["wall"], "normal force of lasting contact"),
         (np.abs(friction), LOOKS["roll"], "friction force, size"),
     ):
-        axes.plot(times, np.where(gaps, np.nan, values), **look.stroke | {"lw": 0.9}, label=words)
+        axes.plot(moments, np.where(gaps, np.nan, values), **look.stroke | {"lw": 0.9}, label=words)
     held = normal[~gaps & (normal > 0.0)]
     if len(held) and held.max() > _WIDE_RANGE * np.median(held):
         axes.set_yscale("log")
     else:
         axes.set_ylim(0.0, 1.1 * held.max() if len(held) else None)
-    axes.set_ylabel(f"contact force ({name})" if scales else r"contact force ($m c_r \Omega^2$)")
+    axes.set_ylabel(f"contact force ({name})")
 
 
-def _unit_of(largest: float, unit: float | None, name: str) -> tuple[float, str]:
-    """Return the factor to a unit in which large numbers need no power of ten, and its name; 1 without a unit."""
-    if unit is None:
-        return 1.0, ""
-    return (1e-3 * unit, f"k{name}") if unit * largest >= _LARGE else (unit, name)
+def _unit_of(largest: float, kind: str, scales: Scales | None) -> tuple[float, str]:
+    """Return the factor to a unit in which large numbers need no power of ten, and its name."""
+    unit, name = told_in(kind, scales)
+    return (1e-3 * unit, f"k{name}") if scales and unit * largest >= _LARGE else (unit, name)
 
 
 def _contact_times(trajectory: Trajectory) -> Floats:
@@ -163,17 +176,19 @@ def _contact_times(trajectory: Trajectory) -> Floats:
     return np.concatenate(pieces)
 
 
-def _impulses(axes: Axes, trajectory: Trajectory, scales: Scales | None) -> None:
+def _impulses(axes: Axes, trajectory: Trajectory) -> None:
     """Draw the normal impulses as stems, on a separate axis at the right."""
     beside = axes.twinx()
-    log = trajectory.contacts
-    heights = log.normal_impulse * (scales.impulse if scales else 1.0)
-    look = LOOKS["stable"]
-    beside.vlines(log.time, 0.0, heights, color=look.colour, lw=0.5)
-    beside.plot(log.time, heights, "o", ms=1.8, color=look.colour, label="normal impulse (right axis)")
+    log, scales = trajectory.contacts, trajectory.rotor.scales
+    unit, name = told_in("impulse", scales)
+    times, heights = told_in("time", scales)[0] * log.time, unit * log.normal_impulse
+    look = LOOKS["path"]
+    if len(times) <= _MOST_STEMS:
+        beside.vlines(times, 0.0, heights, color=look.colour, lw=0.5)
+    beside.plot(times, heights, "o", ms=1.8, color=look.colour, label="normal impulse (right axis)")
     # Leave room above for the words that say that there is no force.
     beside.set_ylim(0.0, None if trajectory.lasting_contacts else 1.25 * heights.max())
-    beside.set_ylabel("impulse (N s)" if scales else r"impulse ($m c_r \Omega$)")
+    beside.set_ylabel(f"impulse ({name})")
     axes.plot([], [], "o", ms=1.8, color=look.colour, label="normal impulse (right axis)")
 
 
@@ -184,15 +199,16 @@ def energies(ledger: EnergyLedger, *, axes: Axes | None = None) -> Figure:
     figure, drawn = one_axes(axes, (TWO_COLUMNS, 0.4 * TWO_COLUMNS))
     scales = ledger.scales
     largest = max(float(np.abs(getattr(ledger, name)).max()) for name in WORKS)
-    unit, short = _unit_of(largest, scales.energy if scales else None, "J")
+    unit, short = _unit_of(largest, "energy", scales)
+    times = told_in("time", scales)[0] * ledger.times
     drawn.axhline(0.0, color="#a6a6a6", lw=0.5)
     for name, look in WORKS.items():
         values = getattr(ledger, name)
         if name != "circulatory" or values.any():
-            drawn.plot(ledger.times, unit * values, **look.stroke, label=look.words)
-    drawn.set_xlim(0.0, float(ledger.times[-1]))
+            drawn.plot(times, unit * values, **look.stroke, label=look.words)
+    drawn.set_xlim(0.0, float(times[-1]))
     drawn.set_xlabel(axis_time(scales))
-    drawn.set_ylabel(f"energy, work since the start ({short})" if scales else r"energy, work ($m c_r^2 \Omega^2$)")
+    drawn.set_ylabel(f"energy, work since the start ({short})")
     if axes is None:
         key(figure, [drawn], columns=3)
     return figure

@@ -3,20 +3,30 @@
 from __future__ import annotations
 
 import math
+import re
 from typing import TYPE_CHECKING
 
 from carom.outcome import Outcome
+from carom.parameters.told import shown_in
 from carom.plots.style import LOOKS
 
 if TYPE_CHECKING:
     from carom.orbits.orbit import Orbit
     from carom.parameters import Field, Scales
 
+_ORBITS = re.compile(r"\b[BR]\d+,[a-d](?:/[a-d])*")
+"""Names of orbits in a text; those that differ in the last letter are combined."""
+
 
 def orbit_symbol(name: str) -> str:
     """Return an orbit name as mathematical text: ``"B1,d"`` becomes B with the subscript 1,d."""
     letter, subscript = name[:1], name[1:].replace(" ", r"\,")
     return rf"${letter}_{{\mathrm{{{subscript}}}}}$" if subscript else f"${letter}$"
+
+
+def with_symbols(text: str) -> str:
+    """Write the names of orbits in a text, such as ``B1,a/b``, as mathematical text."""
+    return _ORBITS.sub(lambda match: orbit_symbol(match[0]), text)
 
 
 def orbit_look(orbit: Orbit) -> str:
@@ -60,27 +70,45 @@ def times_larger(ratio: float) -> str:
     return f"{float(f'{ratio:.2g}'):.0f}"
 
 
+def formula(unit: str) -> str:
+    """Return a unit of the equations as mathematical text; a unit of people stays as it is."""
+    if not any(sign in unit for sign in ("c_r", "Ω", "Omega")):
+        return unit
+    parts = unit.replace("Omega", "Ω").replace("²", "^2").replace("³", "^3").split()
+    return "$" + r"\,".join(part.replace("c_r", r"c_\mathrm{r}").replace("Ω", r"\Omega") for part in parts) + "$"
+
+
+def told_in(kind: str, scales: Scales | None) -> tuple[float, str]:
+    """Return by what figures multiply a size in units of the equations, and the unit for their labels.
+
+    The kind is a property of :class:`~carom.parameters.Scales`.  Without scales, sizes stay in units of the equations.
+    """
+    factor, unit = shown_in(kind, scales)
+    return factor, formula(unit)
+
+
+def clearance(scales: Scales | None) -> float:
+    """Return the radius of the clearance circle as it is drawn: in mm, or 1 without scales."""
+    return told_in("length", scales)[0]
+
+
 def time_in_words(time: float, scales: Scales | None) -> str:
-    """Write a dimensionless time with its unit, and in ms if the machine is known."""
-    text = rf"{number(time)} $/\,\Omega$"
-    return text if scales is None else f"{text} ({_seconds(time * scales.time)})"
+    """Write a dimensionless time: in ms or s if the machine is known, otherwise in its own unit."""
+    return rf"{number(time)} $/\,\Omega$" if scales is None else _seconds(time * scales.time)
 
 
 def _seconds(time: float) -> str:
     return f"{number(time, 3)} s" if time >= 1.0 else f"{number(1e3 * time, 3)} ms"
 
 
-def axis_length(words: str, symbol: str, scales: Scales | None) -> str:
-    """Return the axis label of a length in clearances, with the size of the clearance if the machine is known."""
-    size = "" if scales is None else f" = {number(1e3 * scales.clearance, 3)} mm"
-    return rf"{words} {symbol} (units of $c_\mathrm{{r}}${size})"
+def axis_label(words: str, kind: str, scales: Scales | None) -> str:
+    """Return an axis label: words or a symbol, and the unit of their kind as in :func:`told_in`."""
+    return f"{words} ({told_in(kind, scales)[1]})"
 
 
 def axis_time(scales: Scales | None) -> str:
-    """Return the axis label of the dimensionless time."""
-    if scales is None:
-        return r"time $t$ (units of $1/\Omega$)"
-    return rf"time $t$ (units of $1/\Omega$ = {number(1e3 * scales.time, 3)} ms)"
+    """Return the axis label of the time."""
+    return axis_label("time $t$", "time", scales)
 
 
 def parameter_unit(field: Field) -> float:

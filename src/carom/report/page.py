@@ -40,16 +40,13 @@ class InlineFigure:
 
 @checked
 @shows_progress
-def write_report(study: Study, directory: str, *, png: bool = False, progress: ShowProgress = None) -> Path:
-    """Write ``report.html``, ``study.json`` and the figures of a study; return the path of the page.
+def write_report(study: Study, directory: str, *, progress: ShowProgress = None) -> Path:
+    """Write ``report.html``, ``study.json`` and the figures of a study, as SVG and PNG; return the path of the page.
 
     Parameters
     ----------
     directory : str
         Target directory, created if it does not exist.  Files of an earlier study are replaced; other files stay.
-
-    png : bool
-        Write the figures as PNG too, which takes about as long as all the rest of the report.
 
     Raises
     ------
@@ -64,7 +61,7 @@ def write_report(study: Study, directory: str, *, png: bool = False, progress: S
         inline, names = [], []
         for done, picture in enumerate(wanted):
             tell(done / len(wanted), f"figure {done + 1} of {len(wanted)}")
-            paths = plots.save(picture.draw(), place / FIGURES / picture.name, ("svg", "png") if png else ("svg",))
+            paths = plots.save(picture.draw(), place / FIGURES / picture.name)
             names += [f"{FIGURES}/{path.name}" for path in paths]
             inline.append(_inline(picture, paths[0].read_text(encoding="utf-8"), f"f{done + 1}-"))
         document = {**study.to_dict(), "figures": names}

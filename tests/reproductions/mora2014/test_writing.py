@@ -25,15 +25,16 @@ def written(found, tmp_path_factory):
 def test_all_files_are_there(written):
     place, files = written
     names = {f"figure-{number}.{ending}" for number in range(2, 7) for ending in ("svg", "png")}
-    assert {path.name for path in place.iterdir()} == names | {"paper.json", "table.md"}
-    assert {path.resolve() for path in files} == {path.resolve() for path in place.iterdir()}
-    assert all((place / name).stat().st_size > 20_000 for name in names)
+    assert {path.name for path in (place / "figures").iterdir()} == names
+    assert {path.name for path in place.iterdir()} == {"figures", "paper.json", "table.md"}
+    assert {path.resolve() for path in files} == {path.resolve() for path in place.rglob("*.*")}
+    assert all((place / "figures" / name).stat().st_size > 20_000 for name in names)
 
 
 @pytest.mark.parametrize("number", range(2, 7))
 def test_no_figure_is_empty(written, number):
     place, _ = written
-    image = imread(place / f"figure-{number}.png")
+    image = imread(place / "figures" / f"figure-{number}.png")
     # 180 mm at 300 dots per inch.
     assert abs(image.shape[1] - 180 / 25.4 * 300) < 2
     inked = (image[..., :3] < 0.95).any(axis=2)
@@ -42,7 +43,7 @@ def test_no_figure_is_empty(written, number):
     for row in np.array_split(inked, 3, axis=0):
         for cell in np.array_split(row, 3, axis=1):
             assert cell.any()
-    vector = (place / f"figure-{number}.svg").read_text(encoding="utf-8")
+    vector = (place / "figures" / f"figure-{number}.svg").read_text(encoding="utf-8")
     assert vector.count("<path") > 60
 
 

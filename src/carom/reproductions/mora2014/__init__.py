@@ -11,7 +11,7 @@
 ...     print(row.place, row.printed, row.right, row.printed_value, row.value)
 >>> for claim in found.claims:                     # propositions, and what holds of them
 ...     print(claim.place, claim.statement, claim.holds, claim.found)
->>> mora2014.write_paper(found, "out")                # figure-2.svg, figure-2.png, …, paper.json, table.md
+>>> mora2014.write_paper(found, "out")                # figures/figure-2.svg, …, paper.json, table.md
 
 ``carom paper --out DIR`` does the same.  The parts are available separately: :func:`shown_motions` (figure 2),
 :func:`period_functions`, :func:`period_pairs` and :func:`birth` (figure 3), :func:`first_pair` (figures 4 and 6a),

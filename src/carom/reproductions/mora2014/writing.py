@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from carom.files import staged_directory, write_json
+from carom.files.directory import FIGURES
 from carom.progress import Reporter, ShowProgress, shows_progress
 from carom.reproductions.mora2014.document import markdown, paper_document
 from carom.reproductions.mora2014.pictures import figures
@@ -33,7 +34,7 @@ def write_paper(found: Reproduction, directory: str, *, progress: ShowProgress =
         names = []
         for done, picture in enumerate(pictures):
             tell(done / len(pictures), f"drawing {picture.name.replace('-', ' ')}")
-            names += [path.name for path in save(picture.draw(), place / picture.name)]
+            names += [f"{FIGURES}/{path.name}" for path in save(picture.draw(), place / FIGURES / picture.name)]
         write_json(place / "paper.json", paper_document(found, pictures))
         (place / "table.md").write_text(markdown(found), encoding="utf-8")
         tell(1.0, "writing")
