@@ -13,6 +13,7 @@ from scipy.integrate import solve_ivp
 
 import carom as cm
 from carom.basins import Basin, smallest_loss
+from carom.basins.blade_losses import PHASES
 from carom.disturbances import BladeLoss, Disturbance, Grid, Sample
 from carom.models import Jeffcott
 from carom.outcome import InputError, Outcome
@@ -239,3 +240,5 @@ def test_what_is_lost_already_or_never_is_said():
     already = smallest_loss(heavy, BladeLoss(0.5))
     assert already.all_back is None
     assert already.size == pytest.approx(heavy.parameters.rho)
+    # A lost motion may take 20,000 impacts, so the other phases are not followed once some of a few are lost.
+    assert already.tried < PHASES

@@ -20,6 +20,8 @@ from carom.progress import Reporter
 
 PHASES, LEVELS = 360, 48
 """Phases tried at each unbalance, and unbalances of the scan."""
+FIRST = 45
+"""Every so many of the phases are followed first; the others follow only if none of these is lost."""
 DRAWN = 300
 """Fresh unbalances below the smallest that is lost, each with a phase of its own."""
 
@@ -83,15 +85,19 @@ class _Search:
     def loses(self, after: float, phases: np.ndarray | None = None) -> bool:
         """Whether an unbalance is lost at some phase; note it if so."""
         tried = TURN * np.arange(PHASES) / PHASES if phases is None else phases
-        at = replace(self.model, eccentricity_after=after)
-        starts: Starts = at.starts(self.rotor, tried)
-        outcomes = follow(at.machine_after(self.rotor), starts, threads=self.threads).outcomes
-        gone = np.flatnonzero(lost(outcomes) & starts.exists)
-        self.base = replace(self.base, tried=self.base.tried + int(np.count_nonzero(starts.exists)))
-        if len(gone) and (self.base.size is None or after < self.base.size):
-            angle = float(np.angle(np.exp(1j * tried[gone[0]])))
-            self.base = replace(self.base, size=after, angle=angle, outcome=Outcome(int(outcomes[gone[0]])))
-        return bool(len(gone))
+        at, later = replace(self.model, eccentricity_after=after), np.arange(len(tried)) % FIRST > 0
+        for some in (tried[~later], tried[later]) if later.any() else (tried,):
+            starts: Starts = at.starts(self.rotor, some)
+            outcomes = follow(at.machine_after(self.rotor), starts, threads=self.threads).outcomes
+            gone = np.flatnonzero(lost(outcomes) & starts.exists)
+            self.base = replace(self.base, tried=self.base.tried + int(np.count_nonzero(starts.exists)))
+            if not len(gone):
+                continue
+            if self.base.size is None or after < self.base.size:
+                angle = float(np.angle(np.exp(1j * some[gone[0]])))
+                self.base = replace(self.base, size=after, angle=angle, outcome=Outcome(int(outcomes[gone[0]])))
+            return True
+        return False
 
     def bisect(self, low: float, high: float) -> float:
         """Narrow a bracket whose upper end is lost; return its lower end."""
