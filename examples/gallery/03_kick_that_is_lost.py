@@ -13,6 +13,6 @@ print(motion.outcome.meaning)
 print(len(motion.contacts), "impacts until it has settled,", motion.multiplicity, "in each period afterwards")
 
 # %%
-# On the left in the frame that turns with the shaft, where the final motion closes; on the right as seen from outside.  ``fade`` draws
-# the beginning pale.
-figure = cm.plots.motion(motion, fade=True)
+# On the left in the frame that turns with the shaft, where the final motion closes; on the right as seen from outside.  Of a long
+# motion the last turns of the shaft are drawn, and the first ones pale.
+figure = cm.plots.motion(motion)

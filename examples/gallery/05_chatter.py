@@ -13,10 +13,11 @@ motion = cm.simulate(machine, cm.kick("100 mm/s"), until="120 ms")
 print(len(motion.contacts), "impacts;", [contact.kind for contact in motion.lasting_contacts])
 
 # %%
-# The last bounces before the slide, enlarged.
+# The last bounces before the slide, enlarged: the axes are in ms and mm.
 first = motion.lasting_contacts[0]
 figure = cm.plots.radius(motion)
 (panel, *_) = figure.axes
-panel.set_xlim(first.start - 1.2, first.start + 0.4)
-panel.set_ylim(0.9, 1.01)
+start = 1e3 * machine.parameters.scales.time * first.start
+panel.set_xlim(start - 6.5, start + 2.0)
+panel.set_ylim(0.63, 0.707)
 print(f"it slides from t = {first.start:.6f} to {first.end:.6f}")

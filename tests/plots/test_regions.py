@@ -76,6 +76,10 @@ def test_axes_of_a_machine_are_in_its_units(corner):
     assert below.get_xlim() == pytest.approx(np.array(axes.get_xlim()) * SCALES.damping)
     assert left.get_ylim() == pytest.approx(np.array(axes.get_ylim()) ** 2 * SCALES.stiffness)
     assert axes.get_xaxis().get_label_position() == "top"
+    assert "1,000,000" in [text.get_text() for text in left.get_yticklabels()], (
+        "a power of ten would overlap the top axis"
+    )
+    assert fits(plots.region_map(known))
 
 
 def test_curves_of_virtual_motions_are_hidden_unless_asked_for(corner, figure):

@@ -107,9 +107,9 @@ def equilibria_and_orbits(
 
 
 @checked
-def overview(study: Study, title: str | None = None) -> Figure:
+def overview(study: Study, title: str | None = None, *, virtual: bool = False) -> Figure:
     """Draw :func:`~carom.plots.equilibria_and_orbits` of a study."""
-    return equilibria_and_orbits(study.orbits, study.equilibria, title)
+    return equilibria_and_orbits(study.orbits, study.equilibria, title, virtual=virtual)
 
 
 def _panels(axes: Axes | None, count: int) -> tuple[Figure, Axes, list[Axes]]:

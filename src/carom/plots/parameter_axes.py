@@ -9,6 +9,7 @@ from matplotlib.axes import Axes
 
 from carom.parameters.fields import MACHINE_FIELDS, PHYSICAL_PARTNER, Field
 from carom.parameters.numbers import CONVERSIONS
+from carom.parameters.told import number as plain
 from carom.plots.words import number, parameter_label, parameter_unit
 
 if TYPE_CHECKING:
@@ -41,10 +42,14 @@ def label_parameter(axes: Axes, direction: Literal["x", "y"], field: Field, scal
     own.tick_params(axis=direction, which="both", **{far: True, f"label{far}": True})
     functions = (to_machine, from_machine)
     if direction == "x":
-        axes.secondary_xaxis("bottom", functions=functions).set_xlabel(parameter_label(partner))
+        told = axes.secondary_xaxis("bottom", functions=functions)
+        told.set_xlabel(parameter_label(partner))
+        told.xaxis.set_major_formatter(lambda value, _: plain(value))
         own.xaxis.set_label_position("top")
     else:
-        axes.secondary_yaxis("left", functions=functions).set_ylabel(parameter_label(partner))
+        told = axes.secondary_yaxis("left", functions=functions)
+        told.set_ylabel(parameter_label(partner))
+        told.yaxis.set_major_formatter(lambda value, _: plain(value))
         own.yaxis.set_label_position("right")
     own.set(**{f"{direction}label": label})
     return True

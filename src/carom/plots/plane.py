@@ -37,7 +37,7 @@ _PIECES = 60
 """Number of tints of a path that fades."""
 _MARGIN = 1.25
 """Size of an enlarged square, relative to what it shows."""
-_TOP_AXIS = 0.42
+_TOP_AXIS = 0.34
 """Height of the ticks and the label of an axis at the top [inch]."""
 _FRAMES = {"rotating": ("co-rotating frame", "U"), "fixed": ("fixed frame", "Z")}
 

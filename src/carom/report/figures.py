@@ -25,7 +25,7 @@ MOST_ENDINGS = 5
 """Largest number of disturbances shown as examples."""
 PANELS = (
     " From top to bottom: distance from the bearing centre; kind of contact and direction of whirl; load on the bearing; "
-    "energies and works."
+    "energies and works. Where the swings are too many for a curve, their band is drawn, and the last turns at the bottom."
 )
 LONGEST_SHOWN = 1000.0
 """Longest time that an example shows, in ``1/Ω``."""
