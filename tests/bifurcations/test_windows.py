@@ -132,3 +132,10 @@ def test_where_too_many_orbits_would_be_followed_stable_ones_are_not_searched(mo
     found = orbit_windows(MANY_ORBITS, "omega", values)
     assert found.stable is None
     assert [(window.low.value, window.high.value) for window in found.possible] == [(values[0], values[-1])]
+
+
+def test_too_many_orbits_to_follow_are_refused_before_any_is(monkeypatch):
+    monkeypatch.setattr(windows, "MOST_FOLLOWED", -1)
+    monkeypatch.setattr(windows, "continue_orbit", lambda *given: pytest.fail("followed"))
+    with pytest.raises(CaromError, match="too many to follow; choose a shorter range"):
+        orbit_windows(CLOSE_SPEEDS, "omega", (0.1766, 0.1853))

@@ -142,6 +142,11 @@ def orbit_windows(
         Values, in ascending order, at which all orbits are searched
         (:func:`~carom.orbits.single_impact.orbits_within_reach`).  A window between two of them is found if its orbit
         is admissible, or nearly so, at one of them.
+
+    Raises
+    ------
+    CaromError
+        More than :data:`MOST_FOLLOWED` orbits would have to be followed.
     """
     rotor, tell = jeffcott_of(machine), Reporter.of(progress, "following orbits")
     along = axis(rotor, parameter)
@@ -150,9 +155,7 @@ def orbit_windows(
         columns.append(_members(along.move(rotor, value)))
         tell(0.7 * (done + 1) / len(values))
     cells = _cells(values, columns)
-    levels = _LEVELS
-    if sum(len(cell.to_follow(levels)) for cell in cells) > MOST_FOLLOWED:
-        levels = ("possible",)
+    levels = _levels_to_follow(cells)
     pieces: dict[Level, list[Window]] = {level: [] for level in levels}
     for place, cell in enumerate(cells):
         low, high = cell.ends
@@ -169,6 +172,15 @@ def orbit_windows(
 
 
 _LEVELS: tuple[Level, ...] = ("possible", "stable")
+
+
+def _levels_to_follow(cells: list[_Cell]) -> tuple[Level, ...]:
+    """What can be found out by following no more than MOST_FOLLOWED orbits."""
+    for levels in (_LEVELS, _LEVELS[:1]):
+        count = sum(len(cell.to_follow(levels)) for cell in cells)
+        if count <= MOST_FOLLOWED:
+            return levels
+    raise CaromError(f"{count} orbits change between these values: too many to follow; choose a shorter range")
 
 
 def _members(rotor: Jeffcott) -> list[_Member]:

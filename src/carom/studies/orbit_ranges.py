@@ -10,6 +10,7 @@ from carom.bifurcations import Window, WindowEnd, orbit_windows
 from carom.closed_forms.thresholds import Gain
 from carom.models import Jeffcott
 from carom.orbits.single_impact import longest_within_reach, orbits_within_reach
+from carom.outcome import CaromError
 from carom.parameters import DIMENSIONLESS_FIELDS, Parameters
 from carom.progress import ShowProgress
 from carom.studies.ranges import Edge, MotionRange, Span
@@ -25,7 +26,7 @@ def single_impact_ranges(parameters: Parameters, gain: Gain, progress: ShowProgr
 
     Damping is searched from a fraction of the machine's own to where the rotor is far overdamped; stiffness from a
     quarter of the machine's own to four times it.  Return the ranges of all admissible orbits, and of the stable ones if there are not
-    too many orbits to follow; none if no search is possible: for stiffness without damping, or with so little that there are too many orbits to
+    too many orbits to follow; none if no search is possible: for stiffness without damping, or with so little that there are too many orbits to follow or to
     list.
     """
     values = _values(parameters, gain)
@@ -35,7 +36,10 @@ def single_impact_ranges(parameters: Parameters, gain: Gain, progress: ShowProgr
     possible: tuple[Window, ...] = ()  # a balanced rotor has no such orbit
     stable: tuple[Window, ...] | None = ()
     if parameters.rho > 0.0:
-        windows = orbit_windows(parameters, gain, values, progress)
+        try:
+            windows = orbit_windows(parameters, gain, values, progress)
+        except CaromError:
+            return ()
         possible, stable = windows.possible, windows.stable
     spans = tuple(_span(parameters, gain, window, stable=False) for window in possible)
     found = [MotionRange("single-impact", gain, spans, searched, step)]
