@@ -351,6 +351,8 @@ def test_terms_of_engineers_are_read_and_kept_in_the_address(page, open_page):
     page.keyboard.press("Enter")
     answered(page, "basin", said(page, "carom.number"))
     expect(page.locator("#problem")).to_be_hidden()
+    assert not page.locator('[data-name="eccentricity"] .unit').is_visible()
+    assert page.locator('[data-name="damping"] .unit').is_visible()
     # The rotor has 50 kg.
     assert said(page, "carom.controls.value('eccentricity')") == pytest.approx(0.1, rel=1e-11)
     again = open_page(said(page, "location.hash"))
