@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import cmath
+import math
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -10,11 +12,12 @@ import numpy as np
 from carom.basins import Basin, Share, map_basins
 from carom.closed_forms import find_equilibria
 from carom.disturbances import Coordinate, Disturbance, Grid, KickPlane, Starts, outward_from
+from carom.disturbances.echo import angles_words
 from carom.models import Jeffcott
 from carom.motions import State
 from carom.outcome import STEADY_WORDS
 from carom.parameters import Case
-from carom.parameters.told import told
+from carom.parameters.told import told, told_angle
 from carom.plots.cells import MotionLook, motion_looks
 from carom.progress import ShowProgress
 
@@ -147,11 +150,12 @@ def largest_kick(case: Case) -> float:
 def opening_words(case: Case) -> str:
     """What the page begins with: the kicks of the picture, and the one that is drawn."""
     rotor = Jeffcott(case.parameters)
-    fastest = largest_kick(case) / (rotor.scales.velocity if rotor.scales else 1.0)
+    fastest, rest = largest_kick(case) / (rotor.scales.velocity if rotor.scales else 1.0), rest_of(rotor)
+    angle = told_angle(cmath.phase(complex(rest.kicked(*FIRST).velocity)) % math.tau)
     largest, outward, along = (told(part * fastest, "velocity", rotor.scales) for part in (1.0, *FIRST))
     return (
-        f"{case.name}: kicks of up to {largest}, which disturb {rest_of(rotor).words}; drawn first is the kick of {outward} outward and "
-        f"{along} in the sense of rotation"
+        f"{case.name}: kicks of up to {largest}, which disturb {rest.words}; drawn first is the kick of {outward} outward and "
+        f"{along} in the sense of rotation, at {angle}; {angles_words(rotor.unbalance_phase)}"
     )
 
 

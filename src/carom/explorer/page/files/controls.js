@@ -44,7 +44,11 @@ carom.held = false;
   };
   carom.controls.arrived = (number) => { carom.seen = number; if (due && number >= waitingFor) step(); };
 
-  const mark = (one) => one.row.classList.toggle("changed", one.name in settings);
+  const plain = /^[\s\d.,'+-]*(e[+-]?\d+)?\s*$/i;
+  const mark = (one) => {
+    one.row.classList.toggle("changed", one.name in settings);
+    one.row.classList.toggle("own-unit", !plain.test(one.box.value));
+  };
   const moved = (one, held) => {
     const value = valueAt(one, +one.slider.value);
     one.now = value;
