@@ -237,16 +237,14 @@ def check_plan(plan, content, machine):
         return
     assert plan.task.starts == content["basins"]["starts"]
     given = content["basins"]["disturbance"]
-    assert plan.task.disturbance == given["kind"]
-    for name, value, in_si in plan.task.sizes:
-        if name in given and isinstance(value, float):
-            assert in_si == (isinstance(given[name], str) and not re.fullmatch(r"\s*[-+0-9.eE]+\s*", given[name]))
-            si = {"fastest": "m/s", "peak": "m/s**2", "duration": "s", "largest": "m"}[name] if in_si else ""
-            same(
-                value,
-                str(given[name]).replace(" g", " standard_gravity") if name == "peak" and in_si else given[name],
-                si,
-            )
+    model, scales = plan.task.tried.model, plan.task.scales
+    assert model.kind == given["kind"]
+    for name in given.keys() - {"kind"}:
+        value, quantity, in_si = getattr(model, name), model.measured_in.get(name, ""), name in plan.task.in_si
+        assert in_si == (isinstance(given[name], str) and not re.fullmatch(r"\s*[-+0-9.eE]+\s*", given[name]))
+        if isinstance(value, float):
+            size = value * getattr(scales, quantity) if in_si else value
+            same(size, given[name], {"fastest": "m/s", "peak": "m/s**2", "duration": "s"}[name] if in_si else "")
 
 
 def content_of(path):

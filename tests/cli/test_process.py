@@ -113,8 +113,8 @@ def test_interrupt_leaves_nothing_behind(machine, tmp_path):
     out = tmp_path / "out"
     code = (
         "import os, signal, sys; from carom import plots; from carom.cli import main; save = plots.save\n"
-        "def interrupted(figure, path, formats):\n"
-        "    paths = save(figure, path, formats)\n"
+        "def interrupted(figure, path):\n"
+        "    paths = save(figure, path)\n"
         "    os.kill(os.getpid(), signal.SIGINT)\n"
         "    return paths\n"
         "plots.save = interrupted; sys.exit(main())"
