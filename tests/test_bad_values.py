@@ -185,3 +185,10 @@ def test_annotations_are_read_as_they_stand():
     ):  # fmt: skip
         assert refused(lambda: take(**{name: bad})).field == name  # noqa: B023
     assert refused(lambda: take((), (), None, None, "up", None, math.nan)).field == "rest"
+
+
+def test_a_set_of_results_is_a_sequence_of_them():
+    case = cm.load("examples/keogh-cole.toml")
+    sets = cm.find_equilibria(case), cm.find_orbits(case)
+    document = cm.studies.orbits_document(case.parameters, *sets, case.machine)
+    assert len(document["equilibria"]) == len(sets[0])

@@ -256,8 +256,9 @@ def _several(one: Kind, container: Any) -> Kind:
 
 
 def _is_sequence(value: Any) -> bool:
-    """Whether a value is a sequence of several, or an array that can be read as one."""
+    """Whether a value is a sequence of several, as carom's sets of results are too, or an array that can be read as one."""
     several = isinstance(value, Sequence) or hasattr(value, "__array__")
+    several |= hasattr(value, "__getitem__") and hasattr(value, "__len__") and not isinstance(value, Mapping | set)
     return several and not isinstance(value, str | bytes) and getattr(value, "ndim", 1) > 0
 
 
