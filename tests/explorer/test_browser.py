@@ -123,6 +123,11 @@ def answered(page, name: str, number: int = 1) -> None:
     page.wait_for_function("([name, number]) => +document.documentElement.dataset[name] >= number", arg=[name, number])
 
 
+def fits(page, width: int) -> None:
+    """Wait until nothing is wider than the screen; the plots follow a new width of the window a moment later."""
+    page.wait_for_function("width => document.documentElement.scrollWidth <= width", arg=width)
+
+
 def said(page, expression: str):
     return page.evaluate(f"() => {expression}")
 
@@ -388,7 +393,7 @@ def test_what_arrives_late_moves_nothing_under_the_pointer(page, width):
         "carom.panels.state({ kind: 'working', share: 0.5, words: 'looking for the smallest lost kick '.repeat(3) })",
     )
     assert said(page, place) == late
-    assert said(page, "document.documentElement.scrollWidth") <= width
+    fits(page, width)
     page.set_viewport_size(DESK)
 
 
@@ -396,7 +401,7 @@ def test_what_arrives_late_moves_nothing_under_the_pointer(page, width):
 def test_nothing_is_wider_than_the_screen(page, width):
     page.set_viewport_size({"width": width, "height": 844})
     answered(page, "table")
-    assert said(page, "document.documentElement.scrollWidth") <= width
+    fits(page, width)
     for name in ("basin", "clearance"):
         box = page.locator(f"#{name}").bounding_box()
         assert box["width"] >= min(250, width - 60)
