@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from carom.outcome import DRIFTING_RUB, IRREGULAR_BOUNCING, STEADY_WORDS, Outcome
+from carom.outcome import DRIFTING_RUB, IRREGULAR_BOUNCING, REGULAR_BOUNCING, STEADY_WORDS, Outcome
 
 PAGE = Path("docs/reference/motions.md")
 PACKAGES = ("plots", "cli", "report", "studies", "sweeps", "explorer")
@@ -19,6 +19,7 @@ TOLD_APART = (
     *STEADY_WORDS.values(),
     DRIFTING_RUB,
     IRREGULAR_BOUNCING,
+    REGULAR_BOUNCING,
     *(Outcome(code).words for code in range(20, 26)),
 )
 """All names of motions."""
@@ -74,6 +75,7 @@ def test_a_name_that_is_written_out_is_found():
         "no stable synchronous rub",
         "A drifting rub holds it",
         "bouncing on ",
+        "ends in regular bouncing",
         "-impact bouncing with rub",
     )
     assert all(map(is_written_out, found))

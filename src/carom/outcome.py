@@ -99,6 +99,8 @@ STEADY_WORDS: Mapping[str, str] = MappingProxyType(
 DRIFTING_RUB = "drifting rub"
 """The forward rub that is not steady."""
 IRREGULAR_BOUNCING = f"irregular {Outcome.BOUNCING.words}"
+REGULAR_BOUNCING = f"regular {Outcome.BOUNCING.words}"
+"""Bouncing with one impact a period, on an orbit known in closed form."""
 _MEANINGS = {
     Outcome.CLEAR: "The flight stays inside the clearance until its horizon.",
     Outcome.CONTACT: "The flight reaches the wall with an outward radial velocity.",

@@ -82,7 +82,7 @@ def test_texts_of_commands_use_these_names_and_80_columns(command, capsys, monke
     assert not [words for words in FORBIDDEN if words in text]
     assert "rad/s" not in text
     if command in ("study", "basins"):
-        for name in ("levitation", "synchronous rub", "bouncing on B1,d"):
+        for name in ("levitation", "synchronous rub", "regular bouncing"):
             assert name in text
     if command == "study":
         assert "1,759 rpm" in text

@@ -23,7 +23,7 @@ def found():
 @pytest.mark.parametrize(
     ("attractor", "phrase"),
     [
-        (MotionName(Outcome.BOUNCING, 1, orbit=OrbitName(1, True, True)), "bouncing on B1,d"),
+        (MotionName(Outcome.BOUNCING, 1, orbit=OrbitName(1, True, True)), "in regular bouncing"),
         (MotionName(Outcome.BOUNCING), "in irregular bouncing"),
         (MotionName(Outcome.LEVITATED), "in levitation"),
         (MotionName(Outcome.ROLLING), "in rolling backward whirl"),
@@ -54,7 +54,7 @@ def test_outcomes_in_sentences(outcome, motions, words):
 
 
 def test_motions_that_stand_alone():
-    assert motion_words(MotionName(Outcome.BOUNCING, 1, orbit=OrbitName(1, True, True))) == "bouncing on B1,d"
+    assert motion_words(MotionName(Outcome.BOUNCING, 1, orbit=OrbitName(1, True, True))) == "regular bouncing"
 
 
 def test_touching_are_those_whose_motion_reaches_the_wall(found):
@@ -86,8 +86,8 @@ def test_example_has_contact_where_there_is_one_with_contact(found):
     ("name", "words"),
     [
         (MotionName(Outcome.LEVITATED), "levitation"),
-        (MotionName(Outcome.BOUNCING, 1, orbit=OrbitName(1, True, True)), "bouncing on B1,d"),
-        (MotionName(Outcome.BOUNCING, 1, orbit=OrbitName(12, False, False, -1)), "bouncing on R12,a"),
+        (MotionName(Outcome.BOUNCING, 1, orbit=OrbitName(1, True, True)), "regular bouncing"),
+        (MotionName(Outcome.BOUNCING, 1, orbit=OrbitName(12, False, False, -1)), "regular bouncing (pair 12, quick, soft, slipping backward)"),
         (MotionName(Outcome.ROLLING), "rolling backward whirl"),
         (MotionName(Outcome.BOUNCING, 2), "2-impact bouncing"),
         (MotionName(Outcome.GRAZING), "unresolved: grazing"),

@@ -63,8 +63,10 @@ class MotionName(str):
 
     @property
     def words(self) -> str:
-        """The name for use without context: ``"bouncing on B1,d"`` for an orbit; for other motions the name itself."""
-        return f"{Outcome.BOUNCING.words} on {self}" if self.orbit else str(self)
+        """The name for people: that of :attr:`OrbitName.words <carom.orbits.names.OrbitName.words>` for an orbit; else the name itself."""
+        if self.orbit is None:
+            return str(self)
+        return f"{self.orbit.words} ({self.number})" if self.number > 1 else self.orbit.words
 
     @property
     def irregular(self) -> bool:

@@ -68,7 +68,7 @@ def _print(case: Case, found: AttractorSet, characters: list[Character], exponen
     table = plain_table("Motions on which disturbances end", *columns, right=columns[3:], no_wrap=columns[3:])
     for entry, character in zip(found, characters, strict=True):
         table.add_row(
-            entry.name, character.kind, character.lasting, *_numbers(entry, character, len(found.disturbances))
+            entry.name.words, character.kind, character.lasting, *_numbers(entry, character, len(found.disturbances))
         )
     screen.print(f"{case.name}: {found.words()}")
     screen.print()
@@ -77,7 +77,7 @@ def _print(case: Case, found: AttractorSet, characters: list[Character], exponen
         screen.print(f"{share.words}.")
     for entry, character in zip(found, characters, strict=True):
         survival = f" {entry.survival.words[0].upper()}{entry.survival.words[1:]}." if entry.survival else ""
-        screen.print(f"{entry.name}: {character.words}{survival}")
+        screen.print(f"{entry.name.words}: {character.words}{survival}")
     if found.transient:
         screen.print(f"{IRREGULAR_BOUNCING.capitalize()} of some disturbances ended: {found.transient.words}.")
     if exponents:
@@ -124,9 +124,9 @@ def _exponents(found: AttractorSet, characters: list[Character]):  # type: ignor
         if measured is not None:
             pairs = zip(measured.values, measured.errors, strict=True)
             told = [f"{value:.4g} +- {error:.1g}" if error else f"{value:.6g}" for value, error in pairs]
-            table.add_row(entry.name, ", ".join(told), f"{measured.impacts:,}" if measured.errors.any() else "exact")
+            table.add_row(entry.name.words, ", ".join(told), f"{measured.impacts:,}" if measured.errors.any() else "exact")
         elif rates is not None:
-            table.add_row(entry.name, ", ".join(f"{value:.6g}" for value in rates), "linearised")
+            table.add_row(entry.name.words, ", ".join(f"{value:.6g}" for value in rates), "linearised")
         else:
-            table.add_row(entry.name, "not known", "-")
+            table.add_row(entry.name.words, "not known", "-")
     return table

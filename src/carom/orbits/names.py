@@ -6,6 +6,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Literal
 
+from carom.outcome import REGULAR_BOUNCING
+
 Slip = Literal[1, -1]
 
 
@@ -41,6 +43,21 @@ class OrbitName(str):
     def letter(self) -> str:
         """``a`` and ``c`` have the shorter period, ``b`` and ``d`` the longer; ``a`` and ``b`` the lower speed."""
         return _letter(self.longer, self.faster)
+
+    @property
+    def words(self) -> str:
+        """What people call the motion: ``regular bouncing``; what sets it apart from ``B1,d`` stands in brackets.
+
+        The shorter period of a pair is *quick*, the lower speed *soft*.
+        """
+        apart = [
+            "" if self.pair == 1 else f"pair {self.pair}",
+            "" if self.longer else "quick",
+            "" if self.faster else "soft",
+            "" if self.slip > 0 else "slipping backward",
+        ]
+        told = ", ".join(filter(None, apart))
+        return f"{REGULAR_BOUNCING} ({told})" if told else REGULAR_BOUNCING
 
     @property
     def place(self) -> tuple[int, int, str]:

@@ -15,7 +15,6 @@ from matplotlib.patches import Patch
 
 from carom.plots.plane import Floats
 from carom.plots.style import OUTCOMES, Look
-from carom.plots.words import orbit_symbol
 
 if TYPE_CHECKING:
     from carom.attractors import MotionName
@@ -53,14 +52,7 @@ class MotionLook:
 
     @property
     def words(self) -> str:
-        """Words of the legend; the name of an orbit is mathematical text."""
-        if self.name.orbit:
-            return f"{self.look.words} on {orbit_symbol(self.name)}"
-        return self.plain_words
-
-    @property
-    def plain_words(self) -> str:
-        """The same as plain text."""
+        """Words of the legend."""
         return self.name.words if self.name.outcome.settled else self.look.words
 
     @property

@@ -9,13 +9,13 @@ from carom.outcome import Outcome
 
 
 def ending_phrase(motion: MotionName) -> str:
-    """Return the words of a motion to follow a verb: (ends) ``bouncing on B1,d``, (ends) ``in rolling backward whirl``."""
+    """Return the words of a motion to follow a verb: (ends) ``in regular bouncing``, (ends) ``unresolved: grazing``."""
     words = motion.words
-    return words if motion.orbit or not motion.outcome.settled else f"in {words}"
+    return f"in {words}" if motion.outcome.settled else words
 
 
 def motion_words(motion: str) -> str:
-    """Words of a motion that stand alone: ``bouncing on B1,d``, ``rolling backward whirl``."""
+    """Words of a motion that stand alone: ``regular bouncing``, ``rolling backward whirl``."""
     return motion.words if isinstance(motion, MotionName) else str(motion)
 
 

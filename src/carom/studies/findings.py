@@ -25,7 +25,6 @@ if TYPE_CHECKING:
     from carom.orbits.orbit import Orbit
     from carom.studies.assembly import Study
 
-MOST_NAMES = 8
 RUB, ROLLING = STEADY_WORDS["rub"], STEADY_WORDS["rolling"]
 
 
@@ -127,14 +126,13 @@ def _bouncing(study: Study) -> str:
     if unstable:
         one = len(unstable) == 1
         sentences.append(
-            f"{counted(len(unstable), 'orbit')} with one impact a period {'is' if one else 'are'} unstable "
-            f"({names_of(unstable)}): the rotor does not stay there, but {'it takes' if one else 'they take'} part in "
-            "deciding which disturbances come back."
+            f"{counted(len(unstable), 'orbit')} with one impact a period {'is' if one else 'are'} unstable: the rotor does not "
+            f"stay there, but {'it takes' if one else 'they take'} part in deciding which disturbances come back."
         )
     if virtual:
         sentences.append(
-            f"{counted(len(virtual), 'orbit')} ({names_of(virtual)}) solve{'s' if len(virtual) == 1 else ''} the equations "
-            "but not the contact law, and so cannot happen."
+            f"{counted(len(virtual), 'orbit')} solve{'s' if len(virtual) == 1 else ''} the equations but not the contact law, "
+            "and so cannot happen."
         )
     if not len(orbits):
         sentences.append("There is no orbit with one impact a period.")
@@ -154,20 +152,14 @@ def _bouncing(study: Study) -> str:
 def _stable_orbit(study: Study, orbit: Orbit) -> str:
     say, parameters = study.wording, study.case.parameters
     impulse = (1.0 + parameters.d) * orbit.radial_speed
+    words = orbit.name.words
     whirl = "forward" if orbit.angular_speed > -1.0 else "backward"
     return (
-        f"The rotor can bounce for ever on the stable orbit {orbit.name}: one impact every {say.time(orbit.period)} "
+        f"{words[0].upper()}{words[1:]} can hold the rotor for ever: one impact every {say.time(orbit.period)} "
         f"({say.per_second(orbit.period)}) at {say.velocity(orbit.radial_speed)} towards the wall, each with a normal "
         f"impulse of {say.impulse(impulse)}, a mean force of {say.force(impulse / orbit.period)}, "
         f"in {whirl} whirl{_of_hit(study, impulse)}."
     )
-
-
-def names_of(orbits: list[Orbit]) -> str:
-    """List the names of orbits, at most ``MOST_NAMES`` of them."""
-    names: list[str] = [orbit.name for orbit in orbits]
-    few = MOST_NAMES - 1
-    return listed(names if len(names) <= MOST_NAMES else [*names[:few], f"{len(names) - few} more"])
 
 
 def _disturbances(study: Study) -> str:

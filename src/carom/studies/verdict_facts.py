@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from carom.basins import SmallestLoss
 from carom.closed_forms.whirl import rolling
-from carom.outcome import STEADY_WORDS, Outcome
+from carom.outcome import REGULAR_BOUNCING, STEADY_WORDS, Outcome
 from carom.results import fields_of
 from carom.studies.endings import ending_words
 from carom.studies.facts import Fact
-from carom.studies.findings import names_of, stable_rub
+from carom.studies.findings import stable_rub
 from carom.studies.survives import meets
 from carom.studies.wording import listed
 
@@ -163,8 +163,8 @@ def _others(study: Study) -> Iterator[Fact]:
         holds.append(f"a {'stable ' if stable_rub(study) else ''}{STEADY_WORDS['rub']}")
         motions.append(Outcome.FORWARD_RUB.label)
     if study.stable_orbits:
-        names = names_of(list(study.stable_orbits))
-        holds.append(f"{Outcome.BOUNCING.words} for ever ({names})")
+        kinds = [orbit.name.words for orbit in study.stable_orbits]
+        holds.append(kinds[0] if len(kinds) == 1 else f"{len(kinds)} kinds of {REGULAR_BOUNCING}")
         motions += [orbit.name for orbit in study.stable_orbits]
     if rolling(study.rotor).holds:
         holds.append(Outcome.ROLLING.words)

@@ -180,7 +180,7 @@ def test_a_kick_is_followed(page):
     page.session.kick({"number": 1, "radial": 0.5, "tangential": -0.25})
     motion = page.until("motion")
     assert motion["kick"] == {"radial": 0.5, "tangential": -0.25}
-    assert motion["words"].startswith("A kick of 92.6 mm/s at 185° ends in bouncing on B1,d; hardest impulse")
+    assert motion["words"].startswith("A kick of 92.6 mm/s at 185° ends in regular bouncing; hardest impulse")
 
 
 @pytest.mark.parametrize("radial", [1.5, float("nan"), float("inf")])

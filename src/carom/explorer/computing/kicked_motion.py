@@ -115,7 +115,7 @@ def follow_kick(
             motion,
             complex(start.velocity),
             hardest,
-            MotionLook(0, name, look, look.colour, 1.0).plain_words,
+            MotionLook(0, name, look, look.colour, 1.0).words,
         ),
         hardest=hardest,
     )

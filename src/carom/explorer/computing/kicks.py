@@ -182,4 +182,4 @@ def map_kicks(rotor: Jeffcott, cells: int, largest: float, progress: ShowProgres
 
 
 def _ending(look: MotionLook) -> Ending:
-    return Ending(look.plain_words, look.colour, look.look.hatch[:1], look.share)
+    return Ending(look.words, look.colour, look.look.hatch[:1], look.share)
