@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import os
+import re
 import runpy
 from pathlib import Path
 
@@ -37,6 +38,13 @@ def test_example_has_a_title_an_introduction_and_a_figure(path):
     named = {target.id for target in targets if isinstance(target, ast.Name)}
     assert "figure" in named
     compile(tree, path, "exec")
+
+
+@pytest.mark.parametrize("path", SCRIPTS, ids=lambda path: path.stem)
+def test_example_says_before_its_figure_what_to_see(path):
+    before, _, _ = path.read_text(encoding="utf-8").partition("\nfigure = ")
+    (block,) = re.findall(r"^# What to see: .*(?:\n#.*)*", before, re.MULTILINE)
+    assert len(block.split()) > 12
 
 
 @pytest.mark.jit_only

@@ -6,6 +6,8 @@ A rotor can stay in one place of the co-rotating frame in two ways: it levitates
 bearing and slides along it once a turn, the synchronous rub.  :func:`carom.find_equilibria` finds all of both.
 """
 
+import numpy as np
+
 import carom as cm
 
 machine = cm.load("../keogh-cole.toml")
@@ -14,5 +16,16 @@ for equilibrium in equilibria:
     print(equilibrium.kind, equilibrium.status, "stable" if equilibrium.stable else "unstable", equilibrium.radius)
 
 # %%
-# The pentagon is levitation.  Of the two rubs the filled square attracts; the hollow one does not.
+# What to see: the pentagon is levitation, the squares on the wall are rubs.  The filled one attracts, the hollow one does not.  The small
+# points are the same for speeds from 600 to 4000 rpm: as the speed rises levitation moves out to the wall at the right, is lost near the
+# natural frequency, and comes back in from the left.  This machine sits just inside the wall.
 figure = equilibria.plot()
+(panel,) = figure.axes
+length = 1e3 * machine.parameters.scales.length
+for speed in np.linspace(600, 4000, 120):
+    for other in cm.find_equilibria(cm.load("../keogh-cole.toml", [f"speed={speed} rpm"])):
+        if other.status == "admissible":
+            place = length * other.position
+            panel.plot(
+                place.real, place.imag, ".", ms=2, color="#009e73" if other.kind == "contact-free" else "#cc79a7"
+            )

@@ -13,6 +13,6 @@ print(motion.outcome.meaning)
 print(len(motion.contacts), "impacts until it has settled,", motion.multiplicity, "in each period afterwards")
 
 # %%
-# On the left in the frame that turns with the shaft, where the final motion closes; on the right as seen from outside.  Of a long
-# motion the last turns of the shaft are drawn, and the first ones pale.
+# What to see: on the left, in the frame that turns with the shaft, the pale path of the first turns ends in a small loop that touches the
+# wall once: that is regular bouncing.  On the right the same loop as seen from outside, its impacts all round the bearing.
 figure = cm.plots.motion(motion)

@@ -14,7 +14,8 @@ motion = cm.simulate(machine, cm.State(1.0), settle=True)
 print(motion.outcome.meaning)
 
 # %%
-# The normal force ends at that of the equilibrium.
+# What to see: the normal force swings about that of the equilibrium, the number below, and settles there.  The dashed line is friction, the
+# same times 0.15.
 scales = machine.parameters.scales
 print(f"{equilibria[1].normal_force * scales.force:.4g} N in equilibrium")
 figure = cm.plots.forces(motion)

@@ -14,4 +14,8 @@ bouncing = cm.simulate(machine, settled.final, until=400.0)
 spectrum = cm.motions.full_spectrum(bouncing)
 strongest = spectrum.orders[abs(spectrum.amplitudes).argsort()[::-1][:1]]
 print("strongest line at", strongest, "times the speed")
+
+# %%
+# What to see: the line at +1X is the unbalance.  Those at −1.7X, −4.4X and +3.7X are the impacts, at no multiple of the speed: a line of this
+# kind in the record of a machine means that it bounces.
 figure = spectrum.plot()

@@ -14,5 +14,6 @@ for orbit in orbits:
 print(orbits.argument)
 
 # %%
-# Each closes in the frame that turns with the shaft.
+# What to see: each orbit is a loop that touches the wall once, in the frame that turns with the shaft.  Only the large solid one, B1,d, is
+# stable: on it the machine bounces for ever.  The dashed ones, enlarged, are unstable.
 figure = orbits.plot(cm.find_equilibria(machine))

@@ -12,4 +12,7 @@ import carom as cm
 machine = cm.load("../source-paper.toml")
 orbits = cm.find_orbits(machine)
 periods = np.linspace(0.05, 30.0, 2000)
+
+# %%
+# What to see: the curve crosses zero at two periods only, the dots.  It oscillates on above zero; in the shaded range a bound excludes roots.
 figure = cm.plots.period_condition(orbits, periods, cm.orbits.period_condition(machine, periods))

@@ -13,4 +13,8 @@ orbits = cm.find_orbits(machine, impacts=2, guesses=200)
 for orbit in orbits:
     print(orbit.name, orbit.word, f"T = {orbit.period:.6f}", "stable" if orbit.stable else "unstable")
 print(orbits.argument)
+
+# %%
+# What to see: one of the unstable orbits with two impacts.  On the left both impacts are nearly at the same place: it was born from an orbit
+# with one, and is close to it still.
 figure = orbits["P2,1"].plot()

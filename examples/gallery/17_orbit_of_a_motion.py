@@ -13,4 +13,7 @@ motion = cm.simulate(machine, cm.kick("100 mm/s"), settle=True)
 orbit = cm.orbits.orbit_of_motion(motion)
 print(f"period {orbit.period:.12f}, known exactly: {cm.find_orbits(machine)['B1,d'].period:.12f}")
 print(orbit.margins)
+
+# %%
+# What to see: three periods of the orbit.  All bounces are alike, since the orbit is closed exactly, not read from a decaying motion.
 figure = cm.plots.radius(orbit)

@@ -17,12 +17,14 @@ for point in branch.special:
     print(f"{point.kind:16s} {point.value:9.3f} N s/m")
 
 # %%
-# The period over the damping.
+# What to see: the branch turns back at the fold, the rightmost point: beyond this damping the motion does not exist.  It is stable on the
+# upper part, between the fold and the next special point, the period doubling.
 figure = Figure(figsize=(6.0, 3.6), layout="constrained")
 panel = figure.subplots()
-panel.plot(branch.values, branch.period, label="B1,d and beyond its fold B1,c")
-panel.plot(
-    [point.value for point in branch.special], [point.period for point in branch.special], "o", label="special points"
-)
-panel.legend()
+stable = branch.admissible & branch.stable
+panel.plot(branch.values, branch.period, "--", color="#d55e00", label="unstable or not possible")
+panel.plot(branch.values[stable], branch.period[stable], color="#0072b2", label="regular bouncing, stable")
+for point, marker in zip(branch.special, "vDso", strict=True):
+    panel.plot(point.value, point.period, marker, color="#1a1a1a", label=point.kind)
+panel.legend(loc="center left")
 panel.set(xlabel="damping (N s/m)", ylabel="period (1/$\\Omega$)")

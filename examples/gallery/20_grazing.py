@@ -13,5 +13,6 @@ branch = cm.continue_orbit(cm.find_orbits(machine)["B1,d"], "gamma", (0.05, 0.1)
 print(f"grazes at gamma = {grazing.value:.10f}; beyond it is {branch.orbits[0].reason or 'admissible'}")
 
 # %%
-# The radius reaches one between the impacts.
+# What to see: between two impacts, at the triangles, the curve just touches the wall.  With less damping it would cross it: the orbit is no
+# motion any more.
 figure = cm.plots.radius(grazing.orbit)

@@ -11,4 +11,9 @@ machine = cm.load("../keogh-cole.toml")
 diagram = cm.find_bifurcations(machine, "damping", ("600 N s/m", "4000 N s/m"))
 for point in diagram.points:
     print(f"{point.kind:22s} {point.name:16s} {point.value:8.1f} N s/m")
+
+# %%
+# What to see: in the lowest panel each bar is a motion that can hold the rotor.  Right of where the bar of bouncing ends (two orbits meet, the
+# black triangles) and that of the rub (the cross) only levitation and, after a violent start, backward whirl are left.  The dotted line is
+# the machine as it is: it has all four.
 figure = diagram.plot()

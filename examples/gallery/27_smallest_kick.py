@@ -15,6 +15,6 @@ unit = 1e3 * machine.parameters.scales.velocity
 print(f"no contact up to {smallest.harmless * unit:.3g} mm/s; lost from {smallest.size * unit:.4g} mm/s on")
 
 # %%
-# It is marked in the basin.
+# What to see: the small circle at the edge of the green core is the smallest lost kick.  Inside the dashed ring no kick reaches the wall.
 basin = cm.map_basins(machine, cm.Grid(kicks, (40, 60)))
 figure = basin.plot(smallest)

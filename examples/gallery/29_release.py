@@ -10,4 +10,8 @@ import carom as cm
 machine = cm.load("../keogh-cole.toml", ["eccentricity=0.15 mm"])
 basin = cm.map_basins(machine, cm.Grid(cm.disturbances.ContactRelease("fixed"), (360,)))
 print(basin.share_recovered.words)
+
+# %%
+# What to see: each place on the ring is one where the rotor may lie when it is lifted.  From those at the left it levitates, from those at the
+# right it goes on bouncing: the unbalance decides, not gravity.
 figure = basin.plot()

@@ -38,4 +38,8 @@ class HeldAside(Disturbance):
 machine = cm.load("../keogh-cole.toml")
 basin = cm.map_basins(machine, cm.Grid(HeldAside(), (40, 60)))
 print(basin.share_recovered.words)
+
+# %%
+# What to see: let go from the small green area around levitation the rotor comes back; from further away it rubs or bounces.  The white part lies
+# beyond the wall.
 figure = basin.plot()

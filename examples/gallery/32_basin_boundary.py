@@ -13,5 +13,6 @@ entropy = cm.basins.basin_entropy(basin)
 print(f"S_b = {entropy.whole:.3f}, at the boundaries {entropy.boundary:.3f}; fractal: {entropy.fractal}")
 
 # %%
-# All positions in which the rotor may be released at rest, as seen in the room.
+# What to see: all positions in which the rotor may be released, at rest as seen in the room.  From the blue ones it bounces, from the hatched
+# ones it rubs, from none does it levitate; the border between them is one smooth curve.
 figure = basin.plot()

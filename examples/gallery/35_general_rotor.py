@@ -27,5 +27,6 @@ motion = cm.simulate(rotor, cm.kick(1.2, angle=1.3), until=12)
 print([len(motion.seen_at(plane).contacts) for plane in (0, 1)], "impacts at the two bearings")
 
 # %%
-# The motion at the second bearing.
+# What to see: the motion at the second bearing, in both frames.  It strikes there four times.  The kinks inside the circle are impacts at the
+# first bearing, which act on it through the tilt.
 figure = motion.seen_at(1).plot()

@@ -25,4 +25,13 @@ rotor = cm.models.LinearRotor.in_fixed_frame(
 equilibria = cm.find_equilibria(rotor)
 for equilibrium in equilibria:
     print(equilibrium.kind, equilibrium.status, "stable" if equilibrium.stable else "unstable")
+
+# %%
+# What to see: a circle for each bearing.  The filled square is the one stable rub; it touches at both bearings.  Grey squares would need a wall
+# that pulls.  The thin line is how the rotor bounces towards the rub after a kick.
 figure = equilibria.plot()
+motion = cm.simulate(rotor, cm.kick(0.6, angle=1.6), settle=True)
+times = np.linspace(0.0, 40.0, 4000)
+for plane, panel in enumerate(figure.axes):
+    path = motion.seen_at(plane).position(times)
+    panel.plot(path.real, path.imag, lw=0.5, color="#3d4f66", zorder=1)

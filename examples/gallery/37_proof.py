@@ -15,5 +15,7 @@ print(counts)
 
 # %%
 # The period of the stable orbit, with a guaranteed error.
+#
+# What to see: the orbits of which the theorems speak.  That there is no other loop with one impact is one of them.
 print({name: str(ball) for name, ball in proof["B1,d solution"].enclosures.items()})
 figure = cm.find_orbits(cm.load("../source-paper.toml")).plot()

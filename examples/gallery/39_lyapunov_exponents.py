@@ -15,5 +15,5 @@ exponents = cm.orbits.lyapunov_exponents(machine, motion.final, impacts=2000, tr
 print(exponents.values.round(4), "+-", exponents.errors.round(4))
 
 # %%
-# The last hundred units of time.
-figure = cm.plots.motion(motion, since=motion.time - 100.0)
+# What to see: the last five turns of the shaft.  The loops on the left resemble each other, but none repeats.
+figure = cm.plots.motion(motion, since=motion.time - 30.0)

@@ -59,7 +59,10 @@ def words(figure):
         (MotionName(Outcome.LEVITATED), "levitation"),
         (MotionName(Outcome.ROLLING), "rolling backward whirl"),
         (MotionName(Outcome.BOUNCING, 1, orbit=OrbitName(1, True, True)), "regular bouncing"),
-        (MotionName(Outcome.BOUNCING, 1, orbit=OrbitName(2, True, True, -1)), "regular bouncing (pair 2, slipping backward)"),
+        (
+            MotionName(Outcome.BOUNCING, 1, orbit=OrbitName(2, True, True, -1)),
+            "regular bouncing (pair 2, slipping backward)",
+        ),
         (MotionName(Outcome.BOUNCING, 3, number=2), "3-impact bouncing (2)"),
         (MotionName(Outcome.FORWARD_RUB), "synchronous rub"),
         (MotionName(Outcome.BOUNCING), "irregular bouncing"),

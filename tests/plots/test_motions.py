@@ -33,6 +33,22 @@ def test_orbit_closes_in_the_rotating_frame_and_strikes_once_a_period_in_the_fix
     np.testing.assert_allclose(strikes.get_ydata(), damped.mm * np.sin(turned), atol=1e-9)
 
 
+def test_each_impact_of_an_orbit_with_two_is_marked(damped, read):
+    branch = carom.continue_orbit(damped.orbits["B1,d"], "gamma", (0.08, 0.1))
+    (doubling,) = (point for point in branch.special if point.kind == "period-doubling")
+    orbit = doubling.switch((0.082, 0.0834)).orbits[-1]
+    assert orbit.impacts == 2
+    rotating, fixed = plots.orbit(orbit, periods=3).axes
+    (strikes,) = read.lines(rotating, "backward")
+    angles = sorted(section.angle for section in orbit.sections)
+    places = damped.mm * np.exp(1j * np.array(angles))
+    found = np.array(sorted(strikes.get_xdata() + 1j * strikes.get_ydata(), key=np.angle))
+    np.testing.assert_allclose(found, places, atol=1e-9)
+    assert read.marked(fixed, "backward") == 6
+    (marks,) = read.lines(plots.radius(orbit, periods=3).axes[0], "backward")
+    np.testing.assert_allclose(marks.get_xdata()[:2], damped.ms * np.cumsum(orbit.durations), rtol=1e-12)
+
+
 def test_fixed_frame_shows_as_many_periods_as_bring_it_nearest_to_closing(damped, read):
     orbit = damped.orbits["B1,d"]
     _, fixed = plots.orbit(orbit).axes

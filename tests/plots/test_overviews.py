@@ -24,6 +24,15 @@ def test_every_equilibrium_is_at_its_place(damped, read):
     assert stable.get_markerfacecolor() == plots.LOOKS["rub"].colour
 
 
+def test_equilibria_alone_are_drawn_in_the_units_of_the_machine(damped, read):
+    (axes,) = plots.equilibria(carom.find_equilibria(damped.rotor)).axes
+    (wall,) = read.lines(axes, "wall")
+    np.testing.assert_allclose(np.hypot(*wall.get_data()), damped.mm)
+    assert axes.get_xlabel() == "position Re $U$ (mm)"
+    drawn = [complex(*line.get_xydata()[0]) for line in axes.get_lines() if line.get_gid() in ("contact-free", "rub")]
+    np.testing.assert_allclose(drawn, [damped.mm * entry.position for entry in damped.equilibria])
+
+
 def test_words(damped, read):
     figure = plots.equilibria_and_orbits(damped.orbits, damped.equilibria, title="A machine")
     assert figure.get_suptitle() == "A machine"

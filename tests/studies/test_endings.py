@@ -87,7 +87,10 @@ def test_example_has_contact_where_there_is_one_with_contact(found):
     [
         (MotionName(Outcome.LEVITATED), "levitation"),
         (MotionName(Outcome.BOUNCING, 1, orbit=OrbitName(1, True, True)), "regular bouncing"),
-        (MotionName(Outcome.BOUNCING, 1, orbit=OrbitName(12, False, False, -1)), "regular bouncing (pair 12, quick, soft, slipping backward)"),
+        (
+            MotionName(Outcome.BOUNCING, 1, orbit=OrbitName(12, False, False, -1)),
+            "regular bouncing (pair 12, quick, soft, slipping backward)",
+        ),
         (MotionName(Outcome.ROLLING), "rolling backward whirl"),
         (MotionName(Outcome.BOUNCING, 2), "2-impact bouncing"),
         (MotionName(Outcome.GRAZING), "unresolved: grazing"),

@@ -124,7 +124,9 @@ def _exponents(found: AttractorSet, characters: list[Character]):  # type: ignor
         if measured is not None:
             pairs = zip(measured.values, measured.errors, strict=True)
             told = [f"{value:.4g} +- {error:.1g}" if error else f"{value:.6g}" for value, error in pairs]
-            table.add_row(entry.name.words, ", ".join(told), f"{measured.impacts:,}" if measured.errors.any() else "exact")
+            table.add_row(
+                entry.name.words, ", ".join(told), f"{measured.impacts:,}" if measured.errors.any() else "exact"
+            )
         elif rates is not None:
             table.add_row(entry.name.words, ", ".join(f"{value:.6g}" for value in rates), "linearised")
         else:

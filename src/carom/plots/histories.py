@@ -16,7 +16,7 @@ from carom.arguments import Count, checked
 from carom.outcome import Outcome
 from carom.plots.bands import bands_over_time, drawing_times
 from carom.plots.figure import StyledFigure, narrow
-from carom.plots.plane import MANY_POINTS, Floats, finish, key, marker_size, one_axes, orbit_path, point
+from carom.plots.plane import MANY_POINTS, Floats, finish, key, marker_size, one_axes, orbit_impacts, orbit_path, point
 from carom.plots.style import LOOKS, ONE_COLUMN, TWO_COLUMNS, ZONE_SHADES, Look, styled
 from carom.plots.words import axis_label, axis_time, clearance, ending, orbit_look, orbit_title, told_in
 
@@ -158,9 +158,10 @@ def _of_orbit(orbit: Orbit, periods: int) -> History:
     unit = told_in("time", scales)[0]
     times, position = orbit_path(orbit, periods)
     look = LOOKS[orbit_look(orbit)]
-    forward = np.full(periods, orbit.angular_speed > -1.0)
-    impacts = unit * orbit.period * np.arange(1.0, periods + 1.0)
-    return History(unit * times, np.abs(position), impacts, forward, look, f"radius ({look.words})", scales)
+    impacts, speeds = orbit_impacts(orbit, periods)
+    return History(
+        unit * times, np.abs(position), unit * impacts, speeds > -1.0, look, f"radius ({look.words})", scales
+    )
 
 
 def _of_trajectory(trajectory: Trajectory, since: float = 0.0) -> History:

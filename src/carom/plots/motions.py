@@ -24,6 +24,7 @@ from carom.plots.plane import (
     label_frame,
     magnifier,
     one_axes,
+    orbit_impacts,
     orbit_path,
     path,
     point,
@@ -92,9 +93,9 @@ def _draw_orbit(axes: Axes, orbit: Orbit, frame: Frame, periods: int) -> None:
     wall = clearance(orbit.rotor.scales)
     path(axes, line, look, label=f"orbit ({look.words})", width=None if periods == 1 else 0.6, wall=wall)
     direction_arrow(axes, line[times <= orbit.period], look)
-    per_period = (len(times) - 1) // periods
-    struck = line[per_period::per_period]
-    impacts(axes, struck, np.full(len(struck), orbit.angular_speed), size=4.5)
+    struck, speeds = orbit_impacts(orbit, periods)
+    turned = np.exp(1j * struck) if frame == "fixed" else np.ones_like(struck)
+    impacts(axes, wall * orbit.path(struck) * turned, speeds, size=4.5)
     point(axes, complex(line[0]), "start", size=4.0, label="start, just after an impact")
 
 

@@ -168,18 +168,24 @@ def _draw(
 def equilibria(found: EquilibriumSet, title: str | None = None) -> Figure:
     """Draw the equilibria of any rotor, in the clearance circle of each contact plane.
 
-    Displacements are in the clearance of the plane.  Virtual equilibria that lie far outside are left out.
+    Virtual equilibria that lie far outside are left out.
     """
-    count = len(found[0].places)
-    figure = StyledFigure(figsize=(TWO_COLUMNS, 0.55 * TWO_COLUMNS if count < 3 else 0.4 * TWO_COLUMNS))
+    count, scales = len(found[0].places), found.rotor.scales
+    wall = clearance(scales)
+    size = (
+        (0.7 * TWO_COLUMNS, 0.75 * TWO_COLUMNS)
+        if count == 1
+        else (TWO_COLUMNS, (0.55 if count < 3 else 0.4) * TWO_COLUMNS)
+    )
+    figure = StyledFigure(figsize=size)
     panels = figure.subplots(1, count, squeeze=False)[0]
     for plane, drawn in enumerate(panels):
         shown = [entry for entry in found if abs(entry.places[plane]) <= _FARTHEST]
         reach = max(1.12, *(1.06 * abs(entry.places[plane]) for entry in shown)) if shown else 1.12
-        clearance_circle(drawn, reach)
+        clearance_circle(drawn, reach, wall)
         for entry in shown:
-            _draw_equilibrium(drawn, entry, complex(entry.places[plane]))
-        label_frame(drawn, "rotating", None, f"plane {plane}" if count > 1 else "")
+            _draw_equilibrium(drawn, entry, wall * complex(entry.places[plane]))
+        label_frame(drawn, "rotating", scales, f"plane {plane}" if count > 1 else "")
     if title:
         figure.suptitle(title)
     key(figure, panels, columns=2)

@@ -184,6 +184,15 @@ def orbit_path(orbit: Orbit, periods: int) -> tuple[Floats, Complex]:
     return times, orbit.path(times) * complex(clearance(orbit.rotor.scales))
 
 
+def orbit_impacts(orbit: Orbit, periods: int) -> tuple[Floats, Floats]:
+    """Return the times of the impacts after the first one [1/Omega], over whole periods, and the angular speeds just before each."""
+    kept = [place for place, segment in enumerate(orbit.word) if segment.kind.is_impact]
+    kept = [*kept[1:], kept[0]]
+    begins = np.concatenate([[orbit.period], np.cumsum(orbit.durations)[:-1]])[kept]
+    times = (orbit.period * np.arange(periods)[:, None] + begins).ravel()
+    return times, np.tile([orbit.sections[place].angular_speed for place in kept], periods)
+
+
 def marker_size(count: int) -> float:
     """Return the marker size [pt], which decreases with the number of markers."""
     return float(np.clip(5.0 - 0.9 * np.log10(max(count, 1) / 6.0), 2.2, 5.0))
