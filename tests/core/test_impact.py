@@ -178,3 +178,34 @@ def test_set_on_wall_is_the_smallest_change():
     # The smallest change that moves the plane by this much is along the conjugate of its row.
     expected, *_ = np.linalg.lstsq(row[None], np.array([after - before]), rcond=None)
     assert np.allclose(amplitudes - start, expected, rtol=0, atol=1e-14)
+
+
+@given(
+    angles,
+    st.floats(1e-3, 10.0),
+    turns,
+    st.floats(0.01, 1.0),
+    st.floats(0.0, 1.0),
+    st.floats(1.0, 100.0),
+    st.floats(10, 1e3),
+)
+def test_coefficients_follow_from_velocities_measured_in_the_room(
+    angle, radial, angular, friction, restitution, ratio, speed
+):
+    """The formulas of the page on measured impacts, in mm/s, for a rotor of radius ``ratio`` clearances at ``speed`` rad/s."""
+    clearance = 0.4  # mm
+    position, velocity = state(angle, radial, angular)
+    change, sticks = strike(position, velocity, friction, restitution, ratio + 1.0)
+    before, after = (
+        clearance * speed * (moving + 1j * position) / position for moving in (velocity, velocity + change)
+    )
+    size = abs(before) + ratio * clearance * speed
+    slip = ratio * clearance * speed + after.imag
+    assert -after.real / before.real == pytest.approx(restitution, abs=16 * EPSILON * size / before.real)
+    pulled = abs(after.imag - before.imag) / (before.real - after.real)
+    error = 16 * EPSILON * size / (before.real - after.real)
+    if sticks:
+        assert abs(slip) <= 16 * EPSILON * size
+        assert pulled <= friction + error
+    else:
+        assert pulled == pytest.approx(friction, abs=error)
