@@ -74,6 +74,7 @@ _SECONDS = {
     "python-tour": 6,
     "theory/attractors": 5,
     "howto/choose-gains": 5,
+    "howto/uncertain-contact": 14,
     "reference/command-line": 4,
     "sweeps": 4,
     "theory/regions": 4,

@@ -280,7 +280,7 @@ def test_damaged_machine_files_are_read_as_they_are_or_refused(tmp_path, example
     assert CASES // 50 <= accepted <= CASES // 3
 
 
-@pytest.mark.parametrize("example", ["sweep-gains.toml", "sweep-speed.toml"])
+@pytest.mark.parametrize("example", ["sweep-contact.toml", "sweep-gains.toml", "sweep-speed.toml"])
 def test_damaged_sweep_files_are_read_as_they_are_or_refused(tmp_path, example):
     rng, path, accepted = np.random.default_rng([2, len(example)]), tmp_path / "s.toml", 0
     whole = (EXAMPLES / example).read_bytes()

@@ -91,6 +91,7 @@ def test_maps_of_a_sweep(drawn, tmp_path, capsys):
         f"{s}.{e}" for s in stems for e in ("svg", "png")
     }
     assert headings(drawn) == [NAMED] * 2
+    assert drawn[1].axes[1].get_ylabel().endswith("(mm/s)")
     (star,) = [line for line in drawn[0].axes[0].lines if line.get_gid() == "present"]
     assert (star.get_xdata()[0], star.get_ydata()[0]) == pytest.approx((980_000.0, 1758.98), rel=1e-5)
 

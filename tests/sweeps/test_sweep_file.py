@@ -126,7 +126,7 @@ def test_the_example_names_the_kinds_of_disturbances():
     assert [kind.strip(' "'), *others.split(", ")] == list(MODELS)
 
 
-@pytest.mark.parametrize("name", ["sweep-gains.toml", "sweep-speed.toml"])
+@pytest.mark.parametrize("name", ["sweep-contact.toml", "sweep-gains.toml", "sweep-speed.toml"])
 def test_examples_are_plans(name):
     plan = load_sweep(EXAMPLES / name)
 

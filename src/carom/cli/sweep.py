@@ -101,7 +101,8 @@ def _draw(plan: SweepPlan, tally: Tally, figures: str) -> None:
     data = open_sweep(str(tally.store))
     with staged_directory(figures, "--figures") as directory, plots.heading(words):
         for name in (name for name in _DRAWN if name in data):
-            plots.save(plots.sweep_map(data, name, present=present), directory / FIGURES / name)
+            drawn = f"{name}_si" if f"{name}_si" in data else name
+            plots.save(plots.sweep_map(data, drawn, present=present), directory / FIGURES / name)
 
 
 def _document(plan: SweepPlan, tally: Tally, failures: list[dict[str, Any]]) -> dict[str, Any]:
