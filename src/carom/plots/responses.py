@@ -93,6 +93,8 @@ def _amplitudes(axes: Axes, response: UnbalanceResponse, speeds: Floats, width: 
                 "offset points",
                 ha="right",
                 va="top",
+                zorder=4,
+                bbox={"boxstyle": "square,pad=0.1", "facecolor": shade, "edgecolor": "none"},  # hides a curve behind it
             )
             axes.axhline(width * low, color="#808080", lw=0.3, zorder=0)
     axes.plot(speeds, width * np.where(inside, radius, np.nan), **_FREE.stroke, label=_FREE.words, zorder=3)

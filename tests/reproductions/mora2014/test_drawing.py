@@ -42,6 +42,17 @@ def test_panels_size_and_labels(drawn):
                 assert axes.get_ylabel()
 
 
+def test_orbits_of_figure_2_strike_the_circle_that_is_drawn(drawn):
+    _, figures = drawn
+    axes = figures["figure-2"][1].axes[:9]
+    for fixed, rotating, radius in (axes[3:6], axes[6:9]):
+        for frame in (fixed, rotating):
+            struck = [line.get_xydata() for line in frame.lines if line.get_gid() in ("forward", "backward")]
+            assert struck
+            np.testing.assert_allclose(np.hypot(*np.concatenate(struck).T), 1.0, rtol=1e-9)
+        assert max(line.get_ydata().max() for line in radius.lines if len(line.get_xdata()) > 100) == pytest.approx(1.0)
+
+
 def test_legends_lie_outside_of_the_data(drawn):
     _, figures = drawn
     for _, figure in figures.values():

@@ -9,9 +9,20 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from carom.plots.figure import StyledFigure
-from carom.plots.plane import clearance_circle, direction_arrow, impacts, key, magnifier, orbit_path, path, point
+from carom.plots.plane import (
+    Complex,
+    Floats,
+    clearance_circle,
+    direction_arrow,
+    impacts,
+    key,
+    magnifier,
+    orbit_path,
+    path,
+    point,
+)
 from carom.plots.style import LOOKS, TWO_COLUMNS, styled
-from carom.plots.words import orbit_look, orbit_symbol
+from carom.plots.words import clearance, orbit_look, orbit_symbol
 from carom.reproductions.mora2014.drawing.panels import letter
 
 if TYPE_CHECKING:
@@ -67,7 +78,7 @@ def _orbit(fixed: Axes, rotating: Axes, radius: Axes, motion: ShownMotion, orbit
     """Draw an orbit over about two turns of the shaft in the fixed frame, and over three periods of the radius."""
     look = LOOKS[orbit_look(orbit)]
     words = f"orbit, {look.words}"
-    once = orbit_path(orbit, 1)[1]
+    once = _path(orbit, 1)[1]
     inner = magnifier(rotating, once, words="")
     _loop(rotating, orbit, once, arrow=inner is None)
     virtual = abs(orbit.rotor.equilibrium) > 1.0
@@ -78,13 +89,13 @@ def _orbit(fixed: Axes, rotating: Axes, radius: Axes, motion: ShownMotion, orbit
         point(inner, orbit.rotor.equilibrium, "contact-free", label="")
     # A second turn of an orbit that stays near the wall would only fill the gaps between its dashes.
     count = max(1, round(motion.span / orbit.period / (1 if inner is None else 2)))
-    times, line = orbit_path(orbit, count)
+    times, line = _path(orbit, count)
     line = line * np.exp(1j * times)
     path(fixed, line, look, label=words)
     direction_arrow(fixed, line[times <= 0.4 * motion.span], look)
     struck = line[:: (len(times) - 1) // count]
     impacts(fixed, struck, np.full(len(struck), orbit.angular_speed), size=4.0)
-    times, line = orbit_path(orbit, SHOWN_PERIODS)
+    times, line = _path(orbit, SHOWN_PERIODS)
     radius.plot(times, np.abs(line), **look.stroke)
     radius.axhline(1.0, **LOOKS["wall"].stroke)
     hits = orbit.period * np.arange(SHOWN_PERIODS + 1)
@@ -93,6 +104,12 @@ def _orbit(fixed: Axes, rotating: Axes, radius: Axes, motion: ShownMotion, orbit
     radius.set_xlim(0.0, times[-1])
     depth = 1.0 - float(np.abs(line).min())
     radius.set_ylim(1.0 - 1.12 * depth, 1.0 + 0.12 * depth)
+
+
+def _path(orbit: Orbit, periods: int) -> tuple[Floats, Complex]:
+    """Times and positions of an orbit in the units of the equations, as those of the paper; its machine has SI units too."""
+    times, line = orbit_path(orbit, periods)
+    return times, line / clearance(orbit.rotor.scales)
 
 
 def _loop(axes: Axes, orbit: Orbit, once: np.ndarray, arrow: bool = True) -> None:

@@ -14,6 +14,7 @@ from carom.bifurcations.conditions import spectral_radii
 from carom.plots.diagrams import CURVES, branch_line, curve_line, mark_point
 from carom.plots.figure import StyledFigure
 from carom.plots.style import TWO_COLUMNS, styled
+from carom.plots.words import with_symbols
 from carom.reproductions.mora2014.drawing.panels import DAMPING, INK, branch_key, letter, name_branch
 
 if TYPE_CHECKING:
@@ -38,7 +39,7 @@ def figure_6(pair: FirstPair, plane: DampingStiffnessPlane) -> Figure:
     _plane(map_axes, plane)
     left.legend(handles=branch_key(MARKED), loc="outside lower center", ncols=2)
     right.legend(handles=_curve_key(plane), loc="outside lower center", ncols=2)
-    words = [Line2D([], [], ls="none", label=text) for text in _region_words(plane)]
+    words = [Line2D([], [], ls="none", label=with_symbols(text)) for text in _region_words(plane)]
     below.legend(handles=words, loc="center", ncols=2, handlelength=0.0, handletextpad=0.0, fontsize=6.5)
     return figure
 
