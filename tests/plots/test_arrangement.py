@@ -4,9 +4,11 @@ import gc
 import io
 
 import matplotlib as mpl
+import matplotlib.image
 import pytest
 from matplotlib.figure import Figure
 
+import carom
 from carom import plots
 
 
@@ -53,6 +55,16 @@ def _count_ticks(figure):
         for axis in (axes.xaxis, axes.yaxis)
         for ticks in (axis.majorTicks, axis.minorTicks)
     ]
+
+
+def test_words_at_the_left_edge_are_whole_at_any_resolution():
+    figure = carom.find_attractors(carom.load("examples/keogh-cole.toml"), count=2).plot()
+    assert "rolling backward whirl" in {label.get_text() for label in figure.axes[0].get_yticklabels()}
+    for dpi in (72, 100, 110, 150):
+        picture = io.BytesIO()
+        figure.savefig(picture, format="png", dpi=dpi)
+        picture.seek(0)
+        assert (mpl.image.imread(picture)[:, :2] == 1.0).all(), dpi
 
 
 def test_a_figure_of_the_user_keeps_its_layout(damped, tmp_path):
