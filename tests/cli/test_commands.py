@@ -357,6 +357,7 @@ def test_study_for_people(carom, machine):
     ):
         assert words in out
     assert "\x1b" not in out
+    assert "B1,d" not in out.partition("For a closer look")[0]
 
 
 def test_study_of_a_dimensionless_file(carom, dimensionless):

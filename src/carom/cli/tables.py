@@ -77,6 +77,8 @@ def print_study(console: Console, study: Study, report: Path | None) -> None:
         told = Padding(Text("\n".join(texts)), (0, 0, 0, 2), expand=False)
         console.print(told, width=min(console.width, TEXT_WIDTH))
     console.print()
+    console.print(Text("For a closer look", style="bold"))
+    console.print()
     console.print(fitted(console, _motions(motion_rows(study), "Motions", console.width)))
     _print_left_out(console, study.orbits)
     console.print()
