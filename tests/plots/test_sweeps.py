@@ -161,6 +161,18 @@ def test_bar_has_words_and_unit(studies, name, label):
     assert figure.axes[0].get_ylabel().endswith("(N s/m)")
 
 
+def test_words_of_a_bar_are_no_longer_than_the_figure(studies):
+    longest = StudyTask(100, least_damping=True).variables
+    words = max((variable.words for variable in longest if variable.kind == "number"), key=len)
+    data = studies.assign(largest=studies["levitation_radius_si"].assign_attrs(long_name=words))
+    figure = plots.sweep_map(data, "largest")
+    figure.draw_without_rendering()
+    box = figure.axes[1].yaxis.label.get_window_extent()
+    assert figure.bbox.y0 <= box.y0
+    assert box.y1 <= figure.bbox.y1
+    assert box.x1 <= figure.bbox.x1
+
+
 def test_lengths_and_speeds_are_drawn_in_the_units_of_people(studies):
     alone = studies.sel(damping=500.0)
     (line,) = plots.sweep_map(alone, "levitation_radius_si").axes[0].lines

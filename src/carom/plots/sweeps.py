@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import textwrap
 from collections.abc import Mapping
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
@@ -65,6 +66,8 @@ _MOST_STEPS = 9
 """Largest count up to which each number has a shade of its own."""
 _INK = "#8c8c8c"
 """Colour of the hatching and edges of cells without a value."""
+_LONGEST = 60
+"""Letters of a line that fit along the side of a figure."""
 _PLAIN, _PLAIN_RATIO = (1e-3, 1e5), 300.0
 """Range of plain numbers on a logarithmic axis, and largest ratio of its ends with such ticks."""
 _FLAGS = ("#e9eff7", "#a9c3e0", "#cc8e3c", "#6b3f12")
@@ -296,7 +299,8 @@ def _label(values: xarray.DataArray) -> str:
     """Return the words and the unit of a variable."""
     words, unit = _SHARES.get(str(values.name)) or values.attrs["long_name"], values.attrs.get("units", "1")
     own = {"c_r": r"$c_\mathrm{r}$", "Omega^2": r"$\Omega^2$", "Omega": r"$\Omega$", "m": "$m$"}
+    lines = textwrap.fill(str(words), _LONGEST)
     if unit == "1":
-        return str(words)
+        return lines
     shown = unit if "si_of" in values.attrs else " ".join(own.get(part, part) for part in unit.split())
-    return f"{words} ({shown})"
+    return f"{lines} ({shown})"
