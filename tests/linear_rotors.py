@@ -43,7 +43,7 @@ class FixedFrame:
             planes=self.planes,
             friction=self.friction * count,
             restitution=self.restitution * count,
-            drive=(self.radius_ratio + 1.0) * count,
+            surface_speed=(self.radius_ratio + 1.0) * count,
             translation=self.translation,
         )
 
@@ -245,5 +245,5 @@ def random_rotor(seed, *, n=None, planes=None, unbalance=None, damping=None, fri
         planes=rows * size[:, None],
         friction=np.full(planes, friction) if friction else random.choice([0.0, 0.05, 0.3, 1.0], planes),
         restitution=random.choice([0.0, 0.3, 0.8, 0.95], planes),
-        drive=1.0 + 10.0 ** random.uniform(0.0, 2.0, planes),
+        surface_speed=1.0 + 10.0 ** random.uniform(0.0, 2.0, planes),
     )

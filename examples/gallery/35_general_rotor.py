@@ -20,7 +20,7 @@ rotor = cm.models.LinearRotor.in_fixed_frame(
     planes=ends,
     friction=[0.15, 0.15],
     restitution=[0.9, 0.9],
-    drive=[21.0, 21.0],
+    surface_speed=[21.0, 21.0],
     translation=[1.0, 0.0],
 )
 motion = cm.simulate(rotor, cm.kick(1.2, angle=1.3), until=12)

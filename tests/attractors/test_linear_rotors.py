@@ -26,7 +26,7 @@ def beside(one):
         planes=[[1.0, 0.0]],
         friction=[one.mu],
         restitution=[one.d],
-        drive=[one.radius_ratio + 1.0],
+        surface_speed=[one.radius_ratio + 1.0],
         translation=[1.0, 0.0],
     )
 

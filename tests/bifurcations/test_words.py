@@ -239,7 +239,7 @@ def test_a_rotor_with_two_coordinates_is_continued_in_its_own_parameters():
 def test_the_planar_rotor_by_its_matrices_has_the_same_special_points():
     """Extrema of the radius too: it is the system that has them, not the description of the rotor."""
     matrices = {"mass": [[1.0]], "damping": [[PAPER.gamma]], "stiffness": [[PAPER.omega**2]], "planes": [[1.0]]}
-    law = {"friction": [PAPER.mu], "restitution": [PAPER.d], "drive": [PAPER.radius_ratio + 1.0]}
+    law = {"friction": [PAPER.mu], "restitution": [PAPER.d], "surface_speed": [PAPER.radius_ratio + 1.0]}
     linear = LinearRotor.in_fixed_frame(**matrices, **law, forcing=[PAPER.rho * np.exp(1j * PAPER.phi)])
     start = find_orbits(PAPER)["B1,d"]
     orbit = orbit_near(linear, start.word, Start(start.nodes, start.durations))

@@ -88,7 +88,7 @@ def test_the_planar_rotor_by_its_matrices_has_the_same():
             planes=[[1.0, 0.0]],
             friction=[one.mu],
             restitution=[one.d],
-            drive=[one.radius_ratio + 1.0],
+            surface_speed=[one.radius_ratio + 1.0],
         )
         pairs = list(zip(find_equilibria(Jeffcott(one)), find_equilibria(model), strict=True))
         for planar, general in pairs:

@@ -70,7 +70,7 @@ def test_the_series_keeps_to_the_walls_with_the_forces_of_the_equations(contact,
             assert abs(abs(place) - 1.0) < 1e-13
             assert abs((np.conj(place) * speed).real) < 1e-12
             if contact[plane] == ROLLING:
-                assert abs(speed + 1j * SYSTEM.arrays.drive[plane] * place) < 1e-11
+                assert abs(speed + 1j * SYSTEM.arrays.surface_speed[plane] * place) < 1e-11
     if slips:
         position, velocity = ROTOR.follow(0.0, step, *fixed(amplitudes), slips)
         turn = np.exp(-1j * step)

@@ -28,7 +28,7 @@ def on_two_bearings(machine: Parameters, arm: float, inertia: float) -> LinearRo
         planes=ends,
         friction=np.full(2, machine.mu),
         restitution=np.full(2, machine.d),
-        drive=np.full(2, machine.radius_ratio + 1.0),
+        surface_speed=np.full(2, machine.radius_ratio + 1.0),
         translation=np.array([1.0, 0.0]),
     )
 

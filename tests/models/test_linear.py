@@ -29,7 +29,7 @@ def planar(parameters, beside=None):
         planes=np.eye(1, n),
         friction=[parameters.mu],
         restitution=[parameters.d],
-        drive=[parameters.radius_ratio + 1.0],
+        surface_speed=[parameters.radius_ratio + 1.0],
         translation=np.eye(1, n)[0],
     )
 
@@ -110,7 +110,7 @@ def test_coordinates_that_are_critically_damped_alike(split, damping, stiffness)
         planes=random.normal(size=(1, n)),
         friction=[0.1],
         restitution=[0.9],
-        drive=[30.0],
+        surface_speed=[30.0],
     )
     state = random.normal(size=2 * n) + 1j * random.normal(size=2 * n)
     system = model.system
@@ -202,7 +202,7 @@ def test_attributes_make_the_same_rotor_again():
         ({"planes": np.zeros((2, 2))}, "mass, planes"),
         ({"stiffnes": np.eye(2)}, "parameter"),
         ({"mass": "heavy"}, "mass"),
-        ({"drive": [[1.0, 2.0], [3.0]]}, "drive"),
+        ({"surface_speed": [[1.0, 2.0], [3.0]]}, "surface_speed"),
         ({"forcing": [[1.0, 2.0], [3.0]]}, "forcing"),
         ({"mass": np.eye(2, dtype=bool)}, "mass"),
         ({"forcing": ["0.2", "0.0"]}, "forcing"),
@@ -230,7 +230,7 @@ def test_bad_matrices_are_refused(changes, named):
 )
 def test_matrices_of_the_fixed_frame_are_not_stretched_to_shape(changes, named):
     numbers = {"mass": np.eye(2), "damping": 0.1 * np.eye(2), "stiffness": np.eye(2), "forcing": [0.2, 0.0]}
-    plane = {"planes": [[1.0, 0.5]], "friction": [0.1], "restitution": [0.9], "drive": [10.0]}
+    plane = {"planes": [[1.0, 0.5]], "friction": [0.1], "restitution": [0.9], "surface_speed": [10.0]}
     with pytest.raises(InputError, match=f"^{named} = "):
         LinearRotor.in_fixed_frame(**numbers | plane | changes)
 

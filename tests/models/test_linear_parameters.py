@@ -29,7 +29,7 @@ def planar(parameters) -> LinearRotor:
         planes=[[1.0]],
         friction=[parameters.mu],
         restitution=[parameters.d],
-        drive=[parameters.radius_ratio + 1.0],
+        surface_speed=[parameters.radius_ratio + 1.0],
         scales=parameters.scales,
     )
 
@@ -37,12 +37,17 @@ def planar(parameters) -> LinearRotor:
 def rotor(**changes) -> LinearRotor:
     """A rotor with two coordinates and two planes."""
     given = {"mass": MASS, "damping": DAMPING, "stiffness": STIFFNESS, "gyroscopic": GYROSCOPIC, "forcing": FORCING}
-    given |= {"planes": [[1.0, 0.5], [1.0, -0.4]], "friction": [0.1, 0.2], "restitution": [0.9, 0.9], "drive": [30, 40]}
+    given |= {
+        "planes": [[1.0, 0.5], [1.0, -0.4]],
+        "friction": [0.1, 0.2],
+        "restitution": [0.9, 0.9],
+        "surface_speed": [30, 40],
+    }
     return LinearRotor.in_fixed_frame(**(given | {"translation": TRANSLATION, "scales": SCALES} | changes))
 
 
 def assert_alike(got: LinearRotor, expected: LinearRotor) -> None:
-    for name in ("mass", "damping", "stiffness", "forcing", "planes", "friction", "restitution", "drive"):
+    for name in ("mass", "damping", "stiffness", "forcing", "planes", "friction", "restitution", "surface_speed"):
         np.testing.assert_allclose(getattr(got, name), getattr(expected, name), rtol=1e-14, atol=1e-15, err_msg=name)
     assert got.scales == expected.scales
 
@@ -93,7 +98,7 @@ def test_planes_together_and_one_by_one():
     assert given.replace(friction=0.3).friction.tolist() == given.replace(mu=0.3).friction.tolist() == [0.3, 0.3]
     assert given.replace(friction=[0.3, 0.1]).friction.tolist() == [0.3, 0.1]
     assert given.replace(mu_2=0.3).friction.tolist() == [0.1, 0.3]
-    assert given.replace(radius_ratio_1=50.0).drive.tolist() == [51.0, 40.0]
+    assert given.replace(radius_ratio_1=50.0).surface_speed.tolist() == [51.0, 40.0]
     assert given.replace(d=0.5).restitution.tolist() == [0.5, 0.5]
     assert [given.value(name) for name in ("mu_1", "mu_2", "d", "radius_ratio_2")] == [0.1, 0.2, 0.9, 39.0]
     assert axis(given, "mu_2").field.words == "coefficient of friction at plane 2"
@@ -152,7 +157,7 @@ def test_rates_of_one_coordinate_are_those_of_the_planar_rotor(name):
 
 @pytest.mark.parametrize("name", rotor().varied)
 def test_rates_are_the_slopes_of_the_equations_of_motion(name):
-    along, here = axis(rotor(), name), rotor(restitution=[0.9, 0.9], friction=[0.1, 0.1], drive=[30, 30])
+    along, here = axis(rotor(), name), rotor(restitution=[0.9, 0.9], friction=[0.1, 0.1], surface_speed=[30, 30])
     step = 1e-5 * along.value(here)
     before, after = (along.move(here, along.value(here) + side) for side in (-step, step))
     found = here.rates(name)
@@ -166,8 +171,8 @@ def test_rates_are_the_slopes_of_the_equations_of_motion(name):
     by_coordinate = slope(lambda one: -np.linalg.solve(one.mass, np.hstack([one.stiffness, one.damping])))
     np.testing.assert_allclose(found.accelerations, by_coordinate, **near)
     np.testing.assert_allclose(found.force, slope(lambda one: np.linalg.solve(one.mass, one.forcing)), **near)
-    by_law = slope(lambda one: np.array([one.friction, one.restitution, one.drive]))
-    np.testing.assert_allclose([found.friction, found.restitution, found.drive], by_law, **near)
+    by_law = slope(lambda one: np.array([one.friction, one.restitution, one.surface_speed]))
+    np.testing.assert_allclose([found.friction, found.restitution, found.surface_speed], by_law, **near)
 
 
 def test_no_rates_where_there_is_nothing_to_multiply():

@@ -29,7 +29,7 @@ def modal(random, count):
         columns=random.normal(size=(modes, 1)) + 0j,
         friction=np.array([0.1]),
         restitution=np.array([0.8]),
-        drive=np.array([30.0]),
+        surface_speed=np.array([30.0]),
     )
     return System(arrays, rest, shapes), reading
 
@@ -78,7 +78,7 @@ def test_a_second_order_system_keeps_its_equation():
         roots = np.roots([1.0, alpha, beta])
         lower, upper = sorted(map(complex, roots), key=lambda root: root.real)
         system = second_order_system(
-            exponents=(lower, upper), equilibrium=force / beta, friction=0.1, restitution=0.5, drive=3.0
+            exponents=(lower, upper), equilibrium=force / beta, friction=0.1, restitution=0.5, surface_speed=3.0
         )
         position, velocity = random.normal(size=2) + 1j * random.normal(size=2)
         amplitudes = system.amplitudes(complex(position), complex(velocity))

@@ -176,7 +176,7 @@ def test_multiplicities_of_any_rotor_are_those_of_the_planar_one(gamma):
         planes=[[1.0, 0.0]],
         friction=[one.mu],
         restitution=[one.d],
-        drive=[one.radius_ratio + 1.0],
+        surface_speed=[one.radius_ratio + 1.0],
     )
     orbit = carom.find_orbits(one)["B1,d"].departure
     for nudge in (0.99, 1.005):
@@ -201,7 +201,7 @@ def test_a_motion_that_passes_by_a_repelling_orbit_goes_on():
         planes=[[1.0], [0.1]],
         friction=[one.mu] * 2,
         restitution=[one.d] * 2,
-        drive=[one.radius_ratio + 1.0] * 2,
+        surface_speed=[one.radius_ratio + 1.0] * 2,
     )
     system, contact = rotor.system, np.array([0, -1])
     before = saddle.section.state

@@ -266,7 +266,7 @@ def test_a_coordinate_that_feels_no_contact_adds_its_own_rates():
         planes=[[1.0, 0.0]],
         friction=[PAPER.mu],
         restitution=[PAPER.d],
-        drive=[PAPER.radius_ratio + 1.0],
+        surface_speed=[PAPER.radius_ratio + 1.0],
         translation=[1.0, 0.0],
     )
     start = State(np.array([orbit.departure.position, 0.1]), np.array([orbit.departure.velocity, 0.0]))

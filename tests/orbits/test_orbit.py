@@ -172,7 +172,7 @@ def tilting_too(coupling: float) -> LinearRotor:
         planes=np.array([[1.0, 0.0], [0.3, 0.4]]),
         friction=[PAPER.mu] * 2,
         restitution=[PAPER.d] * 2,
-        drive=[PAPER.radius_ratio + 1.0] * 2,
+        surface_speed=[PAPER.radius_ratio + 1.0] * 2,
     )
 
 

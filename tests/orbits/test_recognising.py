@@ -113,7 +113,7 @@ def test_a_plane_that_is_never_touched_changes_no_orbit(machine, impacts, touche
         planes=[[1.0, 0.0], [0.0, 0.1]][:: 1 - 2 * touched],
         friction=[machine.mu] * 2,
         restitution=[machine.d] * 2,
-        drive=[machine.radius_ratio + 1.0] * 2,
+        surface_speed=[machine.radius_ratio + 1.0] * 2,
     )
     motion = simulate(rotor, State.of([0.1, 0.0], [-1.0 - 1.0j, 0.1]), settle=True)
     assert motion.multiplicity == impacts

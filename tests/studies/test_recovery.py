@@ -101,7 +101,7 @@ def test_any_parameter_of_any_model():
         planes=[[1.0]],
         friction=[0.1],
         restitution=[0.6],
-        drive=[30.0],
+        surface_speed=[30.0],
     )
     name = next(name for name in rotor.varied if "friction" in name)
     found = find_recovery(rotor, name, [Sample(VelocityKick(0.8), 60)], within=(0.02, 0.9))

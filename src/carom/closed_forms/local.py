@@ -84,7 +84,7 @@ class ContactSystem:
             equilibrium=self.equilibrium / self.wall,
             friction=self.friction,
             restitution=self.restitution,
-            drive=np.inf,
+            surface_speed=np.inf,
         )
 
     @property

@@ -56,7 +56,7 @@ class Jeffcott:
             equilibrium=self.equilibrium,
             friction=parameters.mu,
             restitution=parameters.d,
-            drive=parameters.radius_ratio + 1.0,
+            surface_speed=parameters.radius_ratio + 1.0,
         )
 
     @property

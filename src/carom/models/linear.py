@@ -22,7 +22,7 @@ from carom.parameters import Field, Scales
 from carom.results import Result
 
 _COMPLEX = ("mass", "damping", "stiffness", "forcing", "planes", "translation")
-_REAL = ("friction", "restitution", "drive")
+_REAL = ("friction", "restitution", "surface_speed")
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -43,7 +43,7 @@ class LinearRotor(Result):
         ``m_p = 1/(W M⁻¹ Wᴴ)`` of its row ``W``.
     friction, restitution : array_like, shape (P,)
         Coulomb friction coefficient and coefficient of restitution of each plane.
-    drive : array_like, shape (P,)
+    surface_speed : array_like, shape (P,)
         Slip velocity at rest in this frame, ``s + 1`` with the rotor radius ``s`` at the plane in clearances.
     translation : array_like of complex, shape (n,), optional
         Coordinates when the rotor as a whole is displaced by one: the direction of kicks.  Ones by default.
@@ -64,7 +64,7 @@ class LinearRotor(Result):
     planes: np.ndarray
     friction: np.ndarray
     restitution: np.ndarray
-    drive: np.ndarray
+    surface_speed: np.ndarray
     translation: np.ndarray | None = None
     scales: Scales | None = None
 
@@ -85,7 +85,7 @@ class LinearRotor(Result):
             values = getattr(self, name)
             if values.shape != shape or not values.size or not np.isfinite(values).all():
                 raise InputError(name, values.tolist(), f"finite numbers of shape {shape}")
-        for name, low, high in (("friction", 0.0, np.inf), ("restitution", 0.0, 1.0), ("drive", 1.0, np.inf)):
+        for name, low, high in (("friction", 0.0, np.inf), ("restitution", 0.0, 1.0), ("surface_speed", 1.0, np.inf)):
             wrong = (getattr(self, name) < low) | (getattr(self, name) > high)
             if wrong.any():
                 raise InputError(name, getattr(self, name).tolist(), f"numbers from {low:g} to {high:g}")
@@ -153,7 +153,7 @@ class LinearRotor(Result):
             columns=inverse[:, n:] @ (moved / mobilities),
             friction=self.friction,
             restitution=self.restitution,
-            drive=self.drive,
+            surface_speed=self.surface_speed,
             masses=1.0 / mobilities.real,
         )
         return System(arrays, rest, found.basis[:n], inverse, self.translation)
@@ -161,13 +161,13 @@ class LinearRotor(Result):
     def _one_coordinate(self, exponents: np.ndarray, equilibrium: complex) -> System:
         """System of a rotor with one coordinate, which is its displacement at the only plane."""
         slow, fast = sorted((complex(value) for value in exponents), key=lambda value: -value.real)
-        friction, restitution, drive = (float(getattr(self, name)[0]) for name in _REAL)
+        friction, restitution, surface_speed = (float(getattr(self, name)[0]) for name in _REAL)
         system = second_order_system(
             exponents=(fast, slow),
             equilibrium=equilibrium,
             friction=friction,
             restitution=restitution,
-            drive=drive,
+            surface_speed=surface_speed,
             mass=float(self.mass[0, 0].real),
         )
         return dataclasses.replace(system, translation=self.translation)

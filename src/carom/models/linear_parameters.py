@@ -7,7 +7,7 @@ frame (:meth:`~carom.models.LinearRotor.in_fixed_frame`),
 
 which for one coordinate are the numbers of the planar rotor.  Another value of ``γ``, ``ω`` or ``ρ`` multiplies all of
 ``D``, ``K`` or ``F`` by one factor; ``φ`` turns ``F``.  The friction ``μ``, the restitution ``d`` and the radius ratio (the
-drive minus one) are set at all planes, or at one of several by ``mu_1``, ``mu_2`` and so on.  The speed ``Ω`` changes ``D``
+surface speed minus one) are set at all planes, or at one of several by ``mu_1``, ``mu_2`` and so on.  The speed ``Ω`` changes ``D``
 with ``1/Ω`` and ``K`` with ``1/Ω²``; masses, gyroscopic matrix and unbalance do not change in these units.
 """
 
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
 SAME = {"friction": "mu", "restitution": "d", "unbalance_phase": "phi"}
 """Physical parameters that are numbers without a scale."""
-_AT_PLANES = {"mu": ("friction", 0.0), "d": ("restitution", 0.0), "radius_ratio": ("drive", 1.0)}
+_AT_PLANES = {"mu": ("friction", 0.0), "d": ("restitution", 0.0), "radius_ratio": ("surface_speed", 1.0)}
 """Attribute of each parameter of the planes, and what it has in addition."""
 
 

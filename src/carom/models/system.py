@@ -10,6 +10,7 @@ import numpy as np
 
 from carom.arguments import Infinity, checked
 from carom.core.flow import fly_all
+from carom.core.laws.rigid import Wall
 from carom.core.layout import rotor_record
 from carom.core.table import flight_table
 from carom.results import Result
@@ -21,7 +22,7 @@ ROUNDING = 1e-12
 
 
 class Contact(NamedTuple):
-    """A contact plane and its contact law: the fields of :func:`~carom.core.layout.rotor_record` for one plane.
+    """A contact plane and the numbers of its wall: the fields of :func:`~carom.core.layout.rotor_record` for one plane.
 
     Each access to a field of the record takes as long as a small kernel.
     """
@@ -30,9 +31,13 @@ class Contact(NamedTuple):
     row: np.ndarray
     rate_row: np.ndarray
     column: np.ndarray
-    friction: float
-    restitution: float
-    drive: float
+    wall: Wall
+
+    def local(self, amplitudes: np.ndarray) -> tuple[complex, complex]:
+        """Direction of the displacement, and the velocity ``ṙ + iθ̇`` in the frame of the contact."""
+        position = complex(amplitudes @ self.row) + self.offset
+        position /= abs(position)
+        return position, position.conjugate() * complex(amplitudes @ self.rate_row)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -75,10 +80,9 @@ class System(Result):
     def contacts(self) -> tuple[Contact, ...]:
         """The contact planes."""
         arrays = self.arrays
-        numbers = (arrays[name].tolist() for name in ("friction", "restitution", "drive"))
+        walls = map(Wall, *(arrays[name].tolist() for name in Wall._fields))
         rows = arrays["rows"], arrays["rate_rows"], arrays["columns"].T
-        fields = arrays["offsets"].tolist(), *rows, *numbers
-        return tuple(map(Contact._make, zip(*fields, strict=True)))
+        return tuple(map(Contact, arrays["offsets"].tolist(), *rows, walls))
 
     @cached_property
     def exponents(self) -> np.ndarray:
@@ -247,7 +251,7 @@ def second_order_system(
     equilibrium: complex,
     friction: float,
     restitution: float,
-    drive: float | Infinity,
+    surface_speed: float | Infinity,
     mass: float = 1.0,
 ) -> System:
     """System of ``ü + αu̇ + βu = Γ`` with one coordinate ``u``, which is also its displacement at the wall.
@@ -261,7 +265,7 @@ def second_order_system(
         Roots ``λ₋, λ₊`` of ``λ² + αλ + β``, the one with the smaller real part first.
     equilibrium : complex
         ``K = Γ/β``.
-    friction, restitution, drive : float
+    friction, restitution, surface_speed : float
         As in :func:`~carom.core.layout.rotor_record`.
     mass : float
         Effective mass at the wall, in the unit of masses.
@@ -275,7 +279,7 @@ def second_order_system(
         columns=np.array([[1.0], [0.0]], np.complex128),
         friction=np.array([friction]),
         restitution=np.array([restitution]),
-        drive=np.array([drive]),
+        surface_speed=np.array([surface_speed]),
         masses=np.array([mass]),
     )
     return System(arrays, offsets, rows, np.array([[-exponents[1], 1.0], [1.0, 0.0]], np.complex128))

@@ -24,6 +24,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from carom.core.laws.rigid import spare_friction
 from carom.core.margins import local_motion
 from carom.models import Model
 from carom.motions.trajectories import EventLog
@@ -122,9 +123,10 @@ def slip_at_landing(rotor: Model, plane: int, direction: int, bounces: EventLog)
         The first bounce from which on friction stops the slip, if that is not what follows.
     """
     planes = np.full(len(bounces.times), plane)
-    friction, restitution = float(rotor.system.arrays.friction[plane]), rotor.system.contacts[plane].restitution
-    _, speed, slip, _, _ = local_motion(rotor.system.arrays, planes, bounces.before).T
-    spare = friction * (1.0 + restitution) * speed - np.abs(slip)
+    friction, restitution, _ = wall = rotor.system.contacts[plane].wall
+    position, velocity = rotor.system.at_plane(bounces.before, plane)
+    local = position.conj() * velocity
+    spare, speed = spare_friction(local, wall), local.real
     slides = np.flatnonzero(spare < 0.0)
     first = int(slides[-1]) + 1 if len(slides) else 0
     _, radial, slip, push, pull = local_motion(rotor.system.arrays, planes[:1], bounces.after[-1:])[0].tolist()
