@@ -159,13 +159,13 @@ def _register_for_one_number():
 
     @overload(where)
     def choose(condition, chosen, other):
-        if isinstance(condition, types.Boolean):
+        if isinstance(condition, types.Boolean) and isinstance(chosen, types.Float) and isinstance(other, types.Float):
             return lambda condition, chosen, other: chosen if condition else other
         return None
 
     @overload(join)
     def pair(real, imag):
-        if isinstance(real, types.Float):
+        if isinstance(real, types.Float) and isinstance(imag, types.Float):
             return lambda real, imag: complex(real, imag)
         return None
 
