@@ -80,7 +80,7 @@ def test_sliding_stays_on_the_wall_and_keeps_its_law():
     start = arbitrary(rotor, word, np.random.default_rng(3))
     start = start if COMPILED else start._replace(durations=0.1 * start.durations)
     arrivals = rotor.system.amplitudes_of(links_of(rotor, word, start).arrivals)
-    excess, radial, slip, _, _ = local_motion(rotor.system.arrays, word.planes, arrivals).T
+    excess, radial, slip, *_ = local_motion(rotor.system.arrays, word.planes, arrivals).T
     assert np.abs(excess).max() < 1e-12 * (1.0 + np.abs(arrivals).max())
     assert np.abs(radial).max() < 1e-11 * (1.0 + np.abs(arrivals).max())
     assert abs(slip[2]) < 1e-11  # it rolls

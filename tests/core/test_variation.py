@@ -8,11 +8,12 @@ from flights import parameters
 
 from carom.core import events
 from carom.core.flow import displacement, fly_all, velocity
-from carom.core.laws.rigid import STOPPED, sense_of, slip_of, spare_friction, wall_of
-from carom.core.laws.rigid import arrival as arrival_at
+from carom.core.friction import STOPPED, sense_of, slip_of, spare_friction
+from carom.core.friction import arrival as arrival_at
 from carom.core.layout import rotor_record, workspace
 from carom.core.table import flight_table
 from carom.core.variation import carry_through_impact, carry_to_wall, shift
+from carom.core.wall import wall_of
 from carom.models import Jeffcott
 from carom.outcome import Outcome
 

@@ -8,6 +8,7 @@ from machines import PAPER, random_parameters
 from scipy.linalg import expm
 
 from carom.core.layout import rotor_record
+from carom.core.wall import Wall
 from carom.models import Jeffcott, System, second_order_system
 
 
@@ -77,9 +78,7 @@ def test_a_second_order_system_keeps_its_equation():
         alpha, beta, force = random.normal(size=3) + 1j * random.normal(size=3)
         roots = np.roots([1.0, alpha, beta])
         lower, upper = sorted(map(complex, roots), key=lambda root: root.real)
-        system = second_order_system(
-            exponents=(lower, upper), equilibrium=force / beta, friction=0.1, restitution=0.5, surface_speed=3.0
-        )
+        system = second_order_system(exponents=(lower, upper), equilibrium=force / beta, wall=Wall(0.1, 0.5, 3.0))
         position, velocity = random.normal(size=2) + 1j * random.normal(size=2)
         amplitudes = system.amplitudes(complex(position), complex(velocity))
         acceleration = system.arrays.acceleration_rows[0] @ amplitudes

@@ -7,7 +7,7 @@ from collections.abc import Callable
 import numpy as np
 
 from carom.bifurcations.points import OF_CONTACT
-from carom.core.laws.rigid import slip_of, spare_friction
+from carom.core.friction import slip_of, spare_friction
 from carom.core.margins import highest_point
 from carom.core.wall import set_on_wall
 from carom.models import Model

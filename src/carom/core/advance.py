@@ -5,8 +5,8 @@ from __future__ import annotations
 from carom.core.events import INSIDE, LEAVING, search
 from carom.core.fate import forget_rub, levitates, recurs
 from carom.core.flow import acceleration, copy, displacement, squared_modulus, velocity
+from carom.core.friction import arrival, landing
 from carom.core.joint import join, land_together, strike_together
-from carom.core.laws.rigid import arrival, landing, wall_of
 from carom.core.layout import kernel, part, passage, shared
 from carom.core.phases import AWAY, FLIGHT, lasts
 from carom.core.planar_proofs import fades_to_rolling, stays_inside
@@ -22,7 +22,7 @@ from carom.core.rub import (
     wall_push,
 )
 from carom.core.rub_step import NOWHERE, leading_plane, rub_step
-from carom.core.wall import move_plane, set_on_wall, unit
+from carom.core.wall import move_plane, set_on_wall, unit, wall_of
 from carom.outcome import Outcome
 
 CLEAR, CONTACT, GRAZING = int(Outcome.CLEAR), int(Outcome.CONTACT), int(Outcome.GRAZING)

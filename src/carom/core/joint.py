@@ -24,11 +24,12 @@ import math
 
 from carom.core.contact_series import eliminate
 from carom.core.flow import displacement, squared_modulus, velocity
-from carom.core.laws.rigid import BACKWARD, FORWARD, STOPPED, friction_ratio, slip_of, wall_of
+from carom.core.friction import BACKWARD, FORWARD, STOPPED, friction_ratio, rebound, slip_of
+from carom.core.laws.choice import impulse_by_restitution
 from carom.core.layout import kernel, part
 from carom.core.phases import AWAY, ROLLING, lasts, sense_of_phase
 from carom.core.rub import meets_wall
-from carom.core.wall import unit
+from carom.core.wall import unit, wall_of
 
 EXACT = 1e-11
 """Error, relative to the largest speeds and impulses, that rounding may leave in the inequalities."""
@@ -61,7 +62,7 @@ def strike_together(rotor, before, after, rub):
     planes = rotor.rows.shape[0]
     _load(rotor, before, rub)
     for p in range(planes):
-        rub.aims[p] = -rotor.restitution[p] * max(rub.arrivals[p].real, 0.0)
+        rub.aims[p] = -rebound(max(rub.arrivals[p].real, 0.0), wall_of(rotor, p))
         rub.least[p] = 0.0
         rub.local[p] = rub.arrivals[p]
     if not _resolve(rotor, rub) or _gains(rotor, rub):
@@ -173,11 +174,17 @@ def _compress_and_expand(rotor, share, rub):
     compressed = _resolve(rotor, rub)
     for p in range(planes):
         rub.compression[p] = rub.impulses[p]
-        rub.least[p] = -share * rotor.restitution[p] * rub.impulses[p].real
+        rub.least[p] = -share * _restitution(rub.arrivals[p].real, wall_of(rotor, p)) * rub.impulses[p].real
     expanded = _resolve(rotor, rub)
     for p in range(planes):
         rub.impulses[p] += rub.compression[p]
     return compressed and expanded
+
+
+@part
+def _restitution(speed, wall):
+    """Coefficient of restitution of an arrival with this speed."""
+    return wall.restitution * (impulse_by_restitution(speed, wall) / speed) if speed > 0.0 else wall.restitution
 
 
 @kernel

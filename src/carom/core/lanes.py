@@ -16,10 +16,11 @@ import numpy as np
 from carom.core.advance import CHATTER_HEIGHT
 from carom.core.events import MARGIN
 from carom.core.flow import acceleration, displacement, squared_modulus, velocity
+from carom.core.friction import arrival
 from carom.core.lane_search import departure, examine, halley_ratio, look_up, travel
-from carom.core.laws.rigid import arrival, wall_of
 from carom.core.layout import DEGREE, LANES, LEVELS, WIDTH, kernel, part, record
 from carom.core.vector import align_stack, fma, join, lanes_of, load, store, where
+from carom.core.wall import wall_of
 
 CLEARED, STRUCK, NOTED, LATE, OPEN = 0.0, 1.0, 2.0, 3.0, 4.0
 """What happened to a lane.

@@ -60,6 +60,8 @@ def rotor_record(
     friction: np.ndarray,
     restitution: np.ndarray,
     surface_speed: np.ndarray,
+    law: np.ndarray | None = None,
+    law_number: np.ndarray | None = None,
     masses: np.ndarray | None = None,
 ) -> np.record:
     """A linear rotor with ``N`` moving modes and ``P`` contact planes, as the kernels see it.
@@ -86,6 +88,8 @@ def rotor_record(
         Coulomb friction coefficient and coefficient of restitution of the planes.
     surface_speed : ndarray, shape (P,)
         Slip velocity of a rotor at rest in this frame, in clearances per unit time.
+    law, law_number : ndarray, shape (P,), optional
+        Law of each wall along its normal, and the law's own number (:class:`~carom.core.wall.Wall`).  Rigid by default.
     masses : ndarray, shape (P,), optional
         Effective mass ``1/(W M⁻¹ Wᴴ)`` of each plane: the impulse that changes its velocity by one.  Ones by default.
 
@@ -128,6 +132,8 @@ def rotor_record(
         "friction": friction,
         "restitution": restitution,
         "surface_speed": surface_speed,
+        "law": np.zeros(planes) if law is None else law,
+        "law_number": np.zeros(planes) if law_number is None else law_number,
         "masses": np.ones(planes) if masses is None else masses,
     }
     layout = _rotor_layout(modes, planes)
@@ -153,7 +159,9 @@ def _rotor_layout(modes: int, planes: int) -> np.dtype:
             ("columns", COMPLEX, (modes, planes)),
             ("mobility", COMPLEX, (planes, planes)),
             ("weights", REAL, (planes,)),
-            *((name, REAL, (planes,)) for name in ("friction", "restitution", "surface_speed", "masses")),
+            *((name, REAL, (planes,)) for name in ("friction", "restitution", "surface_speed")),
+            ("law", np.dtype(np.int64), (planes,)),
+            *((name, REAL, (planes,)) for name in ("law_number", "masses")),
         )
     )
 

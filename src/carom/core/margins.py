@@ -8,13 +8,13 @@ import numpy as np
 
 from carom.core.contact_series import rub_series
 from carom.core.flow import acceleration, copy, displacement, flight_increments, squared_modulus, velocity
-from carom.core.laws.rigid import BACKWARD, FORWARD, margin_of_slip, slip_of, spare_grip, wall_of
+from carom.core.friction import BACKWARD, FORWARD, margin_of_slip, slip_of, spare_friction, spare_grip
 from carom.core.layout import ORDER, kernel, part
 from carom.core.phases import AWAY, sense_of_phase
 from carom.core.segments import LIFT, ROLL, SLIDE_BACKWARD, SLIDE_FORWARD, phase_of, sense_after
 from carom.core.taylor import series_step, sum_series
 from carom.core.variation import strike
-from carom.core.wall import local_velocity, unit
+from carom.core.wall import local_velocity, unit, wall_of
 
 SAMPLES, PER_RADIAN = 32, 10.0
 """Samples of a flight in the search for its highest point: at least, and per ``|λ|T``."""
@@ -33,8 +33,8 @@ AT_EDGE = 1e-9
 
 @kernel
 def local_motion(rotor, planes, states):
-    """Of each state (m, N) at its plane (m,): ``|y|² − 1``, radial speed, slip, normal force and pull along the wall."""
-    local = np.empty((states.shape[0], 5))
+    """Of each state (m, N) at its plane (m,): ``|y|² − 1``, radial speed, slip, normal force, pull along the wall and spare friction."""
+    local = np.empty((states.shape[0], 6))
     for i in range(states.shape[0]):
         y, v = displacement(rotor, planes[i], states[i]), velocity(rotor, planes[i], states[i])
         a = acceleration(rotor, planes[i], states[i])
@@ -44,6 +44,7 @@ def local_motion(rotor, planes, states):
         local[i, 2] = slip_of(normal.conjugate() * v, wall_of(rotor, planes[i]))
         local[i, 3] = (normal.conjugate() * a).real + (normal.conjugate() * v).imag ** 2
         local[i, 4] = (normal.conjugate() * a).imag
+        local[i, 5] = spare_friction(normal.conjugate() * v, wall_of(rotor, planes[i]))
     return local
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from carom.core.laws.rigid import BACKWARD, FORWARD, STOPPED
+from carom.core.friction import BACKWARD, FORWARD, STOPPED
 from carom.core.layout import part
 from carom.outcome import Phase
 

@@ -16,8 +16,9 @@ import math
 import numpy as np
 
 from carom.core.flow import displacement, squared_modulus, velocity
-from carom.core.laws.rigid import spare_friction, wall_of
+from carom.core.friction import spare_friction
 from carom.core.layout import NEAR, kernel, record
+from carom.core.wall import wall_of
 
 TURNS = 32
 """Largest number of turns of the faster mode tried as a period after which the slower mode nearly repeats too."""

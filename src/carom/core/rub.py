@@ -13,21 +13,11 @@ import numpy as np
 
 from carom.core.contact_series import rub_series
 from carom.core.flow import acceleration, displacement, flight_increments, squared_modulus, velocity
-from carom.core.laws.rigid import (
-    BACKWARD,
-    FORWARD,
-    STOPPED,
-    Wall,
-    arrival_in_sense,
-    friction_ratio,
-    slip_of,
-    spare_grip,
-    wall_of,
-)
+from carom.core.friction import BACKWARD, FORWARD, STOPPED, arrival_in_sense, friction_ratio, slip_of, spare_grip
 from carom.core.layout import ORDER, kernel, part
 from carom.core.phases import BACKWARD_SLIP, FLIGHT, FORWARD_SLIP, ROLLING, lasts, phase_of_slip, sense_of_phase
 from carom.core.taylor import first_fall, series_step, sum_series
-from carom.core.wall import set_on_wall, unit
+from carom.core.wall import rigid_wall, set_on_wall, unit, wall_of
 
 ROUNDING = 64 * 2.220446049250313e-16
 """Rounding error of a sum over the modes, relative to the moduli of its terms."""
@@ -196,7 +186,10 @@ def rest_on_wall(rotor, plane, amplitudes, rolling):
     """Remove the rounding errors of ``|y| = 1`` and ``Re(ȳẏ) = 0``, and those of the rolling condition if it rolls."""
     set_on_wall(rotor, plane, amplitudes)
     normal = unit(displacement(rotor, plane, amplitudes))
-    local, wall = normal.conjugate() * velocity(rotor, plane, amplitudes), Wall(0.0, 0.0, rotor.surface_speed[plane])
+    local, wall = (
+        normal.conjugate() * velocity(rotor, plane, amplitudes),
+        rigid_wall(0.0, 0.0, rotor.surface_speed[plane]),
+    )
     change = normal * arrival_in_sense(local, STOPPED if rolling else FORWARD, wall)
     for m in range(amplitudes.shape[0]):
         amplitudes[m] += rotor.columns[m, plane] * change

@@ -20,22 +20,12 @@ import numpy as np
 
 from carom.core.contact_series import rub_series
 from carom.core.flow import acceleration, displacement, flight_increments, squared_modulus, velocity
-from carom.core.laws.rigid import (
-    BACKWARD,
-    FORWARD,
-    STOPPED,
-    Wall,
-    friction_ratio,
-    rolling_force,
-    slip_of,
-    spare_grip,
-    wall_of,
-)
+from carom.core.friction import BACKWARD, FORWARD, STOPPED, friction_ratio, rolling_force, slip_of, spare_grip
 from carom.core.layout import ORDER, kernel, part
 from carom.core.phases import AWAY, BACKWARD_SLIP, FORWARD_SLIP, ROLLING, sense_of_phase
 from carom.core.taylor import series_step, sum_series
 from carom.core.variation import blow, carry_through_impact, carry_to_wall, strike
-from carom.core.wall import move_plane, unit
+from carom.core.wall import move_plane, rigid_wall, unit, wall_of
 
 IMPACT_FORWARD, IMPACT_BACKWARD, IMPACT_STOPPED, LIFT, LAND, SLIDE_FORWARD, SLIDE_BACKWARD, ROLL = range(8)
 """Kinds of segments; the first four are flights."""
@@ -176,7 +166,7 @@ def _rest(rotor, plane, state, directions, friction, sense):
         shift = 1j * normal * ((normal.conjugate() * moved).imag / radius) - moved
         move_plane(rotor, plane, shift, directions[row])
     move_plane(rotor, plane, normal - position, state)
-    blow(rotor, plane, Wall(friction, 0.0, rotor.surface_speed[plane]), sense, state, directions)
+    blow(rotor, plane, rigid_wall(friction, 0.0, rotor.surface_speed[plane]), sense, state, directions)
 
 
 @part

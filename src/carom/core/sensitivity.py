@@ -16,11 +16,11 @@ import math
 import numpy as np
 
 from carom.core.flow import displacement, squared_modulus
-from carom.core.laws.rigid import Wall, arrival_by_law, wall_of
+from carom.core.friction import arrival_by_law
 from carom.core.layout import kernel, part
 from carom.core.segments import sense_after
 from carom.core.variation import strike
-from carom.core.wall import local_velocity, unit
+from carom.core.wall import local_velocity, rigid_wall, unit, wall_of
 
 NEGLIGIBLE, MOST_TERMS = 1e-17, 30
 """Size of the first term left out of the power series, relative to the sum, and more terms than that takes."""
@@ -79,7 +79,7 @@ def sensitivity_of_flights(
             for j in range(modes):
                 state[k] += to_modes[k, j] * (nodes[i, j] - rest[j])
         normal, sense = unit(displacement(rotor, plane, state)), sense_after(kinds[i])
-        by_law = Wall(friction[plane], restitution[plane], surface_speed[plane])
+        by_law = rigid_wall(friction[plane], restitution[plane], surface_speed[plane])
         change = arrival_by_law(local_velocity(rotor, plane, state), sense, wall_of(rotor, plane), by_law)
         for k in range(modes):
             changed[k] = rotor.columns[k, plane] * (normal * change)

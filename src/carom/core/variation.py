@@ -7,9 +7,9 @@ import math
 import numpy as np
 
 from carom.core.flow import displacement, flight_increments, squared_modulus, velocity
-from carom.core.laws.rigid import arrival_in_sense, at_rest, sense_of, wall_of
+from carom.core.friction import arrival_change, arrival_in_sense, sense_of
 from carom.core.layout import kernel, part
-from carom.core.wall import local_velocity, unit
+from carom.core.wall import local_velocity, unit, wall_of
 
 
 @kernel
@@ -43,7 +43,7 @@ def carry_through_blow(rotor, plane, wall, sense, before, directions):
         moved = displacement(rotor, plane, directions[row]) - rotor.offsets[plane]
         turn = (normal.conjugate() * moved).imag / radius
         swing = normal.conjugate() * velocity(rotor, plane, directions[row]) - 1j * turn * local
-        varied = normal * (arrival_in_sense(swing, sense, at_rest(wall)) + 1j * turn * change)
+        varied = normal * (arrival_change(local, sense, wall, swing) + 1j * turn * change)
         for k in range(before.shape[0]):
             directions[row, k] += rotor.columns[k, plane] * varied
     return normal * change

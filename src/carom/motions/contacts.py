@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
+from carom.core.friction import rebound
 from carom.outcome import Phase
 from carom.parameters import UNITS
 from carom.results import Result
@@ -145,7 +146,10 @@ class ContactLog(Table):
         normal, tangential = -mass * blows.impulses.real, mass * blows.impulses.imag
         slip, slip_after = surface_speed + angular, surface_speed + angular_after
         normal_work = -0.5 * normal * (radial + radial_after)
-        unlike = np.abs(radial_after + arrays.restitution[planes] * np.maximum(radial, 0.0)) > ALIKE * (1.0 + radial)
+        newton = np.zeros(len(times))
+        for plane, contact in enumerate(rotor.system.contacts):
+            newton[planes == plane] = rebound(np.maximum(radial[planes == plane], 0.0), contact.wall)
+        unlike = np.abs(radial_after + newton) > ALIKE * (1.0 + radial)
         return cls(
             time=times,
             plane=planes,

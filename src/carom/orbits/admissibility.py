@@ -6,7 +6,7 @@ import numpy as np
 
 from carom.core.events import INSIDE, LEAVING, first_crossing
 from carom.core.fate import memory
-from carom.core.laws.rigid import slip_of, spare_friction
+from carom.core.friction import slip_of, spare_friction
 from carom.core.layout import rub_workspace, workspace
 from carom.core.phases import AWAY
 from carom.core.rub import lift_off, rest_on_wall, wall_push

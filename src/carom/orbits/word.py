@@ -11,7 +11,7 @@ import numpy as np
 
 from carom.arguments import Count, Whole, checked
 from carom.core import segments
-from carom.core.laws.rigid import BACKWARD, FORWARD, STOPPED
+from carom.core.friction import BACKWARD, FORWARD, STOPPED
 from carom.outcome import InputError, Phase
 
 
@@ -44,7 +44,7 @@ class Kind(IntEnum):
 
     @property
     def sense(self) -> int:
-        """Sense of the slip after the impact or in lasting contact (:mod:`carom.core.laws.rigid`)."""
+        """Sense of the slip after the impact or in lasting contact (:mod:`carom.core.friction`)."""
         if self in (Kind.IMPACT_STOPPED, Kind.ROLL):
             return STOPPED
         return BACKWARD if self in (Kind.IMPACT_BACKWARD, Kind.SLIDE_BACKWARD) else FORWARD
