@@ -117,7 +117,7 @@ def test_after_a_chatter_no_change_leaves_the_wall(slip):
     delays = np.empty(4)
     landing = states[2].copy()
     carry_through_chatter(arrays, 0, states[:2], np.array([0.3]), landing, slip, directions, delays)
-    excess, radial, drift, _, _ = local_motion(arrays, np.zeros(1, np.int64), landing[None])[0]
+    excess, radial, drift, *_ = local_motion(arrays, np.zeros(1, np.int64), landing[None])[0]
     assert abs(excess) < 1e-13
     assert abs(radial) < 1e-13
     position, velocity = rotor.system.at_plane(landing, 0)
