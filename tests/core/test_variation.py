@@ -10,6 +10,7 @@ from carom.core import events
 from carom.core.flow import displacement, fly_all, velocity
 from carom.core.friction import STOPPED, sense_of, slip_of, spare_friction
 from carom.core.friction import arrival as arrival_at
+from carom.core.laws.choice import LAWS
 from carom.core.layout import rotor_record, workspace
 from carom.core.table import flight_table
 from carom.core.variation import carry_through_impact, carry_to_wall, shift
@@ -44,6 +45,8 @@ def general_arrays():
         friction=np.array([0.6, 0.4]),
         restitution=np.array([0.8, 0.5]),
         surface_speed=np.array([1.0, -1.5]),
+        law=np.array([LAWS.index("rigid"), LAWS.index("falling")]),
+        law_number=np.array([0.0, 0.7]),
     )
 
 
