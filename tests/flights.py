@@ -13,11 +13,11 @@ from reference import Crossing, Flight, first_crossing, jeffcott_exponents, jeff
 from carom.core import events
 from carom.core.advance import advance
 from carom.core.block import load_products
-from carom.core.contact_series import AWAY, FLIGHT
 from carom.core.fate import memory
 from carom.core.flow import displacement, squared_modulus
 from carom.core.lanes import CLEARED, LATE, OPEN, fly_lanes, lanes_record
 from carom.core.layout import LEVELS, rub_workspace, workspace
+from carom.core.phases import AWAY, FLIGHT
 from carom.models import Jeffcott
 from carom.motions.trajectories import EventLog
 from carom.outcome import Outcome

@@ -12,8 +12,15 @@ import numpy as np
 from scipy.integrate import solve_ivp
 
 from carom.models import LinearRotor
+from carom.models.touchdown import Rigid, Touchdown
 
 TOLERANCE = 1e-12
+
+
+def touchdowns(planes, friction, restitution, surface_speed):
+    """Contact planes with rigid walls, from one number of each plane."""
+    walls = zip(planes, map(Rigid, map(float, restitution)), friction, surface_speed, strict=True)
+    return [Touchdown(tuple(plane), law, float(mu), float(speed)) for plane, law, mu, speed in walls]
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,10 +47,9 @@ class FixedFrame:
             stiffness=self.stiffness,
             gyroscopic=self.gyroscopic,
             forcing=self.forcing,
-            planes=self.planes,
-            friction=self.friction * count,
-            restitution=self.restitution * count,
-            drive=(self.radius_ratio + 1.0) * count,
+            touchdowns=touchdowns(
+                self.planes, self.friction * count, self.restitution * count, (self.radius_ratio + 1.0) * count
+            ),
             translation=self.translation,
         )
 
@@ -242,8 +248,10 @@ def random_rotor(seed, *, n=None, planes=None, unbalance=None, damping=None, fri
         stiffness=stiffness,
         gyroscopic=random.choice([0.0, 1.0]) * np.diag(random.random(n)),
         forcing=force,
-        planes=rows * size[:, None],
-        friction=np.full(planes, friction) if friction else random.choice([0.0, 0.05, 0.3, 1.0], planes),
-        restitution=random.choice([0.0, 0.3, 0.8, 0.95], planes),
-        drive=1.0 + 10.0 ** random.uniform(0.0, 2.0, planes),
+        touchdowns=touchdowns(
+            rows * size[:, None],
+            np.full(planes, friction) if friction else random.choice([0.0, 0.05, 0.3, 1.0], planes),
+            random.choice([0.0, 0.3, 0.8, 0.95], planes),
+            1.0 + 10.0 ** random.uniform(0.0, 2.0, planes),
+        ),
     )

@@ -16,6 +16,7 @@ import carom as cm
 from carom.arguments import checked
 from carom.disturbances import BladeLoss, ContactRelease, Sample, VelocityKick
 from carom.models import LinearRotor
+from carom.models.touchdown import Rigid, Touchdown
 from carom.outcome import InputError
 from carom.parameters import MACHINE_FIELDS, Case, Machine, Scales
 from carom.sweeps import plan_sweep
@@ -142,7 +143,7 @@ AT_USE = {
     "lengths": ("values", lambda motion: cm.plots.period_condition(cm.find_orbits(PAPER, 10.0), [1.0], [1.0, 2.0])),
 }
 """What is read later than at the door, or was read wrongly: the field named, and a call."""
-LINEAR = (np.eye(1), 0.4 * np.eye(1), np.eye(1), [0.1], np.eye(1), [0.1], [0.9], [50.0])
+LINEAR = (np.eye(1), 0.4 * np.eye(1), np.eye(1), [0.1], [Touchdown([1.0], Rigid(0.9), 0.1, 50.0)])
 
 
 @pytest.mark.parametrize("name", AT_USE)

@@ -17,10 +17,7 @@ rotor = cm.models.LinearRotor.in_fixed_frame(
     stiffness=0.3 * ends.T @ ends,
     gyroscopic=np.diag([0.0, 0.3]),
     forcing=[0.25, 0.05],
-    planes=ends,
-    friction=[0.15, 0.15],
-    restitution=[0.9, 0.9],
-    drive=[21.0, 21.0],
+    touchdowns=[cm.models.Touchdown(end, cm.models.Rigid(0.9), friction=0.15, surface_speed=21.0) for end in ends],
     translation=[1.0, 0.0],
 )
 motion = cm.simulate(rotor, cm.kick(1.2, angle=1.3), until=12)

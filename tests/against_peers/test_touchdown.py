@@ -150,6 +150,6 @@ def test_time_stepping_converges_with_its_step(wall, touchdown, nearest):
 
 def test_fast_whirl_chatters_runs_away_and_rolls():
     trajectory, _, _ = FAST_WHIRL.rigid(1)
-    drive = FAST_WHIRL.parameters.radius_ratio + 1.0
+    surface_speed = FAST_WHIRL.parameters.radius_ratio + 1.0
     assert len(trajectory.contacts) > 200
-    assert abs(trajectory.final.velocity) == pytest.approx(drive, rel=1e-12)
+    assert abs(trajectory.final.velocity) == pytest.approx(surface_speed, rel=1e-12)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from linear_rotors import random_rotor, single, tilting
+from linear_rotors import random_rotor, single, tilting, touchdowns
 from machines import PAPER
 
 import carom
@@ -23,10 +23,7 @@ def beside(one):
         damping=np.diag([one.gamma, 0.3]),
         stiffness=np.diag([one.omega**2, 0.7]),
         forcing=[one.rho * np.exp(1j * one.phi), 0.3],
-        planes=[[1.0, 0.0]],
-        friction=[one.mu],
-        restitution=[one.d],
-        drive=[one.radius_ratio + 1.0],
+        touchdowns=touchdowns([[1.0, 0.0]], [one.mu], [one.d], [one.radius_ratio + 1.0]),
         translation=[1.0, 0.0],
     )
 

@@ -259,7 +259,7 @@ def slip_after_chatter(share: float, restitution: float, friction: float) -> int
     """Phase after a low chatter that begins without slip, where the pull along the wall has a share of the limit of friction."""
     machine = PAPER.replace(omega=0.5, rho=0.6, gamma=0.02, d=restitution, mu=friction, radius_ratio=0.6)
     # At rest in the fixed frame but for rolling: the pull −γ(1 + θ̇) − ρ sin x and the force ρ cos x + (1 + θ̇)² − ω² depend on the angle.
-    turn = 1.0 - Jeffcott(machine).system.contacts[0].drive
+    turn = 1.0 - Jeffcott(machine).system.contacts[0].wall.surface_speed
     angles = np.linspace(-np.pi, np.pi, 20_001)
     push = machine.rho * np.cos(angles) + turn**2 - machine.omega**2
     pull = -machine.gamma * turn - machine.rho * np.sin(angles)
@@ -332,7 +332,7 @@ def test_margins_inside_contact_are_the_lowest_of_dense_samples(case):
             times = np.linspace(ends[first] + 1e-6, ends[last] - 1e-6, 4001)
             normal, grip = motion.forces(times)
             position, velocity = motion.at_plane(times)
-            slip = plane.drive + (np.conj(position) * velocity).imag
+            slip = plane.wall.surface_speed + (np.conj(position) * velocity).imag
             courses = {"pressing": [normal]}
             if phase is Phase.ROLLING:
                 courses["cone"] = [friction * normal - grip, friction * normal + grip]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 from functools import partial
 from types import SimpleNamespace
 
@@ -34,8 +35,9 @@ def test_attractors_along_a_parameter_are_those_of_each_model():
 @pytest.mark.jit_only
 def test_radial_speeds_are_those_of_the_plane_where_it_bounces():
     alone = single().model
-    arrays = {name: np.repeat(getattr(alone, name), 2) for name in ("friction", "restitution", "drive")}
-    beside = alone.replace(planes=np.concatenate([0.3 * alone.planes, alone.planes]), **arrays)
+    (plane,) = alone.touchdowns
+    nearer = dataclasses.replace(plane, plane=[0.3 * number for number in plane.plane])
+    beside = alone.replace(touchdowns=(nearer, plane))
     start = [complex(part[0]) for part in beside.system.kicked(np.array(0.9))]
     struck = simulate(beside, State(*start), 60.0)
     assert struck.is_impact.any()

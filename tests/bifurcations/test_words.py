@@ -7,6 +7,7 @@ from functools import cache
 import mpmath
 import numpy as np
 import pytest
+from linear_rotors import touchdowns
 
 from carom.bifurcations import Bifurcation, OrbitBranch, continue_orbit
 from carom.bifurcations.conditions import TESTS, conditions_at
@@ -238,8 +239,8 @@ def test_a_rotor_with_two_coordinates_is_continued_in_its_own_parameters():
 
 def test_the_planar_rotor_by_its_matrices_has_the_same_special_points():
     """Extrema of the radius too: it is the system that has them, not the description of the rotor."""
-    matrices = {"mass": [[1.0]], "damping": [[PAPER.gamma]], "stiffness": [[PAPER.omega**2]], "planes": [[1.0]]}
-    law = {"friction": [PAPER.mu], "restitution": [PAPER.d], "drive": [PAPER.radius_ratio + 1.0]}
+    matrices = {"mass": [[1.0]], "damping": [[PAPER.gamma]], "stiffness": [[PAPER.omega**2]]}
+    law = {"touchdowns": touchdowns([[1.0]], [PAPER.mu], [PAPER.d], [PAPER.radius_ratio + 1.0])}
     linear = LinearRotor.in_fixed_frame(**matrices, **law, forcing=[PAPER.rho * np.exp(1j * PAPER.phi)])
     start = find_orbits(PAPER)["B1,d"]
     orbit = orbit_near(linear, start.word, Start(start.nodes, start.durations))

@@ -125,7 +125,7 @@ def four_modes() -> SimpleNamespace:
         columns=column[:, None].copy(),
         friction=np.array([0.2]),
         restitution=np.array([0.8]),
-        drive=np.array([50.0]),
+        surface_speed=np.array([50.0]),
     )
     return System(arrays, arrays.offsets, arrays.rows)
 

@@ -8,7 +8,7 @@ import mpmath
 import numpy as np
 import pytest
 from compilation import sized
-from linear_rotors import random_rotor, single, tilting
+from linear_rotors import random_rotor, single, tilting, touchdowns
 from machines import random_parameters
 from scipy.optimize import root
 
@@ -85,10 +85,7 @@ def test_the_planar_rotor_by_its_matrices_has_the_same():
             damping=np.diag([one.gamma, 0.3]),
             stiffness=np.diag([one.omega**2, 0.7]),
             forcing=[one.rho * np.exp(1j * one.phi), 0.2],
-            planes=[[1.0, 0.0]],
-            friction=[one.mu],
-            restitution=[one.d],
-            drive=[one.radius_ratio + 1.0],
+            touchdowns=touchdowns([[1.0, 0.0]], [one.mu], [one.d], [one.radius_ratio + 1.0]),
         )
         pairs = list(zip(find_equilibria(Jeffcott(one)), find_equilibria(model), strict=True))
         for planar, general in pairs:

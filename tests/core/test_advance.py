@@ -11,9 +11,9 @@ from flint import acb, arb
 from reference import first_crossing, jeffcott_flight, unit
 
 from carom.core.advance import CHATTER_HEIGHT, advance
-from carom.core.contact_series import AWAY, FLIGHT
 from carom.core.fate import memory
 from carom.core.layout import rotor_record, rub_workspace, workspace
+from carom.core.phases import AWAY, FLIGHT
 from carom.core.table import flight_table
 from carom.models import Jeffcott
 from carom.motions.starts import State
@@ -243,7 +243,7 @@ def two_planes(scale, gap=0.0, machine=PAPER):
         columns=np.array([[1.0, 1.0 / scale], [0.0, 0.0]], complex),
         friction=np.array([0.15, 0.15]),
         restitution=np.array([0.95, 0.95]),
-        drive=np.array([51.0, 51.0]),
+        surface_speed=np.array([51.0, 51.0]),
     )
 
 
@@ -262,7 +262,7 @@ def test_the_tighter_of_two_planes_is_met(scale, touched):
         columns=arrays.columns[:, [touched]],
         friction=arrays.friction[[touched]],
         restitution=arrays.restitution[[touched]],
-        drive=arrays.drive[[touched]],
+        surface_speed=arrays.surface_speed[[touched]],
     )
     alone = Run(single, table, rotor.system.amplitudes(0.3 + 0.1j, 0.9 - 0.4j))
     alone.go(1e9, size=20)

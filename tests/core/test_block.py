@@ -69,7 +69,7 @@ def four_modes(seed):
         columns=np.ones((4, 1), complex),
         friction=np.zeros(1),
         restitution=np.ones(1),
-        drive=np.ones(1),
+        surface_speed=np.ones(1),
     )
     work = workspace(4)
     work.current[:] = random.normal(size=4) + 1j * random.normal(size=4)

@@ -7,9 +7,10 @@ import pytest
 from linear_rotors import tilting
 
 from carom.core.advance import advance
-from carom.core.contact_series import AWAY, BACKWARD_SLIP, FLIGHT, FORWARD_SLIP, ROLLING, rub_series
+from carom.core.contact_series import rub_series
 from carom.core.fate import memory
 from carom.core.layout import rub_workspace, workspace
+from carom.core.phases import AWAY, BACKWARD_SLIP, FLIGHT, FORWARD_SLIP, ROLLING
 from carom.core.rub import fly_or_rub_all, forces_all, next_phase, press
 from carom.core.taylor import series_step, sum_series
 from carom.motions.trajectories import EventLog
@@ -70,7 +71,7 @@ def test_the_series_keeps_to_the_walls_with_the_forces_of_the_equations(contact,
             assert abs(abs(place) - 1.0) < 1e-13
             assert abs((np.conj(place) * speed).real) < 1e-12
             if contact[plane] == ROLLING:
-                assert abs(speed + 1j * SYSTEM.arrays.drive[plane] * place) < 1e-11
+                assert abs(speed + 1j * SYSTEM.arrays.surface_speed[plane] * place) < 1e-11
     if slips:
         position, velocity = ROTOR.follow(0.0, step, *fixed(amplitudes), slips)
         turn = np.exp(-1j * step)

@@ -170,7 +170,7 @@ def general_rotor(rng, kind):
         columns=columns,
         friction=np.full(2, 0.1),
         restitution=np.full(2, 0.9),
-        drive=np.full(2, 5.0),
+        surface_speed=np.full(2, 5.0),
     )
 
 

@@ -275,7 +275,7 @@ def inflecting_task(frequency, share, excess, depth):
         columns=np.zeros((4, 1), complex),
         friction=np.full(1, 0.1),
         restitution=np.full(1, 0.9),
-        drive=np.full(1, 5.0),
+        surface_speed=np.full(1, 5.0),
     )
     flight = plane_flight(offset, np.ones(4), exponents, np.zeros(4, bool), amplitudes)
     return Task(flight, arrays, flight_table(exponents, np.zeros(4, bool)), amplitudes)

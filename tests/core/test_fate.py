@@ -124,7 +124,7 @@ def test_without_decay_or_room_nothing_is_accepted():
 
 def test_every_plane_has_to_have_room():
     arrays = Jeffcott(PAPER.replace(rho=0.1, gamma=0.3)).system.arrays
-    names = ("offsets", "rows", "friction", "restitution", "drive")
+    names = ("offsets", "rows", "friction", "restitution", "surface_speed")
     twice = {name: np.repeat(arrays[name], 2, axis=0) for name in names}
     shared = {"exponents": arrays.exponents, "driven": arrays.driven, "columns": np.repeat(arrays.columns, 2, axis=1)}
     small = np.array([0.1, 0.1], complex)

@@ -34,7 +34,7 @@ def pair_rotor(lower, upper, rows=(0.7 - 0.2j, 0.4 + 1.1j)):
         columns=np.ones((3, 1), complex),
         friction=np.zeros(1),
         restitution=np.ones(1),
-        drive=np.ones(1),
+        surface_speed=np.ones(1),
     )
 
 

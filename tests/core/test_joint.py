@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 from compilation import sized
 
-from carom.core.contact_series import AWAY
 from carom.core.joint import join, strike_together
 from carom.core.layout import rotor_record, rub_workspace
+from carom.core.phases import AWAY
 
 MASSES, PLANES = 3, 2
 
@@ -28,7 +28,7 @@ class Body:
         self.rows = random.normal(size=(planes, n)) if rows is None else rows
         self.friction = random.choice([0.0, 0.1, 0.5, 1.5], planes) if friction is None else np.full(planes, friction)
         self.restitution = random.choice([0.0, 0.4, 0.9, 1.0], planes) if restitution is None else np.array(restitution)
-        self.drive = random.choice([-1.0, 0.3, 5.0, 60.0], planes) + 0.0
+        self.surface_speed = random.choice([-1.0, 0.3, 5.0, 60.0], planes) + 0.0
         self.angles = np.exp(1j * random.uniform(-np.pi, np.pi, planes))
         # Positions that put each plane on its wall, by the smallest coordinates.
         self.position = np.linalg.pinv(self.rows) @ self.angles
@@ -45,7 +45,7 @@ class Body:
             columns=_interleaved(self.columns.T, zero).T.copy(),
             friction=self.friction,
             restitution=self.restitution,
-            drive=self.drive,
+            surface_speed=self.surface_speed,
             masses=self.felt,
         )
         self.planes = planes
@@ -66,7 +66,7 @@ class Body:
     def energy(self, velocity, impulses, after):
         """Work of the impulses on the contact points."""
         mean = 0.5 * (self.local(velocity) + self.local(after))
-        return float((impulses.real * mean.real + impulses.imag * (self.drive + mean.imag)).sum())
+        return float((impulses.real * mean.real + impulses.imag * (self.surface_speed + mean.imag)).sum())
 
 
 def _interleaved(driving, driven):
@@ -90,7 +90,7 @@ def newton_violations(body, velocity, impulses, after):
     speeds, left = body.local(velocity), body.local(after)
     target = -body.restitution * np.maximum(speeds.real, 0.0)
     push, grip = -impulses.real / body.felt, impulses.imag / body.felt
-    slip = body.drive + left.imag
+    slip = body.surface_speed + left.imag
     wrong = [
         np.maximum(-push, 0.0),
         np.maximum(left.real - target, 0.0),
@@ -119,7 +119,7 @@ def test_impulses_obey_the_laws_at_every_plane_at_once():
         assert (np.abs(grip) <= body.friction * push + 1e-10 * size * body.felt).all()
         assert (body.local(after).real <= 1e-10 * size).all()
         work = body.energy(velocity, impulses, after)
-        terms = np.abs(impulses).sum() * (np.abs(velocity).max() + np.abs(body.drive).max())
+        terms = np.abs(impulses).sum() * (np.abs(velocity).max() + np.abs(body.surface_speed).max())
         assert work <= 1e-11 * terms
         if newton_violations(body, velocity, impulses, after) > 1e-9:
             other += 1
@@ -143,7 +143,7 @@ def _newton_gains(body, velocity):
             right[2 * p] = target[p] - speeds[p].real
             if kind == "stick":
                 matrix[2 * p + 1, 0::2], matrix[2 * p + 1, 1::2] = -couplings[p].imag, couplings[p].real
-                right[2 * p + 1] = -body.drive[p] - speeds[p].imag
+                right[2 * p + 1] = -body.surface_speed[p] - speeds[p].imag
             else:
                 matrix[2 * p + 1, 2 * p + 1] = 1.0
                 matrix[2 * p + 1, 2 * p] = body.friction[p] * (1.0 if kind == "forward" else -1.0)
@@ -167,7 +167,7 @@ def test_a_plane_alone_is_struck_as_by_the_law_of_one_plane():
         after, impulses = body.strike(velocity)
         speeds = body.local(velocity)
         push = body.felt * (1.0 + body.restitution) * np.maximum(speeds.real, 0.0)
-        slip = body.drive + speeds.imag
+        slip = body.surface_speed + speeds.imag
         grip = -np.sign(slip) * np.minimum(body.friction * push, body.felt * np.abs(slip))
         assert np.allclose(impulses, -push + 1j * grip, rtol=1e-13, atol=1e-14 * (1.0 + np.abs(slip).max()))
         assert np.allclose(body.local(after), speeds + impulses / body.felt, rtol=1e-12, atol=1e-13)
@@ -192,8 +192,8 @@ def _aligned(body, inertia):
     aligned = Body(random, mass=np.diag([1.0, inertia]), rows=body.rows, friction=0.2, restitution=[0.8, 0.8])
     aligned.angles = np.ones(2, complex)
     aligned.position = np.array([1.0, 0.0], complex)
-    aligned.drive = np.full(2, 20.0)
-    aligned.arrays.drive[:] = 20.0
+    aligned.surface_speed = np.full(2, 20.0)
+    aligned.arrays.surface_speed[:] = 20.0
     return aligned
 
 
@@ -220,8 +220,8 @@ def test_planes_that_move_alike_share_a_blow_without_gaining():
     """Two planes at one place: the equations for each are the same, and the sum of the impulses is that of one."""
     random = np.random.default_rng(5)
     body = Body(random, mass=np.eye(1), rows=np.ones((2, 1)), friction=0.3, restitution=[0.7, 0.7])
-    body.angles, body.position, body.drive = np.ones(2, complex), np.ones(1, complex), np.full(2, 30.0)
-    body.arrays.drive[:] = 30.0
+    body.angles, body.position, body.surface_speed = np.ones(2, complex), np.ones(1, complex), np.full(2, 30.0)
+    body.arrays.surface_speed[:] = 30.0
     after, impulses = body.strike(np.array([1.0 + 0.5j]))
     assert impulses.sum() == pytest.approx(-1.7 - 0.3j * 1.7)
     assert after[0] == pytest.approx(-0.7 + 0.5j - 0.51j)

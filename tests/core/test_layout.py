@@ -18,7 +18,7 @@ def test_rotor_record():
         columns=np.ones((3, 2)),
         friction=np.array([0.1, 0.2]),
         restitution=np.array([0.9, 0.8]),
-        drive=np.array([50.0, 20.0]),
+        surface_speed=np.array([50.0, 20.0]),
         masses=np.array([0.4, 3.0]),
     )
     matrix = np.array([[exponents[0], 0, 0], [1, exponents[1], 0], [0, 0, exponents[2]]])

@@ -47,8 +47,8 @@ def test_orbits_fulfil_the_conditions_and_have_these_multipliers():
             arrays = orbit.rotor.system.arrays
             loss = arrays.friction[0] * (1.0 + arrays.restitution[0]) * orbit.radial_speed
             scale = 1.0 + abs(orbit.angular_speed) + parameters.radius_ratio
-            assert values[5] == pytest.approx(arrays.drive[0] + orbit.angular_speed - loss, abs=1e-9 * scale)
-            if min(values[5], arrays.drive[0] + orbit.angular_speed) <= 0.0:
+            assert values[5] == pytest.approx(arrays.surface_speed[0] + orbit.angular_speed - loss, abs=1e-9 * scale)
+            if min(values[5], arrays.surface_speed[0] + orbit.angular_speed) <= 0.0:
                 continue
             section = (orbit.angle, orbit.radial_speed, orbit.angular_speed)
             with mpmath.workdps(40):

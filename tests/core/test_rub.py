@@ -204,15 +204,15 @@ def test_order_of_the_series(parameters, angle, rate, phase):
 
 def test_rolling_is_a_rotation():
     for parameters, angle in ((PAPER, 0.4), (SLENDER, -2.0), (SLENDER.replace(radius_ratio=0.02), 3.0)):
-        drive = parameters.radius_ratio + 1.0
-        rotor, work = series_of(parameters, angle, -drive, ROLLING)
+        surface_speed = parameters.radius_ratio + 1.0
+        rotor, work = series_of(parameters, angle, -surface_speed, ROLLING)
         step = series_step(work)
         moved = np.empty(2, complex)
         for time in np.linspace(0.0, step, 7):
             sum_series(work, time, moved)
-            expected = cmath.rect(1.0, angle - drive * time)
+            expected = cmath.rect(1.0, angle - surface_speed * time)
             assert abs(displacement(rotor, 0, moved) - expected) < 4e-15
-            assert abs(velocity(rotor, 0, moved) + 1j * drive * expected) < 4e-15 * (1.0 + drive)
+            assert abs(velocity(rotor, 0, moved) + 1j * surface_speed * expected) < 4e-15 * (1.0 + surface_speed)
 
 
 def test_series_hold_push_slip_and_grip():
@@ -220,8 +220,8 @@ def test_series_hold_push_slip_and_grip():
     for _ in range(100):
         parameters = random_parameters(random)
         angle, rate = random.uniform(-3, 3), random.normal() * 4.0
-        drive = parameters.radius_ratio + 1.0
-        phase = FORWARD if drive + rate > 0 else BACKWARD
+        surface_speed = parameters.radius_ratio + 1.0
+        phase = FORWARD if surface_speed + rate > 0 else BACKWARD
         rotor, work = series_of(parameters, angle, rate, phase)
         step = series_step(work)
         powers = (0.7 * step) ** np.arange(ORDER + 1)
@@ -231,7 +231,7 @@ def test_series_hold_push_slip_and_grip():
         noise = 1e3 * push_rounding(rotor, 0, moved)
         push = push_of(parameters, x, w)
         assert work.push[0] @ powers == pytest.approx(push, abs=noise)
-        assert work.slip[0] @ powers == pytest.approx(drive + w, abs=1e3 * speed_rounding(rotor, 0, moved))
+        assert work.slip[0] @ powers == pytest.approx(surface_speed + w, abs=1e3 * speed_rounding(rotor, 0, moved))
         assert work.grip[0] @ powers == pytest.approx(-SIGN[phase] * parameters.mu * push, abs=noise)
 
 
@@ -284,12 +284,12 @@ def test_sliding_ends_where_push_or_slip_vanishes(parameters, angle, rate, phase
     """Against the root of the exact motion, to 1e-12."""
     rotor = Jeffcott(parameters).system.arrays
     time, found, slip_stops, amplitudes = next_event(parameters, angle, rate, phase)
-    drive = parameters.radius_ratio + 1.0
+    surface_speed = parameters.radius_ratio + 1.0
     assert slip_stops == (following is None)
     with mpmath.workdps(30):
         exact = ExactSlide(parameters, angle, rate, SIGN[phase])
         if following is None:
-            root = mpmath.findroot(lambda t: drive + exact.state(t)[1], time)
+            root = mpmath.findroot(lambda t: surface_speed + exact.state(t)[1], time)
         else:
             assert found == following
             root = mpmath.findroot(lambda t: exact.push(*exact.state(t)), time)
@@ -298,7 +298,7 @@ def test_sliding_ends_where_push_or_slip_vanishes(parameters, angle, rate, phase
         for share in np.linspace(0.01, 0.99, 25):
             x, w = exact.state(mpmath.mpf(share * time))
             assert exact.push(x, w) > 0
-            assert SIGN[phase] * (drive + w) > 0
+            assert SIGN[phase] * (surface_speed + w) > 0
     x, w, penetration, radial = polar(rotor, amplitudes)
     assert abs(penetration) < 1e-15
     assert abs(radial) < 1e-14
@@ -310,22 +310,22 @@ def test_rolling_ends_where_its_friction_leaves_the_cone():
     random = np.random.default_rng(11)
     for _ in range(200):
         parameters = random_parameters(random, mu=float(random.uniform(0.05, 1.0)), radius_ratio=random.uniform(1, 4))
-        drive, angle = parameters.radius_ratio + 1.0, random.uniform(-3, 3)
+        surface_speed, angle = parameters.radius_ratio + 1.0, random.uniform(-3, 3)
 
-        turn = np.linspace(0.0, 2 * math.pi / drive, 20_001)
-        x = angle - drive * turn - parameters.phi
-        push = parameters.rho * np.cos(x) + (drive - 1) ** 2 - parameters.omega**2
-        inside = parameters.mu * push - np.abs(parameters.gamma * (drive - 1) - parameters.rho * np.sin(x))
+        turn = np.linspace(0.0, 2 * math.pi / surface_speed, 20_001)
+        x = angle - surface_speed * turn - parameters.phi
+        push = parameters.rho * np.cos(x) + (surface_speed - 1) ** 2 - parameters.omega**2
+        inside = parameters.mu * push - np.abs(parameters.gamma * (surface_speed - 1) - parameters.rho * np.sin(x))
         if inside[0] < 0.05 or inside.min() > -0.05:
             continue
         leaves = turn[np.argmax(inside < 0.0)]
-        time, following, slip_stops, amplitudes = next_event(parameters, angle, -drive, ROLLING)
+        time, following, slip_stops, amplitudes = next_event(parameters, angle, -surface_speed, ROLLING)
         side = 1 if following == FORWARD else -1
         sides.add(side)
         assert not slip_stops
         assert abs(time - leaves) <= turn[1]
         with mpmath.workdps(30):
-            room = partial(_room, parameters, angle, drive, side)
+            room = partial(_room, parameters, angle, surface_speed, side)
             exact = mpmath.findroot(room, time)
             slope = abs(mpmath.diff(room, exact))
             noise = push_rounding(Jeffcott(parameters).system.arrays, 0, amplitudes)
@@ -333,10 +333,10 @@ def test_rolling_ends_where_its_friction_leaves_the_cone():
     assert sides == {1, -1}
 
 
-def _room(parameters, angle, drive, side, time):
+def _room(parameters, angle, surface_speed, side, time):
     """Friction that is left over on one side of the cone while it rolls."""
-    x = mpmath.mpf(angle) - mpmath.mpf(drive) * time - mpmath.mpf(parameters.phi)
-    spin = mpmath.mpf(drive) - 1
+    x = mpmath.mpf(angle) - mpmath.mpf(surface_speed) * time - mpmath.mpf(parameters.phi)
+    spin = mpmath.mpf(surface_speed) - 1
     push = parameters.rho * mpmath.cos(x) + spin**2 - mpmath.mpf(parameters.omega) ** 2
     pull = parameters.gamma * spin - parameters.rho * mpmath.sin(x)
     return parameters.mu * push - side * pull
@@ -360,14 +360,14 @@ def test_without_slip_the_cone_decides():
     random = np.random.default_rng(8)
     for _ in range(300):
         parameters = random_parameters(random, mu=0.0, radius_ratio=float(random.uniform(2.0, 9.0)))
-        drive, angle = parameters.radius_ratio + 1.0, float(random.uniform(-3, 3))
-        push, pull = push_of(parameters, angle, -drive), pull_of(parameters, angle, -drive)
+        surface_speed, angle = parameters.radius_ratio + 1.0, float(random.uniform(-3, 3))
+        push, pull = push_of(parameters, angle, -surface_speed), pull_of(parameters, angle, -surface_speed)
         if push < 1e-3 or not 1e-3 < abs(pull) < push:
             continue
         slips = FORWARD if pull > 0 else BACKWARD
         for factor, expected in ((0.5, slips), (1 - 1e-6, slips), (1.0, ROLLING), (1 + 1e-6, ROLLING), (3.0, ROLLING)):
             rotor = Jeffcott(parameters.replace(mu=factor * abs(pull) / push)).system.arrays
-            amplitudes = on_wall(parameters, angle, -drive)
+            amplitudes = on_wall(parameters, angle, -surface_speed)
             assert next_phase(rotor, np.array([slips]), 0, amplitudes, rub_workspace(2)) == expected
 
 
@@ -386,8 +386,8 @@ def test_without_friction_slip_goes_on_to_the_other_side():
 def test_slip_that_starts_at_zero_goes_on():
     """After rolling the slip starts as t² does, after a reversal as t does: neither ends what it starts."""
     parameters = SLENDER.replace(gamma=0.05)
-    drive = parameters.radius_ratio + 1.0
-    time, following, _, amplitudes = next_event(parameters, 0.4, -drive, ROLLING)
+    surface_speed = parameters.radius_ratio + 1.0
+    time, following, _, amplitudes = next_event(parameters, 0.4, -surface_speed, ROLLING)
     rotor, work = Jeffcott(parameters).system.arrays, rub_workspace(2)
     assert time > 0.0
     assert following == FORWARD
@@ -449,13 +449,13 @@ def test_margins_that_vanish_do_not_fall():
 
 def test_turns_are_found_to_rounding():
     parameters = SLENDER
-    drive = parameters.radius_ratio + 1.0
-    _, work = series_of(parameters, 0.4, -drive, ROLLING)
+    surface_speed = parameters.radius_ratio + 1.0
+    _, work = series_of(parameters, 0.4, -surface_speed, ROLLING)
     step = series_step(work)
     ahead = 0.6 * step
-    time = turn_ahead(0, cmath.rect(1.0, 0.4 - drive * ahead), -1.0, step, work)
+    time = turn_ahead(0, cmath.rect(1.0, 0.4 - surface_speed * ahead), -1.0, step, work)
     assert time == pytest.approx(ahead, abs=1e-15)
-    assert turn_ahead(0, cmath.rect(1.0, 0.4 - drive * 1.5 * step), -1.0, step, work) == step
+    assert turn_ahead(0, cmath.rect(1.0, 0.4 - surface_speed * 1.5 * step), -1.0, step, work) == step
 
 
 # ---------------------------------------------------------------------------------------------------- lift-off
@@ -508,11 +508,11 @@ def departures(count):
     while found < count:
         parameters = random_parameters(random, mu=float(random.uniform(0, 1)), gamma=float(random.uniform(0.01, 0.5)))
         angle, rate = random.uniform(-3, 3), random.normal() * 2.0
-        drive = parameters.radius_ratio + 1.0
-        if push_of(parameters, angle, rate) < 0.01 or abs(drive + rate) < 0.1:
+        surface_speed = parameters.radius_ratio + 1.0
+        if push_of(parameters, angle, rate) < 0.01 or abs(surface_speed + rate) < 0.1:
             continue
         time, following, _, amplitudes = _follow_slide(
-            parameters, angle, rate, FORWARD if drive + rate > 0 else BACKWARD
+            parameters, angle, rate, FORWARD if surface_speed + rate > 0 else BACKWARD
         )
         if following != FLIGHT or time > 30.0:
             continue
@@ -608,7 +608,7 @@ def test_a_start_without_push_that_is_pressed_on_does_not_leave():
 class CoupledRotor:
     """Two coupled complex coordinates ``q̈ = −Dq̇ − Kq + f + bF`` with contact at ``y = w·q``: four modes, one plane."""
 
-    def __init__(self, seed: int, friction: float, drive: float) -> None:
+    def __init__(self, seed: int, friction: float, surface_speed: float) -> None:
         random = np.random.default_rng(seed)
 
         def noise(size):
@@ -620,7 +620,7 @@ class CoupledRotor:
         self.row = np.array([1.0, 0.4 + 0.1j])
         self.column = np.array([0.8, 0.3 - 0.2j])
         self.column = self.column / (self.row @ self.column)
-        self.friction, self.drive = friction, drive
+        self.friction, self.surface_speed = friction, surface_speed
         rest = np.linalg.solve(self.stiffness, self.load)
         matrix = np.block([[np.zeros((2, 2)), np.eye(2)], [-self.stiffness, -self.damping]])
         exponents, vectors = np.linalg.eig(matrix)
@@ -633,7 +633,7 @@ class CoupledRotor:
             columns=self.inverse @ np.concatenate([np.zeros(2), self.column])[:, None],
             friction=np.array([friction]),
             restitution=np.array([0.5]),
-            drive=np.array([drive]),
+            surface_speed=np.array([surface_speed]),
         )
 
     def start(self, angle: float, rate: float) -> np.ndarray:
@@ -656,7 +656,7 @@ class CoupledRotor:
         free = self.load - self.stiffness @ state[:2] - self.damping @ state[2:]
         position = self.row @ state[:2]
         if sign == 0:
-            force = -(self.drive**2) * position - self.row @ free
+            force = -(self.surface_speed**2) * position - self.row @ free
         else:
             force = -complex(1.0, sign * self.friction) * self.push(state) * position
         return np.concatenate([state[2:], free + self.column * force])
@@ -666,7 +666,7 @@ class CoupledRotor:
 @pytest.mark.parametrize("phase", [FORWARD, BACKWARD, ROLLING])
 def test_a_rotor_of_four_modes_stays_on_the_wall(seed, phase):
     sign = {**SIGN, ROLLING: 0}[phase]
-    rotor = CoupledRotor(seed, friction=0.2, drive=3.0)
+    rotor = CoupledRotor(seed, friction=0.2, surface_speed=3.0)
     state = rotor.start(0.3, {FORWARD: 2.5, BACKWARD: -7.0, ROLLING: -3.0}[phase])
     amplitudes, work, time = rotor.amplitudes(state), rub_workspace(4), 0.0
     for _ in range(12):

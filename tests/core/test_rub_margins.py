@@ -134,7 +134,7 @@ def test_rest_on_the_wall_keeps_the_angle_and_the_speed_along_it():
             local = position.conjugate() * velocity(ARRAYS, 0, amplitudes)
             assert position == pytest.approx(cmath.rect(1.0, angle), abs=1e-13)
             assert local.real == pytest.approx(0.0, abs=1e-12)
-            assert local.imag == pytest.approx(-ARRAYS.drive[0] if rolling else before.imag, abs=1e-12)
+            assert local.imag == pytest.approx(-ARRAYS.surface_speed[0] if rolling else before.imag, abs=1e-12)
 
 
 def test_motions_in_different_phases_are_moved_each_in_its_own():
@@ -158,7 +158,12 @@ def test_motions_in_different_phases_are_moved_each_in_its_own():
 def pressed_rotor(friction, acceleration):
     """A rotor at ``y = 1`` with this acceleration, whose amplitudes are displacement and velocity themselves."""
     fields = {name: np.array(ARRAYS[name]) for name in ARRAYS.dtype.names}
-    fields["offsets"][:], fields["weights"][:], fields["drive"][:], fields["friction"][:] = 0.0, 1.0, 1.0, friction
+    fields["offsets"][:], fields["weights"][:], fields["surface_speed"][:], fields["friction"][:] = (
+        0.0,
+        1.0,
+        1.0,
+        friction,
+    )
     fields["rows"][:], fields["rate_rows"][:], fields["acceleration_rows"][:] = (
         (1.0, 0.0),
         (0.0, 1.0),
@@ -253,7 +258,7 @@ def test_rounding_errors_are_the_sums_of_the_sizes_of_their_terms():
             columns=np.ones((2, 1), complex),
             friction=np.zeros(1),
             restitution=np.ones(1),
-            drive=np.ones(1),
+            surface_speed=np.ones(1),
         )
         amplitudes = random.normal(size=2) + 1j * random.normal(size=2)
         spread = sizes(arrays.offsets)[0] + sizes(arrays.rows[0] * amplitudes).sum()

@@ -80,7 +80,7 @@ def test_sliding_stays_on_the_wall_and_keeps_its_law():
     start = arbitrary(rotor, word, np.random.default_rng(3))
     start = start if COMPILED else start._replace(durations=0.1 * start.durations)
     arrivals = rotor.system.amplitudes_of(links_of(rotor, word, start).arrivals)
-    excess, radial, slip, _, _ = local_motion(rotor.system.arrays, word.planes, arrivals).T
+    excess, radial, slip, *_ = local_motion(rotor.system.arrays, word.planes, arrivals).T
     assert np.abs(excess).max() < 1e-12 * (1.0 + np.abs(arrivals).max())
     assert np.abs(radial).max() < 1e-11 * (1.0 + np.abs(arrivals).max())
     assert abs(slip[2]) < 1e-11  # it rolls
@@ -117,7 +117,7 @@ def test_after_a_chatter_no_change_leaves_the_wall(slip):
     delays = np.empty(4)
     landing = states[2].copy()
     carry_through_chatter(arrays, 0, states[:2], np.array([0.3]), landing, slip, directions, delays)
-    excess, radial, drift, _, _ = local_motion(arrays, np.zeros(1, np.int64), landing[None])[0]
+    excess, radial, drift, *_ = local_motion(arrays, np.zeros(1, np.int64), landing[None])[0]
     assert abs(excess) < 1e-13
     assert abs(radial) < 1e-13
     position, velocity = rotor.system.at_plane(landing, 0)

@@ -44,7 +44,7 @@ def general_arrays(seed: int):
         columns=np.ones((4, 1), complex),
         friction=np.zeros(1),
         restitution=np.ones(1),
-        drive=np.ones(1),
+        surface_speed=np.ones(1),
     )
 
 
@@ -238,7 +238,7 @@ def test_derivative_bounds_of_pairs_after_a_slow_mode(lower, upper):
         columns=np.ones((3, 1), complex),
         friction=np.zeros(1),
         restitution=np.ones(1),
-        drive=np.ones(1),
+        surface_speed=np.ones(1),
     )
     table = flight_table(exponents, driven)
     end = float(table.durations[0])

@@ -8,10 +8,13 @@ from flights import parameters
 
 from carom.core import events
 from carom.core.flow import displacement, fly_all, velocity
-from carom.core.impact import strike
+from carom.core.friction import STOPPED, sense_of, slip_of, spare_friction
+from carom.core.friction import arrival as arrival_at
+from carom.core.laws.choice import LAWS
 from carom.core.layout import rotor_record, workspace
 from carom.core.table import flight_table
 from carom.core.variation import carry_through_impact, carry_to_wall, shift
+from carom.core.wall import wall_of
 from carom.models import Jeffcott
 from carom.outcome import Outcome
 
@@ -41,7 +44,9 @@ def general_arrays():
         columns=columns,
         friction=np.array([0.6, 0.4]),
         restitution=np.array([0.8, 0.5]),
-        drive=np.array([1.0, -1.5]),
+        surface_speed=np.array([1.0, -1.5]),
+        law=np.array([LAWS.index("rigid"), LAWS.index("falling")]),
+        law_number=np.array([0.0, 0.7]),
     )
 
 
@@ -113,17 +118,18 @@ def test_impact_of_a_general_rotor(plane):
 
     def struck(amplitudes):
         position, speed = displacement(arrays, plane, amplitudes), velocity(arrays, plane, amplitudes)
-        law = arrays.friction[plane], arrays.restitution[plane], arrays.drive[plane]
-        change, sticks = strike(position, speed, *law)
-        return amplitudes + arrays.columns[:, plane] * change, sticks
+        normal, wall = position / abs(position), wall_of(arrays, plane)
+        local = normal.conjugate() * speed
+        return amplitudes + arrays.columns[:, plane] * (normal * arrival_at(local, wall)), sense_of(
+            local, wall
+        ) == STOPPED
 
     seen = set()
     for _ in range(200):
         before = random.normal(size=4) + 1j * random.normal(size=4)
         position, speed = displacement(arrays, plane, before), velocity(arrays, plane, before)
-        local = position.conjugate() * speed / abs(position)
-        slip = arrays.drive[plane] + local.imag
-        margin = abs(arrays.friction[plane] * (1.0 + arrays.restitution[plane]) * local.real - abs(slip))
+        local, wall = position.conjugate() * speed / abs(position), wall_of(arrays, plane)
+        slip, margin = slip_of(local, wall), abs(spare_friction(local, wall))
         # Differences must not step over the edge between slipping and not, nor over the middle of the plane.
         if local.real < 0.1 or margin < 0.2 or abs(slip) < 0.2 or abs(position) < 0.5:
             continue
@@ -156,13 +162,14 @@ def test_a_whole_impact_map(machine, angular_speed):
     """Impact, flight and arrival one after the other, with a slip that goes on and one that stops."""
     rotor = Jeffcott(parameters(*machine, rho=2.0).replace(mu=0.2, d=0.8))
     arrays = rotor.system.arrays
-    law = arrays.friction[0], arrays.restitution[0], arrays.drive[0]
     position = np.exp(0.4j)
     before = rotor.system.amplitudes(position, complex(2.5, angular_speed) * position)
 
     def mapped(change):
         start = before + change
-        impulse, _ = strike(displacement(arrays, 0, start), velocity(arrays, 0, start), *law)
+        place = displacement(arrays, 0, start)
+        normal = place / abs(place)
+        impulse = normal * arrival_at(normal.conjugate() * velocity(arrays, 0, start), wall_of(arrays, 0))
         time, state = arrival(arrays, rotor.system.table, 0, start + arrays.columns[:, 0] * impulse, events.LEAVING)
         return np.append(state, time)
 

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 from compilation import sized
-from linear_rotors import FixedFrame, random_rotor, single, tilting
+from linear_rotors import FixedFrame, random_rotor, single, tilting, touchdowns
 from scipy.integrate import solve_ivp
 
 import carom
@@ -123,8 +123,8 @@ def test_random_rotors_and_shocks():
         if np.abs(model.planes @ model.system.rest).max() >= 1.0:
             model = model.replace(forcing=0.0 * model.forcing)
             fixed = model.matrices
-        if np.ptp(model.restitution) or np.ptp(model.drive):
-            model = model.replace(restitution=[0.6, 0.6], drive=[9.0, 9.0])
+        if len({each.wall for each in model.touchdowns}) > 1:
+            model = model.replace(restitution=0.6, radius_ratio=8.0)
         rotor = FixedFrame(
             *(part.real for part in (fixed.mass, fixed.damping, fixed.stiffness, fixed.gyroscopic)),
             fixed.forcing,
@@ -171,7 +171,7 @@ def test_displaced_rotors_touch_with_the_plane_that_moves_farthest(model, releas
     assert (np.abs(places) <= 1.0 + 1e-14).all()
     assert starts.touched.all()
     fixed = speeds[:, plane] + 1j * places[:, plane]  # velocity of the plane in the fixed frame
-    expected = {"fixed": 0.0, "rotating": 1.0, "rolling": 1.0 - model.system.arrays.drive[plane]}[release]
+    expected = {"fixed": 0.0, "rotating": 1.0, "rolling": 1.0 - model.system.arrays.surface_speed[plane]}[release]
     assert np.allclose(fixed, 1j * expected * places[:, plane], rtol=0, atol=1e-12)
     states = Sample(AnyState(), 50, 0).starts(model)
     reached = np.abs(states.positions.reshape(50, -1) @ model.system.planes.T).max(axis=1)
@@ -193,9 +193,7 @@ def test_an_unbalance_step_starts_from_the_whirl_with_the_old_unbalance():
 
 
 def test_a_rotor_whose_translation_moves_no_plane_cannot_be_displaced():
-    model = tilting().model.replace(
-        translation=[0.7, 1.0], planes=[[1.0, -0.7]], friction=[0.1], restitution=[0.5], drive=[5.0]
-    )
+    model = tilting().model.replace(translation=[0.7, 1.0], touchdowns=touchdowns([[1.0, -0.7]], [0.1], [0.5], [5.0]))
     with pytest.raises(InputError, match=r"^translation = .*moves a contact plane"):
         Grid(StateSlice(), (3, 3)).starts(model)
 

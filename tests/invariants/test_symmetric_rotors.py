@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from compilation import sized
+from linear_rotors import touchdowns
 
 import carom
 from carom.models import Jeffcott, LinearRotor
@@ -25,10 +26,9 @@ def on_two_bearings(machine: Parameters, arm: float, inertia: float) -> LinearRo
         stiffness=0.5 * machine.omega**2 * ends.T @ ends,
         gyroscopic=np.diag([0.0, 0.1 * inertia]),
         forcing=np.array([machine.rho * np.exp(1j * machine.phi), 0.0]),
-        planes=ends,
-        friction=np.full(2, machine.mu),
-        restitution=np.full(2, machine.d),
-        drive=np.full(2, machine.radius_ratio + 1.0),
+        touchdowns=touchdowns(
+            ends, np.full(2, machine.mu), np.full(2, machine.d), np.full(2, machine.radius_ratio + 1.0)
+        ),
         translation=np.array([1.0, 0.0]),
     )
 

@@ -6,7 +6,7 @@ import mpmath
 import numpy as np
 import pytest
 from compilation import sized
-from linear_rotors import bending, single, tilting
+from linear_rotors import bending, single, tilting, touchdowns
 from machines import PAPER, random_parameters
 from scipy.linalg import expm
 
@@ -26,10 +26,7 @@ def planar(parameters, beside=None):
         damping=parameters.gamma * np.eye(n),
         stiffness=np.diag([parameters.omega**2, beside][:n]),
         forcing=np.array([parameters.rho * np.exp(1j * parameters.phi), 0.3][:n]),
-        planes=np.eye(1, n),
-        friction=[parameters.mu],
-        restitution=[parameters.d],
-        drive=[parameters.radius_ratio + 1.0],
+        touchdowns=touchdowns(np.eye(1, n), [parameters.mu], [parameters.d], [parameters.radius_ratio + 1.0]),
         translation=np.eye(1, n)[0],
     )
 
@@ -107,10 +104,7 @@ def test_coordinates_that_are_critically_damped_alike(split, damping, stiffness)
         damping=mix.T @ np.diag(1.5 + split * np.array(damping)) @ mix,
         stiffness=mix.T @ np.diag(0.5625 + split * np.array(stiffness)) @ mix,
         forcing=random.normal(size=n),
-        planes=random.normal(size=(1, n)),
-        friction=[0.1],
-        restitution=[0.9],
-        drive=[30.0],
+        touchdowns=touchdowns(random.normal(size=(1, n)), [0.1], [0.9], [30.0]),
     )
     state = random.normal(size=2 * n) + 1j * random.normal(size=2 * n)
     system = model.system
@@ -195,20 +189,21 @@ def test_attributes_make_the_same_rotor_again():
     ("changes", "named"),
     [
         ({"mass": np.zeros((2, 2))}, "mass, stiffness"),
-        ({"friction": [0.1]}, "planes"),
-        ({"friction": [-0.1, 0.1]}, "friction"),
-        ({"restitution": [0.5, 1.2]}, "restitution"),
+        ({"touchdowns": ()}, "touchdowns"),
+        ({"touchdowns": touchdowns([[1.0]], [0.1], [0.5], [2.0])}, "touchdowns"),
+        ({"touchdowns": "rigid"}, "touchdowns"),
+        ({"friction": -0.1}, "friction"),
+        ({"restitution": 1.2}, "restitution"),
         ({"forcing": [np.nan, 0.0]}, "forcing"),
-        ({"planes": np.zeros((2, 2))}, "mass, planes"),
+        ({"touchdowns": touchdowns([[0.0, 0.0]], [0.1], [0.5], [2.0])}, "mass, planes"),
         ({"stiffnes": np.eye(2)}, "parameter"),
         ({"mass": "heavy"}, "mass"),
-        ({"drive": [[1.0, 2.0], [3.0]]}, "drive"),
         ({"forcing": [[1.0, 2.0], [3.0]]}, "forcing"),
         ({"mass": np.eye(2, dtype=bool)}, "mass"),
         ({"forcing": ["0.2", "0.0"]}, "forcing"),
-        ({"restitution": np.array([True, True])}, "restitution"),
-        ({"friction": ["0.1", "0.1"]}, "friction"),
-        ({"friction": np.array([0.1 + 1j, 0.1])}, "friction"),
+        ({"restitution": True}, "restitution"),
+        ({"friction": "rough"}, "friction"),
+        ({"friction": 0.1 + 1j}, "friction"),
     ],
 )
 def test_bad_matrices_are_refused(changes, named):
@@ -230,7 +225,7 @@ def test_bad_matrices_are_refused(changes, named):
 )
 def test_matrices_of_the_fixed_frame_are_not_stretched_to_shape(changes, named):
     numbers = {"mass": np.eye(2), "damping": 0.1 * np.eye(2), "stiffness": np.eye(2), "forcing": [0.2, 0.0]}
-    plane = {"planes": [[1.0, 0.5]], "friction": [0.1], "restitution": [0.9], "drive": [10.0]}
+    plane = {"touchdowns": touchdowns([[1.0, 0.5]], [0.1], [0.9], [10.0])}
     with pytest.raises(InputError, match=f"^{named} = "):
         LinearRotor.in_fixed_frame(**numbers | plane | changes)
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from linear_rotors import bending
+from linear_rotors import bending, touchdowns
 from machines import PAPER
 
 from carom.models import Jeffcott, LinearRotor, axis
@@ -26,10 +26,7 @@ def planar(parameters) -> LinearRotor:
         damping=[[parameters.gamma]],
         stiffness=[[parameters.omega**2]],
         forcing=[parameters.rho * np.exp(1j * parameters.phi)],
-        planes=[[1.0]],
-        friction=[parameters.mu],
-        restitution=[parameters.d],
-        drive=[parameters.radius_ratio + 1.0],
+        touchdowns=touchdowns([[1.0]], [parameters.mu], [parameters.d], [parameters.radius_ratio + 1.0]),
         scales=parameters.scales,
     )
 
@@ -37,12 +34,13 @@ def planar(parameters) -> LinearRotor:
 def rotor(**changes) -> LinearRotor:
     """A rotor with two coordinates and two planes."""
     given = {"mass": MASS, "damping": DAMPING, "stiffness": STIFFNESS, "gyroscopic": GYROSCOPIC, "forcing": FORCING}
-    given |= {"planes": [[1.0, 0.5], [1.0, -0.4]], "friction": [0.1, 0.2], "restitution": [0.9, 0.9], "drive": [30, 40]}
+    given |= {"touchdowns": touchdowns([[1.0, 0.5], [1.0, -0.4]], [0.1, 0.2], [0.9, 0.9], [30, 40])}
     return LinearRotor.in_fixed_frame(**(given | {"translation": TRANSLATION, "scales": SCALES} | changes))
 
 
 def assert_alike(got: LinearRotor, expected: LinearRotor) -> None:
-    for name in ("mass", "damping", "stiffness", "forcing", "planes", "friction", "restitution", "drive"):
+    assert got.touchdowns == expected.touchdowns
+    for name in ("mass", "damping", "stiffness", "forcing"):
         np.testing.assert_allclose(getattr(got, name), getattr(expected, name), rtol=1e-14, atol=1e-15, err_msg=name)
     assert got.scales == expected.scales
 
@@ -90,11 +88,14 @@ def test_damping_stiffness_and_unbalance_are_multiplied_as_a_whole(factor):
 
 def test_planes_together_and_one_by_one():
     given = rotor()
-    assert given.replace(friction=0.3).friction.tolist() == given.replace(mu=0.3).friction.tolist() == [0.3, 0.3]
-    assert given.replace(friction=[0.3, 0.1]).friction.tolist() == [0.3, 0.1]
-    assert given.replace(mu_2=0.3).friction.tolist() == [0.1, 0.3]
-    assert given.replace(radius_ratio_1=50.0).drive.tolist() == [51.0, 40.0]
-    assert given.replace(d=0.5).restitution.tolist() == [0.5, 0.5]
+
+    def at_planes(name, **changes):
+        return [getattr(each.wall, name) for each in given.replace(**changes).touchdowns]
+
+    assert at_planes("friction", friction=0.3) == at_planes("friction", mu=0.3) == [0.3, 0.3]
+    assert at_planes("friction", mu_2=0.3) == [0.1, 0.3]
+    assert at_planes("surface_speed", radius_ratio_1=50.0) == [51.0, 40.0]
+    assert at_planes("restitution", d=0.5) == [0.5, 0.5]
     assert [given.value(name) for name in ("mu_1", "mu_2", "d", "radius_ratio_2")] == [0.1, 0.2, 0.9, 39.0]
     assert axis(given, "mu_2").field.words == "coefficient of friction at plane 2"
     assert "mu_1" not in planar(PAPER).varied
@@ -104,7 +105,8 @@ def test_planes_together_and_one_by_one():
 
 def test_several_at_once():
     given = rotor()
-    got = given.replace(gamma=0.3, speed=100.0, mu=0.25, planes=[[1.0, 0.1], [1.0, 0.0]])
+    planes = touchdowns([[1.0, 0.1], [1.0, 0.0]], [0.1, 0.2], [0.9, 0.9], [30, 40])
+    got = given.replace(gamma=0.3, speed=100.0, mu=0.25, touchdowns=planes)
     assert got.value("gamma") == pytest.approx(0.3, rel=1e-14), "physical parameters are set first"
     assert got.value("omega") == pytest.approx(given.value("omega") * 1.842, rel=1e-14)
     assert (got.scales.speed, got.value("friction"), got.planes[0, 1]) == (100.0, 0.25, 0.1)
@@ -152,7 +154,10 @@ def test_rates_of_one_coordinate_are_those_of_the_planar_rotor(name):
 
 @pytest.mark.parametrize("name", rotor().varied)
 def test_rates_are_the_slopes_of_the_equations_of_motion(name):
-    along, here = axis(rotor(), name), rotor(restitution=[0.9, 0.9], friction=[0.1, 0.1], drive=[30, 30])
+    along, here = (
+        axis(rotor(), name),
+        rotor(touchdowns=touchdowns([[1.0, 0.5], [1.0, -0.4]], [0.1, 0.1], [0.9, 0.9], [30, 30])),
+    )
     step = 1e-5 * along.value(here)
     before, after = (along.move(here, along.value(here) + side) for side in (-step, step))
     found = here.rates(name)
@@ -166,8 +171,10 @@ def test_rates_are_the_slopes_of_the_equations_of_motion(name):
     by_coordinate = slope(lambda one: -np.linalg.solve(one.mass, np.hstack([one.stiffness, one.damping])))
     np.testing.assert_allclose(found.accelerations, by_coordinate, **near)
     np.testing.assert_allclose(found.force, slope(lambda one: np.linalg.solve(one.mass, one.forcing)), **near)
-    by_law = slope(lambda one: np.array([one.friction, one.restitution, one.drive]))
-    np.testing.assert_allclose([found.friction, found.restitution, found.drive], by_law, **near)
+    by_law = slope(
+        lambda one: np.array([one.system.arrays[name] for name in ("friction", "restitution", "surface_speed")])
+    )
+    np.testing.assert_allclose([found.friction, found.restitution, found.surface_speed], by_law, **near)
 
 
 def test_no_rates_where_there_is_nothing_to_multiply():

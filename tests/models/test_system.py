@@ -8,6 +8,7 @@ from machines import PAPER, random_parameters
 from scipy.linalg import expm
 
 from carom.core.layout import rotor_record
+from carom.core.wall import Wall
 from carom.models import Jeffcott, System, second_order_system
 
 
@@ -29,7 +30,7 @@ def modal(random, count):
         columns=random.normal(size=(modes, 1)) + 0j,
         friction=np.array([0.1]),
         restitution=np.array([0.8]),
-        drive=np.array([30.0]),
+        surface_speed=np.array([30.0]),
     )
     return System(arrays, rest, shapes), reading
 
@@ -77,9 +78,7 @@ def test_a_second_order_system_keeps_its_equation():
         alpha, beta, force = random.normal(size=3) + 1j * random.normal(size=3)
         roots = np.roots([1.0, alpha, beta])
         lower, upper = sorted(map(complex, roots), key=lambda root: root.real)
-        system = second_order_system(
-            exponents=(lower, upper), equilibrium=force / beta, friction=0.1, restitution=0.5, drive=3.0
-        )
+        system = second_order_system(exponents=(lower, upper), equilibrium=force / beta, wall=Wall(0.1, 0.5, 3.0))
         position, velocity = random.normal(size=2) + 1j * random.normal(size=2)
         amplitudes = system.amplitudes(complex(position), complex(velocity))
         acceleration = system.arrays.acceleration_rows[0] @ amplitudes
@@ -108,7 +107,9 @@ def test_contacts_are_the_fields_of_the_record():
     arrays = Jeffcott(PAPER).system.arrays
     (contact,) = Jeffcott(PAPER).system.contacts
     names = {"offset": "offsets", "row": "rows", "rate_row": "rate_rows"}
-    for name, value in contact._asdict().items():
+    for name, value in {**contact._asdict(), **contact.wall._asdict()}.items():
+        if name == "wall":
+            continue
         field = arrays.columns.T if name == "column" else getattr(arrays, names.get(name, name))
         assert np.array_equal(value, field[0])
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from compilation import sized
-from linear_rotors import random_rotor, tilting, to_fixed
+from linear_rotors import random_rotor, tilting, to_fixed, touchdowns
 
 from carom.closed_forms.equilibria import find_equilibria
 from carom.models import LinearRotor
@@ -124,7 +124,7 @@ def test_an_impulse_in_newton_seconds():
     matrix = np.diag([1.0, inertia / (mass * arm**2)])
     rotor = LinearRotor.in_fixed_frame(
         mass=matrix, damping=0.01 * np.eye(2), stiffness=0.2 * np.eye(2), forcing=np.zeros(2),
-        planes=[[1.0, 1.0]], friction=[0.0], restitution=[0.6], drive=[150.0],
+        touchdowns=touchdowns([[1.0, 1.0]], [0.0], [0.6], [150.0]),
         translation=[1.0, 0.0], scales=Scales(mass=mass, clearance=clearance, speed=speed),
     )  # fmt: skip
     motion = simulate(rotor, State(np.zeros(2, complex), np.array([0.7, 0.3 + 0j])), 4.0)

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 import pytest
-from linear_rotors import random_rotor, tilting
+from linear_rotors import random_rotor, tilting, touchdowns
 from machines import PAPER
 from sliding_motions import ahead_of, assert_slides_to_the_rub
 
@@ -173,10 +173,7 @@ def test_multiplicities_of_any_rotor_are_those_of_the_planar_one(gamma):
         damping=np.diag([gamma, 0.2]),
         stiffness=np.diag([one.omega**2, 0.7]),
         forcing=[one.rho * np.exp(1j * one.phi), 0.3],
-        planes=[[1.0, 0.0]],
-        friction=[one.mu],
-        restitution=[one.d],
-        drive=[one.radius_ratio + 1.0],
+        touchdowns=touchdowns([[1.0, 0.0]], [one.mu], [one.d], [one.radius_ratio + 1.0]),
     )
     orbit = carom.find_orbits(one)["B1,d"].departure
     for nudge in (0.99, 1.005):
@@ -198,10 +195,7 @@ def test_a_motion_that_passes_by_a_repelling_orbit_goes_on():
         damping=[[one.gamma]],
         stiffness=[[one.omega**2]],
         forcing=[one.rho * np.exp(1j * one.phi)],
-        planes=[[1.0], [0.1]],
-        friction=[one.mu] * 2,
-        restitution=[one.d] * 2,
-        drive=[one.radius_ratio + 1.0] * 2,
+        touchdowns=touchdowns([[1.0], [0.1]], [one.mu] * 2, [one.d] * 2, [one.radius_ratio + 1.0] * 2),
     )
     system, contact = rotor.system, np.array([0, -1])
     before = saddle.section.state

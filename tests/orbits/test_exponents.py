@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 import pytest
+from linear_rotors import touchdowns
 from scipy.linalg import expm
 from scipy.optimize import brentq
 
@@ -263,10 +264,7 @@ def test_a_coordinate_that_feels_no_contact_adds_its_own_rates():
         damping=np.diag([PAPER.gamma, 0.3]),
         stiffness=np.diag([PAPER.omega**2, 0.7]),
         forcing=[PAPER.rho * np.exp(1j * PAPER.phi), 0.3],
-        planes=[[1.0, 0.0]],
-        friction=[PAPER.mu],
-        restitution=[PAPER.d],
-        drive=[PAPER.radius_ratio + 1.0],
+        touchdowns=touchdowns([[1.0, 0.0]], [PAPER.mu], [PAPER.d], [PAPER.radius_ratio + 1.0]),
         translation=[1.0, 0.0],
     )
     start = State(np.array([orbit.departure.position, 0.1]), np.array([orbit.departure.velocity, 0.0]))

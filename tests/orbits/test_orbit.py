@@ -5,6 +5,7 @@ from __future__ import annotations
 import mpmath
 import numpy as np
 import pytest
+from linear_rotors import touchdowns
 
 from carom.models import Jeffcott, LinearRotor
 from carom.motions import State, simulate
@@ -169,10 +170,9 @@ def tilting_too(coupling: float) -> LinearRotor:
         stiffness=np.array([[PAPER.omega**2, coupling], [coupling, 0.9]]),
         gyroscopic=np.diag([0.0, 0.2]),
         forcing=np.array([PAPER.rho * np.exp(1j * PAPER.phi), 0.0]),
-        planes=np.array([[1.0, 0.0], [0.3, 0.4]]),
-        friction=[PAPER.mu] * 2,
-        restitution=[PAPER.d] * 2,
-        drive=[PAPER.radius_ratio + 1.0] * 2,
+        touchdowns=touchdowns(
+            np.array([[1.0, 0.0], [0.3, 0.4]]), [PAPER.mu] * 2, [PAPER.d] * 2, [PAPER.radius_ratio + 1.0] * 2
+        ),
     )
 
 

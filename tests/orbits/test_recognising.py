@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from linear_rotors import touchdowns
 
 from carom.models import Jeffcott, LinearRotor
 from carom.motions import State, simulate
@@ -110,10 +111,12 @@ def test_a_plane_that_is_never_touched_changes_no_orbit(machine, impacts, touche
         damping=np.diag([machine.gamma, 0.3]),
         stiffness=np.diag([machine.omega**2, 0.7]),
         forcing=[machine.rho, 0.3],
-        planes=[[1.0, 0.0], [0.0, 0.1]][:: 1 - 2 * touched],
-        friction=[machine.mu] * 2,
-        restitution=[machine.d] * 2,
-        drive=[machine.radius_ratio + 1.0] * 2,
+        touchdowns=touchdowns(
+            [[1.0, 0.0], [0.0, 0.1]][:: 1 - 2 * touched],
+            [machine.mu] * 2,
+            [machine.d] * 2,
+            [machine.radius_ratio + 1.0] * 2,
+        ),
     )
     motion = simulate(rotor, State.of([0.1, 0.0], [-1.0 - 1.0j, 0.1]), settle=True)
     assert motion.multiplicity == impacts

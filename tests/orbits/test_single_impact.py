@@ -383,12 +383,14 @@ def stopped_slip_orbit(parameters: Parameters, period: float) -> tuple[complex, 
     With the impulse ``J = (1 + d)ṙ + iv`` the return needs ``ṙ + iθ̇ = −a₂₂J``, linear in ``ṙ`` and ``v``, and ``U* = 1 + a₁₂J``.
     """
     back = flight_return(parameters, period)
-    drive, restored = parameters.radius_ratio + 1.0, 1.0 + parameters.d
+    surface_speed, restored = parameters.radius_ratio + 1.0, 1.0 + parameters.d
     alpha, beta = back[1, 1].real, back[1, 1].imag
-    radial, slip = np.linalg.solve([[1.0 + restored * alpha, -beta], [restored * beta, 1.0 + alpha]], [0.0, drive])
+    radial, slip = np.linalg.solve(
+        [[1.0 + restored * alpha, -beta], [restored * beta, 1.0 + alpha]], [0.0, surface_speed]
+    )
     if radial <= 0.0 or parameters.mu * restored * radial < abs(slip):
         return None
-    return 1.0 + back[0, 1] * complex(restored * radial, slip), radial, slip - drive
+    return 1.0 + back[0, 1] * complex(restored * radial, slip), radial, slip - surface_speed
 
 
 def backward_slip_orbit(

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from linear_rotors import touchdowns
 
 import carom as cm
 from carom.disturbances import AnyState, BaseShock, BladeLoss, Sample, VelocityKick
@@ -98,10 +99,7 @@ def test_any_parameter_of_any_model():
         damping=[[0.4]],
         stiffness=[[1.5]],
         forcing=[0.1],
-        planes=[[1.0]],
-        friction=[0.1],
-        restitution=[0.6],
-        drive=[30.0],
+        touchdowns=touchdowns([[1.0]], [0.1], [0.6], [30.0]),
     )
     name = next(name for name in rotor.varied if "friction" in name)
     found = find_recovery(rotor, name, [Sample(VelocityKick(0.8), 60)], within=(0.02, 0.9))

@@ -54,7 +54,7 @@ def settled_motion(motion: Trajectory) -> SettledMotion:
     outcome, motion = motion.outcome, seen_in_contact(motion)
     if outcome is Outcome.ROLLING:
         return SettledMotion(
-            motion, outcome, period=2.0 * math.pi / float(motion.rotor.system.arrays.drive[motion.plane])
+            motion, outcome, period=2.0 * math.pi / float(motion.rotor.system.arrays.surface_speed[motion.plane])
         )
     if outcome not in REPEATING:
         resting = outcome is Outcome.LEVITATED or (

@@ -217,13 +217,13 @@ def known_starts(machine: Subject, orbits: Sequence[Orbit]) -> tuple[Start, ...]
             starts += [Start("rub", State(rub.position, 1j * speed * rub.position), words) for speed in speeds]
     arrays, runaway = rotor.system.arrays, known_of(rotor).runaway
     if runaway < math.inf:
-        speed = min(1.0 + 1.001 * runaway, float(arrays.drive[0]))
+        speed = min(1.0 + 1.001 * runaway, float(arrays.surface_speed[0]))
         starts.append(_whirling(rotor, 0, speed, "beyond the runaway speed"))
     for plane in np.flatnonzero(
         (arrays.friction > 0.0) & (np.abs(arrays.mobility) <= 1.0 + ON_WALL).all(axis=0)
     ).tolist():
         at = f" at plane {plane}" if len(arrays.rows) > 1 else ""
-        starts.append(_whirling(rotor, plane, float(arrays.drive[plane]), f"rolling{at}"))
+        starts.append(_whirling(rotor, plane, float(arrays.surface_speed[plane]), f"rolling{at}"))
     return tuple(starts)
 
 

@@ -15,7 +15,6 @@ from carom.bifurcations.points import Bifurcation
 from carom.bifurcations.solutions import Solution
 from carom.models import Model
 from carom.models.axes import Axis
-from carom.orbits.admissibility import SLIPS
 from carom.orbits.names import CountedName, OrbitName
 from carom.orbits.orbit import Orbit
 from carom.orbits.shooting import Start, closed_flights, converged, links_of, unpack
@@ -105,7 +104,7 @@ class OrbitBranch(Result):
     def numbers_at(self, value: float) -> Numbers:
         """Parameters of the planar rotor at a value of the parameter; with negative ``mu`` for orbits with backward slip."""
         numbers = Numbers.of(self.rotor.parameters).moved(self.parameter, value)
-        return with_slip(numbers, SLIPS[self.word[0].kind])
+        return with_slip(numbers, self.word[0].kind.sense)
 
     @cached_property
     def orbits(self) -> tuple[Orbit, ...]:

@@ -7,12 +7,13 @@ from collections.abc import Callable
 import numpy as np
 
 from carom.bifurcations.points import OF_CONTACT
-from carom.core.impact import set_on_wall
+from carom.core.friction import slip_of, spare_friction
 from carom.core.margins import highest_point
+from carom.core.wall import set_on_wall
 from carom.models import Model
 from carom.motions.starts import State
 from carom.motions.trajectories import simulate
-from carom.orbits.admissibility import INSTANT, SLIPS, departure
+from carom.orbits.admissibility import INSTANT, departure
 from carom.orbits.orbit import Orbit, orbit_near
 from carom.orbits.recognising import orbit_of_whirl, segments_of
 from carom.orbits.shooting import Start
@@ -129,7 +130,7 @@ def _with_impact(orbit: Orbit) -> tuple[Word, Start]:
     after = departure(orbit.rotor, orbit.word[i], nodes[i])
     touching = orbit.rotor.system.fly(after, np.array(top))[None]
     position, velocity = orbit.rotor.system.at_plane(touching[0], plane)
-    slip = float(arrays.drive[plane]) + float((np.conj(position) * velocity).imag)
+    slip = slip_of(complex(np.conj(position) * velocity), orbit.rotor.system.contacts[plane].wall)
     struck = Segment(Kind.IMPACT_FORWARD if slip > 0.0 else Kind.IMPACT_BACKWARD, plane)
     word = Word((*orbit.word[: i + 1], struck, *orbit.word[i + 1 :]))
     states = np.insert(orbit.nodes, i + 1, orbit.rotor.system.states_of(touching)[0], axis=0)
@@ -158,13 +159,12 @@ def _with_other_slip(orbit: Orbit) -> tuple[Word, Start]:
     gaps = []
     for i, segment in enumerate(orbit.word):
         if segment.kind.is_impact:
-            contact, section = contacts[segment.plane], orbit.sections[i]
-            taken = contact.friction * (1.0 + contact.restitution) * section.radial_speed
-            slip = contact.drive + section.angular_speed
-            gaps.append((abs(abs(slip) - taken), i, slip))
+            wall, section = contacts[segment.plane].wall, orbit.sections[i]
+            local = complex(section.radial_speed, section.angular_speed)
+            gaps.append((abs(spare_friction(local, wall)), i, slip_of(local, wall)))
     _, i, slip = min(gaps)
     slides = Kind.IMPACT_FORWARD if slip > 0.0 else Kind.IMPACT_BACKWARD
-    changed = Segment(Kind.IMPACT_STOPPED if SLIPS[orbit.word[i].kind] else slides, orbit.word[i].plane)
+    changed = Segment(Kind.IMPACT_STOPPED if orbit.word[i].kind.sense else slides, orbit.word[i].plane)
     return Word((*orbit.word[:i], changed, *orbit.word[i + 1 :])), Start(orbit.nodes, orbit.durations)
 
 

@@ -7,9 +7,9 @@ from itertools import pairwise
 
 import numpy as np
 
-from carom.core.contact_series import AWAY
 from carom.core.fate import memory
 from carom.core.layout import rub_workspace
+from carom.core.phases import AWAY
 from carom.core.rub import fly_or_rub_all
 from carom.models import Model
 from carom.motions.trajectories import EventLog, follow

@@ -18,7 +18,8 @@ from carom.continuation import Watch
 from carom.continuation.equations import applied
 from carom.core.planar import flight_profile
 from carom.core.rub import wall_push
-from carom.core.segments import LEAST_PUSH, strike
+from carom.core.segments import LEAST_PUSH
+from carom.core.variation import strike
 from carom.models import Model
 from carom.models.axes import Axis
 from carom.orbits.admissibility import departure
@@ -84,7 +85,7 @@ class FamilyPoint:
         if not self.word.flies:
             return float(self.links.landings.min())
         system = self.rotor.system
-        struck = [i for i, plane in enumerate(self.word.planes) if not system.contacts[plane].restitution]
+        struck = [i for i, plane in enumerate(self.word.planes) if not system.contacts[plane].wall.restitution]
         nodes = system.amplitudes_of(self.links.start.nodes[struck])
         left = (departure(self.rotor, self.word[i], node) for i, node in zip(struck, nodes, strict=True))
         pushes = (wall_push(system.arrays, self.word[i].plane, each)[0] for i, each in zip(struck, left, strict=True))
@@ -95,7 +96,7 @@ class FamilyPoint:
         """What changes its sign where the radius between impacts of a planar rotor gains a maximum and a minimum."""
         system, (nodes, durations) = self.rotor.system, self.links.start
         (after,) = system.amplitudes_of(nodes)
-        strike(system.arrays, 0, self.word.kinds[0], after, np.empty((0, 2), complex))
+        strike(system.arrays, 0, self.word[0].kind.sense, after, np.empty((0, 2), complex))
         (slow, fast), (driving, driven) = system.exponents.tolist(), after.tolist()
         at = system.arrays["offsets"][0], driven, driving, system.arrays["restitution"][0]
         return float(flight_profile(slow, fast, *at, durations[0], self.margins.approach)[2])
@@ -270,7 +271,7 @@ class Family:
         """Whether orbits of the word can have special points of a kind."""
         if not self.word.flies or kind not in OF_CONTACT:
             return True
-        return kind == ONSET and any(not contact.restitution for contact in self.rotor.system.contacts)
+        return kind == ONSET and any(not contact.wall.restitution for contact in self.rotor.system.contacts)
 
     def _nearness(self, u: np.ndarray, p: float) -> float:
         """Above zero as long as the orbit is a motion, or not far from one."""

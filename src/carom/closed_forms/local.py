@@ -28,6 +28,7 @@ import numpy as np
 from carom.arguments import checked
 from carom.closed_forms.periods import PeriodCondition
 from carom.core.flow import fly_all
+from carom.core.wall import Wall
 from carom.models import Subject, System, jeffcott_of, second_order_system
 from carom.outcome import InputError
 
@@ -82,9 +83,7 @@ class ContactSystem:
         return second_order_system(
             exponents=self.exponents,
             equilibrium=self.equilibrium / self.wall,
-            friction=self.friction,
-            restitution=self.restitution,
-            drive=np.inf,
+            wall=Wall(self.friction, self.restitution, np.inf),
         )
 
     @property

@@ -9,7 +9,10 @@ Nothing here knows units, files or results.  A kernel sees a rotor as the arrays
 ``table``            constants of a block of flight, for the search of crossings
 ``block``            one block of flight: possible roots, state at a time
 ``events``           certified first crossing of the wall
-``impact``           laws of impact and friction
+``wall``             numbers of a wall, and planes at it
+``laws``             laws of a wall along its normal
+``friction``         arrivals and lasting contact with Coulomb friction
+``phases``           states of contact of a plane
 ``joint``            impacts of several planes in one instant
 ``contact_series``   lasting contact as Taylor series
 ``taylor``           length of a step, sums and zeros of Taylor series

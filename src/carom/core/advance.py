@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import math
-
-from carom.core.contact_series import AWAY, FLIGHT
 from carom.core.events import INSIDE, LEAVING, search
 from carom.core.fate import forget_rub, levitates, recurs
 from carom.core.flow import acceleration, copy, displacement, squared_modulus, velocity
-from carom.core.impact import move_plane, rebound, set_on_wall, unit
+from carom.core.friction import arrival, landing
 from carom.core.joint import join, land_together, strike_together
 from carom.core.layout import kernel, part, passage, shared
+from carom.core.phases import AWAY, FLIGHT, lasts
 from carom.core.planar_proofs import fades_to_rolling, stays_inside
 from carom.core.rub import (
     RESTING,
@@ -24,6 +22,7 @@ from carom.core.rub import (
     wall_push,
 )
 from carom.core.rub_step import NOWHERE, leading_plane, rub_step
+from carom.core.wall import move_plane, set_on_wall, unit, wall_of
 from carom.outcome import Outcome
 
 CLEAR, CONTACT, GRAZING = int(Outcome.CLEAR), int(Outcome.CONTACT), int(Outcome.GRAZING)
@@ -103,7 +102,7 @@ def advance(rotor, table, amplitudes, until, contact, times, phases, planes, bef
         if outcome == CONTACT:
             times[events], planes[events] = time, plane
             for p in range(rotor.rows.shape[0]):
-                phases[events, p] = max(contact[p], FLIGHT)
+                phases[events, p] = FLIGHT if contact[p] == AWAY else contact[p]
             for k in range(state.shape[0]):
                 before[events, k] = work.arrival[k]
                 after[events, k] = state[k]
@@ -124,9 +123,9 @@ def advance(rotor, table, amplitudes, until, contact, times, phases, planes, bef
 def _slides(rotor, contact, amplitudes):
     """Whether the motion is followed by Taylor series: in lasting contact, or next to a wall beside other planes."""
     if rotor.rows.shape[0] == 1:
-        return contact[0] > FLIGHT
+        return lasts(contact[0])
     for plane in range(rotor.rows.shape[0]):
-        if contact[plane] > FLIGHT or (contact[plane] == FLIGHT and _rests(rotor, plane, amplitudes)):
+        if lasts(contact[plane]) or (contact[plane] == FLIGHT and _rests(rotor, plane, amplitudes)):
             return True
     return False
 
@@ -226,7 +225,7 @@ def _loosen(rotor, contact, struck, amplitudes, rub):
     for plane in range(rotor.rows.shape[0]):
         if contact[plane] == AWAY and meets_wall(rotor, plane, amplitudes):
             contact[plane] = FLIGHT
-        if plane != struck and contact[plane] > FLIGHT:
+        if plane != struck and lasts(contact[plane]):
             if not _rests(rotor, plane, amplitudes):
                 contact[plane] = FLIGHT
             else:
@@ -291,7 +290,7 @@ def _meet(rotor, contact, plane, elapsed, memory, work, rub):
     excess = 0.5 * (squared_modulus(normal) - 1.0)
     move_plane(rotor, plane, complex(-excess * normal.real, -excess * normal.imag), work.arrival)
     for other in range(rotor.rows.shape[0]):
-        if contact[other] > FLIGHT:
+        if lasts(contact[other]):
             memory.rubbed = 1
     if (
         memory.patience > 0
@@ -306,9 +305,7 @@ def _meet(rotor, contact, plane, elapsed, memory, work, rub):
     if rotor.rows.shape[0] > 1 and join(rotor, contact, plane, work.arrival, rub):
         strike_together(rotor, work.arrival, work.current, rub)
         return CONTACT
-    local = normal.conjugate() * speed
-    change, _ = rebound(local, rotor.friction[plane], rotor.restitution[plane], rotor.drive[plane])
-    change = normal * change
+    change = normal * arrival(normal.conjugate() * speed, wall_of(rotor, plane))
     for k in range(work.current.shape[0]):
         work.current[k] = work.arrival[k] + rotor.columns[k, plane] * change
     return CONTACT
@@ -339,9 +336,7 @@ def _land(rotor, contact, plane, amplitudes, rub):
         return
     normal = unit(displacement(rotor, plane, amplitudes))
     local = normal.conjugate() * velocity(rotor, plane, amplitudes)
-    slip = rotor.drive[plane] + local.imag
-    share = min(rotor.friction[plane] * max(-local.real, 0.0), abs(slip))
-    change = normal * complex(-local.real, math.copysign(share, slip))
+    change = normal * landing(local, wall_of(rotor, plane))
     for k in range(amplitudes.shape[0]):
         amplitudes[k] += rotor.columns[k, plane] * change
     rest_on_wall(rotor, plane, amplitudes, False)

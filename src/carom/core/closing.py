@@ -21,12 +21,12 @@ import math
 import numpy as np
 
 from carom.core.advance import advance
-from carom.core.contact_series import FLIGHT
 from carom.core.fate import same_state
 from carom.core.flow import copy, displacement, squared_modulus, velocity
-from carom.core.impact import unit
 from carom.core.layout import NEAR, kernel, part, shared
+from carom.core.phases import FLIGHT, lasts
 from carom.core.variation import section_jacobian, set_amplitude_change
+from carom.core.wall import unit
 from carom.outcome import Outcome
 
 EVENT_LIMIT = int(Outcome.EVENT_LIMIT)
@@ -224,7 +224,7 @@ def _follow_impacts(rotor, table, states, durations, log, memory, work, rub):
             break
         clock += time
         quiet += 1
-        if departed <= FLIGHT and contact[0] <= FLIGHT and _changed(log[4][0], log[5][0]):
+        if not lasts(departed) and not lasts(contact[0]) and _changed(log[4][0], log[5][0]):
             met += 1
             if met > 0:
                 copy(log[4][0], states[met])

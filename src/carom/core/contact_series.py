@@ -5,8 +5,8 @@ With ``|y| = 1`` and ``Re(ȳẏ) = 0`` a contact force ``f`` (per unit of the ma
 
     N = Re(ȳ a) + |ẏ|²,
 
-and the force is ``f = −(1 + iμ sgn v) N y`` while the contact point slips with ``v = drive + Im(ȳẏ)``, and
-``f = −drive² y − a`` while it rolls (``ẏ = −i drive y``).  Products of series are all this needs, so the coefficients
+and the force is ``f = −(1 + iμ sgn v) N y`` while the contact point slips with ``v = surface_speed + Im(ȳẏ)``, and
+``f = −surface_speed² y − a`` while it rolls (``ẏ = −i surface_speed y``).  Products of series are all this needs, so the coefficients
 follow from a recurrence and a step costs the same for any rotor.  For the planar rotor it is
 ``θ̈ = −γ(1 + θ̇) − ρ sin(θ − φ) − μN sgn v`` with ``N = ρ cos(θ − φ) + (1 + θ̇)² − ω²``.
 
@@ -21,17 +21,10 @@ and the second equation of a plane is ``F_p = −μ N_p sgn v_p`` where it slips
 
 from __future__ import annotations
 
+from carom.core.friction import friction_ratio, rolling_force
 from carom.core.layout import ORDER, kernel, part
-from carom.outcome import Phase
-
-FLIGHT, FORWARD_SLIP, BACKWARD_SLIP, ROLLING = (
-    int(Phase.FLIGHT),
-    int(Phase.FORWARD_SLIP),
-    int(Phase.BACKWARD_SLIP),
-    int(Phase.ROLLING),
-)
-AWAY = -1
-"""State of contact of a plane that is not on its wall; on the wall it is a :class:`~carom.outcome.Phase`."""
+from carom.core.phases import ROLLING, lasts, sense_of_phase
+from carom.core.wall import wall_of
 
 
 @kernel
@@ -73,7 +66,7 @@ def _free_motion(rotor, plane, k, work):
     work.position[plane, k] = position + rotor.offsets[plane] if k == 0 else position
     work.speed[plane, k] = speed
     work.free[plane, k] = free
-    push, slip = 0.0, rotor.drive[plane] if k == 0 else 0.0
+    push, slip = 0.0, rotor.surface_speed[plane] if k == 0 else 0.0
     for j in range(k + 1):
         y, v = work.position[plane, j], work.speed[plane, j]
         push += (y.conjugate() * work.free[plane, k - j]).real + (v.conjugate() * work.speed[plane, k - j]).real
@@ -96,11 +89,11 @@ def _force(rotor, phase, k, work):
     """Coefficient ``k`` of the contact force of a rotor with one plane, and of its part along growing angle."""
     force, grip = 0j, 0.0
     if phase == ROLLING:
-        force = -rotor.drive[0] * rotor.drive[0] * work.position[0, k] - work.free[0, k]
-    elif phase > FLIGHT:
+        force = rolling_force(work.position[0, k], work.free[0, k], wall_of(rotor, 0))
+    elif lasts(phase):
         for j in range(k + 1):
-            force -= work.push[0, j] * work.position[0, k - j]
-        force *= complex(1.0, rotor.friction[0] if phase == FORWARD_SLIP else -rotor.friction[0])
+            force += work.push[0, j] * work.position[0, k - j]
+        force *= complex(-1.0, friction_ratio(sense_of_phase(phase), wall_of(rotor, 0)))
     work.force[0, k] = force
     for j in range(k + 1):
         grip += (work.position[0, j].conjugate() * work.force[0, k - j]).imag
@@ -114,17 +107,17 @@ def _coupled_forces(rotor, contact, k, work):
     work.matrix[:] = 0.0
     for p in range(planes):
         work.matrix[2 * p, 2 * p], work.matrix[2 * p + 1, 2 * p + 1] = 1.0, 1.0
-        if contact[p] > FLIGHT:
+        if lasts(contact[p]):
             _balance(rotor, contact, p, k, work)
     eliminate(work.matrix)
     for p in range(planes):
         work.force[p, k], work.grip[p, k] = 0j, 0.0
-        if contact[p] > FLIGHT:
+        if lasts(contact[p]):
             work.push[p, k], work.grip[p, k] = work.matrix[2 * p, 2 * planes], work.matrix[2 * p + 1, 2 * planes]
             for j in range(k + 1):
                 work.force[p, k] += complex(-work.push[p, j], work.grip[p, j]) * work.position[p, k - j]
     for p in range(planes):
-        if contact[p] <= FLIGHT:
+        if not lasts(contact[p]):
             for q in range(planes):
                 work.free[p, k] += rotor.mobility[p, q] * work.force[q, k]
             work.push[p, k] = _push(p, k, work)
@@ -140,9 +133,9 @@ def _balance(rotor, contact, p, k, work):
         for j in range(k + 1):
             along -= (work.position[p, j].conjugate() * work.free[p, k - j]).imag
     else:
-        work.matrix[2 * p + 1, 2 * p] = rotor.friction[p] if contact[p] == FORWARD_SLIP else -rotor.friction[p]
+        work.matrix[2 * p + 1, 2 * p] = -friction_ratio(sense_of_phase(contact[p]), wall_of(rotor, p))
     for q in range(contact.shape[0]):
-        if q == p or contact[q] <= FLIGHT:
+        if q == p or not lasts(contact[q]):
             continue
         link = 0j
         for j in range(k + 1):

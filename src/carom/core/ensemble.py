@@ -14,14 +14,14 @@ import numpy as np
 from carom.core.advance import SHORTEST, STALLED, advance
 from carom.core.block import move_to
 from carom.core.closing import PASSES, least_period
-from carom.core.contact_series import AWAY, FLIGHT
 from carom.core.counter import next_number
 from carom.core.fate import doubt, forget, impacts_until_noted, levitates, recurs
 from carom.core.flow import copy, displacement, squared_modulus, velocity
-from carom.core.impact import set_on_wall
 from carom.core.lanes import CLEARED, LATE, OPEN, fly_lanes, surely_flies
 from carom.core.layout import LANES, NEAR, kernel, part, passage
+from carom.core.phases import AWAY, FLIGHT, lasts
 from carom.core.planar_proofs import fades_to_rolling, stays_inside
+from carom.core.wall import set_on_wall
 from carom.outcome import Outcome
 
 EVENT_LIMIT, GRAZING, TIME_REACHED = int(Outcome.EVENT_LIMIT), int(Outcome.GRAZING), int(Outcome.TIME_REACHED)
@@ -221,7 +221,7 @@ def _follow_by_events(task, tools, lane):
         copy(amplitudes, work.current)
         lanes.clock[lane] += time
         lanes.events[lane] += count
-        if departed <= FLIGHT and contact[0] <= FLIGHT and count > 0 and _changed(tools.before[0], tools.after[0]):
+        if not lasts(departed) and not lasts(contact[0]) and count > 0 and _changed(tools.before[0], tools.after[0]):
             lanes.struck[lane] += 1
         lanes.stalled[lane] = lanes.stalled[lane] + 1 if time <= SHORTEST else 0
         if outcome == EVENT_LIMIT and lanes.stalled[lane] == STALLED:

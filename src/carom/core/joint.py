@@ -7,7 +7,7 @@ effective mass of its plane, an impact changes the velocities by
 
 The laws hold at every plane at once.  *Newton's restitution* for several contacts (Moreau 1988): ``ṙ⁺ ≤ −d max(ṙ⁻, 0)``, ``P ≥ 0``,
 and one of the two is an equality.  Friction: ``|F| ≤ μP``; the slip ``v⁺`` vanishes, or ``F = −μP sgn v⁺``.  For a plane alone that is
-the law of :func:`carom.core.impact.rebound`.
+the law of :func:`carom.core.wall.rebound`.
 
 The impulses do the work ``Σ m (−P(ṙ⁻ + ṙ⁺) + F(v⁻ + v⁺))/2`` on the contact points.  Where Newton's restitution would make that
 positive, *Poisson's* is used: a compression with ``ṙ ≤ 0`` and the impulses ``P_c``, then an expansion with at least ``d P_c``, and
@@ -22,11 +22,14 @@ from __future__ import annotations
 
 import math
 
-from carom.core.contact_series import AWAY, FLIGHT, FORWARD_SLIP, ROLLING, eliminate
+from carom.core.contact_series import eliminate
 from carom.core.flow import displacement, squared_modulus, velocity
-from carom.core.impact import unit
+from carom.core.friction import BACKWARD, FORWARD, STOPPED, friction_ratio, rebound, slip_of
+from carom.core.laws.choice import impulse_by_restitution
 from carom.core.layout import kernel, part
+from carom.core.phases import AWAY, ROLLING, lasts, sense_of_phase
 from carom.core.rub import meets_wall
+from carom.core.wall import unit, wall_of
 
 EXACT = 1e-11
 """Error, relative to the largest speeds and impulses, that rounding may leave in the inequalities."""
@@ -36,8 +39,9 @@ NO_GAIN = 1e-11
 HALVINGS = 60
 ONE_INSTANT = 1e-12
 """Distance from its wall within which a plane strikes together with another: that within which a start counts as on the wall."""
-KINDS, STOPPED = 6, 2
-"""Ways in which the laws of a plane can hold: its number is three for a plane that is pressed, else zero, plus that of its slip."""
+SENSES = (FORWARD, BACKWARD, STOPPED)
+KINDS = 2 * len(SENSES)
+"""Ways in which the laws of a plane can hold: with an impulse above the least one or not, and with each sense of the slip."""
 
 
 @kernel
@@ -58,7 +62,7 @@ def strike_together(rotor, before, after, rub):
     planes = rotor.rows.shape[0]
     _load(rotor, before, rub)
     for p in range(planes):
-        rub.aims[p] = -rotor.restitution[p] * max(rub.arrivals[p].real, 0.0)
+        rub.aims[p] = -rebound(max(rub.arrivals[p].real, 0.0), wall_of(rotor, p))
         rub.least[p] = 0.0
         rub.local[p] = rub.arrivals[p]
     if not _resolve(rotor, rub) or _gains(rotor, rub):
@@ -80,9 +84,9 @@ def land_together(rotor, contact, plane, amplitudes, rub):
     landing: along the slip, as the impulse is outward, and no more than the slip.
     """
     _load(rotor, amplitudes, rub)
-    slip = rotor.drive[plane] + rub.arrivals[plane].imag
+    slip = slip_of(rub.arrivals[plane], wall_of(rotor, plane))
     for p in range(rotor.rows.shape[0]):
-        rub.joined[p] = p == plane or contact[p] > FLIGHT
+        rub.joined[p] = p == plane or lasts(contact[p])
     share = math.copysign(rotor.friction[plane], slip)
     if not _set_landing(rotor, contact, plane, share, 0.0, rub):  # planes that always move alike: one of them is enough
         for p in range(rotor.rows.shape[0]):
@@ -115,9 +119,9 @@ def _set_landing(rotor, contact, plane, share, grip, rub):
         if p == plane:
             rub.matrix[2 * p + 1, 2 * p], rub.matrix[2 * p + 1, last] = share, grip
         elif rolls:
-            rub.matrix[2 * p + 1, last] = -(rotor.drive[p] + rub.arrivals[p].imag)
+            rub.matrix[2 * p + 1, last] = -slip_of(rub.arrivals[p], wall_of(rotor, p))
         else:
-            rub.matrix[2 * p + 1, 2 * p] = rotor.friction[p] if contact[p] == FORWARD_SLIP else -rotor.friction[p]
+            rub.matrix[2 * p + 1, 2 * p] = -friction_ratio(sense_of_phase(contact[p]), wall_of(rotor, p))
     eliminate(rub.matrix)
     size = 0.0
     for row in range(last):
@@ -170,11 +174,17 @@ def _compress_and_expand(rotor, share, rub):
     compressed = _resolve(rotor, rub)
     for p in range(planes):
         rub.compression[p] = rub.impulses[p]
-        rub.least[p] = -share * rotor.restitution[p] * rub.impulses[p].real
+        rub.least[p] = -share * _restitution(rub.arrivals[p].real, wall_of(rotor, p)) * rub.impulses[p].real
     expanded = _resolve(rotor, rub)
     for p in range(planes):
         rub.impulses[p] += rub.compression[p]
     return compressed and expanded
+
+
+@part
+def _restitution(speed, wall):
+    """Coefficient of restitution of an arrival with this speed."""
+    return wall.restitution * (impulse_by_restitution(speed, wall) / speed) if speed > 0.0 else wall.restitution
 
 
 @kernel
@@ -191,7 +201,12 @@ def _work(rotor, before, after, impulses, rub):
     for p in range(rotor.rows.shape[0]):
         if rub.joined[p]:
             normal = 0.5 * rotor.masses[p] * impulses[p].real
-            along = 0.5 * rotor.masses[p] * impulses[p].imag * (2.0 * rotor.drive[p] + before[p].imag + after[p].imag)
+            along = (
+                0.5
+                * rotor.masses[p]
+                * impulses[p].imag
+                * (2.0 * rotor.surface_speed[p] + before[p].imag + after[p].imag)
+            )
             work += normal * (before[p].real + after[p].real) + along
             terms += abs(normal) * (abs(before[p].real) + abs(after[p].real)) + abs(along)
     return work, terms
@@ -235,23 +250,24 @@ def _set_equations(rotor, way, rub):
     last = 2 * planes
     rub.matrix[:] = 0.0
     for p in range(planes):
-        pressed, slip = (way % KINDS) // 3, (way % KINDS) % 3
+        kind = way % KINDS
+        pressed, sense = kind >= len(SENSES), SENSES[kind % len(SENSES)]
         way //= KINDS
-        if pressed == 0 and slip > 0 and rub.least[p] == 0.0:
+        if not pressed and sense != SENSES[0] and rub.least[p] == 0.0:
             return False
-        if not rub.joined[p] and pressed + slip > 0:
+        if not rub.joined[p] and kind != 0:
             return False
         rub.matrix[2 * p, 2 * p], rub.matrix[2 * p + 1, 2 * p + 1] = 1.0, 1.0
         rub.matrix[2 * p, last] = rub.least[p]
         for q in range(planes):
             if rub.joined[q]:
-                _write_coupling(rub.matrix, p, q, rub.couplings[p, q], pressed == 1, slip == STOPPED)
-        if pressed == 1:
+                _write_coupling(rub.matrix, p, q, rub.couplings[p, q], pressed, sense == STOPPED)
+        if pressed:
             rub.matrix[2 * p, last] = rub.local[p].real - rub.aims[p]
-        if slip == STOPPED:
-            rub.matrix[2 * p + 1, last] = -(rotor.drive[p] + rub.local[p].imag)
+        if sense == STOPPED:
+            rub.matrix[2 * p + 1, last] = -slip_of(rub.local[p], wall_of(rotor, p))
         else:
-            rub.matrix[2 * p + 1, 2 * p] = rotor.friction[p] if slip == 0 else -rotor.friction[p]
+            rub.matrix[2 * p + 1, 2 * p] = -friction_ratio(sense, wall_of(rotor, p))
     return True
 
 
@@ -273,10 +289,10 @@ def _violation(rotor, rub):
         for q in range(planes):
             after += rub.couplings[p, q] * rub.tried[q]
         rub.tried_after[p] = after
-        push, grip, slip = -rub.tried[p].real, rub.tried[p].imag, rotor.drive[p] + after.imag
+        push, grip, slip = -rub.tried[p].real, rub.tried[p].imag, slip_of(after, wall_of(rotor, p))
         size = max(size, abs(rub.local[p].real) + abs(push) + abs(grip))
         wrong = max(wrong, rub.least[p] - push, after.real - rub.aims[p], abs(grip) - rotor.friction[p] * push)
         # Friction must not push along the slip; a slip that is stopped is zero to the rounding of its terms.
-        slipping = abs(slip) - ROUNDING * (abs(rotor.drive[p]) + abs(after.imag))
+        slipping = abs(slip) - ROUNDING * (abs(rotor.surface_speed[p]) + abs(after.imag))
         wrong = max(wrong, min(slipping, grip if slip > 0.0 else -grip))
     return wrong / size if 0.0 < size < math.inf else math.inf

@@ -16,9 +16,11 @@ import numpy as np
 from carom.core.advance import CHATTER_HEIGHT
 from carom.core.events import MARGIN
 from carom.core.flow import acceleration, displacement, squared_modulus, velocity
+from carom.core.friction import arrival
 from carom.core.lane_search import departure, examine, halley_ratio, look_up, travel
 from carom.core.layout import DEGREE, LANES, LEVELS, WIDTH, kernel, part, record
 from carom.core.vector import align_stack, fma, join, lanes_of, load, store, where
+from carom.core.wall import wall_of
 
 CLEARED, STRUCK, NOTED, LATE, OPEN = 0.0, 1.0, 2.0, 3.0, 4.0
 """What happened to a lane.
@@ -128,7 +130,7 @@ def _move_on(rotor, until, first, lanes, start, depth, free, strikes, end, lower
     speed = fma(upper, rotor.exponents[1], lower)
     # Put the displacement exactly on the wall; the velocity stays.
     upper = upper - position * where(strikes, 0.5 * beyond, 0.0)
-    after = lower + _rebound(position, speed, rotor.friction[0], rotor.restitution[0], rotor.drive[0])
+    after = lower + position * arrival(position.conjugate() * speed, wall_of(rotor, 0))
     quiet = load(lanes.quiet, first)
     noted = struck & (_near_reference(lower, upper, first, lanes) | (quiet + 1.0 >= load(lanes.due, first)))
     plain = struck & ~noted
@@ -193,16 +195,6 @@ def _nudged(time, lower, upper, rates, exponent):
     rate, speed, force = rates
     half = 0.5 * time
     return lower + (rate + rate * exponent * half) * time, upper + (speed + force * half) * time
-
-
-@part
-def _rebound(position, velocity, friction, restitution, drive):
-    """Change of velocity in an impact; see :func:`carom.core.impact.rebound`."""
-    local = position.conjugate() * velocity
-    normal, slip = local.real * (1.0 + restitution), local.imag + drive
-    largest = normal * friction
-    tangential = where(largest < abs(slip), largest, abs(slip))
-    return -(position * join(normal, where(slip >= 0.0, tangential, -tangential)))
 
 
 @part

@@ -10,6 +10,7 @@ from typing import Any, TypeVar
 import numba
 import numpy as np
 from numba.core.registry import cpu_target
+from numba.extending import register_jitable
 
 from carom.core.cache import keep
 from carom.core.intermediate import CallerPipeline, SharedPipeline, serve_kernels, share_machine_code
@@ -45,6 +46,8 @@ The table at so few nodes fits in registers; in return, the power series from a 
 """
 LANE_TERMS = 10
 """Terms of the Taylor series from a node for lanes."""
+_OPTIONS: dict[str, Any] = {"error_model": "numpy", "fastmath": {"contract", "nsz"}}
+"""Arithmetic of kernels."""
 
 
 def rotor_record(
@@ -56,7 +59,9 @@ def rotor_record(
     columns: np.ndarray,
     friction: np.ndarray,
     restitution: np.ndarray,
-    drive: np.ndarray,
+    surface_speed: np.ndarray,
+    law: np.ndarray | None = None,
+    law_number: np.ndarray | None = None,
     masses: np.ndarray | None = None,
 ) -> np.record:
     """A linear rotor with ``N`` moving modes and ``P`` contact planes, as the kernels see it.
@@ -81,8 +86,10 @@ def rotor_record(
         Change of the amplitudes by an impulse at a plane that changes its velocity by one.
     friction, restitution : ndarray, shape (P,)
         Coulomb friction coefficient and coefficient of restitution of the planes.
-    drive : ndarray, shape (P,)
+    surface_speed : ndarray, shape (P,)
         Slip velocity of a rotor at rest in this frame, in clearances per unit time.
+    law, law_number : ndarray, shape (P,), optional
+        Law of each wall along its normal, and the law's own number (:class:`~carom.core.wall.Wall`).  Rigid by default.
     masses : ndarray, shape (P,), optional
         Effective mass ``1/(W M⁻¹ Wᴴ)`` of each plane: the impulse that changes its velocity by one.  Ones by default.
 
@@ -124,7 +131,9 @@ def rotor_record(
         "weights": (np.abs(rows) ** 2).sum(axis=1),
         "friction": friction,
         "restitution": restitution,
-        "drive": drive,
+        "surface_speed": surface_speed,
+        "law": np.zeros(planes) if law is None else law,
+        "law_number": np.zeros(planes) if law_number is None else law_number,
         "masses": np.ones(planes) if masses is None else masses,
     }
     layout = _rotor_layout(modes, planes)
@@ -150,7 +159,9 @@ def _rotor_layout(modes: int, planes: int) -> np.dtype:
             ("columns", COMPLEX, (modes, planes)),
             ("mobility", COMPLEX, (planes, planes)),
             ("weights", REAL, (planes,)),
-            *((name, REAL, (planes,)) for name in ("friction", "restitution", "drive", "masses")),
+            *((name, REAL, (planes,)) for name in ("friction", "restitution", "surface_speed")),
+            ("law", np.dtype(np.int64), (planes,)),
+            *((name, REAL, (planes,)) for name in ("law_number", "masses")),
         )
     )
 
@@ -329,6 +340,12 @@ def part(function: Kernel) -> Kernel:
     return _compile(function, forceinline=True)
 
 
+def formula(function: Kernel) -> Kernel:
+    """Let kernels call a function of numbers, inline; for Python, and for arrays, it stays the function that it is."""
+    formula_in_kernels: Kernel = register_jitable(**_OPTIONS, forceinline=True)(function)
+    return formula_in_kernels
+
+
 def passage(function: Kernel) -> Kernel:
     """Insert a section of a kernel where it is called, in one place; it is a separate function for readability only."""
     return _compile(function, inline="always")
@@ -340,7 +357,7 @@ def _compile(
     serve: Callable[[Any], None] = serve_kernels,
     **more: bool | str,
 ) -> Kernel:
-    options = {"nopython": True, "nogil": True, "error_model": "numpy", "fastmath": {"contract", "nsz"}, **more}
+    options = {**_OPTIONS, "nopython": True, "nogil": True, **more}
     compiled = numba.jit(**options, no_cfunc_wrapper=True, pipeline_class=pipeline)(function)
     if compiled is not function:  # with the compiler switched off, jit returns the function itself
         keep(compiled)

@@ -6,12 +6,15 @@ import math
 
 import numpy as np
 
-from carom.core.contact_series import AWAY, BACKWARD_SLIP, FORWARD_SLIP, ROLLING, rub_series
+from carom.core.contact_series import rub_series
 from carom.core.flow import acceleration, copy, displacement, flight_increments, squared_modulus, velocity
-from carom.core.impact import unit
+from carom.core.friction import BACKWARD, FORWARD, margin_of_slip, slip_of, spare_friction, spare_grip
 from carom.core.layout import ORDER, kernel, part
-from carom.core.segments import IMPACT_BACKWARD, IMPACT_STOPPED, LIFT, ROLL, SLIDE_BACKWARD, SLIDE_FORWARD, strike
+from carom.core.phases import AWAY, sense_of_phase
+from carom.core.segments import LIFT, ROLL, SLIDE_BACKWARD, SLIDE_FORWARD, phase_of, sense_after
 from carom.core.taylor import series_step, sum_series
+from carom.core.variation import strike
+from carom.core.wall import local_velocity, unit, wall_of
 
 SAMPLES, PER_RADIAN = 32, 10.0
 """Samples of a flight in the search for its highest point: at least, and per ``|λ|T``."""
@@ -30,17 +33,18 @@ AT_EDGE = 1e-9
 
 @kernel
 def local_motion(rotor, planes, states):
-    """Of each state (m, N) at its plane (m,): ``|y|² − 1``, radial speed, slip, normal force and pull along the wall."""
-    local = np.empty((states.shape[0], 5))
+    """Of each state (m, N) at its plane (m,): ``|y|² − 1``, radial speed, slip, normal force, pull along the wall and spare friction."""
+    local = np.empty((states.shape[0], 6))
     for i in range(states.shape[0]):
         y, v = displacement(rotor, planes[i], states[i]), velocity(rotor, planes[i], states[i])
         a = acceleration(rotor, planes[i], states[i])
         normal = unit(y)
         local[i, 0] = squared_modulus(y) - 1.0
         local[i, 1] = (normal.conjugate() * v).real
-        local[i, 2] = rotor.drive[planes[i]] + (normal.conjugate() * v).imag
+        local[i, 2] = slip_of(normal.conjugate() * v, wall_of(rotor, planes[i]))
         local[i, 3] = (normal.conjugate() * a).real + (normal.conjugate() * v).imag ** 2
         local[i, 4] = (normal.conjugate() * a).imag
+        local[i, 5] = spare_friction(normal.conjugate() * v, wall_of(rotor, planes[i]))
     return local
 
 
@@ -70,17 +74,16 @@ def least_margins(rotor, kinds, planes, nodes, durations, landings):
     radius, approach, slip, push, cone = np.inf, np.inf, np.inf, np.inf, np.inf
     after, still = np.empty(nodes.shape[1], np.complex128), np.empty((0, nodes.shape[1]), np.complex128)
     for i in range(m):
-        radial, drift, pressed, pull = local[i, 1], local[i, 2], local[i, 3], local[i, 4]
-        friction = rotor.friction[planes[i]]
-        if kinds[i] < LIFT and friction > 0.0:
-            taken = friction * (1.0 + rotor.restitution[planes[i]]) * radial
-            left = (-drift if kinds[i] == IMPACT_BACKWARD else drift) - taken
-            slip = min(slip, taken - abs(drift) if kinds[i] == IMPACT_STOPPED else left)
+        radial, pressed, pull = local[i, 1], local[i, 3], local[i, 4]
+        wall = wall_of(rotor, planes[i])
+        if kinds[i] < LIFT and wall.friction > 0.0:
+            slip = min(slip, margin_of_slip(local_velocity(rotor, planes[i], nodes[i]), sense_after(kinds[i]), wall))
         # After a chatter with rebound friction ceases to stop the slip before this limit is reached.
-        if kinds[i] == ROLL and (math.isinf(landings[i - 1]) or rotor.restitution[planes[i]] == 0.0):
-            cone = min(cone, friction * pressed - abs(pull))
-        if kinds[i] >= SLIDE_FORWARD and kinds[i] != ROLL and kinds[i - 1] == SLIDE_FORWARD + SLIDE_BACKWARD - kinds[i]:
-            cone = min(cone, (pull if kinds[i] == SLIDE_FORWARD else -pull) - friction * pressed)
+        if kinds[i] == ROLL and (math.isinf(landings[i - 1]) or wall.restitution == 0.0):
+            cone = min(cone, spare_grip(pressed, -pull, FORWARD, wall), spare_grip(pressed, -pull, BACKWARD, wall))
+        turned = kinds[i - 1] == SLIDE_FORWARD if kinds[i] == SLIDE_BACKWARD else kinds[i - 1] == SLIDE_BACKWARD
+        if turned and (kinds[i] == SLIDE_FORWARD or kinds[i] == SLIDE_BACKWARD):
+            cone = min(cone, -spare_grip(pressed, -pull, sense_of_phase(phase_of(kinds[i])), wall))
         if kinds[i] >= SLIDE_FORWARD:
             begins = landings[i - 1]
             push = min(push, begins if begins < 0.0 else pressed)
@@ -89,7 +92,7 @@ def least_margins(rotor, kinds, planes, nodes, durations, landings):
         if kinds[i] <= LIFT:
             copy(nodes[i], after)
             if kinds[i] < LIFT:
-                strike(rotor, planes[i], kinds[i], after, still)
+                strike(rotor, planes[i], sense_after(kinds[i]), after, still)
             for plane in range(rotor.rows.shape[0]):
                 height, _ = highest_point(rotor, plane, after, durations[i])
                 if height > -radius:
@@ -118,10 +121,10 @@ def contact_margins(rotor, kinds, planes, nodes, durations, rub):
     for i in range(kinds.shape[0]):
         if kinds[i] < SLIDE_FORWARD:
             continue
-        plane, rolls, backward = planes[i], kinds[i] == ROLL, kinds[i] == SLIDE_BACKWARD
-        friction = rotor.friction[plane]
+        plane, rolls, sense = planes[i], kinds[i] == ROLL, sense_of_phase(phase_of(kinds[i]))
+        wall = wall_of(rotor, plane)
         contact[:] = AWAY
-        contact[plane] = ROLLING if rolls else BACKWARD_SLIP if backward else FORWARD_SLIP
+        contact[plane] = phase_of(kinds[i])
         copy(nodes[i], state)
         elapsed = 0.0
         while elapsed < durations[i]:
@@ -131,11 +134,11 @@ def contact_margins(rotor, kinds, planes, nodes, durations, rub):
                 return np.nan, np.nan, np.nan
             push = min(push, _least_inside(rub.push[plane], step))
             for k in range(ORDER + 1):
-                grip = rub.grip[plane, k] if rolls else 0.0
-                rub.first_margin[k] = friction * rub.push[plane, k] - grip
-                rub.second_margin[k] = friction * rub.push[plane, k] + grip
-                if not rolls:
-                    rub.first_margin[k] = -rub.slip[plane, k] if backward else rub.slip[plane, k]
+                if rolls:
+                    rub.first_margin[k] = spare_grip(rub.push[plane, k], rub.grip[plane, k], BACKWARD, wall)
+                    rub.second_margin[k] = spare_grip(rub.push[plane, k], rub.grip[plane, k], FORWARD, wall)
+                else:
+                    rub.first_margin[k] = sense * rub.slip[plane, k]
             if rolls:
                 cone = min(cone, _least_inside(rub.first_margin, step), _least_inside(rub.second_margin, step))
             else:

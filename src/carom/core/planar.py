@@ -33,13 +33,13 @@ def planar_exponents(gamma, omega):
 
 
 @kernel
-def orbit_conditions(gamma, omega, rho, mu, d, drive, period, speed):
+def orbit_conditions(gamma, omega, rho, mu, d, surface_speed, period, speed):
     """Equations of a single-impact orbit with forward slip, and test functions of its bifurcations.
 
     Parameters
     ----------
     gamma, omega, rho, mu, d : float
-    drive : float
+    surface_speed : float
         ``s + 1``.
     period, speed : float
         ``T`` and ``ṙ`` before the impact; the residuals of the equations vanish on an orbit.
@@ -77,7 +77,7 @@ def orbit_conditions(gamma, omega, rho, mu, d, drive, period, speed):
         (q * rate).real,
         lever.real + squared_modulus(lever) * speed,
         rest - 1.0,
-        drive - (turn.imag + mu * (1.0 + d)) * speed,
+        surface_speed - (turn.imag + mu * (1.0 + d)) * speed,
         1.0 + trace + minors + determinant,
         determinant * determinant - determinant * trace + minors - 1.0,
         trace - determinant,

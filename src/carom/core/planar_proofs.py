@@ -16,7 +16,9 @@ import math
 import numpy as np
 
 from carom.core.flow import displacement, squared_modulus, velocity
+from carom.core.friction import spare_friction
 from carom.core.layout import NEAR, kernel, record
+from carom.core.wall import wall_of
 
 TURNS = 32
 """Largest number of turns of the faster mode tried as a period after which the slower mode nearly repeats too."""
@@ -169,9 +171,8 @@ def fades_to_rolling(proofs, rotor, arrival):
     if proofs.fading <= 0.0:
         return False
     local = displacement(rotor, 0, arrival).conjugate() * velocity(rotor, 0, arrival)
-    restitution = rotor.restitution[0]
-    stops = abs(rotor.drive[0] + local.imag) <= rotor.friction[0] * (1.0 + restitution) * local.real
-    return stops and restitution * local.real <= proofs.fading
+    wall = wall_of(rotor, 0)
+    return spare_friction(local, wall) >= 0.0 and wall.restitution * local.real <= proofs.fading
 
 
 @kernel

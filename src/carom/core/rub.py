@@ -11,11 +11,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from carom.core.contact_series import BACKWARD_SLIP, FLIGHT, FORWARD_SLIP, ROLLING, rub_series
+from carom.core.contact_series import rub_series
 from carom.core.flow import acceleration, displacement, flight_increments, squared_modulus, velocity
-from carom.core.impact import set_on_wall, unit
+from carom.core.friction import BACKWARD, FORWARD, STOPPED, arrival_in_sense, friction_ratio, slip_of, spare_grip
 from carom.core.layout import ORDER, kernel, part
+from carom.core.phases import BACKWARD_SLIP, FLIGHT, FORWARD_SLIP, ROLLING, lasts, phase_of_slip, sense_of_phase
 from carom.core.taylor import first_fall, series_step, sum_series
+from carom.core.wall import rigid_wall, set_on_wall, unit, wall_of
 
 ROUNDING = 64 * 2.220446049250313e-16
 """Rounding error of a sum over the modes, relative to the moduli of its terms."""
@@ -49,14 +51,10 @@ def forces_all(rotor, amplitudes, phases, work):
             continue
         rub_series(rotor, phases[i], amplitudes[i], work)
         for plane in range(phases.shape[1]):
-            if phases[i, plane] > FLIGHT:
+            if lasts(phases[i, plane]):
                 push, grip = work.push[plane, 0], work.grip[plane, 0]
                 if phases[i, plane] != ROLLING:
-                    grip = (
-                        -rotor.friction[plane] * push
-                        if phases[i, plane] == FORWARD_SLIP
-                        else rotor.friction[plane] * push
-                    )
+                    grip = friction_ratio(sense_of_phase(phases[i, plane]), wall_of(rotor, plane)) * push
                 forces[i, plane, 0], forces[i, plane, 1] = push, grip
     return forces
 
@@ -64,10 +62,10 @@ def forces_all(rotor, amplitudes, phases, work):
 @part
 def _lasts(contact):
     """Whether there is lasting contact at any plane."""
-    lasts = False
+    found = False
     for plane in range(contact.shape[0]):
-        lasts = lasts or contact[plane] > FLIGHT
-    return lasts
+        found = found or lasts(contact[plane])
+    return found
 
 
 @kernel
@@ -85,15 +83,15 @@ def first_transition(rotor, plane, phase, step, work):
         The phase that follows; the same if nothing changes, or if the slip vanishes and :func:`next_phase` must decide.
     slip_stops : bool
     """
-    friction, push = rotor.friction[plane], work.push[plane]
+    wall, push = wall_of(rotor, plane), work.push[plane]
     rounding = push_rounding(rotor, plane, work.series[0])
     first = first_fall(push, step, rounding)
     following = FLIGHT if first < step else phase
     if phase == ROLLING:
         for k in range(ORDER + 1):
-            work.first_margin[k] = friction * push[k] - work.grip[plane, k]
-            work.second_margin[k] = friction * push[k] + work.grip[plane, k]
-        rounding *= 1.0 + friction
+            work.first_margin[k] = spare_grip(push[k], work.grip[plane, k], BACKWARD, wall)
+            work.second_margin[k] = spare_grip(push[k], work.grip[plane, k], FORWARD, wall)
+        rounding *= 1.0 + wall.friction
         backward = first_fall(work.first_margin, first, rounding)
         forward = first_fall(work.second_margin, backward, rounding)
         if forward < backward:
@@ -188,8 +186,11 @@ def rest_on_wall(rotor, plane, amplitudes, rolling):
     """Remove the rounding errors of ``|y| = 1`` and ``Re(ȳẏ) = 0``, and those of the rolling condition if it rolls."""
     set_on_wall(rotor, plane, amplitudes)
     normal = unit(displacement(rotor, plane, amplitudes))
-    local = normal.conjugate() * velocity(rotor, plane, amplitudes)
-    change = complex(-local.real, -(rotor.drive[plane] + local.imag) if rolling else 0.0) * normal
+    local, wall = (
+        normal.conjugate() * velocity(rotor, plane, amplitudes),
+        rigid_wall(0.0, 0.0, rotor.surface_speed[plane]),
+    )
+    change = normal * arrival_in_sense(local, STOPPED if rolling else FORWARD, wall)
     for m in range(amplitudes.shape[0]):
         amplitudes[m] += rotor.columns[m, plane] * change
 
@@ -282,9 +283,8 @@ def next_phase(rotor, contact, plane, amplitudes, work):
     the direction of the tangential acceleration that friction cannot balance.  With ``μ = 0`` and no such acceleration,
     it continues to slip, in the direction opposite to that of the phase before.
     """
-    position = unit(displacement(rotor, plane, amplitudes))
-    speed = velocity(rotor, plane, amplitudes)
-    slip = rotor.drive[plane] + (position.conjugate() * speed).imag
+    position, wall = unit(displacement(rotor, plane, amplitudes)), wall_of(rotor, plane)
+    slip = slip_of(position.conjugate() * velocity(rotor, plane, amplitudes), wall)
     if abs(slip) > speed_rounding(rotor, plane, amplitudes):
         return FORWARD_SLIP if slip > 0.0 else BACKWARD_SLIP
     if rotor.rows.shape[0] == 1:
@@ -292,10 +292,10 @@ def next_phase(rotor, contact, plane, amplitudes, work):
         pull = (position.conjugate() * acceleration(rotor, plane, amplitudes)).imag
     else:
         push, pull = _rolling_forces(rotor, contact, plane, amplitudes, work)
-    missing = abs(pull) - rotor.friction[plane] * max(push, 0.0)
-    if missing > push_rounding(rotor, plane, amplitudes):
-        return FORWARD_SLIP if pull > 0.0 else BACKWARD_SLIP
-    if rotor.friction[plane] > 0.0:
+    begins = FORWARD if pull > 0.0 else BACKWARD
+    if -spare_grip(max(push, 0.0), -pull, begins, wall) > push_rounding(rotor, plane, amplitudes):
+        return phase_of_slip(begins)
+    if wall.friction > 0.0:
         return ROLLING
     return BACKWARD_SLIP if contact[plane] == FORWARD_SLIP else FORWARD_SLIP
 

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import math
 
-from carom.core.contact_series import AWAY, FLIGHT, FORWARD_SLIP, ROLLING, rub_series
+from carom.core.contact_series import rub_series
 from carom.core.fate import approaches_turn, at_rest, forget_rub, near_rub, never_repeats, same_state
-from carom.core.impact import set_on_wall, unit
 from carom.core.layout import NEAR, kernel, part
+from carom.core.phases import AWAY, FLIGHT, FORWARD_SLIP, ROLLING, lasts
 from carom.core.planar_proofs import absorbed, hastens, runs_away
 from carom.core.rub import first_contact, first_transition, next_phase, rest_on_wall, turn_ahead
 from carom.core.taylor import series_step, sum_series
+from carom.core.wall import set_on_wall, unit
 from carom.outcome import Outcome
 
 CONTACT, GRAZING, TIME_REACHED = int(Outcome.CONTACT), int(Outcome.GRAZING), int(Outcome.TIME_REACHED)
@@ -53,7 +54,7 @@ def rub_step(rotor, contact, amplitudes, horizon, memory, rub):
     # What puts one plane to rest on its wall moves the others: several sweeps leave no more than rounding.
     for sweep in range(1 if rotor.rows.shape[0] == 1 else SWEEPS):
         for plane in range(rotor.rows.shape[0]):
-            if contact[plane] > FLIGHT:
+            if lasts(contact[plane]):
                 rest_on_wall(rotor, plane, amplitudes, contact[plane] == ROLLING or (plane == changed and slip_stops))
                 if contact[plane] != ROLLING:
                     memory.turn_slipped = 1
@@ -92,7 +93,7 @@ def _first_change(rotor, contact, step, rub):
     duration, changed, following, slip_stops = step, NOWHERE, FLIGHT, False
     for plane in range(rotor.rows.shape[0]):
         after, stops = FLIGHT, False
-        if contact[plane] > FLIGHT:
+        if lasts(contact[plane]):
             time, after, stops = first_transition(rotor, plane, contact[plane], duration, rub)
         elif rotor.rows.shape[0] > 1:
             time = first_contact(rotor, plane, contact[plane] == FLIGHT, duration, rub)
@@ -107,7 +108,7 @@ def _first_change(rotor, contact, step, rub):
 def leading_plane(rotor, contact):
     """First plane in lasting contact, whose turns are watched; NOWHERE if there is none."""
     for plane in range(rotor.rows.shape[0]):
-        if contact[plane] > FLIGHT:
+        if lasts(contact[plane]):
             return plane
     return NOWHERE
 
@@ -117,11 +118,11 @@ def _change_contact(rotor, contact, plane, following, slip_stops, amplitudes, me
     """Change the contact of a plane: it lifts off, slips, rolls, or has come to the wall."""
     if slip_stops:
         following = next_phase(rotor, contact, plane, amplitudes, rub)
-    lasted = contact[plane] > FLIGHT
+    lasted = lasts(contact[plane])
     if not lasted:
         set_on_wall(rotor, plane, amplitudes)
     elif following == FLIGHT:
         memory.lifting = plane + 1
-    if rotor.rows.shape[0] > 1 and not (lasted and following > FLIGHT):
+    if rotor.rows.shape[0] > 1 and not (lasted and lasts(following)):
         forget_rub(memory)
     contact[plane] = following

@@ -18,12 +18,14 @@ import math
 
 import numpy as np
 
-from carom.core.contact_series import AWAY, BACKWARD_SLIP, FORWARD_SLIP, ROLLING, rub_series
+from carom.core.contact_series import rub_series
 from carom.core.flow import acceleration, displacement, flight_increments, squared_modulus, velocity
-from carom.core.impact import unit
+from carom.core.friction import BACKWARD, FORWARD, STOPPED, friction_ratio, rolling_force, slip_of, spare_grip
 from carom.core.layout import ORDER, kernel, part
+from carom.core.phases import AWAY, BACKWARD_SLIP, FORWARD_SLIP, ROLLING, sense_of_phase
 from carom.core.taylor import series_step, sum_series
-from carom.core.variation import carry_through_impact, carry_to_wall
+from carom.core.variation import blow, carry_through_impact, carry_to_wall, strike
+from carom.core.wall import move_plane, rigid_wall, unit, wall_of
 
 IMPACT_FORWARD, IMPACT_BACKWARD, IMPACT_STOPPED, LIFT, LAND, SLIDE_FORWARD, SLIDE_BACKWARD, ROLL = range(8)
 """Kinds of segments; the first four are flights."""
@@ -70,7 +72,7 @@ def follow_flights(rotor, basis, to_modes, rest, kinds, planes, targets, nodes, 
             continue
         directions = _set_out(to_modes, rest, nodes[i], moved)
         if kinds[i] < LIFT:
-            strike(rotor, planes[i], kinds[i], moved[last], directions)
+            strike(rotor, planes[i], sense_after(kinds[i]), moved[last], directions)
         flight_increments(rotor, moved, durations[i], increments)
         for row in range(last + 1):
             for k in range(modes):
@@ -98,12 +100,10 @@ def follow_contact(rotor, basis, to_modes, rest, kinds, planes, ends, nodes, dur
     for i in range(kinds.shape[0]):
         if kinds[i] <= LAND:
             continue
-        directions, rolls = _set_out(to_modes, rest, nodes[i], moved), kinds[i] == ROLL
-        _rest(rotor, planes[i], moved[2 * modes], directions, 0.0, rolls)
+        directions, phase = _set_out(to_modes, rest, nodes[i], moved), phase_of(kinds[i])
+        _rest(rotor, planes[i], moved[2 * modes], directions, 0.0, sense_of_phase(phase))
         contact[:] = AWAY
-        contact[planes[i]] = FORWARD_SLIP if kinds[i] == SLIDE_FORWARD else BACKWARD_SLIP
-        if rolls:
-            contact[planes[i]] = ROLLING
+        contact[planes[i]] = phase
         normal = slopes[i, 2 * modes]
         change = _slide(rotor, contact, planes[i], durations[i], moved[2 * modes], directions, rate, normal, rub)
         _hand_over(basis, rest, moved, rate, arrivals[i], slopes[i])
@@ -111,6 +111,14 @@ def follow_contact(rotor, basis, to_modes, rest, kinds, planes, ends, nodes, dur
             values[i] = change
             continue
         values[i] = _condition(rotor, planes[i], ends[i], moved[2 * modes], directions, rate, normal)
+
+
+@part
+def phase_of(kind):
+    """Phase of a segment of lasting contact."""
+    if kind == ROLL:
+        return ROLLING
+    return FORWARD_SLIP if kind == SLIDE_FORWARD else BACKWARD_SLIP
 
 
 @part
@@ -140,63 +148,25 @@ def _hand_over(basis, rest, moved, rate, arrival, slopes):
             arrival[j] += basis[j, k] * moved[2 * modes, k]
 
 
-@kernel
-def strike(rotor, plane, kind, state, directions):
-    """Impact with a given slip case, in place."""
-    position, speed = displacement(rotor, plane, state), velocity(rotor, plane, state)
-    normal, radius = unit(position), math.sqrt(squared_modulus(position))
-    local = normal.conjugate() * speed
-    loss = 1.0 + rotor.restitution[plane]
-    share = -loss * local.real
-    grip = rotor.friction[plane] if kind == IMPACT_FORWARD else -rotor.friction[plane]
-    change = complex(share, grip * share)
+@part
+def sense_after(kind):
+    """Sense of the slip after the impact of a segment that begins with one."""
     if kind == IMPACT_STOPPED:
-        change = complex(share, -(rotor.drive[plane] + local.imag))
-    for row in range(directions.shape[0]):
-        moved = displacement(rotor, plane, directions[row]) - rotor.offsets[plane]
-        turn = (normal.conjugate() * moved).imag / radius
-        swing = normal.conjugate() * velocity(rotor, plane, directions[row]) - 1j * turn * local
-        varied = complex(-loss * swing.real, -grip * loss * swing.real)
-        if kind == IMPACT_STOPPED:
-            varied = complex(-loss * swing.real, -swing.imag)
-        varied = normal * (varied + 1j * turn * change)
-        for k in range(state.shape[0]):
-            directions[row, k] += rotor.columns[k, plane] * varied
-    for k in range(state.shape[0]):
-        state[k] += rotor.columns[k, plane] * (normal * change)
+        return STOPPED
+    return FORWARD if kind == IMPACT_FORWARD else BACKWARD
 
 
 @kernel
-def _rest(rotor, plane, state, directions, grip, rolls):
-    """Put a plane to rest on its wall, in place.
-
-    The radial speed is taken away by an impulse with the given ratio of its part along the wall; if the rotor rolls, the
-    slip is taken away instead.
-    """
+def _rest(rotor, plane, state, directions, friction, sense):
+    """Put a plane to rest on its wall, in place, by an impulse with this friction and sense of the slip."""
     position = displacement(rotor, plane, state)
     normal, radius = unit(position), math.sqrt(squared_modulus(position))
-    scale = 1.0 / rotor.weights[plane]
-    turns = np.empty(directions.shape[0])
     for row in range(directions.shape[0]):
         moved = displacement(rotor, plane, directions[row]) - rotor.offsets[plane]
-        turns[row] = (normal.conjugate() * moved).imag / radius
-        shift = 1j * normal * turns[row] - moved
-        for k in range(state.shape[0]):
-            directions[row, k] += rotor.rows[plane, k].conjugate() * scale * shift
-    for k in range(state.shape[0]):
-        state[k] += rotor.rows[plane, k].conjugate() * scale * (normal - position)
-    local = normal.conjugate() * velocity(rotor, plane, state)
-    change = complex(-local.real, -grip * local.real)
-    if rolls:
-        change = complex(-local.real, -(rotor.drive[plane] + local.imag))
-    for row in range(directions.shape[0]):
-        swing = normal.conjugate() * velocity(rotor, plane, directions[row]) - 1j * turns[row] * local
-        varied = complex(-swing.real, -(swing.imag if rolls else grip * swing.real))
-        varied = normal * (varied + 1j * turns[row] * change)
-        for k in range(state.shape[0]):
-            directions[row, k] += rotor.columns[k, plane] * varied
-    for k in range(state.shape[0]):
-        state[k] += rotor.columns[k, plane] * (normal * change)
+        shift = 1j * normal * ((normal.conjugate() * moved).imag / radius) - moved
+        move_plane(rotor, plane, shift, directions[row])
+    move_plane(rotor, plane, normal - position, state)
+    blow(rotor, plane, rigid_wall(friction, 0.0, rotor.surface_speed[plane]), sense, state, directions)
 
 
 @part
@@ -258,7 +228,8 @@ def _slide(rotor, contact, plane, duration, state, directions, rate, falls, rub)
 def _varied_series(rotor, phase, plane, rub, series, moved, push):
     """Taylor coefficients of a small change of a motion in lasting contact; those of order zero are given."""
     position, speed, free, force = moved[0], moved[1], moved[2], moved[3]
-    grip = complex(1.0, rotor.friction[plane] if phase == FORWARD_SLIP else -rotor.friction[plane])
+    wall = wall_of(rotor, plane)
+    sliding = complex(-1.0, friction_ratio(sense_of_phase(phase), wall))
     for k in range(ORDER):
         position[k], speed[k], free[k], force[k], push[k] = 0j, 0j, 0j, 0j, 0.0
         for m in range(series.shape[1]):
@@ -266,14 +237,14 @@ def _varied_series(rotor, phase, plane, rub, series, moved, push):
             speed[k] += rotor.rate_rows[plane, m] * series[k, m]
             free[k] += rotor.acceleration_rows[plane, m] * series[k, m]
         if phase == ROLLING:
-            force[k] = -rotor.drive[plane] * rotor.drive[plane] * position[k] - free[k]
+            force[k] = rolling_force(position[k], free[k], wall)
         else:
             for j in range(k + 1):
                 y, v = rub.position[plane, j], rub.speed[plane, j]
                 push[k] += (position[k - j].conjugate() * rub.free[plane, j] + y.conjugate() * free[k - j]).real
                 push[k] += 2.0 * (v.conjugate() * speed[k - j]).real
             for j in range(k + 1):
-                force[k] -= grip * (push[j] * rub.position[plane, k - j] + rub.push[plane, j] * position[k - j])
+                force[k] += sliding * (push[j] * rub.position[plane, k - j] + rub.push[plane, j] * position[k - j])
         for m in range(series.shape[1]):
             change = rotor.exponents[m] * series[k, m] + rotor.columns[m, plane] * force[k]
             if rotor.driven[m]:
@@ -285,7 +256,7 @@ def _varied_series(rotor, phase, plane, rub, series, moved, push):
 def _condition(rotor, plane, end, state, directions, rate, normal):
     """Value of the condition at the end; ``normal`` receives its derivatives by the directions and by the duration."""
     y, v, a = displacement(rotor, plane, state), velocity(rotor, plane, state), acceleration(rotor, plane, state)
-    last = directions.shape[0]
+    wall, last = wall_of(rotor, plane), directions.shape[0]
     for row in range(last + 1):
         change = rate if row == last else directions[row]
         dy = displacement(rotor, plane, change) - rotor.offsets[plane]
@@ -293,15 +264,14 @@ def _condition(rotor, plane, end, state, directions, rate, normal):
         dpush = (dy.conjugate() * a + y.conjugate() * da).real + 2.0 * (v.conjugate() * dv).real
         dpull = (dy.conjugate() * a + y.conjugate() * da).imag
         dslip = (dy.conjugate() * v + y.conjugate() * dv).imag
-        normal[row] = _chosen(end, rotor.friction[plane], (y.conjugate() * dy).real, dpush, dpull, dslip)
+        normal[row] = _chosen(end, wall, (y.conjugate() * dy).real, dpush, dpull, dslip)
     push = (y.conjugate() * a).real + squared_modulus(v)
-    slip = rotor.drive[plane] + (y.conjugate() * v).imag
     gap = 0.5 * (squared_modulus(y) - 1.0)
-    return _chosen(end, rotor.friction[plane], gap, push, (y.conjugate() * a).imag, slip)
+    return _chosen(end, wall, gap, push, (y.conjugate() * a).imag, slip_of(y.conjugate() * v, wall))
 
 
 @part
-def _chosen(end, friction, gap, push, pull, slip):
+def _chosen(end, wall, gap, push, pull, slip):
     """The condition of this kind, or its derivative."""
     if end == MEETS_WALL:
         return gap
@@ -310,9 +280,9 @@ def _chosen(end, friction, gap, push, pull, slip):
     if end == NO_SLIP:
         return slip
     if end == CONE_FORWARD:
-        return friction * push - pull
+        return spare_grip(push, -pull, FORWARD, wall)
     if end == CONE_BACKWARD:
-        return friction * push + pull
+        return spare_grip(push, -pull, BACKWARD, wall)
     return 0.0
 
 
@@ -330,8 +300,8 @@ def carry_through_chatter(rotor, plane, arrivals, durations, landing, slip, dire
         Times between the bounces.
     landing : complex array, shape (N,)
         Amplitudes just after the last bounce; overwritten by those of lasting contact.
-    slip : {1, -1, 0}
-        Direction of the slip at the landing; 0 if it rolls.  The last impact has the same, whatever its state says.
+    slip : {FORWARD, BACKWARD, STOPPED}
+        Sense of the slip at the landing.  The last impact has the same, whatever its state says.
     directions : complex array, shape (2N, N)
         Overwritten.
     delays : array, shape (2N,)
@@ -344,6 +314,5 @@ def carry_through_chatter(rotor, plane, arrivals, durations, landing, slip, dire
         carry_to_wall(rotor, plane, durations[bounce], arrivals[bounce + 1], directions, later)
         for row in range(delays.shape[0]):
             delays[row] += later[row]
-    kind = IMPACT_STOPPED if slip == 0 else IMPACT_FORWARD if slip > 0 else IMPACT_BACKWARD
-    strike(rotor, plane, kind, arrivals[-1].copy(), directions)
-    _rest(rotor, plane, landing, directions, slip * rotor.friction[plane], slip == 0)
+    strike(rotor, plane, slip, arrivals[-1].copy(), directions)
+    _rest(rotor, plane, landing, directions, rotor.friction[plane], slip)

@@ -15,10 +15,12 @@ import math
 
 import numpy as np
 
-from carom.core.flow import displacement, squared_modulus, velocity
-from carom.core.impact import unit
+from carom.core.flow import displacement, squared_modulus
+from carom.core.friction import arrival_by_law
 from carom.core.layout import kernel, part
-from carom.core.segments import IMPACT_FORWARD, IMPACT_STOPPED, strike
+from carom.core.segments import sense_after
+from carom.core.variation import strike
+from carom.core.wall import local_velocity, rigid_wall, unit, wall_of
 
 NEGLIGIBLE, MOST_TERMS = 1e-17, 30
 """Size of the first term left out of the power series, relative to the sum, and more terms than that takes."""
@@ -34,7 +36,7 @@ def sensitivity_of_flights(
     force,
     friction,
     restitution,
-    drive,
+    surface_speed,
     kinds,
     planes,
     targets,
@@ -51,7 +53,7 @@ def sensitivity_of_flights(
         Derivative of the accelerations of the coordinates per coordinate, then per rate of a coordinate.
     force : complex array, shape (N/2,)
         Derivative of their constant part.
-    friction, restitution, drive : arrays, shape (P,)
+    friction, restitution, surface_speed : arrays, shape (P,)
         Derivatives of the contact law of each plane.
 
     Returns
@@ -76,12 +78,12 @@ def sensitivity_of_flights(
             state[k] = 0j
             for j in range(modes):
                 state[k] += to_modes[k, j] * (nodes[i, j] - rest[j])
-        normal, change = _impact_change(
-            rotor, plane, kinds[i], state, friction[plane], restitution[plane], drive[plane]
-        )
+        normal, sense = unit(displacement(rotor, plane, state)), sense_after(kinds[i])
+        by_law = rigid_wall(friction[plane], restitution[plane], surface_speed[plane])
+        change = arrival_by_law(local_velocity(rotor, plane, state), sense, wall_of(rotor, plane), by_law)
         for k in range(modes):
             changed[k] = rotor.columns[k, plane] * (normal * change)
-        strike(rotor, plane, kinds[i], state, still)
+        strike(rotor, plane, sense, state, still)
         _respond(rotor, coupling, durations[i], growth, response)
         for k in range(modes):
             end[k], end_change[k] = 0j, response[k, modes]
@@ -112,18 +114,6 @@ def _coupling(basis, to_modes, rest, accelerations, force):
             for k in range(modes):
                 coupling[k, column] += to_modes[k, half + row] * pull
     return coupling
-
-
-@part
-def _impact_change(rotor, plane, kind, state, friction, restitution, drive):
-    """Direction of the displacement at an impact, and the change of the velocity by which it jumps in the frame of the wall."""
-    normal = unit(displacement(rotor, plane, state))
-    radial = (normal.conjugate() * velocity(rotor, plane, state)).real
-    less, share = -restitution * radial, -(1.0 + rotor.restitution[plane]) * radial
-    along = rotor.friction[plane] * less + friction * share
-    if kind == IMPACT_STOPPED:
-        return normal, complex(less, -drive)
-    return normal, complex(less, along if kind == IMPACT_FORWARD else -along)
 
 
 @part

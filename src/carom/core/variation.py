@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
-from carom.core.flow import displacement, flight_increments, velocity
-from carom.core.impact import strike_variation, unit
+from carom.core.flow import displacement, flight_increments, squared_modulus, velocity
+from carom.core.friction import arrival_change, arrival_in_sense, sense_of
 from carom.core.layout import kernel, part
+from carom.core.wall import local_velocity, unit, wall_of
 
 
 @kernel
@@ -22,22 +25,42 @@ def carry_through_impact(rotor, plane, before, directions):
     directions : complex array, shape (D, N)
         Changes of the amplitudes, along the wall; overwritten.
     """
+    wall = wall_of(rotor, plane)
+    carry_through_blow(rotor, plane, wall, sense_of(local_velocity(rotor, plane, before), wall), before, directions)
+
+
+@part
+def carry_through_blow(rotor, plane, wall, sense, before, directions):
+    """:func:`carry_through_impact` for a given sense of the slip; returns the change of the plane's velocity.
+
+    The directions need not lie along the wall.
+    """
     position = displacement(rotor, plane, before)
-    speed = velocity(rotor, plane, before)
-    for i in range(directions.shape[0]):
-        position_change = displacement(rotor, plane, directions[i]) - rotor.offsets[plane]
-        velocity_change = velocity(rotor, plane, directions[i])
-        change = strike_variation(
-            position,
-            speed,
-            rotor.friction[plane],
-            rotor.restitution[plane],
-            rotor.drive[plane],
-            position_change,
-            velocity_change,
-        )
+    normal, radius = unit(position), math.sqrt(squared_modulus(position))
+    local = normal.conjugate() * velocity(rotor, plane, before)
+    change = arrival_in_sense(local, sense, wall)
+    for row in range(directions.shape[0]):
+        moved = displacement(rotor, plane, directions[row]) - rotor.offsets[plane]
+        turn = (normal.conjugate() * moved).imag / radius
+        swing = normal.conjugate() * velocity(rotor, plane, directions[row]) - 1j * turn * local
+        varied = normal * (arrival_change(local, sense, wall, swing) + 1j * turn * change)
         for k in range(before.shape[0]):
-            directions[i, k] += rotor.columns[k, plane] * change
+            directions[row, k] += rotor.columns[k, plane] * varied
+    return normal * change
+
+
+@kernel
+def strike(rotor, plane, sense, state, directions):
+    """Impact with a given sense of the slip, in place, whether or not it is possible; the directions go along."""
+    blow(rotor, plane, wall_of(rotor, plane), sense, state, directions)
+
+
+@part
+def blow(rotor, plane, wall, sense, state, directions):
+    """:func:`strike` at a wall with numbers of its own."""
+    change = carry_through_blow(rotor, plane, wall, sense, state, directions)
+    for k in range(state.shape[0]):
+        state[k] += rotor.columns[k, plane] * change
 
 
 @kernel

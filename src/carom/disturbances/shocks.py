@@ -27,9 +27,10 @@ import math
 import numpy as np
 
 from carom.core.advance import advance
-from carom.core.contact_series import AWAY
 from carom.core.fate import forget, memory
 from carom.core.layout import rotor_record, rub_workspace, workspace
+from carom.core.phases import AWAY
+from carom.core.wall import Wall
 from carom.models import Model, System
 from carom.motions.trajectories import EventLog
 from carom.outcome import InputError, Outcome
@@ -59,9 +60,7 @@ def shaken(rotor: Model, duration: float) -> tuple[System, np.ndarray]:
         offsets=arrays.offsets,
         rows=np.concatenate([arrays.rows, arrays.rows @ shares], axis=1),
         columns=np.concatenate([arrays.columns, np.zeros((2, len(arrays.rows)))]).astype(complex),
-        friction=arrays.friction,
-        restitution=arrays.restitution,
-        drive=arrays.drive,
+        **{name: arrays[name] for name in Wall._fields},
         masses=arrays.masses,
     )
     shapes = np.concatenate([system.shapes, system.shapes @ shares], axis=1)

@@ -117,8 +117,8 @@ class ContactRelease(Disturbance):
         """States on the wall, moving along it."""
         (angle,) = values
         cosine, sine = np.cos(angle), np.sin(angle)
-        carried, drive = rotor.system.carried, rotor.system.arrays.drive
-        rate = {"fixed": 0.0, "rotating": 1.0, "rolling": 1.0 - float(drive[carried.argmax()])}[self.motion]
+        carried, surface_speed = rotor.system.carried, rotor.system.arrays.surface_speed
+        rate = {"fixed": 0.0, "rotating": 1.0, "rolling": 1.0 - float(surface_speed[carried.argmax()])}[self.motion]
         speed = rate / carried.max() if carried.any() else rate
         return displaced(rotor, complex_of(cosine, sine), complex_of(-speed * sine, speed * cosine))
 

@@ -7,6 +7,7 @@
 ``jeffcott``              :class:`Jeffcott`: the planar rigid rotor, by its parameters
 ``linear``                :class:`LinearRotor`: any linear isotropic rotor, by its matrices
 ``linear_parameters``     its named parameters
+``touchdown``             :class:`Touchdown`: a contact plane, and the laws of its wall
 ``modes``                 modes of a matrix, in pairs where two nearly coincide
 ``subjects``              :func:`model_of`, :func:`case_of`: any description of a rotor -> its model, its case
 ========================  =================================================================
@@ -18,16 +19,20 @@ from carom.models.linear import LinearRotor
 from carom.models.model import Matrices, Model, Rates
 from carom.models.subjects import Subject, case_of, jeffcott_of, model_from, model_of
 from carom.models.system import System, second_order_system
+from carom.models.touchdown import FallingRestitution, Rigid, Touchdown
 
 __all__ = [
     "Axis",
+    "FallingRestitution",
     "Jeffcott",
     "LinearRotor",
     "Matrices",
     "Model",
     "Rates",
+    "Rigid",
     "Subject",
     "System",
+    "Touchdown",
     "axis",
     "case_of",
     "jeffcott_of",

@@ -12,6 +12,7 @@ import numpy as np
 
 from carom.arguments import checked
 from carom.core.planar import planar_exponents
+from carom.core.wall import Wall
 from carom.models.model import Matrices, Rates
 from carom.models.system import System, second_order_system
 from carom.outcome import InputError, shown
@@ -54,9 +55,7 @@ class Jeffcott:
         return second_order_system(
             exponents=planar_exponents(gamma, omega),
             equilibrium=self.equilibrium,
-            friction=parameters.mu,
-            restitution=parameters.d,
-            drive=parameters.radius_ratio + 1.0,
+            wall=Wall(parameters.mu, parameters.d, parameters.radius_ratio + 1.0),
         )
 
     @property

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import json
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -16,13 +16,13 @@ from carom.core.layout import rotor_record
 from carom.models import linear_parameters
 from carom.models.model import Matrices, Rates
 from carom.models.modes import modes_of
-from carom.models.system import System, second_order_system
-from carom.outcome import InputError
+from carom.models.system import System, second_order_system, walls_as_arrays
+from carom.models.touchdown import Touchdown
+from carom.outcome import InputError, shown
 from carom.parameters import Field, Scales
 from carom.results import Result
 
-_COMPLEX = ("mass", "damping", "stiffness", "forcing", "planes", "translation")
-_REAL = ("friction", "restitution", "drive")
+_NUMBERS = ("mass", "damping", "stiffness", "forcing", "translation")
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -38,13 +38,8 @@ class LinearRotor(Result):
         ``M``, ``D`` and ``K``, with the terms of the turning frame (see :meth:`in_fixed_frame`).
     forcing : array_like of complex, shape (n,)
         ``F``, constant: unbalance.
-    planes : array_like of complex, shape (P, n)
-        Displacement at each contact plane per coordinate.  A plane resists impulses with the effective mass
-        ``m_p = 1/(W M⁻¹ Wᴴ)`` of its row ``W``.
-    friction, restitution : array_like, shape (P,)
-        Coulomb friction coefficient and coefficient of restitution of each plane.
-    drive : array_like, shape (P,)
-        Slip velocity at rest in this frame, ``s + 1`` with the rotor radius ``s`` at the plane in clearances.
+    touchdowns : sequence of Touchdown, length P
+        The contact planes.
     translation : array_like of complex, shape (n,), optional
         Coordinates when the rotor as a whole is displaced by one: the direction of kicks.  Ones by default.
     scales : Scales, optional
@@ -61,10 +56,7 @@ class LinearRotor(Result):
     damping: np.ndarray
     stiffness: np.ndarray
     forcing: np.ndarray
-    planes: np.ndarray
-    friction: np.ndarray
-    restitution: np.ndarray
-    drive: np.ndarray
+    touchdowns: Sequence[Touchdown]
     translation: np.ndarray | None = None
     scales: Scales | None = None
 
@@ -72,23 +64,28 @@ class LinearRotor(Result):
         if not isinstance(self.scales, Scales | None):
             raise InputError("scales", self.scales, "carom.parameters.Scales, or None")
         if self.translation is None:
-            object.__setattr__(self, "translation", np.ones(_numbers("forcing", self.forcing, complex).shape))
-        for names, kind in ((_COMPLEX, complex), (_REAL, float)):
-            for name in names:
-                values = _numbers(name, getattr(self, name), kind)
-                values.flags.writeable = False
-                object.__setattr__(self, name, values)
-        n, p = self.forcing.size, len(np.atleast_1d(self.friction))
+            object.__setattr__(self, "translation", np.ones(_numbers("forcing", self.forcing).shape))
+        for name in _NUMBERS:
+            values = _numbers(name, getattr(self, name))
+            values.flags.writeable = False
+            object.__setattr__(self, name, values)
+        n = self.forcing.size
         shapes: dict[str, tuple[int, ...]] = dict.fromkeys(("mass", "damping", "stiffness"), (n, n))
-        shapes |= {"planes": (p, n)} | dict.fromkeys(("forcing", "translation"), (n,)) | dict.fromkeys(_REAL, (p,))
-        for name, shape in shapes.items():
+        for name, shape in (shapes | dict.fromkeys(("forcing", "translation"), (n,))).items():
             values = getattr(self, name)
             if values.shape != shape or not values.size or not np.isfinite(values).all():
                 raise InputError(name, values.tolist(), f"finite numbers of shape {shape}")
-        for name, low, high in (("friction", 0.0, np.inf), ("restitution", 0.0, 1.0), ("drive", 1.0, np.inf)):
-            wrong = (getattr(self, name) < low) | (getattr(self, name) > high)
-            if wrong.any():
-                raise InputError(name, getattr(self, name).tolist(), f"numbers from {low:g} to {high:g}")
+        given: Any = self.touchdowns
+        listed = tuple(given) if isinstance(given, Iterable) else ()
+        if not listed or not all(isinstance(each, Touchdown) and len(each.plane) == n for each in listed):
+            allowed = f"carom.models.Touchdown, one or more, with planes of {n} coordinates"
+            raise InputError("touchdowns", shown(given), allowed)
+        object.__setattr__(self, "touchdowns", listed)
+
+    @cached_property
+    def planes(self) -> np.ndarray:
+        """Displacement at each contact plane per coordinate, shape (P, n)."""
+        return np.array([each.plane for each in self.touchdowns])
 
     @classmethod
     def in_fixed_frame(
@@ -113,11 +110,11 @@ class LinearRotor(Result):
         InputError
             A matrix is not of the shape of ``M``, or see :class:`LinearRotor`.
         """
-        mass = _numbers("mass", mass, complex)
+        mass = _numbers("mass", mass)
         if gyroscopic is None:
             gyroscopic = np.zeros_like(mass)
         given = {"mass": mass, "damping": damping, "stiffness": stiffness, "gyroscopic": gyroscopic}
-        matrices = {name: _numbers(name, values, complex) for name, values in given.items()}
+        matrices = {name: _numbers(name, values) for name, values in given.items()}
         for name, values in matrices.items():
             if values.ndim != 2 or values.shape != mass.shape:
                 shape = mass.shape if mass.ndim == 2 else "(n, n)"
@@ -151,9 +148,7 @@ class LinearRotor(Result):
             offsets=self.planes @ rest,
             rows=self.planes @ found.basis[:n],
             columns=inverse[:, n:] @ (moved / mobilities),
-            friction=self.friction,
-            restitution=self.restitution,
-            drive=self.drive,
+            **walls_as_arrays([each.wall for each in self.touchdowns]),
             masses=1.0 / mobilities.real,
         )
         return System(arrays, rest, found.basis[:n], inverse, self.translation)
@@ -161,14 +156,9 @@ class LinearRotor(Result):
     def _one_coordinate(self, exponents: np.ndarray, equilibrium: complex) -> System:
         """System of a rotor with one coordinate, which is its displacement at the only plane."""
         slow, fast = sorted((complex(value) for value in exponents), key=lambda value: -value.real)
-        friction, restitution, drive = (float(getattr(self, name)[0]) for name in _REAL)
+        mass = float(self.mass[0, 0].real)
         system = second_order_system(
-            exponents=(fast, slow),
-            equilibrium=equilibrium,
-            friction=friction,
-            restitution=restitution,
-            drive=drive,
-            mass=float(self.mass[0, 0].real),
+            exponents=(fast, slow), equilibrium=equilibrium, wall=self.touchdowns[0].wall, mass=mass
         )
         return dataclasses.replace(system, translation=self.translation)
 
@@ -203,8 +193,7 @@ class LinearRotor(Result):
     def replace(self, **changes: Any) -> LinearRotor:
         """Return the rotor with other attributes, or other values of its parameters (:attr:`varied`).
 
-        ``friction`` and ``restitution`` are attributes as arrays, and parameters of all planes as numbers.  Attributes
-        are set first, then the speed, then the other parameters in the order given.
+        Attributes are set first, then the speed, then the other parameters in the order given.
 
         Raises
         ------
@@ -212,7 +201,6 @@ class LinearRotor(Result):
             A name is unknown or a value not allowed, or there is nothing to multiply: no damping, stiffness or unbalance.
         """
         given = {field.name for field in dataclasses.fields(self)} & set(changes)
-        given -= {name for name in linear_parameters.SAME if np.ndim(changes.get(name, 0.0)) == 0}
         rotor = dataclasses.replace(self, **{name: changes[name] for name in given}) if given else self
         for name in sorted(set(changes) - given, key=lambda name: (name != "speed", list(changes).index(name))):
             rotor = dataclasses.replace(rotor, **linear_parameters.moved(rotor, name, changes[name]))
@@ -225,8 +213,8 @@ class LinearRotor(Result):
 
     def attributes(self) -> dict[str, str]:
         """Return the numbers and the scales as attributes of a dataset, exact to the last bit."""
-        numbers = {name: [getattr(self, name).real.tolist(), getattr(self, name).imag.tolist()] for name in _COMPLEX}
-        numbers |= {name: getattr(self, name).tolist() for name in _REAL}
+        numbers = {name: [getattr(self, name).real.tolist(), getattr(self, name).imag.tolist()] for name in _NUMBERS}
+        numbers["touchdowns"] = [each.attributes() for each in self.touchdowns]
         scales = dataclasses.asdict(self.scales) if self.scales else None
         return {"linear_rotor": json.dumps(numbers), "scales": json.dumps(scales)}
 
@@ -242,19 +230,19 @@ class LinearRotor(Result):
             An attribute is missing, or is not such text.
         """
         numbers, scales = (json.loads(attributes[name]) for name in ("linear_rotor", "scales"))
-        for name in _COMPLEX:
+        for name in _NUMBERS:
             real, imaginary = numbers[name]
             numbers[name] = np.array(real) + 1j * np.array(imaginary)
+        numbers["touchdowns"] = tuple(map(Touchdown.from_attributes, numbers["touchdowns"]))
         return cls(**numbers, scales=Scales(**scales) if scales else None)
 
 
-def _numbers(name: str, values: Any, kind: type) -> np.ndarray:
+def _numbers(name: str, values: Any) -> np.ndarray:
     """Array of the given numbers, a copy."""
     try:
         given = np.array(values)
     except (TypeError, ValueError, OverflowError):
         given = np.array("ragged")
-    real = kind is not complex
-    if given.dtype.kind not in ("iuf" if real else "iufc"):  # NumPy makes numbers of True, text and complex ones too
-        raise InputError(name, values, f"an array of {'real ' if real else ''}numbers")
-    return given.astype(kind)
+    if given.dtype.kind not in "iufc":  # NumPy makes numbers of True and text too
+        raise InputError(name, values, "an array of numbers")
+    return given.astype(complex)

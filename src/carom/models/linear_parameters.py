@@ -7,7 +7,7 @@ frame (:meth:`~carom.models.LinearRotor.in_fixed_frame`),
 
 which for one coordinate are the numbers of the planar rotor.  Another value of ``γ``, ``ω`` or ``ρ`` multiplies all of
 ``D``, ``K`` or ``F`` by one factor; ``φ`` turns ``F``.  The friction ``μ``, the restitution ``d`` and the radius ratio (the
-drive minus one) are set at all planes, or at one of several by ``mu_1``, ``mu_2`` and so on.  The speed ``Ω`` changes ``D``
+surface speed minus one) are set at all planes, or at one of several by ``mu_1``, ``mu_2`` and so on.  The speed ``Ω`` changes ``D``
 with ``1/Ω`` and ``K`` with ``1/Ω²``; masses, gyroscopic matrix and unbalance do not change in these units.
 """
 
@@ -30,8 +30,8 @@ if TYPE_CHECKING:
 
 SAME = {"friction": "mu", "restitution": "d", "unbalance_phase": "phi"}
 """Physical parameters that are numbers without a scale."""
-_AT_PLANES = {"mu": ("friction", 0.0), "d": ("restitution", 0.0), "radius_ratio": ("drive", 1.0)}
-"""Attribute of each parameter of the planes, and what it has in addition."""
+_AT_PLANES = {"mu": "friction", "d": "restitution", "radius_ratio": "surface_speed"}
+"""Parameters of the planes, and what each changes of a wall."""
 
 
 def fields(rotor: LinearRotor) -> dict[str, Field]:
@@ -60,12 +60,11 @@ def value_of(rotor: LinearRotor, name: str) -> float:
         return rotor.scales.speed
     own, plane = _planes(rotor).get(name, (SAME.get(name, name), None))
     if own in _AT_PLANES:
-        attribute, beside = _AT_PLANES[own]
-        values = (getattr(rotor, attribute) - beside)[slice(None) if plane is None else [plane]]
-        if np.ptp(values) > 0.0:
+        values = [each.value(own) for number, each in enumerate(rotor.touchdowns) if plane in (None, number)]
+        if len(set(values)) > 1:
             names = ", ".join(f"{own}_{number + 1}" for number in range(len(values)))
-            raise InputError(name, values.tolist(), f"the same at all planes here; {names} are those of each plane")
-        return float(values[0])
+            raise InputError(name, values, f"the same at all planes here; {names} are those of each plane")
+        return values[0]
     return float(getattr(_numbers(rotor), own))
 
 
@@ -94,10 +93,8 @@ def moved(rotor: LinearRotor, name: str, given: float | str) -> dict[str, Any]:
     value = read_quantity(known[name], given)
     own, plane = _planes(rotor).get(name, (SAME.get(name, name), None))
     if own in _AT_PLANES:
-        attribute, beside = _AT_PLANES[own]
-        values = getattr(rotor, attribute).copy()
-        values[slice(None) if plane is None else plane] = value + beside
-        return {attribute: values}
+        changed = (each.replace(own, value) if plane in (None, k) else each for k, each in enumerate(rotor.touchdowns))
+        return {"touchdowns": tuple(changed)}
     if own == "phi":
         return {"forcing": rotor.forcing * cmath.exp(1j * (value - rotor.unbalance_phase))}
     _, damping, _, stiffness, _ = rotor.matrices
@@ -125,10 +122,10 @@ def moved(rotor: LinearRotor, name: str, given: float | str) -> dict[str, Any]:
 def rates_of(rotor: LinearRotor, name: str) -> Rates | None:
     """Derivatives of the equations of motion by a parameter: those of :func:`moved`; ``None`` if there is nothing to multiply."""
     own, plane = _planes(rotor).get(name, (SAME.get(name, name), None))
-    of_law = {attribute: np.zeros(len(rotor.planes)) for attribute, _ in _AT_PLANES.values()}
+    of_law = {attribute: np.zeros(len(rotor.planes)) for attribute in _AT_PLANES.values()}
     stiffer, more, pull = np.zeros_like(rotor.stiffness), np.zeros_like(rotor.damping), np.zeros_like(rotor.forcing)
     if own in _AT_PLANES:
-        of_law[_AT_PLANES[own][0]][slice(None) if plane is None else plane] = 1.0
+        of_law[_AT_PLANES[own]][slice(None) if plane is None else plane] = 1.0
     elif own == "phi":
         pull = 1j * rotor.forcing
     else:

@@ -39,7 +39,7 @@ class Rates(NamedTuple):
         Of the accelerations of the coordinates, per coordinate, then per rate of a coordinate.
     force : ndarray of complex, shape (n,)
         Of their constant part.
-    friction, restitution, drive : ndarray, shape (P,)
+    friction, restitution, surface_speed : ndarray, shape (P,)
         Of the contact law of each plane.
     """
 
@@ -47,7 +47,7 @@ class Rates(NamedTuple):
     force: np.ndarray
     friction: np.ndarray
     restitution: np.ndarray
-    drive: np.ndarray
+    surface_speed: np.ndarray
 
 
 @runtime_checkable

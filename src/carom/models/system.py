@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from typing import NamedTuple
 
 import numpy as np
 
-from carom.arguments import Infinity, checked
+from carom.arguments import checked
 from carom.core.flow import fly_all
 from carom.core.layout import rotor_record
 from carom.core.table import flight_table
+from carom.core.wall import Wall
 from carom.results import Result
 
 TABLES = 32
@@ -21,7 +23,7 @@ ROUNDING = 1e-12
 
 
 class Contact(NamedTuple):
-    """A contact plane and its contact law: the fields of :func:`~carom.core.layout.rotor_record` for one plane.
+    """A contact plane and the numbers of its wall: the fields of :func:`~carom.core.layout.rotor_record` for one plane.
 
     Each access to a field of the record takes as long as a small kernel.
     """
@@ -30,9 +32,13 @@ class Contact(NamedTuple):
     row: np.ndarray
     rate_row: np.ndarray
     column: np.ndarray
-    friction: float
-    restitution: float
-    drive: float
+    wall: Wall
+
+    def local(self, amplitudes: np.ndarray) -> tuple[complex, complex]:
+        """Direction of the displacement, and the velocity ``ṙ + iθ̇`` in the frame of the contact."""
+        position = complex(amplitudes @ self.row) + self.offset
+        position /= abs(position)
+        return position, position.conjugate() * complex(amplitudes @ self.rate_row)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -75,10 +81,9 @@ class System(Result):
     def contacts(self) -> tuple[Contact, ...]:
         """The contact planes."""
         arrays = self.arrays
-        numbers = (arrays[name].tolist() for name in ("friction", "restitution", "drive"))
+        walls = map(Wall, *(arrays[name].tolist() for name in Wall._fields))
         rows = arrays["rows"], arrays["rate_rows"], arrays["columns"].T
-        fields = arrays["offsets"].tolist(), *rows, *numbers
-        return tuple(map(Contact._make, zip(*fields, strict=True)))
+        return tuple(map(Contact, arrays["offsets"].tolist(), *rows, walls))
 
     @cached_property
     def exponents(self) -> np.ndarray:
@@ -201,12 +206,13 @@ class System(Result):
 
     @cached_property
     def is_planar(self) -> bool:
-        """Whether it is a :func:`second_order_system`: lanes and the closing of orbits are made for these."""
+        """Whether it is a :func:`second_order_system` inside a rigid wall: lanes and the closing of orbits are made for these."""
         arrays = self.arrays
         return (
             arrays["columns"].tolist() == [[1.0], [0.0]]
             and arrays["rows"].tolist() == [[0.0, 1.0]]
             and bool(arrays["driven"][1])
+            and not arrays["law"].any()
         )
 
     def at_planes(self, amplitudes: np.ndarray, planes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -240,14 +246,17 @@ def _table(exponents: bytes, driven: bytes) -> np.record:
     return flight_table(np.frombuffer(exponents, np.complex128), np.frombuffer(driven, np.int8))
 
 
+def walls_as_arrays(walls: Sequence[Wall]) -> dict[str, np.ndarray]:
+    """The fields of :func:`~carom.core.layout.rotor_record` for the walls at its planes."""
+    return {name: np.array(values) for name, values in zip(Wall._fields, zip(*walls, strict=True), strict=True)}
+
+
 @checked
 def second_order_system(
     *,
     exponents: tuple[complex, complex],
     equilibrium: complex,
-    friction: float,
-    restitution: float,
-    drive: float | Infinity,
+    wall: Wall,
     mass: float = 1.0,
 ) -> System:
     """System of ``ü + αu̇ + βu = Γ`` with one coordinate ``u``, which is also its displacement at the wall.
@@ -261,8 +270,7 @@ def second_order_system(
         Roots ``λ₋, λ₊`` of ``λ² + αλ + β``, the one with the smaller real part first.
     equilibrium : complex
         ``K = Γ/β``.
-    friction, restitution, drive : float
-        As in :func:`~carom.core.layout.rotor_record`.
+    wall : carom.core.wall.Wall
     mass : float
         Effective mass at the wall, in the unit of masses.
     """
@@ -273,9 +281,7 @@ def second_order_system(
         offsets=offsets,
         rows=rows,
         columns=np.array([[1.0], [0.0]], np.complex128),
-        friction=np.array([friction]),
-        restitution=np.array([restitution]),
-        drive=np.array([drive]),
+        **walls_as_arrays([wall]),
         masses=np.array([mass]),
     )
     return System(arrays, offsets, rows, np.array([[-exponents[1], 1.0], [1.0, 0.0]], np.complex128))

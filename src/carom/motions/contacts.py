@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
+from carom.core.friction import rebound
 from carom.outcome import Phase
 from carom.parameters import UNITS
 from carom.results import Result
@@ -141,11 +142,14 @@ class ContactLog(Table):
         angle, radial, angular = polar(*before)
         _, radial_after, angular_after = polar(*after)
         arrays, planes = rotor.system.arrays, blows.planes
-        drive, mass = arrays.drive[planes], arrays.masses[planes]
+        surface_speed, mass = arrays.surface_speed[planes], arrays.masses[planes]
         normal, tangential = -mass * blows.impulses.real, mass * blows.impulses.imag
-        slip, slip_after = drive + angular, drive + angular_after
+        slip, slip_after = surface_speed + angular, surface_speed + angular_after
         normal_work = -0.5 * normal * (radial + radial_after)
-        unlike = np.abs(radial_after + arrays.restitution[planes] * np.maximum(radial, 0.0)) > ALIKE * (1.0 + radial)
+        newton = np.zeros(len(times))
+        for plane, contact in enumerate(rotor.system.contacts):
+            newton[planes == plane] = rebound(np.maximum(radial[planes == plane], 0.0), contact.wall)
+        unlike = np.abs(radial_after + newton) > ALIKE * (1.0 + radial)
         return cls(
             time=times,
             plane=planes,
@@ -161,7 +165,7 @@ class ContactLog(Table):
             sticks=arrays.friction[planes] * normal >= np.abs(mass * slip_after - tangential),
             by_poisson=np.isin(blows.events, blows.events[unlike & (-blows.impulses.real > ALIKE)]),
             contact_work=normal_work + 0.5 * tangential * (slip + slip_after),
-            drive_work=-(drive - 1.0) * tangential,
+            drive_work=-(surface_speed - 1.0) * tangential,
             scales=rotor.scales,
         )
 
@@ -206,9 +210,9 @@ class ContactHistory(Table):
     ) -> ContactHistory:
         """History at a plane from positions and velocities, and normal and friction forces, each of shape (n,)."""
         position, velocity = state
-        drive = float(rotor.system.arrays.drive[plane])
+        surface_speed = float(rotor.system.arrays.surface_speed[plane])
         normal, friction = forces
-        slip = np.where(phases == Phase.FLIGHT, 0.0, drive + (position.conj() * velocity).imag)
+        slip = np.where(phases == Phase.FLIGHT, 0.0, surface_speed + (position.conj() * velocity).imag)
         return cls(
             time=times,
             phase=phases,
@@ -218,7 +222,7 @@ class ContactHistory(Table):
             friction_force=friction,
             slip=slip,
             friction_power=friction * slip,
-            drive_power=-(drive - 1.0) * friction,
+            drive_power=-(surface_speed - 1.0) * friction,
             scales=rotor.scales,
         )
 

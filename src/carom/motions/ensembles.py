@@ -11,12 +11,12 @@ from typing import ClassVar, NamedTuple
 import numpy as np
 
 from carom.arguments import Count, Whole, checked
-from carom.core.contact_series import AWAY, FLIGHT
 from carom.core.counter import fresh_counter, next_number
 from carom.core.ensemble import MOTION, Task, Tools, follow_each
 from carom.core.fate import forget
 from carom.core.lanes import lanes_record
 from carom.core.layout import rub_workspace, workspace
+from carom.core.phases import AWAY, FLIGHT
 from carom.core.processors import available_cores
 from carom.models import Model, Subject, model_of
 from carom.motions.settling import (

@@ -150,9 +150,9 @@ def _in_fixed_frame(position: np.ndarray, velocity: np.ndarray, coordinates: int
 def contact_power(motion: Trajectory, times: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Powers of friction on the contact point of a plane and of the drive."""
     position, velocity = motion.at_plane(times)
-    drive = float(motion.rotor.system.arrays.drive[motion.plane])
+    surface_speed = float(motion.rotor.system.arrays.surface_speed[motion.plane])
     _, grip = motion.forces(times)
-    return grip * (drive + (position.conj() * velocity).imag), -(drive - 1.0) * grip
+    return grip * (surface_speed + (position.conj() * velocity).imag), -(surface_speed - 1.0) * grip
 
 
 def pieces(trajectory: Trajectory) -> tuple[np.ndarray, np.ndarray]:

@@ -6,9 +6,9 @@ import numpy as np
 
 from carom.core.advance import SHORTEST_LAP, advance
 from carom.core.closing import PASSES
-from carom.core.contact_series import FLIGHT
 from carom.core.fate import memory
 from carom.core.layout import rub_workspace, workspace
+from carom.core.phases import FLIGHT
 from carom.models import System
 from carom.outcome import Outcome
 

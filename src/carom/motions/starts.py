@@ -9,8 +9,8 @@ from typing import Annotated, Any
 import numpy as np
 
 from carom.arguments import Kind, checked
-from carom.core.contact_series import AWAY, FLIGHT
-from carom.core.impact import set_on_wall
+from carom.core.phases import AWAY, FLIGHT
+from carom.core.wall import set_on_wall
 from carom.models import Model
 from carom.outcome import InputError
 from carom.parameters import Scales, own_size

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import numpy as np
 
-from carom.core.contact_series import AWAY
 from carom.core.events import INSIDE, LEAVING, first_crossing
 from carom.core.fate import memory
+from carom.core.friction import slip_of, spare_friction
 from carom.core.layout import rub_workspace, workspace
+from carom.core.phases import AWAY
 from carom.core.rub import lift_off, rest_on_wall, wall_push
 from carom.core.rub_step import NOWHERE
+from carom.core.variation import strike
 from carom.models import Jeffcott, Model
-from carom.models.system import Contact
 from carom.motions.trajectories import EventLog, follow
 from carom.orbits.chatter import LONGEST, MOST_BOUNCES
 from carom.orbits.shooting import TOLERANCE, Start
@@ -30,8 +31,6 @@ STOPPED = 1e-10
 """Slip at a landing or at the beginning of lasting contact, in ``c_r Ω``, that counts as none."""
 INSTANT = 1e-9
 """Time within which a rotor that has just lost its normal force may still be in contact, in ``1/Ω``."""
-SLIPS = {Kind.IMPACT_FORWARD: 1, Kind.IMPACT_BACKWARD: -1, Kind.IMPACT_STOPPED: 0}
-"""Direction of the slip after an impact."""
 
 
 def slip_stays_forward(rotor: Jeffcott) -> bool:
@@ -58,27 +57,9 @@ def departure(rotor: Model, segment: Segment, node: np.ndarray) -> np.ndarray:
     """Amplitudes just after the beginning of a segment: after the impact, if there is one."""
     if not segment.kind.is_impact:
         return node
-    contact = rotor.system.contacts[segment.plane]
-    return _struck(contact, segment, node, *_at_wall(contact, node))
-
-
-def _struck(
-    contact: Contact, segment: Segment, node: np.ndarray, position: complex, radial: float, slip: float
-) -> np.ndarray:
-    """Amplitudes just after an impact, by the direction of the displacement, the radial speed and the slip before it."""
-    share = -(1.0 + contact.restitution) * radial
-    along = SLIPS[segment.kind] * contact.friction * share
-    change = complex(share, along if SLIPS[segment.kind] else -slip)
-    struck: np.ndarray = node + contact.column * (change * position)
-    return struck
-
-
-def _at_wall(contact: Contact, node: np.ndarray) -> tuple[complex, float, float]:
-    """Direction of the displacement of a plane on its wall, its radial speed and its slip."""
-    position = complex(node @ contact.row) + contact.offset
-    position /= abs(position)
-    local = position.conjugate() * complex(node @ contact.rate_row)
-    return position, local.real, contact.drive + local.imag
+    after = node.copy()
+    strike(rotor.system.arrays, segment.plane, segment.kind.sense, after, np.empty((0, len(node)), complex))
+    return after
 
 
 def why_virtual(rotor: Model, word: Word, start: Start) -> str:
@@ -96,24 +77,22 @@ def why_virtual(rotor: Model, word: Word, start: Start) -> str:
 def _why_no_impact(rotor: Model, segment: Segment, target: Segment, node: np.ndarray, duration: float) -> str:
     """Reason why an impact and the flight after it are not a motion."""
     contacts, plane = rotor.system.contacts, segment.plane
-    contact = contacts[plane]
-    position, radial, slip = _at_wall(contact, node)
-    friction, restitution = contact.friction, contact.restitution
-    if radial <= AT_REST:
+    wall = contacts[plane].wall
+    _, local = contacts[plane].local(node)
+    if local.real <= AT_REST:
         return "it would meet the wall from outside (radial speed not above 0)"
-    stops = friction * (1.0 + restitution) * radial >= abs(slip)
+    stops = spare_friction(local, wall) >= 0.0
     if segment.kind is Kind.IMPACT_STOPPED:
         if not stops:
             return "friction would not stop the slip during the impact"
-    elif friction > 0.0:
-        if SLIPS[segment.kind] * slip < 0.0:
+    elif wall.friction > 0.0:
+        if segment.kind.sense * slip_of(local, wall) < 0.0:
             return "its slip would run the other way, and friction with it"
         if stops:
             return "friction would stop the slip during the impact"
-    after = _struck(contact, segment, node, position, radial, slip)
-    if restitution == 0.0:
-        speed, force = complex(after @ contact.rate_row), after @ rotor.system.arrays.acceleration_rows[plane]
-        if (position.conjugate() * force).real + abs(speed) ** 2 >= 0.0:
+    after = departure(rotor, segment, node)
+    if wall.restitution == 0.0:
+        if wall_push(rotor.system.arrays, plane, after)[0] >= 0.0:
             return "it would stay on the wall: it does not rebound and is pressed outward"
         if len(contacts) > 1:
             return _why_no_such_contact(rotor, segment, target, node, duration)
@@ -143,7 +122,7 @@ def _same_arrival(rotor: Model, plane: int, after: np.ndarray, time: float, dura
 def _first_contact(rotor: Model, left: int, plane: int, start: np.ndarray, horizon: float) -> tuple[int, float]:
     """Outcome and time of the first contact of a plane after an impact at a plane."""
     arrays, work = rotor.system.arrays, workspace(len(start))
-    if plane != left or rotor.system.contacts[plane].restitution > 0.0:
+    if plane != left or rotor.system.contacts[plane].wall.restitution > 0.0:
         leaves = LEAVING if plane == left else INSIDE
         outcome, time = first_crossing(arrays, rotor.system.table, plane, start, horizon, leaves, work)
         return outcome, time
@@ -204,11 +183,17 @@ def _put_on_wall(rotor: Model, segment: Segment, amplitudes: np.ndarray) -> int:
     A rotor that lifts off may still be pressed to the wall for an instant, in which it slides.
     """
     arrays, plane = rotor.system.arrays, segment.plane
-    _, _, slip = _at_wall(rotor.system.contacts[plane], amplitudes)
+    slip = _slip(rotor, plane, amplitudes)
     rest_on_wall(arrays, plane, amplitudes, segment.kind is Kind.ROLL or abs(slip) <= STOPPED)
     if segment.kind is Kind.LIFT and wall_push(arrays, plane, amplitudes)[0] > 0.0:
         return PHASES[Kind.SLIDE_BACKWARD if slip < 0.0 else Kind.SLIDE_FORWARD]
     return PHASES.get(segment.kind, int(Phase.FLIGHT))
+
+
+def _slip(rotor: Model, plane: int, amplitudes: np.ndarray) -> float:
+    contact = rotor.system.contacts[plane]
+    _, local = contact.local(amplitudes)
+    return float(slip_of(local, contact.wall))
 
 
 def _why_no_such_landing(rotor: Model, segment: Segment, target: Segment, node: np.ndarray) -> str:
@@ -218,6 +203,6 @@ def _why_no_such_landing(rotor: Model, segment: Segment, target: Segment, node: 
     contact[segment.plane] = Phase.FLIGHT
     log = EventLog.empty(MOST_BOUNCES, len(node), planes)
     follow(rotor, landing, LONGEST, contact, log, memory(len(node), stop_at_landing=True))
-    _, _, slip = _at_wall(rotor.system.contacts[segment.plane], landing)
+    slip = _slip(rotor, segment.plane, landing)
     wrong = {Kind.SLIDE_FORWARD: -slip, Kind.SLIDE_BACKWARD: slip}.get(target.kind, abs(slip))
     return f"{segment} would end with the slip {slip:.3g}, not with {target}" if wrong > STOPPED else ""

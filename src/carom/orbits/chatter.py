@@ -8,18 +8,18 @@ import numpy as np
 
 from carom.core.fate import memory
 from carom.core.rub import wall_push
-from carom.core.segments import carry_through_chatter, strike
+from carom.core.segments import carry_through_chatter
+from carom.core.variation import strike
 from carom.models import Model
 from carom.motions.trajectories import EventLog, follow
 from carom.orbits.landings import NO_RETURN, distance_from_onset, slip_at_landing
-from carom.orbits.word import Kind, Segment
+from carom.orbits.word import Segment
 from carom.outcome import Outcome, Phase
 
 MOST_BOUNCES = 4096
 """Bounces of the longest chatter."""
 LONGEST = 1e3
 """Longest chatter, in ``1/Ω``: a guess from which the rotor does not come back to the wall has to end too."""
-AFTER = {1: Kind.IMPACT_FORWARD, -1: Kind.IMPACT_BACKWARD, 0: Kind.IMPACT_STOPPED}
 """The last impact of a chatter, by the direction of the slip at the landing."""
 SLOW = 1e-5
 """Speed of a bounce, in ``c_r Ω``, below which a flight without return at once interrupts a chatter."""
@@ -50,12 +50,12 @@ def follow_chatter(
         arrival[:] = node
         return float("nan"), float("nan"), float("nan")
     distance = _distance(rotor, plane, bounces.after[-1])
-    slip = {Kind.SLIDE_FORWARD: 1, Kind.SLIDE_BACKWARD: -1}.get(following.kind, 0)
+    slip = following.kind.sense
     left, stops = slip_at_landing(rotor, plane, slip, bounces)
     if stops is not None:
         bounces = bounces.first(stops + 1)
         landing, time = bounces.before[stops].copy(), float(bounces.times[stops])
-        strike(system.arrays, plane, AFTER[slip], landing, np.empty((0, modes), complex))
+        strike(system.arrays, plane, slip, landing, np.empty((0, modes), complex))
     delays = np.empty(2 * modes)
     at = plane, bounces.before, np.diff(bounces.times), landing, slip
     carry_through_chatter(system.arrays, *at, changes, delays)
@@ -83,7 +83,7 @@ def _distance(rotor: Model, plane: int, bounce: np.ndarray) -> float:
     speed = -float((np.conj(position) * velocity).real)
     # Where the force has vanished already, the bounce is one from which the rotor does not return.
     ratio = -rate * speed / push**2 if push > 0.0 else NO_RETURN
-    return distance_from_onset(rotor.system.contacts[plane].restitution, push, ratio)
+    return distance_from_onset(rotor.system.contacts[plane].wall.restitution, push, ratio)
 
 
 def _interruption(rotor: Model, plane: int, bounces: EventLog) -> int | None:

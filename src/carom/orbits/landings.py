@@ -122,12 +122,12 @@ def slip_at_landing(rotor: Model, plane: int, direction: int, bounces: EventLog)
         The first bounce from which on friction stops the slip, if that is not what follows.
     """
     planes = np.full(len(bounces.times), plane)
-    friction, restitution = float(rotor.system.arrays.friction[plane]), rotor.system.contacts[plane].restitution
-    _, speed, slip, _, _ = local_motion(rotor.system.arrays, planes, bounces.before).T
-    spare = friction * (1.0 + restitution) * speed - np.abs(slip)
+    wall = rotor.system.contacts[plane].wall
+    friction, restitution = wall.friction, wall.restitution
+    _, speed, _, _, _, spare = local_motion(rotor.system.arrays, planes, bounces.before).T
     slides = np.flatnonzero(spare < 0.0)
     first = int(slides[-1]) + 1 if len(slides) else 0
-    _, radial, slip, push, pull = local_motion(rotor.system.arrays, planes[:1], bounces.after[-1:])[0].tolist()
+    _, radial, slip, push, pull, _ = local_motion(rotor.system.arrays, planes[:1], bounces.after[-1:])[0].tolist()
     if first < len(bounces.times):
         sense = direction or 1
         if direction and restitution == 0.0 and sense * pull > friction * push:

@@ -15,7 +15,7 @@ from carom.core.margins import contact_margins, least_margins
 from carom.models import Model, Subject, model_of
 from carom.motions.starts import State
 from carom.motions.trajectories import Trajectory, simulate
-from carom.orbits.admissibility import SLIPS, departure, why_virtual
+from carom.orbits.admissibility import departure, why_virtual
 from carom.orbits.maps import Section
 from carom.orbits.names import CountedName, OrbitName
 from carom.orbits.shooting import Links, Start, converged, links_of
@@ -146,7 +146,8 @@ class Orbit(Result):
     @property
     def slip(self) -> int:
         """Direction of the slip after the first impact: 1 forward, −1 backward, 0 if it is stopped."""
-        return SLIPS.get(self.word[0].kind, 0)
+        first = self.word[0].kind
+        return first.sense if first.is_impact else 0
 
     @property
     def admissible(self) -> bool:

@@ -8,6 +8,7 @@ import numpy as np
 
 from carom.arguments import checked
 from carom.core.advance import SHORTEST_LAP
+from carom.core.margins import local_motion
 from carom.models import Model
 from carom.motions.trajectories import Trajectory, simulate
 from carom.orbits.chatter import slow_departures
@@ -226,14 +227,11 @@ def _getting_shorter(times: list[float]) -> int:
 def _impact_kinds(motion: Trajectory, first: int, last: int) -> np.ndarray:
     """Kinds of impacts from the states before them, shape (last − first,); of other events they mean nothing."""
     arrays, planes = motion.rotor.system.arrays, motion.event_planes[first:last]
-    position, before = motion.rotor.system.at_planes(motion.arrivals[first:last], planes)
-    local = position.conj() * before
-    slip, friction = arrays.drive[planes] + local.imag, arrays.friction[planes]
-    taken = friction * (1.0 + arrays.restitution[planes]) * local.real
+    _, _, slip, _, _, spare = local_motion(arrays, planes, motion.arrivals[first:last]).T
     sliding = np.where(slip > 0.0, Kind.IMPACT_FORWARD, Kind.IMPACT_BACKWARD)
-    kinds: np.ndarray = np.where(taken >= np.abs(slip), Kind.IMPACT_STOPPED, sliding)
+    kinds: np.ndarray = np.where(spare >= 0.0, Kind.IMPACT_STOPPED, sliding)
     # Without friction the direction of the slip changes nothing: one motion has one word, that of the closed form.
-    return np.where(friction > 0.0, kinds, Kind.IMPACT_FORWARD)
+    return np.where(arrays.friction[planes] > 0.0, kinds, Kind.IMPACT_FORWARD)
 
 
 def with_impacts(motion: Trajectory, first: int, count: int) -> tuple[Word, Start] | None:

@@ -11,6 +11,7 @@ import numpy as np
 
 from carom.arguments import Count, Whole, checked
 from carom.core import segments
+from carom.core.friction import BACKWARD, FORWARD, STOPPED
 from carom.outcome import InputError, Phase
 
 
@@ -40,6 +41,13 @@ class Kind(IntEnum):
     def lasts(self) -> bool:
         """Whether it is lasting contact."""
         return self >= Kind.SLIDE_FORWARD
+
+    @property
+    def sense(self) -> int:
+        """Sense of the slip after the impact or in lasting contact (:mod:`carom.core.friction`)."""
+        if self in (Kind.IMPACT_STOPPED, Kind.ROLL):
+            return STOPPED
+        return BACKWARD if self in (Kind.IMPACT_BACKWARD, Kind.SLIDE_BACKWARD) else FORWARD
 
     @property
     def label(self) -> str:

@@ -6,7 +6,7 @@ import operator
 
 from llvmlite import ir
 from numba.core import types
-from numba.extending import lower_builtin, type_callable
+from numba.extending import lower_builtin, overload, type_callable
 
 from carom.core.layout import OCTET
 from carom.core.vector.kinds import (
@@ -42,6 +42,7 @@ def register() -> None:
     _register_negative()
     _register_where()
     _register_join()
+    _register_for_one_number()
     _register_fma()
 
 
@@ -151,6 +152,22 @@ def _register_join():
     @lower_builtin(join, RealLanes, RealLanes)
     def lower(context, build, signature, values):
         return complex_of(context, build, *values)
+
+
+def _register_for_one_number():
+    """Choice and complex numbers for a single motion, so that one formula serves both."""
+
+    @overload(where)
+    def choose(condition, chosen, other):
+        if isinstance(condition, types.Boolean) and isinstance(chosen, types.Float) and isinstance(other, types.Float):
+            return lambda condition, chosen, other: chosen if condition else other
+        return None
+
+    @overload(join)
+    def pair(real, imag):
+        if isinstance(real, types.Float) and isinstance(imag, types.Float):
+            return lambda real, imag: complex(real, imag)
+        return None
 
 
 def _register_fma():

@@ -18,15 +18,15 @@ def store(array, first, values):
 
 
 def join(real, imag):
-    """Complex lanes with these real and imaginary parts."""
-    joined = np.empty(WIDTH, np.complex128)
+    """Complex lanes, or a complex number, with these real and imaginary parts."""
+    joined = np.empty(np.shape(real), np.complex128)
     joined.real, joined.imag = real, imag
-    return joined
+    return joined[()]
 
 
 def where(condition, chosen, other):
-    """Take ``chosen`` in the lanes in which the condition holds, and ``other`` elsewhere."""
-    return np.where(condition, chosen, other)
+    """Take ``chosen`` in the lanes in which the condition holds, and ``other`` elsewhere; also for one number."""
+    return np.where(condition, chosen, other)[()]
 
 
 def fma(a, b, c):

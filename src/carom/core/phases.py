@@ -1,0 +1,38 @@
+"""States of contact of a plane, as integers for kernels."""
+
+from __future__ import annotations
+
+from carom.core.friction import BACKWARD, FORWARD, STOPPED
+from carom.core.layout import part
+from carom.outcome import Phase
+
+FLIGHT, FORWARD_SLIP, BACKWARD_SLIP, ROLLING = (
+    int(Phase.FLIGHT),
+    int(Phase.FORWARD_SLIP),
+    int(Phase.BACKWARD_SLIP),
+    int(Phase.ROLLING),
+)
+AWAY = -1
+"""State of contact of a plane that is not on its wall; on the wall it is a :class:`~carom.outcome.Phase`."""
+
+
+@part
+def lasts(phase):
+    """Whether a plane is in lasting contact."""
+    return phase in (FORWARD_SLIP, BACKWARD_SLIP, ROLLING)
+
+
+@part
+def sense_of_phase(phase):
+    """Sense of the slip in lasting contact."""
+    if phase == ROLLING:
+        return STOPPED
+    return FORWARD if phase == FORWARD_SLIP else BACKWARD
+
+
+@part
+def phase_of_slip(sense):
+    """Phase of lasting contact with this sense of the slip."""
+    if sense == STOPPED:
+        return ROLLING
+    return FORWARD_SLIP if sense == FORWARD else BACKWARD_SLIP

@@ -1,0 +1,138 @@
+"""Touchdown bearings: where a rotor can touch its housing, and what the wall does to it there."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Annotated, Any, ClassVar, get_args
+
+import numpy as np
+
+from carom.arguments import Kind, Positive, checked
+from carom.core.laws.choice import LAWS
+from carom.core.wall import Wall
+from carom.outcome import InputError, shown
+
+_Share = Annotated[float, Kind(lambda number: 0.0 <= number <= 1.0, "a number from 0 to 1")]
+_NotNegative = Annotated[float, Kind(lambda number: number >= 0.0, "a number of at least 0")]
+_Forward = Annotated[float, Kind(lambda number: number >= 1.0, "a number of at least 1")]
+
+
+@checked
+@dataclass(frozen=True)
+class Rigid:
+    """A rigid wall: each arrival ends with a rebound at a constant share of its speed (:mod:`carom.core.laws.rigid`).
+
+    Attributes
+    ----------
+    restitution : float
+        Coefficient of restitution ``d``, from 0 to 1.
+    """
+
+    restitution: _Share
+
+    law: ClassVar = "rigid"
+    law_number: ClassVar = 0.0
+
+
+@checked
+@dataclass(frozen=True)
+class FallingRestitution:
+    """A wall that yields more the harder it is hit: a restitution ``d/(1 + ṙ/v)`` (:mod:`carom.core.laws.falling`).
+
+    Attributes
+    ----------
+    restitution : float
+        Coefficient of restitution ``d`` of slow arrivals, from 0 to 1.
+    speed : float
+        Speed ``v`` of the arrival at which it is half of that, in ``c_r Ω``.
+    """
+
+    restitution: _Share
+    speed: Positive
+
+    law: ClassVar = "falling"
+
+    @property
+    def law_number(self) -> float:
+        """The number that the law's functions take."""
+        return 1.0 / self.speed
+
+
+Law = Rigid | FallingRestitution
+"""What a wall does along its normal; ``law`` is the name of its module in :mod:`carom.core.laws`."""
+
+
+@checked
+@dataclass(frozen=True)
+class Touchdown:
+    """One contact plane of a rotor.
+
+    Attributes
+    ----------
+    plane : sequence of complex, shape (n,)
+        Displacement at the plane, in its clearance, per coordinate of the rotor.  A plane resists impulses with the
+        effective mass ``1/(W M⁻¹ Wᴴ)`` of this row ``W``.
+    law : Rigid or FallingRestitution
+        What the wall does to a plane that arrives.
+    friction : float
+        Coulomb friction coefficient ``μ``.
+    surface_speed : float
+        Slip velocity of a rotor at rest in the co-rotating frame: ``s + 1``, with the rotor radius ``s`` at the plane in clearances.
+
+    Raises
+    ------
+    InputError
+        A value is not allowed.
+    """
+
+    plane: Any
+    law: Law
+    friction: _NotNegative
+    surface_speed: _Forward
+
+    def __post_init__(self) -> None:
+        row = np.array(self.plane, complex) if _are_numbers(self.plane) else np.empty(0)
+        if row.ndim != 1 or not row.size or not np.isfinite(row).all():
+            raise InputError("plane", shown(self.plane), "finite numbers, one for each coordinate of the rotor")
+        object.__setattr__(self, "plane", tuple(row.tolist()))
+
+    def value(self, name: str) -> float:
+        """Value of its parameter ``"mu"``, ``"d"`` or ``"radius_ratio"``."""
+        return {"mu": self.friction, "d": self.law.restitution, "radius_ratio": self.surface_speed - 1.0}[name]
+
+    def replace(self, name: str, value: float) -> Touchdown:
+        """Return the same with another value of a parameter of :meth:`value`."""
+        if name == "d":
+            return dataclasses.replace(self, law=dataclasses.replace(self.law, restitution=value))
+        if name == "mu":
+            return dataclasses.replace(self, friction=value)
+        return dataclasses.replace(self, surface_speed=value + 1.0)
+
+    def attributes(self) -> dict[str, Any]:
+        """Return it as numbers and texts, exact to the last bit."""
+        plane = [[number.real, number.imag] for number in self.plane]
+        law = {"name": self.law.law, **dataclasses.asdict(self.law)}
+        return {"plane": plane, "law": law, "friction": self.friction, "surface_speed": self.surface_speed}
+
+    @classmethod
+    def from_attributes(cls, given: Mapping[str, Any]) -> Touchdown:
+        """Make it from :meth:`attributes`."""
+        name, numbers = given["law"]["name"], {key: given["law"][key] for key in given["law"] if key != "name"}
+        (law,) = (each for each in get_args(Law) if each.law == name)
+        plane = [complex(*number) for number in given["plane"]]
+        return cls(plane, law(**numbers), given["friction"], given["surface_speed"])
+
+    @property
+    def wall(self) -> Wall:
+        """The numbers of its wall, as the kernels take them."""
+        number = LAWS.index(self.law.law)
+        return Wall(self.friction, self.law.restitution, self.surface_speed, number, self.law.law_number)
+
+
+def _are_numbers(values: Any) -> bool:
+    try:
+        return np.array(values).dtype.kind in "iufc"
+    except (TypeError, ValueError, OverflowError):
+        return False
