@@ -8,9 +8,9 @@ import numpy as np
 import carom
 from carom.core.advance import advance
 from carom.core.contact_series import AWAY
+from carom.core.event_log import EventLog
 from carom.core.fate import memory
 from carom.core.layout import rub_workspace, workspace
-from carom.motions.trajectories import EventLog
 
 UNTIL, MOST_IMPACTS = 200.0, 100
 
@@ -44,19 +44,16 @@ class Bounces:
         self.work = memory(2, stop_at_landing=True), workspace(2), rub_workspace(2)
 
     def __call__(self) -> int:
-        return _all_bounces(
-            self.rotor.system.arrays, self.rotor.system.table, self.starts, UNTIL, *self.log, *self.work
-        )
+        return _all_bounces(self.rotor.system.arrays, self.rotor.system.table, self.starts, UNTIL, self.log, *self.work)
 
 
 @numba.njit
-def _all_bounces(rotor, table, starts, until, times, phases, planes, before, after, recollection, work, rub):
+def _all_bounces(rotor, table, starts, until, log, recollection, work, rub):
     impacts, contact = 0, np.empty(1, np.int64)
     amplitudes = np.empty_like(starts[0])
-    log = times, phases, planes, before, after
     for i in range(starts.shape[0]):
         amplitudes[:] = starts[i]
         contact[0] = AWAY
-        outcome = advance(rotor, table, amplitudes, until, contact, *log, recollection, work, rub)
+        outcome = advance(rotor, table, amplitudes, until, contact, log, recollection, work, rub)
         impacts += outcome[2]
     return impacts

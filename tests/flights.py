@@ -13,13 +13,13 @@ from reference import Crossing, Flight, first_crossing, jeffcott_exponents, jeff
 from carom.core import events
 from carom.core.advance import advance
 from carom.core.block import load_products
+from carom.core.event_log import EventLog
 from carom.core.fate import memory
 from carom.core.flow import displacement, squared_modulus
 from carom.core.lanes import CLEARED, LATE, OPEN, fly_lanes, lanes_record
 from carom.core.layout import LEVELS, rub_workspace, workspace
 from carom.core.phases import AWAY, FLIGHT
 from carom.models import Jeffcott
-from carom.motions.trajectories import EventLog
 from carom.outcome import Outcome
 from carom.parameters import Parameters
 
@@ -136,7 +136,7 @@ def by_advance(task: Task, horizon: float) -> tuple[int, float]:
     """The same by the event loop: to the first event of the motion."""
     contact, log = np.array([AWAY if task.radial_speed is None else FLIGHT]), EventLog.empty(1, len(task.amplitudes))
     scratch = memory(len(task.amplitudes)), workspace(len(task.amplitudes)), rub_workspace(len(task.amplitudes))
-    outcome, time, events = advance(task.arrays, task.table, task.amplitudes.copy(), horizon, contact, *log, *scratch)
+    outcome, time, events = advance(task.arrays, task.table, task.amplitudes.copy(), horizon, contact, log, *scratch)
     if events > 0:
         return Outcome.CONTACT, float(log.times[0])
     return (Outcome.CLEAR if outcome == Outcome.TIME_REACHED else outcome), time

@@ -11,13 +11,14 @@ from flint import acb, arb
 from reference import first_crossing, jeffcott_flight, unit
 
 from carom.core.advance import CHATTER_HEIGHT, advance
+from carom.core.event_log import EventLog
 from carom.core.fate import memory
 from carom.core.layout import rotor_record, rub_workspace, workspace
 from carom.core.phases import AWAY, FLIGHT
 from carom.core.table import flight_table
 from carom.models import Jeffcott
 from carom.motions.starts import State
-from carom.motions.trajectories import EventLog, simulate
+from carom.motions.trajectories import simulate
 from carom.outcome import Outcome
 from carom.parameters import Parameters
 

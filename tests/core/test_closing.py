@@ -131,10 +131,12 @@ def test_what_is_known_of_an_orbit_is_not_asked_again_nor_taken_for_more():
         rotor.system.amplitudes(orbit.section.state.position, orbit.section.state.velocity)
         for orbit in (orbits["B1,d"], orbits["B1,c"])
     ]
-    log, known, work, rub = _tools()
+    contact, log, known, work, rub = _tools()
 
     def impacts(state, recollection):
-        return least_period(rotor.system.arrays, rotor.system.table, state.copy(), 1, log, recollection, work, rub)
+        return least_period(
+            rotor.system.arrays, rotor.system.table, state.copy(), 1, contact, log, recollection, work, rub
+        )
 
     for scale in (0.0, 1e-9, 1e-7):
         for state in states:

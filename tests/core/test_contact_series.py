@@ -8,12 +8,12 @@ from linear_rotors import tilting
 
 from carom.core.advance import advance
 from carom.core.contact_series import rub_series
+from carom.core.event_log import EventLog
 from carom.core.fate import memory
 from carom.core.layout import rub_workspace, workspace
 from carom.core.phases import AWAY, BACKWARD_SLIP, FLIGHT, FORWARD_SLIP, ROLLING
 from carom.core.rub import fly_or_rub_all, forces_all, next_phase, press
 from carom.core.taylor import series_step, sum_series
-from carom.motions.trajectories import EventLog
 
 ROTOR = tilting(forcing=np.array([0.88 + 0.18j, 0.05]))
 SYSTEM = ROTOR.model.system
@@ -119,7 +119,7 @@ def test_contact_at_one_plane_changes_with_what_happens_at_the_other():
     amplitudes, contact = on_walls((0.35, 0.35), (0.0, 0.0), inside=(1,)), np.array([FORWARD_SLIP, AWAY])
     log = EventLog.empty(2000, 4, 2)
     outcome, time, count = advance(
-        SYSTEM.arrays, SYSTEM.table, amplitudes, 60.0, contact, *log, memory(4), workspace(4), rub_workspace(4, 2)
+        SYSTEM.arrays, SYSTEM.table, amplitudes, 60.0, contact, log, memory(4), workspace(4), rub_workspace(4, 2)
     )
     assert time > 0.5
     phases = set(map(tuple, log.phases[:count].tolist()))

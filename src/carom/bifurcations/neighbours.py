@@ -93,7 +93,7 @@ def read_beside(orbit: Orbit, rotor: Model) -> list[tuple[Word, Start]]:
         return []
     # From the first change on: whether a later period is like it is what is asked.  A chatter must not be cut.
     lifts = begins[(before[begins] != Phase.FLIGHT) & (after[begins] == Phase.FLIGHT)]
-    cut = not motion.is_impact[begins[0]] or not beside.word.kinds.min() <= Kind.LIFT
+    cut = not motion.is_impact[begins[0]] or not any(segment.kind.flies for segment in beside.word)
     first = lifts[int(np.argmax(np.diff(times)[lifts]))] if cut and len(lifts) else begins[0]
     alike = np.flatnonzero((signs == signs[first]).all(axis=1))
     read = []

@@ -7,12 +7,13 @@ from itertools import pairwise
 
 import numpy as np
 
+from carom.core.event_log import EventLog
 from carom.core.fate import memory
 from carom.core.layout import rub_workspace
 from carom.core.phases import AWAY
 from carom.core.rub import fly_or_rub_all
 from carom.models import Model
-from carom.motions.trajectories import EventLog, follow
+from carom.motions.trajectories import follow
 from carom.orbits.admissibility import PHASES, departure
 from carom.orbits.orbit import Orbit
 from carom.orbits.word import Segment

@@ -319,7 +319,10 @@ class Family:
         ends: dict[str, Callable[[np.ndarray, float], float]] = {BOUNDLESS: lambda u, _: fastest - self.fastest(u)}
         if not virtual:
             ends[FAR] = self._nearness
-        touches, lifts = self.word.timed & (self.word.kinds > Kind.LAND), self.word.kinds == Kind.LIFT
+        touches, lifts = (
+            self.word.timed & np.array([segment.kind.lasts for segment in self.word]),
+            self.word.kinds == Kind.LIFT,
+        )
         if touches.any():
             ends[GONE] = beyond(touches, LONG_GONE)
         if lifts.any():
@@ -334,7 +337,7 @@ class Family:
 
 def _at_walls(rotor: Model, word: Word) -> np.ndarray:
     """Displacement at its contact plane before each of the k impacts, and its rate, per free unknown, complex, shape (2, k, unknowns)."""
-    struck = np.flatnonzero(word.kinds <= Kind.IMPACT_STOPPED)
+    struck = np.flatnonzero([segment.kind.is_impact for segment in word])
     rows = rotor.system.planes[word.planes[struck]]
     k, n = rows.shape
     # Of each segment: real and imaginary parts of the coordinates and their rates, and the duration.

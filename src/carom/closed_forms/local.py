@@ -28,6 +28,7 @@ import numpy as np
 from carom.arguments import checked
 from carom.closed_forms.periods import PeriodCondition
 from carom.core.flow import fly_all
+from carom.core.friction import sliding_factor
 from carom.core.wall import Wall
 from carom.models import Subject, System, jeffcott_of, second_order_system
 from carom.outcome import InputError
@@ -196,7 +197,7 @@ def cycle_determinant(system: System, period: float, direction: complex = 1.0) -
     modes = len(arrays.exponents)
     units = np.concatenate([np.eye(modes), 1j * np.eye(modes)])
     arrivals = fly_all(arrays, units, np.full(len(units), float(period)))
-    factor = (1.0 + arrays.restitution[0]) * complex(1.0, arrays.friction[0])
+    factor = sliding_factor(float(arrays.friction[0]), float(arrays.restitution[0]))
     columns = []
     for unit, arrival in zip(units, arrivals, strict=True):
         speed = (np.conj(direction) * (arrays.rate_rows[0] @ arrival)).real

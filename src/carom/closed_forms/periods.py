@@ -10,6 +10,7 @@ import numpy as np
 
 from carom.arguments import Reals, checked
 from carom.core import periods
+from carom.core.friction import sliding_factor
 from carom.core.planar import planar_exponents
 from carom.models import System
 from carom.outcome import CaromError, InputError
@@ -72,7 +73,7 @@ class PeriodCondition:
         modes = np.zeros((len(row), 3), complex)
         modes[:, 0], modes[:, 1] = system.exponents, row * column
         modes[1:, 2] = row[1:] * column[:-1] * arrays.driven[1:]
-        return cls(modes, complex(1.0 + arrays.restitution[0]) * complex(1.0, slip * arrays.friction[0]))
+        return cls(modes, sliding_factor(slip * float(arrays.friction[0]), float(arrays.restitution[0])))
 
     @classmethod
     @checked

@@ -18,6 +18,7 @@ Nothing here knows units, files or results.  A kernel sees a rotor as the arrays
 ``taylor``           length of a step, sums and zeros of Taylor series
 ``rub``              when lasting contact changes, and what follows
 ``rub_step``         one step of lasting contact
+``event_log``        the log of a motion's events
 ``advance``          the event loop of one motion
 ``fate``             criteria for the end to which a motion settles
 ``planar_proofs``    ends that are proven before they are reached
@@ -30,6 +31,7 @@ Nothing here knows units, files or results.  A kernel sees a rotor as the arrays
 ``periods``          all periods of single-impact orbits
 ``planar``           single-impact orbits in closed form
 ``segments``         maps of the segments of an orbit, with derivatives
+``equations``        linear equations
 ``closure``          equations of multiple shooting, and Newton's method
 ``sensitivity``      how these equations change with a parameter
 ``margins``          how far an orbit is from a change of its word

@@ -56,7 +56,7 @@ LEAST_LOSS = 1e-3
 
 
 @shared
-def advance(rotor, table, amplitudes, until, contact, times, phases, planes, before, after, memory, work, rub):
+def advance(rotor, table, amplitudes, until, contact, log, memory, work, rub):
     """Follow a motion until a given time, until the log is full, or until it settles.
 
     Impacts at several planes in one instant are resolved together (:mod:`carom.core.joint`) and are one event, of one of these planes.
@@ -71,10 +71,9 @@ def advance(rotor, table, amplitudes, until, contact, times, phases, planes, bef
     contact : int array, shape (P,)
         State of contact of each plane at the start; on return that at the returned time.  It is a
         :class:`~carom.outcome.Phase` on the wall (``FLIGHT``: about to leave or to strike), otherwise ``AWAY``.
-    times, phases, planes, before, after : arrays, shapes (L,), (L, P), (L,), (L, N), (L, N)
-        Log of events: time, phase of each plane that follows, plane, amplitudes just before and just after.  An impact
-        is followed by ``FLIGHT`` and changes the amplitudes; a long contact is logged in steps that change nothing.  A
-        motion that settles at an impact ends just before it.
+    log : EventLog
+        Its entries are overwritten.  An impact is followed by ``FLIGHT`` and changes the amplitudes; a long contact is logged
+        in steps that change nothing.  A motion that settles at an impact ends just before it.
     memory : record of :func:`~carom.core.fate.memory`
     work, rub : records of :func:`~carom.core.layout.workspace` and :func:`~carom.core.layout.rub_workspace`
 
@@ -92,7 +91,7 @@ def advance(rotor, table, amplitudes, until, contact, times, phases, planes, bef
     if rotor.rows.shape[0] == 1:
         memory.stalled, most_stalled = 0, STALLED
     outcome = CONTACT
-    while outcome == CONTACT and events < times.shape[0]:
+    while outcome == CONTACT and events < log.times.shape[0]:
         if _slides(rotor, contact, state):
             outcome, duration, plane = _slide(rotor, contact, until - time, memory, work, rub)
         else:
@@ -100,12 +99,12 @@ def advance(rotor, table, amplitudes, until, contact, times, phases, planes, bef
         time = until if outcome == TIME_REACHED else time + duration
         memory.lap += duration
         if outcome == CONTACT:
-            times[events], planes[events] = time, plane
+            log.times[events], log.planes[events] = time, plane
             for p in range(rotor.rows.shape[0]):
-                phases[events, p] = FLIGHT if contact[p] == AWAY else contact[p]
+                log.phases[events, p] = FLIGHT if contact[p] == AWAY else contact[p]
             for k in range(state.shape[0]):
-                before[events, k] = work.arrival[k]
-                after[events, k] = state[k]
+                log.before[events, k] = work.arrival[k]
+                log.after[events, k] = state[k]
             events += 1
             stands = duration <= SHORTEST
             if rotor.rows.shape[0] > 1:

@@ -59,7 +59,7 @@ ALIGNED = 0.1
 
 
 @shared
-def least_period(rotor, table, state, count, log, memory, work, rub):
+def least_period(rotor, table, state, count, contact, log, memory, work, rub):
     """Number of impacts in the period of the orbit that a motion approaches.
 
     Parameters
@@ -70,8 +70,8 @@ def least_period(rotor, table, state, count, log, memory, work, rub):
         Amplitudes just before an impact to which the motion has recurred.
     count : int
         Number of impacts after which it has recurred; zero if it has not.
-    log : tuple of arrays
-        State of contact and log for one event, in the form that :func:`~carom.core.advance.advance` takes.
+    contact, log
+        State of contact and log for one event, for :func:`~carom.core.advance.advance`; both are overwritten.
     memory : record of :func:`~carom.core.fate.memory`
         Its ``attracted`` caches the last state found at a single-impact orbit: many motions end at the same orbit.
     work, rub : records of :func:`~carom.core.layout.workspace` and :func:`~carom.core.layout.rub_workspace`
@@ -91,13 +91,15 @@ def least_period(rotor, table, state, count, log, memory, work, rub):
     states, durations = np.empty((ahead + 1, 2), np.complex128), np.empty(ahead)
     copy(state, states[0])
     followed, bounces = _follow_impacts(
-        rotor, table, states[: longest + 1], durations[:longest], log, memory, work, rub
+        rotor, table, states[: longest + 1], durations[:longest], contact, log, memory, work, rub
     )
     if count == 0 and followed:
         # Most irregular motions do not even come near.
         if not _comes_back(states[: longest + 1]):
             return 0
-        followed, _ = _follow_impacts(rotor, table, states[longest:], durations[longest:], log, memory, work, rub)
+        followed, _ = _follow_impacts(
+            rotor, table, states[longest:], durations[longest:], contact, log, memory, work, rub
+        )
     if not followed or _fades(rotor, states, durations):
         return 0
     if count == 1 and bounces and _pulls_in(rotor, states, durations):
@@ -108,7 +110,7 @@ def least_period(rotor, table, state, count, log, memory, work, rub):
     for impacts in range(1, longest + 1):
         if count % impacts == 0 and same_state(states[0], states[impacts], AROUND):
             copy(states[0], orbit[0])
-            found = close(rotor, table, orbit[: impacts + 1], durations[:impacts], log, memory, work, rub)
+            found = close(rotor, table, orbit[: impacts + 1], durations[:impacts], contact, log, memory, work, rub)
             if found != OPEN and _fades(rotor, orbit[: impacts + 1], durations[:impacts]):
                 return 0
             if found == ATTRACTS and (count > 0 or _draws_near(states, orbit[0], impacts)):
@@ -166,12 +168,12 @@ def _draws_near(states, goal, impacts):
 
 
 @kernel
-def close(rotor, table, orbit, durations, log, memory, work, rub):
+def close(rotor, table, orbit, durations, contact, log, memory, work, rub):
     """Find the periodic orbit close to a state.
 
     Parameters
     ----------
-    rotor, table, log, memory, work, rub
+    rotor, table, contact, log, memory, work, rub
         As in :func:`least_period`.
     orbit : complex array, shape (P + 1, 2)
         The first row holds the amplitudes just before an impact.  On return: the amplitudes of the orbit just before
@@ -187,13 +189,13 @@ def close(rotor, table, orbit, durations, log, memory, work, rub):
     start = orbit[0].copy()
     found = OPEN
     for _ in range(STEPS):
-        followed, bounces = _follow_impacts(rotor, table, orbit, durations, log, memory, work, rub)
+        followed, bounces = _follow_impacts(rotor, table, orbit, durations, contact, log, memory, work, rub)
         if not (followed and same_state(orbit[0], orbit[-1], 10.0 * AROUND)):
             return OPEN
         if bounces:
             found, done = _newton_step(rotor, orbit, durations)
         else:
-            found, done = _aitken_step(rotor, table, orbit, durations, log, memory, work, rub)
+            found, done = _aitken_step(rotor, table, orbit, durations, contact, log, memory, work, rub)
         if not same_state(orbit[0], start, AROUND):
             return OPEN
         if done:
@@ -202,7 +204,7 @@ def close(rotor, table, orbit, durations, log, memory, work, rub):
 
 
 @kernel
-def _follow_impacts(rotor, table, states, durations, log, memory, work, rub):
+def _follow_impacts(rotor, table, states, durations, contact, log, memory, work, rub):
     """Follow a motion from just before one impact through the next ones.
 
     Fills ``states`` after the first one and ``durations``.  Returns whether all impacts were reached, and whether there
@@ -211,23 +213,20 @@ def _follow_impacts(rotor, table, states, durations, log, memory, work, rub):
     patience = memory.patience
     memory.patience, memory.lifting = 0, 0
     amplitudes = states[0].copy()
-    contact = log[0]
     contact[0] = FLIGHT
     count = durations.shape[0]
     met, clock, bounces, quiet = -1, 0.0, True, 0
     while met < count and quiet < SLOW_EVENTS:
         departed = contact[0]
-        outcome, time, events = advance(
-            rotor, table, amplitudes, LONGEST, contact, log[1], log[2], log[3], log[4], log[5], memory, work, rub
-        )
+        outcome, time, events = advance(rotor, table, amplitudes, LONGEST, contact, log, memory, work, rub)
         if outcome != EVENT_LIMIT or events == 0:
             break
         clock += time
         quiet += 1
-        if not lasts(departed) and not lasts(contact[0]) and _changed(log[4][0], log[5][0]):
+        if not lasts(departed) and not lasts(contact[0]) and _changed(log.before[0], log.after[0]):
             met += 1
             if met > 0:
-                copy(log[4][0], states[met])
+                copy(log.before[0], states[met])
                 durations[met - 1] = clock
             clock, quiet = 0.0, 0
         else:
@@ -318,12 +317,12 @@ def _solved(matrix, place, first, second, third):
 
 
 @kernel
-def _aitken_step(rotor, table, orbit, durations, log, memory, work, rub):
+def _aitken_step(rotor, table, orbit, durations, contact, log, memory, work, rub):
     """Extrapolate an orbit with lasting contact, in ``orbit[0]``; return what was found, whether it closes."""
     count = durations.shape[0]
     ahead = np.empty((count + 1, 2), np.complex128)
     copy(orbit[count], ahead[0])
-    followed, _ = _follow_impacts(rotor, table, ahead, durations, log, memory, work, rub)
+    followed, _ = _follow_impacts(rotor, table, ahead, durations, contact, log, memory, work, rub)
     if not followed:
         return OPEN, True
     size, length, later, product = 1.0, 0.0, 0.0, 0.0

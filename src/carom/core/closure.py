@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from carom.core.equations import solve
 from carom.core.layout import kernel, part
 from carom.core.segments import follow_flights
 
@@ -44,7 +45,7 @@ def close_flights(
                 size = max(size, 1.0 + abs(nodes[i, k]))
         # Rounding lets the residual fall no further: the last step has converged too.
         done = largest <= tolerance * size or (largest <= 1e3 * tolerance * size and largest >= 0.5 * before)
-        if not (largest < np.inf and eliminate(matrix)):
+        if not (largest < np.inf and solve(matrix)):
             return False
         before, farthest = largest, 0.0
         for row in range(m * width):
@@ -112,29 +113,3 @@ def carry_through_segments(slopes):
                     total += passages[i, row, k] * before[k, column]
                 product[row, column] = total
     return passages, product
-
-
-@part
-def eliminate(matrix):
-    """Solve linear equations whose right side is the last column, which receives the solution; whether there is one."""
-    n = matrix.shape[0]
-    for k in range(n):
-        best = k
-        for i in range(k + 1, n):
-            if abs(matrix[i, k]) > abs(matrix[best, k]):
-                best = i
-        if not abs(matrix[best, k]) > 0.0:
-            return False
-        if best != k:
-            for j in range(k, n + 1):
-                matrix[k, j], matrix[best, j] = matrix[best, j], matrix[k, j]
-        for i in range(k + 1, n):
-            share = matrix[i, k] / matrix[k, k]
-            if share != 0.0:
-                for j in range(k + 1, n + 1):
-                    matrix[i, j] -= share * matrix[k, j]
-    for k in range(n - 1, -1, -1):
-        for j in range(k + 1, n):
-            matrix[k, n] -= matrix[k, j] * matrix[j, n]
-        matrix[k, n] /= matrix[k, k]
-    return True

@@ -21,6 +21,7 @@ and the second equation of a plane is ``F_p = −μ N_p sgn v_p`` where it slips
 
 from __future__ import annotations
 
+from carom.core.equations import solve
 from carom.core.friction import friction_ratio, rolling_force
 from carom.core.layout import ORDER, kernel, part
 from carom.core.phases import ROLLING, lasts, sense_of_phase
@@ -109,7 +110,7 @@ def _coupled_forces(rotor, contact, k, work):
         work.matrix[2 * p, 2 * p], work.matrix[2 * p + 1, 2 * p + 1] = 1.0, 1.0
         if lasts(contact[p]):
             _balance(rotor, contact, p, k, work)
-    eliminate(work.matrix)
+    solve(work.matrix)  # forces without bound where there are none (Painlevé)
     for p in range(planes):
         work.force[p, k], work.grip[p, k] = 0j, 0.0
         if lasts(contact[p]):
@@ -150,23 +151,3 @@ def _balance(rotor, contact, p, k, work):
             normal -= share.real
             along += share.imag if rolls else 0.0
     work.matrix[2 * p, last], work.matrix[2 * p + 1, last] = normal, along
-
-
-@kernel
-def eliminate(matrix):
-    """Solve linear equations in place; the last column holds the right sides, and then the solution."""
-    size = matrix.shape[0]
-    for column in range(size):
-        largest = column
-        for row in range(column + 1, size):
-            if abs(matrix[row, column]) > abs(matrix[largest, column]):
-                largest = row
-        for k in range(size + 1):
-            matrix[column, k], matrix[largest, k] = matrix[largest, k], matrix[column, k]
-        for row in range(size):
-            share = matrix[row, column] / matrix[column, column]
-            if row != column and share != 0.0:
-                for k in range(column, size + 1):
-                    matrix[row, k] -= share * matrix[column, k]
-    for row in range(size):
-        matrix[row, size] /= matrix[row, row]

@@ -15,6 +15,7 @@ from carom.core.advance import SHORTEST, STALLED, advance
 from carom.core.block import move_to
 from carom.core.closing import PASSES, least_period
 from carom.core.counter import next_number
+from carom.core.event_log import EventLog
 from carom.core.fate import doubt, forget, impacts_until_noted, levitates, recurs
 from carom.core.flow import copy, displacement, squared_modulus, velocity
 from carom.core.lanes import CLEARED, LATE, OPEN, fly_lanes, surely_flies
@@ -77,11 +78,7 @@ class Tools(NamedTuple):
 
     lanes: np.record
     memory: np.record
-    times: np.ndarray
-    phases: np.ndarray
-    planes: np.ndarray
-    before: np.ndarray
-    after: np.ndarray
+    log: EventLog
     work: np.record
     rub: np.record
     amplitudes: np.ndarray
@@ -216,12 +213,17 @@ def _follow_by_events(task, tools, lane):
         copy(work.current, amplitudes)
         outcome, time, count = advance(
             task.rotor, task.table, amplitudes, task.until - lanes.clock[lane], contact,
-            tools.times, tools.phases, tools.planes, tools.before, tools.after, memory, work, tools.rub,
+            tools.log, memory, work, tools.rub,
         )  # fmt: skip
         copy(amplitudes, work.current)
         lanes.clock[lane] += time
         lanes.events[lane] += count
-        if not lasts(departed) and not lasts(contact[0]) and count > 0 and _changed(tools.before[0], tools.after[0]):
+        if (
+            not lasts(departed)
+            and not lasts(contact[0])
+            and count > 0
+            and _changed(tools.log.before[0], tools.log.after[0])
+        ):
             lanes.struck[lane] += 1
         lanes.stalled[lane] = lanes.stalled[lane] + 1 if time <= SHORTEST else 0
         if outcome == EVENT_LIMIT and lanes.stalled[lane] == STALLED:
@@ -300,10 +302,11 @@ def _save_memory(lanes, memory, lane):
 def _passes_by_orbit(task, tools, lane):
     """Whether a motion that has recurred only passes by an orbit; if not, ``memory.period`` is that of its orbit."""
     lanes, memory = tools.lanes, tools.memory
-    log = (tools.contact, tools.times, tools.phases, tools.planes, tools.before, tools.after)
     state = tools.amplitudes
     copy(tools.work.current, state)
-    memory.period = least_period(task.rotor, task.table, state, memory.period, log, memory, tools.work, tools.rub)
+    memory.period = least_period(
+        task.rotor, task.table, state, memory.period, tools.contact, tools.log, memory, tools.work, tools.rub
+    )
     copy(state, tools.work.current)
     if memory.period != PASSES:
         return False

@@ -96,6 +96,12 @@ def sense_of(local, wall):
 
 
 @formula
+def sliding_factor(friction, restitution):
+    """Impulse of an arrival at a rigid wall that slips forward, per radial speed: ``q = (1 + d)(1 + iμ)``."""
+    return complex(1.0 + restitution, (1.0 + restitution) * friction)
+
+
+@formula
 def friction_ratio(sense, wall):
     """Ratio of the friction along growing angle to the normal force while the contact point slips."""
     return -sense * wall.friction

@@ -22,7 +22,7 @@ from __future__ import annotations
 
 import math
 
-from carom.core.contact_series import eliminate
+from carom.core.equations import solve
 from carom.core.flow import displacement, squared_modulus, velocity
 from carom.core.friction import BACKWARD, FORWARD, STOPPED, friction_ratio, rebound, slip_of
 from carom.core.laws.choice import impulse_by_restitution
@@ -122,11 +122,7 @@ def _set_landing(rotor, contact, plane, share, grip, rub):
             rub.matrix[2 * p + 1, last] = -slip_of(rub.arrivals[p], wall_of(rotor, p))
         else:
             rub.matrix[2 * p + 1, 2 * p] = -friction_ratio(sense_of_phase(contact[p]), wall_of(rotor, p))
-    eliminate(rub.matrix)
-    size = 0.0
-    for row in range(last):
-        size += abs(rub.matrix[row, last])
-    return size < math.inf
+    return solve(rub.matrix)
 
 
 @part
@@ -224,9 +220,8 @@ def _resolve(rotor, rub):
     for p in range(planes):
         rub.impulses[p] = 0j
     for way in range(KINDS**planes):
-        if not _set_equations(rotor, way, rub):
+        if not (_set_equations(rotor, way, rub) and solve(rub.matrix)):
             continue
-        eliminate(rub.matrix)
         error = _violation(rotor, rub)
         work, _ = _work(rotor, rub.local, rub.tried_after, rub.tried, rub)
         valid = error <= EXACT

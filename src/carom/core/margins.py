@@ -11,7 +11,7 @@ from carom.core.flow import acceleration, copy, displacement, flight_increments,
 from carom.core.friction import BACKWARD, FORWARD, margin_of_slip, slip_of, spare_friction, spare_grip
 from carom.core.layout import ORDER, kernel, part
 from carom.core.phases import AWAY, sense_of_phase
-from carom.core.segments import LIFT, ROLL, SLIDE_BACKWARD, SLIDE_FORWARD, phase_of, sense_after
+from carom.core.segments import LIFT, ROLL, SLIDE_BACKWARD, SLIDE_FORWARD, phase_of, rubs, sense_after, strikes
 from carom.core.taylor import series_step, sum_series
 from carom.core.variation import strike
 from carom.core.wall import local_velocity, unit, wall_of
@@ -76,7 +76,7 @@ def least_margins(rotor, kinds, planes, nodes, durations, landings):
     for i in range(m):
         radial, pressed, pull = local[i, 1], local[i, 3], local[i, 4]
         wall = wall_of(rotor, planes[i])
-        if kinds[i] < LIFT and wall.friction > 0.0:
+        if strikes(kinds[i]) and wall.friction > 0.0:
             slip = min(slip, margin_of_slip(local_velocity(rotor, planes[i], nodes[i]), sense_after(kinds[i]), wall))
         # After a chatter with rebound friction ceases to stop the slip before this limit is reached.
         if kinds[i] == ROLL and (math.isinf(landings[i - 1]) or wall.restitution == 0.0):
@@ -84,14 +84,14 @@ def least_margins(rotor, kinds, planes, nodes, durations, landings):
         turned = kinds[i - 1] == SLIDE_FORWARD if kinds[i] == SLIDE_BACKWARD else kinds[i - 1] == SLIDE_BACKWARD
         if turned and (kinds[i] == SLIDE_FORWARD or kinds[i] == SLIDE_BACKWARD):
             cone = min(cone, -spare_grip(pressed, -pull, sense_of_phase(phase_of(kinds[i])), wall))
-        if kinds[i] >= SLIDE_FORWARD:
+        if rubs(kinds[i]):
             begins = landings[i - 1]
             push = min(push, begins if begins < 0.0 else pressed)
         elif kinds[i] != LIFT:
             approach = min(approach, radial)
-        if kinds[i] <= LIFT:
+        if strikes(kinds[i]) or kinds[i] == LIFT:
             copy(nodes[i], after)
-            if kinds[i] < LIFT:
+            if strikes(kinds[i]):
                 strike(rotor, planes[i], sense_after(kinds[i]), after, still)
             for plane in range(rotor.rows.shape[0]):
                 height, _ = highest_point(rotor, plane, after, durations[i])
@@ -119,7 +119,7 @@ def contact_margins(rotor, kinds, planes, nodes, durations, rub):
     push, slip, cone = np.inf, np.inf, np.inf
     state, contact = np.empty(nodes.shape[1], np.complex128), np.empty(rotor.rows.shape[0], np.int64)
     for i in range(kinds.shape[0]):
-        if kinds[i] < SLIDE_FORWARD:
+        if not rubs(kinds[i]):
             continue
         plane, rolls, sense = planes[i], kinds[i] == ROLL, sense_of_phase(phase_of(kinds[i]))
         wall = wall_of(rotor, plane)

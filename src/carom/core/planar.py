@@ -11,6 +11,7 @@ import cmath
 import numpy as np
 
 from carom.core.flow import squared_modulus
+from carom.core.friction import sliding_factor
 from carom.core.layout import kernel
 from carom.core.periods import propagator, returns
 
@@ -63,7 +64,7 @@ def orbit_conditions(gamma, omega, rho, mu, d, surface_speed, period, speed):
     """
     first, second = planar_exponents(gamma, omega)
     a12, a22, rate, _ = returns(first, second, period)
-    q = complex(1.0 + d, (1.0 + d) * mu)
+    q = sliding_factor(mu, d)
     lever, turn = q * a12, q * a22
     closing = 1.0 + turn.real
     rest = rho * rho / squared_modulus(complex(omega * omega - 1.0, gamma))
@@ -91,7 +92,7 @@ def impact_jacobian(gamma, omega, mu, d, period, speed):
     """Derivative of the impact map on a single-impact orbit over ``(θ, ṙ, θ̇)``, shape (3, 3)."""
     first, second = planar_exponents(gamma, omega)
     a12, a22, _, _ = returns(first, second, period)
-    q = complex(1.0 + d, (1.0 + d) * mu)
+    q = sliding_factor(mu, d)
     return _jacobian(first, second, q, q * a12, q * a22, period, speed)
 
 
@@ -225,7 +226,7 @@ def _flight(gamma, omega, mu, d, period, speed):
     """Exponents, equilibrium and amplitudes (driven, driving) of the flight that follows the impact at ``U = 1``."""
     first, second = planar_exponents(gamma, omega)
     a12, a22, _, _ = returns(first, second, period)
-    q = complex(1.0 + d, (1.0 + d) * mu)
+    q = sliding_factor(mu, d)
     rest = 1.0 + q * a12 * speed
     driven = 1.0 - rest
     driving = speed * (complex(1.0, -(q * a22).imag) - q) - second * driven

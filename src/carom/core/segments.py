@@ -28,7 +28,7 @@ from carom.core.variation import blow, carry_through_impact, carry_to_wall, stri
 from carom.core.wall import move_plane, rigid_wall, unit, wall_of
 
 IMPACT_FORWARD, IMPACT_BACKWARD, IMPACT_STOPPED, LIFT, LAND, SLIDE_FORWARD, SLIDE_BACKWARD, ROLL = range(8)
-"""Kinds of segments; the first four are flights."""
+"""Kinds of segments."""
 NO_CONDITION, MEETS_WALL, NO_PUSH, NO_SLIP, CONE_FORWARD, CONE_BACKWARD, LEAST_PUSH = range(7)
 """Conditions at the end: two are the limits of the friction cone beyond which forward or backward slip begins; at the last one
 the normal force is least, and the same sliding goes on."""
@@ -68,10 +68,10 @@ def follow_flights(rotor, basis, to_modes, rest, kinds, planes, targets, nodes, 
     moved, increments = np.empty((last + 1, modes), np.complex128), np.empty((last + 1, modes), np.complex128)
     rate = np.empty(modes, np.complex128)
     for i in range(kinds.shape[0]):
-        if kinds[i] > LIFT:
+        if not strikes(kinds[i]) and kinds[i] != LIFT:
             continue
         directions = _set_out(to_modes, rest, nodes[i], moved)
-        if kinds[i] < LIFT:
+        if strikes(kinds[i]):
             strike(rotor, planes[i], sense_after(kinds[i]), moved[last], directions)
         flight_increments(rotor, moved, durations[i], increments)
         for row in range(last + 1):
@@ -98,7 +98,7 @@ def follow_contact(rotor, basis, to_modes, rest, kinds, planes, ends, nodes, dur
     moved, rate = np.empty((2 * modes + 1, modes), np.complex128), np.empty(modes, np.complex128)
     contact = np.empty(rotor.rows.shape[0], np.int64)
     for i in range(kinds.shape[0]):
-        if kinds[i] <= LAND:
+        if not rubs(kinds[i]):
             continue
         directions, phase = _set_out(to_modes, rest, nodes[i], moved), phase_of(kinds[i])
         _rest(rotor, planes[i], moved[2 * modes], directions, 0.0, sense_of_phase(phase))
@@ -146,6 +146,18 @@ def _hand_over(basis, rest, moved, rate, arrival, slopes):
         arrival[j] = rest[j]
         for k in range(modes):
             arrival[j] += basis[j, k] * moved[2 * modes, k]
+
+
+@part
+def strikes(kind):
+    """Whether a segment begins with an impact."""
+    return kind in (IMPACT_FORWARD, IMPACT_BACKWARD, IMPACT_STOPPED)
+
+
+@part
+def rubs(kind):
+    """Whether a segment is lasting contact."""
+    return kind in (SLIDE_FORWARD, SLIDE_BACKWARD, ROLL)
 
 
 @part

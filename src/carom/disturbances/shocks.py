@@ -27,12 +27,12 @@ import math
 import numpy as np
 
 from carom.core.advance import advance
+from carom.core.event_log import EventLog
 from carom.core.fate import forget, memory
 from carom.core.layout import rotor_record, rub_workspace, workspace
 from carom.core.phases import AWAY
 from carom.core.wall import Wall
 from carom.models import Model, System
-from carom.motions.trajectories import EventLog
 from carom.outcome import InputError, Outcome
 
 EVENT_LIMIT, TIME_REACHED = int(Outcome.EVENT_LIMIT), int(Outcome.TIME_REACHED)
@@ -92,7 +92,7 @@ def states_after_shocks(
         outcome, contact[:], events, time = EVENT_LIMIT, AWAY, 0, 0.0
         while outcome == EVENT_LIMIT and events < MOST_EVENTS:
             outcome, passed, count = advance(
-                arrays, table, amplitudes, duration - time, contact, *log, recollection, work, rub
+                arrays, table, amplitudes, duration - time, contact, log, recollection, work, rub
             )
             events, time = events + count, time + passed
         values = amplitudes.tolist()

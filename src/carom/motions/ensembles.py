@@ -13,6 +13,7 @@ import numpy as np
 from carom.arguments import Count, Whole, checked
 from carom.core.counter import fresh_counter, next_number
 from carom.core.ensemble import MOTION, Task, Tools, follow_each
+from carom.core.event_log import EventLog
 from carom.core.fate import forget
 from carom.core.lanes import lanes_record
 from carom.core.layout import rub_workspace, workspace
@@ -30,7 +31,7 @@ from carom.motions.settling import (
     settled,
 )
 from carom.motions.starts import LARGEST_SPEED, WALL_TOLERANCE, State, Until, amplitudes_of, time_until
-from carom.motions.trajectories import EventLog, follow
+from carom.motions.trajectories import follow
 from carom.outcome import InputError, Outcome, Phase
 from carom.progress import Reporter, ShowProgress, shows_progress
 from carom.results import Result
@@ -350,7 +351,7 @@ def _follow_singly(part: _Part, until: float, most_events: int, memory: np.recor
         motion.time, motion.impacts, events, outcome = 0.0, 0, 0, Outcome.EVENT_LIMIT
         while outcome is Outcome.EVENT_LIMIT and events < most_events:
             log = EventLog.empty(min(LOGGED, most_events - events), len(amplitudes), len(contact))
-            before = np.maximum(contact, Phase.FLIGHT)
+            before = np.where(contact == AWAY, Phase.FLIGHT, contact)
             outcome, time, count = follow(part.rotor, amplitudes, until - motion.time, contact, log, memory)
             motion.time += time
             motion.impacts += np.count_nonzero(log.first(count).impacts(before))
@@ -371,7 +372,7 @@ class _Scratch(threading.local):
         self.contact = np.empty(1, np.int64)
 
     def tools(self, memory: np.record) -> Tools:
-        return Tools(self.lanes, memory, *self.log, self.work, self.rub, self.amplitudes, self.contact)
+        return Tools(self.lanes, memory, self.log, self.work, self.rub, self.amplitudes, self.contact)
 
 
 _scratch = _Scratch()

@@ -6,6 +6,7 @@ import numpy as np
 
 from carom.core.advance import SHORTEST_LAP, advance
 from carom.core.closing import PASSES
+from carom.core.event_log import EventLog
 from carom.core.fate import memory
 from carom.core.layout import rub_workspace, workspace
 from carom.core.phases import FLIGHT
@@ -49,19 +50,17 @@ def _states_at_impacts(system: System, amplitudes: np.ndarray, contact: np.ndarr
     """Amplitudes just before an impact and the ``count`` following ones, fewer if the motion does something else."""
     arrays, (planes, modes) = system.arrays, system.arrays.rows.shape
     state, touching, recollection = amplitudes.copy(), contact.copy(), memory(modes)
-    log = (np.empty(LOGGED), np.empty((LOGGED, planes), np.int64), np.empty(LOGGED, np.int64))
-    before, after = np.empty((2, LOGGED, modes), complex)
+    log = EventLog.empty(LOGGED, modes, planes)
     tools = workspace(modes), rub_workspace(modes, planes)
     found: list[np.ndarray] = []
     passed, last, events, outcome = 0.0, -np.inf, 0, Outcome.EVENT_LIMIT
     while outcome == Outcome.EVENT_LIMIT and len(found) <= count and events < MOST_EVENTS:
-        outcome, time, noted = advance(
-            arrays, system.table, state, LONGEST, touching, *log, before, after, recollection, *tools
-        )
-        struck = (before[:noted] != after[:noted]).any(axis=1) & (log[1][np.arange(noted), log[2][:noted]] == FLIGHT)
+        outcome, time, noted = advance(arrays, system.table, state, LONGEST, touching, log, recollection, *tools)
+        new = log.first(noted)
+        struck = (new.before != new.after).any(axis=1) & (new.phases[np.arange(noted), new.planes] == FLIGHT)
         for event in np.flatnonzero(struck).tolist():
-            if planes == 1 or passed + log[0][event] - last > SHORTEST_LAP:
-                found.append(before[event].copy())
-                last = passed + log[0][event]
+            if planes == 1 or passed + new.times[event] - last > SHORTEST_LAP:
+                found.append(new.before[event].copy())
+                last = passed + new.times[event]
         passed, events = passed + time, events + noted
     return np.array(found[: count + 1]).reshape(-1, modes)

@@ -9,6 +9,7 @@ import numpy as np
 from carom.closed_forms.known import known_of
 from carom.closed_forms.rub_stability import rub_attracts
 from carom.core.closing import PASSES, least_period
+from carom.core.event_log import EventLog
 from carom.core.fate import doubt, memory
 from carom.core.layout import rub_workspace, workspace
 from carom.core.planar_proofs import fades_to_rolling, planar_proofs
@@ -131,11 +132,10 @@ def _is_at_rest(rotor: Model, amplitudes: np.ndarray) -> bool:
     return bool(np.max(np.abs(velocity)) < AT_REST)
 
 
-def _tools() -> tuple[tuple[np.ndarray, ...], np.record, np.record, np.record]:
+def _tools() -> tuple[np.ndarray, EventLog, np.record, np.record, np.record]:
     """State of contact and log, memory and scratch arrays for the kernels that close orbits."""
-    whole = np.empty((3, 1), np.int64)
-    log = whole[0], np.empty(1), whole[1:2], whole[2], *np.empty((2, 1, MODES), complex)
-    return log, memory(MODES), workspace(MODES), rub_workspace(MODES)
+    log = EventLog.empty(1, MODES)
+    return np.empty(1, np.int64), log, memory(MODES), workspace(MODES), rub_workspace(MODES)
 
 
 def _recheck_time(rotor: Model) -> float:

@@ -7,12 +7,13 @@ import os
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
-from typing import TYPE_CHECKING, ClassVar, Literal, NamedTuple
+from typing import TYPE_CHECKING, ClassVar, Literal
 
 import numpy as np
 
 from carom.arguments import Count, Reals, Whole, checked
 from carom.core.advance import advance
+from carom.core.event_log import EventLog, flying
 from carom.core.layout import rub_workspace, workspace
 from carom.core.rub import fly_or_rub_all, forces_all
 from carom.models import Model, Subject, model_of
@@ -40,38 +41,6 @@ ROUNDING = 1e-12
 """Excess over the range of times, relative to its length, that counts as rounding."""
 CHUNK = 4096
 """Events per kernel call; between calls progress is reported."""
-
-
-class EventLog(NamedTuple):
-    """Events of a motion as a kernel writes them; see :func:`carom.core.advance.advance`."""
-
-    times: np.ndarray
-    phases: np.ndarray
-    planes: np.ndarray
-    before: np.ndarray
-    after: np.ndarray
-
-    @classmethod
-    def empty(cls, size: int, modes: int, planes: int = 1) -> EventLog:
-        """Allocate a log for this many events."""
-        phases, places = np.empty((size, planes), np.int64), np.empty(size, np.int64)
-        return cls(np.empty(size), phases, places, *np.empty((2, size, modes), complex))
-
-    def first(self, count: int) -> EventLog:
-        """The first events."""
-        return EventLog(*(part[:count] for part in self))
-
-    def impacts(self, phases: np.ndarray) -> np.ndarray:
-        """Which events are impacts, from the phase of each plane, shape (P,), before the first one."""
-        flying = _flying(np.concatenate([phases[None], self.phases]), self.planes)
-        struck: np.ndarray = flying.all(axis=0) & (self.before != self.after).any(axis=1)
-        return struck
-
-
-def _flying(phases: np.ndarray, planes: np.ndarray) -> np.ndarray:
-    """Whether the plane of each event flies before and after it, bool (2, n), for phases (n + 1, P) and planes (n,)."""
-    places = np.arange(len(planes))
-    return np.array([phases[places, planes], phases[places + 1, planes]]) == Phase.FLIGHT
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -155,7 +124,7 @@ class Trajectory(Result):
     @cached_property
     def is_landing(self) -> np.ndarray:
         """Which of the ``n`` events complete a chatter (its remaining impulses in one), bool, shape (n,)."""
-        before, after = _flying(self.segment_phases, self.event_planes)
+        before, after = flying(self.segment_phases, self.event_planes)
         return before & ~after
 
     @cached_property
@@ -423,5 +392,5 @@ def follow(
     """
     modes, system = len(amplitudes), rotor.system
     work, rub = workspace(modes), rub_workspace(modes, len(contact))
-    code, *rest = advance(system.arrays, system.table, amplitudes, until, contact, *log, recollection, work, rub)
+    code, *rest = advance(system.arrays, system.table, amplitudes, until, contact, log, recollection, work, rub)
     return Outcome(code), *rest

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from carom.core.event_log import EventLog
 from carom.core.events import INSIDE, LEAVING, first_crossing
 from carom.core.fate import memory
 from carom.core.friction import slip_of, spare_friction
@@ -13,7 +14,7 @@ from carom.core.rub import lift_off, rest_on_wall, wall_push
 from carom.core.rub_step import NOWHERE
 from carom.core.variation import strike
 from carom.models import Jeffcott, Model
-from carom.motions.trajectories import EventLog, follow
+from carom.motions.trajectories import follow
 from carom.orbits.chatter import LONGEST, MOST_BOUNCES
 from carom.orbits.shooting import TOLERANCE, Start
 from carom.orbits.word import Kind, Segment, Word

@@ -24,9 +24,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from carom.core.event_log import EventLog
 from carom.core.margins import local_motion
 from carom.models import Model
-from carom.motions.trajectories import EventLog
 
 NO_RETURN = 0.375
 """Value of ``w`` above which the rotor does not return to the wall at once."""

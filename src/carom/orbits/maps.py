@@ -9,10 +9,11 @@ import numpy as np
 
 from carom.arguments import Positive, checked
 from carom.core import variation
+from carom.core.event_log import EventLog
 from carom.core.fate import memory
 from carom.models import Subject, jeffcott_of, model_of
 from carom.motions.starts import LARGEST_SPEED, State
-from carom.motions.trajectories import EventLog, Trajectory, follow, simulate
+from carom.motions.trajectories import Trajectory, follow, simulate
 from carom.outcome import InputError, Outcome, Phase, shown
 from carom.results import Result
 

@@ -30,17 +30,17 @@ class Kind(IntEnum):
     @property
     def is_impact(self) -> bool:
         """Whether it is one impact and the flight that follows."""
-        return self <= Kind.IMPACT_STOPPED
+        return self in IMPACTS
 
     @property
     def flies(self) -> bool:
         """Whether it is a flight, after an impact or from rest on the wall."""
-        return self <= Kind.LIFT
+        return self in IMPACTS or self is Kind.LIFT
 
     @property
     def lasts(self) -> bool:
         """Whether it is lasting contact."""
-        return self >= Kind.SLIDE_FORWARD
+        return self in (Kind.SLIDE_FORWARD, Kind.SLIDE_BACKWARD, Kind.ROLL)
 
     @property
     def sense(self) -> int:
@@ -65,6 +65,7 @@ class Kind(IntEnum):
         }[Phase(phase)]
 
 
+IMPACTS = Kind.IMPACT_FORWARD, Kind.IMPACT_BACKWARD, Kind.IMPACT_STOPPED
 _LABELS = {
     Kind.IMPACT_FORWARD: "impact+",
     Kind.IMPACT_BACKWARD: "impact-",
@@ -150,7 +151,7 @@ class Word(Sequence[Segment]):
     @cached_property
     def flies(self) -> bool:
         """Whether all segments are impacts with the flight after them."""
-        return bool((self.kinds <= Kind.IMPACT_STOPPED).all())
+        return bool(np.isin(self.kinds, IMPACTS).all())
 
     @property
     def least(self) -> int:
@@ -193,7 +194,7 @@ class Word(Sequence[Segment]):
     @cached_property
     def timed_flights(self) -> np.ndarray:
         """Which of these are flights, bool, shape (m,)."""
-        flights: np.ndarray = self.timed & (self.kinds <= Kind.LIFT)
+        flights: np.ndarray = self.timed & np.isin(self.kinds, (*IMPACTS, Kind.LIFT))
         return flights
 
     @cached_property
