@@ -45,7 +45,7 @@ class Run:
             self.amplitudes,
             until - self.time,
             self.contact,
-            *log,
+            log,
             self.recollection,
             workspace(modes),
             rub_workspace(modes, len(self.contact)),
