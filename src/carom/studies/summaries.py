@@ -17,6 +17,7 @@ from carom.studies.advice import gain_of
 from carom.studies.advice_facts import check_words
 from carom.studies.proven import is_proven
 from carom.studies.ranges import EVENTS, Motion
+from carom.studies.verdict_facts import KINDS, lost_to
 from carom.studies.wording import Wording, no_rigid_wall
 
 if TYPE_CHECKING:
@@ -69,6 +70,19 @@ class ThresholdRow:
     what: str
 
 
+@dataclass(frozen=True)
+class SurvivedRow:
+    """What of one kind of disturbance is survived."""
+
+    kind: str
+    harmless: str
+    """Up to which size contact is proven to be impossible."""
+    all_back: str
+    """Up to which size all tried came back."""
+    lost: str
+    """The smallest lost, and where it ends."""
+
+
 MOTIONS: dict[Motion, str] = {
     "contact-free": STEADY_WORDS["contact-free"],
     "rub": STEADY_WORDS["rub"],
@@ -77,6 +91,26 @@ MOTIONS: dict[Motion, str] = {
     "rolling": STEADY_WORDS["rolling"],
 }
 """Names of the motions whose ranges are known."""
+
+
+def survived_rows(study: Study) -> list[SurvivedRow]:
+    """Return a row for each kind of disturbance that was searched; none where there is no stable levitation."""
+    if study.survives is None:
+        return []
+    rows = []
+    for name, found in study.survives.items():
+        size = study.wording.size_of(name)
+        of = {"shock": f" of {study.wording.time(study.survives.duration)}", "blade_loss": ", unbalance after it"}
+        up_to = found.largest if found.size is None else found.all_back
+        rows.append(
+            SurvivedRow(
+                f"{KINDS[name]}{of.get(name, '')}",
+                size(found.harmless) if found.harmless > 0.0 else "none",
+                "none" if up_to is None else size(up_to),
+                "none found" if found.size is None else f"{size(found.size)}, {lost_to(study, name, found)}",
+            )
+        )
+    return rows
 
 
 def machine_rows(case: Case) -> list[ValueRow]:

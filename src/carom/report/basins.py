@@ -1,0 +1,106 @@
+"""What the report begins with: where disturbances end now, and where they end after the change that is advised."""
+
+from __future__ import annotations
+
+from matplotlib.figure import Figure
+
+from carom import plots
+from carom.basins import Basin, map_basins
+from carom.disturbances import BaseShock, BladeLoss, Disturbance, Grid, KickPlane
+from carom.models import Model, axis
+from carom.studies import Change, Study
+from carom.studies.advice import stated
+from carom.studies.advice_facts import entry_words
+from carom.studies.survives import Kind
+from carom.studies.verdict_facts import lost_kinds, required_kinds
+
+CELLS: dict[Kind, tuple[int, ...]] = {"kick": (120, 120), "shock": (24, 60), "blade_loss": (120,)}
+"""Cells of a basin: both parts of a kick, peak and direction of a shock, phase of the unbalance after the loss of a blade."""
+BEYOND = 1.5
+"""Largest disturbance of a basin relative to the smallest that is lost, where all that must be survived came back."""
+
+_MISSING = {
+    "no-change-needed": "No change is needed: all that was tried of what it must survive came back.",
+    "no-change-found": "No change is advised: no damping or stiffness tried brings all back.",
+    "nothing-buildable": "No change is advised: those that help ask for more than the magnetic bearings can give.",
+}
+_AXES: dict[Kind, str] = {
+    "kick": "Each point is a kick of the levitating rotor, the farther out the harder, and its colour says where it ends",
+    "shock": "Each point is a shock of the base, the farther out the harder, and its colour says where it ends",
+    "blade_loss": "Each angle is the phase of the unbalance that the loss of a blade leaves, and the colour says where it ends",
+}
+
+
+def decisive(study: Study) -> Kind:
+    """The kind of disturbance that is shown: one that must be survived and is lost, otherwise kicks."""
+    lost = lost_kinds(study)
+    return lost[0][0] if lost else "kick"
+
+
+def advised(study: Study) -> Change | None:
+    """The change that is shown; ``None`` where none is advised."""
+    found = study.recommendation
+    return found.changes[0] if found.kind == "change" else None
+
+
+def caption(study: Study) -> str:
+    """What is to be seen, and which shares come back: those that the study found."""
+    kind, change = decisive(study), advised(study)
+    if not study.levitates and change is None:
+        return ""
+    parts = [f"{_AXES[kind]}."]
+    _, place = _required(study, kind)
+    if study.present is not None:
+        parts.append(f"Now {study.present.returned[place].words}.")
+    if change is not None:
+        parts.append(f"After the change {change.check.returned[place].words}.")
+    return " ".join(parts)
+
+
+def draw(study: Study) -> Figure:
+    """Draw both basins; words stand where there is none."""
+    kind, change = decisive(study), advised(study)
+    model = _disturbances(study, kind)
+    own = change.gain if change else study.gains[0]
+    now = stated(study.case, own, study.case.parameters.value(own))
+    panels: list[tuple[str, Basin | str]] = [
+        (
+            f"now\n{entry_words(now.entry)} {now.text}",
+            _basin(study.rotor, model, kind)
+            if study.levitates
+            else "There is no stable levitation: nothing comes back.",
+        )
+    ]
+    if change is None:
+        panels.append(("after a change\n", _MISSING[study.recommendation.kind]))
+    else:
+        # As the study moved the machine to the value that it checked.
+        changed = axis(study.rotor, change.gain).move(study.rotor, change.value)
+        title = f"after the change\n{entry_words(change.terms.entry)} {change.terms.text}"
+        panels.append((title, _basin(changed, model.rescaled(study.rotor.scales, changed.scales), kind)))
+    with plots.heading(study.case.name):  # the panels say the values
+        return plots.basin_pair(panels, None if kind == "blade_loss" else _required(study, kind)[0])
+
+
+def drawable(study: Study) -> bool:
+    """Whether there is any basin: now, or after a change."""
+    return study.levitates or advised(study) is not None
+
+
+def _basin(rotor: Model, model: Disturbance, kind: Kind) -> Basin:
+    return map_basins(rotor, Grid(model, CELLS[kind]))
+
+
+def _required(study: Study, kind: Kind) -> tuple[float, int]:
+    """Size of a kind that must be survived, and its place among the disturbances followed."""
+    return next((size, place) for each, size, place in required_kinds(study) if each == kind)
+
+
+def _disturbances(study: Study, kind: Kind) -> Disturbance:
+    """Disturbances up to what must be survived, or beyond the smallest that is lost if that is larger."""
+    size, _ = _required(study, kind)
+    if kind == "blade_loss":
+        return BladeLoss(size)
+    found = getattr(study.survives, kind, None)
+    reach = size if found is None or found.size is None or found.size <= size else BEYOND * found.size
+    return BaseShock(reach, study.required.shock.duration) if study.required.shock and kind == "shock" else KickPlane(reach)
