@@ -19,7 +19,7 @@ from carom.plots.figure import StyledFigure
 from carom.plots.plane import Floats
 from carom.plots.rings import paint_ring
 from carom.plots.style import LOOKS, ONE_COLUMN, styled
-from carom.plots.words import formula
+from carom.plots.words import formula, number
 
 if TYPE_CHECKING:
     from carom.basins import Basin
@@ -48,11 +48,14 @@ def basin_pair(panels: Sequence[tuple[str, Basin | str]], required: float | None
     Raises
     ------
     InputError
-        None of the panels has a basin, or one has other disturbances.
+        None of the panels has a basin, or these are no grids of such disturbances, all of one kind.
     """
     basins = [shown for _, shown in panels if not isinstance(shown, str)]
-    if not basins:
-        raise InputError("panels", "texts", "at least one basin")
+    kinds = sorted({basin.plan.model.kind for basin in basins})
+    if len(kinds) != 1:
+        raise InputError("panels", " and ".join(kinds) or None, "basins of one kind of disturbance, at least one")
+    if any(basin.exists.ndim != len(basin.coordinates) for basin in basins) or not _by_place(basins[0]):
+        raise InputError("panels", f"a plan of {kinds[0]}", "grids of kicks, shocks or losses of a blade")
     motions = _motions(basins)
     figure = StyledFigure(figsize=(ONE_COLUMN, (0.7 + 0.045 * len(motions)) * ONE_COLUMN))
     drawn = figure.subplots(1, len(panels), sharex=True, sharey=True, squeeze=False)[0]
@@ -63,11 +66,21 @@ def basin_pair(panels: Sequence[tuple[str, Basin | str]], required: float | None
         else:
             _paint(axes, shown, motions)
             axes.label_outer()
+    reach = _REACH * max(_largest(basin) for basin in basins)
+    drawn[0].set(xlim=(-reach, reach), ylim=(-reach, reach))  # and so the others
     handles: list[Artist] = [entry.named(_words(entry, motions)) for entry in motions]
     if required is not None:
         handles.append(_circle([axes for axes in drawn if axes.axison], basins[0], required))
     figure.legend(handles=handles, loc="outside lower center", ncols=2)
     return figure
+
+
+def _by_place(basin: Basin) -> bool:
+    """Whether disturbances vary by an angle, by size and angle, or by two parts of a size: each has a place in a plane."""
+    along = basin.coordinates
+    if len(along) == 1:
+        return along[0].periodic
+    return len(along) == 2 and not along[0].periodic and (along[1].periodic or along[0].scale == along[1].scale)
 
 
 def _motions(basins: Sequence[Basin]) -> list[MotionLook]:
@@ -88,24 +101,26 @@ def _paint(axes: Axes, basin: Basin, motions: list[MotionLook]) -> None:
     index = np.array([*(places[name] for name in basin.motions), -1])[basin.dataset["motion"].values]
     along = basin.coordinates
     axes.set_aspect("equal")
-    if len(along) == 1 and along[0].periodic:
+    if len(along) == 1:
         paint_ring(axes, along[0], index, motions)
-        axes.set(xlim=(-_REACH, _REACH), ylim=(-_REACH, _REACH))
         axes.set_axis_off()
         return
-    if len(along) != 2:
-        raise InputError("panels", basin.plan.model.kind, "basins of kicks, shocks or losses of a blade")
     factor, unit = along[0].shown_in(basin.scales)
-    across, up = (f"{along[0].words}, at 0°", "at 90°") if along[1].periodic else (along[0].words, along[1].words)
+    across, up = ("direction 0°", along[0].words) if along[1].periodic else (along[0].words, along[1].words)
     axes.set(xlabel=f"{across} ({formula(unit)})", ylabel=f"{up} ({formula(unit)})")
     if along[1].periodic:
         parts = -(-CHORDS // index.shape[1])
         turns = along[1].edges(parts * index.shape[1])
         paint(axes, turns, factor * along[0].edges(index.shape[0]), np.repeat(index.T, parts, axis=0), motions, _polar)
     else:
-        paint(axes, *(factor * each.edges(cells) for each, cells in zip(along, index.shape, strict=True)), index, motions)
-    reach = _REACH * factor * along[0].high
-    axes.set(xlim=(-reach, reach), ylim=(-reach, reach))
+        x, y = (factor * each.edges(cells) for each, cells in zip(along, index.shape, strict=True))
+        paint(axes, x, y, index, motions)
+
+
+def _largest(basin: Basin) -> float:
+    """Size of the largest disturbance, as it is drawn; a ring has the radius 1."""
+    size = basin.coordinates[0]
+    return 1.0 if size.periodic else size.shown_in(basin.scales)[0] * float(size.high)
 
 
 def _polar(angle: Floats, radius: Floats) -> tuple[Floats, Floats]:
@@ -121,12 +136,11 @@ def _write(axes: Axes, text: str) -> None:
 
 def _circle(drawn: Sequence[Axes], basin: Basin, required: float) -> Artist:
     """Draw the circle of what must be survived; return its entry of the legend."""
-    size = basin.coordinates[0]
-    factor = size.shown_in(basin.scales)[0]
+    factor, unit = basin.coordinates[0].shown_in(basin.scales)
     turn = np.linspace(0.0, 2.0 * np.pi, 361)
     dashes = (0.0, (4.0, 2.0))
     colour = LOOKS["wall"].colour
     for axes in drawn:
         axes.plot(*_polar(turn, np.array(factor * required)), ls=dashes, lw=0.8, color=colour, gid="required")
-    label = f"must survive: up to {size.told(required, basin.scales)}"
+    label = f"must survive: up to {number(factor * required, 3)} {formula(unit)}"
     return Line2D([], [], ls=dashes, lw=0.8, color=colour, label=label)

@@ -74,9 +74,7 @@ def _painted_ring(basin: Basin, motions: list[MotionLook], wall: float = 1.0) ->
     return figure, axes
 
 
-def paint_ring(
-    axes: Axes, angle: Coordinate, index: np.ndarray, motions: list[MotionLook], wall: float = 1.0
-) -> None:
+def paint_ring(axes: Axes, angle: Coordinate, index: np.ndarray, motions: list[MotionLook], wall: float = 1.0) -> None:
     """Paint cells along an angle as a ring within the radius `wall`, in the colours of the motions."""
     parts = -(-CHORDS // len(index))
     edges = angle.edges(parts * len(index))

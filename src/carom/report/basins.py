@@ -8,7 +8,7 @@ from carom import plots
 from carom.basins import Basin, map_basins
 from carom.disturbances import BaseShock, BladeLoss, Disturbance, Grid, KickPlane
 from carom.models import Model, axis
-from carom.studies import Change, Study
+from carom.studies import Study
 from carom.studies.advice import stated
 from carom.studies.advice_facts import entry_words
 from carom.studies.survives import Kind
@@ -24,67 +24,45 @@ _MISSING = {
     "no-change-found": "No change is advised: no damping or stiffness tried brings all back.",
     "nothing-buildable": "No change is advised: those that help ask for more than the magnetic bearings can give.",
 }
-_AXES: dict[Kind, str] = {
-    "kick": "Each point is a kick of the levitating rotor, the farther out the harder, and its colour says where it ends",
-    "shock": "Each point is a shock of the base, the farther out the harder, and its colour says where it ends",
-    "blade_loss": "Each angle is the phase of the unbalance that the loss of a blade leaves, and the colour says where it ends",
+_SEEN: dict[Kind, str] = {
+    "kick": "Each point is a kick of the levitating rotor, the farther out the harder, and its colour says where it ends.",
+    "shock": "Each point is a shock of the base, the farther out the harder, and its colour says where it ends.",
+    "blade_loss": "Each angle is the phase of the unbalance that the loss of a blade leaves, counted from the right, where it was "
+    "before, and its colour says where it ends.",
 }
 
 
 def decisive(study: Study) -> Kind:
-    """The kind of disturbance that is shown: one that must be survived and is lost, otherwise kicks."""
+    """The kind of disturbance that is shown: of those that must be survived the one most often lost, otherwise kicks."""
     lost = lost_kinds(study)
-    return lost[0][0] if lost else "kick"
-
-
-def advised(study: Study) -> Change | None:
-    """The change that is shown; ``None`` where none is advised."""
-    found = study.recommendation
-    return found.changes[0] if found.kind == "change" else None
+    return min(lost, key=lambda entry: entry[1].fraction)[0] if lost else "kick"
 
 
 def caption(study: Study) -> str:
-    """What is to be seen, and which shares come back: those that the study found."""
-    kind, change = decisive(study), advised(study)
-    if not study.levitates and change is None:
-        return ""
-    parts = [f"{_AXES[kind]}."]
-    _, place = _required(study, kind)
-    if study.present is not None:
-        parts.append(f"Now {study.present.returned[place].words}.")
-    if change is not None:
-        parts.append(f"After the change {change.check.returned[place].words}.")
-    return " ".join(parts)
+    """What is to be seen."""
+    return _SEEN[decisive(study)]
 
 
 def draw(study: Study) -> Figure:
     """Draw both basins; words stand where there is none."""
-    kind, change = decisive(study), advised(study)
+    kind, change = decisive(study), study.recommendation.advised
     model = _disturbances(study, kind)
-    own = change.gain if change else study.gains[0]
-    now = stated(study.case, own, study.case.parameters.value(own))
-    panels: list[tuple[str, Basin | str]] = [
-        (
-            f"now\n{entry_words(now.entry)} {now.text}",
-            _basin(study.rotor, model, kind)
-            if study.levitates
-            else "There is no stable levitation: nothing comes back.",
-        )
-    ]
+    here = _basin(study.rotor, model, kind) if study.levitates else "There is no stable levitation to come back to."
     if change is None:
-        panels.append(("after a change\n", _MISSING[study.recommendation.kind]))
+        panels = [("now", here), ("after a change", _MISSING[study.recommendation.kind])]
     else:
         # As the study moved the machine to the value that it checked.
         changed = axis(study.rotor, change.gain).move(study.rotor, change.value)
-        title = f"after the change\n{entry_words(change.terms.entry)} {change.terms.text}"
-        panels.append((title, _basin(changed, model.rescaled(study.rotor.scales, changed.scales), kind)))
+        there = _basin(changed, model.rescaled(study.rotor.scales, changed.scales), kind)
+        entry, value = entry_words(change.terms.entry), stated(study.case, change.gain, change.present).text
+        panels = [(f"now\n{entry} {value}", here), (f"after the change\n{entry} {change.terms.text}", there)]
     with plots.heading(study.case.name):  # the panels say the values
         return plots.basin_pair(panels, None if kind == "blade_loss" else _required(study, kind)[0])
 
 
 def drawable(study: Study) -> bool:
     """Whether there is any basin: now, or after a change."""
-    return study.levitates or advised(study) is not None
+    return study.levitates or study.recommendation.advised is not None
 
 
 def _basin(rotor: Model, model: Disturbance, kind: Kind) -> Basin:
@@ -103,4 +81,8 @@ def _disturbances(study: Study, kind: Kind) -> Disturbance:
         return BladeLoss(size)
     found = getattr(study.survives, kind, None)
     reach = size if found is None or found.size is None or found.size <= size else BEYOND * found.size
-    return BaseShock(reach, study.required.shock.duration) if study.required.shock and kind == "shock" else KickPlane(reach)
+    return (
+        BaseShock(reach, study.required.shock.duration)
+        if study.required.shock and kind == "shock"
+        else KickPlane(reach)
+    )

@@ -87,7 +87,9 @@ def _of_disturbances(study: Study) -> Iterator[Picture]:
     for member in reached[:MOST_ENDINGS]:
         example = shown_example(study.attractors, member)
         what = "a kick of the levitating rotor" if example.start.kind == "kick" else "a start within the clearance"
-        shown = "with its distance from the centre, contact and load over time" if example.impacts else "without contact"
+        shown = (
+            "with its distance from the centre, contact and load over time" if example.impacts else "without contact"
+        )
         yield Picture(
             f"disturbance-{_file_name(member.name)}",
             "motions",

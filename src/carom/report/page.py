@@ -18,11 +18,12 @@ from carom.files import staged_directory, write_json
 from carom.files.directory import FIGURES, MANIFEST
 from carom.plots.sheet import drawing
 from carom.progress import Reporter, ShowProgress, shows_progress
+from carom.report.basins import drawable
 from carom.report.figures import Picture, pictures
 from carom.studies import NOT_COVERED, Study
 from carom.studies.advice_facts import BEYOND, CHANGES
 from carom.studies.facts import Fact, about, paragraphs
-from carom.studies.summaries import dimensionless_rows, machine_rows, motion_rows, range_rows, survived_rows
+from carom.studies.summaries import dimensionless_rows, machine_rows, motion_rows, range_rows, share_rows, survived_rows
 from carom.studies.wording import machine_heading
 
 REPORT = "report.html"
@@ -81,12 +82,18 @@ def report_page(study: Study, figures: list[InlineFigure]) -> str:
     return template.render(
         study=study,
         verdict=study.verdict,
+        mark=_mark(study),
+        drawable=drawable(study),
         facts={fact.label: fact.told for fact in about(study.facts, "Verdict")},
+        shares=share_rows(study),
         survived=survived_rows(study),
+        can_change=CHANGES,
         changes=changes,
         advice=about_all,
         at_once=AT_ONCE,
-        findings=[entry for entry in paragraphs(study.facts) if entry[0] not in ("What would change it", "Not covered")],
+        findings=[
+            entry for entry in paragraphs(study.facts) if entry[0] not in ("What would change it", "Not covered")
+        ],
         machine=machine_rows(study.case),
         dimensionless=dimensionless_rows(study.case),
         motions=motion_rows(study),
@@ -101,6 +108,15 @@ def report_page(study: Study, figures: list[InlineFigure]) -> str:
         not_covered=NOT_COVERED,
         versions=_versions(),
     )
+
+
+def _mark(study: Study) -> str:
+    """Colour of the headline: that of levitation only where nothing is lost and nothing is asked that cannot be given."""
+    if study.verdict.level == "no-contact-free-motion":
+        return "var(--bad)"
+    doubtful = study.bearing_demand is not None and study.bearing_demand.doubtful
+    good = study.recommendation.kind == "no-change-needed" and not doubtful
+    return plots.OUTCOMES["levitated"].colour if good else "var(--warn)"
 
 
 @dataclass(frozen=True)

@@ -123,11 +123,9 @@ def _details(study: Study, change: Change) -> Iterator[Fact]:
     yield _fact("Margin", _margin(study, change), detail=True)
     zone = f"zone {change.zone}"
     if change.zone == _LAST_ZONE:
-        zone = (
-            f"still zone {_LAST_ZONE}: less unbalance is needed too"
-            if study.zone == _LAST_ZONE
-            else f"zone {_LAST_ZONE}, which is worse than now"
-        )
+        worse = study.zone not in (None, _LAST_ZONE)
+        still = "still " if study.zone == _LAST_ZONE else ""
+        zone = f"{zone}, which is worse than now" if worse else f"{still}{zone}: less unbalance is needed too"
     yield _fact("Then", f"levitates at {_place(study, change.radius)}, {zone}", "closed form", detail=True)
     yield _fact("Tried", _tried(study, change), "sampled", detail=True)
     for check in change.forced:

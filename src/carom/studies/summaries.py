@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from itertools import zip_longest
 from typing import TYPE_CHECKING, Literal
 
 from carom.attractors.names import LEVITATION, SYNCHRONOUS_RUB
+from carom.basins import Share
+from carom.basins.shares import percent
 from carom.closed_forms.equilibria import Equilibrium
 from carom.orbits.orbit import Orbit
 from carom.orbits.single_impact import OrbitSet
@@ -83,6 +86,16 @@ class SurvivedRow:
     """The smallest lost, and where it ends."""
 
 
+@dataclass(frozen=True)
+class ShareRow:
+    """The share of one kind of disturbance that comes back."""
+
+    of: str
+    now: str
+    after: str
+    """After the first change that is advised; empty where none is."""
+
+
 MOTIONS: dict[Motion, str] = {
     "contact-free": STEADY_WORDS["contact-free"],
     "rub": STEADY_WORDS["rub"],
@@ -111,6 +124,24 @@ def survived_rows(study: Study) -> list[SurvivedRow]:
             )
         )
     return rows
+
+
+def share_rows(study: Study) -> list[ShareRow]:
+    """Return a row for each kind of disturbance that must be survived, and for starts elsewhere in the clearance."""
+    change = study.recommendation.advised
+    now = study.present.returned if study.present else ()
+    after = change.check.returned if change else ()
+    rows = zip_longest(map(_share_back, now), map(_share_back, after), fillvalue="none" if change else "")
+    of = [share.population.words for share in now or after]
+    if of:
+        of[1] = f"starts spread over the clearance, up to {study.wording.velocity(study.required.kick)}"
+    return [ShareRow(words, here, there) for words, (here, there) in zip(of, rows, strict=True)]
+
+
+def _share_back(share: Share) -> str:
+    """A share with what it rests on."""
+    interval = f"{percent(share.low).removesuffix(' %')} to {percent(share.high)}"
+    return f"{percent(share.fraction)} ({share.count:,} of {share.total:,}; {interval})"
 
 
 def machine_rows(case: Case) -> list[ValueRow]:

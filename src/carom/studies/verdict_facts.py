@@ -179,7 +179,8 @@ def _others(study: Study) -> Iterator[Fact]:
         holds.append(Outcome.ROLLING.words)
         motions.append(Outcome.ROLLING.label)
     if holds:
-        text = f"besides levitation there {'are' if len(holds) > 1 else 'is'} {listed(holds)}"
+        there = "besides levitation there" if study.levitates else "there"
+        text = f"{there} {'are' if len(holds) > 1 else 'is'} {listed(holds)}"
         yield Fact(
             "Verdict", text, "Coexisting", "searched" if study.stable_orbits else "closed form", motions=tuple(motions)
         )
@@ -198,7 +199,7 @@ def judged(study: Study) -> tuple[Level, str, str]:
     lost = [_lost_words(study, *found) for found in lost_kinds(study)]
     if lost:
         outcome = f"Does not come back from all that it must survive, zone {study.zone}"
-        return "may-not-come-back", outcome, f"{listed(lost)} are lost"
+        return "may-not-come-back", outcome, listed(lost)
     return (
         "all-tried-came-back",
         f"Came back each time from what it must survive, zone {study.zone}",
@@ -224,7 +225,9 @@ def required_kinds(study: Study) -> tuple[tuple[Kind, float, int], ...]:
     kinds: list[tuple[Kind, float]] = [("kick", required.kick)]
     kinds += [("shock", required.shock.peak)] if required.shock else []
     kinds += [("blade_loss", required.blade_loss)] if required.blade_loss else []
-    return tuple((kind, size, place + (place > 0)) for place, (kind, size) in enumerate(kinds))  # starts elsewhere are second
+    return tuple(
+        (kind, size, place + (place > 0)) for place, (kind, size) in enumerate(kinds)
+    )  # starts elsewhere are second
 
 
 def lost_kinds(study: Study) -> list[tuple[Kind, Share]]:
@@ -245,6 +248,8 @@ def _lost_words(study: Study, kind: Kind, back: Share) -> str:
     say, required = study.wording, study.required
     lost = 1.0 - back.fraction
     many = "nearly all" if lost > NEARLY_ALL else "most" if lost > 0.5 else "some"
+    if kind == "blade_loss":
+        return f"{many} losses of a blade are not survived"
     if kind == "shock" and required.shock:
-        return f"{many} shocks of up to {say.acceleration(required.shock.peak)}"
-    return f"{many} losses of a blade" if kind == "blade_loss" else f"{many} kicks of up to {say.velocity(required.kick)}"
+        return f"{many} shocks of up to {say.acceleration(required.shock.peak)} are lost"
+    return f"{many} kicks of up to {say.velocity(required.kick)} are lost"
