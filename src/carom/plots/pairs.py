@@ -13,6 +13,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from carom.arguments import checked
+from carom.basins import Cells
 from carom.outcome import InputError
 from carom.plots.cells import CHORDS, MotionLook, looks_of, paint
 from carom.plots.figure import StyledFigure
@@ -22,6 +23,7 @@ from carom.plots.style import LOOKS, ONE_COLUMN, styled
 from carom.plots.words import formula, number
 
 if TYPE_CHECKING:
+    from carom.attractors import MotionName
     from carom.basins import Basin
 
 _LINE = 22
@@ -32,14 +34,14 @@ _REACH = 1.04
 
 @checked
 @styled
-def basin_pair(panels: Sequence[tuple[str, Basin | str]], required: float | None = None) -> Figure:
+def basin_pair(panels: Sequence[tuple[str, Basin | Cells | str]], required: float | None = None) -> Figure:
     """Draw basins of the same disturbances beside each other, such as those before and after a change of the machine.
 
     They share axes, legend and colours.  The figure is 88 mm wide.
 
     Parameters
     ----------
-    panels : sequence of (str, Basin or str)
+    panels : sequence of (str, Basin, Cells or str)
         Title and basin from left to right: of kicks by components, of shocks by peak and direction or of losses of a blade by
         phase. A text instead of a basin is written in its place.
     required : float, optional
@@ -50,43 +52,49 @@ def basin_pair(panels: Sequence[tuple[str, Basin | str]], required: float | None
     InputError
         None of the panels has a basin, or these are no grids of such disturbances, all of one kind.
     """
-    basins = [shown for _, shown in panels if not isinstance(shown, str)]
+    shown = [(title, entry if isinstance(entry, str | Cells) else entry.cells) for title, entry in panels]
+    basins = [entry for _, entry in shown if not isinstance(entry, str)]
     kinds = sorted({basin.plan.model.kind for basin in basins})
     if len(kinds) != 1:
         raise InputError("panels", " and ".join(kinds) or None, "basins of one kind of disturbance, at least one")
-    if any(basin.exists.ndim != len(basin.coordinates) for basin in basins) or not _by_place(basins[0]):
+    if any(basin.index.ndim != len(basin.plan.model.coordinates) for basin in basins) or not _by_place(basins[0]):
         raise InputError("panels", f"a plan of {kinds[0]}", "grids of kicks, shocks or losses of a blade")
     motions = _motions(basins)
     figure = StyledFigure(figsize=(ONE_COLUMN, (0.7 + 0.045 * len(motions)) * ONE_COLUMN))
     drawn = figure.subplots(1, len(panels), sharex=True, sharey=True, squeeze=False)[0]
-    for axes, (title, shown) in zip(drawn, panels, strict=True):
+    for axes, (title, entry) in zip(drawn, shown, strict=True):
         axes.set_title(title)
-        if isinstance(shown, str):
-            _write(axes, shown)
+        if isinstance(entry, str):
+            _write(axes, entry)
         else:
-            _paint(axes, shown, motions)
+            _paint(axes, entry, motions)
             axes.label_outer()
     reach = _REACH * max(_largest(basin) for basin in basins)
     drawn[0].set(xlim=(-reach, reach), ylim=(-reach, reach))  # and so the others
-    handles: list[Artist] = [entry.named(_words(entry, motions)) for entry in motions]
+    handles: list[Artist] = [look.named(_words(look, motions)) for look in motions]
     if required is not None:
         handles.append(_circle([axes for axes in drawn if axes.axison], basins[0], required))
     figure.legend(handles=handles, loc="outside lower center", ncols=2)
     return figure
 
 
-def _by_place(basin: Basin) -> bool:
+def _by_place(basin: Cells) -> bool:
     """Whether disturbances vary by an angle, by size and angle, or by two parts of a size: each has a place in a plane."""
-    along = basin.coordinates
+    along = basin.plan.model.coordinates
     if len(along) == 1:
         return along[0].periodic
     return len(along) == 2 and not along[0].periodic and (along[1].periodic or along[0].scale == along[1].scale)
 
 
-def _motions(basins: Sequence[Basin]) -> list[MotionLook]:
+def _motions(basins: Sequence[Cells]) -> list[MotionLook]:
     """Looks of the motions of all basins, which are the same in each."""
     names = list(dict.fromkeys(name for basin in basins for name in basin.motions))
-    return looks_of(names, [sum(basin.fractions.get(name, 0.0) for basin in basins) for name in names])
+    return looks_of(names, [sum(_share(basin, name) for basin in basins) for name in names])
+
+
+def _share(basin: Cells, name: MotionName) -> float:
+    """Share of the cells that end in a motion."""
+    return float((basin.index == basin.motions.index(name)).mean()) if name in basin.motions else 0.0
 
 
 def _words(entry: MotionLook, motions: Sequence[MotionLook]) -> str:
@@ -95,11 +103,11 @@ def _words(entry: MotionLook, motions: Sequence[MotionLook]) -> str:
     return entry.look.words if entry.name.orbit and alone else entry.words
 
 
-def _paint(axes: Axes, basin: Basin, motions: list[MotionLook]) -> None:
+def _paint(axes: Axes, basin: Cells, motions: list[MotionLook]) -> None:
     """Paint the cells of a basin in the looks of all motions."""
     places = {entry.name: entry.index for entry in motions}
-    index = np.array([*(places[name] for name in basin.motions), -1])[basin.dataset["motion"].values]
-    along = basin.coordinates
+    index = np.array([*(places[name] for name in basin.motions), -1])[basin.index]
+    along = basin.plan.model.coordinates
     axes.set_aspect("equal")
     if len(along) == 1:
         paint_ring(axes, along[0], index, motions)
@@ -117,9 +125,9 @@ def _paint(axes: Axes, basin: Basin, motions: list[MotionLook]) -> None:
         paint(axes, x, y, index, motions)
 
 
-def _largest(basin: Basin) -> float:
+def _largest(basin: Cells) -> float:
     """Size of the largest disturbance, as it is drawn; a ring has the radius 1."""
-    size = basin.coordinates[0]
+    size = basin.plan.model.coordinates[0]
     return 1.0 if size.periodic else size.shown_in(basin.scales)[0] * float(size.high)
 
 
@@ -134,9 +142,9 @@ def _write(axes: Axes, text: str) -> None:
     axes.text(0.5, 0.5, textwrap.fill(text, _LINE), ha="center", va="center", transform=axes.transAxes)
 
 
-def _circle(drawn: Sequence[Axes], basin: Basin, required: float) -> Artist:
+def _circle(drawn: Sequence[Axes], basin: Cells, required: float) -> Artist:
     """Draw the circle of what must be survived; return its entry of the legend."""
-    factor, unit = basin.coordinates[0].shown_in(basin.scales)
+    factor, unit = basin.plan.model.coordinates[0].shown_in(basin.scales)
     turn = np.linspace(0.0, 2.0 * np.pi, 361)
     dashes = (0.0, (4.0, 2.0))
     colour = LOOKS["wall"].colour

@@ -5,7 +5,7 @@ from __future__ import annotations
 from matplotlib.figure import Figure
 
 from carom import plots
-from carom.basins import Basin, map_basins
+from carom.basins import Cells, cells_of
 from carom.disturbances import BaseShock, BladeLoss, Disturbance, Grid, KickPlane
 from carom.models import Model, axis
 from carom.studies import Study
@@ -65,8 +65,8 @@ def drawable(study: Study) -> bool:
     return study.levitates or study.recommendation.advised is not None
 
 
-def _basin(rotor: Model, model: Disturbance, kind: Kind) -> Basin:
-    return map_basins(rotor, Grid(model, CELLS[kind]))
+def _basin(rotor: Model, model: Disturbance, kind: Kind) -> Cells:
+    return cells_of(rotor, Grid(model, CELLS[kind]))
 
 
 def _required(study: Study, kind: Kind) -> tuple[float, int]:
