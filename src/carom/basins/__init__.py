@@ -15,7 +15,7 @@
 """
 
 from carom.basins.changes import GainChange, least_gain_change
-from carom.basins.classification import Basin, map_basins
+from carom.basins.classification import Basin, Cells, cells_of, map_basins
 from carom.basins.entropy import BasinEntropy, basin_entropy
 from carom.basins.gains import GainMap, map_gains
 from carom.basins.integrity_measures import Integrity, integrity
@@ -25,6 +25,7 @@ from carom.basins.shares import Population, Share, share_of_kicks
 __all__ = [
     "Basin",
     "BasinEntropy",
+    "Cells",
     "GainChange",
     "GainMap",
     "Integrity",
@@ -32,6 +33,7 @@ __all__ = [
     "Share",
     "SmallestLoss",
     "basin_entropy",
+    "cells_of",
     "integrity",
     "least_gain_change",
     "map_basins",

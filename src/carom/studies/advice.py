@@ -132,6 +132,11 @@ class Recommendation:
     changes: tuple[Change, ...]
     margins: tuple[tuple[Gain, Margin], ...]
 
+    @property
+    def advised(self) -> Change | None:
+        """The least change; ``None`` where none helps, is needed or can be built."""
+        return self.changes[0] if self.kind == "change" else None
+
 
 def recommend(
     case: Case,

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from typing import Literal
 
 from carom.attractors import DisturbanceSet
 from carom.basins import SmallestLoss, smallest_loss
@@ -19,6 +20,8 @@ from carom.parameters import DIMENSIONLESS_FIELDS, SHOCK_DURATION, Required
 from carom.progress import Reporter
 from carom.results import Result
 
+Kind = Literal["kick", "shock", "blade_loss"]
+"""Kinds of disturbances that a machine may have to survive."""
 REACH = 4.0
 """Largest kick and shock searched, as a multiple of what must be survived or is proven to be harmless."""
 BELOW = 0.999
@@ -51,9 +54,9 @@ class Survives(Result):
     duration: float
     blade_loss: SmallestLoss | None
 
-    def items(self) -> tuple[tuple[str, SmallestLoss], ...]:
+    def items(self) -> tuple[tuple[Kind, SmallestLoss], ...]:
         """The kinds that were searched, by name."""
-        found = {"kick": self.kick, "shock": self.shock, "blade_loss": self.blade_loss}
+        found: dict[Kind, SmallestLoss | None] = {"kick": self.kick, "shock": self.shock, "blade_loss": self.blade_loss}
         return tuple((name, entry) for name, entry in found.items() if entry is not None)
 
 
