@@ -30,7 +30,9 @@ from carom.disturbances import (
 from carom.disturbances.following import follow
 from carom.models import Jeffcott, Model, Subject, jeffcott_of
 from carom.outcome import InputError, Outcome
+from carom.parameters import Scales
 from carom.progress import Reporter, ShowProgress, shows_progress
+from carom.results import Result
 
 DIRECTIONS, SIZES = 96, 96
 TOLERANCE = 1e-3
@@ -51,8 +53,8 @@ MOST_CHECKS = 8
 TURN = 2.0 * math.pi
 
 
-@dataclass(frozen=True)
-class SmallestLoss:
+@dataclass(frozen=True, repr=False)
+class SmallestLoss(Result):
     """Bracket of the size at which disturbances begin to be lost.
 
     Attributes
@@ -88,6 +90,10 @@ class SmallestLoss:
         Relative width to which the smallest loss is bisected, and angle in rad between the last directions tried.
     tried : int
         Number of starts followed.
+    quantity : str
+        Property of the scales by which sizes are converted to SI units.
+    scales : Scales or None
+        Those of the machine.
     """
 
     rests_on: ClassVar[tuple[str, ...]] = ("mora2014", "clopper1934")
@@ -104,6 +110,35 @@ class SmallestLoss:
     largest: float
     tolerance: float
     tried: int
+    quantity: str = ""
+    scales: Scales | None = None
+
+    shown: ClassVar[tuple[str, ...]] = (
+        "kind",
+        "size",
+        "angle",
+        "outcome",
+        "recovered",
+        "all_back",
+        "fresh",
+        "harmless",
+        "largest",
+        "tried",
+    )
+
+    @property
+    def words(self) -> str:
+        """The bracket in a line."""
+        told = {name: self.line_of(name, getattr(self, name)) for name in ("size", "all_back", "harmless", "largest")}
+        lost = f"none up to {told['largest']} is" if self.size is None else f"the smallest of {told['size']} is"
+        back = "" if self.all_back is None else f", all tried came back up to {told['all_back']}"
+        return f"{self.kind}: {lost} lost{back}, harmless up to {told['harmless']}"
+
+    def kind_of(self, name: str) -> str:
+        """Sizes are of one kind."""
+        return (
+            self.quantity if name in ("size", "recovered", "all_back", "harmless", "largest") else super().kind_of(name)
+        )
 
     @property
     def share_below(self) -> float:
@@ -120,6 +155,7 @@ class _Family:
     """Disturbances by size and direction; directions above one turn mean backward whirl."""
 
     kind: str
+    quantity: str
     largest: float
     harmless: float
     starts: Callable[[np.ndarray, np.ndarray], Starts]
@@ -242,7 +278,9 @@ def _family(rotor: Jeffcott, model: Disturbance) -> _Family:
             x, y = now + sizes * np.cos(angles), sizes * np.sin(angles)
             return step.starts(rotor, np.hypot(x, y), np.arctan2(y, x))
 
-        return _Family(step.kind, step.largest + now, harmless_unbalance_step(rotor), changed)
+        return _Family(
+            step.kind, size_coordinate(step).scale, step.largest + now, harmless_unbalance_step(rotor), changed
+        )
     if type(model) is ContactRelease:
 
         def released(sizes: np.ndarray, places: np.ndarray) -> Starts:
@@ -253,7 +291,7 @@ def _family(rotor: Jeffcott, model: Disturbance) -> _Family:
             velocities.real, velocities.imag = -rate * sine, rate * cosine
             return Starts.of(positions, velocities, True)
 
-        return _Family(model.kind, WHIRL, 0.0, released, turns=2, by_area=False)
+        return _Family(model.kind, size_coordinate(model).scale, WHIRL, 0.0, released, turns=2, by_area=False)
     if not _by_size(model):
         raise InputError("disturbance", model.kind, "one with a size from 0 and a direction, or a release from contact")
     harmless = 0.0  # nothing is proven of a subclass, which may start anywhere
@@ -262,7 +300,9 @@ def _family(rotor: Jeffcott, model: Disturbance) -> _Family:
     elif type(model) is BaseShock:
         harmless = harmless_shock(rotor, model.duration)
     size = model.coordinates[0]
-    return _Family(model.kind, size.high, harmless, lambda *at: model.starts(rotor, *at), by_area=size.over_disc)
+    return _Family(
+        model.kind, size.scale, size.high, harmless, lambda *at: model.starts(rotor, *at), by_area=size.over_disc
+    )
 
 
 def _all_round(family: _Family, directions: int) -> np.ndarray:
@@ -301,6 +341,8 @@ class _Search:
             largest=family.largest,
             tolerance=self.tolerance,
             tried=self.tried,
+            quantity=family.quantity,
+            scales=self.rotor.scales,
         )
 
     def scan(self, angles: np.ndarray, levels: np.ndarray) -> None:

@@ -27,6 +27,9 @@ from carom.models import Axis, Model, Subject, axis, model_of
 from carom.models.axes import Ends, read_interval
 from carom.motions.ensembles import Endings
 from carom.outcome import InputError
+from carom.parameters import PHYSICAL_PARTNER
+from carom.parameters.numbers import CONVERSIONS
+from carom.parameters.told import told_range
 from carom.progress import Reporter, ShowProgress, shows_progress
 from carom.results import Result
 from carom.studies.ranges import Edge, Span
@@ -65,8 +68,8 @@ class Lost:
     motion: MotionName | None
 
 
-@dataclass(frozen=True)
-class Check:
+@dataclass(frozen=True, repr=False)
+class Check(Result):
     """Disturbances followed at one value of a parameter.
 
     Attributes
@@ -79,6 +82,8 @@ class Check:
     example : Lost or None
         One that did not come back; ``None`` if all did.
     """
+
+    shown: ClassVar[tuple[str, ...]] = ("value", "drawn", "recovers")
 
     value: float
     returned: tuple[Share, ...]
@@ -126,7 +131,7 @@ class Recovery(Result):
         Every value tried, in ascending order.  Where some are lost, the disturbances after the first losses were not followed.
     """
 
-    shown: ClassVar[tuple[str, ...]] = ("along", "spans", "checks")
+    shown: ClassVar[tuple[str, ...]] = ("rotor", "searched", "spans", "checks")
 
     rotor: Model
     along: Axis
@@ -134,6 +139,17 @@ class Recovery(Result):
     searched: tuple[Span, ...]
     spans: tuple[Span, ...]
     checks: tuple[Check, ...]
+
+    def line_of(self, name: str, value: object) -> str:
+        """Spans are told in the unit of the parameter."""
+        if name not in ("searched", "spans"):
+            return super().line_of(name, value)
+        along, spans = self.along.name, [(span.low.value, span.high.value) for span in getattr(self, name)]
+        scales = self.known_scales
+        if scales is not None and along in PHYSICAL_PARTNER:
+            spans = [tuple(CONVERSIONS[along].value(end, scales) for end in ends) for ends in spans]
+            along = PHYSICAL_PARTNER[along]
+        return f"{along} {' and '.join(told_range(along, ends) for ends in spans) or 'none'}"
 
     @property
     def clear(self) -> tuple[Check, ...]:
