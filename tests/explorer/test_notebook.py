@@ -34,7 +34,9 @@ HOST = """
   };
   window.start = async (text) => {
     const module = await import(URL.createObjectURL(new Blob([text], { type: "text/javascript" })));
-    window.end = module.default.render({ model, el: document.getElementById("cell") });
+    const el = document.createElement("div");
+    window.end = module.default.render({ model, el });
+    document.getElementById("cell").append(el); // afterwards, as notebooks do
   };
 </script>
 """
@@ -144,7 +146,7 @@ def hosted(browser, figure, colours):
 
 
 PIXEL = """([id, across, up]) => {
-  const canvas = document.querySelector("#cell > div").shadowRoot.getElementById(id);
+  const canvas = document.querySelector("#cell > div > div").shadowRoot.getElementById(id);
   return [...canvas.getContext("2d").getImageData(across * canvas.width, up * canvas.height, 1, 1).data].slice(0, 3);
 }"""
 
@@ -152,8 +154,9 @@ PIXEL = """([id, across, up]) => {
 @pytest.mark.jit_only
 def test_a_click_on_the_picture_shows_the_motion_from_that_kick(browser, figure):
     page, until = hosted(browser, figure, "background: #fff; color: #000")
-    until("basin", size=120)
     words, legend = page.locator("#motion-words"), page.locator("#legend li")
+    assert words.inner_text() == "Loading the kernels …"
+    until("basin", size=120)
     told = [text.split("\n")[0] for text in legend.all_inner_texts()]
     assert told == [
         "levitation",

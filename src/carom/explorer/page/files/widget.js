@@ -57,16 +57,19 @@ const render = ({ model, el }) => {
 
   // Light or dark as the notebook is, which need not be as the system is: its text tells.
   const shade = () => {
+    if (!el.isConnected) return;
     const [red, green, blue] = getComputedStyle(el).color.match(/[\d.]+/g).map(Number);
     const now = 0.2126 * red + 0.7152 * green + 0.0722 * blue > 127 ? "dark" : "light";
     if (host.className !== now) { host.className = now; carom.redraw(); }
   };
-  shade();
   const restyled = new MutationObserver(shade);
   for (const whole of [document.documentElement, document.body]) restyled.observe(whole, { attributes: true });
-  const resized = new ResizeObserver(carom.throttled(60, () => carom.redraw()));
+  // A notebook puts it on the page after this, which gives it a size.
+  const resized = new ResizeObserver(carom.throttled(60, () => { shade(); carom.redraw(); }));
   resized.observe(host);
 
+  const words = root.getElementById("motion-words");
+  if (words) words.textContent = "Loading the kernels …";
   carom.requests.machine = { number: 1, settings: {}, held: false, along: "" };
   return () => {
     model.off("msg:custom", take);
