@@ -80,6 +80,7 @@ def _figure_class() -> type:
 
         def __init__(self, origin: Origin) -> None:
             super().__init__()
+            self.case = origin.case
             ready = threading.Event()
             ready.set()  # kernels compile where they are first called
             self._session = Session(origin, self._answer, ready, wanted=("fine",))
