@@ -116,15 +116,16 @@ def encoded(value: Any, buffers: list[bytes]) -> Any:
 @cache
 def script() -> str:
     """The figure as a module of JavaScript."""
-    template = jinja2.Environment(autoescape=True).from_string(_text("page.html.jinja"))
+    template = jinja2.Environment(autoescape=True).from_string(_of_the_page("page.html.jinja"))
     page = {
-        "style": _DARK.sub(r":host(.dark) \1", _text("page.css")).replace(":root", ":host") + _STYLE,
+        "style": _DARK.sub(r":host(.dark) \1", _of_the_page("page.css")).replace(":root", ":host") + _STYLE,
         "figures": "".join(template.blocks["figures"](template.new_context())),
         "looks": {name: look.colour for name, look in LOOKS.items()},
     }
-    module = _text("widget.js").replace("PAGE", json.dumps(page), 1)
-    return module.replace("PARTS", "\n".join(map(_text, PARTS)), 1)
+    module = files("carom.explorer").joinpath("notebook.js").read_text(encoding="utf-8")
+    module = module.replace("PAGE", json.dumps(page), 1)
+    return module.replace("PARTS", "\n".join(map(_of_the_page, PARTS)), 1)
 
 
-def _text(name: str) -> str:
+def _of_the_page(name: str) -> str:
     return files("carom.explorer.page").joinpath("files", name).read_text(encoding="utf-8")
