@@ -161,6 +161,13 @@ def test_sizes_of_whatever_is_found_are_told_in_si_units():
     lost = carom.basins.smallest_loss(machine, kicks)
     assert "  largest    0.775555 (100 mm/s)" in repr(lost)
     assert f"  size       {lost.size:.6g} ({lost.size * 0.7 * 184.2:.3g} mm/s)" in repr(lost)
+    assert carom.results.in_a_line(lost).startswith(f"smallest lost {lost.size:.6g} (5.4")
+    blade = carom.basins.smallest_loss(machine, carom.disturbances.BladeLoss(0.5))
+    assert "  largest    0.5 (17,500 g mm)" in repr(blade)  # half of 50 kg times 0.7 mm
+    ending = carom.find_attractors(machine, carom.disturbances.Sample(kicks, 1), known=False).endings[0]
+    assert f"  time       {ending.time:.6g} ({round(ending.time / 0.1842, -1):,.0f} ms)\n" in repr(
+        ending
+    )  # some 3,000 ms
     basin = carom.map_basins(machine, carom.Grid(kicks, (4, 6)))
     assert repr(basin.share_recovered).startswith("<Share: ")
     assert "c 1,400 N s/m, k 980,000 N/m, e_c 0.3 mm, c_r 0.7 mm, R 40 mm, Ω 1,759 rpm" in repr(basin)

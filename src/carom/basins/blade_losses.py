@@ -10,7 +10,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from carom.basins.losses import MOST_CHECKS, ROUND, TOLERANCE, TURN, SmallestLoss, lost, size_coordinate
+from carom.basins.losses import MOST_CHECKS, ROUND, TOLERANCE, TURN, UNBALANCE, SmallestLoss, lost
 from carom.closed_forms.thresholds import harmless_blade_loss
 from carom.disturbances import BladeLoss, Starts
 from carom.disturbances.following import follow
@@ -86,7 +86,7 @@ class _Search:
             0.0,
             TOLERANCE,
             0,
-            size_coordinate(model).scale,
+            UNBALANCE,
             rotor.scales,
         )
         self.back = 0.0

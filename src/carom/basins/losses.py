@@ -46,6 +46,8 @@ BELOW = 24
 """Sizes up to the best one so far, tried in each direction."""
 DRAWN, ROUND = 2000, 720
 """Fresh starts below the smallest loss, and directions over a full turn at the upper end of these sizes."""
+UNBALANCE = "unbalance"
+"""Quantity of eccentricities that change: people state them as an unbalance, which is that times the mass."""
 WHIRL = 2.0
 """Largest speed along the wall searched for releases, in ``c_r Ω``: twice that of a whirl in step with the shaft."""
 MOST_CHECKS = 8
@@ -130,9 +132,9 @@ class SmallestLoss(Result):
     def words(self) -> str:
         """The bracket in a line."""
         told = {name: self.line_of(name, getattr(self, name)) for name in ("size", "all_back", "harmless", "largest")}
-        lost = f"none up to {told['largest']} is" if self.size is None else f"the smallest of {told['size']} is"
-        back = "" if self.all_back is None else f", all tried came back up to {told['all_back']}"
-        return f"{self.kind}: {lost} lost{back}, harmless up to {told['harmless']}"
+        lost = f"none lost up to {told['largest']}" if self.size is None else f"smallest lost {told['size']}"
+        back = "" if self.all_back is None else f", all back up to {told['all_back']}"
+        return f"{lost}{back}, harmless up to {told['harmless']}"
 
     def kind_of(self, name: str) -> str:
         """Sizes are of one kind."""
