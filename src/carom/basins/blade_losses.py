@@ -10,7 +10,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from carom.basins.losses import MOST_CHECKS, ROUND, TOLERANCE, TURN, UNBALANCE, SmallestLoss, lost
+from carom.basins.families import TURN, UNBALANCE
+from carom.basins.losses import MOST_CHECKS, ROUND, TOLERANCE, SmallestLoss, lost
 from carom.closed_forms.thresholds import harmless_blade_loss
 from carom.disturbances import BladeLoss, Starts
 from carom.disturbances.following import follow
