@@ -14,6 +14,7 @@ from machines import PAPER
 
 import carom
 from carom.outcome import InputError
+from carom.parameters.told import told_along
 from carom.references import Citations, Reference
 from carom.results import WIDEST, Result, in_a_line
 
@@ -40,6 +41,7 @@ class Found(Result):
         return len(self.pairs)
 
 
+FEW = carom.Grid(carom.disturbances.VelocityKick(0.5), (2, 3))
 FOUND = Found("<one>", np.arange(1e6), (Pair("a", 1.0), Pair("b", 2.0)))
 
 
@@ -172,6 +174,25 @@ def test_sizes_of_whatever_is_found_are_told_in_si_units():
     assert repr(basin.share_recovered).startswith("<Share: ")
     assert "c 1,400 N s/m, k 980,000 N/m, e_c 0.3 mm, c_r 0.7 mm, R 40 mm, Ω 1,759 rpm" in repr(basin)
     assert "γ 0.1, ω 0.76" in repr(carom.find_orbits(carom.load("examples/source-paper.toml")))
+
+
+def test_ranges_are_told_in_the_units_of_people():
+    machine = carom.load("examples/keogh-cole.toml")
+    plane = carom.bifurcations.Plane("gamma", "speed", (0.1, 0.2), ("1700 rpm", "1850 rpm"))
+    assert in_a_line(plane) == "gamma 0.1 to 0.2, speed 1,700 to 1,850 rpm"
+    scales = machine.parameters.scales
+    # 50 kg times 184.2 rad/s
+    assert told_along("gamma", (0.1, 0.2), scales) == "damping 921 to 1,842 N s/m"
+    gains = carom.map_gains(machine, FEW, ("stiffness", "damping"), shape=(2, 2))
+    assert "plane          stiffness 490,000 to 1,960,000 N/m, damping 700 to 2,800 N s/m\n" in repr(gains)
+    assert "present        stiffness 980,000 N/m, damping 1,400 N s/m\n" in repr(gains)
+    (point, *_) = carom.find_bifurcations(machine, "speed", ("1700 rpm", "1800 rpm")).points
+    assert "  value         1,725.31 rpm\n" in repr(point)
+    curve = carom.continue_curve(
+        point, carom.bifurcations.Plane("damping", "speed", (500.0, 2000.0), ("1700 rpm", "1850 rpm"))
+    )
+    assert f"  points         {len(curve.points)}, damping 5" in repr(curve)
+    assert " N s/m, speed 1,7" in repr(curve)
 
 
 def test_along_a_scale_of_the_machine_sizes_are_not_told_in_the_units_of_one_of_them():

@@ -24,7 +24,7 @@ from carom.models.axes import Ends, read_interval
 from carom.motions.ensembles import MOST_EVENTS
 from carom.motions.settling import PATIENCE
 from carom.outcome import InputError, Outcome
-from carom.parameters.told import told_entry, told_range
+from carom.parameters.told import told_along, told_entry
 from carom.progress import Reporter, ShowProgress, shows_progress
 from carom.results import fields_of
 
@@ -71,7 +71,7 @@ class GainMap(Mapped):
     @property
     def plane(self) -> str:
         """Both parameters and their ranges, in words."""
-        return ", ".join(f"{axis.name} {told_range(axis.name, self.dataset[axis.name].values)}" for axis in self.axes)
+        return ", ".join(told_along(axis.name, self.dataset[axis.name].values) for axis in self.axes)
 
     def line_of(self, name: str, value: object) -> str:
         """Present values are told in the units of both parameters."""

@@ -28,7 +28,7 @@ from carom.continuation import Branch, Steps, Watch, continue_branch, refined_po
 from carom.orbits.names import CountedName, OrbitName, combined
 from carom.outcome import STEADY_WORDS, InputError
 from carom.parameters import Numbers
-from carom.parameters.told import told_range
+from carom.parameters.told import told_along
 from carom.results import Result
 
 Function = Callable[[np.ndarray, float], np.ndarray]
@@ -121,7 +121,7 @@ class Curve(Result):
         """Points are told in the units of both parameters."""
         if name == "points" and len(self.points):
             ranges = zip((self.plane.first, self.plane.second), self.points.T, strict=True)
-            return f"{len(self.points)}, {', '.join(f'{axis} {told_range(axis, ends)}' for axis, ends in ranges)}"
+            return f"{len(self.points)}, {', '.join(told_along(axis, ends) for axis, ends in ranges)}"
         return super().line_of(name, value)
 
     @cached_property

@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 
+from carom.parameters.fields import PHYSICAL_PARTNER
+from carom.parameters.numbers import CONVERSIONS
 from carom.parameters.requirement import GRAVITY
 from carom.parameters.scaling import UNITS, Scales
 from carom.parameters.terms import SETTABLE
@@ -109,6 +111,13 @@ def told_range(name: str, values: Iterable[float]) -> str:
     """Write the range of some values of a parameter: ``500 to 2,000 N s/m``."""
     ends = list(values)
     return told_between(told_entry(name, min(ends)), told_entry(name, max(ends)))
+
+
+def told_along(name: str, values: Iterable[float], scales: Scales | None = None) -> str:
+    """Write a parameter with the range of some values; with scales what a machine has in place of a dimensionless one."""
+    if scales is not None and name in PHYSICAL_PARTNER:
+        name, values = PHYSICAL_PARTNER[name], [CONVERSIONS[name].value(value, scales) for value in values]
+    return f"{name} {told_range(name, values)}"
 
 
 def told_between(low: str, high: str) -> str:

@@ -27,9 +27,7 @@ from carom.models import Axis, Model, Subject, axis, model_of
 from carom.models.axes import Ends, read_interval
 from carom.motions.ensembles import Endings
 from carom.outcome import InputError
-from carom.parameters import PHYSICAL_PARTNER
-from carom.parameters.numbers import CONVERSIONS
-from carom.parameters.told import told_range
+from carom.parameters.told import told_along
 from carom.progress import Reporter, ShowProgress, shows_progress
 from carom.results import Result
 from carom.studies.ranges import Edge, Span
@@ -144,12 +142,8 @@ class Recovery(Result):
         """Spans are told in the unit of the parameter."""
         if name not in ("searched", "spans"):
             return super().line_of(name, value)
-        along, spans = self.along.name, [(span.low.value, span.high.value) for span in getattr(self, name)]
-        scales = self.known_scales
-        if scales is not None and along in PHYSICAL_PARTNER:
-            spans = [tuple(CONVERSIONS[along].value(end, scales) for end in ends) for ends in spans]
-            along = PHYSICAL_PARTNER[along]
-        return f"{along} {' and '.join(told_range(along, ends) for ends in spans) or 'none'}"
+        ranges = ((span.low.value, span.high.value) for span in getattr(self, name))
+        return "; ".join(told_along(self.along.name, ends, self.known_scales) for ends in ranges) or "none"
 
     @property
     def clear(self) -> tuple[Check, ...]:
