@@ -5,6 +5,7 @@
 ``dataset``             endings as a dataset with coordinates, units and provenance
 ``shares``              the share of disturbances that come back, with its confidence interval
 ``losses``              the smallest kicks, shocks, steps and releases that are lost
+``families``            kinds of disturbances by size and direction, as searches for losses take them
 ``blade_losses``        the smallest unbalance after the loss of a blade that is not survived
 ``integrity_measures``  the largest ball of starts that all come back
 ``entropy``             basin entropy and boundary basin entropy

@@ -16,7 +16,7 @@ from carom.basins import SmallestLoss, smallest_loss
 from carom.disturbances import AnyState, BaseShock, BladeLoss, Disturbance, Sample, VelocityKick
 from carom.disturbances.blows import LONGEST_SHOCK
 from carom.models import Jeffcott
-from carom.parameters import DIMENSIONLESS_FIELDS, SHOCK_DURATION, Required
+from carom.parameters import DIMENSIONLESS_FIELDS, SHOCK_DURATION, Required, Scales
 from carom.progress import Reporter
 from carom.results import Result
 
@@ -53,6 +53,11 @@ class Survives(Result):
     shock: SmallestLoss | None
     duration: float
     blade_loss: SmallestLoss | None
+
+    @property
+    def known_scales(self) -> Scales | None:
+        """Scales of the machine."""
+        return self.kick.scales
 
     def items(self) -> tuple[tuple[Kind, SmallestLoss], ...]:
         """The kinds that were searched, by name."""
