@@ -17,6 +17,8 @@ from sphinx.util.parallel import make_chunks
 _CELLS = str(Path(__file__).parent / "_cells")
 os.environ["PYTHONPATH"] = os.pathsep.join(filter(None, [_CELLS, os.environ.get("PYTHONPATH")]))
 sys.path.insert(0, _CELLS)
+# A cell that takes long is no place for a bar that vanishes.
+os.environ["CAROM_PROGRESS"] = "0"
 
 from sidebar import share_trees  # noqa: E402
 

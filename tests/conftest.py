@@ -11,6 +11,9 @@ if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
 for name in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ.setdefault(name, "1")
 
+# Tests run in terminals too, and compare what is written there.
+os.environ.setdefault("CAROM_PROGRESS", "0")
+
 import pkgutil  # noqa: E402
 from pathlib import Path  # noqa: E402
 

@@ -1,9 +1,12 @@
 """One kind of report of everything that takes long, and a bar."""
 
 import io
+import sys
 import threading
+from types import SimpleNamespace
 
 import pytest
+import rich.console
 import rich.progress
 from machines import PAPER
 from rich.console import Console
@@ -12,7 +15,7 @@ from sweep_tasks import Drawn, plan_of
 import carom
 from carom import basins
 from carom.disturbances import Grid, Sample, VelocityKick
-from carom.progress import Progress, Reporter, _told, bar
+from carom.progress import Progress, Reporter, _told, bar, shows_progress
 
 KICKS = Grid(VelocityKick(0.5), (4, 6))
 DAMPED = PAPER.replace(gamma=0.65, mu=0.0)
@@ -59,13 +62,122 @@ def test_a_sweep_reports_in_the_same_way(tmp_path):
 
 def test_true_shows_a_bar(monkeypatch):
     shown = []
+    monkeypatch.setattr(carom.progress.threading, "Timer", AtOnce)
     monkeypatch.setattr(rich.progress.Progress, "update", lambda _, task, **state: shown.append(state))
     assert carom.settle(PAPER, [0.1, 0.2j], [0.3, 0.4j], progress=True).outcomes.size == 2
     assert shown[-1] == {"completed": 1.0, "description": "following starts"}
 
 
+class AtOnce:
+    """A timer that does not wait."""
+
+    def __init__(self, patience, act):
+        self.start = act
+
+    def cancel(self):
+        pass
+
+
+class Terminal(io.StringIO):
+    def isatty(self):
+        return True
+
+
+@pytest.fixture
+def terminal(monkeypatch):
+    """An error stream that someone watches, and bars that appear at once."""
+    monkeypatch.delenv("CAROM_PROGRESS", raising=False)
+    monkeypatch.setenv("TERM", "xterm")
+    monkeypatch.setattr(carom.progress.threading, "Timer", AtOnce)
+    stream = Terminal()
+    # Not the stream itself, which pytest sets anew before the test.
+    monkeypatch.setattr(carom.progress, "sys", SimpleNamespace(stderr=stream, modules=sys.modules))
+    monkeypatch.setattr(rich.console.Console, "file", stream)
+    return stream
+
+
+@shows_progress
+def inner(*, progress=None):
+    Reporter.of(progress, "the part")(0.5)
+
+
+@shows_progress
+def outer(*, progress=None):
+    Reporter.of(progress, "the whole")(0.5)
+    inner()
+
+
+def test_where_someone_watches_one_bar_appears_by_itself_and_leaves_nothing(terminal):
+    outer()
+    text = terminal.getvalue()
+    assert "50 %: the whole" in text
+    assert "the part" not in text
+    assert text.endswith("\x1b[1A\x1b[2K")  # up to the line of the bar, which is erased
+
+
+def test_a_bar_that_was_not_asked_for_waits_longer(monkeypatch, terminal):
+    waited = []
+    monkeypatch.setattr(
+        carom.progress.threading, "Timer", lambda patience, act: (waited.append(patience), AtOnce(0, act))[1]
+    )
+    outer()
+    outer(progress=True)
+    assert waited == [2.0, 0.7]
+
+
+def test_a_bar_ends_where_its_function_fails(terminal):
+    @shows_progress
+    def failing(*, progress=None):
+        progress(0.25)
+        raise ValueError("too bad")
+
+    with pytest.raises(ValueError, match="too bad"):
+        failing()
+    assert terminal.getvalue().endswith("\x1b[1A\x1b[2K")
+    before = terminal.tell()
+    outer()
+    assert terminal.tell() > before
+
+
+@pytest.mark.parametrize(
+    "why", ["not wanted", "by nobody", "in another thread", "in another process", "by the environment"]
+)
+def test_no_bar_appears_where_it_is_not_wanted_or_not_seen(why, terminal, monkeypatch):
+    if why == "by nobody":
+        monkeypatch.setattr(terminal, "isatty", lambda: False)
+    if why == "in another process":
+        monkeypatch.setattr(carom.progress, "current_process", lambda: SimpleNamespace(name="LokyProcess-1"))
+    if why == "by the environment":
+        monkeypatch.setenv("CAROM_PROGRESS", "0")
+    if why == "in another thread":
+        thread = threading.Thread(target=outer)
+        thread.start()
+        thread.join()
+    else:
+        outer(progress=False if why == "not wanted" else None)
+    assert terminal.getvalue() == ""
+
+
+def test_in_a_notebook_the_bar_is_an_output_that_ends_empty(monkeypatch, terminal):
+    drawn = []
+
+    def display(data, **_):
+        drawn.append(data)
+        return SimpleNamespace(update=lambda data, **_: drawn.append(data))
+
+    shell = SimpleNamespace(kernel=object())
+    monkeypatch.setitem(sys.modules, "IPython", SimpleNamespace(get_ipython=lambda: shell))
+    monkeypatch.setitem(sys.modules, "IPython.display", SimpleNamespace(display=display))
+    monkeypatch.setattr(carom.progress, "_PAUSE", 0.0)
+    outer()
+    assert [data["text/plain"] for data in drawn] == ["", "outer", "50 %: the whole", ""]
+    assert drawn[2]["text/html"] == "<progress value='0.5000' max='1'></progress> 50 %: the whole"
+    assert drawn[-1]["text/html"] == ""
+    assert terminal.getvalue() == ""
+
+
 @pytest.mark.parametrize("wish", [None, False])
-def test_nothing_is_shown_unless_asked_for(wish, capfd):
+def test_nothing_is_shown_unless_someone_watches(wish, capfd):
     carom.settle(PAPER, [0.1], [0.3], progress=wish)
     assert capfd.readouterr() == ("", "")
 

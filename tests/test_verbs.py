@@ -49,6 +49,13 @@ def told(call):
         return str(problem)
 
 
+def case_explored(machine):
+    """The case that a figure for notebooks shows, if there is what it needs."""
+    figure = cm.explorer.explore(machine)
+    figure.close()
+    return figure.case
+
+
 CALLS = {
     "attractors.character_of": lambda m: cm.attractors.character_of(
         m, next(iter(cm.find_attractors(m, FEW, known=False)))
@@ -85,6 +92,7 @@ CALLS = {
     "closed_forms.runaway_speed": cm.closed_forms.runaway_speed,
     "closed_forms.speed_response": cm.closed_forms.speed_response,
     "disturbances.outward_from": cm.disturbances.outward_from,
+    "explorer.explore": lambda m: told(lambda: case_explored(m)),
     "models.axis": lambda m: cm.models.axis(m, "gamma"),
     "models.case_of": lambda m: cm.models.case_of(m).parameters,
     "models.jeffcott_of": cm.models.jeffcott_of,

@@ -3,6 +3,7 @@ from carom import basins as basins
 from carom import bifurcations as bifurcations
 from carom import closed_forms as closed_forms
 from carom import disturbances as disturbances
+from carom import explorer as explorer
 from carom import models as models
 from carom import motions as motions
 from carom import orbits as orbits

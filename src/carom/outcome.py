@@ -219,9 +219,11 @@ def printable(text: str) -> str:
 
 
 def shown(given: Any) -> str:
-    """Return a value as an error message prints it: printable, not too long, never empty."""
+    """Return a value as an error message prints it: printable, not too long, never empty; of a table what stands above it."""
     if isinstance(given, bool):
         return str(given).lower()
+    if isinstance(heading := getattr(given, "heading", None), str):
+        return shown(heading)
     try:
         text = str(given)
     except ValueError:  # an integer with more digits than Python prints

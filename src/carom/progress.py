@@ -2,11 +2,17 @@
 
 from __future__ import annotations
 
+import os
+import sys
 import threading
+import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from contextvars import ContextVar
 from dataclasses import dataclass
 from functools import wraps
+from html import escape
+from multiprocessing import current_process
 from typing import TYPE_CHECKING, ParamSpec, TypeVar
 
 if TYPE_CHECKING:
@@ -17,7 +23,11 @@ Arguments = ParamSpec("Arguments")
 Value = TypeVar("Value")
 
 PATIENCE = 0.7
-"""Seconds before a bar appears."""
+"""Seconds before a bar appears that was asked for."""
+LONG = 2.0
+"""Seconds before one appears that was not."""
+_PAUSE = 0.1
+"""Seconds between two changes of a bar in a notebook."""
 _CLOCK = len("0:00:00")
 _SETTLED = 1.0
 """Seconds after which a rate means something."""
@@ -77,40 +87,135 @@ class Reporter:
 
 
 ShowProgress = Callable[[Progress], object] | Reporter | bool | None
-"""What the argument ``progress`` may be: ``True`` shows a bar, a callable receives each :class:`Progress`."""
+"""What the argument ``progress`` may be: ``None`` shows a bar where someone watches and it takes long (:func:`shows_progress`),
+``True`` always, ``False`` never; a callable receives each :class:`Progress`."""
+
+_inside: ContextVar[bool] = ContextVar("carom_progress", default=False)
+"""Whether a function that was called before tells the progress of all, or was asked not to."""
 
 
 def shows_progress(function: Callable[Arguments, Value]) -> Callable[Arguments, Value]:
-    """Let ``progress=True`` of a function show a bar on the error stream, or in the notebook."""
+    """Let a function show a bar on the error stream, or in the notebook: with ``progress=True``, and by itself if it takes long.
+
+    By itself it does so where someone watches: in a notebook, or if the error stream is a terminal.  ``progress=False`` prevents
+    it, and ``CAROM_PROGRESS=0`` in the environment does for all functions.
+    """
 
     @wraps(function)
     def wrapper(*args: Arguments.args, **kwargs: Arguments.kwargs) -> Value:
-        if kwargs.get("progress") is not True:
+        wanted = kwargs.get("progress")
+        if wanted is True or (wanted is None and _watched()):
+            step = function.__name__.replace("_", " ")
+            with bar(step, patience=LONG if wanted is None else PATIENCE) as shown:
+                kwargs["progress"] = shown
+                return function(*args, **kwargs)
+        before = _inside.set(True)
+        try:
             return function(*args, **kwargs)
-        with bar("") as shown:
-            kwargs["progress"] = shown
-            return function(*args, **kwargs)
+        finally:
+            _inside.reset(before)
 
     return wrapper
 
 
+def _watched() -> bool:
+    """Whether someone sees a bar that was not asked for: nobody does in other threads and processes, and where output is piped."""
+    if _inside.get() or os.environ.get("CAROM_PROGRESS") == "0":
+        return False
+    if current_process().name != "MainProcess" or threading.current_thread() is not threading.main_thread():
+        return False
+    return _in_notebook() or (sys.stderr is not None and sys.stderr.isatty())
+
+
+def _in_notebook() -> bool:
+    """Whether this is the kernel of a notebook."""
+    shell = getattr(sys.modules.get("IPython"), "get_ipython", lambda: None)()
+    return getattr(shell, "kernel", None) is not None
+
+
 @contextmanager
-def bar(step: str, console: Console | None = None) -> Iterator[Reporter]:
-    """Show a bar that appears if the work takes longer than a moment; the reporter moves it.
+def bar(step: str, console: Console | None = None, patience: float | None = None) -> Iterator[Reporter]:
+    """Show a bar that appears if the work takes longer than a moment; the reporter moves it, and at the end it vanishes.
 
     `step` is the first step, in words.  By default the console is the error stream, or the notebook.
     """
-    shown = _bar(console)
-    task = shown.add_task(step, total=1.0)
-    timer = threading.Timer(PATIENCE, shown.start)
+    late = _LateBar(step, console)
+    timer = threading.Timer(PATIENCE if patience is None else patience, late.appear)
     timer.daemon = True
+    before = _inside.set(True)
     timer.start()
     try:
-        yield Reporter(lambda report: shown.update(task, completed=report.share, description=report.step))
+        yield Reporter(late.tell)
     finally:
+        _inside.reset(before)
         timer.cancel()
-        timer.join()
-        shown.stop()
+        late.end()
+
+
+class _LateBar:
+    """A bar that is made when it appears; until then it only knows the newest report."""
+
+    def __init__(self, step: str, console: Console | None) -> None:
+        self._newest, self._console, self._began = Progress(0.0, step), console, time.monotonic()
+        self._lock, self._ended = threading.Lock(), False
+        self._shown: _Terminal | _Notebook | None = None
+
+    def appear(self) -> None:
+        with self._lock:
+            if not self._ended:
+                notebook = self._console is None and _in_notebook()
+                self._shown = _Notebook(self._began) if notebook else _Terminal(self._began, self._console)
+                self._shown.show(self._newest)
+
+    def tell(self, report: Progress) -> None:
+        with self._lock:
+            self._newest = report
+            if self._shown is not None:
+                self._shown.show(report)
+
+    def end(self) -> None:
+        with self._lock:
+            self._ended = True
+            if self._shown is not None:
+                self._shown.close()
+
+
+class _Terminal:
+    """A bar in the last line of a terminal."""
+
+    def __init__(self, began: float, console: Console | None) -> None:
+        self._bar = _bar(console)
+        self._task = self._bar.add_task("", total=1.0)
+        self._bar.tasks[0].start_time = began
+        self._bar.start()
+
+    def show(self, report: Progress) -> None:
+        self._bar.update(self._task, completed=report.share, description=report.step)
+
+    def close(self) -> None:
+        self._bar.stop()
+
+
+class _Notebook:
+    """A bar below a cell, which needs no widgets."""
+
+    def __init__(self, began: float) -> None:
+        from IPython.display import display
+
+        self._began, self._drawn = began, 0.0
+        self._place = display({"text/plain": ""}, raw=True, display_id=True)
+
+    def show(self, report: Progress) -> None:
+        now = time.monotonic()
+        if now - self._drawn < _PAUSE:
+            return
+        self._drawn = now
+        words = _told(report.share, now - self._began, report.step)
+        html = f"<progress value='{report.share:.4f}' max='1'></progress> {escape(words)}"
+        self._place.update({"text/plain": words, "text/html": html}, raw=True)
+
+    def close(self) -> None:
+        self._place.update({"text/plain": "", "text/html": ""}, raw=True)
 
 
 def _bar(console: Console | None) -> rich.progress.Progress:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Mapping, Sequence, Set, Sized
 from enum import Enum
-from html import escape
 from importlib import import_module
 from numbers import Complex
 from types import MappingProxyType
@@ -16,17 +15,31 @@ import numpy as np
 from carom.arguments import checked
 from carom.outcome import InputError
 from carom.references import REFERENCES, Citations, carom_itself
+from carom.tabular import Tabular
 
 WIDEST = 120
 """Largest number of characters of a line, without the name before it."""
 FEW = 4
 """Largest size of an array whose numbers are shown one by one."""
 DIGITS = 6
-KINDS = MappingProxyType({"time": "time", "period": "time", "radial_speed": "velocity"})
+_KINDS = {
+    "time": "time times period periods duration contact_time",
+    "length": "position places radius radii gap amplitudes",
+    "velocity": "velocity radial_speed radial_speeds",
+    "speed": "angular_speed",
+    "force": "force normal_force normal_forces largest_force",
+    "impulse": "impulse largest_impulse",
+    "energy": "heat restitution_loss",
+    "power": "power lasting_power",
+    "angle": "angle",
+}
+KINDS = MappingProxyType({name: kind for kind, names in _KINDS.items() for name in names.split()})
 """Attributes in units of the equations, each with its property of the scales of a rotor: in SI units, people are told more."""
+_OF_THE_MACHINE = ("rotor", "model", "parameters", "numbers")
+"""Attributes that know the scales of the machine, where a result does not itself."""
 
 
-class Result:
+class Result(Tabular):
     """Result of a function: a frozen dataclass that is shown by its attributes, large ones by their size only.
 
     ``shown`` names the attributes to show, which may be properties; if it is empty, all fields are shown.  ``figure``
@@ -51,36 +64,34 @@ class Result:
         # The layers forbid imports from above, so the figure is named here as data.
         return getattr(import_module("carom.plots"), self.figure)(self, *args, **options)
 
-    def __repr__(self) -> str:
-        rows = self.brief_rows()
-        width = max((len(name) for name, _ in rows), default=0)
-        return "\n".join([type(self).__name__, *(f"  {name:<{width}}  {text}".rstrip() for name, text in rows)])
-
-    def _repr_html_(self) -> str:
-        """The same as a table, for notebooks."""
-        cells = "".join(
-            f"<tr><th style='text-align:left'>{escape(name)}</th><td style='text-align:left'>{escape(text)}</td></tr>"
-            for name, text in self.rows()
-        )
-        return f"<table><caption>{type(self).__name__}</caption>{cells}</table>"
-
     def rows(self) -> list[tuple[str, str]]:
-        """Pairs of label and text to show: by default the names of the attributes and their values."""
+        """By default the names of the attributes and their values."""
         names = self.shown or tuple(field.name for field in dataclasses.fields(self))  # type: ignore[arg-type]
-        values = [(name, getattr(self, name)) for name in names]
-        return [(name, in_a_line(value) + self._beside(name, value)) for name, value in values if not callable(value)]
+        values = [(name, getattr(self, name)) for name in names if name != "scales"]
+        return [(name, self.line_of(name, value)) for name, value in values if not callable(value)]
 
-    def _beside(self, name: str, value: object) -> str:
-        """What people are told: a time or a speed in units of the equations with its unit, if the machine is known."""
-        scales = getattr(getattr(self, "rotor", None), "scales", None)
-        if name not in KINDS or scales is None or not isinstance(value, float):
-            return ""
-        # The layers forbid imports from above.
-        return str(import_module("carom.parameters.told").told_beside(value, KINDS[name], scales))
+    def line_of(self, name: str, value: object) -> str:
+        """An attribute in a line: in units of the equations, behind it in SI units if the machine is known."""
+        return told_as(self.kind_of(name), value, self.known_scales)
 
-    def brief_rows(self) -> list[tuple[str, str]]:
-        """Rows of the text form: all of them, unless a kind of result can have too many."""
-        return self.rows()
+    def kind_of(self, name: str) -> str:
+        """Property of the scales by which an attribute is converted, ``"angle"``, or nothing."""
+        return KINDS.get(name, "")
+
+    @property
+    def known_scales(self) -> Any:
+        """Scales that convert all attributes to SI units; ``None`` where they are not known."""
+        if (own := getattr(self, "scales", None)) is not None:
+            return own
+        holders = (getattr(self, name, None) for name in _OF_THE_MACHINE)
+        return next((found for holder in holders if (found := getattr(holder, "scales", None)) is not None), None)
+
+
+def told_as(kind: str, value: object, scales: Any) -> str:
+    """A value of a kind in a line, behind it in SI units if the scales are known."""
+    # The layers forbid imports from above.
+    beside = import_module("carom.parameters.told").told_beside(value, kind, scales) if kind and scales else ""
+    return f"{in_a_line(value, scales)}{beside}"
 
 
 @checked
@@ -141,8 +152,11 @@ def fields_of(entry: object, *names: str, **renamed: str) -> dict[str, Any]:
     }
 
 
-def in_a_line(value: object) -> str:
-    """A value in one line: numbers to six digits, arrays by size and range, collections by number and names."""
+def in_a_line(value: object, scales: Any = None) -> str:
+    """A value in one line: numbers to six digits, arrays by size and range, collections by number and names.
+
+    With scales the parts of a state and the like are told in SI units too.
+    """
     if value is None:
         return "none"
     if isinstance(value, Enum):
@@ -162,10 +176,24 @@ def in_a_line(value: object) -> str:
     if isinstance(value, Sequence | Set):
         return _counted(list(value), [_name(entry) for entry in value])
     if dataclasses.is_dataclass(value):
-        fields = [(field.name, getattr(value, field.name)) for field in dataclasses.fields(value)]
-        told = [f"{name}={in_a_line(entry)}" for name, entry in fields if entry is not None and not callable(entry)]
-        return _cut(f"{type(value).__name__}({', '.join(told)})")
+        return _cut(_words(value)) or _parts(value, scales)
     return _cut(repr(value))
+
+
+def _words(value: object) -> str:
+    """What something says itself that it is."""
+    words = getattr(value, "words", "")
+    return words if isinstance(words, str) else ""
+
+
+def _parts(value: Any, scales: Any) -> str:
+    fields = [(field.name, getattr(value, field.name)) for field in dataclasses.fields(value)]
+    told = [
+        f"{name}={told_as(KINDS.get(name, ''), entry, scales)}"
+        for name, entry in fields
+        if entry is not None and not callable(entry)
+    ]
+    return _cut(f"{type(value).__name__}({', '.join(told)})")
 
 
 def _number(value: Complex) -> str:
@@ -193,6 +221,8 @@ def _array(values: np.ndarray) -> str:
 
 def _titled(value: Result) -> str:
     name = f"of {len(value)}" if isinstance(value, Sized) else _name(value)
+    if not name and _words(value):
+        return _cut(_words(value))
     return f"{type(value).__name__} {name}".strip()
 
 

@@ -12,7 +12,7 @@ from machines import PAPER
 
 import carom
 from carom.attractors.naming import _alike
-from carom.basins import Basin, map_basins
+from carom.basins import Basin, cells_of, map_basins
 from carom.disturbances import (
     AnyState,
     BaseShock,
@@ -50,6 +50,13 @@ def test_each_ends_as_simulated_alone(rotor, kicks):
             assert kicks.outcomes[i, k] == alone.outcome
             assert kicks.dataset["impacts"].values[i, k] == len(alone.contacts)
             assert kicks.dataset["multiplicity"].values[i, k] == alone.multiplicity
+
+
+def test_cells_are_those_of_the_basin(rotor, kicks):
+    cells = cells_of(rotor, kicks.plan)
+    assert np.array_equal(cells.index, kicks.dataset["motion"].values)
+    assert cells.motions == kicks.motions == kicks.cells.motions
+    assert (cells.plan, cells.scales) == (kicks.plan, kicks.scales)
 
 
 def test_motions_have_the_names_of_the_attractors(rotor):

@@ -14,6 +14,7 @@ from carom.report import report_page, write_report
 from carom.report.figures import pictures
 from carom.report.page import _with_subscripts
 from carom.studies.facts import about
+from carom.studies.summaries import share_rows, survived_rows
 
 CHROMIUM = "/usr/bin/chromium"
 SOURCE = Parameters(gamma=0.1, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7)
@@ -85,6 +86,7 @@ def test_symbols_are_formulas_and_numbers_keep_their_units(text, shown):
 
 def test_every_symbol_of_a_report_is_a_formula(written):
     for page in (written[2], report_page(study_once(SOURCE), [])):
+        page = re.sub(r"<code>--set.*?</code>", "", page)  # to be pasted as it is
         words = " ".join(Page(page).words)
         assert not re.search(r"[ceFik]_(max|[rcis])|Omega", words)
         assert not re.search(r"\d (N|mm|m)/?s?\b", words)
@@ -96,8 +98,9 @@ def test_page_is_well_formed_and_self_contained(written):
 
     assert page.open == []
     assert len(page.identifiers) == len(set(page.identifiers))
-    assert all(reference.startswith("#") for reference in page.references)
-    assert {reference[1:] for reference in page.references} <= set(page.identifiers)
+    inside = [reference for reference in page.references if not reference.startswith("data:image/png")]
+    assert all(reference.startswith("#") for reference in inside)
+    assert {reference[1:] for reference in inside} <= set(page.identifiers)
     assert "script" not in page.tags
     assert "link" not in page.tags
     assert not re.search(r"@import|url\((?!#)", text)
@@ -110,7 +113,13 @@ def test_page_shows_the_study(written):
     for part in ("3,408 N s/m", "zone D", "901 N", "What is covered, and what is not", "F1 has 2 roots", "carom 0."):
         assert part in words
     assert result.verdict.lead in words
-    assert all(fact.told in words for fact in about(result.facts, "Verdict"))
+    told = {fact.label: fact.text for fact in about(result.facts, "Verdict")}
+    for label in ("Must survive", "Coexisting"):
+        assert told[label][1:] in words
+    for fact in about(result.facts, "Recommendation"):
+        assert fact.label == "Now" or fact.text[1:] in words
+    for row in (*survived_rows(result), *share_rows(result)):
+        assert all(cell in words for cell in vars(row).values())
     assert text.count("<svg") == len(pictures(result))
     assert "`" not in words
     assert "{{" not in text
@@ -121,8 +130,10 @@ def test_figures_are_files_too(written):
     result, path, _ = written
     names = {picture.name for picture in pictures(result)}
 
-    assert names >= {"overview", "period-condition", "multipliers", "disturbance-synchronous-rub"}
-    assert names >= {f"{kind}-{orbit.name.replace(',', '')}" for kind in ("orbit", "radius") for orbit in result.orbits}
+    assert names >= {"basins", "overview", "period-condition", "multipliers", "disturbance-synchronous-rub"}
+    assert names >= {f"orbit-{orbit.name.replace(',', '')}" for orbit in result.stable_orbits}
+    for picture in pictures(result):
+        assert re.fullmatch(r"[A-Z](?!.*\. )[^\n]*\.", picture.caption)  # one sentence
     files = {file.name for file in (path.parent / "figures").iterdir()}
     assert files == {f"{name}.{ending}" for name in names for ending in ("svg", "png")}
     listed = json.loads((path.parent / "study.json").read_text(encoding="utf-8"))["figures"]
@@ -176,7 +187,7 @@ def test_figures_fit_a_telephone(written):
 def test_tables_are_stacked_on_narrow_screens(written):
     _, _, text = written
     tables = re.findall(r'<table class="stacked">(.*?)</table>', text, flags=re.DOTALL)
-    assert len(tables) == 3
+    assert len(tables) == 4
     for table in tables:
         for row in re.findall(r"<tr[^>]*>(.*?)</tr>", table, flags=re.DOTALL)[1:]:
             cells = re.findall(r"<td[^>]*>", row)
@@ -186,7 +197,16 @@ def test_tables_are_stacked_on_narrow_screens(written):
 def test_recommendation_comes_first(written):
     _result, _, text = written
     words = re.sub(r"\s+", " ", "".join(Page(text).words))
-    assert words.index("Recommendation") < words.index("Levitation")
+    order = [
+        "Does not come back",
+        "how many come back",
+        "What should change",
+        "What it survives",
+        "How it moves",
+        "Findings",
+    ]
+    places = [words.index(part) for part in order]
+    assert places == sorted(places)
     assert text.count('class="change"') == 2
     for part in (
         "damping 1,400 N s/m → at least 3,579 N s/m (damping ratio 0.256",
@@ -200,26 +220,52 @@ def test_figures_are_svg_and_png(written, monkeypatch, tmp_path):
     result, _, _ = written
     monkeypatch.setattr("carom.report.page.pictures", lambda study: pictures(study)[:1])
     write_report(result, str(tmp_path))
-    assert {file.name for file in (tmp_path / "figures").iterdir()} == {"overview.svg", "overview.png"}
+    assert {file.name for file in (tmp_path / "figures").iterdir()} == {"basins.svg", "basins.png"}
     assert json.loads((tmp_path / "study.json").read_text(encoding="utf-8"))["figures"] == [
-        "figures/overview.svg",
-        "figures/overview.png",
+        "figures/basins.svg",
+        "figures/basins.png",
     ]
 
 
-@pytest.mark.parametrize(("width", "scheme"), [(390, "light"), (390, "dark"), (1280, "light")])
-def test_nothing_is_wider_than_the_screen(width, scheme, written):
+@pytest.fixture(scope="module")
+def chromium():
     playwright = pytest.importorskip("playwright.sync_api")
     if not Path(CHROMIUM).exists():
         pytest.skip(f"needs {CHROMIUM}")
-    _, path, _ = written
     with playwright.sync_playwright() as started:
         browser = started.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox", "--disable-gpu"])
-        page = browser.new_page(viewport={"width": width, "height": 900}, color_scheme=scheme)
-        page.goto(path.absolute().as_uri())
-        assert page.evaluate("document.documentElement.scrollWidth") == width
-        beyond = "[...document.querySelectorAll('table, figure, dd')].filter(e => e.getBoundingClientRect().right > innerWidth)"
-        assert page.evaluate(f"{beyond}.length") == 0
-        letters = "[...document.querySelectorAll('figure svg')].map(s => 7 * s.getBoundingClientRect().width / s.viewBox.baseVal.width)"
-        assert min(page.evaluate(letters)) > 9.0
+        yield browser
         browser.close()
+
+
+def bottom(page, selector):
+    return page.evaluate("chosen => document.querySelector(chosen).getBoundingClientRect().bottom", selector)
+
+
+@pytest.mark.parametrize(("width", "scheme"), [(390, "light"), (390, "dark"), (1280, "light")])
+def test_nothing_is_wider_than_the_screen(width, scheme, written, chromium):
+    _, path, _ = written
+    page = chromium.new_page(viewport={"width": width, "height": 900}, color_scheme=scheme)
+    page.goto(path.absolute().as_uri())
+    page.evaluate("document.querySelector('details').open = true")
+    assert page.evaluate("document.documentElement.scrollWidth") == width
+    beyond = "[...document.querySelectorAll('table, figure, dd, code')].filter(e => e.getBoundingClientRect().right > innerWidth)"
+    assert page.evaluate(f"{beyond}.length") == 0
+    letters = "[...document.querySelectorAll('figure svg')].map(s => 7 * s.getBoundingClientRect().width / s.viewBox.baseVal.width)"
+    assert min(page.evaluate(letters)) > 9.0
+    page.close()
+
+
+def test_the_first_screen_and_the_first_printed_page_hold_the_answer(written, chromium):
+    _, path, _ = written
+    page = chromium.new_page(viewport={"width": 1280, "height": 900})
+    page.goto(path.absolute().as_uri())
+    assert bottom(page, ".page") <= 900
+    assert page.evaluate("document.documentElement.scrollHeight") <= 7100
+    page.set_viewport_size({"width": 390, "height": 844})
+    assert bottom(page, ".page figure") <= 844
+    assert page.evaluate("document.querySelector('.change').getBoundingClientRect().top") <= 844
+    page.set_viewport_size({"width": 688, "height": 1020})  # A4 without its margins: 182 mm by 270 mm
+    page.emulate_media(media="print")
+    assert bottom(page, ".page") <= 1020
+    page.close()

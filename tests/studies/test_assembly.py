@@ -176,7 +176,8 @@ def test_words_never_promise_recovery(parameters):
     if verdict.level == "all-tried-came-back":
         assert "no guarantee" in verdict.headline
     if any(rub.status == "admissible" for rub in result.rubs) or result.stable_orbits:
-        assert "besides levitation there" in finding(result, "Verdict")
+        assert ("besides levitation there" in finding(result, "Verdict")) == result.levitates
+        assert re.search(r"\bthere (is|are) ", finding(result, "Verdict"))
     assert finding(result, "Not covered").split("\n") == list(NOT_COVERED)
     assert "nan" not in everything(result)
     assert "inf " not in everything(result)

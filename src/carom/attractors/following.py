@@ -18,6 +18,7 @@ from carom.motions.ensembles import MOST_EVENTS, Endings
 from carom.motions.trajectories import simulate
 from carom.outcome import Outcome
 from carom.progress import Reporter
+from carom.results import Result
 
 FIRST_PATIENCE = 1000
 """Impacts for which a motion is followed at first."""
@@ -33,8 +34,8 @@ SLOWER = 10
 of the number of events after which a motion is given up."""
 
 
-@dataclass(frozen=True)
-class Ending:
+@dataclass(frozen=True, repr=False)
+class Ending(Result):
     """Where one start ended.
 
     Attributes

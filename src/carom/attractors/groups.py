@@ -15,6 +15,7 @@ from carom.motions.starts import Kick, State
 from carom.motions.trajectories import Trajectory, simulate
 from carom.orbits.orbit import Orbit
 from carom.outcome import Outcome, Phase
+from carom.parameters import Scales
 from carom.parameters.told import told
 from carom.results import Result
 
@@ -56,6 +57,8 @@ class Attractor(Result):
         How long it lasts, if it is irregular bouncing.
     orbit : Orbit or None
         The orbit of periodic bouncing or of a whirl that slides; ``None`` for other motions, and where Newton's method closes none.
+    scales : Scales or None
+        Those of the rotor.
     """
 
     name: MotionName
@@ -71,6 +74,7 @@ class Attractor(Result):
     largest_force: float
     survival: Survival | None = None
     orbit: Orbit | None = None
+    scales: Scales | None = None
 
     @property
     def settled(self) -> bool:
@@ -117,6 +121,7 @@ def attractor_of(name: MotionName, endings: Sequence[Ending], state: State) -> A
         largest_force=force,
         survival=survival,
         orbit=settled.orbit and replace(settled.orbit, name=name.orbit or settled.orbit.name),
+        scales=first.rotor.scales,
     )
 
 

@@ -5,6 +5,7 @@
 ``dataset``             endings as a dataset with coordinates, units and provenance
 ``shares``              the share of disturbances that come back, with its confidence interval
 ``losses``              the smallest kicks, shocks, steps and releases that are lost
+``families``            kinds of disturbances by size and direction, as searches for losses take them
 ``blade_losses``        the smallest unbalance after the loss of a blade that is not survived
 ``integrity_measures``  the largest ball of starts that all come back
 ``entropy``             basin entropy and boundary basin entropy
@@ -15,7 +16,7 @@
 """
 
 from carom.basins.changes import GainChange, least_gain_change
-from carom.basins.classification import Basin, map_basins
+from carom.basins.classification import Basin, Cells, cells_of, map_basins
 from carom.basins.entropy import BasinEntropy, basin_entropy
 from carom.basins.gains import GainMap, map_gains
 from carom.basins.integrity_measures import Integrity, integrity
@@ -25,6 +26,7 @@ from carom.basins.shares import Population, Share, share_of_kicks
 __all__ = [
     "Basin",
     "BasinEntropy",
+    "Cells",
     "GainChange",
     "GainMap",
     "Integrity",
@@ -32,6 +34,7 @@ __all__ = [
     "Share",
     "SmallestLoss",
     "basin_entropy",
+    "cells_of",
     "integrity",
     "least_gain_change",
     "map_basins",

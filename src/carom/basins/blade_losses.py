@@ -10,7 +10,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from carom.basins.losses import MOST_CHECKS, ROUND, TOLERANCE, TURN, SmallestLoss, lost
+from carom.basins.families import TURN, UNBALANCE
+from carom.basins.losses import MOST_CHECKS, ROUND, TOLERANCE, SmallestLoss, lost
 from carom.closed_forms.thresholds import harmless_blade_loss
 from carom.disturbances import BladeLoss, Starts
 from carom.disturbances.following import follow
@@ -73,7 +74,22 @@ class _Search:
 
     def __init__(self, rotor: Jeffcott, model: BladeLoss, threads: int | None) -> None:
         self.rotor, self.model, self.threads = rotor, model, threads
-        self.base = SmallestLoss(model.kind, None, None, None, False, 0.0, None, 0, 0.0, 0.0, TOLERANCE, 0)
+        self.base = SmallestLoss(
+            model.kind,
+            None,
+            None,
+            None,
+            False,
+            0.0,
+            None,
+            0,
+            0.0,
+            0.0,
+            TOLERANCE,
+            0,
+            UNBALANCE,
+            rotor.scales,
+        )
         self.back = 0.0
 
     def result(self, all_back: float | None, fresh: int) -> SmallestLoss:

@@ -11,14 +11,14 @@ from typing import Any, ClassVar
 import numpy as np
 
 from carom.arguments import Count, Whole, checked
-from carom.attractors import MotionName, document_of, follow_until_settled
+from carom.attractors import MotionName, Survival, document_of, follow_until_settled
 from carom.attractors.naming import name_motions
 from carom.basins.dataset import Mapped, dataset_of, provenance
 from carom.basins.shares import Share
-from carom.disturbances import Coordinate, Plan
+from carom.disturbances import Coordinate, Plan, Starts
 from carom.disturbances.following import NO_START, follow, require_start
-from carom.models import Subject, model_of
-from carom.motions.ensembles import MOST_EVENTS
+from carom.models import Model, Subject, model_of
+from carom.motions.ensembles import MOST_EVENTS, Endings
 from carom.motions.settling import PATIENCE, longest_time
 from carom.motions.starts import Until, time_until
 from carom.outcome import STEADY_WORDS, InputError, Outcome
@@ -37,6 +37,25 @@ CRITERIA = (
     "grazing: double precision cannot decide. time_reached, event_limit: not settled by {until:g}/Omega or {events} "
     "events. Criteria not called a proof are evidence."
 )
+
+
+@dataclass(frozen=True, eq=False)
+class Cells:
+    """Where the disturbances of a plan end, as pictures need it.
+
+    Attributes
+    ----------
+    plan : Grid or Sample
+    scales : Scales or None
+    index : ndarray of int
+        Place of the motion among ``motions``, of the shape of the plan; −1 where there is no start.
+    motions : tuple of MotionName
+    """
+
+    plan: Plan
+    scales: Scales | None
+    index: np.ndarray
+    motions: tuple[MotionName, ...]
 
 
 @checked
@@ -116,6 +135,11 @@ class Basin(Mapped):
     def motions(self) -> tuple[MotionName, ...]:
         """Names of the motions, in the order of their index."""
         return tuple(map(MotionName.of, json.loads(self.dataset["motion"].attrs["motions"])))
+
+    @property
+    def cells(self) -> Cells:
+        """Where the disturbances end, without the rest of the dataset."""
+        return Cells(self.plan, self.scales, self.dataset["motion"].values, self.motions)
 
     @property
     def fractions(self) -> dict[MotionName, float]:
@@ -199,13 +223,11 @@ def map_basins(
     (6, 72)
     """
     rotor = model_of(machine)
-    starts, after = disturbances.starts(rotor), disturbances.model.machine_after(rotor)
+    after = disturbances.model.machine_after(rotor)
     until = longest_time(after) if until is None else time_until(until, rotor.scales)
-    require_start(rotor, starts)
-    endings = follow(
-        after, starts, until=until, patience=patience, max_events=max_events, threads=threads, progress=progress
+    starts, endings, survival = _followed(
+        rotor, disturbances, after, until, patience=patience, max_events=max_events, threads=threads, progress=progress
     )
-    endings, survival = follow_until_settled(after, endings, impacts=patience, threads=threads)
     motions, names = name_motions(after, endings)
     attributes = {
         **(source or {}),
@@ -214,3 +236,30 @@ def map_basins(
         "criteria": CRITERIA.format(patience=patience, until=until, events=max_events),
     }
     return Basin(dataset_of(rotor, disturbances, starts, endings, motions, names, attributes))
+
+
+def cells_of(rotor: Model, plan: Plan) -> Cells:
+    """What pictures need of the basin that :func:`map_basins` finds; without a dataset, which takes longer to load than to fill."""
+    after = plan.model.machine_after(rotor)
+    _, endings, _ = _followed(rotor, plan, after, longest_time(after))
+    return Cells(plan, rotor.scales, *name_motions(after, endings))
+
+
+def _followed(
+    rotor: Model,
+    plan: Plan,
+    after: Model,
+    until: float,
+    *,
+    patience: int = PATIENCE,
+    max_events: int = MOST_EVENTS,
+    threads: int | None = None,
+    progress: ShowProgress = None,
+) -> tuple[Starts, Endings, Survival | None]:
+    """The starts of a plan, where they end, and how long irregular bouncing lasts."""
+    starts = plan.starts(rotor)
+    require_start(rotor, starts)
+    endings = follow(
+        after, starts, until=until, patience=patience, max_events=max_events, threads=threads, progress=progress
+    )
+    return starts, *follow_until_settled(after, endings, impacts=patience, threads=threads)

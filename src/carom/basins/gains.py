@@ -24,6 +24,7 @@ from carom.models.axes import Ends, read_interval
 from carom.motions.ensembles import MOST_EVENTS
 from carom.motions.settling import PATIENCE
 from carom.outcome import InputError, Outcome
+from carom.parameters.told import told_along, told_entry
 from carom.progress import Reporter, ShowProgress, shows_progress
 from carom.results import fields_of
 
@@ -57,7 +58,7 @@ class GainMap(Mapped):
     """
 
     figure: ClassVar[str] = "gain_map"
-    shown: ClassVar[tuple[str, ...]] = ("parameters", "axes", "present", "present_share")
+    shown: ClassVar[tuple[str, ...]] = ("rotor", "plane", "present", "present_share")
 
     needed: ClassVar[tuple[str, ...]] = ("recovered", "levitates")
 
@@ -66,6 +67,18 @@ class GainMap(Mapped):
         """The two parameters."""
         first, second = self.dataset["recovered"].dims
         return axis(self.rotor, str(first)), axis(self.rotor, str(second))
+
+    @property
+    def plane(self) -> str:
+        """Both parameters and their ranges, in words."""
+        return ", ".join(told_along(axis.name, self.dataset[axis.name].values) for axis in self.axes)
+
+    def line_of(self, name: str, value: object) -> str:
+        """Present values are told in the units of both parameters."""
+        if name == "present":
+            values = zip(self.axes, self.present, strict=True)
+            return ", ".join(f"{axis.name} {told_entry(axis.name, at)}" for axis, at in values)
+        return super().line_of(name, value)
 
     @property
     def present(self) -> tuple[float, float]:

@@ -7,30 +7,25 @@ the smallest size found that does not.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
 
 from carom.arguments import Count, checked
+from carom.basins.families import TURN, Family, family_of
 from carom.basins.shares import CONFIDENCE
-from carom.closed_forms.thresholds import harmless_kick, harmless_shock, harmless_unbalance_step
 from carom.disturbances import (
-    BaseShock,
     BladeLoss,
-    ContactRelease,
-    Coordinate,
     Disturbance,
-    KickPlane,
     Starts,
-    UnbalanceStep,
-    VelocityKick,
 )
 from carom.disturbances.following import follow
 from carom.models import Jeffcott, Model, Subject, jeffcott_of
 from carom.outcome import InputError, Outcome
+from carom.parameters import Scales
 from carom.progress import Reporter, ShowProgress, shows_progress
+from carom.results import Result
 
 DIRECTIONS, SIZES = 96, 96
 TOLERANCE = 1e-3
@@ -44,15 +39,12 @@ BELOW = 24
 """Sizes up to the best one so far, tried in each direction."""
 DRAWN, ROUND = 2000, 720
 """Fresh starts below the smallest loss, and directions over a full turn at the upper end of these sizes."""
-WHIRL = 2.0
-"""Largest speed along the wall searched for releases, in ``c_r Ω``: twice that of a whirl in step with the shaft."""
 MOST_CHECKS = 8
 """Number of times that fresh starts may reduce the smallest loss."""
-TURN = 2.0 * math.pi
 
 
-@dataclass(frozen=True)
-class SmallestLoss:
+@dataclass(frozen=True, repr=False)
+class SmallestLoss(Result):
     """Bracket of the size at which disturbances begin to be lost.
 
     Attributes
@@ -88,6 +80,10 @@ class SmallestLoss:
         Relative width to which the smallest loss is bisected, and angle in rad between the last directions tried.
     tried : int
         Number of starts followed.
+    quantity : str
+        Property of the scales by which sizes are converted to SI units.
+    scales : Scales or None
+        Those of the machine.
     """
 
     rests_on: ClassVar[tuple[str, ...]] = ("mora2014", "clopper1934")
@@ -104,6 +100,35 @@ class SmallestLoss:
     largest: float
     tolerance: float
     tried: int
+    quantity: str = ""
+    scales: Scales | None = None
+
+    shown: ClassVar[tuple[str, ...]] = (
+        "kind",
+        "size",
+        "angle",
+        "outcome",
+        "recovered",
+        "all_back",
+        "fresh",
+        "harmless",
+        "largest",
+        "tried",
+    )
+
+    @property
+    def words(self) -> str:
+        """The bracket in a line."""
+        told = {name: self.line_of(name, getattr(self, name)) for name in ("size", "all_back", "harmless", "largest")}
+        lost = f"none lost up to {told['largest']}" if self.size is None else f"smallest lost {told['size']}"
+        back = "" if self.all_back is None else f", all back up to {told['all_back']}"
+        return f"{lost}{back}, harmless up to {told['harmless']}"
+
+    def kind_of(self, name: str) -> str:
+        """Sizes are of one kind."""
+        return (
+            self.quantity if name in ("size", "recovered", "all_back", "harmless", "largest") else super().kind_of(name)
+        )
 
     @property
     def share_below(self) -> float:
@@ -113,37 +138,6 @@ class SmallestLoss:
         """
         drawn = max(self.fresh - ROUND, 0)
         return -math.expm1(math.log(1.0 - CONFIDENCE) / drawn) if drawn else 1.0
-
-
-@dataclass(frozen=True)
-class _Family:
-    """Disturbances by size and direction; directions above one turn mean backward whirl."""
-
-    kind: str
-    largest: float
-    harmless: float
-    starts: Callable[[np.ndarray, np.ndarray], Starts]
-    turns: int = 1
-    by_area: bool = True
-
-    def drawn(self, shares: np.ndarray, below: float) -> np.ndarray:
-        """Sizes between the harmless one and another by numbers uniform from 0 to 1: uniform over the area of the ring."""
-        low = self.harmless
-        if not self.by_area:
-            return low + (below - low) * shares
-        sizes: np.ndarray = np.sqrt(low**2 + (below**2 - low**2) * shares)
-        return sizes
-
-
-def has_sizes(model: Disturbance) -> bool:
-    """Whether :func:`smallest_loss` can search a model: by size and direction, or a kick plane, release or blade loss."""
-    return type(model) in (KickPlane, ContactRelease, BladeLoss) or _by_size(model)
-
-
-def _by_size(model: Disturbance) -> bool:
-    """Whether the coordinates are a size from 0 and a direction over a full turn."""
-    axes = model.coordinates
-    return len(axes) == 2 and axes[0].low == 0.0 and axes[1].periodic
 
 
 @checked
@@ -205,7 +199,7 @@ def smallest_loss(
         from carom.basins.blade_losses import smallest_blade_loss  # that module needs this one
 
         return smallest_blade_loss(rotor, model, threads=threads, tell=Reporter.of(progress, "trying unbalances"))
-    family = _family(rotor, model)
+    family = family_of(rotor, model)
     search = _Search(rotor, family, tolerance, threads)
     if family.harmless >= family.largest:
         return search.result(family.largest, 0)
@@ -231,41 +225,7 @@ def smallest_loss(
     return search.result(family.harmless or None, 0)
 
 
-def _family(rotor: Jeffcott, model: Disturbance) -> _Family:
-    """Family of starts through which a disturbance is searched."""
-    if type(model) is KickPlane:
-        model = VelocityKick(model.fastest)
-    if type(model) is UnbalanceStep:
-        step, now = model, rotor.parameters.rho
-
-        def changed(sizes: np.ndarray, angles: np.ndarray) -> Starts:
-            x, y = now + sizes * np.cos(angles), sizes * np.sin(angles)
-            return step.starts(rotor, np.hypot(x, y), np.arctan2(y, x))
-
-        return _Family(step.kind, step.largest + now, harmless_unbalance_step(rotor), changed)
-    if type(model) is ContactRelease:
-
-        def released(sizes: np.ndarray, places: np.ndarray) -> Starts:
-            cosine, sine = np.cos(places), np.sin(places)
-            rate = np.where(np.mod(places, 2.0 * TURN) < TURN, sizes, -sizes) - 1.0
-            positions, velocities = np.empty((2, *np.shape(rate)), complex)
-            positions.real, positions.imag = np.broadcast_arrays(cosine, sine)
-            velocities.real, velocities.imag = -rate * sine, rate * cosine
-            return Starts.of(positions, velocities, True)
-
-        return _Family(model.kind, WHIRL, 0.0, released, turns=2, by_area=False)
-    if not _by_size(model):
-        raise InputError("disturbance", model.kind, "one with a size from 0 and a direction, or a release from contact")
-    harmless = 0.0  # nothing is proven of a subclass, which may start anywhere
-    if type(model) is VelocityKick:
-        harmless = harmless_kick(rotor)
-    elif type(model) is BaseShock:
-        harmless = harmless_shock(rotor, model.duration)
-    size = model.coordinates[0]
-    return _Family(model.kind, size.high, harmless, lambda *at: model.starts(rotor, *at), by_area=size.over_disc)
-
-
-def _all_round(family: _Family, directions: int) -> np.ndarray:
+def _all_round(family: Family, directions: int) -> np.ndarray:
     """Evenly spaced directions over all turns of a family."""
     return TURN * np.arange(family.turns * directions) / directions
 
@@ -276,7 +236,7 @@ class _Search:
     The bracket holds a recovered size, the smallest lost size, its direction and its outcome.
     """
 
-    def __init__(self, rotor: Jeffcott, family: _Family, tolerance: float, threads: int | None) -> None:
+    def __init__(self, rotor: Jeffcott, family: Family, tolerance: float, threads: int | None) -> None:
         self.rotor, self.family, self.tolerance, self.threads = rotor, family, tolerance, threads
         self.tried = 0
         self.best: tuple[float, float, float, Outcome] | None = None
@@ -301,6 +261,8 @@ class _Search:
             largest=family.largest,
             tolerance=self.tolerance,
             tried=self.tried,
+            quantity=family.quantity,
+            scales=self.rotor.scales,
         )
 
     def scan(self, angles: np.ndarray, levels: np.ndarray) -> None:
@@ -358,17 +320,6 @@ class _Search:
         outcomes[~starts.exists] = Outcome.GRAZING
         self.tried += int(np.count_nonzero(starts.exists & ~starts.undecided))
         return outcomes, lost(outcomes)
-
-
-def size_coordinate(model: Disturbance) -> Coordinate:
-    """Coordinate with the description and unit of the size of a disturbance."""
-    if type(model) is BladeLoss:
-        return Coordinate("eccentricity_after", "eccentricity after the loss", 0.0, math.inf, "length")
-    if type(model) is UnbalanceStep:
-        return Coordinate("eccentricity_change", "change of the eccentricity", 0.0, math.inf, "length")
-    if type(model) is ContactRelease:
-        return Coordinate("release_speed", "speed along the wall", 0.0, math.inf, "velocity")
-    return model.coordinates[0]
 
 
 def lost(outcomes: np.ndarray) -> np.ndarray:

@@ -53,7 +53,7 @@ class Population:
 STARTS = Population()
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Share:
     """A share of disturbances, by default of those that come back to levitation.
 
@@ -108,6 +108,9 @@ class Share:
         # All cells are all, whatever the rounding of the sums.
         share = 1.0 if count == total else share
         return cls(share, share, share, count, total, False, population, does)
+
+    def __repr__(self) -> str:
+        return f"<Share: {self.words}>"
 
     @property
     def words(self) -> str:

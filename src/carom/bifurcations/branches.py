@@ -20,7 +20,9 @@ from carom.orbits.orbit import Orbit
 from carom.orbits.shooting import Start, closed_flights, converged, links_of, unpack
 from carom.orbits.word import Word
 from carom.outcome import CaromError
-from carom.parameters import Numbers
+from carom.parameters import Numbers, Scales
+from carom.parameters.scaling import SCALING
+from carom.parameters.told import told_range
 from carom.results import Result
 
 
@@ -73,6 +75,17 @@ class OrbitBranch(Result):
 
     def __len__(self) -> int:
         return len(self.values)
+
+    def line_of(self, name: str, value: object) -> str:
+        """Values are told in the unit of the parameter."""
+        if name == "values" and len(self):
+            return f"{len(self)} from {told_range(self.parameter, self.values)}"
+        return super().line_of(name, value)
+
+    @property
+    def known_scales(self) -> Scales | None:
+        """Scales of the machine, unless they vary along the branch."""
+        return None if self.parameter in SCALING else self.rotor.scales
 
     @property
     def parameter(self) -> str:

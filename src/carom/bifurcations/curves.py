@@ -28,6 +28,7 @@ from carom.continuation import Branch, Steps, Watch, continue_branch, refined_po
 from carom.orbits.names import CountedName, OrbitName, combined
 from carom.outcome import STEADY_WORDS, InputError
 from carom.parameters import Numbers
+from carom.parameters.told import told_along
 from carom.results import Result
 
 Function = Callable[[np.ndarray, float], np.ndarray]
@@ -115,6 +116,13 @@ class Curve(Result):
     orbits: tuple[OrbitName | CountedName, ...]
     codimension2: tuple[Codimension2Point, ...]
     stops: tuple[str, str]
+
+    def line_of(self, name: str, value: object) -> str:
+        """Points are told in the units of both parameters."""
+        if name == "points" and len(self.points):
+            ranges = zip((self.plane.first, self.plane.second), self.points.T, strict=True)
+            return f"{len(self.points)}, {', '.join(told_along(axis, ends) for axis, ends in ranges)}"
+        return super().line_of(name, value)
 
     @cached_property
     def steps(self) -> np.ndarray:

@@ -31,6 +31,7 @@ from carom.orbits.search import Impacts, Searched
 from carom.orbits.single_impact import find_orbits
 from carom.outcome import STEADY_WORDS
 from carom.parameters import Parameters
+from carom.parameters.scaling import SCALING
 from carom.parameters.told import shown_in
 from carom.progress import Reporter, ShowProgress, shows_progress
 from carom.results import Result, in_a_line
@@ -129,7 +130,7 @@ class Diagram(Result):
         scales = self.model.scales
         factor, _ = shown_in(kind, scales)
         ratio: np.ndarray | float = 1.0
-        if scales is not None and self.parameter in ("mass", "clearance", "speed"):
+        if scales is not None and self.parameter in SCALING:
             # Every unit is a product of powers of the three, so a doubled scale shows the power.
             doubled = replace(scales, **{self.parameter: 2.0 * getattr(scales, self.parameter)})
             power = np.log2(getattr(doubled, kind) / getattr(scales, kind))

@@ -12,6 +12,7 @@ from carom.models import Model
 from carom.models.axes import Axis, Ends, axis, read_interval
 from carom.outcome import InputError
 from carom.parameters import Numbers, Parameters
+from carom.parameters.told import told_along
 
 EDGE = "edge of the plane"
 """Why curves end that leave the plane."""
@@ -48,6 +49,12 @@ class Plane:
         ranges = read_interval(first, first_range), read_interval(second, second_range)
         for name, value in zip(self.__dataclass_fields__, (first, second, *ranges), strict=True):
             object.__setattr__(self, name, value)
+
+    @property
+    def words(self) -> str:
+        """Both parameters with their ranges: ``damping 500 to 2,000 N s/m, speed 1,700 to 1,850 rpm``."""
+        ranges = ((self.first, self.first_range), (self.second, self.second_range))
+        return ", ".join(told_along(name, ends) for name, ends in ranges)
 
     @property
     def widths(self) -> np.ndarray:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 from carom.arguments import checked
 from carom.bifurcations.conditions import orbit_of
@@ -15,7 +15,8 @@ from carom.models.axes import Ends
 from carom.orbits.names import OrbitName
 from carom.orbits.orbit import Orbit
 from carom.outcome import InputError
-from carom.parameters import Numbers
+from carom.parameters import Numbers, Scales
+from carom.parameters.told import told_entry
 from carom.results import Result
 
 if TYPE_CHECKING:
@@ -78,6 +79,17 @@ class Bifurcation(Result):
         the period and the radial speed.
     """
 
+    shown: ClassVar[tuple[str, ...]] = (
+        "kind",
+        "name",
+        "parameter",
+        "value",
+        "period",
+        "radial_speed",
+        "admissible",
+        "detail",
+    )
+
     kind: str
     # Not narrower: the closed form reads the numbers.
     numbers: Any
@@ -90,6 +102,20 @@ class Bifurcation(Result):
     detail: str = ""
     place: float = math.nan
     shot: Orbit | None = None
+
+    def line_of(self, name: str, value: object) -> str:
+        """The value is told in the unit of the parameter."""
+        if name == "value" and self.parameter and isinstance(value, float):
+            return told_entry(self.parameter, value, 6)
+        return super().line_of(name, value)
+
+    @property
+    def known_scales(self) -> Scales | None:
+        """Scales of the machine there."""
+        if self.shot is not None:
+            return self.shot.known_scales
+        units = getattr(self.numbers, "units", None)
+        return None if units is None else Scales(*units)
 
     @classmethod
     @checked

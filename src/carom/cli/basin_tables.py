@@ -127,7 +127,7 @@ _LOSSES = {
 
 def _losses(basin: Basin, smallest: SmallestLoss | None, harmless: float) -> list[str]:
     """Say from which size on disturbances are lost, if they have a size."""
-    from carom.basins.losses import has_sizes, size_coordinate
+    from carom.basins.families import has_sizes, size_coordinate
 
     if not has_sizes(basin.plan.model):
         return []

@@ -62,7 +62,7 @@ def basins(
         source = _source(machine, settings)
         from carom.basins import map_basins, smallest_loss
         from carom.basins.document import basin_document
-        from carom.basins.losses import has_sizes
+        from carom.basins.families import has_sizes
         from carom.closed_forms import harmless_kick
         from carom.models import Jeffcott
 

@@ -12,8 +12,9 @@ import numpy as np
 from carom.arguments import checked
 from carom.closed_forms.rub_stability import sliding_rates
 from carom.closed_forms.statics import COUNTED, rub_forces, static_state
-from carom.models import Jeffcott, Model, Subject, System, model_of
+from carom.models import Jeffcott, Model, Subject, model_of
 from carom.outcome import Phase
+from carom.parameters import Scales
 from carom.results import Result, in_a_line
 
 Kind = Literal["contact-free", "rub"]
@@ -48,6 +49,8 @@ class Equilibrium(Result):
     stable : bool
         Whether small disturbances die out, including those that lift a rotor that rubs at one plane off its wall.  Of a
         rub at several planes only disturbances that maintain contact are judged.
+    scales : Scales or None
+        Those of the rotor.
     """
 
     kind: Kind
@@ -58,6 +61,7 @@ class Equilibrium(Result):
     status: Status
     eigenvalues: np.ndarray
     stable: bool
+    scales: Scales | None = None
 
     @property
     def plane(self) -> int:
@@ -108,7 +112,7 @@ class EquilibriumSet(Result):
         lines = [
             (
                 f"{at.kind}{f' at plane {in_a_line(at.planes)}' if len(at.places) > 1 and at.planes else ''}",
-                f"{at.status}, {'stable' if at.stable else 'not stable'}, normal force {at.normal_force:.6g}",
+                f"{at.status}, {'stable' if at.stable else 'not stable'}, normal force {self.line_of('normal_force', at.normal_force)}",
             )
             for at in self.members
         ]
@@ -168,7 +172,7 @@ def find_equilibria(machine: Subject) -> EquilibriumSet:
     """
     model = model_of(machine)
     system = model.system
-    rubs = [_rub(system, *balance) for balance in rub_forces(system)]
+    rubs = [_rub(model, *balance) for balance in rub_forces(system)]
     found = (_contact_free(model), *sorted(rubs, key=lambda rub: (not rub.stable, rub.status)))
     return EquilibriumSet(model, found, complete=len(system.arrays["rows"]) <= COUNTED)
 
@@ -187,6 +191,7 @@ def _contact_free(model: Model) -> Equilibrium:
         _status(1.0 - float(np.abs(places).max())),
         system.exponents,
         _dies_out(system.exponents, margin),
+        model.scales,
     )
 
 
@@ -196,7 +201,8 @@ def _status(margin: float) -> Status:
     return "admissible" if margin > 0 else "virtual"
 
 
-def _rub(system: System, planes: tuple[int, ...], forces: np.ndarray, touching: np.ndarray) -> Equilibrium:
+def _rub(model: Model, planes: tuple[int, ...], forces: np.ndarray, touching: np.ndarray) -> Equilibrium:
+    system = model.system
     arrays, chosen = system.arrays, list(planes)
     amplitudes = static_state(system, planes, forces, touching)
     places, pushes = arrays["rows"] @ amplitudes + arrays["offsets"], np.zeros(len(arrays["rows"]))
@@ -219,6 +225,7 @@ def _rub(system: System, planes: tuple[int, ...], forces: np.ndarray, touching: 
         _status(float(margin)),
         eigenvalues,
         stable,
+        model.scales,
     )
 
 

@@ -66,6 +66,11 @@ class Jeffcott:
         return Matrices(mass, damping, gyroscopic, stiffness, np.array([cmath.rect(at.rho, at.phi)]))
 
     @property
+    def words(self) -> str:
+        """Its parameters in a line (:attr:`carom.parameters.Parameters.words`)."""
+        return self.parameters.words
+
+    @property
     def scales(self) -> Scales | None:
         """Mass, clearance and speed that convert results to SI units, if known."""
         return self.parameters.scales

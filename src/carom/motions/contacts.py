@@ -74,6 +74,11 @@ class Table(Result):
             entries.append(f"{name} : ndarray\n    {one['words'][0].upper()}{one['words'][1:]}{unit}.")
         cls.__doc__ = "\n".join([cleandoc(cls.__doc__ or ""), "", "Attributes", "----------", *entries])
 
+    def kind_of(self, name: str) -> str:
+        """What the metadata say."""
+        quantity = self.columns[name]["quantity"] if name in self.columns else ""
+        return "angle" if quantity == "rad" else quantity if quantity in UNITS else ""
+
     def to_dataset(self) -> xarray.Dataset:
         """Table with units and long names as attributes; in SI if the machine is known."""
         import xarray

@@ -152,7 +152,10 @@ class FoundOrbits(Result, OrbitSequence):
     def rows(self) -> list[tuple[str, str]]:
         """Each orbit, and how much was searched."""
         told = [
-            (orbit.name, f"period {orbit.period:.6g}, {'stable' if orbit.stable else 'unstable'}, {orbit.segments}")
+            (
+                orbit.name,
+                f"period {self.line_of('period', orbit.period)}, {'stable' if orbit.stable else 'unstable'}, {orbit.segments}",
+            )
             for orbit in self
         ]
         return [("rotor", in_a_line(self.rotor)), *told, ("search", self.argument)]

@@ -23,7 +23,6 @@ from carom.orbits.search import GUESSES, FoundOrbits, Impacts, search_orbits
 from carom.orbits.shooting import Start
 from carom.orbits.stability import Multipliers, multipliers_of_all
 from carom.orbits.word import Kind, Word
-from carom.parameters.told import told_beside
 from carom.progress import Reporter, ShowProgress, shows_progress
 from carom.results import Result, in_a_line
 
@@ -69,11 +68,8 @@ class OrbitSet(Result, OrbitSequence):
         told = []
         for orbit in self:
             words = f"{'stable' if orbit.stable else 'unstable'}, {orbit.reason or 'admissible'}"
-            period = f"period {orbit.period:.6g}{told_beside(orbit.period, 'time', self.rotor.scales)}"
-            speed = (
-                f"radial speed {orbit.radial_speed:.6g}{told_beside(orbit.radial_speed, 'velocity', self.rotor.scales)}"
-            )
-            told.append((orbit.name, f"{period}, {speed}, {words}"))
+            period, speed = (self.line_of(name, getattr(orbit, name)) for name in ("period", "radial_speed"))
+            told.append((orbit.name, f"period {period}, radial speed {speed}, {words}"))
         return [("rotor", in_a_line(self.rotor)), *told, ("complete", in_a_line(self.complete))]
 
     @property

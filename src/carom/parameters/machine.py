@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import warnings
 from collections.abc import Mapping
 from typing import Any, cast
@@ -16,14 +17,16 @@ from carom.parameters.fields import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, PHYSIC
 from carom.parameters.numbers import CONVERSIONS
 from carom.parameters.resolution import Resolved, resolve, solved
 from carom.parameters.scaling import Parameters, Scales
-from carom.parameters.terms import DEFAULTS, ENTRIES
+from carom.parameters.terms import DEFAULTS, ENTRIES, HELPER_FIELDS
+from carom.parameters.told import number, told_entry
 from carom.parameters.toml_reader import read_machine_tables
+from carom.tabular import Tabular
 
 LEAST_RADIUS = 5.0
 """Rotor radius in clearances below which a machine file probably has a wrong unit; touchdown bearings have 20 to 1000."""
 
 
-class Machine(pydantic.BaseModel):
+class Machine(Tabular, pydantic.BaseModel):
     """A rotor, its levitation and its touchdown bearing, in SI units.
 
     Every value is a number in the SI unit below, or text with a unit such as ``"1759 rpm"`` or ``"0.3 mm"``; a number
@@ -121,6 +124,26 @@ class Machine(pydantic.BaseModel):
 
     def __hash__(self) -> int:
         return hash(tuple(self._resolved.values.values()))
+
+    def rows(self) -> list[tuple[str, str]]:
+        """What the machine has in the units of people; beside it the symbol of the equations, and the entry of the file that gave it."""
+        shown_names = [name for name in MACHINE_FIELDS if name not in DEFAULTS or name in self.given]
+        shown_names += [name for name in HELPER_FIELDS if name in self.given]
+        return [(ENTRIES[name].words, self._row(name)) for name in shown_names]
+
+    def _row(self, name: str) -> str:
+        text, numbers = told_entry(name, getattr(self, name), 6), self.parameters
+        beside = [
+            f"{DIMENSIONLESS_FIELDS[own].symbol} = {number(getattr(numbers, own))}"
+            for own, partner in PHYSICAL_PARTNER.items()
+            if partner == name and own not in ("mu", "d", "phi")
+        ]
+        entry, written = next(iter(self.given_texts.get(name, {}).items()), (name, ""))
+        if entry != name:
+            beside.append(f"given as {entry} = {written}")
+        elif re.search("[a-z]", written, re.IGNORECASE) and not written.endswith(ENTRIES[name].usual_unit):
+            beside.append(f"given as {written}")
+        return f"{text} ({'; '.join(beside)})" if beside else text
 
     @property
     def given(self) -> Mapping[str, Mapping[str, Any]]:

@@ -18,15 +18,19 @@ from carom.parameters.fields import (
     name_errors,
     unknown_name,
 )
-from carom.parameters.load_limits import LoadLimits
+from carom.parameters.load_limits import LIMIT_FIELDS, LoadLimits
 from carom.parameters.machine import Machine, warn_of_proportions
 from carom.parameters.quantities import read_quantity
 from carom.parameters.requirement import Requirement
 from carom.parameters.scaling import Parameters, Scales
 from carom.parameters.terms import SETTABLE, check_names, set_by
+from carom.parameters.told import number, shown_in, told
 from carom.parameters.toml_reader import MachineTables, read_machine_tables
+from carom.tabular import Tabular
 
 _SETTING = "--set"
+_UNITS_TOLD = ("length", "time", "velocity", "force", "impulse")
+"""Units of the equations that a case shows."""
 
 
 @dataclass(frozen=True)
@@ -67,8 +71,8 @@ class Zones:
 
 
 @checked
-@dataclass(frozen=True)
-class Case:
+@dataclass(frozen=True, repr=False)
+class Case(Tabular):
     """What a command works on: the content of a machine file after all settings.
 
     Parameters
@@ -103,6 +107,43 @@ class Case:
 
     def __post_init__(self) -> None:
         self.requirement.own(self.parameters.scales)
+
+    @property
+    def heading(self) -> str:
+        """What it is, and its name."""
+        return f"Case {self.name}"
+
+    def rows(self) -> list[tuple[str, str]]:
+        """The machine in the units of people, what it must survive, what is stated of its bearing, and the units of the equations."""
+        numbers, scales = self.parameters, self.parameters.scales
+        own = [(field.words, number(getattr(numbers, name))) for name, field in DIMENSIONLESS_FIELDS.items()]
+        zones = ", ".join(f"{zone} up to {number(limit)}" for zone, limit in zip("ABC", self.zones.limits, strict=True))
+        limits = [
+            f"{field.words} {number(value)} {field.unit}".rstrip()
+            for name, field in LIMIT_FIELDS.items()
+            if (value := getattr(self.limits, name)) is not None
+        ]
+        units = [f"{shown_in(kind, None)[1]} = {told(1.0, kind, scales)}" for kind in _UNITS_TOLD]
+        return [
+            *(own if self.machine is None else self.machine.rows()),
+            ("must survive", self._required()),
+            ("zones, in clearances", zones),
+            *([("limits of the bearing", ", ".join(limits))] if limits else []),
+            *([("units of the equations", ", ".join(units))] if scales else []),
+        ]
+
+    def _required(self) -> str:
+        scales, stated = self.parameters.scales, self.requirement
+        required = stated.own(scales)
+        usual = " (chosen by carom, none is stated)" if stated.kick is None else ""
+        parts = [f"kicks up to {told(required.kick, 'velocity', scales)}{usual}"]
+        if required.shock:
+            peak, duration = required.shock.peak, required.shock.duration
+            parts.append(f"shocks up to {told(peak, 'acceleration', scales)}, {told(duration, 'time', scales)}")
+        if required.blade_loss:
+            kind = "unbalance" if scales else "length"
+            parts.append(f"an unbalance of {told(required.blade_loss, kind, scales)} after the loss of a blade")
+        return "; ".join(parts)
 
     def replace(self, /, **changes: Any) -> Case:
         """Return the case with other parameters of the machine, bit for bit the same as with ``--set``.

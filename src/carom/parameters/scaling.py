@@ -33,6 +33,9 @@ UNITS = {
 }
 """Units of each property of :class:`Scales`: that of the equations, and the SI unit."""
 
+SCALING = ("mass", "clearance", "speed")
+"""Fields of a machine that are its scales."""
+
 # Smallest |omega² - 1 + i gamma|, by which the unbalance is divided to get the contact-free equilibrium: below it
 # the equilibrium lies so far out that rounding leaves no digits for positions inside the clearance.
 _RESONANCE = 1e-9
@@ -67,7 +70,7 @@ class Scales:
     speed: float
 
     def __post_init__(self) -> None:
-        for name in ("mass", "clearance", "speed"):
+        for name in SCALING:
             object.__setattr__(self, name, _number(MACHINE_FIELDS, name, getattr(self, name)))
 
     @property
@@ -220,6 +223,14 @@ class Parameters:
         if name not in self.varied:
             raise no_such_parameter(name, "wanted", self.varied, self.scales is not None)
         return Numbers.of(self).value(name)
+
+    @property
+    def words(self) -> str:
+        """In a line: what a machine has in SI units, or the dimensionless numbers."""
+        from carom.parameters.told import told_entry  # that module needs this one
+
+        names = DIMENSIONLESS_FIELDS if self.scales is None else MACHINE_FIELDS
+        return ", ".join(f"{PARAMETERS[name].symbol} {told_entry(name, self.value(name))}" for name in names)
 
     def as_dict(self) -> dict[str, float]:
         """Return the seven numbers by name, without the scales."""

@@ -3,9 +3,13 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 
+from carom.parameters.fields import PHYSICAL_PARTNER
+from carom.parameters.numbers import CONVERSIONS
 from carom.parameters.requirement import GRAVITY
 from carom.parameters.scaling import UNITS, Scales
+from carom.parameters.terms import SETTABLE
 
 _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 _SHOWN = {
@@ -59,11 +63,64 @@ def told(value: float, kind: str, scales: Scales | None, digits: int = 3) -> str
     return f"{number(factor * value, digits)}{unit[1:] if unit.startswith('1/') else f' {unit}'}"
 
 
-def told_beside(value: float, kind: str, scales: Scales | None) -> str:
-    """What stands behind a number in units of the equations for people: `` (60 mm/s)``; nothing without scales."""
-    return "" if scales is None else f" ({told(value, kind, scales)})"
+def told_beside(value: object, kind: str, scales: Scales | None) -> str:
+    """What stands behind numbers in units of the equations for people: `` (60 mm/s)``; nothing without scales.
+
+    Of an array of more than one number it is the range of the finite ones; nothing if there are none, or if they are complex.
+    """
+    import numpy as np  # reading a machine file does without
+
+    numbers = np.asarray(value)
+    if scales is None or numbers.dtype.kind not in "iufc":
+        return ""
+    if numbers.size == 1:
+        (one,) = numbers.ravel().tolist()
+        return f" ({_told_number(one, kind, scales)})" if np.isfinite(one) else ""
+    if numbers.dtype.kind == "c" or not np.isfinite(numbers).any():
+        return ""
+    known = numbers[np.isfinite(numbers)]
+    low, high = (_told_number(float(end), kind, scales) for end in (known.min(), known.max()))
+    return f" ({told_between(low, high)})"
+
+
+def _told_number(value: complex, kind: str, scales: Scales) -> str:
+    """A real or complex number, or an angle in rad, with its unit."""
+    if kind == "angle":
+        return told_angle(value.real)
+    if not isinstance(value, complex):
+        return told(value, kind, scales)
+    factor, unit = shown_in(kind, scales)
+    up = number(factor * value.imag, 3)
+    return f"{number(factor * value.real, 3)}{up if up.startswith('-') else f'+{up}'}i {unit}"
 
 
 def told_angle(angle: float) -> str:
     """Write an angle given in rad in degrees: ``30°``."""
     return f"{number(math.degrees(angle), 3)}°"
+
+
+def told_entry(name: str, value: float, digits: int = 4) -> str:
+    """Write a parameter given in SI units in the unit in which people usually say it: ``1,759 rpm``, ``1.592 µm``, ``0.152``."""
+    field = SETTABLE[name]
+    if field.usual_unit == "mm" and 0.0 < value < 1e-4:
+        return f"{number(value / 1e-6, digits)} µm"
+    return f"{number(field.in_usual_unit(value), digits)} {field.usual_unit}".rstrip()
+
+
+def told_range(name: str, values: Iterable[float]) -> str:
+    """Write the range of some values of a parameter: ``500 to 2,000 N s/m``."""
+    ends = list(values)
+    return told_between(told_entry(name, min(ends)), told_entry(name, max(ends)))
+
+
+def told_along(name: str, values: Iterable[float], scales: Scales | None = None) -> str:
+    """Write a parameter with the range of some values; with scales what a machine has in place of a dimensionless one."""
+    if scales is not None and name in PHYSICAL_PARTNER:
+        name, values = PHYSICAL_PARTNER[name], [CONVERSIONS[name].value(value, scales) for value in values]
+    return f"{name} {told_range(name, values)}"
+
+
+def told_between(low: str, high: str) -> str:
+    """Write a range of two sizes with one unit, where both have the same."""
+    unit = high.partition(" ")[2]
+    return f"{low.removesuffix(f' {unit}') if unit else low} to {high}"

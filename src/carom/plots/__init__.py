@@ -10,8 +10,8 @@ Long motions are thinned: the band of the radius, the last turns of the shaft, t
 are drawn where the argument `virtual` asks for them.
 
 Motions and orbits are drawn by ``motions``, ``histories``, ``touchdowns``, ``spectra``, ``overviews`` and ``conditions``; along
-parameters ``diagrams`` with ``coexistence`` and ``proven``, ``regions`` and ``responses``; disturbances ``basins`` with ``rings``,
-``gains``, ``sweeps`` and ``attractor_shares``.  Shared are ``style`` (what colours mean), ``sheet`` (the style sheet),
+parameters ``diagrams`` with ``coexistence`` and ``proven``, ``regions`` and ``responses``; disturbances ``basins`` with ``pairs`` and
+``rings``, ``gains``, ``sweeps`` and ``attractor_shares``.  Shared are ``style`` (what colours mean), ``sheet`` (the style sheet),
 ``figure`` (a figure that keeps it), ``arrangement`` (layout), ``files``, ``plane`` (the clearance circle), ``bands``, ``cells``,
 ``closeups``, ``numerals``, ``placement``, ``parameter_axes`` and ``words``.
 """
@@ -28,6 +28,7 @@ from carom.plots.gains import gain_map
 from carom.plots.histories import radius
 from carom.plots.motions import motion, orbit
 from carom.plots.overviews import equilibria, equilibria_and_orbits, overview
+from carom.plots.pairs import basin_pair
 from carom.plots.regions import region_map
 from carom.plots.responses import unbalance_response
 from carom.plots.sheet import applied
@@ -45,6 +46,7 @@ __all__ = [
     "applied",
     "attractors",
     "basin",
+    "basin_pair",
     "bifurcation_diagram",
     "energies",
     "equilibria",

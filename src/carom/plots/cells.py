@@ -57,15 +57,12 @@ class MotionLook:
 
     @property
     def patch(self) -> Patch:
-        """Entry of the legend of a figure."""
-        percent = f"{100.0 * self.share:.3g} %"
-        return Patch(
-            facecolor=self.colour,
-            hatch=self.look.hatch,
-            edgecolor=ink(self.colour),
-            lw=0.4,
-            label=f"{self.words}, {percent}",
-        )
+        """Entry of the legend of a figure, with the share."""
+        return self.named(f"{self.words}, {100.0 * self.share:.3g} %")
+
+    def named(self, words: str) -> Patch:
+        """Entry of the legend with other words."""
+        return Patch(facecolor=self.colour, hatch=self.look.hatch, edgecolor=ink(self.colour), lw=0.4, label=words)
 
 
 def motion_looks(basin: Basin) -> list[MotionLook]:

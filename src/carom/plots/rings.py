@@ -17,6 +17,7 @@ from carom.plots.words import clearance, number, told_in
 
 if TYPE_CHECKING:
     from carom.basins import Basin
+    from carom.disturbances import Coordinate
 
 _RING = (0.82, 0.98)
 """Inner and outer radius of the ring that shows releases from the wall."""
@@ -69,12 +70,16 @@ def _painted_ring(basin: Basin, motions: list[MotionLook], wall: float = 1.0) ->
     """A new figure with a ring of cells within the radius `wall`."""
     figure = StyledFigure(figsize=(ONE_COLUMN, 1.13 * ONE_COLUMN))
     axes = figure.subplots()
-    cells = basin.dataset["motion"].values
-    parts = -(-CHORDS // len(cells))
-    edges = basin.coordinates[0].edges(parts * len(cells))
+    paint_ring(axes, basin.coordinates[0], basin.dataset["motion"].values, motions, wall)
+    return figure, axes
+
+
+def paint_ring(axes: Axes, angle: Coordinate, index: np.ndarray, motions: list[MotionLook], wall: float = 1.0) -> None:
+    """Paint cells along an angle as a ring within the radius `wall`, in the colours of the motions."""
+    parts = -(-CHORDS // len(index))
+    edges = angle.edges(parts * len(index))
 
     def bend(angle: Floats, radius: Floats) -> tuple[Floats, Floats]:
         return radius * np.cos(angle), radius * np.sin(angle)
 
-    paint(axes, edges, wall * np.array(_RING), np.repeat(cells, parts)[:, None], motions, bend)
-    return figure, axes
+    paint(axes, edges, wall * np.array(_RING), np.repeat(index, parts)[:, None], motions, bend)

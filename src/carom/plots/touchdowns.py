@@ -33,28 +33,30 @@ _WIDE_RANGE = 50.0
 
 @checked
 @styled
-def touchdown(trajectory: Trajectory, ledger: EnergyLedger, title: str | None = None) -> Figure:
-    """Draw a touchdown, with the energies of its motion, in four panels over one time axis.
+def touchdown(trajectory: Trajectory, ledger: EnergyLedger | None = None, title: str | None = None) -> Figure:
+    """Draw a touchdown in three panels over one time axis, with the energies of its motion in four.
 
     From top to bottom: distance from the centre; regime and whirl direction; impulses and contact forces; energies and
-    works.  If the distance has too many swings for a curve, its band is drawn, and its last turns in a panel below.
+    works, if a ledger is given.  If the distance has too many swings for a curve, its band is drawn, and its last turns in a panel below.
     """
     history = history_of(trajectory)
     last = last_turns(history)
-    heights = [1.0, 0.32, 1.0, 1.0, *([] if last is None else [1.0])]
+    along = 3 if ledger is None else 4
+    heights = [1.0, 0.32, *([1.0] * (along - 2)), *([] if last is None else [1.0])]
     figure = StyledFigure(figsize=(TWO_COLUMNS, 0.35 * sum(heights) * TWO_COLUMNS))
     panels = figure.subplots(len(heights), 1, height_ratios=heights)
-    for panel in panels[1:4]:
+    for panel in panels[1:along]:
         panel.sharex(panels[0])
     draw_radius(panels[0], history)
     regimes(trajectory, axes=panels[1])
     forces(trajectory, axes=panels[2])
-    energies(ledger, axes=panels[3])
+    if ledger is not None:
+        energies(ledger, axes=panels[3])
     if last is not None:
-        draw_radius(panels[4], last)
+        draw_radius(panels[along], last)
     for panel, letter in zip(panels, "abcde", strict=False):
         panel.set_title(f"({letter})", loc="left", y=1.0)
-    for panel in panels[:3]:
+    for panel in panels[: along - 1]:
         panel.set_xlabel("")
         panel.tick_params(labelbottom=False)
     if title:

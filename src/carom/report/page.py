@@ -18,15 +18,17 @@ from carom.files import staged_directory, write_json
 from carom.files.directory import FIGURES, MANIFEST
 from carom.plots.sheet import drawing
 from carom.progress import Reporter, ShowProgress, shows_progress
+from carom.report.basins import drawable
 from carom.report.figures import Picture, pictures
 from carom.studies import NOT_COVERED, Study
-from carom.studies.facts import about, paragraphs
-from carom.studies.summaries import dimensionless_rows, machine_rows, motion_rows, range_rows, threshold_rows
+from carom.studies.advice_facts import BEYOND, CHANGES
+from carom.studies.facts import Fact, about, paragraphs
+from carom.studies.summaries import dimensionless_rows, machine_rows, motion_rows, range_rows, share_rows, survived_rows
 from carom.studies.wording import machine_heading
 
 REPORT = "report.html"
-SCREEN_SCALE = 1.3
-"""Enlargement of the figures on a screen: they are made for print, and a screen is farther away."""
+AT_ONCE = ("Margin", "Then")
+"""Labels of what the first screen says of a change; the rest stands below."""
 
 
 @dataclass(frozen=True)
@@ -76,13 +78,22 @@ def report_page(study: Study, figures: list[InlineFigure]) -> str:
     environment = Environment(autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True)
     environment.filters["formulas"] = _with_subscripts
     template = environment.from_string(files("carom.report").joinpath("report.html.jinja").read_text(encoding="utf-8"))
-    rows = threshold_rows(study)
+    changes, about_all = _advice(study)
     return template.render(
         study=study,
         verdict=study.verdict,
-        survived=about(study.facts, "Verdict"),
-        recommendation=about(study.facts, "Recommendation"),
-        findings=paragraphs(study.facts),
+        mark=_mark(study),
+        drawable=drawable(study),
+        facts={fact.label: fact.told for fact in about(study.facts, "Verdict")},
+        shares=share_rows(study),
+        survived=survived_rows(study),
+        can_change=CHANGES,
+        changes=changes,
+        advice=about_all,
+        at_once=AT_ONCE,
+        findings=[
+            entry for entry in paragraphs(study.facts) if entry[0] not in ("What would change it", "Not covered")
+        ],
         machine=machine_rows(study.case),
         dimensionless=dimensionless_rows(study.case),
         motions=motion_rows(study),
@@ -92,13 +103,40 @@ def report_page(study: Study, figures: list[InlineFigure]) -> str:
             (study.wording.gain_name(gain), study.wording.gain(gain, study.case.parameters.value(gain)))
             for gain in study.gains
         ],
-        thresholds=rows,
-        in_si=study.wording.scales is not None,
         searched=[entry for entry in study.ranges if entry.motion == "single-impact"],
         figures=figures,
         not_covered=NOT_COVERED,
         versions=_versions(),
     )
+
+
+def _mark(study: Study) -> str:
+    """Colour of the headline: that of levitation only where nothing is lost and nothing is asked that cannot be given."""
+    if study.verdict.level == "no-contact-free-motion":
+        return "var(--bad)"
+    doubtful = study.bearing_demand is not None and study.bearing_demand.doubtful
+    good = study.recommendation.kind == "no-change-needed" and not doubtful
+    return plots.OUTCOMES["levitated"].colour if good else "var(--warn)"
+
+
+@dataclass(frozen=True)
+class Advice:
+    """A line of the recommendation with its details."""
+
+    fact: Fact
+    details: tuple[Fact, ...]
+
+
+def _advice(study: Study) -> tuple[list[Advice], dict[str, str]]:
+    """The lines that say what to change, and what is said of all of them, by label."""
+    lines: list[Advice] = []
+    for fact in about(study.facts, "Recommendation"):
+        if fact.detail:
+            lines[-1] = Advice(lines[-1].fact, (*lines[-1].details, fact))
+        else:
+            lines.append(Advice(fact, ()))
+    changes = [line for line in lines if line.fact.label in (*CHANGES, BEYOND)]
+    return changes, {line.fact.label: line.fact.told for line in lines if line not in changes}
 
 
 def _versions() -> str:
@@ -130,9 +168,7 @@ def _with_subscripts(text: str) -> Markup:
 
 _PROLOGUE = re.compile(r"^.*?(?=<svg)", re.DOTALL)
 _METADATA = re.compile(r"<metadata>.*?</metadata>", re.DOTALL)
-_SIZE = re.compile(
-    r'<svg([^>]*?) width="([\d.]+)pt" height="[\d.]+pt"|<svg([^>]*?) height="[\d.]+pt" width="([\d.]+)pt"'
-)
+_SIZE = re.compile(r'<svg([^>]*?) (?:width="[\d.]+pt" height="[\d.]+pt"|height="[\d.]+pt" width="[\d.]+pt")')
 _IDENTIFIER = re.compile(r' id="([^"]+)"')
 _REFERENCE = re.compile(r'(xlink:href="#|url\(#)([^")]+)')
 
@@ -146,8 +182,5 @@ def _inline(picture: Picture, text: str, prefix: str) -> InlineFigure:
     svg = _REFERENCE.sub(lambda match: f"{match[1]}{prefix}{match[2]}", svg)
     label = str(Markup.escape(picture.caption.split(". ")[0]))
 
-    def scaled(match: re.Match[str]) -> str:
-        width = SCREEN_SCALE * float(match[2] or match[4])
-        return f'<svg role="img" aria-label="{label}" style="width:{width:.0f}pt"{match[1] or match[3] or ""}'
-
-    return InlineFigure(picture.section, picture.caption, Markup(_SIZE.sub(scaled, svg, count=1)))
+    svg = _SIZE.sub(lambda match: f'<svg role="img" aria-label="{label}"{match[1]}', svg, count=1)
+    return InlineFigure(picture.section, picture.caption, Markup(svg))  # written by carom

@@ -12,6 +12,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
+from carom.basins.shares import percent
 from carom.closed_forms.thresholds import FOLD, ROLLING, WALL, Gain
 from carom.closed_forms.whirl import Runaway, rolling, runaway_speed
 from carom.disturbances import Sample
@@ -19,6 +20,7 @@ from carom.models import Jeffcott
 from carom.parameters import PHYSICAL_PARTNER, Case, InTerms, in_terms_of
 from carom.parameters.in_terms import Side
 from carom.parameters.numbers import CONVERSIONS
+from carom.results import Result
 from carom.studies.actuator import asked_by
 from carom.studies.ranges import Edge, MotionRange, Span
 from carom.studies.recovery import Check, Recovery, check_recovery, in_all
@@ -114,8 +116,8 @@ class Change:
         return self.demand is None or self.demand <= 1.0
 
 
-@dataclass(frozen=True)
-class Recommendation:
+@dataclass(frozen=True, repr=False)
+class Recommendation(Result):
     """What to change so that every disturbance that must be survived comes back.
 
     Attributes
@@ -131,6 +133,17 @@ class Recommendation:
     kind: Kind
     changes: tuple[Change, ...]
     margins: tuple[tuple[Gain, Margin], ...]
+
+    @property
+    def advised(self) -> Change | None:
+        """The least change; ``None`` where none helps, is needed or can be built."""
+        return self.changes[0] if self.kind == "change" else None
+
+    def rows(self) -> list[tuple[str, str]]:
+        """Each change in the terms of the machine file, and what came back with it."""
+        told = [(one.terms.entry, f"{one.bound} {one.terms.text}: {one.check.drawn.words}") for one in self.changes]
+        margins = [(f"margin of {gain}", percent(margin.share)) for gain, margin in self.margins]
+        return [("kind", self.kind), *told, *margins]
 
 
 def recommend(

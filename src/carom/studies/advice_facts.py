@@ -24,6 +24,9 @@ if TYPE_CHECKING:
 _BOUNDS: dict[Bound, str] = {"at least": "at least ", "at most": "at most ", "about": ""}
 CHANGES = ("Change", "Or", "For all starts")
 """Labels of the changes that help."""
+BEYOND = "Beyond the limits"
+"""Label of the changes that ask for more than the magnetic bearings can give."""
+_NONE_NEEDED = "none needed for what the machine must survive"
 _LAST_ZONE = "D"
 
 
@@ -33,18 +36,21 @@ def advice_facts(study: Study) -> Iterator[Fact]:
     yield _now(study)
     recommended = study.recommendation
     unbuildable = recommended.kind == "nothing-buildable"
-    first = "Change" if judged(study)[0] == "may-not-come-back" else "For all starts"
+    enough = judged(study)[0] == "all-tried-came-back"
+    first = "For all starts" if enough else "Change"
+    if enough and recommended.kind != "no-change-needed":
+        yield _fact("Change", _NONE_NEEDED, "sampled")
     if unbuildable:
-        yield _fact("Change", _nothing_buildable(study), "sampled")
+        yield _fact(first, _nothing_buildable(study), "sampled")
     for place, change in enumerate(recommended.changes):
-        label = "Beyond the limits" if unbuildable else "Or" if place else first
+        label = BEYOND if unbuildable else "Or" if place else first
         values = change_document(study, change)
         yield _fact(label, _change(study, change), values=values)
         yield from _details(study, change)
     if recommended.kind == "no-change-found":
-        yield _fact("Change", _none_found(study), "sampled")
+        yield _fact(first, _none_found(study), "sampled")
     elif recommended.kind == "no-change-needed":
-        yield _fact("Change", "none needed for what the machine must survive", "sampled")
+        yield _fact("Change", _NONE_NEEDED, "sampled")
         for gain, margin in recommended.margins:
             values = {
                 **_in_both(study, gain, present=study.case.parameters.value(gain)),
@@ -94,14 +100,14 @@ def _change(study: Study, change: Change) -> str:
         "there is none now" if math.isinf(change.ratio) else f"{_name(study, gain)} × {number(change.ratio, 3)}",
     ]
     now = stated(study.case, gain, change.present).text
-    text = f"{_entry_words(terms.entry)} {now} → {_BOUNDS[change.bound]}{terms.text} ({', '.join(beside)})"
+    text = f"{entry_words(terms.entry)} {now} → {_BOUNDS[change.bound]}{terms.text} ({', '.join(beside)})"
     if change.bound == "about":
         return text
     farthest = max((check.value for check in change.beyond), key=lambda at: abs(at - change.value))
     return f"{text}, tried {'up' if farthest > change.value else 'down'} to {stated(study.case, gain, farthest).text}"
 
 
-def _entry_words(entry: str) -> str:
+def entry_words(entry: str) -> str:
     """An entry of the machine file as people say it: ``derivative gain``; a dimensionless number by its symbol."""
     return DIMENSIONLESS_FIELDS[entry].symbol if entry in DIMENSIONLESS_FIELDS else entry.replace("_", " ")
 
@@ -117,11 +123,9 @@ def _details(study: Study, change: Change) -> Iterator[Fact]:
     yield _fact("Margin", _margin(study, change), detail=True)
     zone = f"zone {change.zone}"
     if change.zone == _LAST_ZONE:
-        zone = (
-            f"still zone {_LAST_ZONE}: less unbalance is needed too"
-            if study.zone == _LAST_ZONE
-            else f"zone {_LAST_ZONE}, which is worse than now"
-        )
+        worse = study.zone not in (None, _LAST_ZONE)
+        still = "still " if study.zone == _LAST_ZONE else ""
+        zone = f"{zone}, which is worse than now" if worse else f"{still}{zone}: less unbalance is needed too"
     yield _fact("Then", f"levitates at {_place(study, change.radius)}, {zone}", "closed form", detail=True)
     yield _fact("Tried", _tried(study, change), "sampled", detail=True)
     for check in change.forced:

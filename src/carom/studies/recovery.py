@@ -27,6 +27,7 @@ from carom.models import Axis, Model, Subject, axis, model_of
 from carom.models.axes import Ends, read_interval
 from carom.motions.ensembles import Endings
 from carom.outcome import InputError
+from carom.parameters.told import told_along
 from carom.progress import Reporter, ShowProgress, shows_progress
 from carom.results import Result
 from carom.studies.ranges import Edge, Span
@@ -65,8 +66,8 @@ class Lost:
     motion: MotionName | None
 
 
-@dataclass(frozen=True)
-class Check:
+@dataclass(frozen=True, repr=False)
+class Check(Result):
     """Disturbances followed at one value of a parameter.
 
     Attributes
@@ -79,6 +80,8 @@ class Check:
     example : Lost or None
         One that did not come back; ``None`` if all did.
     """
+
+    shown: ClassVar[tuple[str, ...]] = ("value", "drawn", "recovers")
 
     value: float
     returned: tuple[Share, ...]
@@ -126,7 +129,7 @@ class Recovery(Result):
         Every value tried, in ascending order.  Where some are lost, the disturbances after the first losses were not followed.
     """
 
-    shown: ClassVar[tuple[str, ...]] = ("along", "spans", "checks")
+    shown: ClassVar[tuple[str, ...]] = ("rotor", "searched", "spans", "checks")
 
     rotor: Model
     along: Axis
@@ -134,6 +137,13 @@ class Recovery(Result):
     searched: tuple[Span, ...]
     spans: tuple[Span, ...]
     checks: tuple[Check, ...]
+
+    def line_of(self, name: str, value: object) -> str:
+        """Spans are told in the unit of the parameter."""
+        if name not in ("searched", "spans"):
+            return super().line_of(name, value)
+        ranges = ((span.low.value, span.high.value) for span in getattr(self, name))
+        return "; ".join(told_along(self.along.name, ends, self.known_scales) for ends in ranges) or "none"
 
     @property
     def clear(self) -> tuple[Check, ...]:

@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from itertools import zip_longest
 from typing import TYPE_CHECKING, Literal
 
 from carom.attractors.names import LEVITATION, SYNCHRONOUS_RUB
+from carom.basins import Share
+from carom.basins.shares import percent
 from carom.closed_forms.equilibria import Equilibrium
 from carom.orbits.orbit import Orbit
 from carom.orbits.single_impact import OrbitSet
@@ -17,6 +20,7 @@ from carom.studies.advice import gain_of
 from carom.studies.advice_facts import check_words
 from carom.studies.proven import is_proven
 from carom.studies.ranges import EVENTS, Motion
+from carom.studies.verdict_facts import KINDS, lost_to
 from carom.studies.wording import Wording, no_rigid_wall
 
 if TYPE_CHECKING:
@@ -69,6 +73,29 @@ class ThresholdRow:
     what: str
 
 
+@dataclass(frozen=True)
+class SurvivedRow:
+    """What of one kind of disturbance is survived."""
+
+    kind: str
+    harmless: str
+    """Up to which size contact is proven to be impossible."""
+    all_back: str
+    """Up to which size all tried came back."""
+    lost: str
+    """The smallest lost, and where it ends."""
+
+
+@dataclass(frozen=True)
+class ShareRow:
+    """The share of one kind of disturbance that comes back."""
+
+    of: str
+    now: str
+    after: str
+    """After the first change that is advised; empty where none is."""
+
+
 MOTIONS: dict[Motion, str] = {
     "contact-free": STEADY_WORDS["contact-free"],
     "rub": STEADY_WORDS["rub"],
@@ -77,6 +104,44 @@ MOTIONS: dict[Motion, str] = {
     "rolling": STEADY_WORDS["rolling"],
 }
 """Names of the motions whose ranges are known."""
+
+
+def survived_rows(study: Study) -> list[SurvivedRow]:
+    """Return a row for each kind of disturbance that was searched; none where there is no stable levitation."""
+    if study.survives is None:
+        return []
+    rows = []
+    for name, found in study.survives.items():
+        size = study.wording.size_of(name)
+        of = {"shock": f" of {study.wording.time(study.survives.duration)}", "blade_loss": ", unbalance after it"}
+        up_to = found.largest if found.size is None else found.all_back
+        rows.append(
+            SurvivedRow(
+                f"{KINDS[name]}{of.get(name, '')}",
+                size(found.harmless) if found.harmless > 0.0 else "none",
+                "none" if up_to is None else size(up_to),
+                "none found" if found.size is None else f"{size(found.size)}, {lost_to(study, name, found)}",
+            )
+        )
+    return rows
+
+
+def share_rows(study: Study) -> list[ShareRow]:
+    """Return a row for each kind of disturbance that must be survived, and for starts elsewhere in the clearance."""
+    change = study.recommendation.advised
+    now = study.present.returned if study.present else ()
+    after = change.check.returned if change else ()
+    rows = zip_longest(map(_share_back, now), map(_share_back, after), fillvalue="none" if change else "")
+    of = [share.population.words for share in now or after]
+    if of:
+        of[1] = f"starts spread over the clearance, up to {study.wording.velocity(study.required.kick)}"
+    return [ShareRow(words, here, there) for words, (here, there) in zip(of, rows, strict=True)]
+
+
+def _share_back(share: Share) -> str:
+    """A share with what it rests on."""
+    interval = f"{percent(share.low).removesuffix(' %')} to {percent(share.high)}"
+    return f"{percent(share.fraction)} ({share.count:,} of {share.total:,}; {interval})"
 
 
 def machine_rows(case: Case) -> list[ValueRow]:

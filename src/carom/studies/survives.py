@@ -9,16 +9,19 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from typing import Literal
 
 from carom.attractors import DisturbanceSet
 from carom.basins import SmallestLoss, smallest_loss
 from carom.disturbances import AnyState, BaseShock, BladeLoss, Disturbance, Sample, VelocityKick
 from carom.disturbances.blows import LONGEST_SHOCK
 from carom.models import Jeffcott
-from carom.parameters import DIMENSIONLESS_FIELDS, SHOCK_DURATION, Required
+from carom.parameters import DIMENSIONLESS_FIELDS, SHOCK_DURATION, Required, Scales
 from carom.progress import Reporter
 from carom.results import Result
 
+Kind = Literal["kick", "shock", "blade_loss"]
+"""Kinds of disturbances that a machine may have to survive."""
 REACH = 4.0
 """Largest kick and shock searched, as a multiple of what must be survived or is proven to be harmless."""
 BELOW = 0.999
@@ -51,9 +54,14 @@ class Survives(Result):
     duration: float
     blade_loss: SmallestLoss | None
 
-    def items(self) -> tuple[tuple[str, SmallestLoss], ...]:
+    @property
+    def known_scales(self) -> Scales | None:
+        """Scales of the machine."""
+        return self.kick.scales
+
+    def items(self) -> tuple[tuple[Kind, SmallestLoss], ...]:
         """The kinds that were searched, by name."""
-        found = {"kick": self.kick, "shock": self.shock, "blade_loss": self.blade_loss}
+        found: dict[Kind, SmallestLoss | None] = {"kick": self.kick, "shock": self.shock, "blade_loss": self.blade_loss}
         return tuple((name, entry) for name, entry in found.items() if entry is not None)
 
 

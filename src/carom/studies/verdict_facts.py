@@ -5,22 +5,24 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any, Literal
 
-from carom.basins import SmallestLoss
+from carom.basins import Share, SmallestLoss
 from carom.closed_forms.whirl import rolling
 from carom.outcome import REGULAR_BOUNCING, STEADY_WORDS, Outcome
 from carom.results import fields_of
 from carom.studies.endings import ending_words
 from carom.studies.facts import Fact
 from carom.studies.findings import stable_rub
-from carom.studies.survives import meets
+from carom.studies.survives import Kind, meets
 from carom.studies.wording import listed
 
 if TYPE_CHECKING:
     from carom.studies.assembly import Study
 
 Level = Literal["no-contact-free-motion", "may-not-come-back", "all-tried-came-back"]
-KINDS = {"kick": "Kick", "shock": "Shock", "blade_loss": "Blade loss"}
+KINDS: dict[Kind, str] = {"kick": "Kick", "shock": "Shock", "blade_loss": "Blade loss"}
 """Labels of the kinds of disturbances that a machine may have to survive."""
+NEARLY_ALL = 0.95
+"""Share from which on of disturbances that are lost it is said that nearly all are."""
 _CHOSEN = {
     "file": "as its file says",
     "option": "as the options say",
@@ -79,7 +81,7 @@ def requirement_document(study: Study) -> dict[str, Any]:
     return document
 
 
-def _survived(study: Study, name: str, found: SmallestLoss) -> Fact:
+def _survived(study: Study, name: Kind, found: SmallestLoss) -> Fact:
     size = study.wording.size_of(name)
     parts = [
         f"harmless up to {size(found.harmless)} (proven)" if found.harmless > 0.0 else "no size is proven harmless"
@@ -90,10 +92,8 @@ def _survived(study: Study, name: str, found: SmallestLoss) -> Fact:
     else:
         if found.all_back is not None:
             parts.append(f"all tried came back up to {size(found.all_back)}")
-        # The motions of this machine are not those that a larger unbalance leaves.
-        motions = [] if name == "blade_loss" else [entry.name for entry in study.attractors]
-        ends = f" ({ending_words(found.outcome, motions).removeprefix('it ')})" if found.outcome is not None else ""
-        parts.append(f"smallest lost {size(found.size)}{ends}")
+        ends = lost_to(study, name, found)
+        parts.append(f"smallest lost {size(found.size)}{ends and f' ({ends})'}")
     label, of = KINDS[name], ""
     if name == "shock" and study.survives is not None:
         of = f"of {study.wording.time(study.survives.duration)}, "
@@ -109,7 +109,16 @@ def _survived(study: Study, name: str, found: SmallestLoss) -> Fact:
     )
 
 
-def survived_document(study: Study, name: str, found: SmallestLoss) -> dict[str, Any]:
+def lost_to(study: Study, name: Kind, found: SmallestLoss) -> str:
+    """Where the smallest disturbance that is lost ends: ``ends in synchronous rub``; empty if none is."""
+    if found.outcome is None:
+        return ""
+    # The motions of this machine are not those that a larger unbalance leaves.
+    motions = [] if name == "blade_loss" else [entry.name for entry in study.attractors]
+    return ending_words(found.outcome, motions).removeprefix("it ")
+
+
+def survived_document(study: Study, name: Kind, found: SmallestLoss) -> dict[str, Any]:
     """What of a kind is survived, as plain data for JSON."""
     numbers = {"harmless_up_to": found.harmless, "all_up_to": found.all_back, "smallest_lost": found.size}
     document: dict[str, Any] = {
@@ -170,7 +179,8 @@ def _others(study: Study) -> Iterator[Fact]:
         holds.append(Outcome.ROLLING.words)
         motions.append(Outcome.ROLLING.label)
     if holds:
-        text = f"besides levitation there {'are' if len(holds) > 1 else 'is'} {listed(holds)}"
+        there = "besides levitation there" if study.levitates else "there"
+        text = f"{there} {'are' if len(holds) > 1 else 'is'} {listed(holds)}"
         yield Fact(
             "Verdict", text, "Coexisting", "searched" if study.stable_orbits else "closed form", motions=tuple(motions)
         )
@@ -186,10 +196,10 @@ def judged(study: Study) -> tuple[Level, str, str]:
     if not levitation.stable:
         why = "its levitation is not damped, so that a disturbance does not die out"
         return "no-contact-free-motion", f"Does not stay in levitation, zone {study.zone}", why
-    lost = _lost(study)
+    lost = [_lost_words(study, *found) for found in lost_kinds(study)]
     if lost:
         outcome = f"Does not come back from all that it must survive, zone {study.zone}"
-        return "may-not-come-back", outcome, f"some {listed(lost)} are lost"
+        return "may-not-come-back", outcome, listed(lost)
     return (
         "all-tried-came-back",
         f"Came back each time from what it must survive, zone {study.zone}",
@@ -209,27 +219,37 @@ def _reservations(study: Study) -> str:
     return "; ".join(parts)
 
 
-def _lost(study: Study) -> list[str]:
-    """What must be survived and was lost, in words; empty if all came back."""
-    present, required, say = study.present, study.required, study.wording
-    if present is None or study.survives is None:
-        return []
-    parts = []
-    found = study.survives
-    if present.returned[0].count < present.returned[0].total or not meets(found.kick, required.kick):
-        parts.append(f"kicks of up to {say.velocity(required.kick)}")
-    for place, (name, size) in enumerate(_stated(study), start=2):
-        entry = getattr(found, name)
-        lost = present.returned[place].count < present.returned[place].total
-        if lost or (entry is not None and not meets(entry, size)):
-            parts.append(
-                {"shock": f"shocks of up to {say.acceleration(size)}", "blade_loss": "the loss of a blade"}[name]
-            )
-    return parts
-
-
-def _stated(study: Study) -> list[tuple[str, float]]:
-    """Kinds beyond kicks that must be survived, with their sizes, in the order of the disturbances followed."""
+def required_kinds(study: Study) -> tuple[tuple[Kind, float, int], ...]:
+    """The kinds that must be survived, with their size and their place among the disturbances followed."""
     required = study.required
-    stated = [("shock", required.shock.peak)] if required.shock else []
-    return [*stated, *([("blade_loss", required.blade_loss)] if required.blade_loss else [])]
+    kinds: list[tuple[Kind, float]] = [("kick", required.kick)]
+    kinds += [("shock", required.shock.peak)] if required.shock else []
+    kinds += [("blade_loss", required.blade_loss)] if required.blade_loss else []
+    return tuple(
+        (kind, size, place + (place > 0)) for place, (kind, size) in enumerate(kinds)
+    )  # starts elsewhere are second
+
+
+def lost_kinds(study: Study) -> list[tuple[Kind, Share]]:
+    """The kinds that must be survived and of which some were lost, with the share that came back; empty if all came back."""
+    present, found = study.present, study.survives
+    if present is None or found is None:
+        return []
+    lost = []
+    for kind, size, place in required_kinds(study):
+        share, entry = present.returned[place], getattr(found, kind)
+        if share.count < share.total or (entry is not None and not meets(entry, size)):
+            lost.append((kind, share))
+    return lost
+
+
+def _lost_words(study: Study, kind: Kind, back: Share) -> str:
+    """How many of a kind are lost, in words."""
+    say, required = study.wording, study.required
+    lost = 1.0 - back.fraction
+    many = "nearly all" if lost > NEARLY_ALL else "most" if lost > 0.5 else "some"
+    if kind == "blade_loss":
+        return f"{many} losses of a blade are not survived"
+    if kind == "shock" and required.shock:
+        return f"{many} shocks of up to {say.acceleration(required.shock.peak)} are lost"
+    return f"{many} kicks of up to {say.velocity(required.kick)} are lost"

@@ -8,10 +8,10 @@ from dataclasses import dataclass
 
 from carom.arguments import checked
 from carom.closed_forms.thresholds import Gain
-from carom.parameters import DIMENSIONLESS_FIELDS, ENTRIES, MACHINE_FIELDS, PHYSICAL_PARTNER, Case, Scales
+from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, PHYSICAL_PARTNER, Case, Scales
 from carom.parameters.indentation import gives_way
 from carom.parameters.numbers import CONVERSIONS
-from carom.parameters.told import number, told
+from carom.parameters.told import number, told, told_entry
 from carom.studies.ranges import Span
 
 _PREFIXES = ((1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "µ"), (1e-9, "n"))
@@ -119,10 +119,7 @@ class Wording:
 
     def field(self, name: str, value: float, digits: int = 4) -> str:
         """An entry of a machine given in SI units, in the unit in which people usually say it: ``1,759 rpm``, ``1.592 µm``."""
-        field = ENTRIES[name]
-        if field.usual_unit == "mm" and 0.0 < value < 1e-4:
-            return f"{number(value / 1e-6, digits)} µm"
-        return f"{number(field.in_usual_unit(value), digits)} {field.usual_unit}".rstrip()
+        return told_entry(name, value, digits)
 
     def gain(self, gain: Gain, value: float) -> str:
         """Damping or stiffness given as ``gamma`` or ``omega``, with its unit if the machine is known."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import threading
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -73,10 +73,14 @@ class Session:
         Hands an answer to the page.
     ready : threading.Event
         Set when the kernels are compiled.
+    wanted : collection of str
+        What of all that takes long is done.
     """
 
-    def __init__(self, origin: Origin, answer: Answer, ready: threading.Event) -> None:
-        self.origin, self._answer, self._ready = origin, answer, ready
+    def __init__(
+        self, origin: Origin, answer: Answer, ready: threading.Event, wanted: Collection[str] = tuple(_LONG)
+    ) -> None:
+        self.origin, self._answer, self._ready, self._wanted = origin, answer, ready, wanted
         self.controls = {control.name: control for control in controls_of(origin.case)}
         self.largest = largest_kick(origin.case)
         rotor = Jeffcott(origin.case.parameters)
@@ -153,6 +157,7 @@ class Session:
             "diagram": self._diagram,
             "verdict": lambda shown, tell: messages.verdict_message(judge(shown.case, tell)),
         }
+        self._left = {kind: work for kind, work in self._left.items() if kind in self._wanted}
         self.resume()
 
     def kick(self, request: Mapping[str, Any]) -> None:

@@ -1,0 +1,131 @@
+"""The figure for notebooks: the plane of kicks and the motion after one of them, with the parts and the session of the page."""
+
+from __future__ import annotations
+
+import json
+import math
+import re
+import threading
+from functools import cache
+from importlib.resources import files
+from typing import Any
+
+import jinja2
+import numpy as np
+
+from carom.arguments import checked
+from carom.explorer.computing.exports import Origin
+from carom.explorer.page.session import Session
+from carom.models import Subject
+from carom.models.subjects import case_of
+from carom.outcome import CaromError
+from carom.plots.style import LOOKS
+
+PARTS = ("common.js", "basin.js", "clearance.js")
+"""Scripts of the page that the figure consists of."""
+_STYLE = """
+:host { display: block; max-width: 60rem; color: var(--ink); font: 14px/1.45 system-ui, -apple-system, "Segoe UI", sans-serif; }
+:host(.light) { color-scheme: light; }
+:host(.dark) { color-scheme: dark; }
+.stage { grid-template-columns: repeat(auto-fit, minmax(min(100%, 20rem), 1fr)); }
+"""
+_DARK = re.compile(r"@media \(prefers-color-scheme: dark\) \{\s*:root (\{.*?\})\s*\}", re.DOTALL)
+
+
+@checked
+def explore(machine: Subject) -> Any:
+    """Where kicks of a machine lead, as a figure in a notebook: point at a kick, and the motion after it is shown.
+
+    The figure is that of ``carom explore`` without its sliders.  Kicks are those up to the one that must be survived.
+
+    Parameters
+    ----------
+    machine : Machine, Case, Parameters or model
+        A planar rotor.
+
+    Returns
+    -------
+    anywidget.AnyWidget
+        A notebook shows it if it stands at the end of a cell.  ``close()`` ends its work.
+
+    Raises
+    ------
+    CaromError
+        The extra ``carom[notebook]`` is not installed.
+    InputError
+        It is another model than the planar rotor.
+
+    See Also
+    --------
+    carom.map_basins : the ends of kicks and other disturbances as data, and as a figure on paper
+    """
+    case = case_of(machine)
+    return _figure_class()(Origin("", (), case))
+
+
+@cache
+def _figure_class() -> type:
+    """Class of the figure."""
+    try:
+        from anywidget import AnyWidget
+    except ModuleNotFoundError:
+        raise CaromError(
+            'figures in notebooks need anywidget; install it with: pip install "carom[notebook]"'
+        ) from None
+
+    class KickFigure(AnyWidget):  # type: ignore[misc]
+        """The figure of one machine: what the browser asks for goes to a session of the page, and its answers come back."""
+
+        _esm = script()
+
+        def __init__(self, origin: Origin) -> None:
+            super().__init__()
+            self.case = origin.case
+            ready = threading.Event()
+            ready.set()  # kernels compile where they are first called
+            self._session = Session(origin, self._answer, ready, wanted=("fine",))
+            self._asked = {"machine": self._session.show, "kick": self._session.kick}
+            self.on_msg(lambda _, content, buffers: self._asked[content["name"]](content["value"]))
+
+        def _answer(self, name: str, value: Any) -> None:
+            buffers: list[bytes] = []
+            self.send({"name": name, "value": encoded(value, buffers)}, buffers)
+
+        def close(self) -> None:
+            """End all work."""
+            self._session.close()
+            super().close()
+
+    return KickFigure
+
+
+def encoded(value: Any, buffers: list[bytes]) -> Any:
+    """A message as JSON; arrays become buffers, in the place of which their number and type stand."""
+    if isinstance(value, dict):
+        return {name: encoded(entry, buffers) for name, entry in value.items()}
+    if isinstance(value, list | tuple):
+        return [encoded(entry, buffers) for entry in value]
+    if isinstance(value, np.ndarray):
+        buffers.append(value.tobytes())
+        return {"buffer": len(buffers) - 1, "type": value.dtype.name}
+    if isinstance(value, np.generic):
+        value = value.item()
+    return None if isinstance(value, float) and not math.isfinite(value) else value
+
+
+@cache
+def script() -> str:
+    """The figure as a module of JavaScript."""
+    template = jinja2.Environment(autoescape=True).from_string(_of_the_page("page.html.jinja"))
+    page = {
+        "style": _DARK.sub(r":host(.dark) \1", _of_the_page("page.css")).replace(":root", ":host") + _STYLE,
+        "figures": "".join(template.blocks["figures"](template.new_context())),
+        "looks": {name: look.colour for name, look in LOOKS.items()},
+    }
+    module = files("carom.explorer").joinpath("notebook.js").read_text(encoding="utf-8")
+    module = module.replace("PAGE", json.dumps(page), 1)
+    return module.replace("PARTS", "\n".join(map(_of_the_page, PARTS)), 1)
+
+
+def _of_the_page(name: str) -> str:
+    return files("carom.explorer.page").joinpath("files", name).read_text(encoding="utf-8")

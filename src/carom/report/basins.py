@@ -1,0 +1,88 @@
+"""What the report begins with: where disturbances end now, and where they end after the change that is advised."""
+
+from __future__ import annotations
+
+from matplotlib.figure import Figure
+
+from carom import plots
+from carom.basins import Cells, cells_of
+from carom.disturbances import BaseShock, BladeLoss, Disturbance, Grid, KickPlane
+from carom.models import Model, axis
+from carom.studies import Study
+from carom.studies.advice import stated
+from carom.studies.advice_facts import entry_words
+from carom.studies.survives import Kind
+from carom.studies.verdict_facts import lost_kinds, required_kinds
+
+CELLS: dict[Kind, tuple[int, ...]] = {"kick": (120, 120), "shock": (24, 60), "blade_loss": (120,)}
+"""Cells of a basin: both parts of a kick, peak and direction of a shock, phase of the unbalance after the loss of a blade."""
+BEYOND = 1.5
+"""Largest disturbance of a basin relative to the smallest that is lost, where all that must be survived came back."""
+
+_MISSING = {
+    "no-change-needed": "No change is needed: all that was tried of what it must survive came back.",
+    "no-change-found": "No change is advised: no damping or stiffness tried brings all back.",
+    "nothing-buildable": "No change is advised: those that help ask for more than the magnetic bearings can give.",
+}
+_SEEN: dict[Kind, str] = {
+    "kick": "Each point is a kick of the levitating rotor, the farther out the harder, and its colour says where it ends.",
+    "shock": "Each point is a shock of the base, the farther out the harder, and its colour says where it ends.",
+    "blade_loss": "Each angle is the phase of the unbalance that the loss of a blade leaves, counted from the right, where it was "
+    "before, and its colour says where it ends.",
+}
+
+
+def decisive(study: Study) -> Kind:
+    """The kind of disturbance that is shown: of those that must be survived the one most often lost, otherwise kicks."""
+    lost = lost_kinds(study)
+    return min(lost, key=lambda entry: entry[1].fraction)[0] if lost else "kick"
+
+
+def caption(study: Study) -> str:
+    """What is to be seen."""
+    return _SEEN[decisive(study)]
+
+
+def draw(study: Study) -> Figure:
+    """Draw both basins; words stand where there is none."""
+    kind, change = decisive(study), study.recommendation.advised
+    model = _disturbances(study, kind)
+    here = _basin(study.rotor, model, kind) if study.levitates else "There is no stable levitation to come back to."
+    if change is None:
+        panels = [("now", here), ("after a change", _MISSING[study.recommendation.kind])]
+    else:
+        # As the study moved the machine to the value that it checked.
+        changed = axis(study.rotor, change.gain).move(study.rotor, change.value)
+        there = _basin(changed, model.rescaled(study.rotor.scales, changed.scales), kind)
+        entry, value = entry_words(change.terms.entry), stated(study.case, change.gain, change.present).text
+        panels = [(f"now\n{entry} {value}", here), (f"after the change\n{entry} {change.terms.text}", there)]
+    with plots.heading(study.case.name):  # the panels say the values
+        return plots.basin_pair(panels, None if kind == "blade_loss" else _required(study, kind)[0])
+
+
+def drawable(study: Study) -> bool:
+    """Whether there is any basin: now, or after a change."""
+    return study.levitates or study.recommendation.advised is not None
+
+
+def _basin(rotor: Model, model: Disturbance, kind: Kind) -> Cells:
+    return cells_of(rotor, Grid(model, CELLS[kind]))
+
+
+def _required(study: Study, kind: Kind) -> tuple[float, int]:
+    """Size of a kind that must be survived, and its place among the disturbances followed."""
+    return next((size, place) for each, size, place in required_kinds(study) if each == kind)
+
+
+def _disturbances(study: Study, kind: Kind) -> Disturbance:
+    """Disturbances up to what must be survived, or beyond the smallest that is lost if that is larger."""
+    size, _ = _required(study, kind)
+    if kind == "blade_loss":
+        return BladeLoss(size)
+    found = getattr(study.survives, kind, None)
+    reach = size if found is None or found.size is None or found.size <= size else BEYOND * found.size
+    return (
+        BaseShock(reach, study.required.shock.duration)
+        if study.required.shock and kind == "shock"
+        else KickPlane(reach)
+    )

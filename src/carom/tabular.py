@@ -1,0 +1,35 @@
+"""What interpreters and notebooks show as a small table."""
+
+from __future__ import annotations
+
+from html import escape
+
+
+class Tabular:
+    """Something that interpreters and notebooks show as a small table of labels and texts."""
+
+    @property
+    def heading(self) -> str:
+        """What stands above the table."""
+        return type(self).__name__
+
+    def rows(self) -> list[tuple[str, str]]:
+        """Pairs of label and text to show."""
+        raise NotImplementedError
+
+    def brief_rows(self) -> list[tuple[str, str]]:
+        """Rows of the text form: all of them, unless a kind of result can have too many."""
+        return self.rows()
+
+    def __repr__(self) -> str:
+        rows = self.brief_rows()
+        width = max((len(name) for name, _ in rows), default=0)
+        return "\n".join([self.heading, *(f"  {name:<{width}}  {text}".rstrip() for name, text in rows)])
+
+    def _repr_html_(self) -> str:
+        """The same as a table, for notebooks."""
+        cells = "".join(
+            f"<tr><th style='text-align:left'>{escape(name)}</th><td style='text-align:left'>{escape(text)}</td></tr>"
+            for name, text in self.rows()
+        )
+        return f"<table><caption>{escape(self.heading)}</caption>{cells}</table>"

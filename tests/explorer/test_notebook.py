@@ -1,0 +1,201 @@
+"""The figure for notebooks: what it sends and takes, and how it is drawn in a real browser, without a notebook."""
+
+from __future__ import annotations
+
+import base64
+import queue
+import shutil
+import sys
+
+import numpy as np
+import pytest
+from linear_rotors import tilting
+
+import carom
+from carom.explorer.notebook import encoded
+from carom.outcome import CaromError, InputError
+
+BROWSER = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
+MACHINE = carom.load("examples/keogh-cole.toml")
+SOON = 120
+"""Seconds after which the figure is taken to hang; nothing is judged by how long it takes."""
+HOST = """
+<body style="margin: 20px; COLOURS"><div id="cell"></div></body>
+<script>
+  window.takers = new Set();
+  window.model = {
+    send: (content) => ask(content),
+    on: (name, take) => takers.add(take),
+    off: (name, take) => takers.delete(take),
+  };
+  window.deliver = (content, texts) => {
+    const views = texts.map((text) => new DataView(Uint8Array.from(atob(text), (sign) => sign.charCodeAt(0)).buffer));
+    for (const take of takers) take(content, views);
+  };
+  window.start = async (text) => {
+    const module = await import(URL.createObjectURL(new Blob([text], { type: "text/javascript" })));
+    const el = document.createElement("div");
+    window.end = module.default.render({ model, el });
+    document.getElementById("cell").append(el); // afterwards, as notebooks do
+  };
+</script>
+"""
+
+
+@pytest.fixture
+def figure():
+    """A figure, and what it sends."""
+    pytest.importorskip("anywidget", reason="needs the extra carom[notebook]")
+    made = carom.explorer.explore(MACHINE)
+    made.sent = queue.Queue()
+    made.send = lambda content, buffers=None: made.sent.put((content, buffers))
+    yield made
+    made.close()
+
+
+def ask(figure, name, **value):
+    figure._handle_custom_msg({"name": name, "value": value}, [])
+
+
+def answer(figure, wanted, **having):
+    """The next answer of a kind with these entries."""
+    while True:
+        content, buffers = figure.sent.get(timeout=SOON)
+        value = content["value"]
+        if content["name"] == wanted and all(value[name] == entry for name, entry in having.items()):
+            return value, buffers
+
+
+def test_arrays_of_a_message_become_buffers():
+    buffers = []
+    message = {"a": np.array([1.5, 2.0], np.float32), "b": [{"c": np.array([[1, 2]], np.uint8)}], "d": np.float64(0.5)}
+    assert encoded(message | {"e": np.inf, "f": "x", "g": (True, None)}, buffers) == {
+        "a": {"buffer": 0, "type": "float32"},
+        "b": [{"c": {"buffer": 1, "type": "uint8"}}],
+        "d": 0.5,
+        "e": None,
+        "f": "x",
+        "g": [True, None],
+    }
+    assert buffers == [np.array([1.5, 2.0], np.float32).tobytes(), b"\x01\x02"]
+
+
+@pytest.mark.jit_only
+def test_a_figure_sends_the_picture_and_the_motion_after_each_kick(figure):
+    ask(figure, "machine", number=1, settings={}, held=False, along="")
+    coarse, _ = answer(figure, "basin")
+    fine, buffers = answer(figure, "basin", size=120)
+    assert coarse["size"] < 120
+    assert len(buffers[fine["cells"]["buffer"]]) == 120 * 120
+    ask(figure, "kick", number=1, radial=0.5, tangential=0.0, chosen=True)
+    kick = {"radial": 0.5, "tangential": 0.0}
+    motion, buffers = answer(figure, "motion", kick=kick)
+    # Half of the fall through the diametral clearance, 166 mm/s.
+    assert motion["words"].startswith("A kick of 82.9 mm/s at ")
+    x = np.frombuffer(buffers[motion["x"]["buffer"]], np.float32)
+    assert x[0] == pytest.approx(carom.find_equilibria(MACHINE)[0].position.real, abs=1e-6)  # single precision
+
+
+def test_without_the_extra_it_says_what_to_install(monkeypatch):
+    monkeypatch.setitem(sys.modules, "anywidget", None)
+    carom.explorer.notebook._figure_class.cache_clear()
+    with pytest.raises(CaromError, match=r'need anywidget; install it with: pip install "carom\[notebook\]"$'):
+        carom.explorer.explore(MACHINE)
+
+
+def test_another_model_than_the_planar_rotor_is_refused():
+    with pytest.raises(InputError, match="the planar rotor: this result is not known for other models"):
+        carom.explorer.explore(tilting().model)
+
+
+@pytest.fixture(scope="module")
+def browser():
+    if BROWSER is None:
+        pytest.skip("no chromium, chromium-browser or google-chrome on the PATH")
+    playwright = pytest.importorskip("playwright.sync_api", reason="needs playwright for Python")
+    with playwright.sync_playwright() as running:
+        started = running.chromium.launch(
+            executable_path=BROWSER, args=["--no-sandbox", "--disable-gpu", "--no-first-run"]
+        )
+        yield started
+        started.close()
+
+
+def hosted(browser, figure, colours):
+    """A page that shows a figure as a notebook does, and a function that hands over what is sent until an answer has come."""
+    context = browser.new_context(viewport={"width": 900, "height": 700}, reduced_motion="reduce")
+    page = context.new_page()
+    page.problems = []
+    page.on("pageerror", lambda problem: page.problems.append(str(problem)))
+    page.expose_function("ask", lambda content: figure._handle_custom_msg(content, []))
+    page.set_content(HOST.replace("COLOURS", colours))
+    page.evaluate("(text) => start(text)", figure._esm)
+
+    def until(wanted, **having):
+        while True:
+            while figure.sent.empty():
+                page.wait_for_timeout(10)  # what the browser asks for is taken meanwhile
+            content, buffers = figure.sent.get()
+            texts = [base64.b64encode(one).decode() for one in buffers or ()]
+            page.evaluate("([content, texts]) => deliver(content, texts)", [content, texts])
+            value = content["value"]
+            if content["name"] == wanted and all(value[name] == entry for name, entry in having.items()):
+                return value
+
+    return page, until
+
+
+PIXEL = """([id, across, up]) => {
+  const canvas = document.querySelector("#cell > div > div").shadowRoot.getElementById(id);
+  return [...canvas.getContext("2d").getImageData(across * canvas.width, up * canvas.height, 1, 1).data].slice(0, 3);
+}"""
+
+
+@pytest.mark.jit_only
+def test_a_click_on_the_picture_shows_the_motion_from_that_kick(browser, figure):
+    page, until = hosted(browser, figure, "background: #fff; color: #000")
+    words, legend = page.locator("#motion-words"), page.locator("#legend li")
+    assert words.inner_text() == "Loading the kernels …"
+    until("basin", size=120)
+    told = [text.split("\n")[0] for text in legend.all_inner_texts()]
+    assert told == [
+        "levitation",
+        "bouncing on B1,d",
+        "synchronous rub",
+        "inside the dashed ring: proven never to touch",
+    ]
+    before = words.inner_text()
+    box = page.locator("#basin").bounding_box()
+    # Left of it and below are 54 and 40 pixels for the scales, on the other sides 6.
+    span = min(box["width"] - 60, box["height"] - 46)
+    page.mouse.click(box["x"] + 54 + 0.75 * span, box["y"] + 6 + 0.5 * span)
+    told = until("motion")
+    assert told["kick"] == {
+        "radial": pytest.approx(0.5, abs=0.01),
+        "tangential": pytest.approx(0.0, abs=0.01),
+    }  # a pixel
+    assert words.inner_text() == told["words"].strip() + ("" if told["whole"] else " Its beginning is shown.")
+    assert words.inner_text() != before
+    page.keyboard.press("ArrowUp")
+    assert until("motion")["kick"]["tangential"] == pytest.approx(told["kick"]["tangential"] + 0.02, abs=0.001)
+    page.evaluate("end()")
+    assert page.evaluate("takers.size") == 0
+    assert page.problems == []
+
+
+@pytest.mark.jit_only
+@pytest.mark.parametrize(
+    ("colours", "dark"), [("background: #fff; color: #222", False), ("background: #111; color: #ddd", True)]
+)
+def test_it_is_light_or_dark_as_the_notebook_is_and_stays_inside_it(browser, figure, colours, dark):
+    page, until = hosted(browser, figure, colours)
+    until("basin", size=120)
+    red, green, blue = page.evaluate(PIXEL, ["clearance", 0.5, 0.15])
+    assert (max(red, green, blue) < 60) is dark
+    assert page.evaluate("getComputedStyle(document.body).maxWidth") == "none"  # the style of the page does not leak
+    assert page.evaluate("typeof window.carom_looks") == "undefined"
+    page.evaluate("document.body.style.color = '#dddddd'")
+    page.wait_for_timeout(100)
+    red, green, blue = page.evaluate(PIXEL, ["clearance", 0.5, 0.15])
+    assert max(red, green, blue) < 60
+    assert page.problems == []

@@ -1,0 +1,122 @@
+"""Basins side by side share axes, legend and colours, and words stand where there is no basin."""
+
+import numpy as np
+import pytest
+from drawn_legends import fits
+from matplotlib.collections import QuadMesh
+from matplotlib.colors import to_rgb
+
+import carom
+from carom import plots
+from carom.basins import map_basins
+from carom.disturbances import BaseShock, BladeLoss, Grid, KickPlane, Sample, VelocityKick
+from carom.outcome import InputError
+
+pytestmark = pytest.mark.jit_only
+
+MACHINE = carom.parameters.Parameters(
+    gamma=0.15,
+    omega=0.76,
+    rho=0.3,
+    phi=0.21,
+    mu=0.15,
+    d=0.95,
+    radius_ratio=400 / 7,
+    scales=carom.parameters.Scales(mass=50.0, clearance=0.7e-3, speed=184.2),
+)
+DAMPED = MACHINE.replace(gamma=0.4)
+
+
+@pytest.fixture(scope="module")
+def before():
+    return map_basins(MACHINE, Grid(KickPlane(1.0), (24, 24)))
+
+
+@pytest.fixture(scope="module")
+def after():
+    return map_basins(DAMPED, Grid(KickPlane(1.0), (24, 24)))
+
+
+def painted(axes):
+    """Colours of the cells, in the order of the second coordinate, then of the first."""
+    (mesh,) = [entry for entry in axes.collections if isinstance(entry, QuadMesh)]
+    mesh.update_scalarmappable()
+    return mesh.get_facecolors().reshape(-1, 4)
+
+
+def words(figure):
+    return [text.get_text() for legend in figure.legends for text in legend.get_texts()]
+
+
+def test_both_have_the_same_range_and_colours(before, after):
+    figure = plots.basin_pair([("now", before), ("then", after)], 0.8)
+    now, then = figure.axes
+    assert now.get_xlim() == then.get_xlim() == now.get_ylim()
+    assert now.get_xlim()[1] == pytest.approx(1.04 * 1e3 * MACHINE.scales.velocity)
+    green = to_rgb(plots.OUTCOMES["levitated"].colour)
+    for axes, basin in ((now, before), (then, after)):
+        exists, back = basin.exists.T.ravel(), basin.recovered.T.ravel()
+        assert back.sum() > 0
+        same = np.all(np.isclose(painted(axes)[:, :3], green), axis=1)
+        assert np.array_equal(same[exists], back[exists])
+    assert not before.recovered[before.exists].all()
+    assert {"levitation", "must survive: up to 103 mm/s"} <= set(words(figure))
+    assert len(words(figure)) == len(set(before.motions) | set(after.motions)) + 1
+    assert (now.get_xlabel(), now.get_ylabel()) == ("kick outward (mm/s)", "kick in the sense of rotation (mm/s)")
+    assert then.get_ylabel() == ""
+    for axes in figure.axes:
+        (ring,) = [line for line in axes.get_lines() if line.get_gid() == "required"]
+        assert np.hypot(*ring.get_data()) == pytest.approx(0.8e3 * MACHINE.scales.velocity)
+    assert fits(figure)
+
+
+def test_the_wider_range_holds_for_both(before):
+    wide = map_basins(DAMPED, Grid(KickPlane(2.0), (8, 8)))
+    for panels in ([("now", before), ("then", wide)], [("now", wide), ("then", before)]):
+        figure = plots.basin_pair(panels)
+        for axes in figure.axes:
+            assert axes.get_xlim()[1] == pytest.approx(1.04 * 2.0 * 1e3 * MACHINE.scales.velocity)
+
+
+def test_an_orbit_is_named_only_beside_others(before):
+    found = [name for name in before.motions if name.orbit]
+    assert len(found) == 1
+    assert "bouncing" in words(plots.basin_pair([("now", before)]))
+
+
+def test_words_stand_where_there_is_no_basin(after):
+    figure = plots.basin_pair([("now", "There is no stable levitation to come back to."), ("then", after)])
+    first, second = figure.axes
+    assert " ".join(first.texts[0].get_text().split()) == "There is no stable levitation to come back to."
+    assert not first.axison
+    assert second.get_ylabel() != "" or second.get_xlabel() != ""
+
+
+@pytest.mark.parametrize(
+    ("model", "shape"), [(BaseShock(2.0, 2.0), (4, 12)), (BladeLoss(0.35), (12,)), (VelocityKick(0.5), (4, 12))]
+)
+def test_other_disturbances_by_their_direction(model, shape):
+    basins = [map_basins(machine, Grid(model, shape)) for machine in (MACHINE, DAMPED)]
+    figure = plots.basin_pair([("now", basins[0]), ("then", basins[1])])
+    for axes, basin in zip(figure.axes, basins, strict=True):
+        shown = {tuple(np.round(colour, 6)) for colour in painted(axes)[:, :3]}
+        assert len(shown) == len(basin.motions)
+    assert fits(figure)
+
+
+@pytest.mark.parametrize(
+    ("panels", "said"),
+    [
+        (lambda: [("now", "nothing")], "at least one"),
+        (
+            lambda: [
+                (kind.kind, map_basins(DAMPED, Grid(kind, (2, 2)))) for kind in (KickPlane(0.1), VelocityKick(0.1))
+            ],
+            "kick and kick-plane",
+        ),
+        (lambda: [("now", map_basins(DAMPED, Sample(KickPlane(0.1), 4)))], "grids"),
+    ],
+)
+def test_what_cannot_be_compared_is_refused(panels, said):
+    with pytest.raises(InputError, match=said):
+        plots.basin_pair(panels())
