@@ -70,15 +70,15 @@ def test_speeds_seen_in_the_room_are_bounded(name, fastest):
     kicks, starts = (DisturbanceSet(400, 7, fastest).kicks(rotor), DisturbanceSet(400, 7, fastest).starts(rotor))
     room = starts.velocities + 1j * starts.positions
     levitating = 1j * rotor.system.rest if len(rotor.system.rest) > 1 else 1j * rotor.system.rest[0]
-    pushes = rotor.system.push_of(np.concatenate([room[:kicks] - levitating, room[kicks:]]))
+    pushes = rotor.system.translation_velocity(np.concatenate([room[:kicks] - levitating, room[kicks:]]))
 
     assert np.abs(pushes).max() <= fastest * (1.0 + 1e-14)  # a few roundings of the products
     assert np.abs(pushes).max() > 0.95 * fastest
     # The rotor moves as a whole: its coordinates have no other velocities than those of this push.
-    whole = np.multiply.outer(pushes, rotor.system.moves if len(rotor.system.rest) > 1 else rotor.system.moves[0])
+    whole = np.multiply.outer(pushes, rotor.system.translated if len(rotor.system.rest) > 1 else rotor.system.translated[0])
     assert np.abs(room[kicks:] - whole[kicks:]).max() <= 1e-14 * (1.0 + fastest)
     singles = disturbances(rotor, 400, 7, fastest)
-    scale = np.abs(rotor.system.moves).max()
+    scale = np.abs(rotor.system.translated).max()
     assert [start.speed for start in singles] == pytest.approx(scale * np.abs(pushes), rel=1e-12)
 
 

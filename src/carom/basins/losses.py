@@ -329,7 +329,7 @@ def lost(outcomes: np.ndarray) -> np.ndarray:
 
 def smallest_lost(rotor: Model, kicks: Starts, outcomes: np.ndarray) -> tuple[float, float] | None:
     """Speed and direction of the smallest lost one among kicks; ``None`` if none is lost."""
-    gone = rotor.system.push_of(kicks.velocities[kicks.exists & lost(outcomes)])
+    gone = rotor.system.translation_velocity(kicks.velocities[kicks.exists & lost(outcomes)])
     if not gone.size:
         return None
     smallest = gone[np.abs(gone).argmin()]

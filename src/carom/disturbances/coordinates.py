@@ -151,10 +151,10 @@ def displaced(rotor: Model, positions: np.ndarray, velocities: np.ndarray, exist
     system, whole = rotor.system, Starts.of(positions, velocities, exists)
     places, speeds = whole.positions, whole.velocities
     if not (system.is_planar and system.translation is None):
-        if not system.carried.any():
-            raise InputError("translation", system.moves.tolist(), "one that moves a contact plane")
-        moves = system.moves if len(system.rest) > 1 else complex(system.moves[0])
-        places = np.multiply.outer(places, moves / system.carried.max())
+        if not system.planes_translated.any():
+            raise InputError("translation", system.translated.tolist(), "one that moves a contact plane")
+        moves = system.translated if len(system.rest) > 1 else complex(system.translated[0])
+        places = np.multiply.outer(places, moves / system.planes_translated.max())
         speeds = np.multiply.outer(speeds, moves)
     turning = complex_of(speeds.real + places.imag, speeds.imag - places.real)
     return whole._replace(positions=places, velocities=turning)

@@ -72,7 +72,7 @@ class UnbalanceStep(Disturbance):
         """Levitation with the old unbalance."""
         eccentricity, phase = values
         mass, damping, gyroscopic, stiffness, _ = rotor.matrices
-        push = cmath.rect(1.0, rotor.unbalance_phase) * rotor.system.moves
+        push = cmath.rect(1.0, rotor.unbalance_phase) * rotor.system.translated
         response = np.linalg.solve(stiffness - mass + 1j * damping + gyroscopic, mass @ push)
         reach = float(np.abs(rotor.system.planes @ response).max())
         cosine, sine = eccentricity * np.cos(phase), eccentricity * np.sin(phase)
@@ -117,7 +117,7 @@ class ContactRelease(Disturbance):
         """States on the wall, moving along it."""
         (angle,) = values
         cosine, sine = np.cos(angle), np.sin(angle)
-        carried, surface_speed = rotor.system.carried, rotor.system.arrays.surface_speed
+        carried, surface_speed = rotor.system.planes_translated, rotor.system.arrays.surface_speed
         rate = {"fixed": 0.0, "rotating": 1.0, "rolling": 1.0 - float(surface_speed[carried.argmax()])}[self.motion]
         speed = rate / carried.max() if carried.any() else rate
         return displaced(rotor, complex_of(cosine, sine), complex_of(-speed * sine, speed * cosine))

@@ -164,10 +164,10 @@ class System(Result):
 
     def kicked(self, push: complex | np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Coordinates and their rates, both (..., n), just after the levitating rotor gets velocities (...) as a whole."""
-        velocities = np.multiply.outer(push, self.moves)
+        velocities = np.multiply.outer(push, self.translated)
         return np.broadcast_to(self.rest, velocities.shape), velocities
 
-    def push_of(self, velocities: np.ndarray) -> np.ndarray:
+    def translation_velocity(self, velocities: np.ndarray) -> np.ndarray:
         """Velocities (...) of the rotor as a whole from the rates (..., n) of the coordinates: the inverse of :meth:`kicked`."""
         if self.translation is None:
             return velocities
@@ -176,7 +176,7 @@ class System(Result):
         return pushes
 
     @property
-    def moves(self) -> np.ndarray:
+    def translated(self) -> np.ndarray:
         """Coordinates when the rotor as a whole is displaced by one, shape (n,)."""
         return np.ones(len(self.rest)) if self.translation is None else self.translation
 
@@ -192,17 +192,17 @@ class System(Result):
         return float(np.abs(self.arrays["offsets"]).max())
 
     @cached_property
-    def carried(self) -> np.ndarray:
-        """Distance by which each contact plane moves when the rotor as a whole moves by one, shape (P,)."""
-        carried: np.ndarray = np.abs(self.planes @ self.moves)
-        carried[carried <= ROUNDING * (np.abs(self.planes) @ np.abs(self.moves))] = 0.0
-        return carried
+    def planes_translated(self) -> np.ndarray:
+        """Distance by which each contact plane moves when the rotor as a whole is displaced by one, shape (P,)."""
+        distances: np.ndarray = np.abs(self.planes @ self.translated)
+        distances[distances <= ROUNDING * (np.abs(self.planes) @ np.abs(self.translated))] = 0.0
+        return distances
 
     @cached_property
-    def accelerated(self) -> np.ndarray:
+    def base_excitation(self) -> np.ndarray:
         """Rates of change of the amplitudes when all masses are accelerated by one along the translation, shape (N,)."""
-        accelerated: np.ndarray = self.to_modes[:, len(self.rest) :] @ self.moves
-        return accelerated
+        rates: np.ndarray = self.to_modes[:, len(self.rest) :] @ self.translated
+        return rates
 
     @cached_property
     def is_planar(self) -> bool:
