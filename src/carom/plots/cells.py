@@ -105,8 +105,8 @@ def _turned(colour: str, turn: float) -> str:
     other = hsv_to_rgb(((hue + turn) % 1.0, saturation, value))
     light, wanted = (float(np.dot(_WEIGHTS, part)) for part in (other, own))
     if light > wanted:
-        return to_hex(other * wanted / light)
-    return to_hex(other + (1.0 - other) * (wanted - light) / (1.0 - light))
+        return to_hex(tuple(other * wanted / light))
+    return to_hex(tuple(other + (1.0 - other) * (wanted - light) / (1.0 - light)))
 
 
 def ink(colour: str) -> str:
