@@ -6,7 +6,6 @@ import json
 import threading
 from collections.abc import Callable
 from functools import cache, partial
-from importlib.resources import files
 from typing import Any
 
 import jinja2
@@ -21,12 +20,13 @@ from bokeh.resources import Resources
 
 from carom.explorer.computing.controls import controls_of
 from carom.explorer.computing.exports import Origin
+from carom.explorer.computing.planes import planes_of
 from carom.explorer.page.figures import looks, make_figures
-from carom.explorer.page.messages import control_message
+from carom.explorer.page.messages import control_message, plane_message
 from carom.explorer.page.models import Answers, Requests
+from carom.explorer.page.scripts import SCRIPTS, joined, text_of
 from carom.explorer.page.session import Session
 
-SCRIPTS = ("common.js", "controls.js", "basin.js", "clearance.js", "plots.js", "panels.js", "main.js")
 TOKEN = "key-of-a-session"
 
 
@@ -77,8 +77,9 @@ def write_page(origin: Origin, resources: Resources) -> str:
             "name": origin.case.name,
             "mark": origin.mark,
             "controls": [control_message(control) for control in controls_of(origin.case)],
-            "style": _text("page.css"),
-            "script": "\n".join(_text(name) for name in SCRIPTS),
+            "planes": [plane_message(plane, origin.case.parameters.scales) for plane in planes_of(origin.case)],
+            "style": text_of("page.css"),
+            "script": joined(SCRIPTS),
             "looks": json.dumps(looks()),
         },
     )
@@ -101,9 +102,4 @@ def _template() -> jinja2.Template:
     environment = jinja2.Environment(
         autoescape=True, trim_blocks=True, lstrip_blocks=True, undefined=jinja2.StrictUndefined
     )
-    return environment.from_string(_text("page.html.jinja"))
-
-
-@cache
-def _text(name: str) -> str:
-    return files("carom.explorer.page").joinpath("files", name).read_text(encoding="utf-8")
+    return environment.from_string(text_of("page.html.jinja"))

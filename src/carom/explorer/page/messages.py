@@ -30,6 +30,12 @@ def control_message(control: Control) -> Message:
     return {**asdict(control), "shown": number(control.value, 5).replace(",", "")}
 
 
+def plane_message(plane: Plane, scales: Scales | None) -> Message:
+    """A kind of disturbances, as the page offers it."""
+    lasting = f" of {told(plane.duration / (scales.time if scales else 1.0), 'time', scales)}" if plane.duration else ""
+    return {"name": plane.name, "words": f"{plane.nouns[1]}{lasting}"}
+
+
 def units_message(scales: Scales | None) -> Message:
     """Factors and units of times, speeds and impulses on the page."""
     message: Message = {}
