@@ -117,6 +117,7 @@ export const flight = (canvas, { looks, onTime = () => {} }) => {
     shown.message = message;
     if (message.refused) { shown.running = false; shown.draw(); }
   };
+  shown.clear = () => { shown.message = null; shown.running = false; shown.now = 0; shown.draw(); };
   shown.turnWith = (frame) => { shown.frame = frame; if (!shown.running) shown.draw(); };
   shown.renew = () => { ink.renew(); shown.draw(); };
   // How many times slower than the machine it is drawn; 0 where its time is not known.

@@ -139,7 +139,7 @@ carom.stage = {};
   at("kind").addEventListener("change", () => {
     Object.assign(state, { kind: at("kind").value, largest: null, kicks: null, active: 0, ring: null });
     pointed = null;
-    for (const one of flights) one.message = null;
+    for (const one of flights) one.clear();
     carom.controls.ask(false);
   });
 
@@ -157,7 +157,7 @@ carom.stage = {};
     const kick = (text) => { const [first, second] = (text || "").split(",").map(Number); return Number.isFinite(first) && Number.isFinite(second) && text ? { first, second } : null; };
     const both = [kick(kept.kick), kick(kept.other)], known = [...at("kind").options].some((one) => one.value === kept.show);
     pointed = null;
-    if (both.includes(null)) for (const one of flights) one.message = null;
+    if (both.includes(null)) for (const one of flights) one.clear();
     Object.assign(state, { kind: known ? kept.show : "kick", largest: number(kept.range), kicks: both.includes(null) ? null : both, active: 0, ring: number(kept.ring) });
     if (basin.message) { basin.mark(marked(), 0); ringed(); }
   };
