@@ -1,16 +1,13 @@
-"""The page in a real browser: loaded, dragged, clicked, typed into, copied from, restarted, and attacked."""
+"""The page in a real browser: loaded, dragged, typed into, copied from, restarted, and attacked."""
 
 from __future__ import annotations
 
 import math
 import re
-import shutil
-import subprocess
-import sys
-from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
+from browsing import BROWSER, DESK, SOON, answered, drag, fits, flown, painted, point, said, served
 
 import carom
 from carom.explorer.computing.kicks import map_kicks
@@ -21,121 +18,13 @@ from carom.models import Jeffcott
 pytest.importorskip("bokeh", reason="needs the extra carom[explore]")
 pytest.importorskip("playwright", reason="needs playwright for Python")
 
-from playwright.sync_api import expect, sync_playwright
+from playwright.sync_api import expect
 
-BROWSER = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
 pytestmark = [
     pytest.mark.skipif(BROWSER is None, reason="no chromium, chromium-browser or google-chrome on the PATH"),
     pytest.mark.jit_only,
 ]
-OPTIONS = (
-    "--no-sandbox",
-    "--disable-gpu",
-    "--disable-quic",
-    "--no-first-run",
-    "--disable-background-networking",
-    "--disable-component-update",
-    "--disable-sync",
-    # Other names lead to this machine, as those of an attacker can.
-    "--host-resolver-rules=MAP evil.test 127.0.0.1",
-)
-PROGRAM = """
-import sys
-from types import SimpleNamespace
-from carom.cli import main
-from carom.explorer.page import session
-# A study takes seconds; it has tests of its own.  This is what it says of one of the examples.
-session.judge = lambda case, tell: SimpleNamespace(
-    advice="Change: damping 1,400 N s/m to at least 1,706 N s/m.",
-    lead="Came back each time from what it must survive, zone C: no guarantee, as disturbances are samples; 23 of 800 starts elsewhere in the "
-    "clearance did not come back.",
-    survived=("Kick: harmless up to 125 mm/s (proven), all tried came back up to 382 mm/s.",),
-)
-sys.exit(main(["explore", *sys.argv[1:]]))
-"""
 MACHINE = Path(__file__).parents[2] / "examples" / "keogh-cole.toml"
-DESK = {"width": 1280, "height": 900}
-SOON = 120_000
-"""Milliseconds after which the page is taken to hang; nothing is judged by how long it takes."""
-
-
-@contextmanager
-def served(port: int = 0, *settings: str):
-    """Run the program; yield the process and the address it prints."""
-    command = [sys.executable, "-c", PROGRAM, str(MACHINE), *settings, "--no-browser", "--port", str(port)]
-    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
-        try:
-            address = process.stdout.readline().strip()
-            assert address.startswith("http://127.0.0.1:"), process.stderr.read()
-            yield process, address
-        finally:
-            process.terminate()
-            process.communicate()
-
-
-@pytest.fixture(scope="module")
-def address():
-    with served() as (_, found):
-        yield found
-
-
-@pytest.fixture(scope="module")
-def browser():
-    with sync_playwright() as playwright:
-        started = playwright.chromium.launch(executable_path=BROWSER, args=list(OPTIONS))
-        yield started
-        started.close()
-
-
-@pytest.fixture(scope="module")
-def open_page(browser, address):
-    """Open a page; at the end see that no script of any has failed."""
-    context = browser.new_context(viewport=DESK, permissions=["clipboard-read", "clipboard-write"])
-    context.set_default_timeout(SOON)
-    wrong: list[str] = []
-
-    def go(path: str = "", where: str = address, link=None):
-        page = context.new_page()
-        if link is not None:
-            page.route_web_socket("**/ws*", link)
-        page.on("pageerror", lambda problem: wrong.append(str(problem)))
-        page.goto(where + path)
-        # As soon as anything is touched, nothing moves by itself.
-        page.keyboard.press("Shift")
-        answered(page, "basin")
-        return page
-
-    yield go
-    context.close()
-    assert wrong == []
-
-
-@pytest.fixture(scope="module")
-def one_page(open_page):
-    return open_page()
-
-
-@pytest.fixture
-def page(one_page):
-    """The page as it is after loading; the tests share it, because loading takes seconds on a busy machine."""
-    one_page.bring_to_front()
-    one_page.locator("#reset").click()
-    answered(one_page, "basin", said(one_page, "carom.number"))
-    return one_page
-
-
-def answered(page, name: str, number: int = 1) -> None:
-    """Wait until the page shows an answer about its machine of this number or a later one."""
-    page.wait_for_function("([name, number]) => +document.documentElement.dataset[name] >= number", arg=[name, number])
-
-
-def fits(page, width: int) -> None:
-    """Wait until nothing is wider than the screen; the plots follow a new width of the window a moment later."""
-    page.wait_for_function("width => document.documentElement.scrollWidth <= width", arg=width)
-
-
-def said(page, expression: str):
-    return page.evaluate(f"() => {expression}")
 
 
 def shown_of(page, case):
@@ -144,31 +33,6 @@ def shown_of(page, case):
     found = map_kicks(Jeffcott(case.parameters), kicks, 120, 1e-3 * said(page, "carom.basin.message.largest"))
     share = found.share_up_to(kicks.own(kicks.required, scales) * (1.0 + 1e-9))
     return found, f"{100 * share.fraction:.3g} %"
-
-
-def drag(page, name: str, shares: tuple[float, ...]) -> None:
-    """Drag a slider to shares of its length, one after another, and let it go at the last."""
-    slider = page.locator(f'[data-name="{name}"] .slider')
-    slider.scroll_into_view_if_needed()
-    box = slider.bounding_box()
-    places = [(box["x"] + 9 + share * (box["width"] - 18), box["y"] + box["height"] / 2) for share in shares]
-    value = float(slider.input_value()) / 1000
-    page.mouse.move(box["x"] + 9 + value * (box["width"] - 18), places[0][1])
-    page.mouse.down()
-    for place in places:
-        page.mouse.move(*place)
-        page.wait_for_timeout(30)
-    page.mouse.up()
-
-
-def painted(page, canvas: str) -> int:
-    """Number of colours on a canvas."""
-    return said(
-        page,
-        f"(() => {{ const canvas = document.getElementById('{canvas}');"
-        "const data = new Uint32Array(canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height).data.buffer);"
-        "return new Set(data).size; })()",
-    )
 
 
 def test_it_loads_and_shows_the_machine(page):
@@ -225,64 +89,6 @@ def test_what_waits_while_a_slider_is_held_is_pale_until_it_is_known(page):
     assert names == [row.name for row in table_of(rotor).rows]
     # The line of the time shown is at the end: the figure is that of the motion, whose instants are in milliseconds.
     assert said(page, "carom.begun.parts.now.location") == said(page, "carom.begun.parts.history.data.t.at(-1)")
-
-
-def point(page, first: float, second: float, *, click: bool = False) -> None:
-    """Point at a disturbance, by its components as shares of the largest."""
-    canvas = page.locator("#basin")
-    canvas.scroll_into_view_if_needed()
-    box, scale = canvas.bounding_box(), said(page, "document.getElementById('basin').clientWidth")
-    left, edge, below = (2, 2, 14) if scale < 300 else (54, 6, 40)
-    span = min(scale - left - edge, scale - below - edge)
-    place = (box["x"] + left + span * (first + 1) / 2, box["y"] + edge + span * (1 - second) / 2)
-    page.mouse.click(*place) if click else page.mouse.move(*place)
-
-
-def flown(page, slot: int, first: float, second: float) -> None:
-    """Wait until the flight of a disturbance near these shares is shown."""
-    page.wait_for_function(
-        "([slot, first, second]) => { const { kick } = carom.flights[slot].message, { largest } = carom.basin.message;"
-        " return Math.hypot(kick.first / largest - first, kick.second / largest - second) < 0.02; }",
-        arg=[slot, first, second],
-    )
-
-
-def test_pointing_and_clicking_fly_what_comes_back_as_1_and_what_is_lost_as_2(page):
-    page.locator("#box-damping").fill("2600")
-    page.keyboard.press("Enter")
-    answered(page, "beside", said(page, "carom.number"))
-    before = said(page, "carom.flights[0].message.kick")
-    point(page, 0.5, 0.6, click=True)
-    flown(page, 1, 0.5, 0.6)
-    expect(page.locator("#beside-title")).to_have_text("is lost")
-    assert said(page, "carom.flights[0].message.kick") == before
-    point(page, 0.03, -0.04)
-    flown(page, 0, 0.03, -0.04)
-    expect(page.locator("#motion-title")).to_have_text("comes back")
-    assert said(page, "carom.basin.kicks.length") == 2
-    page.wait_for_function("() => carom.motion === carom.flights[0] && carom.motion.now > 0")
-    answered(page, "exports", 0)
-
-
-def test_both_flights_are_played_again(page):
-    answered(page, "beside", said(page, "carom.number"))
-    page.wait_for_function("() => carom.flights.every((one) => one.message && one.now > 0)")
-    page.locator("#replay").click()
-    page.wait_for_function("() => carom.flights.every((one) => one.running)")
-    page.locator('input[name="frame"][value="fixed"]').check()
-    assert said(page, "carom.flights.map((one) => one.frame)") == ["fixed", "fixed"]
-    page.locator('input[name="frame"][value="rotating"]').check()
-
-
-def test_arrow_keys_move_the_kick(page):
-    answered(page, "motion", said(page, "carom.number"))
-    active = said(page, "carom.basin.active")
-    before = said(page, f"carom.basin.kicks[{active}].first")
-    page.locator("#basin").focus()
-    page.keyboard.press("ArrowRight")
-    page.wait_for_function(
-        "([active, before]) => carom.flights[active].message.kick.first > before", arg=[active, before]
-    )
 
 
 @pytest.mark.parametrize(
@@ -471,20 +277,20 @@ def test_light_and_dark(page):
 
 
 def test_a_server_that_stops_and_comes_back(open_page):
-    with served() as (first, where):
+    with served(MACHINE) as (first, where):
         page = open_page("#damping=6000+N+s%2Fm", where)
         first.terminate()
         first.wait()
         expect(page.locator("#gone")).to_be_visible(timeout=SOON)
         assert "has stopped" in page.locator("#gone").inner_text()
-        with served(int(where.rstrip("/").rpartition(":")[2])):
+        with served(MACHINE, int(where.rstrip("/").rpartition(":")[2])):
             page.wait_for_function("() => document.getElementById('gone').hidden && carom.basin && carom.basin.message")
             assert said(page, "document.getElementById('share').textContent") == "100 %"
         page.close()
 
 
 def test_what_was_set_for_one_machine_is_not_set_for_another(open_page):
-    with served() as (first, where):
+    with served(MACHINE) as (first, where):
         page = open_page("", where)
         page.locator("#box-damping").fill("6000")
         page.keyboard.press("Enter")
@@ -493,7 +299,7 @@ def test_what_was_set_for_one_machine_is_not_set_for_another(open_page):
         first.terminate()
         first.wait()
         expect(page.locator("#gone")).to_be_visible(timeout=SOON)
-        with served(int(where.rstrip("/").rpartition(":")[2]), "--set", "mass=40 kg"):
+        with served(MACHINE, int(where.rstrip("/").rpartition(":")[2]), "--set", "mass=40 kg"):
             page.wait_for_function("() => document.getElementById('gone').hidden && carom.basin && carom.basin.message")
             expect(page.locator("#box-damping")).to_have_value("1400")
             expect(page.locator("#problem")).to_contain_text("set for another machine")
@@ -530,7 +336,7 @@ def test_a_connection_that_breaks_within_a_message(open_page):
 
 
 def test_malformed_messages_are_not_told_in_the_terminal(open_page):
-    with served() as (process, where):
+    with served(MACHINE) as (process, where):
         page = open_page("", where)
         for token, text in (("junk", "nonsense"), ("", "nonsense"), ("", "[")):
             closed = page.evaluate(

@@ -77,7 +77,7 @@ def find_hardest(rotor: Jeffcott, plane: Plane, largest: float, progress: ShowPr
     hardest, count = 0.0, SIZES * DIRECTIONS
     for place in range(count):
         size, angle = (
-            largest * math.sqrt((place // DIRECTIONS + 0.5) / SIZES),
+            largest * (place // DIRECTIONS + 0.5) / SIZES,
             math.tau * (place % DIRECTIONS + 0.5) / DIRECTIONS,
         )
         after, start, _ = plane.start(rotor, rest, size * math.cos(angle), size * math.sin(angle))
