@@ -175,8 +175,9 @@ export const basinPicture = (canvas, { onPoint = () => {}, onRing = () => {} } =
   };
   canvas.addEventListener("pointermove", (event) => {
     if (dragging) { dragged = true; pull(event, false); return; }
-    canvas.style.cursor = holds(event) ? "grab" : "";
-    if (event.pointerType !== "touch" && event.buttons === 0) point(event, false);
+    const held = holds(event);
+    canvas.style.cursor = held ? "grab" : "";
+    if (!held && event.pointerType !== "touch" && event.buttons === 0) point(event, false);
   });
   for (const end of ["pointerup", "pointercancel"]) {
     canvas.addEventListener(end, (event) => {
