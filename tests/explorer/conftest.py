@@ -55,5 +55,6 @@ def page(one_page):
     """The page as it is after loading; the tests share it, because loading takes seconds on a busy machine."""
     one_page.bring_to_front()
     one_page.locator("#reset").click()
-    answered(one_page, "basin", said(one_page, "carom.number"))
+    for answer in ("basin", "motion", "beside"):
+        answered(one_page, answer, said(one_page, "carom.number"))
     return one_page

@@ -115,7 +115,11 @@ def test_the_command_that_is_copied_follows_the_kick_that_is_shown(page):
     kick = re.compile(r"A kick of ([\d.]+) mm/s at ([\d.]+)°")
     expect(page.locator("#beside-words")).to_have_text(kick)
     size, angle = kick.match(page.locator("#beside-words").inner_text()).groups()
-    page.wait_for_function("size => carom.panels.exports.command.includes(`--kick '${size.slice(0, 3)}`)", arg=size)
+    page.wait_for_function(
+        "size => { const found = carom.panels.exports.command.match(/--kick '([\\d.]+)/);"
+        " return found && Number(Number(found[1]).toPrecision(3)) === Number(size); }",
+        arg=size,
+    )
     page.locator('[data-copy="command"]').click()
     expect(page.locator("#copied")).to_contain_text("is in the clipboard")
     copied = re.search(r"--kick '([\d.]+) mm/s,([\d.]+) deg'", said(page, "navigator.clipboard.readText()")).groups()
@@ -284,7 +288,9 @@ def test_a_server_that_stops_and_comes_back(open_page):
         expect(page.locator("#gone")).to_be_visible(timeout=SOON)
         assert "has stopped" in page.locator("#gone").inner_text()
         with served(MACHINE, int(where.rstrip("/").rpartition(":")[2])):
-            page.wait_for_function("() => document.getElementById('gone').hidden && carom.basin && carom.basin.message")
+            page.wait_for_function(
+                "() => document.getElementById('gone').hidden && window.carom && carom.basin && carom.basin.message"
+            )
             assert said(page, "document.getElementById('share').textContent") == "100 %"
         page.close()
 
@@ -300,7 +306,9 @@ def test_what_was_set_for_one_machine_is_not_set_for_another(open_page):
         first.wait()
         expect(page.locator("#gone")).to_be_visible(timeout=SOON)
         with served(MACHINE, int(where.rstrip("/").rpartition(":")[2]), "--set", "mass=40 kg"):
-            page.wait_for_function("() => document.getElementById('gone').hidden && carom.basin && carom.basin.message")
+            page.wait_for_function(
+                "() => document.getElementById('gone').hidden && window.carom && carom.basin && carom.basin.message"
+            )
             expect(page.locator("#box-damping")).to_have_value("1400")
             expect(page.locator("#problem")).to_contain_text("set for another machine")
             assert said(page, "location.hash") == ""

@@ -191,7 +191,7 @@ def test_damping_moves_by_itself_until_anything_is_touched(browser, address):
     context = browser.new_context(viewport=DESK)
     page = context.new_page()
     page.goto(address)
-    page.wait_for_function("() => carom.sweep && carom.sweep.state === 'moving'")
+    page.wait_for_function("() => window.carom && carom.sweep && carom.sweep.state === 'moving'")
     expect(page.locator("#sweeping")).to_be_visible()
     page.wait_for_function("() => carom.controls.value('damping') > 1600 && carom.basin.message.number > 3")
     page.keyboard.press("Shift")
@@ -211,6 +211,6 @@ def test_nothing_moves_by_itself_where_motion_is_not_wished_or_a_link_was_follow
         context = browser.new_context(viewport=DESK, **options)
         page = context.new_page()
         page.goto(address + link)
-        page.wait_for_function("() => carom.sweep && carom.sweep.state === 'over'")
+        page.wait_for_function("() => window.carom && carom.sweep && carom.sweep.state === 'over'")
         assert said(page, "carom.number") == 1
         context.close()

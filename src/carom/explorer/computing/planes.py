@@ -131,7 +131,11 @@ class Plane:
         if self.name == "shock":
             lasting = self.lasting(rotor)
             state = BaseShock(size, lasting).release(rotor, angle)
-            return rotor, state, f"A shock of {words} for {told(lasting, 'time', rotor.scales)} at {turned}"
+            return (
+                rotor,
+                state,
+                f"A shock of {words} for {told(lasting, 'time', rotor.scales)} at {turned}, drawn from its end,",
+            )
         _, state = BladeLoss(size).release(rotor, angle)
         after = rotor.replace(rho=size)
         return after, state, f"A loss of a blade that leaves {words}, turned by {turned},"
