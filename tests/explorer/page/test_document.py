@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 import carom
+from carom.explorer.background import SupersededError
 from carom.explorer.computing.exports import Origin
 
 bokeh = pytest.importorskip("bokeh", reason="needs the extra carom[explore]")
@@ -55,6 +56,15 @@ def test_it_holds_the_figures_and_what_browser_and_server_share(filled):
 def test_only_wishes_come_back_from_the_browser(filled):
     back = {type(model).__name__ for model in filled.models if model.syncable}
     assert back == {"Requests", "Answers"}
+
+
+def test_answers_to_a_page_that_is_gone_end_the_work():
+    document = Document()
+    session = fill(document, Origin(MACHINE, (), carom.load(MACHINE)), threading.Event())
+    document.callbacks.destroy()
+    with pytest.raises(SupersededError):
+        session.cancel()
+    session.close()
 
 
 def test_the_page_has_a_place_for_each_figure_of_any_session(filled, page):

@@ -18,6 +18,7 @@ from bokeh.events import ConnectionLost, DocumentReady
 from bokeh.models import CustomJS
 from bokeh.resources import Resources
 
+from carom.explorer.background import SupersededError
 from carom.explorer.computing.controls import controls_of
 from carom.explorer.computing.exports import Origin
 from carom.explorer.computing.planes import planes_of
@@ -35,7 +36,11 @@ def fill(document: Document, origin: Origin, ready: threading.Event) -> Session:
     requests, answers, figures = Requests(name="requests"), Answers(name="answers"), make_figures()
 
     def hand_over(name: str, value: Any) -> None:
-        document.add_next_tick_callback(partial(setattr, answers, name, value))
+        try:
+            document.add_next_tick_callback(partial(setattr, answers, name, value))
+        except AttributeError:
+            # Bokeh has taken the document of a closed page apart; its session is told of it only after that.
+            raise SupersededError from None
 
     session = Session(origin, hand_over, ready)
     asked: dict[str, Callable[[Any], None]] = {

@@ -28,7 +28,7 @@ from carom.progress import Progress
 COARSE, FINE = 60, 120
 """Cells along each side of the picture while a slider is dragged, and after that."""
 COARSEST = 16
-PATIENCE = 0.05
+PATIENCE = 0.03
 """Seconds that a picture may take while a slider is dragged; where it would take longer it is coarser."""
 PAUSE = 0.06
 """Seconds without a further step after which, while a slider is dragged, more than the picture is computed."""

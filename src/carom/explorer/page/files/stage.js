@@ -71,15 +71,15 @@ carom.stage = {};
   };
 
   // The ring stands at the smallest that is lost, until it is pulled to a size of which one wishes to know what comes back inside.
-  const ringed = () => {
-    const message = basin.message;
-    basin.setRing(state.ring || (smallest.number >= message.number ? smallest.size : message.lost_size));
-    const [, many] = message.nouns, [share, cells] = basin.ring ? basin.shareWithin(basin.ring) : [1, 0];
+  const ringOf = (message) => state.ring || (smallest.number >= message.number ? smallest.size : message.lost_size);
+  const note = () => {
+    const message = basin.message, [one, many] = message.nouns, [share, cells] = basin.ring ? basin.shareWithin(basin.ring) : [1, 0];
     at("ring-note").textContent = basin.ring
       ? `${share > 0.999 && share < 1 ? "almost 100" : short(100 * share, 3)} % of the ${many} inside the ring come back${cells < 30 ? " (few cells; narrow the range)" : ""}. Drag the ring to ask about another size.`
-      : `No ${message.nouns[0]} of this picture is lost.`;
+      : `No ${one} of this picture is lost.`;
     legend(message);
   };
+  const ringed = () => { basin.setRing(ringOf(basin.message)); note(); };
   const pulled = (size, done) => {
     state.ring = size;
     ringed();
@@ -100,9 +100,11 @@ carom.stage = {};
     if (basin.message && message.number < basin.message.number) return;
     if (message.refused) { at("sentence").textContent = message.refused; return; }
     for (const one of flights) one.rest = { position: message.rest_position, colour: message.legend_rest };
+    // All at once, so that it is drawn once.
     basin.kicks = marked();
+    basin.ring = ringOf(message);
     basin.show(message);
-    ringed();
+    note();
     ranged(message);
     at("rest").textContent = message.rest;
     at("kind").value = message.kind;
