@@ -55,6 +55,7 @@ SLOWEST = (
     "sweeps/test_running.py",
     "bifurcations/test_rubbing.py",
     "explorer/test_browser.py",
+    "explorer/test_stage.py",
     "cli/test_basins.py",
     "disturbances/test_blade_loss.py",
     "attractors/test_characters.py",

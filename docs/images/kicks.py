@@ -22,6 +22,7 @@ KICKS = (("levitated", (-130.0, 178.0)), ("bouncing", (130.0, 178.0)))
 """Two kicks of the same size, outward and in the sense of rotation in mm/s, by where they lead."""
 
 
+INK = "#12201a"
 SHOWN = 60.0
 """Time that is drawn, in ``1/Ω``."""
 
@@ -72,8 +73,8 @@ def shade(axes: Axes, basin: cm.basins.Basin) -> None:
             axes.contourf(along, along, where.T.astype(float), **options).set_edgecolor("#ffffff90")
     outside = OUTCOMES["rolling"].colour
     for place, words, colour in (
-        ((0, -30), "levitates", "white"),
-        ((0, -225), "bounces for ever", "white"),
+        ((0, -30), "levitates", INK),
+        ((0, -225), "bounces for ever", INK),
         ((232, -265), "rolls\nbackward", outside),
     ):
         axes.annotate(words, place, color=colour, ha="center", va="center", fontsize=13, fontweight="bold")
@@ -81,13 +82,14 @@ def shade(axes: Axes, basin: cm.basins.Basin) -> None:
 
 def mark(axes: Axes, kick: tuple[float, float], label: str) -> None:
     """The kick as an arrow."""
-    axes.annotate("", kick, (0.0, 0.0), arrowprops={"arrowstyle": "-|>", "lw": 2.2, "color": "white"})
-    axes.plot(*kick, "o", ms=10, mec="white", mew=2.0, color=OUTCOMES[label].colour)
+    axes.annotate("", kick, (0.0, 0.0), arrowprops={"arrowstyle": "-|>", "lw": 2.2, "color": INK})
+    axes.plot(*kick, "o", ms=10, mec=INK, mew=2.0, color=OUTCOMES[label].colour)
 
 
 def fly(axes: Axes, motion: cm.motions.Trajectory, outward: complex) -> None:
     """The path in the frame that turns with the shaft, with its impacts."""
-    look, back = OUTCOMES[motion.outcome.label], motion.outcome is Outcome.LEVITATED
+    back = motion.outcome is Outcome.LEVITATED
+    look = LOOKS["contact-free" if back else "stable"]  # lines are darker than areas
     last = np.linspace(motion.time - 5.0, motion.time, 2000)
     struck = motion.contacts.time
     motion = cm.simulate(motion.rotor, motion.start, until=motion.time + SHOWN)

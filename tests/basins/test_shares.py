@@ -14,7 +14,8 @@ from carom.attractors import DisturbanceSet, find_attractors
 from carom.basins import Share, map_basins, share_of_kicks
 from carom.basins.shares import percent, starts_enough
 from carom.disturbances import BaseShock, ContactRelease, Grid, KickPlane, Sample, VelocityKick
-from carom.explorer.computing.kicks import largest_kick, map_kicks
+from carom.explorer.computing.kicks import map_kicks
+from carom.explorer.computing.planes import planes_of
 from carom.explorer.page.messages import basin_message
 from carom.models import Jeffcott
 from carom.sweeps.basins import BasinsTask
@@ -117,7 +118,8 @@ def test_page_basins_study_and_sweep_give_one_share(settings):
     case = carom.load(MACHINE, settings)
     scales, seed = case.parameters.scales, np.random.SeedSequence(9)
     rotor, largest = Jeffcott(case.parameters), case.requirement.own(case.parameters.scales).kick
-    page = map_kicks(rotor, 80, largest_kick(case)).share
+    kicks = planes_of(case)[0]
+    page = map_kicks(rotor, kicks, 80, kicks.usual).share
     grid = map_basins(case, Grid(VelocityKick.of(case), (60, 60))).share_recovered
     drawn = map_basins(case, Sample(VelocityKick.of(case), 3000, seed=2)).share_recovered
     study = share_of_kicks(find_attractors(case, DisturbanceSet(3000, 5, largest), known=False))
@@ -125,14 +127,14 @@ def test_page_basins_study_and_sweep_give_one_share(settings):
     studies = StudyTask(3000, has_scales=True).evaluate(case, seed)
     samples = [(drawn.low, drawn.high), (study.low, study.high)]
     samples += [(found["recovered_low"], found["recovered_high"]) for found in (basins, studies)]
-    assert page.population == grid.population == drawn.population == study.population
-    assert page.population.words == "kicks up to 166 mm/s"
+    assert grid.population == drawn.population == study.population
+    assert kicks.words_up_to(largest, scales) == grid.population.words == "kicks up to 166 mm/s"
     assert study.total == 1800
     # Intervals of 95 % that do not overlap show different shares; grids have an error of their own, of a cell at boundaries.
     assert max(low for low, _ in samples) < min(high for _, high in samples)
     for cells in (page, grid):
         assert max(low for low, _ in samples) - 0.01 < cells.fraction < min(high for _, high in samples) + 0.01
-    told = basin_message(map_kicks(rotor, 20, largest_kick(case)), rotor)
+    told = basin_message(map_kicks(rotor, kicks, 20, 2.0 * kicks.usual), rotor)
     assert told["share_remark"].startswith("of kicks up to 166 mm/s, by area: ")
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import threading
 
-from carom.explorer.background import Job, Worker
+from carom.explorer.background import Job, SupersededError, Worker
 from carom.progress import Progress
 
 SOON = 30.0
@@ -109,6 +109,23 @@ def test_errors_are_handed_over_and_do_not_end_the_desk():
     worker.submit("one", Job(fail, lambda result: (told.append(result), ended.set())))
     assert ended.wait(SOON)
     assert isinstance(told[0], ValueError)
+    after = Work("after", told)
+    after.go.set()
+    worker.submit("one", after.request)
+    assert after.ended.wait(SOON)
+    worker.close()
+
+
+def test_a_result_that_nobody_takes_does_not_end_the_desk():
+    told: list[object] = []
+    worker, begun = Worker(("one",)), threading.Event()
+
+    def gone(result):
+        begun.set()
+        raise SupersededError
+
+    worker.submit("one", Job(lambda tell: None, gone))
+    assert begun.wait(SOON)
     after = Work("after", told)
     after.go.set()
     worker.submit("one", after.request)

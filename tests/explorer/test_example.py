@@ -11,7 +11,7 @@ import carom
 from carom.explorer import example
 
 ROOT = Path(__file__).parents[2]
-FILE = ROOT / "examples" / "keogh-cole.toml"
+FILE = ROOT / "examples" / "balanced-rotor.toml"
 
 
 def test_a_checkout_shows_its_example():

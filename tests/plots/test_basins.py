@@ -27,7 +27,7 @@ from carom.disturbances import (
 )
 from carom.orbits.names import OrbitName
 from carom.outcome import InputError, Outcome
-from carom.plots.cells import MotionLook
+from carom.plots.cells import MotionLook, looks_of
 
 pytestmark = pytest.mark.jit_only
 
@@ -88,8 +88,33 @@ def test_every_settled_outcome_has_a_look_of_its_own():
             assert abs(grey(look.colour) - grey(other.colour)) > 0.08
 
 
+def test_the_worse_an_outcome_the_darker_it_is_in_even_steps():
+    settled = [outcome.label for outcome in Outcome if outcome.settled]
+    order = [*settled[:2], "irregular", *settled[2:]]
+    assert order[0] == "levitated"
+    steps = -np.diff([255.0 * printed(plots.OUTCOMES[label].colour) for label in order])
+    # Twenty of 255 shades of grey are seen at a glance; what comes back stands out most.
+    assert min(steps) >= 19.5
+    assert max(steps) == steps[0]
+    assert max(steps) < 1.7 * min(steps)
+
+
+@pytest.mark.parametrize("label", ["bouncing", "mixed", "forward-rub"])
+def test_motions_of_one_outcome_differ_in_hue_alone(label):
+    outcome = next(one for one in Outcome if one.label == label)
+    looks = looks_of([MotionName(outcome, 1, number=number) for number in range(1, 5)], [0.4, 0.3, 0.2, 0.1])
+    assert len({look.colour for look in looks}) == 4
+    # Colours have 8 bits in each part.
+    assert [printed(look.colour) for look in looks] == pytest.approx([printed(looks[0].colour)] * 4, abs=0.004)
+
+
 def grey(colour):
     return float(np.dot(to_rgb(colour), (0.2126, 0.7152, 0.0722)))
+
+
+def printed(colour):
+    """Grey of a print without colour, as in ITU-R BT.601."""
+    return float(np.dot(to_rgb(colour), (0.299, 0.587, 0.114)))
 
 
 def test_kicks_by_size_and_direction(rotor):

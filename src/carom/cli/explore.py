@@ -32,7 +32,7 @@ def explore(
     if find_spec("bokeh") is None:
         raise CaromError("carom explore needs Bokeh: pip install 'carom[explore]'")
     from carom.explorer.computing.exports import Origin
-    from carom.explorer.computing.kicks import opening_words
+    from carom.explorer.computing.planes import opening_words
     from carom.explorer.example import example_file
     from carom.explorer.server import serve
 

@@ -25,7 +25,8 @@ class Job:
         Called in the thread of the worker with a callable that takes :class:`~carom.progress.Progress`; it raises
         :class:`SupersededError` where the work is no longer wanted.
     done : callable
-        Receives the result, or the exception, in that thread; nothing if the work was interrupted.
+        Receives the result, or the exception, in that thread; nothing if the work was interrupted.  It may raise
+        :class:`SupersededError` too.
     pause : float
         Seconds for which the worker waits for a newer or more urgent job before it begins with this one.
     """
@@ -110,10 +111,18 @@ class Worker:
                 self._tell(kind, progress)
 
             try:
-                result = job.work(tell)
+                self._finish(job, self._result(job, tell))
             except SupersededError:
                 continue
-            except Exception as problem:  # noqa: BLE001  (handed to the caller)
-                result = problem
-            if not self._stale.is_set():
-                job.done(result)
+
+    def _result(self, job: Job, tell: Callable[[Progress], None]) -> Any:
+        try:
+            return job.work(tell)
+        except SupersededError:
+            raise
+        except Exception as problem:  # noqa: BLE001  (handed to the caller)
+            return problem
+
+    def _finish(self, job: Job, result: Any) -> None:
+        if not self._stale.is_set():
+            job.done(result)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-NAME = "keogh-cole.toml"
+NAME = "balanced-rotor.toml"
 
 
 def example_file() -> Path:

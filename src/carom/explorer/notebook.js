@@ -1,24 +1,5 @@
-// The plane of kicks and the motion after one of them below a cell of a notebook, drawn by the parts of the page.
+// Where kicks lead and the motions after two of them below a cell of a notebook, drawn by the pictures of the page.
 const page = PAGE;
-
-// The parts find the document and the window that are given, so that they stay inside their widget.
-const parts = (document, window) => {
-PARTS
-  carom.plots = null;
-  // What else the page has is not here: it is told, and does nothing.
-  carom.controls = carom.panels = new Proxy({}, { get: () => () => {} });
-  return carom;
-};
-
-// An object that has the own properties given, and otherwise those of another object.
-const over = (whole, own) => new Proxy({}, {
-  get: (_, name) => {
-    if (name in own) return own[name];
-    const found = whole[name];
-    return typeof found === "function" ? found.bind(whole) : found;
-  },
-  set: (_, name, value) => { own[name] = value; return true; },
-});
 
 const decoded = (value, buffers) => {
   if (Array.isArray(value)) return value.map((entry) => decoded(entry, buffers));
@@ -31,49 +12,77 @@ const decoded = (value, buffers) => {
   return Object.fromEntries(Object.entries(value).map(([name, entry]) => [name, decoded(entry, buffers)]));
 };
 
-const render = ({ model, el }) => {
-  const host = document.createElement("div"), root = host.attachShadow({ mode: "open" });
-  const ended = new AbortController(), absent = {};
-  root.innerHTML = `<style>${page.style}</style><div class="stage">${page.figures}</div>`;
-  el.append(host);
-  const carom = parts(
-    over(document, {
-      documentElement: host,
-      getElementById: (id) => root.getElementById(id) || (absent[id] ||= document.createElement("div")),
-      querySelectorAll: (selector) => root.querySelectorAll(selector),
-    }),
-    over(window, {
-      carom_looks: page.looks,
-      addEventListener: (name, act) => window.addEventListener(name, act, { signal: ended.signal }),
-    }),
-  );
-  carom.requests = new Proxy({}, { set: (_, name, value) => { model.send({ name, value }); return true; } });
+const legendOf = (message) => message.endings.map((one) => {
+  const item = document.createElement("li"), swatch = document.createElement("canvas");
+  swatch.width = swatch.height = 24;
+  const pen = swatch.getContext("2d");
+  pen.fillStyle = pen.createPattern(tile(one.colour, one.hatch).canvas, "repeat");
+  pen.fillRect(0, 0, 24, 24);
+  item.append(swatch, `${one.words} `, `${short(100 * one.share, 3)} %`);
+  return item;
+});
 
-  const shows = { basin: carom.basin.show, motion: carom.motion.show };
+const render = ({ model, el }) => {
+  const host = document.createElement("div"), root = host.attachShadow({ mode: "open" }), at = (id) => root.getElementById(id);
+  root.innerHTML = page.body;
+  el.append(host);
+  const slots = ["motion", "beside"];
+  let asked = 0, active = 0, chosen = null;
+
+  const flights = ["clearance", "beside"].map((name) => flight(at(name), { looks: page.looks }));
+  const marked = () => chosen || flights.map((one) => one.message && one.message.kick).filter(Boolean);
+  // What comes back is flown as 1, what is lost as 2.
+  const basin = basinPicture(at("basin"), { onPoint: (kick, clicked, slot = null) => {
+    const ending = basin.endingOf(kick), both = marked();
+    if (both.length < 2) return;
+    active = slot === null ? (ending && ending.back ? 0 : 1) : slot;
+    chosen = both.map((one, place) => (place === active ? kick : one));
+    basin.mark(chosen, active);
+    asked += 1;
+    model.send({ name: "kick", value: { number: asked, slot: active, ...kick, chosen: clicked } });
+  } });
+
+  const shows = {
+    basin: (message) => {
+      if (message.refused) { at("sentence").textContent = message.refused; return; }
+      for (const one of flights) one.rest = { position: message.rest_position, colour: message.legend_rest };
+      basin.kicks = marked();
+      basin.show(message);
+      at("sentence").textContent = message.sentence;
+      at("legend").replaceChildren(...legendOf(message));
+    },
+  };
+  slots.forEach((name, slot) => {
+    shows[name] = (message) => {
+      flights[slot].show(message);
+      at(`${name}-words`).textContent = message.refused || message.words + (message.whole ? "" : " Its beginning is shown.");
+      if (message.refused) return;
+      basin.mark(marked(), active);
+      flights[slot].play();
+    };
+  });
   const take = (content, buffers) => {
     if (content.name in shows) shows[content.name](decoded(content.value, buffers));
   };
   model.on("msg:custom", take);
 
   // Light or dark as the notebook is, which need not be as the system is: its text tells.
+  const redraw = () => { for (const one of [basin, ...flights]) one.renew(); };
   const shade = () => {
     if (!el.isConnected) return;
     const [red, green, blue] = getComputedStyle(el).color.match(/[\d.]+/g).map(Number);
-    const now = 0.2126 * red + 0.7152 * green + 0.0722 * blue > 127 ? "dark" : "light";
-    if (host.className !== now) { host.className = now; carom.redraw(); }
+    host.className = 0.2126 * red + 0.7152 * green + 0.0722 * blue > 127 ? "dark" : "light";
+    redraw();
   };
   const restyled = new MutationObserver(shade);
   for (const whole of [document.documentElement, document.body]) restyled.observe(whole, { attributes: true });
   // A notebook puts it on the page after this, which gives it a size.
-  const resized = new ResizeObserver(carom.throttled(60, () => { shade(); carom.redraw(); }));
+  const resized = new ResizeObserver(shade);
   resized.observe(host);
 
-  const words = root.getElementById("motion-words");
-  if (words) words.textContent = "Loading the kernels …";
-  carom.requests.machine = { number: 1, settings: {}, held: false, along: "" };
+  model.send({ name: "machine", value: { number: 1, settings: {}, held: false, along: "" } });
   return () => {
     model.off("msg:custom", take);
-    ended.abort();
     restyled.disconnect();
     resized.disconnect();
   };

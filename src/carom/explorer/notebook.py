@@ -4,39 +4,29 @@ from __future__ import annotations
 
 import json
 import math
-import re
 import threading
 from functools import cache
 from importlib.resources import files
 from typing import Any
 
-import jinja2
 import numpy as np
 
 from carom.arguments import checked
 from carom.explorer.computing.exports import Origin
+from carom.explorer.page.scripts import PICTURES, joined
 from carom.explorer.page.session import Session
 from carom.models import Subject
 from carom.models.subjects import case_of
 from carom.outcome import CaromError
 from carom.plots.style import LOOKS
 
-PARTS = ("common.js", "basin.js", "clearance.js")
-"""Scripts of the page that the figure consists of."""
-_STYLE = """
-:host { display: block; max-width: 60rem; color: var(--ink); font: 14px/1.45 system-ui, -apple-system, "Segoe UI", sans-serif; }
-:host(.light) { color-scheme: light; }
-:host(.dark) { color-scheme: dark; }
-.stage { grid-template-columns: repeat(auto-fit, minmax(min(100%, 20rem), 1fr)); }
-"""
-_DARK = re.compile(r"@media \(prefers-color-scheme: dark\) \{\s*:root (\{.*?\})\s*\}", re.DOTALL)
-
 
 @checked
 def explore(machine: Subject) -> Any:
     """Where kicks of a machine lead, as a figure in a notebook: point at a kick, and the motion after it is shown.
 
-    The figure is that of ``carom explore`` without its sliders.  Kicks are those up to the one that must be survived.
+    The figure is that of ``carom explore`` without its sliders.  Two kicks are followed: of those
+    that come back, and of those that are lost.
 
     Parameters
     ----------
@@ -116,16 +106,9 @@ def encoded(value: Any, buffers: list[bytes]) -> Any:
 @cache
 def script() -> str:
     """The figure as a module of JavaScript."""
-    template = jinja2.Environment(autoescape=True).from_string(_of_the_page("page.html.jinja"))
-    page = {
-        "style": _DARK.sub(r":host(.dark) \1", _of_the_page("page.css")).replace(":root", ":host") + _STYLE,
-        "figures": "".join(template.blocks["figures"](template.new_context())),
-        "looks": {name: look.colour for name, look in LOOKS.items()},
-    }
-    module = files("carom.explorer").joinpath("notebook.js").read_text(encoding="utf-8")
-    module = module.replace("PAGE", json.dumps(page), 1)
-    return module.replace("PARTS", "\n".join(map(_of_the_page, PARTS)), 1)
+    page = {"body": _beside("notebook.html"), "looks": {name: look.colour for name, look in LOOKS.items()}}
+    return joined(PICTURES) + _beside("notebook.js").replace("PAGE", json.dumps(page), 1)
 
 
-def _of_the_page(name: str) -> str:
-    return files("carom.explorer.page").joinpath("files", name).read_text(encoding="utf-8")
+def _beside(name: str) -> str:
+    return files("carom.explorer").joinpath(name).read_text(encoding="utf-8")

@@ -31,8 +31,9 @@ from tornado.web import ErrorHandler, RequestHandler
 
 from carom.explorer.computing.exports import Origin
 from carom.explorer.computing.kicked_motion import follow_kick
-from carom.explorer.computing.kicks import largest_kick, map_kicks
+from carom.explorer.computing.kicks import map_kicks, opening_range, telling_pair
 from carom.explorer.computing.motions import table_of
+from carom.explorer.computing.planes import planes_of
 from carom.explorer.page.document import TOKEN, fill, write_page
 from carom.explorer.page.session import Session
 from carom.models import Jeffcott
@@ -222,10 +223,10 @@ def _compile(origin: Origin, ready: threading.Event) -> None:
     """Compile the kernels, or load them, by a first small use."""
     try:
         rotor = Jeffcott(origin.case.parameters)
-        largest = largest_kick(origin.case)
+        kicks = planes_of(origin.case)[0]
         table_of(rotor)
-        found = map_kicks(rotor, 17, largest)
-        follow_kick(rotor, found.rest, 0.3, 0.1)
+        found = map_kicks(rotor, kicks, 17, opening_range(rotor, kicks))
+        follow_kick(rotor, kicks, *telling_pair(found)[0])
     except CaromError:
         pass  # the page says what is wrong with this machine
     finally:

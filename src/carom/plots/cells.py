@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
-from matplotlib.colors import BoundaryNorm, ListedColormap, to_hex, to_rgb
+from matplotlib.colors import BoundaryNorm, ListedColormap, hsv_to_rgb, rgb_to_hsv, to_hex, to_rgb
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
@@ -26,8 +26,10 @@ Bend = Callable[[Floats, Floats], tuple[Floats, Floats]]
 
 CHORDS = 120
 """Least number of straight edges in a ring of cells."""
-_PALER = (0.0, 0.4, 0.65, 0.8)
-"""Shares of white mixed into the colours of the first, second, ... motion of one outcome."""
+_TURNED = (0.0, -0.07, 0.07, 0.14)
+"""Turns of the hue for the first, second, ... motion of one outcome."""
+_WEIGHTS = (0.299, 0.587, 0.114)
+"""Shares of red, green and blue in the grey of a print without colour."""
 
 
 @dataclass(frozen=True)
@@ -39,7 +41,7 @@ class MotionLook:
     index : int
         Its place among the motions, such as in ``Basin.motions``.
     colour : str
-        That of its outcome; paler for the second motion of one outcome.
+        That of its outcome; of another hue and as light for the second motion of one outcome.
     share : float
         Share of the starts that end on it.
     """
@@ -72,20 +74,28 @@ def motion_looks(basin: Basin) -> list[MotionLook]:
 
 
 def looks_of(names: Sequence[MotionName], shares: Sequence[float]) -> list[MotionLook]:
-    """Return the looks of motions, sorted by outcome and share; those of one outcome differ in paleness."""
+    """Return the looks of motions, sorted by outcome and share; those of one outcome differ in hue."""
     shown: list[MotionLook] = []
     for place in sorted(range(len(names)), key=lambda place: (names[place].outcome, -shares[place])):
         name = names[place]
         look = OUTCOMES["irregular" if name.irregular else name.outcome.label]
         alike = sum(entry.look is look for entry in shown)
-        colour = _paler(look.colour, _PALER[min(alike, len(_PALER) - 1)])
+        colour = _turned(look.colour, _TURNED[min(alike, len(_TURNED) - 1)])
         shown.append(MotionLook(place, name, look, colour, shares[place]))
     return shown
 
 
-def _paler(colour: str, white: float) -> str:
-    red, green, blue = (part + white * (1.0 - part) for part in to_rgb(colour))
-    return to_hex((red, green, blue))
+def _turned(colour: str, turn: float) -> str:
+    """Return a colour of another hue that is as light: lightness tells outcomes apart, hue the motions of one outcome."""
+    if not turn:
+        return colour
+    own = np.array(to_rgb(colour))
+    hue, saturation, value = rgb_to_hsv(own)
+    other = hsv_to_rgb(((hue + turn) % 1.0, saturation, value))
+    light, wanted = (float(np.dot(_WEIGHTS, part)) for part in (other, own))
+    if light > wanted:
+        return to_hex(tuple(other * wanted / light))
+    return to_hex(tuple(other + (1.0 - other) * (wanted - light) / (1.0 - light)))
 
 
 def ink(colour: str) -> str:

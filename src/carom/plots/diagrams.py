@@ -21,7 +21,7 @@ from carom.plots.figure import StyledFigure
 from carom.plots.parameter_axes import label_parameter, told_parameter
 from carom.plots.plane import legend_above
 from carom.plots.proven import proven_line
-from carom.plots.style import LOOKS, TWO_COLUMNS, Look, styled
+from carom.plots.style import LOOKS, OUTCOMES, TWO_COLUMNS, Look, styled
 from carom.plots.words import axis_label, number, parameter_unit, told_in
 
 if TYPE_CHECKING:
@@ -43,17 +43,17 @@ POINTS = MappingProxyType(
         "neimark-sacker": Look("#56b4e9", "Neimark–Sacker bifurcation", marker="h"),
         "grazing": Look("#0072b2", "grazing", marker="v"),
         "vanishing-impact": Look("#0072b2", "grazing, one impact more", marker="1"),
-        "cone-limit": Look("#882255", "rolling begins at the limit of friction", marker="|"),
-        "slide-stop": Look("#882255", "friction stops sliding", marker="_"),
-        "lift-off": Look("#7a4fa3", "the rotor lifts off in between", marker="2"),
+        "cone-limit": Look(OUTCOMES["rolling"].colour, "rolling begins at the limit of friction", marker="|"),
+        "slide-stop": Look(OUTCOMES["rolling"].colour, "friction stops sliding", marker="_"),
+        "lift-off": Look(OUTCOMES["backward-whirl"].colour, "the rotor lifts off in between", marker="2"),
         "radius-extremum": Look("#808080", "new extremum of the radius", marker="D"),
         "slip-stop": Look("#e69f00", "friction stops the slip", marker="P"),
         "non-smooth-hopf": Look("#009e73", "non-smooth Hopf bifurcation", marker="*"),
         "boundary-equilibrium": Look("#009e73", f"{STEADY_WORDS['contact-free']} meets the wall", marker="p"),
-        "rub-fold": Look("#cc79a7", f"fold of {STEADY_WORDS['rub']}s", marker="X"),
-        "contact-onset": Look("#7a4fa3", "lasting contact begins", marker="^"),
-        "permanent-contact": Look("#7a4fa3", "contact becomes permanent", marker="o"),
-        "rolling-limit": Look("#882255", "rolling no longer holds", marker="d"),
+        "rub-fold": Look(OUTCOMES["forward-rub"].colour, f"fold of {STEADY_WORDS['rub']}s", marker="X"),
+        "contact-onset": Look(OUTCOMES["backward-whirl"].colour, "lasting contact begins", marker="^"),
+        "permanent-contact": Look(OUTCOMES["backward-whirl"].colour, "contact becomes permanent", marker="o"),
+        "rolling-limit": Look(OUTCOMES["rolling"].colour, "rolling no longer holds", marker="d"),
     }
 )
 """Markers of special points (read-only)."""

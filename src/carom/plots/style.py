@@ -1,8 +1,8 @@
 """The common style of all figures: style sheet, widths, and what each colour means.
 
 A colour, line or marker in a figure of carom always has the same meaning.  Every meaning is shown by colour *and* by
-line or marker, so that figures can be read in greyscale and by colour-blind readers.  The hues are those of Okabe and
-Ito (2008), except wine.
+line or marker, so that figures can be read in greyscale and by colour-blind readers.  Most hues are those of Okabe and
+Ito (2008); areas of levitation are a brighter green than its lines and marks, which would be lost on white.
 
 =====================  ==========================  ====================================================
 key of :data:`LOOKS`   drawn as                    means
@@ -14,8 +14,8 @@ key of :data:`LOOKS`   drawn as                    means
 ``"wall"``             near-black, solid           clearance circle: the touchdown bearing
 ``"path"``             dark slate, thin            a simulated motion
 ``"contact-free"``     green, pentagon             levitation
-``"rub"``              purple, square              synchronous rub
-``"slide"``            purple, broad               lasting contact that slides along the wall
+``"rub"``              magenta, square             synchronous rub
+``"slide"``            magenta, broad              lasting contact that slides along the wall
 ``"roll"``             wine, broad, dashed         lasting contact that rolls round the wall
 ``"forward"``          sky blue, triangle up       impact in forward whirl (fixed frame)
 ``"backward"``         orange, triangle down       impact in backward whirl (fixed frame)
@@ -98,9 +98,9 @@ LOOKS = MappingProxyType(
         "wall": Look("#1a1a1a", "clearance circle (touchdown bearing)", line="-", width=1.0),
         "path": Look("#3d4f66", "path of the rotor centre", line="-", width=0.6),
         "contact-free": Look("#009e73", STEADY_WORDS["contact-free"], marker="p"),
-        "rub": Look("#cc79a7", STEADY_WORDS["rub"], marker="s"),
-        "slide": Look("#cc79a7", "lasting contact, sliding", line="-", width=2.0),
-        "roll": Look("#882255", "lasting contact, rolling", line="--", width=2.0),
+        "rub": Look("#a52f74", STEADY_WORDS["rub"], marker="s"),
+        "slide": Look("#a52f74", "lasting contact, sliding", line="-", width=2.0),
+        "roll": Look("#5c1236", "lasting contact, rolling", line="--", width=2.0),
         "forward": Look("#56b4e9", "impact, forward whirl", marker="^"),
         "backward": Look("#e69f00", "impact, backward whirl", marker="v", hatch="\\\\\\\\"),
         "start": Look("#1a1a1a", "start", marker="o"),
@@ -111,28 +111,32 @@ LOOKS = MappingProxyType(
 
 REGIMES = (
     Look("#dfe5ec", "flight"),
-    Look("#cc79a7", "sliding, slip forward"),
-    Look("#7a4fa3", "sliding, slip backward", hatch="...."),
-    Look("#882255", "rolling", hatch="////"),
+    Look("#a52f74", "sliding, slip forward"),
+    Look("#532a94", "sliding, slip backward", hatch="...."),
+    Look("#5c1236", "rolling", hatch="////"),
 )
 """Looks of the regimes of a touchdown, in the order of :class:`carom.outcome.Phase`."""
 
 OUTCOMES = MappingProxyType(
     {
-        "levitated": Look("#009e73", Outcome.LEVITATED.words),
-        "bouncing": Look("#0072b2", Outcome.BOUNCING.words, hatch="...."),
-        "irregular": Look("#3d3d3d", IRREGULAR_BOUNCING, hatch="...."),
-        "mixed": Look("#56b4e9", Outcome.MIXED.words),
-        "forward-rub": Look("#cc79a7", Outcome.FORWARD_RUB.words, hatch="\\\\\\\\"),
-        "backward-whirl": Look("#7a4fa3", Outcome.BACKWARD_WHIRL.words, hatch="xxxx"),
-        "rolling": Look("#882255", Outcome.ROLLING.words, hatch="////"),
+        "levitated": Look("#68e6a8", Outcome.LEVITATED.words),
+        "bouncing": Look("#55aced", Outcome.BOUNCING.words, hatch="...."),
+        "irregular": Look("#8a8578", IRREGULAR_BOUNCING, hatch="...."),
+        "mixed": Look("#3f7cb4", Outcome.MIXED.words),
+        "forward-rub": Look("#a52f74", Outcome.FORWARD_RUB.words, hatch="\\\\\\\\"),
+        "backward-whirl": Look("#532a94", Outcome.BACKWARD_WHIRL.words, hatch="xxxx"),
+        "rolling": Look("#5c1236", Outcome.ROLLING.words, hatch="////"),
         "grazing": Look("#000000", Outcome.GRAZING.words),
-        "time-reached": Look("#a6a6a6", Outcome.TIME_REACHED.words),
-        "event-limit": Look("#a6a6a6", Outcome.EVENT_LIMIT.words),
-        "low-bounces": Look("#a6a6a6", Outcome.LOW_BOUNCES.words),
+        "time-reached": Look("#dcdcdc", Outcome.TIME_REACHED.words),
+        "event-limit": Look("#dcdcdc", Outcome.EVENT_LIMIT.words),
+        "low-bounces": Look("#dcdcdc", Outcome.LOW_BOUNCES.words),
     }
 )
-"""Looks of endings, by the label of their :class:`~carom.outcome.Outcome`; irregular bouncing has a look of its own."""
+"""Looks of endings, by the label of their :class:`~carom.outcome.Outcome`; irregular bouncing has a look of its own.
+
+The worse an ending, the darker it is, in nearly even steps: what comes back is the brightest area, and backward whirl the darkest,
+also in print without colour.
+"""
 
 WORKS = MappingProxyType(
     {

@@ -18,7 +18,8 @@ from carom.cli import main
 from carom.explorer.computing import exports
 from carom.explorer.computing.controls import controls_of, with_settings
 from carom.explorer.computing.exports import Kick, Origin, as_command, as_options, as_python, as_toml
-from carom.explorer.computing.kicks import rest_of
+from carom.explorer.computing.planes import planes_of
+from carom.explorer.computing.rest import rest_of
 from carom.models import Jeffcott, model_of
 from carom.motions import Trajectory
 from carom.parameters import Requirement, Shock
@@ -89,7 +90,7 @@ def test_the_program_runs_anywhere_and_computes_what_is_shown(changes, capsys, m
     case = shown(given, changes)
     rotor = Jeffcott(case.parameters)
     (along,) = (one for one in controls_of(given.case) if one.name == "damping")
-    program = as_python(case, Kick(rest_of(rotor), 0.3, 0.1, 1.5), along)
+    program = as_python(case, Kick(planes_of(given.case)[0], rest_of(rotor), 0.3, 0.1, 1.5), along)
     assert given.path not in program
     monkeypatch.chdir(tmp_path)
     written, names = pictures(monkeypatch), {}
@@ -117,7 +118,7 @@ def test_the_program_runs_anywhere_and_computes_what_is_shown(changes, capsys, m
 )
 def test_machines_are_told_in_the_program(given, changes):
     case = shown(given, changes)
-    kick = Kick(rest_of(Jeffcott(case.parameters)), 0.1, 0.0, 1.0)
+    kick = Kick(planes_of(case)[0], rest_of(Jeffcott(case.parameters)), 0.1, 0.0, 1.0)
     program = as_python(case, kick, controls_of(case)[0])
     names: dict[str, object] = {}
     exec(program[: program.index("basin =")], names)
@@ -136,8 +137,8 @@ def test_machines_are_told_in_the_program(given, changes):
 )
 def test_the_command_follows_the_kick_that_is_shown(given, changes, capsys):
     rotor = Jeffcott(shown(given, changes).parameters)
-    kick = Kick(rest_of(rotor), 0.3, 0.1, 1.5)
-    words = shlex.split(as_command(given, changes, rotor.scales, kick))
+    kick = Kick(planes_of(given.case)[0], rest_of(rotor), 0.3, 0.1, 1.5)
+    words = shlex.split(as_command(given, changes, rotor, kick))
     assert main([*words[1:], "--json"]) == 0
     start = json.loads(capsys.readouterr().out)["start"]
     found = complex(*start["V"])
@@ -145,11 +146,31 @@ def test_the_command_follows_the_kick_that_is_shown(given, changes, capsys):
     assert found == pytest.approx(complex(kick.state.velocity), abs=1e-8)
 
 
+@pytest.mark.jit_only
+@pytest.mark.parametrize("name", ["shock", "blade-loss"])
+def test_shocks_and_losses_of_a_blade_are_copied_too(name, capsys, monkeypatch, tmp_path):
+    given = origin(KEOGH, "eccentricity=0.15 mm")
+    rotor = Jeffcott(given.case.parameters)
+    (plane,) = (one for one in planes_of(given.case) if one.name == name)
+    kick = Kick(plane, rest_of(rotor), 0.2, 0.1, 0.3)
+    after, state, _ = plane.start(rotor, kick.rest, 0.2, 0.1)
+    outcome = carom.simulate(after, state, settle=True).outcome
+    assert main([*shlex.split(as_command(given, {}, rotor, kick))[1:], "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["outcome"] == outcome.label
+    program, names = as_python(given.case, kick, controls_of(given.case)[1]), {}
+    monkeypatch.chdir(tmp_path)
+    pictures(monkeypatch)
+    program = program.replace("(60, 120)", "(4, 6)").replace("(360,)", "(6,)")
+    exec(program[: program.index("orbits =")], names)
+    assert names["motion"].outcome == outcome
+    assert names["basin"].starts in (24, 6)
+
+
 def test_paths_and_texts_are_quoted(tmp_path):
     path = tmp_path / 'my "new" machine.toml'
     path.write_text(Path(KEOGH).read_text(encoding="utf-8"), encoding="utf-8")
     given = origin(str(path))
     rotor = Jeffcott(given.case.parameters)
-    command = as_command(given, {}, rotor.scales, Kick(rest_of(rotor), 0.1, 0.0, 1.0))
+    command = as_command(given, {}, rotor, Kick(planes_of(given.case)[0], rest_of(rotor), 0.1, 0.0, 1.0))
     assert shlex.split(command)[2] == str(path)
     assert "'" not in exports.as_options(given, {"friction": "0.2"})

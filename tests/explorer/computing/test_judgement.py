@@ -13,35 +13,37 @@ from carom.basins import smallest_loss
 from carom.disturbances import VelocityKick
 from carom.explorer.computing import judgement
 from carom.explorer.computing.judgement import find_hardest, find_loss, judge
-from carom.explorer.computing.kicks import rest_of
+from carom.explorer.computing.planes import Plane, planes_of
+from carom.explorer.computing.rest import rest_of
 from carom.models import Jeffcott
 
 ROTOR = Jeffcott(PAPER.replace(gamma=0.2))
+KICKS = Plane("kick", "velocity", 1.0, 1.0)
 
 
 @pytest.mark.jit_only
 def test_the_smallest_loss_is_that_of_the_search():
-    found = find_loss(ROTOR, 1.0)
+    found = find_loss(ROTOR, KICKS, 1.0)
     assert found.size == smallest_loss(ROTOR, VelocityKick(1.0)).size
     assert found.remark.startswith("smallest of ")
 
 
 @pytest.mark.jit_only
 def test_nothing_lost_is_told_with_what_was_tried():
-    calm = find_loss(Jeffcott(PAPER.replace(gamma=0.9)), 0.5)
+    calm = find_loss(Jeffcott(PAPER.replace(gamma=0.9)), KICKS, 0.5)
     assert (calm.size, calm.value) == (None, "none found")
     assert calm.remark.startswith("up to 0.5 c_r Ω, ")
 
 
 def test_a_rotor_that_cannot_levitate_has_no_smallest_loss():
-    grounded = find_loss(Jeffcott(PAPER.replace(gamma=0.05)), 1.0)
+    grounded = find_loss(Jeffcott(PAPER.replace(gamma=0.05)), KICKS, 1.0)
     assert (grounded.size, grounded.value) == (None, "none comes back")
 
 
 def test_no_kick_of_the_set_strikes_harder(monkeypatch):
     monkeypatch.setattr(judgement, "SIZES", 2)
     monkeypatch.setattr(judgement, "DIRECTIONS", 5)
-    found, rest = find_hardest(ROTOR, 1.5), rest_of(ROTOR)
+    found, rest = find_hardest(ROTOR, KICKS, 1.5), rest_of(ROTOR)
     impulses = [
         carom.simulate(
             ROTOR, rest.kicked(speed * math.cos(angle), speed * math.sin(angle)), settle=True
@@ -53,7 +55,21 @@ def test_no_kick_of_the_set_strikes_harder(monkeypatch):
     assert found.remark == "in 10 kicks up to 1.5 c_r Ω"
 
 
-def test_the_verdict_is_that_of_the_study(monkeypatch):
+@pytest.mark.jit_only
+@pytest.mark.parametrize("place", [1, 2])
+def test_shocks_and_losses_of_a_blade_are_searched_too(place):
+    case = carom.load("examples/keogh-cole.toml", ["eccentricity=0.15 mm"])
+    rotor, plane = Jeffcott(case.parameters), planes_of(case)[place]
+    largest = plane.own(plane.usual, rotor.scales)
+    found = find_loss(rotor, plane, largest)
+    assert found.size == smallest_loss(rotor, plane.by_size(rotor, largest)).size
+    assert found.value.endswith(plane.shown(rotor.scales)[1])
+
+
+def test_the_verdict_is_that_of_the_study_with_what_to_change(monkeypatch):
     case = carom.load("examples/keogh-cole.toml")
     monkeypatch.setattr(judgement, "study", lambda case, progress: study_once(case))
-    assert judge(case).headline == study_once(case).verdict.headline
+    found, verdict = judge(case), study_once(case).verdict
+    assert (found.lead, found.survived) == (verdict.lead, verdict.survived)
+    assert found.advice.startswith("Change: stiffness 980,000 N/m → at least ")
+    assert found.advice[len("Change: ") : -1] in [fact.text for fact in study_once(case).facts]

@@ -9,13 +9,16 @@ from machines import PAPER
 
 import carom
 from carom.explorer.computing.kicked_motion import LONGEST, MOST_IMPACTS, follow_kick
-from carom.explorer.computing.kicks import map_kicks, rest_of
+from carom.explorer.computing.kicks import map_kicks
+from carom.explorer.computing.planes import Plane
+from carom.explorer.computing.rest import rest_of
 from carom.models import Jeffcott
 from carom.outcome import InputError, Outcome
 from carom.plots import OUTCOMES
 
 ROTOR = Jeffcott(PAPER.replace(gamma=0.2))
 BOUNCING = Jeffcott(PAPER)
+KICKS = Plane("kick", "velocity", 1.0, 1.0)
 SINGLE = 1e-6
 """Rounding of numbers of single precision of the order of one, with a margin."""
 
@@ -25,7 +28,7 @@ SINGLE = 1e-6
 )
 def test_it_is_the_motion(rotor, radial, tangential):
     rest = rest_of(rotor)
-    kicked = follow_kick(rotor, rest, radial, tangential)
+    kicked = follow_kick(rotor, KICKS, radial, tangential)
     motion = carom.simulate(rotor, rest.kicked(radial, tangential), settle=True)
     assert kicked.outcome == motion.outcome.label
     positions, _ = carom.simulate(rotor, rest.kicked(radial, tangential), LONGEST).at(kicked.times.astype(float))
@@ -39,7 +42,7 @@ def test_it_is_the_motion(rotor, radial, tangential):
 
 
 def test_every_impact_is_on_the_wall_at_its_instant():
-    kicked = follow_kick(BOUNCING, rest_of(BOUNCING), 0.6, 0.1)
+    kicked = follow_kick(BOUNCING, KICKS, 0.6, 0.1)
     places = np.searchsorted(kicked.times, kicked.impact_times)
     np.testing.assert_allclose(np.hypot(kicked.x, kicked.y)[places], 1.0, atol=SINGLE)
     angles = np.angle(kicked.x + 1j * kicked.y)[places]
@@ -48,34 +51,34 @@ def test_every_impact_is_on_the_wall_at_its_instant():
 
 def test_each_flight_has_the_colour_of_its_cell():
     cells = sized(12, 2)
-    shown = map_kicks(ROTOR, cells, 1.5)
-    middles = shown.basin.coordinates[0].middles(cells)
+    shown = map_kicks(ROTOR, KICKS, cells, 1.5)
+    middles = shown.middles
     for radial in range(0, cells, 3):
         for tangential in range(0, cells, 3):
-            if not shown.basin.exists[radial, tangential]:
+            if not shown.exists[radial, tangential]:
                 continue
-            kicked = follow_kick(ROTOR, shown.rest, float(middles[radial]), float(middles[tangential]))
+            kicked = follow_kick(ROTOR, KICKS, float(middles[radial]), float(middles[tangential]))
             ending = shown.endings[shown.cells[tangential, radial]]
             assert kicked.colour == ending.colour
             assert f" ends in {ending.words}" in kicked.words
 
 
 def test_a_small_kick_never_strikes():
-    kicked = follow_kick(ROTOR, rest_of(ROTOR), 1e-4, 0.0)
+    kicked = follow_kick(ROTOR, KICKS, 1e-4, 0.0)
     assert (kicked.outcome, kicked.hardest, len(kicked.impact_times), kicked.spans) == ("levitated", 0.0, 0, ())
     assert kicked.words == "A kick of 0.0001 c_r Ω at 217° ends in levitation without an impact."
     assert kicked.whole
 
 
 def test_no_kick_at_all_can_be_drawn():
-    kicked = follow_kick(ROTOR, rest_of(ROTOR), 0.0, 0.0)
+    kicked = follow_kick(ROTOR, KICKS, 0.0, 0.0)
     assert kicked.times[-1] > 0.0
     assert np.ptp(kicked.x) < SINGLE
 
 
 def test_long_motions_are_cut_and_say_so():
     weak = Jeffcott(PAPER.replace(gamma=0.09))
-    kicked = follow_kick(weak, rest_of(weak), 0.9, 0.4)
+    kicked = follow_kick(weak, KICKS, 0.9, 0.4)
     assert kicked.times[-1] <= LONGEST * (1.0 + SINGLE)
     assert len(kicked.impact_times) <= MOST_IMPACTS
     assert not kicked.whole
@@ -85,7 +88,7 @@ def test_lasting_contact_is_told_in_words_and_colours():
     kicked = next(
         found
         for speed in (0.4, 0.6, 0.9, 1.2, 1.5)
-        if (found := follow_kick(ROTOR, rest_of(ROTOR), speed, 0.3)).outcome == "forward-rub" and found.spans
+        if (found := follow_kick(ROTOR, KICKS, speed, 0.3)).outcome == "forward-rub" and found.spans
     )
     assert kicked.spans[-1].words.startswith("sliding")
     assert kicked.spans[-1].end <= kicked.times[-1] * (1.0 + SINGLE)
@@ -94,4 +97,4 @@ def test_lasting_contact_is_told_in_words_and_colours():
 
 def test_what_cannot_start_is_refused():
     with pytest.raises(InputError, match="start velocity"):
-        follow_kick(ROTOR, rest_of(ROTOR), float("nan"), 0.0)
+        follow_kick(ROTOR, KICKS, float("nan"), 0.0)

@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 import carom
+from carom.explorer.background import SupersededError
 from carom.explorer.computing.exports import Origin
 
 bokeh = pytest.importorskip("bokeh", reason="needs the extra carom[explore]")
@@ -18,9 +19,10 @@ from bokeh.document import Document  # noqa: E402
 from bokeh.resources import Resources  # noqa: E402
 
 from carom.explorer.page import document as documents  # noqa: E402
-from carom.explorer.page.document import SCRIPTS, fill, write_page  # noqa: E402
+from carom.explorer.page.document import fill, write_page  # noqa: E402
 from carom.explorer.page.figures import looks, make_figures  # noqa: E402
 from carom.explorer.page.models import Answers  # noqa: E402
+from carom.explorer.page.scripts import PICTURES, SCRIPTS, joined  # noqa: E402
 from carom.plots import LOOKS  # noqa: E402
 
 MACHINE = str(Path(__file__).parents[3] / "examples" / "keogh-cole.toml")
@@ -56,6 +58,15 @@ def test_only_wishes_come_back_from_the_browser(filled):
     assert back == {"Requests", "Answers"}
 
 
+def test_answers_to_a_page_that_is_gone_end_the_work():
+    document = Document()
+    session = fill(document, Origin(MACHINE, (), carom.load(MACHINE)), threading.Event())
+    document.callbacks.destroy()
+    with pytest.raises(SupersededError):
+        session.cancel()
+    session.close()
+
+
 def test_the_page_has_a_place_for_each_figure_of_any_session(filled, page):
     (roots,) = re.findall(r'"roots":(\{[^}]*\})', page)
     assert list(json.loads(roots)) == [root.id for root in filled.roots]
@@ -85,7 +96,9 @@ def test_names_of_machines_are_not_taken_for_markup():
 def test_every_script_is_on_the_page_and_nothing_is_fetched_from_elsewhere(page):
     assert {path.name for path in FILES.glob("*.js")} == set(SCRIPTS)
     for name in SCRIPTS:
-        assert (FILES / name).read_text(encoding="utf-8").strip() in page
+        lines = (FILES / name).read_text(encoding="utf-8").splitlines()
+        for line in lines:
+            assert line.startswith("import ") or line.removeprefix("export ") in page
     assert not re.findall(r"https?://", page)
 
 
@@ -101,6 +114,13 @@ def test_the_scripts_use_only_what_the_page_and_the_answers_have(page):
     parts = make_figures().parts
     for name in re.findall(r"\bparts\.(\w+)", scripts):
         assert name in parts or name in ("push",), name
+
+
+def test_scripts_that_draw_know_no_page():
+    text = joined(PICTURES, exporting=True)
+    assert not re.findall(r"\bcarom\.\w|getElementById|querySelector|^import ", text, flags=re.MULTILINE)
+    assert {"basinPicture", "flight"} <= set(re.findall(r"^export const (\w+)", text, flags=re.MULTILINE))
+    assert "export" not in re.sub(r"//.*", "", joined(PICTURES))
 
 
 def test_colours_are_those_of_the_figures(page):

@@ -11,6 +11,7 @@ import pytest
 
 import carom
 from carom.explorer.computing.exports import Origin
+from carom.explorer.computing.judgement import Loss
 from carom.explorer.page import session as sessions
 from carom.explorer.page.session import Session
 
@@ -47,7 +48,9 @@ def page(monkeypatch):
     monkeypatch.setattr(sessions, "FINE", 10)
     # A study takes seconds; the verdict has a test of its own.
     monkeypatch.setattr(
-        sessions, "judge", lambda case, tell: SimpleNamespace(lead="It may not.", survived=("Kick: no.",))
+        sessions,
+        "judge",
+        lambda case, tell: SimpleNamespace(lead="It may not.", advice="Change: damping.", survived=("Kick: no.",)),
     )
     ready = threading.Event()
     ready.set()
@@ -69,9 +72,14 @@ def test_a_machine_is_answered_with_everything(page):
         answers.setdefault(name, []).append(value)
     assert [basin["size"] for basin in answers["basin"]] == [8, 10]
     assert {name for name, values in answers.items() if values[-1] and values[-1].get("number") == 1} >= {
-        "basin", "motion", "table", "loss", "hardest", "diagram", "verdict",
+        "basin", "motion", "beside", "table", "loss", "hardest", "diagram", "verdict",
     }  # fmt: skip
-    assert answers["verdict"][-1] == {"lead": "It may not.", "survived": ["Kick: no."], "number": 1}
+    assert answers["verdict"][-1] == {
+        "lead": "It may not.",
+        "advice": "Change: damping.",
+        "survived": ["Kick: no."],
+        "number": 1,
+    }
     assert answers["diagram"][-1]["name"] == "damping"
     assert "2500.0 N s/m" in answers["exports"][-1]["toml"]
     assert answers["reply"][-1]["text"] == ""
@@ -82,7 +90,7 @@ def test_while_a_slider_is_held_only_what_is_quick_is_done(page):
     basin = page.numbered("basin", 1)
     assert basin["size"] <= 8
     page.numbered("table", 1)
-    assert {name for name, _ in page.seen} == {"reply", "motion", "table", "basin"}
+    assert {name for name, _ in page.seen} == {"reply", "motion", "beside", "table", "basin"}
 
 
 def test_while_a_slider_moves_on_only_the_picture_is_computed(page, monkeypatch):
@@ -133,11 +141,11 @@ def test_a_wrong_value_leaves_what_is_shown_and_other_sliders_still_move(page):
 def test_a_wrong_value_does_not_swallow_what_is_being_computed(page, monkeypatch):
     begun, go_on = threading.Event(), threading.Event()
 
-    def slow(rotor, fastest, tell):
+    def slow(rotor, plane, largest, tell):
         begun.set()
         go_on.wait(SOON)
         tell(carom.progress.Progress(1.0, "found"))
-        return SimpleNamespace(value="none found")
+        return Loss(None, "none found", "")
 
     monkeypatch.setattr(sessions, "find_loss", slow)
     page.session.show(request(1))
@@ -177,24 +185,62 @@ def test_a_machine_that_cannot_levitate_is_shown(page):
 
 
 def test_a_kick_is_followed(page):
-    page.session.kick({"number": 1, "radial": 0.5, "tangential": -0.25})
-    motion = page.until("motion")
-    assert motion["kick"] == {"radial": 0.5, "tangential": -0.25}
+    page.session.kick({"number": 1, "slot": 1, "first": 82.8532135767, "second": -41.4266067884})
+    motion = page.until("beside")
+    assert motion["kick"] == {"first": 82.8532135767, "second": -41.4266067884}
     assert motion["words"].startswith("A kick of 92.6 mm/s at 185° ends in regular bouncing; hardest impulse")
 
 
-@pytest.mark.parametrize("radial", [1.5, float("nan"), float("inf")])
-def test_kicks_outside_the_picture_are_not_followed(page, radial):
-    page.session.kick({"number": 1, "radial": radial, "tangential": 0.0})
-    page.session.kick({"number": 2, "radial": 0.1, "tangential": 0.0})
-    assert page.until("motion")["kick"]["radial"] == 0.1
+@pytest.mark.parametrize("first", [1e15, float("nan"), float("inf"), "a lot", None, True])
+def test_what_is_no_kick_is_not_followed(page, first):
+    page.session.kick({"number": 1, "slot": 0, "first": first, "second": 0.0})
+    page.session.kick({"number": 2, "slot": 7, "first": 1.0, "second": 0.0})
+    page.session.kick({"number": 3, "slot": 0, "first": 10.0, "second": 0.0})
+    assert page.until("motion")["kick"]["first"] == 10.0
 
 
 def test_a_chosen_kick_is_in_the_program_that_can_be_copied(page):
-    page.session.kick({"number": 1, "radial": 0.5, "tangential": 0.0, "chosen": True})
+    page.session.kick({"number": 1, "slot": 1, "first": 82.8532136, "second": 0.0, "chosen": True})
     exports = page.until("exports")
     assert 'cm.kick("82.8532136 mm/s", ' in exports["python"]
     assert "--kick '82.8532136 mm/s,21" in exports["command"]
+
+
+@pytest.mark.jit_only
+def test_both_kicks_of_a_picture_end_differently(page):
+    page.session.show(request(1, held=True, eccentricity="0.15 mm"))
+    back, lost = page.numbered("motion", 1), page.numbered("beside", 1)
+    assert back["outcome"] == "levitated"
+    assert lost["outcome"] != "levitated"
+
+
+@pytest.mark.parametrize(("kind", "unit"), [("shock", "g"), ("blade-loss", "g mm"), ("kick", "mm/s"), ("rain", "mm/s")])
+def test_the_view_says_what_is_shown_and_how_far(page, kind, unit):
+    view = {"kind": kind, "largest": 7.5, "kicks": [[1.0, 2.0], [3.0, -4.0]]}
+    page.session.show({**request(1, held=True, eccentricity="0.15 mm"), "view": view})
+    basin = page.numbered("basin", 1)
+    assert (basin["unit"], basin["largest"]) == (unit, pytest.approx(7.5, rel=1e-12))
+    motion, beside = page.numbered("motion", 1), page.numbered("beside", 1)
+    assert [one["kick"] for one in (motion, beside)] == [{"first": 1.0, "second": 2.0}, {"first": 3.0, "second": -4.0}]
+
+
+@pytest.mark.parametrize(
+    "view",
+    [
+        None,
+        3,
+        {"largest": -1.0},
+        {"largest": "far"},
+        {"kicks": [[1.0]]},
+        {"kicks": [[1.0, None], [0, 0]]},
+        {"kicks": 4},
+    ],
+)
+def test_a_view_that_cannot_be_read_is_chosen_for_the_machine(page, view):
+    page.session.show({**request(1, held=True), "view": view})
+    basin = page.numbered("basin", 1)
+    assert basin["largest"] == pytest.approx(basin["opening"], rel=1e-12)
+    assert page.numbered("motion", 1)["words"].startswith("A kick of ")
 
 
 @pytest.mark.jit_only
@@ -212,7 +258,7 @@ def test_a_diagram_is_kept_while_only_its_own_slider_moves(page, monkeypatch):
 def test_what_takes_long_can_be_stopped_and_goes_on(page, monkeypatch):
     begun = threading.Event()
 
-    def endless(rotor, fastest, tell):
+    def endless(rotor, plane, largest, tell):
         begun.set()
         while True:
             tell(carom.progress.Progress(0.5, "still looking"))
@@ -226,7 +272,7 @@ def test_what_takes_long_can_be_stopped_and_goes_on(page, monkeypatch):
     )
     page.session.cancel()
     page.until("state", lambda state: state["kind"] == "cancelled")
-    monkeypatch.setattr(sessions, "find_loss", lambda rotor, fastest, tell: SimpleNamespace(value="none found"))
+    monkeypatch.setattr(sessions, "find_loss", lambda rotor, plane, largest, tell: Loss(None, "none found", ""))
     page.session.resume()
     assert page.numbered("loss", 1)["value"] == "none found"
     page.until("state", lambda state: state["kind"] == "idle")
@@ -248,7 +294,7 @@ def test_two_pages_do_not_know_of_each_other(page):
 def test_a_page_waits_for_the_kernels_and_says_so():
     ready = threading.Event()
     waiting = Page(ready)
-    waiting.session.kick({"radial": 0.1, "tangential": 0.0})
+    waiting.session.kick({"slot": 0, "first": 0.1, "second": 0.0})
     assert waiting.until("state") == {"kind": "compiling"}
     ready.set()
     assert waiting.until("motion")["outcome"]

@@ -2,11 +2,13 @@
 
 =================  ==============================================================
 ``controls``       the parameters that can be moved, and what people type
-``kicks``          where kicks out of the resting motion end
-``kicked_motion``  the motion after one kick, ready to be drawn over time
+``rest``           the motion that is disturbed
+``planes``         the kinds of disturbances: kicks, shocks, losses of a blade
+``kicks``          where they end, over which range, and two telling ones
+``kicked_motion``  the motion after one of them, ready to be drawn over time
 ``motions``        table of steady motions and orbits
 ``diagrams``       bifurcation diagram along one parameter
-``judgement``      smallest lost kick, hardest impulse, verdict
+``judgement``      smallest loss, hardest impulse, verdict and advice
 ``exports``        the machine shown as a file, as options, as a program
 =================  ==============================================================
 """

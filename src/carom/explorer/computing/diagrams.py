@@ -11,14 +11,14 @@ from carom.explorer.computing.controls import Control, unit_of
 from carom.models import Jeffcott
 from carom.outcome import STEADY_WORDS
 from carom.plots.diagrams import BOUNDARIES, POINTS
-from carom.plots.style import LOOKS
+from carom.plots.style import LOOKS, OUTCOMES
 from carom.progress import ShowProgress
 
 _STEADY = {
-    "contact-free": ("contact-free", STEADY_WORDS["contact-free"]),
-    "stable rub": ("rub", f"stable {STEADY_WORDS['rub']}"),
+    "contact-free": ("levitated", STEADY_WORDS["contact-free"]),
+    "stable rub": ("forward-rub", f"stable {STEADY_WORDS['rub']}"),
 }
-"""Branches shown as bars: key of their look, and words."""
+"""Branches shown as bars: the outcome whose colour they have, and words."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -104,7 +104,7 @@ def _bars(branch: EquilibriumBranch, unit: float) -> list[Bar]:
     edges = np.flatnonzero(holds[1:] != holds[:-1])
     values = branch.values / unit
     return [
-        Bar(float(values[first]), float(values[last - 1]), words, LOOKS[look].colour)
+        Bar(float(values[first]), float(values[last - 1]), words, OUTCOMES[look].colour)
         for first, last in zip(edges[::2], edges[1::2], strict=True)
     ]
 

@@ -12,33 +12,38 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from carom.explorer.computing.controls import Control, controls_of, term_of, unit_of, with_unit
-from carom.explorer.computing.kicks import Rest
+from carom.explorer.computing.planes import Plane
+from carom.explorer.computing.rest import Rest
+from carom.models import Jeffcott
 from carom.motions import State
-from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, Case, Scales
+from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, Case
 from carom.parameters.terms import set_by
-from carom.parameters.told import shown_in
 
 
 @dataclass(frozen=True)
 class Kick:
-    """The kick shown: what it disturbs, its parts and the largest one of the picture, in ``c_r Ω``."""
+    """The disturbance shown: its kind, its components and the largest one of the picture, in units of the equations."""
 
+    plane: Plane
     rest: Rest
-    radial: float
-    tangential: float
-    fastest: float
+    first: float
+    second: float
+    largest: float
 
     @property
     def state(self) -> State:
-        """The rotor just after it."""
-        return self.rest.kicked(self.radial, self.tangential)
+        """The rotor just after a kick."""
+        return self.rest.kicked(self.first, self.second)
 
-    def texts(self, scales: Scales | None) -> tuple[str, str]:
-        """Size and angle as ``simulate --kick`` reads them: the angle counts from the real axis of the co-rotating frame."""
-        velocity = complex(self.state.velocity)
-        factor, unit = shown_in("velocity", scales)
-        size = f"{factor * abs(velocity):.9g}" + (f" {unit}" if scales else "")
-        return size, f"{math.degrees(cmath.phase(velocity)) % 360.0:.9g} deg"
+    def texts(self, rotor: Jeffcott) -> tuple[str, str]:
+        """Size and angle as ``simulate`` reads them: that of a kick counts from the real axis of the co-rotating frame."""
+        vector = complex(self.state.velocity) if self.plane.name == "kick" else complex(self.first, self.second)
+        factor, unit = self.plane.shown(rotor.scales)
+        size = f"{factor * abs(vector):.9g}" + (f" {unit}" if rotor.scales else "")
+        if self.plane.name == "shock":
+            lasting = self.plane.lasting(rotor)
+            size += f",{1e3 * lasting * rotor.scales.time:.9g} ms" if rotor.scales else f",{lasting:.9g}"
+        return size, f"{math.degrees(cmath.phase(vector)) % 360.0:.9g} deg"
 
 
 @dataclass(frozen=True)
@@ -111,10 +116,10 @@ def as_toml(case: Case) -> str:
     return "\n".join(["[dimensionless]", *lines]) + f"\n{zones}\n{case.requirement.to_toml(has_scales=False)}"
 
 
-def as_command(origin: Origin, changes: Mapping[str, str], scales: Scales | None, kick: Kick) -> str:
-    """The command that follows the kick shown; the scales are those of the machine on the page."""
-    if kick.rest.levitates:
-        start = f"--kick {shlex.quote(','.join(kick.texts(scales)))}"
+def as_command(origin: Origin, changes: Mapping[str, str], rotor: Jeffcott, kick: Kick) -> str:
+    """The command that follows the disturbance shown; the rotor is that of the machine on the page."""
+    if kick.plane.name != "kick" or kick.rest.levitates:
+        start = f"--{kick.plane.name} {shlex.quote(','.join(kick.texts(rotor)))}"
     else:
         position, velocity = complex(kick.state.position), complex(kick.state.velocity)
         start = f"--start={position.real!r},{position.imag!r},{velocity.real!r},{velocity.imag!r}"
@@ -128,25 +133,17 @@ def as_python(case: Case, kick: Kick, along: Control) -> str:
     """
     unit = unit_of(along.name)
     low, high = (float(f"{unit * end:.12g}") for end in (along.low, along.high))
-    rest, state = kick.rest, kick.state
-    if rest.levitates:
-        module, kicks = "carom.disturbances", f"KickPlane({kick.fastest!r})"
-        size, angle = kick.texts(case.parameters.scales)
-        size = json.dumps(size) if case.parameters.scales else size
-        start = f"cm.kick({size}, {json.dumps(angle)})"
-    else:
-        module, kicks = "carom.explorer.computing.kicks", f"RestKick({kick.fastest!r}, {rest.position!r})"
-        start = f"cm.State({state.position!r}, {state.velocity!r})"
+    module, model, grid, start = _disturbance(Jeffcott(case.parameters), kick)
     return f"""import carom as cm
-from {module} import {kicks.partition("(")[0]}
+from {module} import {model.partition("(")[0]}
 
 machine = {_constructed(case)}
 
-basin = cm.map_basins(machine, cm.Grid({kicks}, (120, 120)))
+basin = cm.map_basins(machine, cm.Grid({model}, {grid}))
 print(basin.share_recovered.words)
-{'basin.plot().savefig("basin.png")' if rest.levitates else "print(basin.fractions)"}
+{'basin.plot().savefig("basin.png")' if kick.rest.levitates else "print(basin.fractions)"}
 
-motion = cm.simulate(machine, {start}, settle=True)
+motion = cm.simulate({start}, settle=True)
 print(motion.outcome.meaning)
 motion.plot().savefig("motion.png")
 
@@ -156,6 +153,30 @@ print(orbits)
 diagram = cm.find_bifurcations(machine, {json.dumps(along.name)}, ({low!r}, {high!r}))
 diagram.plot().savefig("diagram.png")
 """
+
+
+def _disturbance(rotor: Jeffcott, kick: Kick) -> tuple[str, str, str, str]:
+    """Module, model, shape of its grid, and arguments of the motion in a program."""
+    size, angle = math.hypot(kick.first, kick.second), math.atan2(kick.second, kick.first)
+    if kick.plane.name == "shock":
+        lasting = kick.plane.lasting(rotor)
+        start = f"machine, BaseShock({size!r}, {lasting!r}).release(machine, {angle!r})"
+        return "carom.disturbances", f"BaseShock({kick.largest!r}, {lasting!r})", "(60, 120)", start
+    if kick.plane.name == "blade-loss":
+        start = f"*BladeLoss({size!r}).release(machine, {angle!r})"
+        return "carom.disturbances", f"BladeLoss({size!r})", "(360,)", start
+    if not kick.rest.levitates:
+        model = f"RestKick({kick.largest!r}, {kick.rest.position!r})"
+        start = f"machine, cm.State({kick.state.position!r}, {kick.state.velocity!r})"
+        return "carom.explorer.computing.rest", model, "(120, 120)", start
+    told, turned = kick.texts(rotor)
+    told = json.dumps(told) if rotor.scales else told
+    return (
+        "carom.disturbances",
+        f"KickPlane({kick.largest!r})",
+        "(120, 120)",
+        f"machine, cm.kick({told}, {json.dumps(turned)})",
+    )
 
 
 def _constructed(case: Case) -> str:

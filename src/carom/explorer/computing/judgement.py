@@ -2,37 +2,49 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
-import numpy as np
-
 from carom.basins import smallest_loss
-from carom.disturbances import Grid, VelocityKick
-from carom.explorer.computing.kicks import Rest, rest_of
+from carom.explorer.computing.planes import Plane
+from carom.explorer.computing.rest import rest_of
 from carom.models import Jeffcott
 from carom.motions import simulate
 from carom.outcome import InputError
 from carom.parameters import Case
+from carom.parameters.told import told
 from carom.progress import Reporter, ShowProgress
-from carom.studies import Verdict, Wording, study
+from carom.studies import Wording, study
+from carom.studies.facts import about
 
 SIZES, DIRECTIONS = 6, 24
-"""Kicks whose impulses are compared."""
+"""Disturbances whose impulses are compared."""
+ADVICE = ("Change", "For all starts", "Beyond the limits")
+"""Labels of the facts that say what to change."""
+
+
+@dataclass(frozen=True)
+class Judgement:
+    """What a study says first: its verdict, what to change, and what is survived of each kind of disturbance."""
+
+    lead: str
+    advice: str
+    survived: tuple[str, ...]
 
 
 @dataclass(frozen=True)
 class Loss:
-    """The smallest kick found that does not come back, in words, and what was searched."""
+    """The smallest disturbance found that does not come back, in words, and what was searched."""
 
     size: float | None
-    """In ``c_r Ω``; ``None`` where none was found."""
+    """In units of the equations; ``None`` where none was found."""
     value: str
     remark: str
 
 
 @dataclass(frozen=True)
 class Hardest:
-    """The hardest impulse among a set of kicks, in words, and what was tried."""
+    """The hardest impulse among a set of disturbances, in words, and what was tried."""
 
     impulse: float
     """In ``m c_r Ω``."""
@@ -40,40 +52,46 @@ class Hardest:
     remark: str
 
 
-def find_loss(rotor: Jeffcott, fastest: float, progress: ShowProgress = None) -> Loss:
-    """Search for the smallest kick up to a size in ``c_r Ω`` that is lost."""
-    say = Wording(rotor.scales)
+def find_loss(rotor: Jeffcott, plane: Plane, largest: float, progress: ShowProgress = None) -> Loss:
+    """Search for the smallest disturbance up to a size, in units of the equations, that is lost."""
+    scales = rotor.scales
     try:
-        found = smallest_loss(rotor, VelocityKick(fastest), progress=progress)
-    except InputError:
+        found = smallest_loss(rotor, plane.by_size(rotor, largest), progress=progress)
+    except InputError as problem:
+        if plane.name == "blade-loss" and abs(rotor.equilibrium) < 1.0:
+            return Loss(None, "–", str(problem))
         return Loss(None, "none comes back", "there is no stable levitation to come back to")
     if found.size is None:
-        return Loss(None, "none found", f"up to {say.velocity(fastest)}, {found.tried:,} kicks tried")
-    below = f"; {found.fresh:,} fresh kicks below it came back" if found.fresh else ""
-    return Loss(found.size, say.velocity(found.size), f"smallest of {found.tried:,} kicks tried{below}")
+        return Loss(
+            None, "none found", f"up to {told(largest, plane.scale, scales)}, {found.tried:,} {plane.nouns[1]} tried"
+        )
+    below = f"; {found.fresh:,} fresh {plane.nouns[1]} below it came back" if found.fresh else ""
+    return Loss(
+        found.size, told(found.size, plane.scale, scales), f"smallest of {found.tried:,} {plane.nouns[1]} tried{below}"
+    )
 
 
-def find_hardest(rotor: Jeffcott, fastest: float, progress: ShowProgress = None) -> Hardest:
-    """Follow kicks of all directions and sizes up to ``fastest``, in ``c_r Ω``, and note the hardest impact."""
+def find_hardest(rotor: Jeffcott, plane: Plane, largest: float, progress: ShowProgress = None) -> Hardest:
+    """Follow disturbances of all directions and sizes up to one in units of the equations, and note the hardest impact."""
     rest, tell = rest_of(rotor), Reporter.of(progress, "looking for the hardest impact")
-    plan = Grid(VelocityKick(fastest), (SIZES, DIRECTIONS))
-    kicks = [(float(speed), float(angle)) for speed in plan.values()[0] for angle in plan.values()[1]]
-    hardest = 0.0
-    for place, (speed, angle) in enumerate(kicks):
-        hardest = max(hardest, _hardest_of(rotor, rest, speed, angle))
-        tell((place + 1) / len(kicks))
+    hardest, count = 0.0, SIZES * DIRECTIONS
+    for place in range(count):
+        size, angle = (
+            largest * (place // DIRECTIONS + 0.5) / SIZES,
+            math.tau * (place % DIRECTIONS + 0.5) / DIRECTIONS,
+        )
+        after, start, _ = plane.start(rotor, rest, size * math.cos(angle), size * math.sin(angle))
+        motion = simulate(after, start, settle=True)
+        hardest = max(hardest, float(motion.contacts.normal_impulse.max(initial=0.0)))
+        tell((place + 1) / count)
     say = Wording(rotor.scales)
-    tried = f"in {len(kicks)} kicks up to {say.velocity(fastest)}"
-    if hardest == 0.0:
-        return Hardest(0.0, "no impact", tried)
-    return Hardest(hardest, say.impulse(hardest), tried)
+    tried = f"in {count} {plane.words_up_to(largest, rotor.scales)}"
+    return Hardest(hardest, say.impulse(hardest) if hardest else "no impact", tried)
 
 
-def _hardest_of(rotor: Jeffcott, rest: Rest, speed: float, angle: float) -> float:
-    motion = simulate(rotor, rest.kicked(speed * float(np.cos(angle)), speed * float(np.sin(angle))), settle=True)
-    return float(motion.contacts.normal_impulse.max(initial=0.0))
-
-
-def judge(case: Case, progress: ShowProgress = None) -> Verdict:
-    """Verdict of a full study."""
-    return study(case, progress=progress).verdict
+def judge(case: Case, progress: ShowProgress = None) -> Judgement:
+    """Verdict and advice of a full study."""
+    found = study(case, progress=progress)
+    first = next((fact for fact in about(found.facts, "Recommendation") if fact.label in ADVICE), None)
+    advice = f"{first.label}: {first.text}." if first else ""
+    return Judgement(found.verdict.lead, advice, found.verdict.survived)

@@ -2,19 +2,18 @@
 
 from __future__ import annotations
 
-import cmath
 import math
 from dataclasses import dataclass
 
 import numpy as np
 
 from carom.attractors.naming import name_motions
-from carom.explorer.computing.kicks import Rest
+from carom.explorer.computing.planes import Plane
+from carom.explorer.computing.rest import rest_of
 from carom.models import Jeffcott
 from carom.motions import LastingContact, Trajectory, settle, simulate
 from carom.motions.settling import REPEATING
 from carom.outcome import Outcome
-from carom.parameters.told import told_angle
 from carom.plots.cells import MotionLook
 from carom.plots.style import OUTCOMES, REGIMES
 from carom.progress import ShowProgress
@@ -84,10 +83,10 @@ class KickedMotion:
 
 
 def follow_kick(
-    rotor: Jeffcott, rest: Rest, radial: float, tangential: float, progress: ShowProgress = None
+    rotor: Jeffcott, plane: Plane, first: float, second: float, progress: ShowProgress = None
 ) -> KickedMotion:
-    """Follow one kick, with its parts in ``c_r Ω``, to where it ends; refuse one that is too large or not finite."""
-    start = rest.kicked(radial, tangential)
+    """Follow one disturbance, by its components in units of the equations, to where it ends; refuse one that is not possible."""
+    rotor, start, begin = plane.start(rotor, rest_of(rotor), first, second)
     motion = simulate(rotor, start, settle=True, progress=progress)
     # A motion is settled once its end is known, which may be long before it has arrived there.
     shown = simulate(rotor, start, _shown_until(rotor, motion), max_events=MOST_EVENTS)
@@ -113,7 +112,7 @@ def follow_kick(
         words=_words(
             rotor,
             motion,
-            complex(start.velocity),
+            begin,
             hardest,
             MotionLook(0, name, look, look.colour, 1.0).words,
         ),
@@ -143,10 +142,9 @@ def _span(stretch: LastingContact) -> Span:
     return Span(stretch.start, stretch.end, look.words, look.colour)
 
 
-def _words(rotor: Jeffcott, motion: Trajectory, kick: complex, hardest: float, ending: str) -> str:
+def _words(rotor: Jeffcott, motion: Trajectory, begin: str, hardest: float, ending: str) -> str:
     say, count = Wording(rotor.scales), len(motion.contacts.time)
-    angle = told_angle(cmath.phase(kick) % math.tau)
-    begin, force = f"A kick of {say.velocity(abs(kick))} at {angle}", f"hardest impulse {say.impulse(hardest)}"
+    force = f"hardest impulse {say.impulse(hardest)}"
     if motion.outcome in REPEATING:
         return f"{begin} ends in {ending}; {force}."
     impacts = "without an impact" if count == 0 else f"after {counted(count, 'impact')}; {force}"

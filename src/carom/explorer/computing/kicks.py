@@ -1,185 +1,224 @@
-"""Where kicks out of the resting motion end, on a grid over their two components."""
+"""Where kicks, shocks or losses of a blade end, on a grid over their two components."""
 
 from __future__ import annotations
 
-import cmath
 import math
 from dataclasses import dataclass
-from typing import ClassVar
 
 import numpy as np
 
-from carom.basins import Basin, Share, map_basins
-from carom.closed_forms import find_equilibria
-from carom.disturbances import Coordinate, Disturbance, Grid, KickPlane, Starts, outward_from
-from carom.disturbances.echo import angles_words
+from carom.basins import Share, map_basins
+from carom.disturbances import BladeLoss, Grid
+from carom.disturbances.following import NO_START, follow_machines
+from carom.explorer.computing.planes import Plane, ShockPlane
+from carom.explorer.computing.rest import Rest, rest_of
 from carom.models import Jeffcott
-from carom.motions import State
-from carom.outcome import STEADY_WORDS
-from carom.parameters import Case
-from carom.parameters.told import told, told_angle
+from carom.outcome import InputError, Outcome
 from carom.plots.cells import MotionLook, motion_looks
+from carom.plots.style import OUTCOMES
 from carom.progress import ShowProgress
 
 NOWHERE = 255
 """Cell without a start."""
-FIRST = 0.31, 0.12
-"""The kick with which the page begins: its parts outward and in the sense of rotation, of the largest."""
-
-
-@dataclass(frozen=True)
-class RestKick(KickPlane):
-    """A kick like that of :class:`KickPlane`, of a rotor that cannot levitate and rests on the wall.
-
-    Attributes
-    ----------
-    position : complex
-        Where it rests, in clearances.
-    """
-
-    position: complex = 1.0 + 0.0j
-    kind: ClassVar[str] = "rest-kick"
-
-    @property
-    def coordinates(self) -> tuple[Coordinate, ...]:
-        """Radial and tangential part."""
-        return KickPlane(self.fastest).coordinates
-
-    def starts(self, rotor: Jeffcott, *values: np.ndarray) -> Starts:  # type: ignore[override]
-        """The resting motion with the velocity changed."""
-        radial, tangential = values
-        outward = self.position / abs(self.position)
-        there = self.within(radial, tangential)
-        return Starts.of(np.full(np.shape(radial), self.position), outward * (radial + 1j * tangential), there)
-
-
-@dataclass(frozen=True)
-class Rest:
-    """The motion that kicks disturb.
-
-    Attributes
-    ----------
-    words : str
-    levitates : bool
-    position : complex
-        In clearances, co-rotating frame.
-    outward : complex
-        Direction of a kick outward, a number of modulus one.
-    """
-
-    words: str
-    levitates: bool
-    position: complex
-    outward: complex
-
-    def kicked(self, radial: float, tangential: float) -> State:
-        """State just after a kick, whose parts are in ``c_r Ω``."""
-        return State(self.position, self.outward * complex(radial, tangential))
-
-    def kicks(self, fastest: float) -> Disturbance:
-        """All kicks up to a size in ``c_r Ω``."""
-        return KickPlane(fastest) if self.levitates else RestKick(fastest, self.position)
-
-
-def rest_of(rotor: Jeffcott) -> Rest:
-    """The motion that kicks disturb: levitation, otherwise the stable rub, otherwise rest where levitation meets the wall."""
-    place = rotor.equilibrium
-    if abs(place) < 1.0:
-        return Rest(STEADY_WORDS["contact-free"], True, place, outward_from(rotor))
-    for found in find_equilibria(rotor):
-        if found.kind == "rub" and found.status == "admissible" and found.stable:
-            return Rest(f"the {STEADY_WORDS['rub']}", False, complex(found.position), complex(found.position))
-    on_wall = place / abs(place)
-    return Rest("rest on the bearing", False, on_wall, on_wall)
+TRIED = 24
+"""Cells along each side of the pictures from which the first range is chosen."""
+RANGES = tuple(math.sqrt(2.0) ** power for power in range(8))
+"""Ranges that the page may begin with, relative to what must be survived: no narrower, so that this is in the picture."""
+WANTED = 0.2
+"""Share of a picture that should come back: then both what returns and what is lost are seen, and where they meet."""
 
 
 @dataclass(frozen=True, eq=False)
 class Ending:
-    """One motion on which kicks end, with the look that figures give it.
+    """One motion on which disturbances end, with the look that figures give it.
 
     Attributes
     ----------
     share : float
-        Share of all kicks up to the largest, 0 to 1.
+        Share of all disturbances up to the largest, 0 to 1.
     hatch : str
         Texture for print without colour; empty for none.
+    back : bool
+        Whether it is the levitation to which they should come back.
     """
 
     words: str
     colour: str
     hatch: str
     share: float
+    back: bool
 
 
 @dataclass(frozen=True, eq=False)
 class KickMap:
-    """Where kicks end.
+    """Where the disturbances of a plane end.
 
     Attributes
     ----------
     rest : Rest
-    basin : Basin
-    fastest : float
-        Largest kick, in ``c_r Ω``: the radius of the disc.
+    plane : Plane
+    largest : float
+        Largest disturbance, in units of the equations: the radius of the disc.
+    outcomes : ndarray of int, shape (n, n)
+        Codes of :class:`~carom.outcome.Outcome` by first (rows) and second component, both ascending; -1 without a start.
+    touched : ndarray of bool, shape (n, n)
+        Whether the rotor met the wall.
     cells : ndarray of uint8, shape (n, n)
-        Index of the ending by tangential (rows) and radial component (columns), both ascending; ``NOWHERE`` without one.
+        Index of the ending by second (rows) and first component, both ascending; ``NOWHERE`` without one.
     endings : tuple of Ending
-    smallest_lost : float or None
-        Smallest kick of the picture that does not come back, in ``c_r Ω``.
     """
 
     rest: Rest
-    basin: Basin
-    fastest: float
+    plane: Plane
+    largest: float
+    outcomes: np.ndarray
+    touched: np.ndarray
     cells: np.ndarray
     endings: tuple[Ending, ...]
-    smallest_lost: float | None
+
+    @property
+    def middles(self) -> np.ndarray:
+        """Components of the middles of cells, in units of the equations."""
+        return self.largest * ((np.arange(len(self.cells)) + 0.5) * 2.0 / len(self.cells) - 1.0)
+
+    @property
+    def exists(self) -> np.ndarray:
+        """Which cells are starts, by first and second component."""
+        return self.outcomes != NO_START
+
+    @property
+    def recovered(self) -> np.ndarray:
+        """Which come back."""
+        return self.outcomes == Outcome.LEVITATED
+
+    @property
+    def sizes(self) -> np.ndarray:
+        """Sizes of the disturbances."""
+        return np.hypot(self.middles[:, None], self.middles[None, :])
+
+    @property
+    def smallest_lost(self) -> float | None:
+        """Smallest disturbance of the picture that does not come back, in units of the equations."""
+        lost = self.sizes[self.exists & ~self.recovered]
+        return float(lost.min()) if lost.size else None
+
+    def share_up_to(self, size: float) -> Share:
+        """Share that comes back of the disturbances up to a size in units of the equations, by area."""
+        inside = self.exists & (self.sizes <= size)
+        return Share.of(int((self.recovered & inside).sum()), int(inside.sum()), drawn=False)
 
     @property
     def share(self) -> Share:
-        """Share of the kicks that comes back to levitation."""
-        return self.basin.share_recovered
+        """Share of all that comes back."""
+        return self.share_up_to(math.inf)
 
 
-def largest_kick(case: Case) -> float:
-    """Largest kick, the one to be survived: in m/s if the machine is known, so that axes stay where the speed changes."""
-    scales = case.parameters.scales
-    return case.requirement.own(scales).kick * (scales.velocity if scales else 1.0)
-
-
-def opening_words(case: Case) -> str:
-    """What the page begins with: the kicks of the picture, and the one that is drawn."""
-    rotor = Jeffcott(case.parameters)
-    fastest, rest = largest_kick(case) / (rotor.scales.velocity if rotor.scales else 1.0), rest_of(rotor)
-    angle = told_angle(cmath.phase(complex(rest.kicked(*FIRST).velocity)) % math.tau)
-    largest, outward, along = (told(part * fastest, "velocity", rotor.scales) for part in (1.0, *FIRST))
-    return (
-        f"{case.name}: kicks of up to {largest}, which disturb {rest.words}; drawn first is the kick of {outward} outward and "
-        f"{along} in the sense of rotation, at {angle}; {angles_words(rotor.unbalance_phase)}"
-    )
-
-
-def map_kicks(rotor: Jeffcott, cells: int, largest: float, progress: ShowProgress = None) -> KickMap:
-    """Follow a grid of kicks to where they end; ``largest`` is that of :func:`largest_kick`."""
-    rest = rest_of(rotor)
-    fastest = largest / (rotor.scales.velocity if rotor.scales else 1.0)
-    basin = map_basins(rotor, Grid(rest.kicks(fastest), (cells, cells)), progress=progress)
+def map_kicks(rotor: Jeffcott, plane: Plane, cells: int, largest: float, progress: ShowProgress = None) -> KickMap:
+    """Follow a grid of disturbances up to a size, in the units of planes, to where they end."""
+    rest, own = rest_of(rotor), plane.own(largest, rotor.scales)
+    if plane.name == "blade-loss":
+        return _map_losses(rotor, rest, plane, cells, own)
+    model = rest.kicks(own) if plane.name == "kick" else ShockPlane(own, plane.lasting(rotor))
+    basin = map_basins(rotor, Grid(model, (cells, cells)), progress=progress)
     looks = motion_looks(basin)
     places = np.full(len(basin.motions) + 1, NOWHERE, np.uint8)
     for place, look in enumerate(looks):
         places[look.index] = place
-    radial, tangential = (axis.middles(cells) for axis in basin.coordinates)
-    lost = np.hypot(*np.meshgrid(radial, tangential, indexing="ij"))[basin.exists & ~basin.recovered]
-    index = basin.dataset["motion"].values
-    return KickMap(
-        rest=rest,
-        basin=basin,
-        fastest=fastest,
-        cells=np.ascontiguousarray(places[index].T),
-        endings=tuple(_ending(look) for look in looks),
-        smallest_lost=float(lost.min()) if lost.size else None,
-    )
+    cells_ = np.ascontiguousarray(places[basin.dataset["motion"].values].T)
+    return KickMap(rest, plane, own, basin.outcomes, basin.touched, cells_, tuple(map(_ending, looks)))
 
 
 def _ending(look: MotionLook) -> Ending:
-    return Ending(look.words, look.colour, look.look.hatch[:1], look.share)
+    return Ending(look.words, look.colour, look.look.hatch[:1], look.share, look.name.outcome is Outcome.LEVITATED)
+
+
+def _map_losses(rotor: Jeffcott, rest: Rest, plane: Plane, cells: int, largest: float) -> KickMap:
+    """The same of losses of a blade.
+
+    Each unbalance is another machine.  So there are few of them, each with many phases, and a cell shows the nearest; motions are told by
+    their outcome alone.
+    """
+    levels, phases = cells // 2, 2 * cells
+    turned = math.tau * np.arange(phases) / phases
+    losses = [BladeLoss(largest * (level + 0.5) / levels) for level in range(levels)]
+    followed = follow_machines(
+        [(one.machine_after(rotor), one.starts(rotor, turned)) for one in losses], levels * phases
+    )
+    ends = [(found.outcomes, found.impacts > 0) for found in followed]
+    middles = (np.arange(cells) + 0.5) * 2.0 / cells - 1.0
+    sizes = np.hypot(middles[:, None], middles[None, :])
+    level = np.minimum((levels * sizes).astype(int), levels - 1)
+    phase = np.rint(np.arctan2(middles[None, :], middles[:, None]) / math.tau * phases).astype(int) % phases
+    outcomes, touched = (np.stack(part)[level, phase] for part in zip(*ends, strict=True))
+    outcomes = np.where(sizes <= 1.0, outcomes, NO_START)
+    exists = outcomes != NO_START
+    if not exists.any():
+        raise InputError(
+            "disturbance",
+            f"|U*| = {abs(rotor.equilibrium):.6g}",
+            "one of a machine that levitates inside the wall before it",
+        )
+    places = np.full(outcomes.shape, NOWHERE, np.uint8)
+    endings = []
+    for place, code in enumerate(np.unique(outcomes[exists])):
+        places[outcomes == code] = place
+        look, share = OUTCOMES[Outcome(code).label], float((outcomes == code).sum() / exists.sum())
+        endings.append(Ending(look.words, look.colour, look.hatch[:1], share, code == Outcome.LEVITATED))
+    return KickMap(rest, plane, largest, outcomes, touched, np.ascontiguousarray(places.T), tuple(endings))
+
+
+def opening_range(rotor: Jeffcott, plane: Plane) -> float:
+    """The range with which the page begins, in the units of planes: one in which a good part comes back, and a good part is lost."""
+    best, least = plane.usual, math.inf
+    for times in RANGES:
+        share = map_kicks(rotor, plane, TRIED, times * plane.usual).share.fraction
+        if (apart := abs(math.log(max(share, 1e-9) / WANTED))) < least:
+            best, least = times * plane.usual, apart
+        if share < WANTED:
+            break
+    return best
+
+
+def telling_pair(found: KickMap) -> tuple[tuple[float, float], tuple[float, float]]:
+    """Two disturbances of one size where there are such, of which the first comes back after contact and the second is lost.
+
+    Both are far from where the other outcome begins.  The components are in units of the equations.
+    """
+    lost, back = found.exists & ~found.recovered, found.recovered & found.touched
+    inside = {"lost": _depth(lost), "back": _depth(found.recovered)}
+    inside["back"] = np.where(back, inside["back"], 0.0) if back.any() else inside["back"]
+    rings = np.minimum((found.sizes / found.largest * TRIED).astype(int), TRIED - 1)
+    best, pair = -1.0, None
+    for ring in range(TRIED):
+        here = [np.where(rings == ring, inside[name], 0.0) for name in ("back", "lost")]
+        depth = min(float(part.max()) for part in here)
+        if depth > best:
+            best, pair = depth, [int(part.argmax()) for part in here]
+    if best <= 0.0 or pair is None:
+        inside = {name: np.where(found.sizes > 0.1 * found.largest, depth, 0.0) for name, depth in inside.items()}
+        pair = [
+            int(inside[name].argmax()) if inside[name].any() else _beside(found, turn)
+            for name, turn in (("back", 1), ("lost", -1))
+        ]
+    first, second = (np.unravel_index(place, found.sizes.shape) for place in pair)
+    middles = found.middles
+    return (
+        (float(middles[first[0]]), float(middles[first[1]])),
+        (float(middles[second[0]]), float(middles[second[1]])),
+    )
+
+
+def _depth(area: np.ndarray) -> np.ndarray:
+    """Number of times that the edge of an area can be taken away before a cell goes."""
+    depth, left = np.zeros(area.shape), area
+    while left.any():
+        depth += left
+        around = np.pad(left, 1)
+        left = left & around[:-2, 1:-1] & around[2:, 1:-1] & around[1:-1, :-2] & around[1:-1, 2:]
+    return depth
+
+
+def _beside(found: KickMap, turn: int) -> int:
+    """Some cell well inside the disc."""
+    cells = len(found.cells)
+    return int(np.ravel_multi_index((int(0.65 * cells), int((0.5 + 0.2 * turn) * cells)), (cells, cells)))

@@ -6,7 +6,6 @@ import json
 import threading
 from collections.abc import Callable
 from functools import cache, partial
-from importlib.resources import files
 from typing import Any
 
 import jinja2
@@ -19,14 +18,16 @@ from bokeh.events import ConnectionLost, DocumentReady
 from bokeh.models import CustomJS
 from bokeh.resources import Resources
 
+from carom.explorer.background import SupersededError
 from carom.explorer.computing.controls import controls_of
 from carom.explorer.computing.exports import Origin
+from carom.explorer.computing.planes import planes_of
 from carom.explorer.page.figures import looks, make_figures
-from carom.explorer.page.messages import control_message
+from carom.explorer.page.messages import control_message, plane_message
 from carom.explorer.page.models import Answers, Requests
+from carom.explorer.page.scripts import SCRIPTS, joined, text_of
 from carom.explorer.page.session import Session
 
-SCRIPTS = ("common.js", "controls.js", "basin.js", "clearance.js", "plots.js", "panels.js", "main.js")
 TOKEN = "key-of-a-session"
 
 
@@ -35,7 +36,11 @@ def fill(document: Document, origin: Origin, ready: threading.Event) -> Session:
     requests, answers, figures = Requests(name="requests"), Answers(name="answers"), make_figures()
 
     def hand_over(name: str, value: Any) -> None:
-        document.add_next_tick_callback(partial(setattr, answers, name, value))
+        try:
+            document.add_next_tick_callback(partial(setattr, answers, name, value))
+        except AttributeError:
+            # Bokeh has taken the document of a closed page apart; its session is told of it only after that.
+            raise SupersededError from None
 
     session = Session(origin, hand_over, ready)
     asked: dict[str, Callable[[Any], None]] = {
@@ -77,8 +82,9 @@ def write_page(origin: Origin, resources: Resources) -> str:
             "name": origin.case.name,
             "mark": origin.mark,
             "controls": [control_message(control) for control in controls_of(origin.case)],
-            "style": _text("page.css"),
-            "script": "\n".join(_text(name) for name in SCRIPTS),
+            "planes": [plane_message(plane, origin.case.parameters.scales) for plane in planes_of(origin.case)],
+            "style": text_of("page.css"),
+            "script": joined(SCRIPTS),
             "looks": json.dumps(looks()),
         },
     )
@@ -101,9 +107,4 @@ def _template() -> jinja2.Template:
     environment = jinja2.Environment(
         autoescape=True, trim_blocks=True, lstrip_blocks=True, undefined=jinja2.StrictUndefined
     )
-    return environment.from_string(_text("page.html.jinja"))
-
-
-@cache
-def _text(name: str) -> str:
-    return files("carom.explorer.page").joinpath("files", name).read_text(encoding="utf-8")
+    return environment.from_string(text_of("page.html.jinja"))

@@ -6,18 +6,21 @@ from collections.abc import Sequence
 from dataclasses import asdict
 from typing import Any
 
+from carom.basins import Share
 from carom.basins.shares import percent
-from carom.closed_forms import harmless_kick
+from carom.closed_forms import harmless_blade_loss, harmless_kick, harmless_shock
 from carom.explorer.computing.controls import Control
 from carom.explorer.computing.diagrams import Picture
+from carom.explorer.computing.judgement import Judgement, Loss
 from carom.explorer.computing.kicked_motion import KickedMotion
 from carom.explorer.computing.kicks import KickMap
 from carom.explorer.computing.motions import MotionTable
+from carom.explorer.computing.planes import Plane
 from carom.models import Jeffcott
 from carom.parameters import Scales
-from carom.parameters.told import number, shown_in
+from carom.parameters.told import number, shown_in, told
 from carom.plots.style import LOOKS
-from carom.studies import Verdict, Wording
+from carom.studies import Wording
 
 Message = dict[str, Any]
 
@@ -25,6 +28,12 @@ Message = dict[str, Any]
 def control_message(control: Control) -> Message:
     """A control, as the page builds its slider from it."""
     return {**asdict(control), "shown": number(control.value, 5).replace(",", "")}
+
+
+def plane_message(plane: Plane, scales: Scales | None) -> Message:
+    """A kind of disturbances, as the page offers it."""
+    lasting = f" of {told(plane.duration / (scales.time if scales else 1.0), 'time', scales)}" if plane.duration else ""
+    return {"name": plane.name, "words": f"{plane.nouns[1]}{lasting}"}
 
 
 def units_message(scales: Scales | None) -> Message:
@@ -36,38 +45,66 @@ def units_message(scales: Scales | None) -> Message:
 
 
 def basin_message(found: KickMap, rotor: Jeffcott) -> Message:
-    """The picture of a basin, its legend, and what is read off it."""
-    say, share = Wording(rotor.scales), found.share
-    units = units_message(rotor.scales)
-    lost = found.smallest_lost
+    """The picture of a basin, its legend, and what is read off it; sizes in the unit that people are told."""
+    plane, scales = found.plane, rotor.scales
+    factor, unit = plane.shown(scales)
+    lost, share, words = found.smallest_lost, *judged_share(found, rotor)
+    required = None if plane.required is None else plane.own(plane.required, scales)
     return {
+        "kind": plane.name,
+        "nouns": list(plane.nouns),
+        "axes": list(plane.axes),
         "cells": found.cells,
         "size": len(found.cells),
-        "largest": units["speed"] * found.fastest,
-        "unit": units["speed_unit"],
+        "largest": factor * found.largest,
+        "unit": unit,
+        "required": 0.0 if required is None else factor * required,
         "rest": found.rest.words,
         "levitates": found.rest.levitates,
         "endings": [asdict(ending) for ending in found.endings],
         "share": percent(share.fraction),
-        "share_remark": f"of {share.population.words}, by area: {share.count:,} of {share.total:,} cells of this picture",
-        "sentence": _sentence(found),
-        "harmless": harmless_kick(rotor) / found.fastest if found.rest.levitates else 0.0,
-        "lost": "none" if lost is None else say.velocity(lost),
-        "lost_remark": "no kick of the picture is lost"
+        "share_remark": f"of {words}, by area: {share.count:,} of {share.total:,} cells of this picture",
+        "sentence": _sentence(found, share, words),
+        "harmless": plane_harmless(found, rotor) / found.largest,
+        "lost_size": 0.0 if lost is None else factor * lost,
+        "lost": "none" if lost is None else told(lost, plane.scale, scales),
+        "lost_remark": f"no {plane.nouns[0]} of the picture is lost"
         if lost is None
         else "smallest of the picture; a finer search follows",
         "rest_position": [found.rest.position.real, found.rest.position.imag],
-        "outward": [found.rest.outward.real, found.rest.outward.imag],
+        "outward": [found.rest.outward.real, found.rest.outward.imag] if plane.name == "kick" else [1.0, 0.0],
         "legend_rest": LOOKS["contact-free"].colour if found.rest.levitates else LOOKS["rub"].colour,
     }
 
 
-def _sentence(found: KickMap) -> str:
+def judged_share(found: KickMap, rotor: Jeffcott) -> tuple[Share, str]:
+    """Share that comes back of what must be survived, where all of that is in the picture, otherwise of all in it; and of what."""
+    required = None if found.plane.required is None else found.plane.own(found.plane.required, rotor.scales)
+    # A little above, for rounding where the picture ends with it.
+    if required is None or required > found.largest * (1.0 + 1e-9):
+        return found.share, found.plane.words_up_to(found.largest, rotor.scales)
+    return found.share_up_to(required * (1.0 + 1e-9)), found.plane.words_up_to(required, rotor.scales)
+
+
+def plane_harmless(found: KickMap, rotor: Jeffcott) -> float:
+    """Size up to which contact is proven to be impossible, in units of the equations; 0 where nothing is proven."""
+    if not found.rest.levitates:
+        return 0.0
+    if found.plane.name == "kick":
+        return harmless_kick(rotor)
+    if found.plane.name == "shock":
+        return harmless_shock(rotor, found.plane.lasting(rotor))
+    return max(
+        harmless_blade_loss(rotor) - rotor.parameters.rho, 0.0
+    )  # changes of the present unbalance up to this size
+
+
+def _sentence(found: KickMap, share: Share, words: str) -> str:
     if not found.rest.levitates:
         return f"It cannot levitate with these values. The kicks disturb {found.rest.words}."
-    if found.share.count in (0, found.share.total):
-        return f"{'Every' if found.share.count else 'No'} kick of this picture comes back to levitation."
-    return f"{percent(found.share.fraction)} of {found.share.population.words} come back to levitation."
+    if share.count in (0, share.total):
+        return f"{'All' if share.count else 'None'} of the {words} {'come' if share.count else 'comes'} back to levitation."
+    return f"{percent(share.fraction)} of {words} come back to levitation."
 
 
 def motion_message(motion: KickedMotion, rotor: Jeffcott) -> Message:
@@ -89,9 +126,15 @@ def table_message(table: MotionTable) -> Message:
     return {"rows": [asdict(row) for row in table.rows], "argument": table.argument}
 
 
-def verdict_message(found: Verdict) -> Message:
-    """The verdict in a sentence, and what is survived of each kind of disturbance."""
-    return {"lead": found.lead, "survived": list(found.survived)}
+def verdict_message(found: Judgement) -> Message:
+    """The verdict in a sentence, what to change, and what is survived of each kind of disturbance."""
+    return {"lead": found.lead, "advice": found.advice, "survived": list(found.survived)}
+
+
+def loss_message(found: Loss, plane: Plane, scales: Scales | None) -> Message:
+    """The smallest loss, with its size in the unit that people are told."""
+    size = 0.0 if found.size is None else plane.shown(scales)[0] * found.size
+    return {"size": size, "value": found.value, "remark": found.remark}
 
 
 def diagram_message(picture: Picture) -> Message:

@@ -9,8 +9,10 @@ from bokeh.model import DataModel
 class Requests(DataModel):
     """What the page asks for; each request is a plain dictionary that the browser replaces as a whole.
 
-    ``machine`` holds ``number``, ``settings`` (text by name), ``held`` (whether a slider is being dragged) and ``along``
-    (the control moved last); ``kick`` holds ``number``, ``radial`` and ``tangential``, as shares of the largest kick.
+    ``machine`` holds ``number``, ``settings`` (text by name), ``held`` (whether a slider is being dragged), ``along``
+    (the control moved last) and ``view``: the ``kind`` of disturbances shown, the ``largest`` of the picture and the two
+    ``kicks`` that are drawn, all of which may be missing.  ``kick`` holds ``number``, ``slot`` (0 or 1), ``first`` and
+    ``second``: one of both, by its components.  Sizes are in the unit that people are told.
     ``cancel`` and ``resume`` count how often what takes long was stopped, and begun again.
     """
 
@@ -25,12 +27,14 @@ class Answers(DataModel):
 
     ``reply`` answers each request for a machine at once: ``number`` of the request, ``shown``, the number of the request whose
     machine is shown, ``values`` of its controls in their units, and in ``text`` and ``names`` what could not be used.
+    ``motion`` and ``beside`` are those after both kicks.
     """
 
     state = Any(default=None)
     reply = Any(default=None)
     basin = Any(default=None)
     motion = Any(default=None)
+    beside = Any(default=None)
     table = Any(default=None)
     loss = Any(default=None)
     hardest = Any(default=None)

@@ -14,9 +14,12 @@ from carom.explorer.computing.diagrams import picture_along
 from carom.explorer.computing.exports import Kick, Origin, as_command, as_options, as_python, as_toml
 from carom.explorer.computing.judgement import find_hardest, find_loss, judge
 from carom.explorer.computing.kicked_motion import follow_kick
-from carom.explorer.computing.kicks import FIRST, KickMap, largest_kick, map_kicks, rest_of
+from carom.explorer.computing.kicks import map_kicks, opening_range, telling_pair
 from carom.explorer.computing.motions import table_of
+from carom.explorer.computing.planes import Plane, planes_of
+from carom.explorer.computing.rest import rest_of
 from carom.explorer.page import messages
+from carom.explorer.page.view import SLOTS, View, read_kick, read_view
 from carom.models import Jeffcott
 from carom.outcome import CaromError, InputError
 from carom.parameters import Case
@@ -25,7 +28,7 @@ from carom.progress import Progress
 COARSE, FINE = 60, 120
 """Cells along each side of the picture while a slider is dragged, and after that."""
 COARSEST = 16
-PATIENCE = 0.05
+PATIENCE = 0.03
 """Seconds that a picture may take while a slider is dragged; where it would take longer it is coarser."""
 PAUSE = 0.06
 """Seconds without a further step after which, while a slider is dragged, more than the picture is computed."""
@@ -35,8 +38,8 @@ QUIET = 0.15
 Answer = Callable[[str, Any], None]
 """Receives the name of an answer and its value, in any thread."""
 _LONG = {
-    "fine": "following kicks",
-    "loss": "looking for the smallest lost kick",
+    "fine": "following disturbances",
+    "loss": "looking for the smallest that is lost",
     "hardest": "looking for the hardest impact",
     "diagram": "following orbits along the slider",
     "verdict": "writing the verdict",
@@ -52,8 +55,8 @@ class _Shown:
     settings: Mapping[str, str]
     rotor: Jeffcott
     along: str
-    radial: float
-    tangential: float
+    plane: Plane
+    view: View
     held: bool = False
     """Whether a slider is being dragged."""
 
@@ -82,14 +85,16 @@ class Session:
     ) -> None:
         self.origin, self._answer, self._ready, self._wanted = origin, answer, ready, wanted
         self.controls = {control.name: control for control in controls_of(origin.case)}
-        self.largest = largest_kick(origin.case)
+        self.planes: dict[str, Plane] = {plane.name: plane for plane in planes_of(origin.case)}
         rotor = Jeffcott(origin.case.parameters)
         first = "damping" if "damping" in self.controls else "gamma"
-        self._shown = _Shown(0, origin.case, {}, rotor, first, *FIRST)
+        self._shown = _Shown(0, origin.case, {}, rotor, first, self.planes["kick"], View())
+        self._ranges: dict[str, float] = {}
+        self._pairs: dict[str, tuple[tuple[float, float], ...]] = {}
         self._cost, self._reported = PATIENCE / COARSE**2, 0.0
         self._diagrams: dict[tuple[Any, ...], Any] = {}
         self._left: dict[str, Work] = {}
-        self._quick = Worker(("basin", "motion", "table"))
+        self._quick = Worker(("basin", *SLOTS, "table"))
         self._long = Worker(tuple(_LONG), self._report)
 
     def close(self) -> None:
@@ -102,8 +107,12 @@ class Session:
         asked = {str(name): str(text) for name, text in dict(request.get("settings", {})).items()}
         number, held = int(request.get("number", 0)), bool(request.get("held", False))
         settings, case, problem = self._usable(asked)
-        before = self._shown
-        if problem is not None and before.number and (settings, held) == (before.settings, before.held):
+        before, view = self._shown, read_view(request.get("view"))
+        if (
+            problem is not None
+            and before.number
+            and (settings, held, view) == (before.settings, before.held, before.view)
+        ):
             # Nothing is to be shown anew, so what is being computed goes on.
             self._reply(number, problem)
             return
@@ -114,8 +123,8 @@ class Session:
             settings,
             Jeffcott(case.parameters),
             along if along in self.controls else before.along,
-            before.radial,
-            before.tangential,
+            self.planes.get(view.kind, self.planes["kick"]),
+            view,
             held,
         )
         self._reply(number, problem)
@@ -123,7 +132,8 @@ class Session:
         self._left = {}
         self._ask(self._quick, "basin", self._coarse, "basin", None if held else self._finish)
         pause = PAUSE if held else 0.0
-        self._ask_quick("motion", self._motion, pause)
+        for slot in SLOTS:
+            self._ask_quick(slot, self._motion(slot), pause)
         self._ask_quick("table", lambda shown, tell: messages.table_message(table_of(shown.rotor)), pause)
 
     def _usable(self, asked: Mapping[str, str]) -> tuple[Mapping[str, str], Case, InputError | None]:
@@ -152,8 +162,8 @@ class Session:
         self._answer("exports", self._exports())
         self._left = {
             "fine": lambda shown, tell: self._picture(shown, FINE, tell),
-            "loss": lambda shown, tell: vars(find_loss(shown.rotor, self._fastest(shown), tell)),
-            "hardest": lambda shown, tell: vars(find_hardest(shown.rotor, self._fastest(shown), tell)),
+            "loss": self._loss,
+            "hardest": lambda shown, tell: vars(find_hardest(shown.rotor, shown.plane, self._judged(shown), tell)),
             "diagram": self._diagram,
             "verdict": lambda shown, tell: messages.verdict_message(judge(shown.case, tell)),
         }
@@ -161,12 +171,14 @@ class Session:
         self.resume()
 
     def kick(self, request: Mapping[str, Any]) -> None:
-        """Show the motion after another kick, whose parts are given as shares of the largest."""
-        shares = [float(request.get(name, 0.0)) for name in ("radial", "tangential")]
-        if not all(-1.0 <= share <= 1.0 for share in shares):
+        """Show the motion after another disturbance; see :class:`carom.explorer.page.models.Requests`."""
+        kick, slot = read_kick(request.get("first"), request.get("second")), request.get("slot")
+        if kick is None or slot not in (0, 1):
             return
-        self._shown = replace(self._shown, radial=shares[0], tangential=shares[1])
-        self._ask_quick("motion", self._motion)
+        kicks = list(self._kicks(self._shown))
+        kicks[slot] = kick
+        self._shown = replace(self._shown, view=replace(self._shown.view, kicks=tuple(kicks), active=slot))
+        self._ask_quick(SLOTS[slot], self._motion(SLOTS[slot]))
         if request.get("chosen"):
             self._answer("exports", self._exports())
 
@@ -182,17 +194,37 @@ class Session:
         if not self._left:
             self._answer("state", {"kind": "idle"})
 
-    def _fastest(self, shown: _Shown) -> float:
-        scales = shown.rotor.scales
-        return self.largest / (scales.velocity if scales else 1.0)
+    def _largest(self, shown: _Shown) -> float:
+        """Largest disturbance of the picture, in the units of planes."""
+        if shown.view.largest is not None:
+            return shown.view.largest * shown.plane.per_unit(shown.rotor.scales)
+        name = shown.plane.name
+        if name not in self._ranges:
+            self._ranges[name] = opening_range(Jeffcott(self.origin.case.parameters), shown.plane)
+        return self._ranges[name]
 
-    def _motion(self, shown: _Shown, tell: Callable[[Progress], None]) -> messages.Message:
-        fastest = self._fastest(shown)
-        motion = follow_kick(
-            shown.rotor, rest_of(shown.rotor), shown.radial * fastest, shown.tangential * fastest, tell
+    def _judged(self, shown: _Shown) -> float:
+        """What must be survived, or where nothing is stated the largest of the picture; in units of the equations."""
+        return shown.plane.own(shown.plane.required or self._largest(shown), shown.rotor.scales)
+
+    def _kicks(self, shown: _Shown) -> tuple[tuple[float, float], ...]:
+        """Components of both disturbances drawn, in the unit that people are told: those asked for, or those found telling."""
+        return shown.view.kicks or self._pairs.get(shown.plane.name, ((0.0, 0.0), (0.0, 0.0)))
+
+    def _motion(self, slot: str) -> Work:
+        def follow(shown: _Shown, tell: Callable[[Progress], None]) -> messages.Message:
+            factor = shown.plane.shown(shown.rotor.scales)[0]
+            first, second = self._kicks(shown)[SLOTS.index(slot)]
+            motion = follow_kick(shown.rotor, shown.plane, first / factor, second / factor, tell)
+            return {**messages.motion_message(motion, shown.rotor), "kick": {"first": first, "second": second}}
+
+        return follow
+
+    def _loss(self, shown: _Shown, tell: Callable[[Progress], None]) -> messages.Message:
+        largest = max(shown.plane.own(self._largest(shown), shown.rotor.scales), self._judged(shown))
+        return messages.loss_message(
+            find_loss(shown.rotor, shown.plane, largest, tell), shown.plane, shown.rotor.scales
         )
-        kick = {"radial": shown.radial, "tangential": shown.tangential}
-        return {**messages.motion_message(motion, shown.rotor), "kick": kick}
 
     def _coarse(self, shown: _Shown, tell: Callable[[Progress], None]) -> messages.Message:
         """Picture that is computed fast enough to follow a dragged slider, as fine as that allows."""
@@ -204,8 +236,12 @@ class Session:
         return message
 
     def _picture(self, shown: _Shown, cells: int, tell: Callable[[Progress], None]) -> messages.Message:
-        found: KickMap = map_kicks(shown.rotor, cells, self.largest, tell)
-        return messages.basin_message(found, shown.rotor)
+        found = map_kicks(shown.rotor, shown.plane, cells, self._largest(shown), tell)
+        name, factor = shown.plane.name, shown.plane.shown(shown.rotor.scales)[0]
+        if name not in self._pairs:
+            self._pairs[name] = tuple((factor * one, factor * other) for one, other in telling_pair(found))
+        opening = self._ranges.get(name, self._largest(shown)) / shown.plane.per_unit(shown.rotor.scales)
+        return {**messages.basin_message(found, shown.rotor), "opening": opening}
 
     def _diagram(self, shown: _Shown, tell: Callable[[Progress], None]) -> messages.Message:
         others = tuple(sorted(item for item in shown.settings.items() if item[0] != shown.along))
@@ -216,12 +252,17 @@ class Session:
         return {**self._diagrams[shown.along, others]}
 
     def _exports(self) -> messages.Message:
-        shown, fastest = self._shown, self._fastest(self._shown)
-        kick = Kick(rest_of(shown.rotor), shown.radial * fastest, shown.tangential * fastest, fastest)
+        shown = self._shown
+        factor, largest = (
+            shown.plane.shown(shown.rotor.scales)[0],
+            shown.plane.own(self._largest(shown), shown.rotor.scales),
+        )
+        first, second = self._kicks(shown)[shown.view.active]
+        kick = Kick(shown.plane, rest_of(shown.rotor), first / factor, second / factor, largest)
         return {
             "toml": as_toml(shown.case),
             "options": as_options(self.origin, shown.settings),
-            "command": as_command(self.origin, shown.settings, shown.rotor.scales, kick),
+            "command": as_command(self.origin, shown.settings, shown.rotor, kick),
             "python": as_python(shown.case, kick, self.controls[shown.along]),
         }
 

@@ -1,20 +1,28 @@
-// The plane of kicks: cells coloured by where they lead, and the kick that is shown.
-carom.basin = { message: null, kick: { radial: 0.31, tangential: 0.12 } };
+// The plane of disturbances on a canvas: cells coloured by where they lead, rings, and the disturbances that are drawn.
+//
+//     const picture = basinPicture(canvas, { onPoint, onRing });
+//     picture.show(message);        // cells, size, largest, unit, axes, endings, harmless, required, outward
+//     picture.mark(kicks, active);  // pairs { first, second } in the unit of the message
+//     picture.setRing(size);        // in this unit; 0 for none
+//
+// onPoint(kick, chosen) hears where one points, onRing(size, done) to which size the ring is dragged.
+import { clamp, inksOf, short, square, tickStep, tile } from "./common.js";
 
-(() => {
-  const canvas = at("basin"), left = 54, below = 40, edge = 6;
-  let frame = null, layer = null;
+export const basinPicture = (canvas, { onPoint = () => {}, onRing = () => {} } = {}) => {
+  const ink = inksOf(canvas), knobAngle = -0.6, narrow = 300;
+  const picture = { message: null, kicks: [], active: 0, ring: 0 };
+  let frame = null, layer = null, dragged = false, dragging = false;
 
   // Cells with their textures in pixels of the screen, painted once for a picture and a size.
   const paint = (message, wide) => {
     const n = message.size, image = new ImageData(wide, wide), pixels = new Uint32Array(image.data.buffer);
     const cell = Array.from({ length: wide }, (_, place) => Math.floor(((place + 0.5) * n) / wide));
-    const tiles = message.endings.map((one) => carom.tile(one.colour, one.hatch));
+    const tiles = message.endings.map((one) => tile(one.colour, one.hatch));
     for (let row = 0; row < wide; row += 1) {
       const below = (n - 1 - cell[row]) * n;
       for (let column = 0; column < wide; column += 1) {
-        const tile = tiles[message.cells[below + cell[column]]];
-        if (tile) pixels[row * wide + column] = tile.pixels[(row % tile.side) * tile.side + (column % tile.side)];
+        const made = tiles[message.cells[below + cell[column]]];
+        if (made) pixels[row * wide + column] = made.pixels[(row % made.side) * made.side + (column % made.side)];
       }
     }
     const sheet = document.createElement("canvas");
@@ -23,121 +31,174 @@ carom.basin = { message: null, kick: { radial: 0.31, tangential: 0.12 } };
     return { message, sheet };
   };
 
-  const draw = () => {
-    const message = carom.basin.message;
-    const [pen, side] = carom.square(canvas);
-    const width = side - left - edge, top = edge, height = side - below - edge;
-    const span = Math.min(width, height), x0 = left, y0 = top;
-    frame = { x0, y0, span };
+  // Lines that are seen on light and on dark cells.
+  const twice = (pen, draw, [wide, thin], [under, over]) => {
+    for (const [line, colour] of [[wide, under], [thin, over]]) { pen.lineWidth = line; pen.strokeStyle = colour; draw(); }
+  };
+  const written = (pen, words, x, y) => {
+    pen.lineWidth = 3; pen.strokeStyle = "rgba(0,0,0,.75)"; pen.fillStyle = "#fff";
+    pen.strokeText(words, x, y); pen.fillText(words, x, y);
+  };
+
+  const rings = (pen, message, circle, span, small) => {
+    const step = tickStep(message.largest, small ? 2 : 3);
+    for (let size = step; size <= message.largest; size += step) twice(pen, () => circle(size / message.largest), [1.8, 0.8], ["rgba(0,0,0,.2)", "rgba(255,255,255,.5)"]);
+    if (message.harmless > 0) {
+      pen.setLineDash([5, 4]);
+      twice(pen, () => circle(message.harmless), [1.6, 1.6], ["rgba(0,0,0,.6)", "rgba(0,0,0,.6)"]);
+      pen.setLineDash([]);
+    }
+    if (message.required > 0 && message.required <= message.largest * 1.0001) {
+      const share = Math.min(message.required / message.largest, 1 - 2.5 / span);
+      twice(pen, () => circle(share), [5, 2.4], ["rgba(255,255,255,.85)", "#111111"]);
+    }
+    if (picture.ring > 0 && picture.ring <= message.largest) {
+      const share = picture.ring / message.largest, [x, y] = frame.at(share * Math.cos(knobAngle), share * Math.sin(-knobAngle));
+      twice(pen, () => circle(share), [4.5, 2.2], ["rgba(255,255,255,.9)", "#c2410c"]);
+      pen.fillStyle = "#c2410c"; pen.strokeStyle = "#fff"; pen.lineWidth = 2;
+      pen.beginPath(); pen.arc(x, y, 7, 0, 7); pen.fill(); pen.stroke();
+    }
+  };
+
+  const kicks = (pen) => {
+    picture.kicks.forEach((kick, place) => {
+      const [x0, y0] = frame.at(0, 0), [x, y] = frame.of(kick);
+      twice(pen, () => { pen.beginPath(); pen.moveTo(x0, y0); pen.lineTo(x, y); pen.stroke(); }, [4, 2], ["rgba(0,0,0,.65)", "#fff"]);
+      pen.fillStyle = place === picture.active ? "#fff" : "#e4e7ea"; pen.strokeStyle = "rgba(0,0,0,.75)"; pen.lineWidth = place === picture.active ? 2.5 : 1.2;
+      pen.beginPath(); pen.arc(x, y, 8, 0, 7); pen.fill(); pen.stroke();
+      pen.fillStyle = "#111"; pen.font = "700 11px system-ui, sans-serif"; pen.textAlign = "center"; pen.textBaseline = "middle";
+      pen.fillText(String(place + 1), x, y + 0.5);
+    });
+  };
+
+  const axes = (pen, message, side, small) => {
+    const { x0, y0, span } = frame, step = tickStep(message.largest, 3);
+    pen.fillStyle = ink("soft"); pen.font = "12px system-ui, sans-serif";
+    if (small) {
+      pen.textAlign = "left"; pen.textBaseline = "alphabetic"; pen.font = "10px system-ui, sans-serif";
+      pen.fillText(`± ${short(message.largest, 3)} ${message.unit}`, 2, side - 3);
+      return;
+    }
+    for (let value = -Math.floor(message.largest / step) * step; value <= message.largest; value += step) {
+      const [x, y] = frame.at(value / message.largest, value / message.largest), words = short(value, 3);
+      pen.textAlign = "center"; pen.textBaseline = "top"; pen.fillText(words, clamp(x, x0 + 8, side - 14), y0 + span + 4);
+      pen.textAlign = "right"; pen.textBaseline = "middle"; pen.fillText(words, x0 - 5, clamp(y, y0 + 6, y0 + span - 6));
+    }
+    pen.textAlign = "center"; pen.textBaseline = "alphabetic";
+    pen.fillText(`${message.axes[0]} (${message.unit})`, x0 + span / 2, y0 + span + 32);
+    pen.save(); pen.translate(11, y0 + span / 2); pen.rotate(-Math.PI / 2); pen.fillText(`${message.axes[1]} (${message.unit})`, 0, 0); pen.restore();
+  };
+
+  picture.draw = () => {
+    const message = picture.message, [pen, side] = square(canvas), small = side < narrow;
+    const left = small ? 2 : 54, below = small ? 14 : 40, edge = small ? 2 : 6;
+    const x0 = left, y0 = edge, span = Math.min(side - left - edge, side - below - edge);
+    const at = (first, second) => [x0 + span * (first + 1) / 2, y0 + span * (1 - second) / 2];
+    frame = { x0, y0, span, at, of: (kick) => at(kick.first / message.largest, kick.second / message.largest) };
     pen.clearRect(0, 0, side, side);
-    pen.font = "12px system-ui, sans-serif";
-    if (!message) { pen.fillStyle = colour("void"); pen.fillRect(x0, y0, span, span); return; }
+    const circle = (share) => { pen.beginPath(); pen.arc(...at(0, 0), span * share / 2, 0, 7); pen.stroke(); };
+    if (!message) {
+      pen.fillStyle = ink("void"); pen.beginPath(); pen.arc(...at(0, 0), span / 2, 0, 7); pen.fill();
+      return;
+    }
     const wide = Math.round(span * (canvas.width / side));
     if (layer === null || layer.message !== message || layer.sheet.width !== wide) layer = paint(message, wide);
     pen.imageSmoothingEnabled = false;
     pen.drawImage(layer.sheet, x0, y0, span, span);
-    const toX = (share) => x0 + span * (share + 1) / 2, toY = (share) => y0 + span * (1 - share) / 2;
-    // Rings of equal size, and the axes.
-    const step = carom.step(message.largest, 3);
+    // The edge of the disc, which dark cells would not have on dark paper.
+    pen.strokeStyle = ink("soft"); pen.lineWidth = 1; circle(1);
     pen.save();
     pen.beginPath(); pen.rect(x0, y0, span, span); pen.clip();
-    pen.strokeStyle = "rgba(255,255,255,.42)"; pen.lineWidth = 1;
-    for (let size = step; size <= message.largest; size += step) {
-      pen.beginPath(); pen.arc(toX(0), toY(0), span * size / message.largest / 2, 0, 7); pen.stroke();
-    }
-    pen.beginPath(); pen.moveTo(toX(0), y0); pen.lineTo(toX(0), y0 + span); pen.moveTo(x0, toY(0)); pen.lineTo(x0 + span, toY(0)); pen.stroke();
-    if (message.harmless > 0) {
-      pen.setLineDash([5, 4]); pen.strokeStyle = "rgba(0,0,0,.75)"; pen.lineWidth = 1.5;
-      pen.beginPath(); pen.arc(toX(0), toY(0), span * message.harmless / 2, 0, 7); pen.stroke(); pen.setLineDash([]);
-    }
-    // From where angles count: the x axis that turns with the shaft, as in `carom simulate --kick`.
+    rings(pen, message, circle, span, small);
+    // From where angles count: the x axis that turns with the shaft, as on the command line.
     const [across, up] = [message.outward[0], -message.outward[1]];
+    twice(pen, () => { pen.beginPath(); pen.moveTo(...at(0.92 * across, 0.92 * up)); pen.lineTo(...at(across, up)); pen.stroke(); }, [4, 2], ["rgba(0,0,0,.65)", "#fff"]);
     pen.font = "600 12px system-ui, sans-serif"; pen.textAlign = "center"; pen.textBaseline = "middle";
-    for (const [line, ink] of [[4, "rgba(0,0,0,.65)"], [2, "#fff"]]) {
-      pen.strokeStyle = ink; pen.lineWidth = line;
-      pen.beginPath(); pen.moveTo(toX(0.92 * across), toY(0.92 * up)); pen.lineTo(toX(across), toY(up)); pen.stroke();
-    }
-    pen.strokeStyle = "rgba(0,0,0,.75)"; pen.lineWidth = 3; pen.fillStyle = "#fff";
-    pen.strokeText("0°", toX(0.84 * across), toY(0.84 * up));
-    pen.fillText("0°", toX(0.84 * across), toY(0.84 * up));
-    pen.font = "12px system-ui, sans-serif";
-    const kick = carom.basin.kick, kx = toX(kick.radial), ky = toY(kick.tangential);
-    for (const [line, ink] of [[4, "rgba(0,0,0,.65)"], [2, "#fff"]]) {
-      pen.strokeStyle = ink; pen.lineWidth = line;
-      pen.beginPath(); pen.moveTo(toX(0), toY(0)); pen.lineTo(kx, ky); pen.stroke();
-      pen.beginPath(); pen.arc(kx, ky, 6, 0, 7); pen.stroke();
-    }
+    if (!small) written(pen, "0°", ...at(0.84 * across, 0.84 * up));
+    kicks(pen);
     pen.restore();
-    pen.fillStyle = colour("soft"); pen.textBaseline = "top"; pen.textAlign = "center";
-    for (let value = -Math.floor(message.largest / step) * step; value <= message.largest; value += step) {
-      const share = value / message.largest;
-      pen.textAlign = "center"; pen.textBaseline = "top"; pen.fillText(carom.short(value, 3), clamp(toX(share), x0 + 8, side - 14), y0 + span + 4);
-      pen.textAlign = "right"; pen.textBaseline = "middle"; pen.fillText(carom.short(value, 3), x0 - 5, clamp(toY(share), y0 + 6, y0 + span - 6));
-    }
-    pen.textAlign = "center"; pen.textBaseline = "alphabetic";
-    pen.fillText(`kick outward (${message.unit})`, x0 + span / 2, y0 + span + 32);
-    pen.save(); pen.translate(11, y0 + span / 2); pen.rotate(-Math.PI / 2); pen.fillText(`kick with the rotation (${message.unit})`, 0, 0); pen.restore();
+    axes(pen, message, side, small);
   };
 
-  // Rows stay while the motions are the same: only the shares change then.
-  let listed = "", shares = [];
-  const legend = (message) => {
-    const names = JSON.stringify([message.harmless > 0, ...message.endings.map((one) => [one.words, one.colour, one.hatch])]);
-    if (names !== listed) {
-      listed = names;
-      shares = message.endings.map(() => document.createElement("span"));
-      const rows = message.endings.map((one, place) => {
-        const item = document.createElement("li"), swatch = document.createElement("canvas"), words = document.createElement("span");
-        item.append(swatch, words, shares[place]);
-        words.textContent = one.words;
-        swatch.width = swatch.height = 24;
-        const pen = swatch.getContext("2d");
-        pen.fillStyle = pen.createPattern(carom.tile(one.colour, one.hatch).canvas, "repeat");
-        pen.fillRect(0, 0, 24, 24);
-        return item;
-      });
-      if (message.harmless > 0) {
-        const item = document.createElement("li");
-        item.innerHTML = '<i class="ring"></i><span>inside the dashed ring: proven never to touch</span>';
-        rows.push(item);
-      }
-      at("legend").replaceChildren(...rows);
-    }
-    message.endings.forEach((one, place) => { shares[place].textContent = `${carom.short(100 * one.share, 3)} %`; });
+  picture.show = (message) => { picture.message = message; picture.draw(); };
+  picture.mark = (marked, active = picture.active) => { picture.kicks = marked; picture.active = active; picture.draw(); };
+  picture.setRing = (size) => { picture.ring = size; picture.draw(); };
+  picture.renew = () => { ink.renew(); picture.draw(); };
+  // Where the cell of a disturbance leads; null outside the picture.
+  picture.endingOf = (kick) => {
+    const message = picture.message, n = message.size;
+    const [column, row] = [kick.first, kick.second].map((part) => Math.floor((part / message.largest + 1) * n / 2));
+    return (column >= 0 && row >= 0 && column < n && row < n && message.endings[message.cells[row * n + column]]) || null;
+  };
+  // Share of the cells up to a size that come back, and their number.
+  picture.shareWithin = (size) => {
+    const message = picture.message, n = message.size;
+    let back = 0, all = 0;
+    message.cells.forEach((cell, place) => {
+      const first = 2 * (place % n + 0.5) / n - 1, second = 2 * (Math.floor(place / n) + 0.5) / n - 1;
+      if (cell >= message.endings.length || Math.hypot(first, second) * message.largest > size) return;
+      all += 1;
+      back += message.endings[cell].back ? 1 : 0;
+    });
+    return [all ? back / all : 1, all];
   };
 
-  carom.basin.show = (message) => {
-    if (carom.basin.message && message.number < carom.basin.message.number) return;
-    if (message.refused) { at("sentence").textContent = message.refused; return; }
-    carom.basin.message = message;
-    draw();
-    legend(message);
-    at("rest").textContent = message.rest;
-    carom.controls.arrived(message.number);
+  const kickAt = (event) => {
+    if (!frame || !picture.message) return null;
+    const box = canvas.getBoundingClientRect(), { largest } = picture.message;
+    const first = 2 * (event.clientX - box.left - frame.x0) / frame.span - 1, second = 1 - 2 * (event.clientY - box.top - frame.y0) / frame.span;
+    return { first: largest * first, second: largest * second, share: Math.hypot(first, second) };
   };
-  carom.basin.mark = (kick) => { carom.basin.kick = kick; draw(); };
-
-  const ask = carom.throttled(45, (kick, chosen) => {
-    carom.kicks = (carom.kicks || 0) + 1;
-    carom.requests.kick = { number: carom.kicks, radial: kick.radial, tangential: kick.tangential, chosen };
-  });
   const point = (event, chosen) => {
-    if (!frame) return;
-    const box = canvas.getBoundingClientRect();
-    const kick = { radial: 2 * (event.clientX - box.left - frame.x0) / frame.span - 1, tangential: 1 - 2 * (event.clientY - box.top - frame.y0) / frame.span };
-    if (Math.abs(kick.radial) > 1 || Math.abs(kick.tangential) > 1) return;
-    carom.basin.mark(kick);
-    ask(kick, chosen);
+    const kick = kickAt(event);
+    if (kick && kick.share <= 1) onPoint({ first: kick.first, second: kick.second }, chosen);
   };
-  canvas.addEventListener("pointermove", (event) => { if (event.pointerType !== "touch") point(event, false); });
-  canvas.addEventListener("click", (event) => point(event, true));
-  canvas.addEventListener("keydown", (event) => {
-    const move = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[event.key];
-    if (!move) return;
-    event.preventDefault();
-    const kick = carom.basin.kick;
-    carom.basin.mark({ radial: clamp(kick.radial + 0.02 * move[0], -1, 1), tangential: clamp(kick.tangential + 0.02 * move[1], -1, 1) });
-    ask(carom.basin.kick, true);
+  // The ring is held at its knob with a finger, anywhere with a mouse.
+  const holds = (event) => {
+    const kick = kickAt(event);
+    if (!kick || !(picture.ring > 0)) return false;
+    const share = picture.ring / picture.message.largest, [x, y] = frame.at(share * Math.cos(knobAngle), share * Math.sin(-knobAngle));
+    const box = canvas.getBoundingClientRect(), apart = Math.hypot(event.clientX - box.left - x, event.clientY - box.top - y);
+    const touch = event.pointerType === "touch" || event.pointerType === undefined;
+    return apart < (touch ? 22 : 11) || (!touch && Math.abs(kick.share - share) * frame.span / 2 < 4);
+  };
+  canvas.addEventListener("touchstart", (event) => { if (event.touches.length === 1 && holds(event.touches[0])) event.preventDefault(); }, { passive: false });
+  canvas.addEventListener("pointerdown", (event) => {
+    dragged = false;
+    dragging = holds(event);
+    if (dragging) canvas.setPointerCapture(event.pointerId);
   });
-  carom.parts.push(draw);
-})();
+  const pull = (event, done) => {
+    const kick = kickAt(event);
+    picture.setRing(clamp(kick.share, 0.01, 1) * picture.message.largest);
+    onRing(picture.ring, done);
+  };
+  canvas.addEventListener("pointermove", (event) => {
+    if (dragging) { dragged = true; pull(event, false); return; }
+    const held = holds(event);
+    canvas.style.cursor = held ? "grab" : "";
+    if (!held && event.pointerType !== "touch" && event.buttons === 0) point(event, false);
+  });
+  for (const end of ["pointerup", "pointercancel"]) {
+    canvas.addEventListener(end, (event) => {
+      if (dragging && dragged && end === "pointerup") pull(event, true);
+      dragging = false;
+    });
+  }
+  canvas.addEventListener("click", (event) => { if (!dragged) point(event, true); });
+  canvas.addEventListener("keydown", (event) => {
+    const message = picture.message, move = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[event.key];
+    const pulled = { "+": 0.02, "-": -0.02 }[event.key];
+    if (!message || (!move && !pulled) || event.ctrlKey || event.metaKey) return;
+    event.preventDefault();
+    if (pulled) {
+      picture.setRing(clamp((picture.ring || message.largest / 2) + pulled * message.largest, 0.01 * message.largest, message.largest));
+      onRing(picture.ring, true);
+      return;
+    }
+    const kick = picture.kicks[picture.active] || { first: 0, second: 0 };
+    const [first, second] = [kick.first + 0.02 * message.largest * move[0], kick.second + 0.02 * message.largest * move[1]];
+    if (Math.hypot(first, second) <= message.largest) onPoint({ first, second }, true, picture.active);
+  });
+  return picture;
+};

@@ -1,13 +1,12 @@
 // Sliders and boxes. The machine is sent as the texts of those that were changed; everything else is the file's.
-carom.controls = {};
+carom.controls = { settings: {}, notice: "" };
 carom.number = 0;
 carom.shown = 0; // the number of the machine that the server shows: a later one may have been refused
 carom.moved = null;
 carom.held = false;
 
 (() => {
-  const settings = {}, machine = at("controls").dataset.machine;
-  let notice = "";
+  const settings = carom.controls.settings;
   const rows = [...document.querySelectorAll(".control")].map((row) => {
     const data = row.dataset;
     return { row, name: data.name, unit: data.unit, low: +data.low, high: +data.high, value: +data.value, log: data.log === "1",
@@ -27,10 +26,7 @@ carom.held = false;
   const send = (held) => {
     carom.number += 1;
     carom.held = held;
-    carom.requests.machine = { number: carom.number, settings: { ...settings }, held, along: carom.moved || "" };
-    if (held) return;
-    const words = Object.keys(settings).length ? `#${new URLSearchParams({ of: machine, ...settings })}` : location.pathname;
-    history.replaceState(null, "", words);
+    carom.requests.machine = { number: carom.number, settings: { ...settings }, held, along: carom.moved || "", view: carom.stage.view() };
   };
   // While a slider is held the next step is sent when the picture of the last one is there, or after a moment.
   let due = false, waitingFor = 0, timer = 0;
@@ -43,22 +39,30 @@ carom.held = false;
     timer = setTimeout(() => { waitingFor = 0; if (due) step(); }, 400);
   };
   carom.controls.arrived = (number) => { carom.seen = number; if (due && number >= waitingFor) step(); };
+  // Ask for what is set now: step by step while something is held, and else all of it, which the address then keeps.
+  carom.controls.ask = (held, keep = true) => {
+    if (held) { step(); return; }
+    due = false;
+    clearTimeout(timer);
+    waitingFor = 0;
+    send(false);
+    if (keep) carom.address.keep();
+  };
 
   const plain = /^[\s\d.,'+-]*(e[+-]?\d+)?\s*$/i;
   const mark = (one) => {
     one.row.classList.toggle("changed", one.name in settings);
     one.row.classList.toggle("own-unit", !plain.test(one.box.value));
   };
-  const moved = (one, held) => {
+  const moved = (one, held, keep = true) => {
     const value = valueAt(one, +one.slider.value);
     one.now = value;
-    one.box.value = carom.short(value);
-    settings[one.name] = `${carom.short(value)} ${one.unit}`.trim();
+    one.box.value = short(value);
+    settings[one.name] = `${short(value)} ${one.unit}`.trim();
     carom.moved = one.name;
     mark(one);
     if (carom.showCursor) carom.showCursor(one.name, value);
-    if (held) step();
-    else { due = false; clearTimeout(timer); waitingFor = 0; send(false); }
+    carom.controls.ask(held, keep);
   };
   const typed = (one) => {
     const text = one.box.value.trim();
@@ -66,7 +70,7 @@ carom.held = false;
     if (text === one.shown) delete settings[one.name]; else settings[one.name] = text;
     carom.moved = one.name;
     mark(one);
-    send(false);
+    carom.controls.ask(false);
   };
 
   for (const one of rows) {
@@ -76,20 +80,41 @@ carom.held = false;
     one.box.addEventListener("change", () => typed(one));
   }
   at("controls").addEventListener("submit", (event) => { event.preventDefault(); document.activeElement.blur(); });
-  at("reset").addEventListener("click", () => {
+  // Other values in place of those that are set: text by name, as the address keeps it.
+  carom.controls.replace = (texts) => {
     for (const one of rows) {
       delete settings[one.name];
-      one.box.value = one.shown;
+      const text = texts[one.name];
+      if (text === undefined) one.box.value = one.shown;
+      else {
+        settings[one.name] = text;
+        // The unit stands beside the box; that of "90 g mm" is another one.
+        const number = text.endsWith(` ${one.unit}`) ? text.slice(0, -one.unit.length - 1) : "";
+        one.box.value = number && Number.isFinite(Number(number)) ? number : text;
+        carom.moved = one.name;
+      }
       mark(one);
     }
-    send(false);
+  };
+  at("reset").addEventListener("click", () => {
+    carom.controls.replace({});
+    carom.stage.reset();
+    carom.controls.ask(false);
   });
+  // Move a slider by itself, to a share of its length; back to the file without one.
+  carom.controls.glide = (name, share) => {
+    const one = rows.find((row) => row.name === name);
+    if (share === null) { carom.controls.replace({}); carom.controls.ask(false); return; }
+    one.slider.value = Math.round(1000 * share);
+    moved(one, true);
+  };
+  carom.controls.share = (name) => +rows.find((row) => row.name === name).slider.value / 1000;
 
   // The server reads what was typed: its values place the sliders and the mark in the diagram.
   carom.controls.reply = (reply) => {
     carom.shown = reply.shown;
-    const words = reply.text || notice;
-    notice = "";
+    const words = reply.text || carom.controls.notice;
+    carom.controls.notice = "";
     at("problem").hidden = !words;
     at("problem").textContent = words;
     for (const one of rows) {
@@ -99,24 +124,5 @@ carom.held = false;
       one.slider.value = place(one, one.now);
       if (carom.showCursor) carom.showCursor(one.name, one.now);
     }
-  };
-  // The address keeps what was changed: it can be sent to a colleague, and survives a restart of the server.
-  carom.controls.begin = () => {
-    const kept = new URLSearchParams(location.hash.slice(1));
-    if ((kept.get("of") || machine) !== machine) {
-      notice = "The address holds values that were set for another machine. They are left out.";
-      for (const name of [...kept.keys()]) kept.delete(name);
-    }
-    for (const [name, text] of kept) {
-      const one = rows.find((row) => row.name === name);
-      if (!one) continue;
-      settings[name] = text;
-      // The unit stands beside the box; that of "90 g mm" is another one.
-      const number = text.endsWith(` ${one.unit}`) ? text.slice(0, -one.unit.length - 1) : "";
-      one.box.value = number && Number.isFinite(Number(number)) ? number : text;
-      carom.moved = name;
-      mark(one);
-    }
-    send(false);
   };
 })();

@@ -24,6 +24,7 @@ carom.panels = { exports: null };
     } else {
       box.className = "";
       box.querySelector("span").textContent = state.kind === "cancelled" ? "Stopped. What had been found is shown." : "";
+      if (state.kind === "idle" && exact.verdict) carom.sweep.idle();
     }
   };
   for (const wish of ["cancel", "resume"]) at(wish).addEventListener("click", () => { carom.requests[wish] += 1; });
@@ -41,10 +42,11 @@ carom.panels = { exports: null };
     if (message.refused) return;
     at("sentence").textContent = message.sentence;
     tile("share", message.share, message.share_remark);
+    at("lost-title").textContent = `smallest lost ${message.nouns[0]}`;
     if (exact.loss !== message.number) tile("lost", message.lost, message.lost_remark);
     if (exact.hardest !== message.number) at("hardest").classList.add("old");
-    if (exact.verdict !== message.number) for (const card of ["headline", "tried"]) at(card).classList.add("old");
-    if (carom.held) for (const what of ["motion", "figures", "table"]) pale(what, true);
+    if (exact.verdict !== message.number) for (const card of ["headline", "advice", "tried"]) at(card).classList.add("old");
+    if (carom.held) for (const what of ["motion", "beside", "figures", "table"]) pale(what, true);
   };
   carom.panels.loss = (message) => {
     exact.loss = message.number;
@@ -56,8 +58,9 @@ carom.panels = { exports: null };
   };
   carom.panels.verdict = (message) => {
     exact.verdict = message.number;
-    for (const card of ["headline", "tried"]) at(card).classList.remove("old");
+    for (const card of ["headline", "advice", "tried"]) at(card).classList.remove("old");
     at("headline").textContent = message.refused || message.lead;
+    at("advice").textContent = message.advice || "";
     at("tried").hidden = Boolean(message.refused);
     at("survived").replaceChildren(...(message.survived || []).map((words) => {
       const item = document.createElement("li");
@@ -82,10 +85,10 @@ carom.panels = { exports: null };
     at("argument").textContent = message.argument;
   });
 
-  const words = { toml: "machine file", options: "options of the command line", command: "command", python: "program" };
+  const words = { toml: "machine file", options: "options of the command line", command: "command", python: "program", link: "address of this machine and these kicks" };
   for (const button of document.querySelectorAll("[data-copy]")) {
     button.addEventListener("click", async () => {
-      const text = carom.panels.exports ? carom.panels.exports[button.dataset.copy] : "";
+      const text = button.dataset.copy === "link" ? location.href : carom.panels.exports ? carom.panels.exports[button.dataset.copy] : "";
       const place = at("copy-text");
       if (!text) { at("copied").textContent = "Nothing differs from the file."; return; }
       place.value = text;

@@ -1,0 +1,173 @@
+"""What the picture shows: kicks, shocks of the base, or losses of a blade, each by two components in a plane.
+
+Sizes are in SI units if the machine is known, so that axes stay where its speed changes, and in units of the equations otherwise.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from dataclasses import dataclass
+from typing import ClassVar, Literal
+
+import numpy as np
+
+from carom.disturbances import BaseShock, BladeLoss, Coordinate, Disturbance, Starts, VelocityKick
+from carom.disturbances.blows import LONGEST_SHOCK
+from carom.disturbances.echo import angles_words
+from carom.explorer.computing.rest import Rest, rest_of
+from carom.models import Jeffcott
+from carom.motions import State
+from carom.parameters import SHOCK_DURATION, Case, Scales
+from carom.parameters.told import shown_in, told, told_angle
+from carom.studies.survives import largest_levitating
+
+Name = Literal["kick", "shock", "blade-loss"]
+
+
+@dataclass(frozen=True)
+class ShockPlane(Disturbance):
+    """Shocks of the base by the components of their peak acceleration, of a duration in ``1/Ω``."""
+
+    peak: float
+    duration: float
+    kind: ClassVar[str] = "shock-plane"
+    noun: ClassVar[str] = "shocks"
+    measured_in: ClassVar[dict[str, str]] = {"peak": "acceleration", "duration": "time"}
+
+    @property
+    def coordinates(self) -> tuple[Coordinate, ...]:
+        """Components along the axes that turn with the shaft, where they are as the shock begins."""
+        return tuple(Coordinate(name, name, -self.peak, self.peak, "acceleration") for name in ("along_x", "along_y"))
+
+    @property
+    def size(self) -> Coordinate:
+        """Peak acceleration."""
+        return BaseShock(self.peak, self.duration).coordinates[0]
+
+    def starts(self, rotor: Jeffcott, *values: np.ndarray) -> Starts:  # type: ignore[override]
+        """State at the end of the pulse; there is none beyond the largest peak."""
+        x, y = values
+        found = BaseShock(self.peak, self.duration).starts(rotor, np.hypot(x, y), np.arctan2(y, x))
+        return found._replace(exists=found.exists & (np.hypot(x, y) <= self.peak * (1.0 + 1e-12)))
+
+
+@dataclass(frozen=True)
+class Plane:
+    """One kind of disturbance of a machine.
+
+    Attributes
+    ----------
+    name : {"kick", "shock", "blade-loss"}
+    scale : str
+        Property of :class:`~carom.parameters.Scales` in which sizes are measured.
+    required : float or None
+        Size that must be survived; ``None`` where none is stated.
+    usual : float
+        Size at which a search for the range of the picture begins.
+    duration : float
+        Of a shock.
+    """
+
+    name: Name
+    scale: str
+    required: float | None
+    usual: float
+    duration: float = 0.0
+
+    def own(self, size: float, scales: Scales | None) -> float:
+        """A size in units of the equations."""
+        return size / float(getattr(scales, self.scale)) if scales else size
+
+    def shown(self, scales: Scales | None) -> tuple[float, str]:
+        """Factor from sizes in units of the equations to those that people are told, and their unit."""
+        return shown_in(self.scale, scales)
+
+    def per_unit(self, scales: Scales | None) -> float:
+        """A size of one in the unit that people are told."""
+        return (float(getattr(scales, self.scale)) if scales else 1.0) / self.shown(scales)[0]
+
+    @property
+    def axes(self) -> tuple[str, str]:
+        """Words of both components."""
+        return {
+            "kick": ("kick outward", "kick with the rotation"),
+            "shock": ("shock along 0°", "shock across it"),
+            "blade-loss": ("unbalance after, along the present one", "across it"),
+        }[self.name]
+
+    @property
+    def nouns(self) -> tuple[str, str]:
+        """What the page calls one and many of them."""
+        return {"kick": ("kick", "kicks"), "shock": ("shock", "shocks"), "blade-loss": ("loss", "losses of a blade")}[
+            self.name
+        ]
+
+    def words_up_to(self, size: float, scales: Scales | None) -> str:
+        """All of them up to a size in units of the equations, such as ``kicks up to 166 mm/s``."""
+        return f"{self.nouns[1]} up to {told(size, self.scale, scales)}"
+
+    def by_size(self, rotor: Jeffcott, size: float) -> Disturbance:
+        """Disturbances by size and direction, for searches; the size is in units of the equations."""
+        if self.name == "kick":
+            return VelocityKick(size)
+        if self.name == "shock":
+            return BaseShock(size, self.lasting(rotor))
+        return BladeLoss(size)
+
+    def lasting(self, rotor: Jeffcott) -> float:
+        """Duration of a shock in ``1/Ω``."""
+        return self.duration / (rotor.scales.time if rotor.scales else 1.0)
+
+    def start(self, rotor: Jeffcott, rest: Rest, first: float, second: float) -> tuple[Jeffcott, State, str]:
+        """The machine and its state just after a disturbance by components in units of the equations, and what was done, in words."""
+        size, angle = math.hypot(first, second), math.atan2(second, first)
+        if self.name == "kick":
+            state = rest.kicked(first, second)
+            turned = told_angle(cmath.phase(complex(state.velocity)) % math.tau)
+            return rotor, state, f"A kick of {told(abs(complex(state.velocity)), 'velocity', rotor.scales)} at {turned}"
+        words = f"{told(size, self.scale, rotor.scales)}"
+        turned = told_angle(angle % math.tau)
+        if self.name == "shock":
+            lasting = self.lasting(rotor)
+            state = BaseShock(size, lasting).release(rotor, angle)
+            return (
+                rotor,
+                state,
+                f"A shock of {words} for {told(lasting, 'time', rotor.scales)} at {turned}, drawn from its end,",
+            )
+        _, state = BladeLoss(size).release(rotor, angle)
+        after = rotor.replace(rho=size)
+        return after, state, f"A loss of a blade that leaves {words}, turned by {turned},"
+
+
+def planes_of(case: Case) -> tuple[Plane, ...]:
+    """The kinds of disturbances that a machine can be shown with, kicks first."""
+    scales = case.parameters.scales
+    needed = case.requirement.own(scales)
+    rotor = Jeffcott(case.parameters)
+
+    def si(size: float, scale: str) -> float:
+        return size * (float(getattr(scales, scale)) if scales else 1.0)
+
+    kick = si(needed.kick, "velocity")
+    planes = [Plane("kick", "velocity", kick, kick)]
+    duration = needed.shock.duration if needed.shock else SHOCK_DURATION / scales.time if scales else 0.0
+    if 0.0 < duration <= LONGEST_SHOCK and abs(rotor.equilibrium) < 1.0:
+        peak = si(needed.shock.peak, "acceleration") if needed.shock else None
+        usual = peak or si(math.pi * needed.kick / (2.0 * duration), "acceleration")
+        planes.append(Plane("shock", "acceleration", peak, usual, si(duration, "time")))
+    if abs(rotor.equilibrium) < 1.0:
+        scale = "unbalance" if scales else "length"
+        after = si(needed.blade_loss, scale) if needed.blade_loss else None
+        usual = after or si(0.5 * largest_levitating(rotor), scale)
+        planes.append(Plane("blade-loss", scale, after, usual))
+    return tuple(planes)
+
+
+def opening_words(case: Case) -> str:
+    """What the page begins with."""
+    rotor = Jeffcott(case.parameters)
+    kicks = planes_of(case)[0]
+    needed = kicks.words_up_to(kicks.own(kicks.usual, rotor.scales), rotor.scales)
+    return f"{case.name}: it must survive {needed}, which disturb {rest_of(rotor).words}; {angles_words(rotor.unbalance_phase)}"

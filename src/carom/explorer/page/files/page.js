@@ -1,0 +1,30 @@
+// What the parts of the page share.
+const carom = { looks: window.carom_looks, parts: [], requests: null, begun: null };
+const at = (id) => document.getElementById(id);
+const colour = inksOf(document.documentElement);
+
+// At most one call in flight of a kind, and always the newest.
+carom.throttled = (pause, call) => {
+  let waiting = null, timer = 0, last = 0;
+  return (...given) => {
+    waiting = given;
+    if (timer) return;
+    timer = setTimeout(() => { timer = 0; last = performance.now(); call(...waiting); }, Math.max(0, pause - (performance.now() - last)));
+  };
+};
+
+// While a slider is held, what takes the browser long is shown when nothing newer has come for a moment.
+carom.unhurried = (show) => {
+  let timer = 0;
+  return (message) => {
+    clearTimeout(timer);
+    if (carom.held) timer = setTimeout(() => show(message), 300);
+    else show(message);
+  };
+};
+
+const dark = window.matchMedia("(prefers-color-scheme: dark)"), paper = window.matchMedia("print");
+carom.redraw = () => { colour.renew(); for (const part of carom.parts) part(); };
+for (const query of [dark, paper]) query.addEventListener("change", () => requestAnimationFrame(carom.redraw));
+window.addEventListener("beforeprint", () => carom.redraw());
+window.addEventListener("resize", carom.throttled(60, () => carom.redraw()));

@@ -1,0 +1,166 @@
+// The pictures: where kicks lead, and the flights after two of them.  A click on what comes back is flown first, one on what is lost second.
+carom.stage = {};
+
+(() => {
+  const slots = ["motion", "beside"], canvases = ["clearance", "beside"];
+  const state = { kind: "kick", largest: null, kicks: null, active: 0, ring: null };
+  let asked = 0, opening = 0, smallest = { number: 0, size: 0 }, pointed = null;
+
+  const basin = basinPicture(at("basin"), { onPoint: (kick, chosen, slot) => point(kick, chosen, slot), onRing: (size, done) => pulled(size, done) });
+  const flights = canvases.map((name, slot) => flight(at(name), {
+    looks: carom.looks, onTime: (now, end) => { if (carom.plots && slot === state.active) carom.plots.now(now, now >= end); },
+  }));
+  carom.basin = basin;
+  carom.flights = flights;
+  carom.parts.push(basin.renew, ...flights.map((one) => one.renew));
+  const marked = () => state.kicks || flights.map((one) => one.message && one.message.kick).filter(Boolean);
+  // The motion that the figures show.
+  Object.defineProperty(carom, "motion", { get: () => flights[state.active] });
+
+  const ask = carom.throttled(45, (kick, slot, chosen) => {
+    asked += 1;
+    carom.requests.kick = { number: asked, slot, ...kick, chosen };
+  });
+  const point = (kick, chosen, slot = null) => {
+    const ending = basin.endingOf(kick);
+    const place = slot === null ? (ending && ending.back ? 0 : 1) : slot, both = marked();
+    if (both.length < 2) return;
+    state.kicks = both.map((one, other) => (other === place ? kick : one));
+    state.active = place;
+    pointed = { ...kick, slot: place };
+    basin.mark(state.kicks, place);
+    ask(kick, place, chosen);
+    // Arrow keys take many steps, of which the address keeps the last.
+    if (chosen) carom.address.keep(slot === null);
+  };
+
+  const legendOf = (message) => {
+    const [one] = message.nouns, rows = [];
+    if (message.harmless > 0) rows.push(["dash", "proven never to touch"]);
+    if (message.required > 0) rows.push(["must", `${message.required > message.largest * 1.0001 ? "out of the picture: " : ""}must survive ${short(message.required, 3)} ${message.unit}`]);
+    if (basin.ring > 0) rows.push(["lost", state.ring ? `chosen: ${short(basin.ring, 3)} ${message.unit}` : `smallest lost ${one}: ${short(basin.ring, 3)} ${message.unit}`]);
+    return rows;
+  };
+  // Rows stay while the motions are the same: only the shares change then.
+  let listed = "", shares = [];
+  const legend = (message) => {
+    const extra = legendOf(message), names = JSON.stringify([extra, ...message.endings.map((one) => [one.words, one.colour, one.hatch])]);
+    if (names !== listed) {
+      listed = names;
+      shares = message.endings.map(() => document.createElement("span"));
+      const rows = message.endings.map((one, place) => {
+        const item = document.createElement("li"), swatch = document.createElement("canvas"), words = document.createElement("span");
+        item.append(swatch, words, shares[place]);
+        words.textContent = one.words;
+        swatch.width = swatch.height = 24;
+        const pen = swatch.getContext("2d");
+        pen.fillStyle = pen.createPattern(tile(one.colour, one.hatch).canvas, "repeat");
+        pen.fillRect(0, 0, 24, 24);
+        return item;
+      });
+      rows.push(...extra.map(([look, said]) => {
+        const item = document.createElement("li"), sign = document.createElement("i"), words = document.createElement("span");
+        sign.className = `ring ${look}`;
+        words.textContent = said;
+        item.append(sign, words);
+        return item;
+      }));
+      at("legend").replaceChildren(...rows);
+    }
+    message.endings.forEach((one, place) => { shares[place].textContent = `${short(100 * one.share, 3)} %`; });
+  };
+
+  // The ring stands at the smallest that is lost, until it is pulled to a size of which one wishes to know what comes back inside.
+  const ringOf = (message) => state.ring || (smallest.number >= message.number ? smallest.size : message.lost_size);
+  const note = () => {
+    const message = basin.message, [one, many] = message.nouns, [share, cells] = basin.ring ? basin.shareWithin(basin.ring) : [1, 0];
+    at("ring-note").textContent = basin.ring
+      ? `${share > 0.999 && share < 1 ? "almost 100" : short(100 * share, 3)} % of the ${many} inside the ring come back${cells < 30 ? " (few cells; narrow the range)" : ""}. Drag the ring to ask about another size.`
+      : `No ${one} of this picture is lost.`;
+    legend(message);
+  };
+  const ringed = () => { basin.setRing(ringOf(basin.message)); note(); };
+  const pulled = (size, done) => {
+    state.ring = size;
+    ringed();
+    if (done) carom.address.keep();
+  };
+  carom.stage.loss = (message) => {
+    if (message.refused) return;
+    smallest = { number: message.number, size: message.size };
+    if (basin.message) ringed();
+  };
+
+  const ranged = (message) => {
+    opening = message.opening;
+    if (document.activeElement !== at("range") || !carom.held) at("range").value = Math.round(1000 * Math.log(message.largest / opening * 8) / Math.log(64));
+    at("range-words").textContent = `up to ${short(message.largest, 3)} ${message.unit}`;
+  };
+  carom.stage.basin = (message) => {
+    if (basin.message && message.number < basin.message.number) return;
+    if (message.refused) { at("sentence").textContent = message.refused; return; }
+    for (const one of flights) one.rest = { position: message.rest_position, colour: message.legend_rest };
+    // All at once, so that it is drawn once.
+    basin.kicks = marked();
+    basin.ring = ringOf(message);
+    basin.show(message);
+    note();
+    ranged(message);
+    at("rest").textContent = message.rest;
+    at("kind").value = message.kind;
+    carom.controls.arrived(message.number);
+  };
+
+  // The motion after one of both; a newer wish keeps its own mark.
+  const moved = (slot) => (message) => {
+    const one = flights[slot], newest = !pointed || pointed.slot !== slot || !message.kick || (pointed.first === message.kick.first && pointed.second === message.kick.second);
+    one.show(message);
+    carom.panels.shown(slots[slot], message);
+    at(`${slots[slot]}-words`).textContent = message.refused || message.words + (message.whole ? "" : " Its beginning is shown.");
+    at(`${slots[slot]}-title`).textContent = message.refused ? "not possible" : message.outcome === "levitated" ? "comes back" : "is lost";
+    at(`${slots[slot]}-sign`).style.background = message.refused ? "" : message.colour;
+    if (message.refused) return;
+    if (!state.kicks || newest) basin.mark(marked(), state.active);
+    if (carom.plots && slot === state.active) carom.plots.motion(message);
+    if (carom.held) one.finish(false); else one.play();
+    const slower = one.slower();
+    at("pace").textContent = slower > 1.5 ? `slowed down ${short(slower, 2)} times` : "";
+  };
+  carom.stage.motions = slots.map((_, slot) => moved(slot));
+  at("replay").addEventListener("click", () => { for (const one of flights) one.play(); });
+  for (const choice of document.querySelectorAll('input[name="frame"]')) {
+    choice.addEventListener("change", () => { for (const one of flights) one.turnWith(choice.value); });
+  }
+
+  at("range").addEventListener("input", () => {
+    state.largest = Number((opening / 8 * 64 ** (at("range").value / 1000)).toPrecision(3));
+    at("range-words").textContent = `up to ${short(state.largest, 3)} ${basin.message.unit}`;
+    carom.controls.ask(true);
+  });
+  at("range").addEventListener("change", () => carom.controls.ask(false));
+  at("kind").addEventListener("change", () => {
+    Object.assign(state, { kind: at("kind").value, largest: null, kicks: null, active: 0, ring: null });
+    pointed = null;
+    for (const one of flights) one.clear();
+    carom.controls.ask(false);
+  });
+
+  carom.stage.view = () => ({
+    kind: state.kind, largest: state.largest, active: state.active, kicks: state.kicks && state.kicks.map((kick) => [kick.first, kick.second]),
+  });
+  const pair = (kick) => `${short(kick.first)},${short(kick.second)}`;
+  carom.stage.kept = () => ({
+    ...(state.kind !== "kick" && { show: state.kind }), ...(state.largest && { range: short(state.largest) }),
+    ...(state.kicks && { kick: pair(state.kicks[0]), other: pair(state.kicks[1]) }), ...(state.ring && { ring: short(state.ring) }),
+  });
+  carom.stage.reset = () => carom.stage.restore({});
+  carom.stage.restore = (kept) => {
+    const number = (text) => (Number(text) > 0 && Number.isFinite(Number(text)) ? Number(text) : null);
+    const kick = (text) => { const [first, second] = (text || "").split(",").map(Number); return Number.isFinite(first) && Number.isFinite(second) && text ? { first, second } : null; };
+    const both = [kick(kept.kick), kick(kept.other)], known = [...at("kind").options].some((one) => one.value === kept.show);
+    pointed = null;
+    if (both.includes(null)) for (const one of flights) one.clear();
+    Object.assign(state, { kind: known ? kept.show : "kick", largest: number(kept.range), kicks: both.includes(null) ? null : both, active: 0, ring: number(kept.ring) });
+    if (basin.message) { basin.mark(marked(), 0); ringed(); }
+  };
+})();
