@@ -147,7 +147,8 @@ def test_energy_is_lost_to_damping_and_gained_from_unbalance_and_contact(rotor):
             )
             for states in (motion.arrivals, motion.segment_amplitudes[1:])
         ]
-        assert np.allclose(energies[1] - energies[0], work, rtol=0, atol=1e-11)
+        # Both energies are rounded, and some motions are fast.
+        assert np.allclose(energies[1] - energies[0], work, rtol=0, atol=1e-12 * (1.0 + energies[0].max()))
 
 
 def test_a_synchronous_rub_at_two_planes_attracts_as_its_exponents_say():

@@ -75,7 +75,9 @@ def test_speeds_seen_in_the_room_are_bounded(name, fastest):
     assert np.abs(pushes).max() <= fastest * (1.0 + 1e-14)  # a few roundings of the products
     assert np.abs(pushes).max() > 0.95 * fastest
     # The rotor moves as a whole: its coordinates have no other velocities than those of this push.
-    whole = np.multiply.outer(pushes, rotor.system.translated if len(rotor.system.rest) > 1 else rotor.system.translated[0])
+    whole = np.multiply.outer(
+        pushes, rotor.system.translated if len(rotor.system.rest) > 1 else rotor.system.translated[0]
+    )
     assert np.abs(room[kicks:] - whole[kicks:]).max() <= 1e-14 * (1.0 + fastest)
     singles = disturbances(rotor, 400, 7, fastest)
     scale = np.abs(rotor.system.translated).max()

@@ -12,7 +12,7 @@ from machines import PAPER
 
 import carom
 from carom.attractors.naming import _alike
-from carom.basins import Basin, cells_of, map_basins
+from carom.basins import Basin, map_basins, map_cells
 from carom.disturbances import (
     AnyState,
     BaseShock,
@@ -53,7 +53,7 @@ def test_each_ends_as_simulated_alone(rotor, kicks):
 
 
 def test_cells_are_those_of_the_basin(rotor, kicks):
-    cells = cells_of(rotor, kicks.plan)
+    cells = map_cells(rotor, kicks.plan)
     assert np.array_equal(cells.index, kicks.dataset["motion"].values)
     assert cells.motions == kicks.motions == kicks.cells.motions
     assert (cells.plan, cells.scales) == (kicks.plan, kicks.scales)

@@ -118,12 +118,12 @@ def test_the_departure_from_the_orbit_falls_with_the_distance():
     assert slope == pytest.approx(1.0, abs=0.3)
 
 
-def test_beyond_permanent_contact_the_flights_become_lower_than_rounding():
-    """Their height falls with the fourth power of their duration: at the smallest distance there is nothing to be found."""
+def test_beyond_permanent_contact_the_flights_are_short():
+    """Their height falls with the fourth power of their duration: whether one is found at the smallest distance is up to rounding."""
     found = examined(*PERMANENT)
     assert found.beyond is not None
     assert found.beyond.segments == "lift land slide+"
     distance = abs(on(found.beyond).gamma - found.point.value)
-    assert distance > 1.1 * found.distances[-1]
+    assert np.isclose(distance, found.distances, rtol=1e-6).any()
     # The flight lasts as long as the normal force of the sliding that repeats would be below zero, times a number.
     assert 1e-3 < found.beyond.durations[0] < 1e-2

@@ -28,7 +28,9 @@ def misses(model, at):
         force = mpmath.matrix(model.forcing.tolist()) - stiffness * rest
         size = 1 + mpmath.norm(stiffness, 1) * mpmath.norm(rest) + mpmath.norm(mpmath.matrix(model.forcing.tolist()))
         for q in range(count):
-            push = mpmath.mpf(float(at.normal_forces[q])) * mpmath.mpc(1, float(model.friction[q])) * places[q]
+            push = (
+                mpmath.mpf(float(at.normal_forces[q])) * mpmath.mpc(1, float(model.touchdowns[q].friction)) * places[q]
+            )
             force -= planes[q, :].H * push
             size += mpmath.norm(planes[q, :].H * push)
         walls = [abs(abs(places[q]) - 1) for q in at.planes]
@@ -55,7 +57,7 @@ def test_none_is_missed_at_one_and_two_planes():
         model = random_rotor(seed)
         random = np.random.default_rng(seed)
         static = model.planes @ np.linalg.solve(model.stiffness, model.planes.conj().T)
-        h = static * (1.0 + 1j * model.friction)
+        h = static * (1.0 + 1j * model.system.arrays.friction)
         rest = model.planes @ np.linalg.solve(model.stiffness, model.forcing)
         every = find_equilibria(model)
         for count in (1, 2):

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from carom.core.closure import eliminate
+from carom.core.equations import solve
 from carom.core.layout import kernel
 
 
 @kernel
 def solved(matrix):
-    return eliminate(matrix)
+    return solve(matrix)
 
 
 def test_equations_are_solved_with_pivots():

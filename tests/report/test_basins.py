@@ -31,7 +31,7 @@ def drawn(monkeypatch, result):
     """The panels and the size with which the pair is drawn."""
     kept = []
     monkeypatch.setattr(basins, "CELLS", {"kick": (12, 12), "shock": (2, 8), "blade_loss": (12,)})
-    monkeypatch.setattr(basins, "cells_of", map_basins)
+    monkeypatch.setattr(basins, "map_cells", map_basins)
     monkeypatch.setattr("carom.plots.basin_pair", lambda *arguments: kept.append(arguments))
     basins.draw(result)
     return kept[0]

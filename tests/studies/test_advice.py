@@ -141,7 +141,7 @@ def test_zone_d_is_told():
 
 def test_a_value_that_is_not_the_least_names_the_sample_that_forced_it():
     """Among random machines some need more than the first margin; each says what was lost at the nearer value."""
-    random, seen = np.random.default_rng(5), 0
+    random, seen = np.random.default_rng(8), 0
     for _ in range(40):
         parameters = cm.parameters.Parameters(
             gamma=float(random.uniform(0.01, 0.2)),

@@ -110,7 +110,11 @@ class AttractorSet(Result):
     def smallest_unrecovered_kick(self) -> float | None:
         """Smallest kick tried that did not come back to levitation, in ``c_r Ω``; ``None`` if all did."""
         kicks = [ending for ending in self.endings if ending.start.kind == "kick"]
-        pushes = [self.rotor.system.translation_velocity(ending.start.state.velocity) for ending in kicks if not ending.recovered]
+        pushes = [
+            self.rotor.system.translation_velocity(ending.start.state.velocity)
+            for ending in kicks
+            if not ending.recovered
+        ]
         return min((float(abs(push)) for push in pushes), default=None)
 
     @property

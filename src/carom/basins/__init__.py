@@ -16,7 +16,7 @@
 """
 
 from carom.basins.changes import GainChange, least_gain_change
-from carom.basins.classification import Basin, Cells, cells_of, map_basins
+from carom.basins.classification import Basin, Cells, map_basins, map_cells
 from carom.basins.entropy import BasinEntropy, basin_entropy
 from carom.basins.gains import GainMap, map_gains
 from carom.basins.integrity_measures import Integrity, integrity
@@ -34,10 +34,10 @@ __all__ = [
     "Share",
     "SmallestLoss",
     "basin_entropy",
-    "cells_of",
     "integrity",
     "least_gain_change",
     "map_basins",
+    "map_cells",
     "map_gains",
     "share_of_kicks",
     "smallest_loss",

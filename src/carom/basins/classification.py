@@ -238,8 +238,10 @@ def map_basins(
     return Basin(dataset_of(rotor, disturbances, starts, endings, motions, names, attributes))
 
 
-def cells_of(rotor: Model, plan: Plan) -> Cells:
+@checked
+def map_cells(machine: Subject, disturbances: Plan) -> Cells:
     """What pictures need of the basin that :func:`map_basins` finds; without a dataset, which takes longer to load than to fill."""
+    rotor, plan = model_of(machine), disturbances
     after = plan.model.machine_after(rotor)
     _, endings, _ = _followed(rotor, plan, after, longest_time(after))
     return Cells(plan, rotor.scales, *name_motions(after, endings))

@@ -53,7 +53,9 @@ def shaken(rotor: Model, duration: float) -> tuple[System, np.ndarray]:
     pulse = np.array([complex(0.0, frequency - 1.0), complex(0.0, -frequency - 1.0)])
     if (np.abs(pulse[:, None] - free) < LEAST_DISTANCE * np.abs(free + 1j)).any():
         raise InputError("duration", duration, "not half a natural period of undamped levitation, in 1/Omega")
-    shares = np.array([np.linalg.solve(s * np.eye(len(free)) - system.generator, system.base_excitation) for s in pulse]).T
+    shares = np.array(
+        [np.linalg.solve(s * np.eye(len(free)) - system.generator, system.base_excitation) for s in pulse]
+    ).T
     shaken_arrays = rotor_record(
         exponents=np.concatenate([free, pulse]),
         driven=np.append(arrays.driven, [False, False]),

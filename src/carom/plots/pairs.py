@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import textwrap
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.artist import Artist
@@ -13,7 +13,6 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from carom.arguments import checked
-from carom.basins import Cells
 from carom.outcome import InputError
 from carom.plots.cells import CHORDS, MotionLook, looks_of, paint
 from carom.plots.figure import StyledFigure
@@ -24,7 +23,7 @@ from carom.plots.words import formula, number
 
 if TYPE_CHECKING:
     from carom.attractors import MotionName
-    from carom.basins import Basin
+    from carom.basins import Basin, Cells
 
 _LINE = 22
 """Letters of a line of words in place of a picture."""
@@ -52,7 +51,9 @@ def basin_pair(panels: Sequence[tuple[str, Basin | Cells | str]], required: floa
     InputError
         None of the panels has a basin, or these are no grids of such disturbances, all of one kind.
     """
-    shown = [(title, entry if isinstance(entry, str | Cells) else entry.cells) for title, entry in panels]
+    # A basin has cells; cells and words are what they are.
+    given: Sequence[tuple[str, Any]] = panels
+    shown: list[tuple[str, Cells | str]] = [(title, getattr(entry, "cells", entry)) for title, entry in given]
     basins = [entry for _, entry in shown if not isinstance(entry, str)]
     kinds = sorted({basin.plan.model.kind for basin in basins})
     if len(kinds) != 1:

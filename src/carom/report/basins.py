@@ -5,7 +5,7 @@ from __future__ import annotations
 from matplotlib.figure import Figure
 
 from carom import plots
-from carom.basins import Cells, cells_of
+from carom.basins import Cells, map_cells
 from carom.disturbances import BaseShock, BladeLoss, Disturbance, Grid, KickPlane
 from carom.models import Model, axis
 from carom.studies import Study
@@ -66,7 +66,7 @@ def drawable(study: Study) -> bool:
 
 
 def _basin(rotor: Model, model: Disturbance, kind: Kind) -> Cells:
-    return cells_of(rotor, Grid(model, CELLS[kind]))
+    return map_cells(rotor, Grid(model, CELLS[kind]))
 
 
 def _required(study: Study, kind: Kind) -> tuple[float, int]:
