@@ -7,7 +7,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from carom.bifurcations.conditions import conditions_at
-from carom.bifurcations.derivatives import Direction, OrbitChange, OrbitValues
 from carom.closed_forms.periods import PeriodCondition
 from carom.continuation import Steps, continue_branch
 from carom.models import Jeffcott
@@ -109,19 +108,11 @@ def period_pair(gamma: float, period: float, pair: int) -> PeriodPair:
             return np.array([np.nan])
         return np.array([conditions_at(base._replace(gamma=gamma), float(u[0]), 0.0).closing])
 
-    def jacobian(u: np.ndarray, gamma: float) -> np.ndarray:
-        if u[0] <= 0.0:
-            return np.full((1, 2), np.nan)
-        at = base._replace(gamma=gamma), float(u[0]), 0.0
-        by_gamma, _ = OrbitChange(OrbitValues(*at), Direction(gamma=1.0)).equations()
-        return np.array([[conditions_at(*at).period_fold, by_gamma]])
-
     branch = continue_branch(
         closing,
         np.array([period]),
         gamma,
         (gamma, DAMPINGS[1]),
-        jacobian=jacobian,
         steps=Steps(0.005, largest=0.04),
         scales=np.array([1, 0.1]),
     )
