@@ -17,7 +17,7 @@ from carom.reproductions.mora2014.propositions import hopf_side
 from carom.reproductions.mora2014.source import machine_at
 from carom.results import Result
 
-LONGEST = 30.0
+LONGEST_DRAWN = 30.0
 """Longest period drawn, in ``1/Ω``."""
 DAMPINGS = (0.005, 0.2)
 """Range of the damping."""
@@ -84,7 +84,7 @@ class Birth(Result):
 
 def period_functions() -> tuple[PeriodFunction, ...]:
     """Compute ``F₁`` at the dampings of figure 3a."""
-    periods = np.linspace(0.02, LONGEST, 1500)
+    periods = np.linspace(0.02, LONGEST_DRAWN, 1500)
     found = []
     for gamma in (0.1, 0.05):
         condition = PeriodCondition.planar(machine_at(gamma))
@@ -95,7 +95,7 @@ def period_functions() -> tuple[PeriodFunction, ...]:
 def period_pairs() -> tuple[PeriodPair, ...]:
     """Follow all pairs of roots of ``F₁`` with periods up to 30/Ω from ``γ = 0.005`` to their folds and back, in ascending order."""
     gamma = DAMPINGS[0]
-    shorter = PeriodCondition.planar(machine_at(gamma)).roots(LONGEST).periods[::2]
+    shorter = PeriodCondition.planar(machine_at(gamma)).roots(LONGEST_DRAWN).periods[::2]
     return tuple(period_pair(gamma, period, pair) for pair, period in enumerate(shorter.tolist(), start=1))
 
 
