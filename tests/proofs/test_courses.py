@@ -15,7 +15,7 @@ from carom.proofs.balls import at_precision
 from carom.proofs.courses import Course, Return, period_condition
 from carom.proofs.hypotheses import hypotheses_of
 from carom.proofs.lines import Numbers
-from carom.proofs.rotor import Rotor, real_of_product, squared_modulus
+from carom.proofs.rotor import Rotor, squared_modulus
 from carom.proofs.series import hyperbolic, imaginary, real, short_return, terms
 
 
@@ -23,14 +23,24 @@ def balls(parameters) -> Numbers:
     return Rotor(hypotheses_of(parameters)).numbers
 
 
+def turned_response(rotor, time):
+    """``f`` and ``f'`` of :mod:`carom.proofs.rotor` at a time."""
+    value, slope = rotor.response(time)
+    sine, cosine = time.sin_cos()
+    turn = acb(cosine, -sine)
+    return turn * value, turn * acb(slope, -value)
+
+
 class Written:
     """An impact at a period and a radial speed by the response to an impulse, ``f`` of :mod:`carom.proofs.rotor`."""
 
     def __init__(self, rotor, period, speed) -> None:
         self.rotor, self.period, self.speed = rotor, period, speed
-        numerator, determinant = rotor.return_series(period, 1)
-        self.lever = rotor.q * rotor.turned_response(period)[0] / determinant[0]
-        self.turn = rotor.q * numerator[0] / determinant[0]
+        self.drag = acb(rotor.gamma, 2)
+        (f, slope), shrink = turned_response(rotor, period), (-self.drag * period).exp()
+        determinant = 1 - 2 * slope - self.drag * f + shrink
+        self.lever = rotor.q * f / determinant
+        self.turn = rotor.q * (slope - shrink) / determinant
         self.velocity = acb(1, -self.turn.imag)
 
     def discriminant(self):
@@ -38,22 +48,26 @@ class Written:
 
     def moved(self, place, rate, time):
         """Place and rate after a flight from a deviation from the contact-free equilibrium and its rate."""
-        rotor, (f, slope) = self.rotor, self.rotor.turned_response(time)
+        rotor, (f, slope) = self.rotor, turned_response(self.rotor, time)
         # The solution with the value 1 and no slope at first is f' + (γ + 2i) f.
-        return place * (slope + rotor.drag * f) + rate * f, -rotor.chi * place * f + rate * slope
+        return place * (slope + self.drag * f) + rate * f, -rotor.chi * place * f + rate * slope
 
     def radius_series(self, time, length):
         """Taylor coefficients of ``|U|² − 1``."""
         place, rate = -self.lever * self.speed, self.speed * (self.velocity - self.rotor.q)
-        coefficients = self.rotor.continued(*self.moved(place, rate, time), length)
+        coefficients = [*self.moved(place, rate, time)]
+        for k in range(length - 2):
+            fall = self.drag * coefficients[-1] / (k + 2) + self.rotor.chi * coefficients[-2] / ((k + 1) * (k + 2))
+            coefficients.append(-fall)
         coefficients[0] = coefficients[0] + 1 - place
-        excess = real_of_product(coefficients, coefficients)
-        return [excess[0] - 1, *excess[1:]]
+        parts = (arb_series([getattr(z, part) for z in coefficients], length) for part in ("real", "imag"))
+        excess = sum(part * part for part in parts) - 1
+        return [excess[k] for k in range(length)]
 
     def jacobian(self):
         """Derivative of the impact map over ``(θ, ṙ, θ̇)``, as in :mod:`carom.core.planar`."""
         rotor, turned_by = self.rotor, acb(0, 1)
-        force = rotor.chi * self.lever - rotor.drag * self.velocity
+        force = rotor.chi * self.lever - self.drag * self.velocity
         starts = (
             (turned_by, turned_by * self.speed * (self.velocity - rotor.q)),
             (acb(0), 1 - rotor.q),

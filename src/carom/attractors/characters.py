@@ -27,7 +27,7 @@ Lasting = Literal["attractor", "not seen to end", "transient", "undecided"]
 
 MEASURED = 20_000
 """Impacts from which exponents and averages of irregular bouncing are computed."""
-LONGEST = 256
+MOST_IMPACTS = 256
 """Impacts of the longest orbit that is looked for next to a motion that has not repeated."""
 TRIED = 4
 """Number of impacts a period that are tried for it."""
@@ -156,7 +156,7 @@ def _irregular(
         orbit = _approached_orbit(motion)
         if orbit is not None:
             return _periodic(attractor, orbit)
-        words = f"Nearby motions approach each other ({told}), but no orbit of up to {LONGEST} impacts was found there."
+        words = f"Nearby motions approach each other ({told}), but no orbit of up to {MOST_IMPACTS} impacts was found there."
     elif rotation.regular and not exponents.positive and exponents.lost <= 2 * len(rotor.system.exponents) - 2:
         if rotation.locked:
             words = f"Its rotation number is {rotation.nearest}, but no orbit closes there: {told}."
@@ -201,9 +201,9 @@ def _approached_orbit(motion: Trajectory) -> Orbit | None:
     """Attracting orbit to which a motion comes closer and closer."""
     states = motion.rotor.system.states_of(motion.arrivals[motion.is_impact])
     count = len(states)
-    if count < 4 * LONGEST:
+    if count < 4 * MOST_IMPACTS:
         return None
-    apart = np.abs(states[-1] - states[-1 - LONGEST : -1][::-1]).max(axis=1)
+    apart = np.abs(states[-1] - states[-1 - MOST_IMPACTS : -1][::-1]).max(axis=1)
     for impacts in np.sort(np.argsort(apart, kind="stable")[:TRIED] + 1).tolist():
         guess = with_impacts(motion, count - 1 - impacts, impacts)
         orbit = orbit_near(motion.rotor, *guess) if guess else None

@@ -22,7 +22,7 @@ from carom.outcome import CaromError, Outcome
 LASTING = (Outcome.FORWARD_RUB, Outcome.BACKWARD_WHIRL, Outcome.ROLLING)
 ON_WALL = 1e-9
 """Distance from a wall, in its clearance, within which a plane at the end of lasting contact counts as in contact."""
-ALIKE = 4
+DECIMALS = 4
 """Decimals to which the speeds at an impact must agree for motions to count as one kind."""
 LOOKED_AT = 400
 """Most kinds of periodic bouncing that are compared; further ones are named by their number of impacts alone."""
@@ -109,7 +109,7 @@ def _periodic(
     along = positions.real * velocities.imag - positions.imag * velocities.real
     if positions.ndim > 1:
         radial, along = radial.sum(axis=1), along.sum(axis=1)
-    first, kinds = _alike(codes, counts, radial.round(ALIKE), along.round(ALIKE))
+    first, kinds = _alike(codes, counts, radial.round(DECIMALS), along.round(DECIMALS))
     known: dict[MotionName, SettledMotion] = {}
     found = []
     for kind, place in enumerate(first):

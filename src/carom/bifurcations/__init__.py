@@ -18,7 +18,6 @@
 ``curves``          curves of bifurcations in two parameters
 ``word_curves``     those of orbits of any word
 ``conditions``      test functions of orbits with one impact and of equilibria
-``derivatives``     their exact derivatives
 ``resonances``      where Neimark–Sacker curves begin
 ``passing``         whether a known curve passes through a point
 ``naming``          names of the orbits of a curve

@@ -190,7 +190,7 @@ class OrbitBranch(Result):
         A ``rotor`` with this value need not be made again.
         """
         rotor, found = rotor or self.axis.move(self.rotor, value), []
-        for i, share in _passing(self.values, value):
+        for i, share in passing(self.values, value):
             guess = unpack((1.0 - share) * self.unknowns[i] + share * self.unknowns[i + 1], len(self.word))
             start = closed_flights(rotor, self.word, guess) if self.word.flies else None
             if start is None:
@@ -214,7 +214,7 @@ def speeds_at(rotor: Model, planes: np.ndarray, nodes: np.ndarray) -> np.ndarray
     return speeds.real * np.abs(position) + 1j * speeds.imag
 
 
-def _passing(values: np.ndarray, value: float) -> Iterator[tuple[int, float]]:
+def passing(values: np.ndarray, value: float) -> Iterator[tuple[int, float]]:
     """Steps of a branch that pass a value of the parameter: index of the first point, and share of the step before the value."""
     for i in np.flatnonzero((values[:-1] - value) * (values[1:] - value) <= 0.0).tolist():
         width = values[i + 1] - values[i]

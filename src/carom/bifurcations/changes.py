@@ -15,7 +15,7 @@ from carom.parameters import Numbers, Parameters
 
 NARROW = 1e-9
 """Width of the bracket around a change, in widths of the plane."""
-ALIKE = 1e-3
+SAME_ORBIT = 1e-3
 """Largest difference of period and radial speed between the same orbit on both sides of a bracket."""
 SHRUNK = 1e-3
 """Radial speed, in ``c_r Ω``, below which an orbit in a bracket may vanish in the boundary equilibrium."""
@@ -87,11 +87,8 @@ def accounts_for(kinds: set[str], before: Motions, after: Motions) -> bool:
 def causes_between(parameters: Parameters, plane: Plane, low: PlanePoint, high: PlanePoint) -> list[Bifurcation]:
     """Bifurcations of motions of the machine in a narrow bracket, from the test functions that change sign in it."""
     sides = [plane.numbers_at(Numbers.of(parameters), *point.place.tolist()) for point in (low, high)]
-    return [*_of_steady_motions(*sides), *_of_orbits(*sides)]
-
-
-def _of_steady_motions(low: Numbers, high: Numbers) -> list[Bifurcation]:
-    return [Bifurcation(kind, low) for kind in STEADY if _changes_sign(kind, low, high)]
+    steady = [Bifurcation(kind, sides[0]) for kind in STEADY if _changes_sign(kind, *sides)]
+    return [*steady, *_of_orbits(*sides)]
 
 
 def _changes_sign(kind: str, low: Numbers, high: Numbers) -> bool:
@@ -108,7 +105,7 @@ def _of_orbits(low: Numbers, high: Numbers) -> list[Bifurcation]:
     causes, missing = [], []
     for orbit in here:
         match = min(there, key=lambda other: _apart(orbit, other), default=None)
-        if match is not None and _apart(orbit, match) < ALIKE:
+        if match is not None and _apart(orbit, match) < SAME_ORBIT:
             there.remove(match)
             causes += _of_one_orbit(orbit, match)
         else:

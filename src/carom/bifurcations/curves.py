@@ -19,7 +19,6 @@ from carom.bifurcations.conditions import (
     grazing_equations,
     profile_at,
 )
-from carom.bifurcations.derivatives import analytic_rates, orbit_jacobian
 from carom.bifurcations.naming import orbits_on_curve
 from carom.bifurcations.planes import EDGE, Plane
 from carom.bifurcations.points import Bifurcation
@@ -197,7 +196,7 @@ def continue_curve(bifurcation: Bifurcation, plane: Plane, steps: Steps | None =
     The unknowns are the first parameter and, for an orbit, its period and radial speed.  The equations are those of the
     orbit (source paper (4.3), (4.4)) and the test function of the bifurcation.  Grazing has the time at which the
     radius is largest as a further unknown, and the equations ``Re(Ū U̇) = 0`` and ``|U| = 1``, which stay regular on its
-    virtual side.  All derivatives are exact (:mod:`carom.bifurcations.derivatives`).
+    virtual side.
 
     A special point of an orbit of any word, of any linear rotor, has the unknowns of multiple shooting
     (:mod:`carom.bifurcations.word_curves`).
@@ -261,14 +260,13 @@ def continue_curve(bifurcation: Bifurcation, plane: Plane, steps: Steps | None =
         return Watch(name, lambda u, p: test(numbers(u, p), *_orbit(kind, u)), at_zero="end" if ends else "pass")
 
     bounds = [Watch(BOUNDLESS, lambda u, _: FASTEST - abs(u[1]), at_zero="end")] if definition.unknowns else []
-    equations, jacobian = _system(kind, numbers_at)
+    equations = _equations(kind, numbers_at)
     scales = np.array([*np.ones(definition.unknowns), *sizes])
     branch = continue_branch(
         equations,
         np.array([*guess, start[0]]),
         float(start[1]),
         plane.second_range,
-        jacobian=jacobian,
         watches=[plane.edge, *bounds, *(watch(name) for name in (*definition.watched, *definition.ends))],
         steps=steps or STEPS,
         scales=scales,
@@ -279,9 +277,7 @@ def continue_curve(bifurcation: Bifurcation, plane: Plane, steps: Steps | None =
         crossings="",
     )
     shown = np.array([*np.full(definition.unknowns, np.inf), *plane.widths])
-    rows = refined_points(
-        equations, branch, jacobian=jacobian, scales=scales, widths=shown, bend=BEND, steps=steps or STEPS
-    )
+    rows = refined_points(equations, branch, scales=scales, widths=shown, bend=BEND, steps=steps or STEPS)
     return _curve(kind, plane, branch, rows, numbers)
 
 
@@ -290,15 +286,12 @@ def _orbit(kind: str, unknowns: np.ndarray) -> tuple[float, float]:
     return (float(unknowns[0]), float(unknowns[1])) if KINDS[kind].unknowns else (1.0, 0.0)
 
 
-def _system(kind: str, numbers_at: Callable[..., Numbers]) -> tuple[Function, Function]:
-    """Equations of a curve and their exact derivatives."""
+def _equations(kind: str, numbers_at: Callable[..., Numbers]) -> Function:
+    """Equations of a curve."""
     test = TESTS[kind]
 
     def equilibrium(u: np.ndarray, p: float) -> np.ndarray:
         return np.array([test(numbers_at(float(u[0]), p), 1.0, 0.0)])
-
-    def equilibrium_rates(u: np.ndarray, p: float) -> np.ndarray:
-        return analytic_rates(lambda *place: (test(numbers_at(*place), 1.0, 0.0),), float(u[0]), p)
 
     def orbit(u: np.ndarray, p: float) -> np.ndarray:
         period, speed, *time, x = u.tolist()
@@ -307,11 +300,7 @@ def _system(kind: str, numbers_at: Callable[..., Numbers]) -> tuple[Function, Fu
         at = numbers_at(x, p), period, speed
         return np.array([*conditions_at(*at)[:2], *(grazing_equations(*at, *time) if time else (test(*at),))])
 
-    def orbit_rates(u: np.ndarray, p: float) -> np.ndarray:
-        period, speed, *time, x = u.tolist()
-        return orbit_jacobian(numbers_at, (x, p), period, speed, () if time else (kind,), *time)
-
-    return (orbit, orbit_rates) if KINDS[kind].unknowns else (equilibrium, equilibrium_rates)
+    return orbit if KINDS[kind].unknowns else equilibrium
 
 
 def _curve(

@@ -107,5 +107,5 @@ class Plane:
         return self.numbers_at(Numbers.of(base), x, y).parameters
 
     def numbers_at(self, base: Numbers, x: float, y: float) -> Numbers:
-        """Plain numbers at a point of the plane; an analytic function of both parameters."""
+        """Plain numbers at a point of the plane."""
         return base.moved(self.first, x).moved(self.second, y)

@@ -6,9 +6,10 @@ import numpy as np
 
 from carom.bifurcations.conditions import conditions_at
 from carom.bifurcations.curves import Codimension2Point
-from carom.bifurcations.derivatives import orbit_jacobian
 from carom.bifurcations.planes import Plane
 from carom.bifurcations.points import Bifurcation
+from carom.continuation.branch import Steps
+from carom.continuation.equations import Equations
 from carom.parameters import Numbers, Parameters
 
 TURNS = {"resonance-1:1": 1.0, "resonance-1:2": -1.0}
@@ -24,29 +25,31 @@ def beside_resonance(parameters: Parameters, plane: Plane, point: Codimension2Po
     For the pair of multipliers ``e^{±iα}`` the sum ``2 cos α`` is prescribed; place, period and radial speed are the
     unknowns, found by Newton's method.
     """
-    base = Numbers.of(parameters)
+    base, place = Numbers.of(parameters), np.array(point.value)
     plane.axes(parameters)
     wanted = TURNS[point.kind] * (2.0 - ASIDE)
 
-    def numbers_at(x: float, y: float) -> Numbers:
-        return plane.numbers_at(base, x, y)
+    def conditions(u: np.ndarray, y: float) -> np.ndarray:
+        period, speed, x = u.tolist()
+        if not (period > 0.0 and np.isfinite((x, y)).all()):
+            return np.full(4, np.nan)
+        at = conditions_at(plane.numbers_at(base, x, y), period, speed)
+        return np.array([at.closing, at.balance, at.neimark_sacker, at.pair_sum - wanted])
 
-    period, speed, place = point.period, point.radial_speed, point.value
+    scales = np.array([1.0, 1.0, *np.maximum(np.abs(place), 0.1 * plane.widths)])
+    equations = Equations(conditions, None, scales, Steps())
+    unknowns = np.array([point.period, point.radial_speed, *place]) / scales
     for _ in range(ITERATIONS):
-        if not (period > 0.0 and np.isfinite(place).all()):
+        value = equations.value(unknowns)
+        if not np.isfinite(value).all():
             return None
-        numbers = numbers_at(*place)
-        at = conditions_at(numbers, period, speed)
-        value = [at.closing, at.balance, at.neimark_sacker, at.pair_sum - wanted]
+        period, speed, x, y = (unknowns * scales).tolist()
         if np.abs(value).max() < ARRIVED:
             lows, highs = np.transpose([plane.first_range, plane.second_range])
-            inside = ((lows <= place) & (place <= highs)).all()
-            return Bifurcation("neimark-sacker", numbers, period, speed) if inside else None
-        slopes = orbit_jacobian(numbers_at, place, period, speed, ("neimark-sacker", "pair-sum"))
+            inside = ((lows <= (x, y)) & ((x, y) <= highs)).all()
+            return Bifurcation("neimark-sacker", plane.numbers_at(base, x, y), period, speed) if inside else None
         try:
-            change = np.linalg.solve(slopes, value)
+            unknowns -= np.linalg.solve(equations.jacobian(unknowns), value)
         except np.linalg.LinAlgError:
             return None
-        period, speed, x, y = np.subtract([period, speed, *place], change).tolist()
-        place = x, y
     return None

@@ -21,7 +21,7 @@ from carom.results import Result
 VALUES = 31
 """Values of the parameter at which disturbances are followed."""
 SHOWN_IMPACTS = 60
-LONGEST = 400.0
+SHOWN_TIME = 400.0
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -144,6 +144,6 @@ def _impacts(rotor: Model, attractor: Attractor) -> np.ndarray:
     """Radial speeds of the impacts on an attractor; for a periodic one those of one period."""
     if attractor.name.outcome not in REPEATING:
         return np.empty(0)
-    motion = simulate(rotor, attractor.state, LONGEST, max_events=50 * SHOWN_IMPACTS)
+    motion = simulate(rotor, attractor.state, SHOWN_TIME, max_events=50 * SHOWN_IMPACTS)
     speeds = seen_in_contact(motion).contacts.radial_speed[:SHOWN_IMPACTS]
     return speeds[-attractor.name.multiplicity :] if attractor.name.multiplicity <= len(speeds) else speeds

@@ -1,9 +1,8 @@
 """Windows of a parameter in which single-impact orbits are motions of the machine, and what ends each window.
 
-At given values of the parameter all orbits are known.  An orbit that is admissible at two neighbouring values, and not
-close to becoming virtual, is taken to be admissible between them.  Every other orbit is continued from one value to the
-other.  The special points on the way show where it appears, vanishes, becomes virtual or changes its stability, even if
-it does so only between the values.
+At given values of the parameter all orbits are known.  Where none of the branches followed so far holds one that is admissible, every
+orbit that is, or is not far from it, is continued over all values; the same for stable ones.  The special points on the way show where
+an orbit appears, vanishes, becomes virtual or changes its stability, even if it does so only between the values.
 """
 
 from __future__ import annotations
@@ -17,7 +16,7 @@ from typing import Literal, NamedTuple
 import numpy as np
 
 from carom.arguments import checked
-from carom.bifurcations.branches import OrbitBranch
+from carom.bifurcations.branches import OrbitBranch, passing
 from carom.bifurcations.conditions import (
     conditions_at,
     corrected,
@@ -44,13 +43,12 @@ MERGED = 1e-9
 SHORT, VANISHED = 3e-3, 1e-4
 """Period, in ``1/Ω``, below which the end of a branch is attributed to a vanishing period, and the period that counts as vanished."""
 FAR = -1.0
-"""Margin at which an orbit without a partner at the next value is not followed: it surely stays virtual."""
+"""Margin of an orbit that is surely virtual, whose other margins are not computed."""
+NEARLY = -0.2
+"""Margin from which an orbit is followed: with less it is taken to stay virtual, or unstable, up to the next value."""
 
 MOST_FOLLOWED = 100
-"""Orbits, mostly unstable ones, that are followed from one value to the next: each takes some hundredths of a second."""
-
-SUBSTEPS = (1, 8, 64)
-"""Steps from one value to the next in which an orbit is moved there: those of long periods need many."""
+"""Orbits, mostly unstable ones, that are followed: each takes some hundredths of a second."""
 
 Level = Literal["possible", "stable"]
 
@@ -149,38 +147,61 @@ def orbit_windows(
         More than :data:`MOST_FOLLOWED` orbits would have to be followed.
     """
     rotor, tell = jeffcott_of(machine), Reporter.of(progress, "following orbits")
-    along = axis(rotor, parameter)
-    columns: list[list[_Member]] = []
-    for done, value in enumerate(values):
-        columns.append(_members(along.move(rotor, value)))
-        tell(0.7 * (done + 1) / len(values))
-    cells = _cells(values, columns)
-    levels = _levels_to_follow(cells)
-    pieces: dict[Level, list[Window]] = {level: [] for level in levels}
-    for place, cell in enumerate(cells):
-        low, high = cell.ends
-        for level in levels:
-            if cell.holds(level):
-                pieces[level].append(Window(WindowEnd(low), WindowEnd(high)))
-        for arc in _followed(cell.to_follow(levels), parameter, cell.ends):
-            for level in levels:
-                if not cell.holds(level) and getattr(arc, level):
-                    pieces[level].append(Window(arc.low, arc.high))
-        tell(0.7 + 0.3 * (place + 1) / len(cells))
+    along, interval = axis(rotor, parameter), (values[0], values[-1])
+    branches: list[OrbitBranch] = []
+    pieces: dict[Level, list[Window]] = {"possible": [], "stable": []}
+    tried = dict.fromkeys(pieces, 0)
+    for k, value in enumerate(values):
+        reach = values[max(k - 1, 0)], values[min(k + 1, len(values) - 1)]
+        levels = _open(pieces, *reach)
+        members = _members(along.move(rotor, value)) if levels else []
+        for member in sorted(members, key=lambda member: -member.possible):
+            solution, wanted = member.solution, [level for level in levels if getattr(member, level) > NEARLY]
+            if not wanted or any(_lies_on(solution, value, branch) for branch in branches):
+                continue
+            for level in wanted:
+                tried[level] += 1
+            if tried["possible"] > MOST_FOLLOWED:
+                raise CaromError(
+                    "the orbits that change between these values are too many to follow; choose a shorter range"
+                )
+            if tried["stable"] > MOST_FOLLOWED:
+                pieces.pop("stable", None)
+            orbit = orbit_of(solution.numbers, solution.name.pair, *solution[2:])
+            try:
+                branches.append(continue_orbit(orbit, parameter, interval, STEPS, virtual=False))
+            except CaromError:
+                continue
+            arcs = _arcs(branches[-1], interval)
+            for level, known in pieces.items():
+                known += [Window(arc.low, arc.high) for arc in arcs if getattr(arc, level)]
+            levels = _open(pieces, *reach)
+        tell((k + 1) / len(values))
     stable = _joined(pieces["stable"]) if "stable" in pieces else None
     return OrbitWindows(parameter, tuple(values), _joined(pieces["possible"]), stable)
 
 
-_LEVELS: tuple[Level, ...] = ("possible", "stable")
+def _open(pieces: dict[Level, list[Window]], low: float, high: float) -> list[Level]:
+    """Levels at which the windows known do not hold all of an interval."""
+    return [
+        level
+        for level, known in pieces.items()
+        if not any(window.low.value <= low and high <= window.high.value for window in _joined(known))
+    ]
 
 
-def _levels_to_follow(cells: list[_Cell]) -> tuple[Level, ...]:
-    """What can be found out by following no more than MOST_FOLLOWED orbits."""
-    for levels in (_LEVELS, _LEVELS[:1]):
-        count = sum(len(cell.to_follow(levels)) for cell in cells)
-        if count <= MOST_FOLLOWED:
-            return levels
-    raise CaromError(f"{count} orbits change between these values: too many to follow; choose a shorter range")
+def _lies_on(solution: Solution, value: float, branch: OrbitBranch) -> bool:
+    """Whether a branch passes through a solution; where it passes, its orbits have the letter of the solution's name."""
+    numbers = branch.numbers_at(value)
+    if (numbers.mu < 0.0) != (solution.numbers.mu < 0.0):
+        return False
+    for i, share in passing(branch.values, value):
+        if solution.name.letter in (branch.closed[i].name.letter, branch.closed[i + 1].name.letter):
+            guess = (1.0 - share) * np.array(branch.closed[i][2:]) + share * np.array(branch.closed[i + 1][2:])
+            found = corrected(numbers, *guess.tolist())
+            if found is not None and _same(*found, *solution[2:]):
+                return True
+    return False
 
 
 def _members(rotor: Jeffcott) -> list[_Member]:
@@ -196,10 +217,11 @@ def _member(solution: Solution) -> _Member:
     if _is_far_outside(*at):
         return _Member(solution, FAR, FAR)
     possible = min(margins_of(*at).values())
-    if possible <= 0.0:
+    if possible <= NEARLY:
         return _Member(solution, possible, possible)
-    radius = spectral_radii([at])[0]
-    return _Member(solution, possible, min(possible, 1.0 - radius))
+    if solution.name.letter in "bc":  # a multiplier is above 1 (carom.proofs.block_orbits)
+        return _Member(solution, possible, FAR)
+    return _Member(solution, possible, min(possible, 1.0 - spectral_radii([at])[0]))
 
 
 def _is_far_outside(numbers: Numbers, period: float, speed: float) -> bool:
@@ -215,143 +237,20 @@ def _is_far_outside(numbers: Numbers, period: float, speed: float) -> bool:
     )
 
 
-def _partners(left: list[_Member], right: list[_Member]) -> dict[int, int]:
-    """Index of the solution on the right into which each one on the left continues, where Newton's method finds it.
-
-    Where two solutions are close, Newton's method may converge to the wrong one.  The letters of the names must
-    therefore agree: without a fold in between each solution keeps its letter.
-    """
-    found: dict[int, int] = {}
-    for backward in (False, True):
-        places = [index for index, member in enumerate(right) if (member.solution.numbers.mu < 0.0) == backward]
-        if not places:
-            continue
-        others = np.array([right[index].solution[2:] for index in places])
-        for place, (solution, possible, _) in enumerate(left):
-            if (solution.numbers.mu < 0.0) != backward:
-                continue
-            for steps in SUBSTEPS if possible > FAR else SUBSTEPS[:1]:
-                guess = _moved(solution, right[places[0]].solution.numbers, steps)
-                if guess is None:
-                    continue
-                nearest = int(np.argmin(np.abs(others - guess).max(axis=1)))
-                partner = places[nearest]
-                if (
-                    _same(float(others[nearest, 0]), float(others[nearest, 1]), *guess)
-                    and solution.name.letter == right[partner].solution.name.letter
-                    and partner not in found.values()
-                ):
-                    found[place] = partner
-                    break
-    return found
-
-
-def _moved(solution: Solution, numbers: Numbers, steps: int) -> tuple[float, float] | None:
-    """Period and radial speed to which a solution moves while the parameters change to others in some steps."""
-    start, end = np.array(solution.numbers[:-1]), np.array(numbers[:-1])
-    at: tuple[float, float] | None = (solution.period, solution.radial_speed)
-    for share in np.linspace(0.0, 1.0, steps + 1)[1:].tolist():
-        if at is not None:
-            at = corrected(Numbers(*((1.0 - share) * start + share * end).tolist()), *at)
-    return at
-
-
 def _same(period: float, speed: float, other_period: float, other_speed: float) -> bool:
     return max(abs(period - other_period), abs(speed - other_speed)) < SAME * (1.0 + period)
-
-
-def _near_zero(columns: list[list[_Member]], partners: list[dict[int, int]], level: Level) -> list[set[int]]:
-    """For each interval, the solutions at its left end whose margin may cross zero and return within it or the next.
-
-    The criterion looks at three successive margins of one sign.  If the middle one is nearest to zero and the parabola
-    through them is bent by more than its distance from zero, the margin may reach zero between them.  Margins far from
-    zero are left out.
-    """
-    near: list[set[int]] = [set() for _ in partners]
-    for place, (first, second) in enumerate(pairwise(partners)):
-        for before, here in first.items():
-            if here not in second:
-                continue
-            ends = columns[place][before], columns[place + 1][here], columns[place + 2][second[here]]
-            low, middle, high = (getattr(member, level) for member in ends)
-            sizes = abs(low), abs(middle), abs(high)
-            alike = (low > 0.0) == (middle > 0.0) == (high > 0.0)
-            if alike and middle > FAR and sizes[1] == min(sizes) and sizes[1] < sizes[0] + sizes[2] - 2.0 * sizes[1]:
-                near[place].add(before)
-                near[place + 1].add(here)
-    return near
-
-
-class _Cell(NamedTuple):
-    """Orbits at two neighbouring values, which of them continue into each other, and which may change and change back between."""
-
-    ends: tuple[float, float]
-    left: list[_Member]
-    right: list[_Member]
-    pairs: dict[int, int]
-    near: dict[Level, set[int]]
-
-    def holds(self, level: Level) -> bool:
-        """Whether one orbit has the property at both values, and is taken to have it between them."""
-        return any(
-            getattr(self.left[one], level) > 0.0
-            and getattr(self.right[other], level) > 0.0
-            and one not in self.near[level]
-            for one, other in self.pairs.items()
-        )
-
-    def to_follow(self, levels: tuple[Level, ...]) -> list[Solution]:
-        """Solutions that change between the values, or may change, if that can matter; of a pair the one with the larger margin."""
-        open_levels = [level for level in levels if not self.holds(level)]
-        if not open_levels:
-            return []
-        chosen = [member for k, member in enumerate(self.left) if k not in self.pairs and member.possible > FAR]
-        chosen += [
-            member for k, member in enumerate(self.right) if k not in self.pairs.values() and member.possible > FAR
-        ]
-        for one, other in self.pairs.items():
-            before, after = self.left[one], self.right[other]
-            if any(
-                one in self.near[level] or (getattr(before, level) > 0.0) != (getattr(after, level) > 0.0)
-                for level in open_levels
-            ):
-                chosen.append(max(before, after, key=lambda member: member.possible))
-        return [member.solution for member in sorted(chosen, key=lambda member: -member.possible)]
-
-
-def _cells(values: Sequence[float], columns: list[list[_Member]]) -> list[_Cell]:
-    partners = [_partners(*pair) for pair in pairwise(columns)]
-    near = {level: _near_zero(columns, partners, level) for level in _LEVELS}
-    return [
-        _Cell(ends, columns[k], columns[k + 1], partners[k], {level: near[level][k] for level in _LEVELS})
-        for k, ends in enumerate(pairwise(values))
-    ]
-
-
-def _followed(solutions: Iterable[Solution], parameter: str, interval: tuple[float, float]) -> list[_Arc]:
-    """Arcs of the branches through the given solutions, each of which lies at one end of the interval."""
-    arcs: list[_Arc] = []
-    passed: list[Solution] = []
-    for solution in solutions:
-        if any(end.numbers == solution.numbers and _same(*end[2:], *solution[2:]) for end in passed):
-            continue
-        orbit = orbit_of(solution.numbers, solution.name.pair, solution.period, solution.radial_speed)
-        try:
-            branch = continue_orbit(orbit, parameter, interval, STEPS)
-        except CaromError:
-            continue
-        passed += [branch.closed[end] for end in (0, -1)]
-        arcs += _arcs(branch, interval)
-    return arcs
 
 
 def _arcs(branch: OrbitBranch, interval: tuple[float, float]) -> list[_Arc]:
     """Parts of a branch in an interval between its special points; along each the parameter is monotone."""
     special, inner = branch.special, len(branch) - 2
     course = np.column_stack([branch.values, branch.period, branch.radial_speed])
-    ends = [WindowEnd(point.value, point.kind, point.name, point.period, point.radial_speed) for point in special]
+    ends = [
+        _end_at(branch, interval, point.value, point.kind, point.name, point.period, point.radial_speed)
+        for point in special
+    ]
     marks = [_branch_end(branch, 0, interval), *ends, *([None] * inner), _branch_end(branch, -1, interval)]
-    rows = [course[0], *([end.value, end.period, end.radial_speed] for end in ends), *course[1:]]
+    rows = [course[0], *([point.value, point.period, point.radial_speed] for point in special), *course[1:]]
     # A special point at the end of the branch comes before that end.
     order = np.argsort([0.0, *(point.place for point in special), *range(1, len(branch))], kind="stable").tolist()
     course, at = np.array([rows[k] for k in order]), [(i, marks[k]) for i, k in enumerate(order)]
@@ -369,21 +268,22 @@ def _arcs(branch: OrbitBranch, interval: tuple[float, float]) -> list[_Arc]:
 
 
 def _branch_end(branch: OrbitBranch, end: Literal[0, -1], interval: tuple[float, float]) -> WindowEnd:
-    value, period = float(branch.values[end]), float(branch.period[end])
+    value, period, speed = (float(each[end]) for each in (branch.values, branch.period, branch.radial_speed))
     stop = branch.stops[end]
     if stop in ("parameter limit", "closed loop"):
         return WindowEnd(value)
-    if period < SHORT:
-        return _short_end(branch, end, interval)
-    return WindowEnd(value, stop, branch.names[end], period, float(branch.radial_speed[end]))
+    return _end_at(branch, interval, value, stop, branch.names[end], period, speed)
 
 
-def _short_end(branch: OrbitBranch, end: Literal[0, -1], interval: tuple[float, float]) -> WindowEnd:
-    """Where a branch ends whose period is too short for shooting, which loses digits there: by the closed form.
+def _end_at(
+    branch: OrbitBranch, interval: tuple[float, float], value: float, kind: str, name: str, period: float, speed: float
+) -> WindowEnd:
+    """End of a window; where the period is too short for shooting, which loses digits there, by the closed form.
 
     That is where the period vanishes, or the end of the interval to which it is short.
     """
-    value, period, speed = (float(each[end]) for each in (branch.values, branch.period, branch.radial_speed))
+    if not period < SHORT:
+        return WindowEnd(value, kind, name, period, speed)
 
     def closing(there: float) -> float:
         return conditions_at(branch.numbers_at(there), VANISHED, speed).closing
@@ -395,12 +295,12 @@ def _short_end(branch: OrbitBranch, end: Literal[0, -1], interval: tuple[float, 
         at = conditions_at(branch.numbers_at(value), VANISHED, speed)
         speeds = radial_speeds(math.sqrt(1.0 + at.boundary), at.lever)
         speed = min(speeds, key=lambda each: abs(each - speed), default=speed)
-        return WindowEnd(value, "vanishing-period", branch.names[end], VANISHED, speed)
+        return WindowEnd(value, "vanishing-period", name, VANISHED, speed)
     for limit in interval:
         found = corrected(branch.numbers_at(limit), period, speed)
         if found is not None and found[0] < SHORT:
             return WindowEnd(limit)
-    return WindowEnd(value, branch.stops[end], branch.names[end], period, speed)
+    return WindowEnd(value, kind, name, period, speed)
 
 
 def _halfway(branch: OrbitBranch, course: np.ndarray) -> tuple[Numbers, float, float] | None:

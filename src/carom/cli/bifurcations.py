@@ -62,7 +62,7 @@ ProofFile = Annotated[
         help="Show in the figure what this certificate of carom prove --along proves; it is checked first.",
     ),
 ]
-NEAR = (0.25, 2.5)
+AROUND = (0.25, 2.5)
 """Default range of a parameter, relative to its present value."""
 
 
@@ -220,7 +220,7 @@ def _range(parameters: Parameters, varied: Axis, option: str, given: str | None)
     present = parameters.value(varied.name)
     if not present > 0.0:
         raise InputError(option, None, f"needed here, as {varied.name} = {present:g} gives no range around it")
-    return NEAR[0] * present, min(NEAR[1] * present, varied.field.highest)
+    return AROUND[0] * present, min(AROUND[1] * present, varied.field.highest)
 
 
 def _shown(varied: Axis, value: float) -> str:

@@ -18,10 +18,6 @@ if TYPE_CHECKING:
     from carom.parameters import Case
     from carom.progress import Reporter
 
-LONGEST = 20_000.0
-"""Time in ``1/Ω`` at which the simulation of a motion that has not settled stops."""
-MOST_EVENTS = 1_000_000
-
 
 def simulate(
     machine: MachineFile,
@@ -204,4 +200,4 @@ def _follow(rotor: Model, start: State | Kick, kick: str | None, end: float | No
     if isinstance(start, Kick) and radius > 1.0:
         words = f"needs levitation, but |U*| = {radius:.6g} is outside the wall; use --start"
         raise InputError("--kick", kick, words)
-    return follow(rotor, start, end, max_events=MOST_EVENTS, progress=tell)
+    return follow(rotor, start, end, progress=tell)

@@ -43,10 +43,7 @@ BoundaryKind = Literal["persistence", "non-smooth fold", "degenerate"]
 
 
 class Values(Protocol):
-    """Dimensionless parameters: :class:`~carom.parameters.Parameters`, or plain numbers of the same names.
-
-    Conditions are analytic functions of them: a tiny imaginary part gives a derivative.
-    """
+    """Dimensionless parameters: :class:`~carom.parameters.Parameters`, or plain numbers of the same names."""
 
     @property
     def gamma(self) -> float: ...  # noqa: D102
@@ -224,8 +221,7 @@ def mean_rolling_force(at: Values) -> float:
 
 def rolling_condition(at: Values) -> float:
     """``μ(s² − ω²) − |γ|s − p``: not negative where friction can hold rolling at every angle."""
-    damping = at.gamma if at.gamma.real >= 0.0 else -at.gamma
-    return at.mu * mean_rolling_force(at) - damping * at.radius_ratio - largest_pull(at)
+    return at.mu * mean_rolling_force(at) - abs(at.gamma) * at.radius_ratio - largest_pull(at)
 
 
 def rolling_damping(at: Values) -> float:

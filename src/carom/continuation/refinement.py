@@ -17,7 +17,6 @@ def refined_points(
     residual: Function,
     branch: Branch,
     *,
-    jacobian: Function | None = None,
     scales: np.ndarray,
     widths: np.ndarray,
     bend: float,
@@ -28,7 +27,7 @@ def refined_points(
     Parameters
     ----------
     residual : callable
-        As for :func:`continue_branch`, and ``jacobian`` too.
+        As for :func:`continue_branch`.
     scales : ndarray, shape (n + 1,)
         Typical sizes of the unknowns and the parameter.
     widths : ndarray, shape (n + 1,)
@@ -41,7 +40,7 @@ def refined_points(
     ndarray, shape (m, n + 1)
         Unknowns and parameter, in the order of the branch.
     """
-    equations = Equations(residual, jacobian, scales, steps or Steps())
+    equations = Equations(residual, None, scales, steps or Steps())
     places = np.concatenate([np.arange(len(branch.parameters)), [point.place for point in branch.special]])
     own = np.column_stack([branch.unknowns, branch.parameters])
     special = np.array([[*point.unknowns, point.parameter] for point in branch.special]).reshape(-1, own.shape[1])

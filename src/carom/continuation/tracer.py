@@ -166,7 +166,7 @@ class Tracer:
             there, share, ending, known = self._step(here, length, length == to_limit), None, None, len(path.special)
             if there is not None:
                 there.watched = self._watched(there)
-                there = None if self._strays(there) else there
+                there = None if any(there.watched[i] <= 0.0 for i in self.avoided) else there
             if there is not None:
                 left = self._left(here, there)
                 if left:
@@ -206,10 +206,6 @@ class Tracer:
             return math.inf
         left = self.interval[ahead > 0.0] - float(here.x[-1]) * size
         return left / (ahead * size) if here.watched[0] != 0.0 else math.inf
-
-    def _strays(self, there: Point) -> bool:
-        """Whether a step leads to another branch that is to be avoided."""
-        return any(there.watched[i] <= 0.0 for i in self.avoided)
 
     def _left(self, here: Point, there: Point) -> str:
         """The limit that a step leaves from a point on it; empty if there is none."""

@@ -33,11 +33,11 @@ from carom.core.layout import rotor_record, rub_workspace, workspace
 from carom.core.phases import AWAY
 from carom.core.wall import Wall
 from carom.models import Model, System
+from carom.motions.ensembles import MOST_EVENTS
 from carom.outcome import InputError, Outcome
 
 EVENT_LIMIT, TIME_REACHED = int(Outcome.EVENT_LIMIT), int(Outcome.TIME_REACHED)
 LOGGED = 256
-MOST_EVENTS = 1_000_000
 LEAST_DISTANCE = 1e-6
 """Least distance of the pulse from undamped resonance, relative to the frequency; below it too many digits cancel."""
 

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from carom.motions.blows import Blows
     from carom.parameters import Scales
 
-ALIKE = 1e-9
+UNLIKE = 1e-9
 """Difference of radial speeds, relative to one plus the speed, above which an impact was not by Newton's restitution; impulses
 below that are too small to tell."""
 
@@ -154,7 +154,7 @@ class ContactLog(Table):
         newton = np.zeros(len(times))
         for plane, contact in enumerate(rotor.system.contacts):
             newton[planes == plane] = rebound(np.maximum(radial[planes == plane], 0.0), contact.wall)
-        unlike = np.abs(radial_after + newton) > ALIKE * (1.0 + radial)
+        unlike = np.abs(radial_after + newton) > UNLIKE * (1.0 + radial)
         return cls(
             time=times,
             plane=planes,
@@ -168,7 +168,7 @@ class ContactLog(Table):
             slip_before=slip,
             slip_after=slip_after,
             sticks=arrays.friction[planes] * normal >= np.abs(mass * slip_after - tangential),
-            by_poisson=np.isin(blows.events, blows.events[unlike & (-blows.impulses.real > ALIKE)]),
+            by_poisson=np.isin(blows.events, blows.events[unlike & (-blows.impulses.real > UNLIKE)]),
             contact_work=normal_work + 0.5 * tangential * (slip + slip_after),
             drive_work=-(surface_speed - 1.0) * tangential,
             scales=rotor.scales,

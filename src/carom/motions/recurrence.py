@@ -15,14 +15,14 @@ from carom.outcome import Outcome
 
 FOLLOWED, MOST_IMPACTS = 16, 4000
 """Recurrences, and impacts, for which a motion is followed further."""
-ALIKE = 1e-6
+REPEATS = 1e-6
 """Distance, relative to one plus the size of the state, below which a motion repeats within its recurrence.
 
 Far above the tolerance of recurrence: a motion that approaches its orbit from alternating sides recurs after two periods first.
 """
 GROWS, ROUNDING = 2.0, 1e-12
 """Growth of the change from one recurrence to a later one that shows a repelling orbit, if it is above rounding."""
-LONGEST, LOGGED, MOST_EVENTS = 1e5, 256, 100_000
+FOLLOWED_TIME, LOGGED, MOST_EVENTS = 1e5, 256, 100_000
 
 
 def least_recurrence(system: System, amplitudes: np.ndarray, contact: np.ndarray, impacts: int) -> int:
@@ -41,7 +41,7 @@ def least_recurrence(system: System, amplitudes: np.ndarray, contact: np.ndarray
     if late.max(initial=0.0) > max(GROWS * early.max(initial=0.0), ROUNDING * size):
         return PASSES
     for count in range(1, min(impacts, len(states) - 1)):
-        if impacts % count == 0 and np.abs(states[count] - states[0]).sum() <= ALIKE * size:
+        if impacts % count == 0 and np.abs(states[count] - states[0]).sum() <= REPEATS * size:
             return count
     return impacts
 
@@ -55,7 +55,7 @@ def _states_at_impacts(system: System, amplitudes: np.ndarray, contact: np.ndarr
     found: list[np.ndarray] = []
     passed, last, events, outcome = 0.0, -np.inf, 0, Outcome.EVENT_LIMIT
     while outcome == Outcome.EVENT_LIMIT and len(found) <= count and events < MOST_EVENTS:
-        outcome, time, noted = advance(arrays, system.table, state, LONGEST, touching, log, recollection, *tools)
+        outcome, time, noted = advance(arrays, system.table, state, FOLLOWED_TIME, touching, log, recollection, *tools)
         new = log.first(noted)
         struck = (new.before != new.after).any(axis=1) & (new.phases[np.arange(noted), new.planes] == FLIGHT)
         for event in np.flatnonzero(struck).tolist():

@@ -15,7 +15,7 @@ from carom.core.rub_step import NOWHERE
 from carom.core.variation import strike
 from carom.models import Jeffcott, Model
 from carom.motions.trajectories import follow
-from carom.orbits.chatter import LONGEST, MOST_BOUNCES
+from carom.orbits.chatter import LONGEST_CHATTER, MOST_BOUNCES
 from carom.orbits.shooting import TOLERANCE, Start
 from carom.orbits.word import Kind, Segment, Word
 from carom.outcome import Outcome, Phase
@@ -203,7 +203,7 @@ def _why_no_such_landing(rotor: Model, segment: Segment, target: Segment, node: 
     contact = np.full(planes, AWAY)
     contact[segment.plane] = Phase.FLIGHT
     log = EventLog.empty(MOST_BOUNCES, len(node), planes)
-    follow(rotor, landing, LONGEST, contact, log, memory(len(node), stop_at_landing=True))
+    follow(rotor, landing, LONGEST_CHATTER, contact, log, memory(len(node), stop_at_landing=True))
     slip = _slip(rotor, segment.plane, landing)
     wrong = {Kind.SLIDE_FORWARD: -slip, Kind.SLIDE_BACKWARD: slip}.get(target.kind, abs(slip))
     return f"{segment} would end with the slip {slip:.3g}, not with {target}" if wrong > STOPPED else ""

@@ -19,7 +19,7 @@ from carom.outcome import Outcome, Phase
 
 MOST_BOUNCES = 4096
 """Bounces of the longest chatter."""
-LONGEST = 1e3
+LONGEST_CHATTER = 1e3
 """Longest chatter, in ``1/Ω``: a guess from which the rotor does not come back to the wall has to end too."""
 """The last impact of a chatter, by the direction of the slip at the landing."""
 SLOW = 1e-5
@@ -41,7 +41,7 @@ def follow_chatter(
     log = EventLog.empty(MOST_BOUNCES, modes, len(contact))
     landing, changes = _on_wall(rotor, plane, to_modes @ (node - rest), np.concatenate([to_modes.T, 1j * to_modes.T]))
     slopes[:] = 0.0
-    outcome, time, count = follow(rotor, landing, LONGEST, contact, log, memory(modes, stop_at_landing=True))
+    outcome, time, count = follow(rotor, landing, LONGEST_CHATTER, contact, log, memory(modes, stop_at_landing=True))
     bounces = log.first(count)
     last = _interruption(rotor, plane, bounces)
     if last is not None:

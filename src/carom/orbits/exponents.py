@@ -10,6 +10,7 @@ from typing import Annotated, ClassVar, NamedTuple
 import numpy as np
 
 from carom.arguments import Count, checked, whole
+from carom.core.closing import LONGEST
 from carom.core.growth import carry_orthogonal
 from carom.models import Model, Subject, model_of
 from carom.motions.starts import Kick, State
@@ -25,8 +26,6 @@ REPEATED = 1e-8
 """Largest distance, relative to one plus the size of the state, between the simulated and the repeated end of a segment."""
 CHUNK, FURTHER = 4096, 256
 """Events that are simulated at a time, and by how much more if there are fewer than two impacts among them."""
-LONGEST = 1e6
-"""Time in ``1/Ω`` within which a motion has to hit the wall again."""
 CONFIDENT = 3.0
 """Standard errors by which an exponent has to differ from zero to have a sign."""
 LOST = {Kind.LAND: 1, Kind.SLIDE_FORWARD: 2, Kind.SLIDE_BACKWARD: 2, Kind.ROLL: 3}
@@ -214,7 +213,8 @@ def _stretches(rotor: Model, state: State, impacts: int) -> Iterator[_Stretch]:
         first, last = int(hits[0]), int(hits[count])
         word, links = _followed(rotor, motion, first, last)
         struck = np.bincount(motion.event_planes[hits[:count]], minlength=len(rotor.system.arrays.rows))
-        landings, state = int(motion.is_landing[first:last].sum()), _state_at(motion, last)
+        landings = int(motion.is_landing[first:last].sum())
+        state = State.of(*motion.rotor.system.state(motion.arrivals[last]))
         yield _Stretch(
             word, links.start.durations[:-1], links.passages[:-1], links.slopes[-2, :-1, -1], struck, landings, state
         )
@@ -234,11 +234,6 @@ def _followed(rotor: Model, motion: Trajectory, first: int, last: int) -> tuple[
     if not (apart <= REPEATED and np.isfinite(links.values).all()):
         raise CaromError(f"the segments of the motion cannot be repeated: their ends are {apart:.3g} apart")
     return Word(word[:-1]), links
-
-
-def _state_at(motion: Trajectory, event: int) -> State:
-    """State just before an impact."""
-    return State.of(*motion.rotor.system.state(motion.arrivals[event]))
 
 
 def _carried(passages: np.ndarray, directions: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -30,7 +30,7 @@ from carom.models import Model
 
 NO_RETURN = 0.375
 """Value of ``w`` above which the rotor does not return to the wall at once."""
-NEAR = 1e-4
+BESIDE = 1e-4
 """Distance from ``w*`` at which it grows by the same factor in every bounce."""
 LAST = 1e-14
 """Value of ``w`` at which a chatter is complete."""
@@ -63,7 +63,7 @@ def onset_of(restitution: float) -> Onset:
     share = float(min(root.real for root in roots if abs(root.imag) < 1e-9 and root.real > 0.0))
     power = math.log(restitution**2 / (1.0 - share) ** 5) / -math.log(1.0 - share)
     ratio = 0.5 * share - share**2 / 6.0
-    return Onset(ratio, power, _left_at_landing(restitution, ratio - NEAR) ** power / NEAR)
+    return Onset(ratio, power, _left_at_landing(restitution, ratio - BESIDE) ** power / BESIDE)
 
 
 def _left_at_landing(restitution: float, ratio: float) -> float:
@@ -91,9 +91,9 @@ def distance_from_onset(restitution: float, force: float, ratio: float) -> float
     if restitution == 0.0:
         return force
     onset, w, gone = onset_of(restitution), ratio, 1.0
-    if w < onset.ratio - NEAR:
+    if w < onset.ratio - BESIDE:
         return float((force * _left_at_landing(restitution, w)) ** onset.power)
-    while w - onset.ratio > NEAR:
+    while w - onset.ratio > BESIDE:
         # The bounce before: the smaller root of w (1 − τ)² = d (τ/2 − τ²/3).
         square, linear = w + restitution / 3.0, w + 0.25 * restitution
         taken = w / (linear + math.sqrt(linear**2 - square * w))

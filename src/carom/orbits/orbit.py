@@ -10,6 +10,7 @@ from typing import Any, ClassVar, overload
 import numpy as np
 
 from carom.arguments import Reals, checked
+from carom.core.closing import ALIKE
 from carom.core.layout import rub_workspace
 from carom.core.margins import contact_margins, least_margins
 from carom.models import Model, Subject, model_of
@@ -23,9 +24,6 @@ from carom.orbits.stability import Multipliers, multipliers
 from carom.orbits.word import Word
 from carom.outcome import CaromError, InputError
 from carom.results import Result
-
-ALIKE = 1e-8
-"""Distance of two nodes, relative to one plus their size, below which they are the same."""
 
 SHORTEST = 1e-9
 """Least duration of a segment other than a chatter, in ``1/Ω``."""

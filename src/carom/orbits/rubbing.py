@@ -31,7 +31,7 @@ from carom.results import Result
 
 Whirl = Literal[1, -1]
 
-LONGEST = 8.0 * math.pi
+LONGEST_PERIOD = 8.0 * math.pi
 """Longest period, in ``1/Ω``: four turns of the shaft."""
 Longest = Annotated[float, ArgumentKind(lambda time: 0.0 < time <= 1e5, "a time above 0, up to 1e5, in 1/Omega")]
 """Longest period of the orbits that are searched."""
@@ -71,7 +71,7 @@ class LiftOff(Result):
 
 
 @checked
-def rubbing_orbits(machine: Subject, longest: Longest = LONGEST, samples: Count = SAMPLES) -> tuple[Orbit, ...]:
+def rubbing_orbits(machine: Subject, longest: Longest = LONGEST_PERIOD, samples: Count = SAMPLES) -> tuple[Orbit, ...]:
     """Periodic motions with one stretch of lasting contact a period, found from evenly spaced angles of lift-off.
 
     Stable and unstable ones are found; two whose angles lie closer than ``2π/samples`` may be missed.

@@ -37,7 +37,7 @@ FRUITLESS = 200
 """Motions in a row without any guess, after which the search ends."""
 IMPACTS = 4
 """Impacts of these motions, in multiples of the largest number of impacts a period."""
-LONGEST = 1000.0
+FOLLOWED = 1000.0
 """Time in ``1/Ω`` for which each is followed."""
 LANDING, LANDS = 0.05, 2000
 """Share of the motions that are followed through landings and lift-offs, and their most events."""
@@ -56,7 +56,7 @@ BESIDE = (1e-2, 0.5)
 """Relative changes of the velocity, least and largest, of a start beside a known orbit."""
 KIND = 3
 """Decimals to which the states of ends must agree to count as one."""
-NEAR = 1e-4
+KNOWN = 1e-4
 """Relative distance from a known solution below which a stretch is not tried."""
 LEAST = 1e-9
 """Least duration of a flight, in ``1/Ω``."""
@@ -291,7 +291,7 @@ class Search:
         while tried[1:].min() < guesses and fruitless < FRUITLESS:
             before = tried.sum()
             for count, word, guess in self._stretches(self._start(random), random.uniform() < LANDING):
-                if tried[count] < guesses and not self._is_known(word, guess, NEAR):
+                if tried[count] < guesses and not self._is_known(word, guess, KNOWN):
                     tried[count] += 1
                     self._correct(word, guess)
             self.motions += 1
@@ -312,7 +312,7 @@ class Search:
     def _stretches(self, start: State, landing: bool) -> Iterable[tuple[int, Word, Start]]:
         """Stretches of a motion that come back closest, with their number of impacts; through a landing, from lift-off to lift-off."""
         most = LANDS if landing else IMPACTS * (self.impacts + 1)
-        motion = simulate(self.rotor, start, LONGEST, stop_at_chatter=not landing, max_events=most)
+        motion = simulate(self.rotor, start, FOLLOWED, stop_at_chatter=not landing, max_events=most)
         events = np.arange(len(motion.event_planes))
         flying = motion.segment_phases == Phase.FLIGHT
         lifts = events[~flying[events, motion.event_planes] & flying[events + 1, motion.event_planes]]
@@ -357,7 +357,7 @@ class Search:
             links = converged(self.rotor, word, guess)
         if links is None or not lasts(word, links.start):
             self.failures += 1
-        elif self._is_known(word, links.start, NEAR):
+        elif self._is_known(word, links.start, KNOWN):
             self.repeats += 1
         elif self._add(orbit_of_links(self.rotor, word, links)):
             self.last_new = self.guesses if self.found[-1].admissible else self.last_new

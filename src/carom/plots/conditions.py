@@ -111,7 +111,7 @@ def _roots(axes: Axes, orbits: OrbitSet) -> None:
     if not len(roots):
         axes.plot([], [], linestyle="none", label="no root: no orbit with one impact a period")
         return
-    members = [[orbit for orbit in orbits if _belongs(orbit, root)] for root in roots]
+    members = [[orbit for orbit in orbits if abs(orbit.period - root) <= _SAME_PERIOD * root] for root in roots]
     physical = np.array([any(orbit.admissible for orbit in found) for found in members])
     empty = np.array([not found for found in members])
     grey = LOOKS["virtual"].colour
@@ -163,10 +163,6 @@ def _name_roots(axes: Axes, roots: Floats, labels: list[str]) -> None:
             arrowprops={"arrowstyle": "-", "lw": 0.35, "color": "#808080", "shrinkA": 0, "shrinkB": 3},
             annotation_clip=False,
         )
-
-
-def _belongs(orbit: Orbit, root: float) -> bool:
-    return abs(orbit.period - root) <= _SAME_PERIOD * root
 
 
 def _name(found: list[Orbit]) -> str:

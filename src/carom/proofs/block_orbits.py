@@ -27,6 +27,7 @@ from carom.proofs.blocks import Block, Branch, OpenError, OrbitBranch, slopes_on
 from carom.proofs.courses import Course, period_condition
 from carom.proofs.flights import stays_inside
 from carom.proofs.lines import Numbers
+from carom.proofs.periods import none_beyond, slowest_decay
 from carom.proofs.series import hull, terms
 
 Along = Callable[[Callable[[Course], Any]], Any]
@@ -96,24 +97,16 @@ def first_cells(block: Block) -> list[Cell]:
 
 
 def _longest(n: Numbers) -> float:
-    """Period beyond which ``F₁ > 0``; see :mod:`carom.proofs.periods` for the bound."""
-    split, half = n.gamma * n.gamma / 4 - n.omega_squared, n.gamma / 2
-    root = split.nonnegative_part().sqrt()
-    # On both sides of critical damping only the difference bounds every machine of the block.
-    slow = half if split < 0 else n.omega_squared / (half + root) if split > 0 else half - root
-    rate = arb(slow.lower())
+    """Period beyond which ``F₁ > 0``."""
+    rate = arb(slowest_decay(n).lower())
     if not rate > 0:
         raise OpenError("without damping there are infinitely many periods")
-    size, swing = (1 + n.d) * (1 + n.mu * n.mu).sqrt(), (half * half + 1).sqrt()
     end = float((1 / rate).upper()) * 1.001
-    while True:
-        time = arb(end)
-        decay = (-rate * time).exp()
-        if rate * time >= 1 and size * (decay * (1 + swing * time) + decay * decay) < (1 - decay) ** 2:
-            return end
+    while not none_beyond(n, arb(end)):
         if end > 1e5:
             raise OpenError("the damping is too weak: the longest period is beyond 100,000/Omega")
         end *= 1.05
+    return end
 
 
 def _start(n: Numbers) -> tuple[float, int]:

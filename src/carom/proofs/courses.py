@@ -31,7 +31,7 @@ def period_condition(whole: Numbers, period: Any) -> Callable[[Numbers, Any], An
     At short periods it is ``F₁`` itself, else the entire function ``|det(1 − e^{MT})|²F₁``.
     """
     apart = abs(whole.gamma * whole.gamma * 0.25 - whole.omega_squared).sqrt()
-    return _short_condition if (abs(whole.gamma) * 0.5 + 1 + apart) * period < _SHORT else _entire_condition
+    return _short_condition if (abs(whole.gamma) * 0.5 + 1 + apart) * period < _SHORT else entire_condition
 
 
 def _short_condition(n: Numbers, period: Any) -> Any:
@@ -41,14 +41,20 @@ def _short_condition(n: Numbers, period: Any) -> Any:
     return 1 + real(_grip(n) * found[1])
 
 
-def _entire_condition(n: Numbers, period: Any) -> Any:
+def entire_condition(n: Numbers, period: Any) -> Any:
+    """``|det(1 − e^{MT})|²F₁``."""
+    numerator, gap = numerator_and_gap(n, period)
+    other = gap + _grip(n) * numerator
+    return real(other) * real(gap) + imaginary(other) * imaginary(gap)
+
+
+def numerator_and_gap(n: Numbers, period: Any) -> tuple[Any, Any]:
+    """``a₂₂ det(1 − e^{MT})`` and ``det(1 − e^{MT})``."""
     half = n.gamma * -0.5 - I
     even, odd = hyperbolic(n.gamma * n.gamma * 0.25 - n.omega_squared, period)
     growth = (half * period).exp()
     even, odd, decay = even * growth, odd * growth, growth * growth
-    gap = 1 - even * 2 + decay
-    other = gap + _grip(n) * (even + half * odd - decay)
-    return real(other) * real(gap) + imaginary(other) * imaginary(gap)
+    return even + half * odd - decay, 1 - even * 2 + decay
 
 
 def _grip(n: Numbers) -> Any:

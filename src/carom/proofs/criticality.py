@@ -68,11 +68,7 @@ def image_of_curve(course: Course, curve: Sequence[Any]) -> list[Any]:
     local = velocity * conjugate(position)
     # On the orbit the position is one.
     turned = imaginary(acb_series([acb(1), *position.coeffs()[1:]]).log())
-    return [_without_constant(series) for series in (turned, real(local), imaginary(local))]
-
-
-def _without_constant(series: Any) -> Any:
-    return arb_series([arb(0), *series.coeffs()[1:]])
+    return [arb_series([arb(0), *series.coeffs()[1:]]) for series in (turned, real(local), imaginary(local))]
 
 
 def _kernel(matrix: Any) -> list[Any]:

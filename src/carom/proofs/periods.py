@@ -20,7 +20,7 @@ from fractions import Fraction
 from math import ceil, floor
 from typing import Any
 
-from flint import arb
+from flint import arb, arb_series
 
 from carom.proofs.balls import exact_ends, interval, squared
 from carom.proofs.cells import (
@@ -35,8 +35,11 @@ from carom.proofs.cells import (
     power_of_two_below,
     show,
 )
+from carom.proofs.courses import entire_condition, numerator_and_gap
 from carom.proofs.evidence import Evidence, NotShownError, rational_of
+from carom.proofs.lines import Numbers
 from carom.proofs.rotor import Rotor
+from carom.proofs.series import terms
 
 SHORTEST_CELL = 200
 """Binary digits of the length of the cell next to zero at which the search there ends."""
@@ -99,10 +102,17 @@ def all_periods(rotor: Rotor, evidence: Evidence, longest: Fraction | None, most
 
     The search ends after ``most`` cells.
     """
-    condition = Analytic(rotor.closing_series)
-    known = evidence.take("no period beyond", lambda: _text(_longest_period(rotor)))
+    numbers = rotor.numbers
+
+    def series(time: Any, length: int) -> list[Any]:
+        with terms(length):
+            found = entire_condition(numbers, arb_series([time, 1]))
+            return [found[k] for k in range(length)]
+
+    condition = Analytic(series)
+    known = evidence.take("no period beyond", lambda: _text(_longest_period(numbers)))
     bound = None if known is None else rational_of(known)
-    if bound is not None and not _none_beyond(rotor, bound):
+    if bound is not None and not none_beyond(numbers, interval(bound, bound)):
         raise NotShownError(f"the certificate does not show that there is no period beyond {bound}")
     width = power_of_two_below(2 / Fraction(rotor.fastest))
     end = min((limit for limit in (longest, bound) if limit is not None), default=most * width / 4)
@@ -141,31 +151,40 @@ def _text(number: Fraction | None) -> str | None:
 # ------------------------------------------------------------------------------------------------ beyond
 
 
-def _none_beyond(rotor: Rotor, period: Fraction) -> bool:
+def slowest_decay(n: Numbers) -> Any:
+    """Rate at which the slower mode of free motion decays."""
+    split, half = n.gamma * n.gamma / 4 - n.omega_squared, n.gamma / 2
+    root = split.nonnegative_part().sqrt()
+    # On both sides of critical damping only the difference bounds all machines.
+    return half if split < 0 else n.omega_squared / (half + root) if split > 0 else half - root
+
+
+def none_beyond(n: Numbers, time: Any) -> bool:
     """Whether the decay keeps ``F₁`` above zero from a period on."""
-    time, rate = interval(period, period), rotor.slowest_decay
-    if not (rotor.gamma > 0 and rate * time >= 1):
+    split, half, rate = n.gamma * n.gamma / 4 - n.omega_squared, n.gamma / 2, slowest_decay(n)
+    if not (n.gamma > 0 and rate * time >= 1):
         return False
     slow = (-rate * time).exp()
-    size = (1 + rotor.d) * (1 + squared(rotor.mu)).sqrt()
-    swings = [1 + (squared(rotor.gamma) / 4 + 1).sqrt() * time]
-    if not rotor.split.contains(0):
-        gap = abs(rotor.split).sqrt()
-        swings.append((rotor.size_of_exponent(1) + rotor.size_of_exponent(-1)) / gap)
+    size = (1 + n.d) * (1 + squared(n.mu)).sqrt()
+    swings = [1 + (squared(half) + 1).sqrt() * time]
+    if not split.contains(0):
+        root = abs(split).sqrt()
+        across = ((half, side * root - 1) if split < 0 else (side * root - half, 1) for side in (1, -1))
+        swings.append(sum((squared(one) + squared(arb(other))).sqrt() for one, other in across) / (2 * root))
     return any(size * (slow * swing + squared(slow)) < squared(1 - slow) for swing in swings)
 
 
-def _longest_period(rotor: Rotor) -> Fraction | None:
+def _longest_period(n: Numbers) -> Fraction | None:
     """A period beyond which there is no root; ``None`` if none is shown."""
-    if not (rotor.gamma > 0 and rotor.slowest_decay > 0):
+    if not (n.gamma > 0 and slowest_decay(n) > 0):
         return None
     end = Fraction(1, 4)
-    while not _none_beyond(rotor, end):
+    while not none_beyond(n, interval(end, end)):
         end *= 2
         if end > 2**64:
             return None
     for part in (Fraction(3, 4), Fraction(5, 6), Fraction(9, 10)):
-        if _none_beyond(rotor, end * part):
+        if none_beyond(n, interval(end * part, end * part)):
             end *= part
     return Fraction(-(-end.numerator * 8 // end.denominator), 8) if end > 1 else end
 
@@ -214,7 +233,7 @@ def _roots_on(rotor: Rotor, condition: Analytic, cells: Cells, start: int, evide
         period = interval(near, far)
         if rotor.pole_in(period):
             continue
-        if not rotor.gamma > 0 and rotor.return_series(period, 1)[1][0].contains(0):
+        if not rotor.gamma > 0 and numerator_and_gap(rotor.numbers, period)[1].contains(0):
             unclear.append((near, far))
         else:
             roots.append(Root(near, far, count // 2 + 1, bool(count % 2)))

@@ -25,7 +25,7 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Any, NamedTuple
 
-from flint import acb, arb, arb_series, ctx
+from flint import acb, arb, ctx
 
 from carom.proofs.balls import ball_of, squared
 from carom.proofs.hypotheses import NUMBERS, Hypotheses
@@ -94,8 +94,8 @@ class Rotor:
     gamma, omega_squared, rho, mu, d, radius_ratio : arb
     split : arb
         ``Δ = γ² − 4ω²``.
-    chi, drag, q : acb
-        ``χ = ω² − 1 + iγ``, ``γ + 2i`` and ``(1 + d)(1 + iμ)``.
+    chi, q : acb
+        ``χ = ω² − 1 + iγ`` and ``(1 + d)(1 + iμ)``.
     """
 
     def __init__(self, hypotheses: Hypotheses) -> None:
@@ -104,7 +104,7 @@ class Rotor:
             ball_of(hypotheses.numbers[name]) for name in NUMBERS
         )
         self.split = squared(self.gamma) - 4 * self.omega_squared
-        self.chi, self.drag = acb(self.omega_squared - 1, self.gamma), acb(self.gamma, 2)
+        self.chi = acb(self.omega_squared - 1, self.gamma)
         self.q = (1 + self.d) * acb(1, self.mu)
 
     @property
@@ -129,22 +129,6 @@ class Rotor:
         return given is not None and given[2] ** 2 == (given[1] - 1) ** 2 + given[0] ** 2
 
     @cached_property
-    def slowest_decay(self) -> Any:
-        """Rate at which the slower mode of free motion decays."""
-        if self.split > 0:
-            return 2 * self.omega_squared / (self.gamma + self.split.sqrt())
-        if self.split < 0:
-            return self.gamma / 2
-        return self.gamma / 2 - self.split.nonnegative_part().sqrt() / 2
-
-    def size_of_exponent(self, sign: int) -> Any:
-        """``|λ₊|`` or ``|λ₋|`` of the co-rotating frame, away from critical damping."""
-        half = sign * abs(self.split).sqrt() / 2
-        if self.split < 0:
-            return (squared(self.gamma / 2) + squared(half - 1)).sqrt()
-        return (squared(half - self.gamma / 2) + 1).sqrt()
-
-    @cached_property
     def fastest(self) -> float:
         """Modulus of the faster exponent of the co-rotating frame, about."""
         gamma, split = float(self.gamma.mid()), float(self.split.mid())
@@ -155,39 +139,6 @@ class Rotor:
     def response(self, time: Any) -> tuple[Any, Any]:
         """``h`` and ``h'`` at a time, real."""
         return response_of(self.gamma, self.split, time)
-
-    def turned_response(self, time: Any) -> tuple[Any, Any]:
-        """``f`` and ``f'`` at a time."""
-        value, slope = self.response(time)
-        sine, cosine = time.sin_cos()
-        turn = acb(cosine, -sine)
-        return turn * value, turn * acb(slope, -value)
-
-    def continued(self, value: Any, slope: Any, length: int) -> list[Any]:
-        """Taylor coefficients of a solution of ``ÿ + (γ + 2i)ẏ + χy = 0`` from its value and slope."""
-        terms = [value, slope]
-        for k in range(length - 2):
-            terms.append(-(self.drag * terms[-1] / (k + 2) + self.chi * terms[-2] / ((k + 1) * (k + 2))))
-        return terms
-
-    # ------------------------------------------------------------------------------------------- return of the flight
-
-    def return_series(self, time: Any, length: int) -> tuple[Any, Any]:
-        """Taylor series of ``f' − δ`` and ``D`` about a time."""
-        f = self.continued(*self.turned_response(time), length + 1)
-        shrink = (-self.drag * time).exp()
-        delta = [shrink]
-        for k in range(1, length):
-            delta.append(-self.drag * delta[-1] / k)
-        slopes = [(k + 1) * f[k + 1] for k in range(length)]
-        numerator = [slopes[k] - delta[k] for k in range(length)]
-        determinant = [delta[k] - 2 * slopes[k] - self.drag * f[k] for k in range(length)]
-        determinant[0] = determinant[0] + 1
-        if time == 0:
-            # What cancels at once: both vanish with their slopes.
-            head = [(acb(0), acb(0)), (acb(0), acb(0)), (-self.chi / 2, self.chi)][:length]
-            numerator[: len(head)], determinant[: len(head)] = (list(terms) for terms in zip(*head, strict=True))
-        return numerator, determinant
 
     def pole_in(self, period: Any) -> bool:
         """Whether ``D`` is known to vanish once, inside a ball: at a resonance, without damping."""
@@ -201,11 +152,6 @@ class Rotor:
             number is not None and period.contains_interior(2 * arb.pi() * number / (1 + sign * frequency))
             for number, sign in zip(whole, (1, -1), strict=True)
         )
-
-    def closing_series(self, time: Any, length: int) -> list[Any]:
-        """Taylor coefficients of ``P = |D|²F₁`` about a time."""
-        numerator, determinant = self.return_series(time, length)
-        return real_of_product([d + self.q * n for d, n in zip(determinant, numerator, strict=True)], determinant)
 
 
 def response_of(gamma: Any, split: Any, time: Any) -> tuple[Any, Any]:
@@ -226,14 +172,6 @@ def response_of(gamma: Any, split: Any, time: Any) -> tuple[Any, Any]:
         cosine = (squared_phase / 4).hypgeom_0f1(arb(1) / 2)
         response = time * (squared_phase / 4).hypgeom_0f1(arb(3) / 2)
     return decay * response, decay * (cosine - gamma * response / 2)
-
-
-def real_of_product(one: list[Any], other: list[Any]) -> list[Any]:
-    """Taylor coefficients of ``Re(x ȳ)`` from those of ``x`` and ``y``."""
-    length = len(one)
-    product = arb_series([z.real for z in one], length) * arb_series([z.real for z in other], length)
-    product += arb_series([z.imag for z in one], length) * arb_series([z.imag for z in other], length)
-    return [product[k] for k in range(length)]
 
 
 def squared_modulus(number: Any) -> Any:

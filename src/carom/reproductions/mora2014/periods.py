@@ -7,7 +7,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from carom.bifurcations.conditions import conditions_at
-from carom.bifurcations.derivatives import Direction, OrbitChange, OrbitValues
 from carom.closed_forms.periods import PeriodCondition
 from carom.continuation import Steps, continue_branch
 from carom.models import Jeffcott
@@ -18,7 +17,7 @@ from carom.reproductions.mora2014.propositions import hopf_side
 from carom.reproductions.mora2014.source import machine_at
 from carom.results import Result
 
-LONGEST = 30.0
+LONGEST_DRAWN = 30.0
 """Longest period drawn, in ``1/Ω``."""
 DAMPINGS = (0.005, 0.2)
 """Range of the damping."""
@@ -85,7 +84,7 @@ class Birth(Result):
 
 def period_functions() -> tuple[PeriodFunction, ...]:
     """Compute ``F₁`` at the dampings of figure 3a."""
-    periods = np.linspace(0.02, LONGEST, 1500)
+    periods = np.linspace(0.02, LONGEST_DRAWN, 1500)
     found = []
     for gamma in (0.1, 0.05):
         condition = PeriodCondition.planar(machine_at(gamma))
@@ -96,7 +95,7 @@ def period_functions() -> tuple[PeriodFunction, ...]:
 def period_pairs() -> tuple[PeriodPair, ...]:
     """Follow all pairs of roots of ``F₁`` with periods up to 30/Ω from ``γ = 0.005`` to their folds and back, in ascending order."""
     gamma = DAMPINGS[0]
-    shorter = PeriodCondition.planar(machine_at(gamma)).roots(LONGEST).periods[::2]
+    shorter = PeriodCondition.planar(machine_at(gamma)).roots(LONGEST_DRAWN).periods[::2]
     return tuple(period_pair(gamma, period, pair) for pair, period in enumerate(shorter.tolist(), start=1))
 
 
@@ -109,19 +108,11 @@ def period_pair(gamma: float, period: float, pair: int) -> PeriodPair:
             return np.array([np.nan])
         return np.array([conditions_at(base._replace(gamma=gamma), float(u[0]), 0.0).closing])
 
-    def jacobian(u: np.ndarray, gamma: float) -> np.ndarray:
-        if u[0] <= 0.0:
-            return np.full((1, 2), np.nan)
-        at = base._replace(gamma=gamma), float(u[0]), 0.0
-        by_gamma, _ = OrbitChange(OrbitValues(*at), Direction(gamma=1.0)).equations()
-        return np.array([[conditions_at(*at).period_fold, by_gamma]])
-
     branch = continue_branch(
         closing,
         np.array([period]),
         gamma,
         (gamma, DAMPINGS[1]),
-        jacobian=jacobian,
         steps=Steps(0.005, largest=0.04),
         scales=np.array([1, 0.1]),
     )

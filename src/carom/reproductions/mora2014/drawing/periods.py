@@ -15,13 +15,13 @@ from carom.plots.figure import StyledFigure
 from carom.plots.style import LOOKS, TWO_COLUMNS, styled
 from carom.plots.words import orbit_look, orbit_symbol, times_larger
 from carom.reproductions.mora2014.drawing.panels import DAMPING, INK, letter
+from carom.reproductions.mora2014.periods import LONGEST_DRAWN
 
 if TYPE_CHECKING:
     from carom.orbits.orbit import Orbit
     from carom.reproductions.mora2014.periods import Birth, PeriodFunction, PeriodPair
     from carom.reproductions.mora2014.reproduction import Periods
 
-LONGEST_CONDITION = 30.0
 SLATE = "#3d4f66"
 MILLI = 1e-3
 _LINES = ("-", "--")
@@ -55,7 +55,7 @@ def figure_3(periods: Periods, birth: float) -> Figure:
 def _condition(axes: Axes, functions: tuple[PeriodFunction, ...]) -> None:
     for line, function in zip(_LINES, functions, strict=True):
         axes.plot(function.periods, function.values, line, color=INK if line == "-" else SLATE, lw=0.9)
-        roots = function.roots[function.roots < LONGEST_CONDITION]
+        roots = function.roots[function.roots < LONGEST_DRAWN]
         face = INK if line == "-" else "white"
         axes.plot(roots, np.zeros_like(roots), ls="none", marker="o", ms=3.5, mfc=face, mec=INK, mew=0.7, zorder=4)
     axes.axhline(0.0, color=INK, lw=0.5)
@@ -63,7 +63,7 @@ def _condition(axes: Axes, functions: tuple[PeriodFunction, ...]) -> None:
     axes.set_yticks([0.0, 0.1, 0.3, 1.0, 3.0, 10.0, 30.0])
     axes.yaxis.set_major_formatter(lambda value, _: f"{value:g}")
     axes.yaxis.set_minor_locator(NullLocator())
-    axes.set_xlim(0.0, LONGEST_CONDITION)
+    axes.set_xlim(0.0, LONGEST_DRAWN)
     axes.set_ylim(-0.25, 60.0)
     axes.set_xlabel(r"period $T$ ($1/\Omega$)")
     axes.set_ylabel(r"period condition $F_1$, linear near 0")
@@ -85,7 +85,7 @@ def _zeros(axes: Axes, pairs: tuple[PeriodPair, ...], birth: float) -> None:
         mark_point(axes, "non-smooth-hopf", birth, period)
     axes.set_xlim(0.0, 0.2)
     axes.set_xticks([0.0, 0.05, 0.1, 0.15, 0.2])
-    axes.set_ylim(0.0, LONGEST_CONDITION)
+    axes.set_ylim(0.0, LONGEST_DRAWN)
     axes.set_xlabel(DAMPING)
     axes.set_ylabel(r"period $T$ ($1/\Omega$)")
 

