@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from carom.core.layout import kernel, part
+from carom.compiling.decorators import kernel, part
 from carom.core.segments import follow_flights
 
 LAST = 1e-6
