@@ -13,6 +13,9 @@ alone, and can be done without (:func:`~carom.compiling.choice.compiles_plainly`
 ``libraries``        what is linked into a kernel, and where it is optimised
 ``steps``            Numba's steps of compilation, as kernels need them
 ``shapes``           shapes of arrays as constants of the compiler
+``signatures``       types of operations, inferred once
+``lowering``         the code of a kernel for LLVM, without what kernels do not need
+``instructions``     complex numbers, ranges and items of arrays as instructions
 ``target``           the processor that kernels are compiled for
 ===================  ===========================================================
 """

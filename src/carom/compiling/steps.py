@@ -5,18 +5,27 @@ from __future__ import annotations
 from typing import Any
 
 from numba.core.compiler import Compiler
+from numba.core.typed_passes import NativeLowering
 from numba.core.untyped_passes import InlineInlinables, RewriteSemanticConstants
 
+from carom.compiling.lowering import KernelLowering
 from carom.compiling.shapes import RecordShapes
+from carom.compiling.signatures import RecallingContext
 
 
 class KernelCompiler(Compiler):  # type: ignore[misc]
-    """Numba's compiler; shapes of records become constants before branches are pruned, and again after functions are inlined."""
+    """Numba's compiler with steps of its own for kernels.
+
+    Shapes of records become constants before branches are pruned, and again after functions are inlined.
+    """
 
     def define_pipelines(self) -> Any:
         """The steps of compilation."""
+        self.state.typingctx = RecallingContext(self.state.typingctx, self.state.flags)
         (pipeline,) = super().define_pipelines()
         for step in RewriteSemanticConstants, InlineInlinables:
             pipeline.add_pass_after(RecordShapes, step)
+        pipeline.add_pass_after(KernelLowering, NativeLowering)
+        pipeline.passes = [step for step in pipeline.passes if step[0] is not NativeLowering]
         pipeline.finalize()
         return [pipeline]
