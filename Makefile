@@ -17,7 +17,7 @@ unexport PYTHONDONTWRITEBYTECODE
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help demo test test-deep check lint types layers format coverage mutants bench docs lock clean distclean
+.PHONY: help demo test test-deep newest check lint types layers format coverage mutants bench docs lock clean distclean
 
 help: ## list the targets
 	@sed -n 's/^\([a-z-]*\):[^#]*## \(.*\)/\1	\2/p' Makefile | awk -F '\t' '{ printf "make %-10s %s\n", $$1, $$2 }'
@@ -30,6 +30,12 @@ test: $(TEST) ## run the tests
 
 test-deep: $(TEST) ## run the tests with many more cases, and those marked deep
 	CAROM_DEEP=1 $(PYTEST) $(ARGS)
+
+# In one process: with several, what most tests call would be compiled first. Kernels of two planes take minutes in this way.
+PLAIN := tests/core/laws $(addprefix tests/core/test_,block.py counter.py events.py flow.py friction.py growth.py table.py wall.py) tests/core/vector/test_memory.py
+
+newest: $(TEST) ## run tests of the kernels as the newest Numba that installs compiles them by itself
+	tools/newest $(PLAIN) $(ARGS)
 
 check: lint types layers ## check style, types and layers
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from carom.compiling.decorators import kernel
 from carom.core.equations import solve
-from carom.core.layout import kernel
 
 
 @kernel

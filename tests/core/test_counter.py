@@ -6,8 +6,8 @@ from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 
+from carom.compiling.decorators import kernel
 from carom.core.counter import fresh_counter, next_number
-from carom.core.layout import kernel
 
 DRAWS, THREADS = 20_000, 4
 

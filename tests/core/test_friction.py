@@ -10,6 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from carom.compiling.decorators import kernel
 from carom.core.friction import (
     BACKWARD,
     FORWARD,
@@ -25,7 +26,7 @@ from carom.core.friction import (
     spare_friction,
     spare_grip,
 )
-from carom.core.layout import WIDTH, kernel
+from carom.core.layout import WIDTH
 from carom.core.vector import join, load, store
 from carom.core.wall import Wall
 

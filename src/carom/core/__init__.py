@@ -4,7 +4,7 @@ Nothing here knows units, files or results.  A kernel sees a rotor as the arrays
 :func:`~carom.core.layout.rotor_record` and works for any number of modes and contact planes.
 
 ===================  ===========================================================
-``layout``           the data that kernels work on, and how kernels are compiled
+``layout``           the data that kernels work on
 ``flow``             exact flight: sums of exponentials and their derivatives
 ``table``            constants of a block of flight, for the search of crossings
 ``block``            one block of flight: possible roots, state at a time
@@ -37,17 +37,6 @@ Nothing here knows units, files or results.  A kernel sees a rotor as the arrays
 ``margins``          how far an orbit is from a change of its word
 ``variation``        how small changes of a state propagate
 ``growth``           growth of small changes along a motion
-``cache``            the disk cache of compiled kernels
-``cache_directory``  where that cache is
-``intermediate``     kernels that only other kernels call
-``libraries``        what is linked into a kernel, and where it is optimised
-``steps``            Numba's steps of compilation, as kernels need them
-``shapes``           shapes of arrays as constants of the compiler
-``signatures``       types of operations, inferred once
-``lowering``         the code of a kernel for LLVM, without what kernels do not need
-``instructions``     complex numbers, ranges and items of arrays as instructions
-``calls``            calls from one kernel to another
-``target``           the processor that kernels are compiled for
 ``processors``       number of available processor cores
 ===================  ===========================================================
 """

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+from carom.compiling.decorators import kernel, part, passage, shared
 from carom.core.events import INSIDE, LEAVING, search
 from carom.core.fate import forget_rub, levitates, recurs
 from carom.core.flow import acceleration, copy, displacement, squared_modulus, velocity
 from carom.core.friction import arrival, landing
 from carom.core.joint import join, land_together, strike_together
-from carom.core.layout import kernel, part, passage, shared
 from carom.core.phases import AWAY, FLIGHT, lasts
 from carom.core.planar_proofs import fades_to_rolling, stays_inside
 from carom.core.rub import (

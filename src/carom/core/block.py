@@ -5,8 +5,9 @@ The flight starts from ``work.current``.  What these functions load into the wor
 
 from __future__ import annotations
 
+from carom.compiling.decorators import part
 from carom.core.flow import squared_modulus
-from carom.core.layout import DEGREE, NODES, TERMS, part
+from carom.core.layout import DEGREE, NODES, TERMS
 
 
 @part

@@ -20,10 +20,11 @@ import math
 
 import numpy as np
 
+from carom.compiling.decorators import kernel, part, shared
 from carom.core.advance import advance
 from carom.core.fate import same_state
 from carom.core.flow import copy, displacement, squared_modulus, velocity
-from carom.core.layout import NEAR, kernel, part, shared
+from carom.core.layout import NEAR
 from carom.core.phases import FLIGHT, lasts
 from carom.core.variation import section_jacobian, set_amplitude_change
 from carom.core.wall import unit

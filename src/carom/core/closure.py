@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from carom.compiling.decorators import kernel, part
 from carom.core.equations import solve
-from carom.core.layout import kernel, part
 from carom.core.segments import follow_flights
 
 LAST = 1e-6

@@ -21,9 +21,10 @@ and the second equation of a plane is ``F_p = −μ N_p sgn v_p`` where it slips
 
 from __future__ import annotations
 
+from carom.compiling.decorators import kernel, part
 from carom.core.equations import solve
 from carom.core.friction import friction_ratio, rolling_force
-from carom.core.layout import ORDER, kernel, part
+from carom.core.layout import ORDER
 from carom.core.phases import ROLLING, lasts, sense_of_phase
 from carom.core.wall import wall_of
 

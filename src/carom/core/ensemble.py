@@ -11,6 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from carom.compiling.decorators import kernel, part, passage
 from carom.core.advance import SHORTEST, STALLED, advance
 from carom.core.block import move_to
 from carom.core.closing import PASSES, least_period
@@ -19,7 +20,7 @@ from carom.core.event_log import EventLog
 from carom.core.fate import doubt, forget, impacts_until_noted, levitates, recurs
 from carom.core.flow import copy, displacement, squared_modulus, velocity
 from carom.core.lanes import CLEARED, LATE, OPEN, fly_lanes, surely_flies
-from carom.core.layout import LANES, NEAR, kernel, part, passage
+from carom.core.layout import LANES, NEAR
 from carom.core.phases import AWAY, FLIGHT, lasts
 from carom.core.planar_proofs import fades_to_rolling, stays_inside
 from carom.core.wall import set_on_wall

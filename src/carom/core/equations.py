@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from carom.core.layout import kernel
+from carom.compiling.decorators import kernel
 
 
 @kernel

@@ -24,6 +24,7 @@ from __future__ import annotations
 
 import math
 
+from carom.compiling.decorators import kernel, part, passage
 from carom.core.block import (
     derivatives,
     load_polynomial,
@@ -35,7 +36,7 @@ from carom.core.block import (
     sign_changes,
 )
 from carom.core.flow import copy, displacement, nudge, squared_modulus
-from carom.core.layout import LEVELS, kernel, part, passage
+from carom.core.layout import LEVELS
 from carom.outcome import Outcome
 
 CLEAR, CONTACT, GRAZING = int(Outcome.CLEAR), int(Outcome.CONTACT), int(Outcome.GRAZING)

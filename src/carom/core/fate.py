@@ -23,9 +23,10 @@ import math
 
 import numpy as np
 
+from carom.compiling.decorators import kernel, part
 from carom.core.block import basis_amplitudes
 from carom.core.flow import squared_modulus
-from carom.core.layout import NEAR, kernel, part, record
+from carom.core.layout import NEAR, record
 from carom.core.planar_proofs import planar_proofs
 
 NO_TURN, SET_OUT, ROUND = 0, 1, 2

@@ -10,7 +10,7 @@ import math
 
 import numpy as np
 
-from carom.core.layout import kernel, part
+from carom.compiling.decorators import kernel, part
 
 THIRD = 1.0 / 3.0
 

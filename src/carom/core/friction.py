@@ -14,8 +14,8 @@ from __future__ import annotations
 
 import math
 
+from carom.compiling.decorators import formula
 from carom.core.laws.choice import impulse, impulse_by_restitution, impulse_by_speed
-from carom.core.layout import formula
 from carom.core.vector import join, where
 
 BACKWARD, STOPPED, FORWARD = -1, 0, 1

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from carom.core.layout import kernel
+from carom.compiling.decorators import kernel
 
 
 @kernel

@@ -22,11 +22,11 @@ from __future__ import annotations
 
 import math
 
+from carom.compiling.decorators import kernel, part
 from carom.core.equations import solve
 from carom.core.flow import displacement, squared_modulus, velocity
 from carom.core.friction import BACKWARD, FORWARD, STOPPED, friction_ratio, rebound, slip_of
 from carom.core.laws.choice import impulse_by_restitution
-from carom.core.layout import kernel, part
 from carom.core.phases import AWAY, ROLLING, lasts, sense_of_phase
 from carom.core.rub import meets_wall
 from carom.core.wall import unit, wall_of

@@ -5,10 +5,11 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
+from carom.compiling.decorators import part
 from carom.core.block import two_derivatives
 from carom.core.events import ROUNDING
 from carom.core.flow import squared_modulus
-from carom.core.layout import DEGREE, LANE_NODES, LEVELS, part
+from carom.core.layout import DEGREE, LANE_NODES, LEVELS
 from carom.core.vector import choose, fma, join, lanes_of, load, sqrt, store, take, truncate, where
 
 BINOMIALS = tuple(float(math.comb(DEGREE, j)) for j in range(DEGREE + 1))

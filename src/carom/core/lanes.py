@@ -13,12 +13,13 @@ from __future__ import annotations
 
 import numpy as np
 
+from carom.compiling.decorators import kernel, part
 from carom.core.advance import CHATTER_HEIGHT
 from carom.core.events import MARGIN
 from carom.core.flow import acceleration, displacement, squared_modulus, velocity
 from carom.core.friction import arrival
 from carom.core.lane_search import departure, examine, halley_ratio, look_up, travel
-from carom.core.layout import DEGREE, LANES, LEVELS, WIDTH, kernel, part, record
+from carom.core.layout import DEGREE, LANES, LEVELS, WIDTH, record
 from carom.core.vector import align_stack, fma, join, lanes_of, load, store, where
 from carom.core.wall import wall_of
 

@@ -1,21 +1,13 @@
-"""The data that kernels work on, and the decorators that define how kernels are compiled."""
+"""The data that kernels work on."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from functools import cache
-from typing import Any, TypeVar
 
-import numba
 import numpy as np
-from numba.core.registry import cpu_target
-from numba.extending import register_jitable
 
-from carom.core.cache import keep
-from carom.core.intermediate import CallerPipeline, SharedPipeline, serve_kernels, share_machine_code
-
-Kernel = TypeVar("Kernel", bound=Callable[..., object])
+from carom.compiling.target import has_wide_registers
 
 NEAR = 1e-9
 """Distance, relative to one plus the size of the state, below which two states are the same."""
@@ -33,7 +25,7 @@ CACHE_LINE = 64
 COMPLEX, REAL = np.dtype(np.complex128), np.dtype(np.float64)
 OCTET = 8
 """Number of doubles in the widest vector registers."""
-WIDE = "+avx512f" in cpu_target.target_context.codegen().magic_tuple()[2]
+WIDE = has_wide_registers()
 """Whether the processor has registers of that width (AVX-512); it then has more of them too."""
 WIDTH = 3 * OCTET if WIDE else OCTET
 """Motions advanced together, in one or several registers: several hide the latency of the instructions."""
@@ -46,8 +38,6 @@ The table at so few nodes fits in registers; in return, the power series from a 
 """
 LANE_TERMS = 10
 """Terms of the Taylor series from a node for lanes."""
-_OPTIONS: dict[str, Any] = {"error_model": "numpy", "fastmath": {"contract", "nsz"}}
-"""Arithmetic of kernels."""
 
 
 def rotor_record(
@@ -318,48 +308,3 @@ def _room(layout: np.dtype) -> np.ndarray:
 def _layout(fields: tuple[tuple[str, np.dtype, tuple[int, ...]], ...]) -> np.dtype:
     """Type of a record with fields of these names, types and shapes."""
     return np.dtype((np.record, np.dtype(list(fields), align=True)))
-
-
-def kernel(function: Kernel) -> Kernel:
-    """Compile a kernel: no Python objects, no global interpreter lock, cached on disk (:mod:`carom.core.cache`).
-
-    Arithmetic follows IEEE 754, but products and sums may be fused, and the sign of zero is undefined.
-
-    Conditions on the shapes of a record's arrays, like ``if rotor.rows.shape[0] > 1:``, are decided before compilation.
-    """
-    return _compile(function)
-
-
-def shared(function: Kernel) -> Kernel:
-    """Compile a large kernel, a function of a module, once for Python and for all kernels: these call its machine code."""
-    return _compile(function, SharedPipeline, share_machine_code)
-
-
-def part(function: Kernel) -> Kernel:
-    """Compile a small kernel inline into each of its callers: no call, and code a caller does not need is dropped."""
-    return _compile(function, forceinline=True)
-
-
-def formula(function: Kernel) -> Kernel:
-    """Let kernels call a function of numbers, inline; for Python, and for arrays, it stays the function that it is."""
-    formula_in_kernels: Kernel = register_jitable(**_OPTIONS, forceinline=True)(function)
-    return formula_in_kernels
-
-
-def passage(function: Kernel) -> Kernel:
-    """Insert a section of a kernel where it is called, in one place; it is a separate function for readability only."""
-    return _compile(function, inline="always")
-
-
-def _compile(
-    function: Kernel,
-    pipeline: type = CallerPipeline,
-    serve: Callable[[Any], None] = serve_kernels,
-    **more: bool | str,
-) -> Kernel:
-    options = {**_OPTIONS, "nopython": True, "nogil": True, **more}
-    compiled = numba.jit(**options, no_cfunc_wrapper=True, pipeline_class=pipeline)(function)
-    if compiled is not function:  # with the compiler switched off, jit returns the function itself
-        keep(compiled)
-        serve(compiled)
-    return compiled

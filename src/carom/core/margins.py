@@ -6,10 +6,11 @@ import math
 
 import numpy as np
 
+from carom.compiling.decorators import kernel, part
 from carom.core.contact_series import rub_series
 from carom.core.flow import acceleration, copy, displacement, flight_increments, squared_modulus, velocity
 from carom.core.friction import BACKWARD, FORWARD, margin_of_slip, slip_of, spare_friction, spare_grip
-from carom.core.layout import ORDER, kernel, part
+from carom.core.layout import ORDER
 from carom.core.phases import AWAY, sense_of_phase
 from carom.core.segments import LIFT, ROLL, SLIDE_BACKWARD, SLIDE_FORWARD, phase_of, rubs, sense_after, strikes
 from carom.core.taylor import series_step, sum_series

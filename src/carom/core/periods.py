@@ -31,8 +31,8 @@ import math
 
 import numpy as np
 
+from carom.compiling.decorators import kernel, part
 from carom.core.flow import complex_expm1, squared_modulus
-from carom.core.layout import kernel, part
 
 # B₂ₖ/(2k)! with the Bernoulli numbers B₂ₖ: g̃(z) = −1/2 − Σ B₂ₖ z^{2k−1}/(2k)!.
 _BERNOULLI = (

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from carom.compiling.decorators import part
 from carom.core.friction import BACKWARD, FORWARD, STOPPED
-from carom.core.layout import part
 from carom.outcome import Phase
 
 FLIGHT, FORWARD_SLIP, BACKWARD_SLIP, ROLLING = (

@@ -10,9 +10,9 @@ import cmath
 
 import numpy as np
 
+from carom.compiling.decorators import kernel
 from carom.core.flow import squared_modulus
 from carom.core.friction import sliding_factor
-from carom.core.layout import kernel
 from carom.core.periods import propagator, returns
 
 _NEWTON_STEPS = 60

@@ -11,10 +11,11 @@ from __future__ import annotations
 
 import numpy as np
 
+from carom.compiling.decorators import kernel, part
 from carom.core.contact_series import rub_series
 from carom.core.flow import acceleration, displacement, flight_increments, squared_modulus, velocity
 from carom.core.friction import BACKWARD, FORWARD, STOPPED, arrival_in_sense, friction_ratio, slip_of, spare_grip
-from carom.core.layout import ORDER, kernel, part
+from carom.core.layout import ORDER
 from carom.core.phases import BACKWARD_SLIP, FLIGHT, FORWARD_SLIP, ROLLING, lasts, phase_of_slip, sense_of_phase
 from carom.core.taylor import first_fall, series_step, sum_series
 from carom.core.wall import rigid_wall, set_on_wall, unit, wall_of

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import math
 
+from carom.compiling.decorators import kernel, part
 from carom.core.contact_series import rub_series
 from carom.core.fate import approaches_turn, at_rest, forget_rub, near_rub, never_repeats, same_state
-from carom.core.layout import NEAR, kernel, part
+from carom.core.layout import NEAR
 from carom.core.phases import AWAY, FLIGHT, FORWARD_SLIP, ROLLING, lasts
 from carom.core.planar_proofs import absorbed, hastens, runs_away
 from carom.core.rub import first_contact, first_transition, next_phase, rest_on_wall, turn_ahead

@@ -18,10 +18,11 @@ import math
 
 import numpy as np
 
+from carom.compiling.decorators import kernel, part
 from carom.core.contact_series import rub_series
 from carom.core.flow import acceleration, displacement, flight_increments, squared_modulus, velocity
 from carom.core.friction import BACKWARD, FORWARD, STOPPED, friction_ratio, rolling_force, slip_of, spare_grip
-from carom.core.layout import ORDER, kernel, part
+from carom.core.layout import ORDER
 from carom.core.phases import AWAY, BACKWARD_SLIP, FORWARD_SLIP, ROLLING, sense_of_phase
 from carom.core.taylor import series_step, sum_series
 from carom.core.variation import blow, carry_through_impact, carry_to_wall, strike

@@ -15,9 +15,9 @@ import math
 
 import numpy as np
 
+from carom.compiling.decorators import kernel, part
 from carom.core.flow import displacement, squared_modulus
 from carom.core.friction import arrival_by_law
-from carom.core.layout import kernel, part
 from carom.core.segments import sense_after
 from carom.core.variation import strike
 from carom.core.wall import local_velocity, rigid_wall, unit, wall_of

@@ -7,7 +7,8 @@ from __future__ import annotations
 
 import math
 
-from carom.core.layout import ORDER, kernel
+from carom.compiling.decorators import kernel
+from carom.core.layout import ORDER
 
 STEP_FRACTION = 0.135
 """Ratio of step to radius of convergence: ``0.135^ORDER`` is below rounding."""

@@ -6,9 +6,9 @@ import math
 
 import numpy as np
 
+from carom.compiling.decorators import kernel, part
 from carom.core.flow import displacement, flight_increments, squared_modulus, velocity
 from carom.core.friction import arrival_change, arrival_in_sense, sense_of
-from carom.core.layout import kernel, part
 from carom.core.wall import local_velocity, unit, wall_of
 
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
+from carom.compiling.decorators import formula, part
 from carom.core.flow import displacement, squared_modulus, velocity
-from carom.core.layout import formula, part
 
 
 class Wall(NamedTuple):

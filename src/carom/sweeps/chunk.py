@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from carom.core.target import processor
+from carom.compiling.target import processor
 from carom.outcome import CaromError
 from carom.results import Result
 from carom.sweeps.plan import SweepPlan

@@ -30,7 +30,7 @@ def processors_record(kinds: Iterable[str]) -> bytes:
 
 
 def processors_of(path: Path) -> list[str]:
-    """Return the kinds of processors of a store's chunks, as :func:`carom.core.target.processor` names them."""
+    """Return the kinds of processors of a store's chunks, as :func:`carom.compiling.target.processor` names them."""
     try:
         found: list[str] = read_record(_KIND, path / PROCESSORS)
     except (FileNotFoundError, DamagedError):

@@ -7,8 +7,8 @@ from collections.abc import Callable
 from importlib import import_module
 from typing import Any
 
+from carom.compiling.decorators import formula
 from carom.core import laws
-from carom.core.layout import formula
 
 _FOUND = [module.name for module in pkgutil.iter_modules(laws.__path__) if module.name not in ("rigid", "choice")]
 LAWS = ("rigid", *sorted(_FOUND))

@@ -5,7 +5,7 @@ The law's own number is ``1/v``.  No rebound is faster than ``dv``.
 
 from __future__ import annotations
 
-from carom.core.layout import formula
+from carom.compiling.decorators import formula
 
 
 @formula

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from carom.core.layout import formula
+from carom.compiling.decorators import formula
 
 
 @formula

@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from carom.core.layout import kernel, passage, record
+from carom.compiling.decorators import kernel, passage
+from carom.core.layout import record
 
 pytestmark = pytest.mark.jit_only
 

@@ -8,7 +8,8 @@ from numba.core.registry import cpu_target
 from numba.core.runtime import _nrt_python, rtsys
 from numba.core.types.functions import BaseFunction
 
-from carom.core.layout import kernel, record
+from carom.compiling.decorators import kernel
+from carom.core.layout import record
 
 GRID = np.arange(12.0).reshape(3, 4)
 

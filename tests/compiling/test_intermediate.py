@@ -9,8 +9,9 @@ import sys
 import numpy as np
 import pytest
 
-from carom.core.cache import KernelCache
-from carom.core.layout import kernel, part, record
+from carom.compiling.cache import KernelCache
+from carom.compiling.decorators import kernel, part
+from carom.core.layout import record
 
 pytestmark = pytest.mark.jit_only
 
@@ -92,7 +93,8 @@ def test_a_kernel_is_linked_although_its_first_caller_never_calls_it(tmp_path):
 
 MODULE = """
 import numpy as np
-from carom.core.layout import kernel, record, shared
+from carom.compiling.decorators import kernel, shared
+from carom.core.layout import record
 
 @shared
 def length(values):

@@ -7,24 +7,28 @@ called by kernels only, so most of their machine code would never run.
 
 from __future__ import annotations
 
-import gc
-from collections.abc import Iterator
-from contextlib import contextmanager
 from hashlib import sha256
 from typing import Any
 
+import numba
 from numba.core.compiler import CompileResult
 from numba.core.dispatcher import _FunctionCompiler  # type: ignore[attr-defined]
 from numba.core.funcdesc import default_mangler
-from numba.core.ir import Scope
 from numba.core.registry import CPUDispatcher
 from numba.core.types import unliteral  # type: ignore[attr-defined]
 
-from carom.core.libraries import CallerLibrary, IntermediateLibrary
-from carom.core.steps import KernelCompiler
+from carom.compiling.libraries import CallerLibrary, IntermediateLibrary
+from carom.compiling.steps import KernelCompiler
 
 
-def serve_kernels(kernel: Any) -> None:
+def compile_once(function: Any, options: dict[str, Any], share: bool) -> Any:
+    """A kernel that other kernels use as intermediate code or, if it is to be shared, as machine code; Python calls either."""
+    kernel = numba.jit(**options, pipeline_class=_SharedPipeline if share else _CallerPipeline)(function)
+    (_share_machine_code if share else _serve_kernels)(kernel)
+    return kernel
+
+
+def _serve_kernels(kernel: Any) -> None:
     """Make a kernel provide intermediate code only to the kernels that call it."""
     options = {**kernel.targetoptions, "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
     twin = _IntermediateKernel(kernel.py_func, locals={}, targetoptions=options, pipeline_class=_Pipeline)
@@ -32,10 +36,10 @@ def serve_kernels(kernel: Any) -> None:
     kernel.get_call_template, kernel.get_overload = twin.get_call_template, twin.get_overload
 
 
-def share_machine_code(kernel: Any) -> None:
+def _share_machine_code(kernel: Any) -> None:
     """Make the kernels that call a kernel use its machine code, which is compiled once for them and for Python.
 
-    Callers are kept on the disk with the name that they call, which :class:`SharedPipeline` makes the same in each process.
+    Callers are kept on the disk with the name that they call, which :class:`_SharedPipeline` makes the same in each process.
     """
     add_overload, get_call_template = kernel.add_overload, kernel.get_call_template
 
@@ -59,13 +63,8 @@ class _IntermediateKernel(CPUDispatcher):  # type: ignore[misc]
         self.overloads[tuple(cres.signature.args)] = cres
 
 
-class CallerPipeline(KernelCompiler):
+class _CallerPipeline(KernelCompiler):
     """Numba's compiler pipeline for kernels that Python calls."""
-
-    def compile_extra(self, func: Any) -> Any:
-        """Compile a version."""
-        with _without_detours():
-            return super().compile_extra(func)
 
     def define_pipelines(self) -> Any:
         """The steps of compilation."""
@@ -74,26 +73,7 @@ class CallerPipeline(KernelCompiler):
         return super().define_pipelines()
 
 
-@contextmanager
-def _without_detours() -> Iterator[None]:
-    """Collect no garbage while compiling (a seventh of the time), and let all copies of a block of code share its names.
-
-    Numba copies the code of a passage twice before it inserts it, and with each block all names of the function.
-    """
-    collecting, copied = gc.isenabled(), hasattr(Scope, "__deepcopy__")
-    gc.disable()
-    if not copied:
-        Scope.__deepcopy__ = lambda scope, memo: scope
-    try:
-        yield
-    finally:
-        if not copied:
-            del Scope.__deepcopy__
-        if collecting:
-            gc.enable()
-
-
-class SharedPipeline(CallerPipeline):
+class _SharedPipeline(_CallerPipeline):
     """Numba's compiler pipeline for kernels that share their machine code."""
 
     def define_pipelines(self) -> Any:

@@ -24,7 +24,8 @@ from numba.core.caching import _Cache
 from numba.core.compiler import CompileResult
 from numba.core.serialize import dumps
 
-from carom.core.cache_directory import cache_directory, tell_once
+from carom.compiling.cache_directory import cache_directory, tell_once
+from carom.compiling.choice import compiles_plainly
 from carom.files import write_whole
 
 CHECKSUM = 32
@@ -110,10 +111,10 @@ class KernelCache(_Cache):  # type: ignore[misc]
         return f"{kernel}.{hashlib.sha256(origin).hexdigest()[:16] if origin else '*'}"
 
     def _origin(self, sig: Any, codegen: Any) -> bytes:
-        """Everything that determines the machine code, except other sources of the core: these name the directory."""
+        """Everything that determines the machine code, except the other sources: these name the directory."""
         code, cells = self._function.__code__, self._function.__closure__ or ()
         written = _source(code.co_filename), code.co_firstlineno, dumps(tuple(cell.cell_contents for cell in cells))
-        compiler = sys.version, numba.__version__, llvmlite.__version__, codegen.magic_tuple()
+        compiler = sys.version, numba.__version__, llvmlite.__version__, codegen.magic_tuple(), compiles_plainly()
         return repr((self._function.__module__, written, compiler, sig)).encode()
 
 

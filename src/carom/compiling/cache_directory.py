@@ -24,8 +24,8 @@ TRIAL = 65_536
 def cache_directory() -> Path | None:
     """Directory of compiled kernels: the one set in the environment, the user's cache or one for temporary files.
 
-    Its name contains a hash of all sources in ``core/``.  A kernel contains the machine code of the kernels it calls,
-    so an edit of any of them makes it stale.
+    Its name contains a hash of all sources in ``core/`` and ``compiling/``.  A kernel contains the machine code of the
+    kernels it calls, so an edit of any of them makes it stale.
 
     Anyone who can write to this directory can have their own code executed.  The system's directory for temporary files
     is shared, and the name used in it can be guessed.  An existing directory there is used only if it belongs to this
@@ -37,7 +37,8 @@ def cache_directory() -> Path | None:
         None if no directory is writable.
     """
     digest = hashlib.sha256()
-    for source in sorted(Path(__file__).parent.rglob("*.py")):
+    package = Path(__file__).parents[1]
+    for source in sorted(path for part in ("compiling", "core") for path in (package / part).rglob("*.py")):
         digest.update(source.read_bytes())
     shared = Path(tempfile.gettempdir()) / f"carom-{_user()}"
     roots = [user_cache_path("carom"), shared]

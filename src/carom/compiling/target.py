@@ -22,3 +22,10 @@ def processor() -> str:
     able = sorted(name for name, there in get_host_cpu_features().items() if there and name.startswith(_VECTORS))
     chosen = [f"{name}={os.environ[name]}" for name in _CHOSEN if name in os.environ]
     return " ".join([platform.machine(), *able, *chosen])
+
+
+def has_wide_registers() -> bool:
+    """Whether kernels are compiled for vector registers of eight doubles (AVX-512)."""
+    from numba.core.registry import cpu_target  # imported here, for the same reason
+
+    return "+avx512f" in cpu_target.target_context.codegen().magic_tuple()[2]
