@@ -15,11 +15,11 @@ from carom.parameters.machine_file import Case
 from carom.parameters.numbers import CONVERSIONS
 from carom.parameters.quantities import read_quantity, unit_factor, unit_of
 from carom.parameters.terms import HELPER_FIELDS, SETTABLE, TERMS, no_such_parameter, set_by
+from carom.parameters.told import RAISED
 
 Side = Literal["up", "down", "nearest"]
 _ROUNDING = {"up": ROUND_CEILING, "down": ROUND_FLOOR, "nearest": ROUND_HALF_EVEN}
 _EXACT = Context(prec=60)
-_RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 _SECONDARY_DIGITS = 3
 EXACT = 17
 """Significant digits with which a value is told without rounding."""
@@ -209,4 +209,4 @@ def _for_people(number: Decimal) -> str:
     power = number.adjusted()
     if -5 <= power < 8 or not number:
         return f"{number:,f}"
-    return f"{number.scaleb(-power):f}×10{str(power).translate(_RAISED)}"
+    return f"{number.scaleb(-power):f}×10{str(power).translate(RAISED)}"
