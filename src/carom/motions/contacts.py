@@ -12,7 +12,7 @@ import numpy as np
 from carom.core.friction import rebound
 from carom.outcome import Phase
 from carom.parameters import UNITS
-from carom.results import Result
+from carom.results import Result, flags
 
 if TYPE_CHECKING:
     import xarray
@@ -242,10 +242,7 @@ class ContactHistory(Table):
 def phase_flags(phases: Iterable[Phase]) -> dict[str, Any]:
     """Attributes that give the meaning of phase numbers, by the CF conventions."""
     kinds = list(phases)
-    return {
-        "flag_values": np.array(kinds, np.int8),
-        "flag_meanings": " ".join(phase.label.replace("-", "_") for phase in kinds),
-    }
+    return flags(np.array(kinds, np.int8), (phase.label for phase in kinds))
 
 
 def polar(position: np.ndarray, velocity: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

@@ -14,6 +14,8 @@ from carom.parameters.numbers import CONVERSIONS
 from carom.parameters.told import number, told, told_entry
 from carom.studies.ranges import Span
 
+SIZES = {"kick": "velocity", "shock": "acceleration", "blade_loss": "unbalance"}
+"""What the size of a kick, a shock or a loss of a blade is."""
 _PREFIXES = ((1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "µ"), (1e-9, "n"))
 
 
@@ -79,15 +81,8 @@ class Wording:
 
     def size_of(self, kind: str) -> Callable[[float], str]:
         """How the size of a kick, a shock or a loss of a blade is written."""
-        return {"kick": self.velocity, "shock": self.acceleration, "blade_loss": self.unbalance}[kind]
-
-    def unit_of(self, kind: str) -> float | None:
-        """One unit of the size of a kick, a shock or a loss of a blade, in SI units; ``None`` without scales."""
-        if self.scales is None:
-            return None
-        return {"kick": self.scales.velocity, "shock": self.scales.acceleration, "blade_loss": self.scales.unbalance}[
-            kind
-        ]
+        write: Callable[[float], str] = getattr(self, SIZES[kind])
+        return write
 
     def slip(self, value: float) -> str:
         """The speed of the surface of the rotor on the wall, given in ``c_r Ω``, in m/s."""
