@@ -217,10 +217,9 @@ def _range(parameters: Parameters, varied: Axis, option: str, given: str | None)
         from carom.cli.starts import read_range
 
         return read_range(option, given, varied)
-    present = parameters.value(varied.name)
-    if not present > 0.0:
-        raise InputError(option, None, f"needed here, as {varied.name} = {present:g} gives no range around it")
-    return NEAR[0] * present, min(NEAR[1] * present, varied.field.highest)
+    from carom.models.axes import usual_range
+
+    return usual_range(varied, parameters.value(varied.name), option, NEAR)
 
 
 def _shown(varied: Axis, value: float) -> str:

@@ -83,7 +83,9 @@ def _with_angle(option: str, text: str, words: tuple[str, str], scales: Scales |
     allowed = words[0] + (words[1] if scales else _OWN)
     size, *angle = _split(option, text, (1, 2), allowed)
     if angle and (advice := comma_advice(text)) and (scales is not None or not size.strip("0.")):
-        raise InputError(option, text, f"{allowed}; {advice}{' with its unit' if scales and _is_bare(text) else ''}")
+        raise InputError(
+            option, text, f"{allowed}; {advice}{' with its unit' if scales and not any(map(str.isalpha, text)) else ''}"
+        )
     return size, _angle(option, angle[0], scales) if angle else 0.0
 
 
@@ -192,17 +194,10 @@ def _split(option: str, text: str, counts: tuple[int, ...], allowed: str) -> lis
     """Split at commas, but not at those that separate thousands."""
     pieces, parts = text.split(","), list[str]()
     while pieces:
-        size = next(size for size in range(len(pieces), 0, -1) if size == 1 or _is_number(",".join(pieces[:size])))
+        sizes = range(len(pieces), 1, -1)  # the longest that is one number
+        size = next((size for size in sizes if "," not in without_separators(",".join(pieces[:size]))), 1)
         parts.append(",".join(pieces[:size]).strip())
         del pieces[:size]
     if len(parts) not in counts or not all(parts):
         raise InputError(option, text, allowed)
     return parts
-
-
-def _is_bare(text: str) -> bool:
-    return not any(sign.isalpha() for sign in text)
-
-
-def _is_number(text: str) -> bool:
-    return "," not in without_separators(text)

@@ -12,6 +12,8 @@ from dataclasses import dataclass
 
 from carom.outcome import InputError, shown
 
+RPM = math.pi / 30.0
+"""One revolution per minute in rad/s."""
 _LONGEST_NAME = 60
 _MOST_SUGGESTIONS = 100
 
@@ -129,8 +131,7 @@ def length_field(
 
 def speed_field(name: str, symbol: str, words: str, example: str) -> Field:
     """A speed of the shaft in rad/s, which people say in rpm."""
-    size = math.pi / 30.0
-    return Field(name, symbol, words, "an angular speed", "rad/s", 1e-6, 1e6, example, usual="rpm", usual_size=size)
+    return Field(name, symbol, words, "an angular speed", "rad/s", 1e-6, 1e6, example, usual="rpm", usual_size=RPM)
 
 
 def _pure(name: str, symbol: str, words: str, lowest: float, highest: float, example: str, formula: str = "") -> Field:

@@ -6,12 +6,13 @@ import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
+from carom.basins.changes import WANTED
 from carom.closed_forms.thresholds import Gain
 from carom.outcome import Outcome
 from carom.parameters import DIMENSIONLESS_FIELDS
-from carom.parameters.told import number
+from carom.parameters.told import number, told_entry
 from carom.results import fields_of, in_si
-from carom.studies.advice import WANTED, Bound, Change, Margin, evidence_of, stated
+from carom.studies.advice import Bound, Change, Margin, evidence_of, stated
 from carom.studies.endings import motion_words
 from carom.studies.facts import Evidence, Fact
 from carom.studies.ranges import EVENTS, Edge
@@ -28,6 +29,10 @@ CHANGES = ("Change", "Or", "For all starts")
 BEYOND = "Beyond the limits"
 """Label of the changes that ask for more than the magnetic bearings can give."""
 _NONE_NEEDED = "none needed for what the machine must survive"
+_NOTHING_BUILDABLE = (
+    "nothing that the magnetic bearings can give helps: every change found that brings all back asks for more than their "
+    "limits, so that the real machine moves otherwise; larger limits, less unbalance or a larger clearance are needed"
+)
 _LAST_ZONE = "D"
 
 
@@ -42,7 +47,7 @@ def advice_facts(study: Study) -> Iterator[Fact]:
     if enough and recommended.kind != "no-change-needed":
         yield _fact("Change", _NONE_NEEDED, "sampled")
     if unbuildable:
-        yield _fact(first, _nothing_buildable(study), "sampled")
+        yield _fact(first, _NOTHING_BUILDABLE, "sampled")
     for place, change in enumerate(recommended.changes):
         label = BEYOND if unbuildable else "Or" if place else first
         values = change_document(study, change)
@@ -73,9 +78,7 @@ def _machine(study: Study) -> str:
     machine, told = study.case.machine, present_values(study.case)
     if machine is None:
         return told
-    more = [
-        f"{name} {study.wording.field(name, getattr(machine, name))}" for name in ("mass", "clearance", "eccentricity")
-    ]
+    more = [f"{name} {told_entry(name, getattr(machine, name))}" for name in ("mass", "clearance", "eccentricity")]
     return ", ".join([told, *more])
 
 
@@ -243,13 +246,6 @@ def _none_found(study: Study) -> str:
     if not searched:
         return "none found: no range of damping or stiffness could be searched"
     return f"none found that brings back all that must be survived, {searched}"
-
-
-def _nothing_buildable(study: Study) -> str:
-    return (
-        "nothing that the magnetic bearings can give helps: every change found that brings all back asks for more than their "
-        "limits, so that the real machine moves otherwise; larger limits, less unbalance or a larger clearance are needed"
-    )
 
 
 def _disturbances(study: Study) -> str:

@@ -112,25 +112,17 @@ class Wording:
             return f"{number(2.0 * math.pi / period, 3)} times a turn"
         return f"{number(1.0 / (period * self.scales.time), 3)} times a second"
 
-    def field(self, name: str, value: float, digits: int = 4) -> str:
-        """An entry of a machine given in SI units, in the unit in which people usually say it: ``1,759 rpm``, ``1.592 µm``."""
-        return told_entry(name, value, digits)
-
     def gain(self, gain: Gain, value: float) -> str:
         """Damping or stiffness given as ``gamma`` or ``omega``, with its unit if the machine is known."""
         if self.scales is None:
             return number(value)
-        return f"{number(self.gain_in_si(gain, value))} {self.gain_unit(gain)}"
+        return f"{number(self.gain_in_si(gain, value))} {MACHINE_FIELDS[PHYSICAL_PARTNER[gain]].unit}"
 
     def gain_in_si(self, gain: Gain, value: float) -> float:
         """Damping in N s/m or stiffness in N/m; needs scales."""
         if self.scales is None:
             return math.nan
         return float(CONVERSIONS[gain].value(value, self.scales))
-
-    def gain_unit(self, gain: Gain) -> str:
-        """Unit of :meth:`gain_in_si`."""
-        return MACHINE_FIELDS[PHYSICAL_PARTNER[gain]].unit
 
     def gain_name(self, gain: Gain) -> str:
         """Return ``damping`` or ``stiffness``; the symbol, ``γ`` or ``ω``, if the machine is not known."""
@@ -176,9 +168,8 @@ def present_values(case: Case) -> str:
         names = ("gamma", "omega", "rho", "mu", "d")
         fields = [(DIMENSIONLESS_FIELDS[name].symbol, getattr(case.parameters, name)) for name in names]
         return ", ".join(f"{symbol} = {number(value)}" for symbol, value in fields)
-    say = Wording(case.parameters.scales)
     return ", ".join(
-        f"{name} {say.field(name, getattr(case.machine, name))}" for name in ("damping", "stiffness", "speed")
+        f"{name} {told_entry(name, getattr(case.machine, name))}" for name in ("damping", "stiffness", "speed")
     )
 
 
