@@ -11,7 +11,7 @@ import numpy as np
 from carom.arguments import Whole, checked
 from carom.outcome import STEADY_WORDS, InputError
 from carom.parameters import DIMENSIONLESS_FIELDS, Zones
-from carom.results import in_si
+from carom.results import fields_of, in_si
 from carom.sweeps.variables import Dimension, Variable, with_si
 
 if TYPE_CHECKING:
@@ -124,12 +124,7 @@ class StudyTask:
 
     def describe(self) -> dict[str, Any]:
         """Return what identifies the task, as plain data for JSON."""
-        return {
-            "kind": self.kind,
-            "disturbances": self.disturbances,
-            "least_damping": self.least_damping,
-            "zone_limits": list(self.zone_limits),
-        }
+        return fields_of(self, "kind", "disturbances", "least_damping", "zone_limits")
 
     def evaluate(self, machine: Case | Model, seed: np.random.SeedSequence) -> dict[str, Any]:
         """Compute the values of one machine by variable name; a variable without a value is left out.
