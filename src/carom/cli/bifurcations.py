@@ -95,18 +95,14 @@ def bifurcations(
     with progress("loading") as tell:
         from carom.bifurcations import find_bifurcations
         from carom.bifurcations.documents import diagram_document
-        from carom.cli.starts import read_value
+        from carom.cli.starts import read_ends
         from carom.models import axis
         from carom.parameters import load
 
         case = load(machine, settings or ())
         parameters = case.parameters
         varied = axis(parameters, along.strip())
-        first, last = read_value("--from", start, varied), read_value("--to", end, varied)
-        if first == last:
-            raise InputError(
-                "--to", end, "must be another value than --from; which of the two is larger does not matter"
-            )
+        interval = read_ends(start, end, varied)
         if seed is not None and not attractors:
             raise InputError("--seed", seed, "allowed only with --attractors")
         check_output(out)
@@ -114,7 +110,7 @@ def bifurcations(
         diagram = find_bifurcations(
             parameters,
             varied.name,
-            (min(first, last), max(first, last)),
+            interval,
             impacts=impacts,
             virtual=virtual,
             lasting=lasting,

@@ -167,19 +167,27 @@ def _of_command_line(field: Field) -> Field:
 def read_range(option: str, text: str, varied: Axis) -> tuple[float, float]:
     """Read ``A,B``, the ends of a range of a parameter in either order; return the smaller one first."""
     allowed = f"must be two different values of {varied.name} with a comma between them"
-    first, second = (read_value(option, part, varied) for part in _split(option, text, (2,), allowed))
-    if first == second:
-        raise InputError(option, text, allowed)
-    return min(first, second), max(first, second)
+    ends = [read_value(option, part, varied) for part in _split(option, text, (2,), allowed)]
+    return _ascending(option, text, allowed, ends)
+
+
+def read_ends(start: str, end: str, varied: Axis) -> tuple[float, float]:
+    """Read ``--from`` and ``--to``, the ends of a range of a parameter in either order; return the smaller one first."""
+    allowed = "must be another value than --from; which of the two is larger does not matter"
+    return _ascending("--to", end, allowed, [read_value("--from", start, varied), read_value("--to", end, varied)])
 
 
 def read_entry_range(option: str, text: str, case: Case, entry: str) -> tuple[float, float]:
     """Read a range of an entry of the machine file, in either order, as one of the parameter that it states."""
     allowed = f"must be two different values of {entry} with a comma between them"
-    first, second = (_stated(option, part, case, entry) for part in _split(option, text, (2,), allowed))
-    if first == second:
+    ends = [_stated(option, part, case, entry) for part in _split(option, text, (2,), allowed)]
+    return _ascending(option, text, allowed, ends)
+
+
+def _ascending(option: str, text: str, allowed: str, ends: list[float]) -> tuple[float, float]:
+    if ends[0] == ends[1]:
         raise InputError(option, text, allowed)
-    return min(first, second), max(first, second)
+    return min(ends), max(ends)
 
 
 def _stated(option: str, text: str, case: Case, entry: str) -> float:
