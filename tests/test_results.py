@@ -16,7 +16,7 @@ import carom
 from carom.outcome import InputError
 from carom.parameters.told import told_along
 from carom.references import Citations, Reference
-from carom.results import WIDEST, Result, in_a_line
+from carom.results import WIDEST, Result, fields_of, in_a_line, in_si
 
 
 class Colour(enum.Enum):
@@ -262,3 +262,12 @@ def test_text_of_what_is_found_is_short():
     assert words in repr(orbits)
     assert "period-doubling, B1,d" in repr(diagram)
     assert repr(endings).splitlines()[1] == "  motions   5"
+
+
+def test_numbers_of_a_document_have_twins_in_si_units_where_the_machine_is_known():
+    scales = carom.parameters.Scales(2.0, 1e-3, 100.0)
+    document = {"radius": 0.5, "found": None, "bracket": [None, 3.0], "name": "x"}
+    twins = in_si(document, scales, "radius", found="velocity", bracket="time")
+    assert twins == {"radius_si": 0.5 * scales.length, "found_si": None, "bracket_si": [None, 3.0 * scales.time]}
+    assert in_si(document, None, "radius", found="velocity") == {}
+    assert fields_of(scales, "mass", unit="velocity", size="length.real") == {"mass": 2.0, "unit": 0.1, "size": 1e-3}

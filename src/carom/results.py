@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Mapping, Sequence, Set, Sized
+from collections.abc import Iterable, Mapping, Sequence, Set, Sized
 from enum import Enum
 from importlib import import_module
 from numbers import Complex
+from operator import attrgetter
 from types import MappingProxyType
 from typing import Any, ClassVar
 
@@ -142,14 +143,38 @@ def _collect(value: object, keys: dict[str, None], seen: set[int]) -> None:
             _collect(getattr(value, field.name), keys, seen)
 
 
-def fields_of(entry: object, *names: str, **renamed: str) -> dict[str, Any]:
-    """Attributes as plain data for JSON, under their own names or under others: ``ends="stops"``."""
+def fields_of(entry: object, /, *names: str, **renamed: str) -> dict[str, Any]:
+    """Attributes as plain data for JSON, under their own names or under others: ``ends="stops"``, ``kind="edge.kind"``."""
     keys = dict(zip(names, names, strict=True)) | renamed
-    values = {key: getattr(entry, name) for key, name in keys.items()}
+    values = {key: attrgetter(name)(entry) for key, name in keys.items()}
     return {
         key: value.tolist() if isinstance(value, np.ndarray) else list(value) if type(value) is tuple else value
         for key, value in values.items()
     }
+
+
+def flags(values: Any, meanings: Iterable[str]) -> dict[str, Any]:
+    """Attributes that give the meaning of whole numbers, by the CF conventions."""
+    words = " ".join(meaning.replace("-", "_").replace(" ", "_") for meaning in meanings)
+    return {"flag_values": values, "flag_meanings": words}
+
+
+def in_si(values: Mapping[str, Any], scales: Any, /, *names: str, **kinds: str) -> dict[str, Any]:
+    """Some numbers of a document once more, in SI units under keys that end in ``_si``; nothing without scales.
+
+    What a number is says :data:`KINDS`, or the name of a property of the scales: ``lost="velocity"``.
+    """
+    if scales is None:
+        return {}
+    kinds = {name: KINDS[name] for name in names} | kinds
+    return {f"{name}_si": _times(values[name], getattr(scales, kind)) for name, kind in kinds.items()}
+
+
+def _times(value: Any, scale: float) -> Any:
+    """A number, or each of a list, in other units; ``None`` where there is none."""
+    if isinstance(value, list):
+        return [_times(entry, scale) for entry in value]
+    return None if value is None else value * scale
 
 
 def in_a_line(value: object, scales: Any = None) -> str:

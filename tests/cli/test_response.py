@@ -64,7 +64,7 @@ def test_text_and_files(carom, machine, tmp_path):
     [
         (("--from", "500 rpm"), "--to = nothing given: give both --from and --to"),
         (("--to", "500 rpm"), "--from = nothing given: give both --from and --to"),
-        (("--from", "500 rpm", "--to", "500 rpm"), "must be another speed than --from"),
+        (("--from", "500 rpm", "--to", "500 rpm"), "must be another value than --from"),
         (("--from", "5 kg", "--to", "500 rpm"), "--from = 5 kg: speed must be an angular speed"),
         (("--operating", "5"), "--operating = 5: must be"),
     ],

@@ -5,7 +5,7 @@ import math
 import pytest
 
 from carom.parameters import Scales
-from carom.parameters.told import number
+from carom.parameters.told import number, told_entry
 from carom.studies.ranges import Edge, Span
 from carom.studies.wording import Wording, counted, listed
 
@@ -59,11 +59,11 @@ def test_quantities_with_units():
 
 
 def test_entries_of_a_machine_are_in_usual_units_and_short_lengths_in_micrometres():
-    assert SI.field("speed", 184.2) == "1,759 rpm"
-    assert SI.field("clearance", 0.7e-3) == "0.7 mm"
-    assert SI.field("clearance", 1e-4) == "0.1 mm"
-    assert SI.field("eccentricity", 1.5918e-6) == "1.592 µm"
-    assert SI.field("eccentricity", 0.0) == "0 mm"
+    assert told_entry("speed", 184.2) == "1,759 rpm"
+    assert told_entry("clearance", 0.7e-3) == "0.7 mm"
+    assert told_entry("clearance", 1e-4) == "0.1 mm"
+    assert told_entry("eccentricity", 1.5918e-6) == "1.592 µm"
+    assert told_entry("eccentricity", 0.0) == "0 mm"
 
 
 def test_quantities_without_scales_keep_the_units_of_the_equations():

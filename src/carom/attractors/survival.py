@@ -14,6 +14,7 @@ from carom.models import Model, Subject, model_of
 from carom.motions.ensembles import Endings, settle
 from carom.motions.settling import REPEATING
 from carom.outcome import Outcome
+from carom.results import fields_of
 
 MOTIONS = 200
 """Number of irregular motions that are followed."""
@@ -237,9 +238,5 @@ def document_of(survival: Survival | None) -> dict[str, Any]:
     """Document of the survival for JSON; without a survival the motion is not irregular."""
     if survival is None:
         return {"transient": False, "half_life_impacts": None}
-    return {
-        "transient": survival.transient,
-        "half_life_impacts": survival.half_life,
-        "half_life_interval_impacts": list(survival.interval),
-        "survival": survival.words,
-    }
+    half_life = fields_of(survival, half_life_impacts="half_life", half_life_interval_impacts="interval")
+    return {"transient": survival.transient, **half_life, "survival": survival.words}

@@ -10,10 +10,11 @@ from dataclasses import replace
 
 import numpy as np
 
-from carom.basins.families import TURN, UNBALANCE
+from carom.basins.families import UNBALANCE
 from carom.basins.losses import MOST_CHECKS, ROUND, TOLERANCE, SmallestLoss, lost
 from carom.closed_forms.thresholds import harmless_blade_loss
 from carom.disturbances import BladeLoss, Starts
+from carom.disturbances.coordinates import TURN
 from carom.disturbances.following import follow
 from carom.models import Jeffcott
 from carom.outcome import InputError, Outcome

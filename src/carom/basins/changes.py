@@ -24,6 +24,7 @@ STEPS = 5
 CANDIDATES = 8
 """Number of nodes of the map towards which the least change is searched."""
 WANTED = 0.99
+"""Usual share of the disturbances that must come back."""
 
 
 @dataclass(frozen=True)

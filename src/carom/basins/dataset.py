@@ -21,7 +21,7 @@ from carom.models import Model, jeffcott_of, model_from
 from carom.motions.ensembles import Endings
 from carom.outcome import Outcome
 from carom.parameters import Parameters
-from carom.results import Result
+from carom.results import Result, flags
 
 if TYPE_CHECKING:
     import xarray
@@ -108,49 +108,39 @@ def dataset_of(
         NO_START,
         *(outcome for outcome in Outcome if outcome >= Outcome.TIME_REACHED or outcome == Outcome.GRAZING),
     ]
-    meanings = ["no_start", *(Outcome(code).label.replace("-", "_") for code in codes[1:])]
+    meanings = ["no_start", *(Outcome(code).label for code in codes[1:])]
     axes, dimensions = _axes(rotor, plan)
-    time: dict[str, object] = {"units": "1/Omega", "long_name": "time until it was known where the motion ends"}
-    if rotor.scales:
-        time |= {"si_units": "s", "si_factor": rotor.scales.time}
-    length, speed = {"units": "c_r"}, {"units": "c_r Omega"}
-    variables = {
-        "outcome": (
-            endings.outcomes,
-            {
-                "long_name": "where the motion ends",
-                "flag_values": np.array(codes, np.int8),
-                "flag_meanings": " ".join(meanings),
-            },
-        ),
-        "motion": (
-            motions,
-            {
-                "long_name": "motion on which it ends",
-                "flag_values": np.arange(len(names), dtype=np.int16),
-                "flag_meanings": " ".join(name.replace(" ", "_") for name in names),
-                "motions": json.dumps([asdict(name) for name in names]),
-            },
-        ),
-        "time": (np.where(starts.exists, endings.times, np.nan), time),
-        "impacts": (endings.impacts, {"units": "1", "long_name": "impacts until then"}),
-        "touched": (
-            _touched(starts, endings).astype(np.int8),
-            {"units": "1", "long_name": "1 where the rotor met the wall, else 0"},
-        ),
-        "multiplicity": (
-            endings.multiplicities.astype(np.int32),
-            {"units": "1", "long_name": "impacts in a period of bouncing; 0 otherwise (of bouncing: irregular)"},
-        ),
-        "weight": (
-            np.where(starts.exists, plan.weights().reshape(starts.exists.shape), 0.0),
-            {"units": "1", "long_name": "weight in shares: area of the cell, one on average over all cells"},
-        ),
-        "start_x": (starts.positions.real, {**length, "long_name": "position at the start, Re U"}),
-        "start_y": (starts.positions.imag, {**length, "long_name": "position at the start, Im U"}),
-        "start_vx": (starts.velocities.real, {**speed, "long_name": "velocity at the start, Re dU/dt"}),
-        "start_vy": (starts.velocities.imag, {**speed, "long_name": "velocity at the start, Im dU/dt"}),
+    ends = {"long_name": "where the motion ends", **flags(np.array(codes, np.int8), meanings)}
+    reached = {
+        "long_name": "motion on which it ends",
+        "flag_values": np.arange(len(names), dtype=np.int16),
+        "flag_meanings": " ".join(name.replace(" ", "_") for name in names),
+        "motions": json.dumps([asdict(name) for name in names]),
     }
+    times = np.where(starts.exists, endings.times, np.nan)
+    weights = np.where(starts.exists, plan.weights().reshape(starts.exists.shape), 0.0)
+    numbers = {
+        "time": ("1/Omega", "time until it was known where the motion ends", times),
+        "impacts": ("1", "impacts until then", endings.impacts),
+        "touched": ("1", "1 where the rotor met the wall, else 0", _touched(starts, endings).astype(np.int8)),
+        "multiplicity": (
+            "1",
+            "impacts in a period of bouncing; 0 otherwise (of bouncing: irregular)",
+            endings.multiplicities.astype(np.int32),
+        ),
+        "weight": ("1", "weight in shares: area of the cell, one on average over all cells", weights),
+        "start_x": ("c_r", "position at the start, Re U", starts.positions.real),
+        "start_y": ("c_r", "position at the start, Im U", starts.positions.imag),
+        "start_vx": ("c_r Omega", "velocity at the start, Re dU/dt", starts.velocities.real),
+        "start_vy": ("c_r Omega", "velocity at the start, Im dU/dt", starts.velocities.imag),
+    }
+    variables: dict[str, tuple[np.ndarray, dict[str, Any]]] = {
+        "outcome": (endings.outcomes, ends),
+        "motion": (motions, reached),
+        **{name: (values, {"units": unit, "long_name": words}) for name, (unit, words, values) in numbers.items()},
+    }
+    if rotor.scales:
+        variables["time"][1].update(si_units="s", si_factor=rotor.scales.time)
     # The starts of a rotor of several coordinates have one axis more.
     several = (*dimensions, "coordinate")
     return xarray.Dataset(

@@ -24,7 +24,8 @@ from carom.disturbances import BaseShock, BladeLoss, Sample, UnbalanceStep
 from carom.disturbances.echo import plan_words
 from carom.outcome import InputError
 from carom.parameters import Case, in_terms_of
-from carom.results import fields_of
+from carom.parameters.scaling import SCALING
+from carom.results import fields_of, in_si
 
 
 def basin_document(
@@ -42,13 +43,9 @@ def basin_document(
     return to.  Kicks up to the speed ``harmless`` provably never reach the wall.  ``change`` reaches the share
     ``wanted``.  With a machine ``told_by``, the values of a gain map are there in the terms of its file too.
     """
-    scales = basin.scales
-    attributes = basin.dataset.attrs
+    scales, attributes = basin.scales, basin.dataset.attrs
     document: dict[str, Any] = {
-        "starts": basin.starts,
-        "fractions": basin.fractions,
-        "unresolved": basin.unresolved,
-        "irregular": basin.irregular,
+        **fields_of(basin, "starts", "fractions", "unresolved", "irregular"),
         **_loss(smallest, basin, "kick"),
         "harmless_kick": harmless,
         "recovered": _share(basin.share_recovered),
@@ -65,23 +62,21 @@ def basin_document(
         "criteria": attributes["criteria"],
         "source": attributes["source"],
     }
+    document |= in_si(document, scales, harmless_kick="velocity")
     if scales is not None:
-        document["harmless_kick_si"] = harmless * scales.velocity
-        document["scales_si"] = {name: getattr(scales, name) for name in ("mass", "clearance", "speed")}
+        document["scales_si"] = fields_of(scales, *SCALING)
     model = basin.plan.model
     if smallest is not None and smallest.kind != "kick":
         document |= _loss(smallest, basin, smallest.kind)
-    proven: dict[str, tuple[float, str]] = {}
+    proven: dict[str, float] = {}
     if isinstance(model, UnbalanceStep):
-        proven["harmless_unbalance_step"] = harmless_unbalance_step(basin.rotor), "length"
+        proven["harmless_unbalance_step"] = harmless_unbalance_step(basin.rotor)
     if isinstance(model, BladeLoss):
-        proven["harmless_blade_loss"] = harmless_blade_loss(basin.rotor), "length"
+        proven["harmless_blade_loss"] = harmless_blade_loss(basin.rotor)
     if isinstance(model, BaseShock):
-        proven["harmless_shock"] = harmless_shock(basin.rotor, model.duration), "acceleration"
-    for name, (size, scale) in proven.items():
-        document[name] = size
-        if scales is not None:
-            document[f"{name}_si"] = size * getattr(scales, scale)
+        proven["harmless_shock"] = harmless_shock(basin.rotor, model.duration)
+    kind = "acceleration" if isinstance(model, BaseShock) else "length"
+    document |= proven | in_si(proven, scales, **dict.fromkeys(proven, kind))
     if gains is not None:
         document["gains"] = _gains(gains, change, wanted)
         if told_by is not None:
@@ -95,10 +90,9 @@ def _loss(smallest: SmallestLoss | None, basin: Basin, kind: str) -> dict[str, A
     key = kind.replace("-", "_")
     name = f"smallest_unrecovered_{'release_speed' if kind == 'release' else key}"
     several = f"{key}es" if key.endswith("s") else f"{key}s"
-    bracket = [found.all_back, found.size] if found else None
     document: dict[str, Any] = {
         name: found.size if found else None,
-        f"{name}_bracket": bracket,
+        f"{name}_bracket": [found.all_back, found.size] if found else None,
         f"{name}_angle": found.angle if found else None,
         f"{name}_outcome": found.outcome.label if found and found.outcome else None,
         f"{name}_tolerance": found.tolerance if found else None,
@@ -108,21 +102,13 @@ def _loss(smallest: SmallestLoss | None, basin: Basin, kind: str) -> dict[str, A
     }
     if kind == "release":
         document[f"{name}_backward"] = found.backward if found else None
-    if basin.scales is not None:
-        unit = size_coordinate(basin.plan.model).si(basin.scales)
-        document[f"{name}_si"] = found.size * unit if found and found.size is not None else None
-        document[f"{name}_bracket_si"] = [None if end is None else end * unit for end in bracket] if bracket else None
-    return document
+    kind = size_coordinate(basin.plan.model).scale
+    return document | in_si(document, basin.scales, **{name: kind, f"{name}_bracket": kind})
 
 
 def _share(share: Share) -> dict[str, Any]:
-    return {
-        "fraction": share.fraction,
-        "count": share.count,
-        "low": share.low,
-        "high": share.high,
-        "method": "Clopper-Pearson, 95 %" if share.drawn else "grid, cells weighed by area",
-    }
+    method = "Clopper-Pearson, 95 %" if share.drawn else "grid, cells weighed by area"
+    return fields_of(share, "fraction", "count", "low", "high") | {"method": method}
 
 
 def _integrity(basin: Basin) -> dict[str, Any] | None:
@@ -147,14 +133,8 @@ def _terms(gains: GainMap, change: GainChange | None, case: Case) -> list[dict[s
     told = []
     for varied, part in zip(gains.axes, changes, strict=True):
         stated = [in_terms_of(case, varied.name, float(value), digits=6) for value in gains.dataset[varied.name].values]
-        told.append(
-            {
-                "entry": stated[0].entry,
-                "unit": stated[0].unit,
-                "values": [each.value for each in stated],
-                "change": part,
-            }
-        )
+        values = [each.value for each in stated]
+        told.append(fields_of(stated[0], "entry", "unit") | {"values": values, "change": part})
     return told
 
 

@@ -20,6 +20,7 @@ from carom.disturbances import (
     UnbalanceStep,
     VelocityKick,
 )
+from carom.disturbances.coordinates import TURN
 from carom.models import Jeffcott
 from carom.outcome import InputError
 
@@ -27,7 +28,6 @@ UNBALANCE = "unbalance"
 """Quantity of eccentricities that change: people state them as an unbalance, which is that times the mass."""
 WHIRL = 2.0
 """Largest speed along the wall searched for releases, in ``c_r Ω``: twice that of a whirl in step with the shaft."""
-TURN = 2.0 * math.pi
 
 
 @dataclass(frozen=True)

@@ -20,7 +20,7 @@ from carom.basins.shares import Population, Share
 from carom.disturbances import BaseShock, Grid, KickPlane, Plan, Sample, Starts, VelocityKick
 from carom.disturbances.following import NO_START, follow_machines
 from carom.models import Axis, Model, Subject, axis, model_of
-from carom.models.axes import Ends, read_interval
+from carom.models.axes import Ends, read_interval, usual_range
 from carom.motions.ensembles import MOST_EVENTS
 from carom.motions.settling import PATIENCE
 from carom.outcome import InputError, Outcome
@@ -33,8 +33,6 @@ if TYPE_CHECKING:
 
     from carom.parameters import Scales
 
-AROUND = (0.5, 2.0)
-"""Default range of a parameter, in multiples of its present value."""
 Node: TypeAlias = tuple[Plan, tuple[float, float]]
 """Disturbances, and values of the two parameters."""
 CHUNK = 50_000
@@ -187,12 +185,8 @@ def map_gains(
 
 def _values(rotor: Model, varied: Axis, given: Ends | None, count: int) -> np.ndarray:
     """Evenly spaced values of a parameter over its range."""
-    if given is None:
-        now = varied.value(rotor)
-        if not now > 0.0:
-            raise InputError("ranges", None, f"needed: {varied.name} = {now:g} gives no range around it")
-        given = AROUND[0] * now, min(AROUND[1] * now, varied.field.highest)
-    return np.linspace(*read_interval(varied, given), count)
+    usual = given or usual_range(varied, varied.value(rotor), "ranges")
+    return np.linspace(*read_interval(varied, usual), count)
 
 
 def measured(

@@ -13,13 +13,10 @@ from typing import ClassVar
 import numpy as np
 
 from carom.arguments import Count, checked
-from carom.basins.families import TURN, Family, family_of
+from carom.basins.families import Family, family_of
 from carom.basins.shares import CONFIDENCE
-from carom.disturbances import (
-    BladeLoss,
-    Disturbance,
-    Starts,
-)
+from carom.disturbances import BladeLoss, Disturbance, Starts
+from carom.disturbances.coordinates import TURN
 from carom.disturbances.following import follow
 from carom.models import Jeffcott, Model, Subject, jeffcott_of
 from carom.outcome import InputError, Outcome

@@ -17,6 +17,7 @@ from carom.attractors import AttractorSet, DisturbanceSet, exact_interval
 from carom.attractors.intervals import CONFIDENCE as CONFIDENCE
 from carom.disturbances import Disturbance, Plan, Sample, VelocityKick
 from carom.parameters import Scales
+from carom.results import fields_of
 
 
 @dataclass(frozen=True)
@@ -127,8 +128,7 @@ class Share:
         """The share as plain data for JSON."""
         of = self.population
         si = {} if of.up_to_si is None else {"up_to_si": of.up_to_si}
-        interval = {"estimate": self.fraction, "low": self.low, "high": self.high}
-        return {"of": of.of, "up_to": of.up_to, **si, **interval}
+        return fields_of(of, "of", "up_to") | si | fields_of(self, estimate="fraction", low="low", high="high")
 
 
 @checked

@@ -3,26 +3,23 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
 import numpy as np
+from rich.console import Console
 
+from carom.basins import Basin, GainChange, GainMap, SmallestLoss, basin_entropy, integrity
+from carom.basins.families import has_sizes, size_coordinate
+from carom.basins.shares import starts_enough
+from carom.cli.fitting import fitted, plain_table
+from carom.disturbances import Coordinate
 from carom.disturbances.echo import plan_words, told_eccentricity
-from carom.outcome import IRREGULAR_BOUNCING, InputError
-
-if TYPE_CHECKING:
-    from rich.console import Console
-
-    from carom.basins import Basin, GainChange, GainMap, SmallestLoss
-    from carom.disturbances import Coordinate
-    from carom.outcome import Outcome
-    from carom.parameters import Case, InTerms, Scales
+from carom.outcome import IRREGULAR_BOUNCING, InputError, Outcome
+from carom.parameters import Case, InTerms, Scales, in_terms_of
+from carom.parameters.terms import SETTABLE
 
 
 def print_basin(screen: Console, basin: Basin, smallest: SmallestLoss | None, harmless: float) -> None:
     """Print the disturbances tried, where they end, and the smallest that is lost."""
-    from carom.cli.fitting import fitted, plain_table
-
     screen.print(f"Disturbances: {plan_words(basin.plan, basin.parameters.rho, basin.scales)}.")
     drawn = basin.share_recovered.drawn
     numbers = ("starts", "share", *(["95 % interval"] if drawn else []), "known after (median)")
@@ -95,8 +92,6 @@ def print_gains(screen: Console, found: GainMap, change: GainChange | None, want
 
 def _sure(found: GainMap, wanted: float, reach: int) -> str:
     """Say for how many machines the sample shows the wanted share, and how large a sample is needed to show it."""
-    from carom.basins.shares import starts_enough
-
     sure = int((found.dataset["recovered_low"].values >= wanted).sum())
     text = (
         f"That at least {100 * wanted:g} % of them come back is shown with 95 % confidence for {sure or 'none'} of them"
@@ -127,8 +122,6 @@ _LOSSES = {
 
 def _losses(basin: Basin, smallest: SmallestLoss | None, harmless: float) -> list[str]:
     """Say from which size on disturbances are lost, if they have a size."""
-    from carom.basins.families import has_sizes, size_coordinate
-
     if not has_sizes(basin.plan.model):
         return []
     if smallest is None or harmless <= 0.0:
@@ -215,8 +208,6 @@ def _where(basin: Basin, smallest: SmallestLoss) -> str:
 
 
 def _measures(basin: Basin) -> list[str]:
-    from carom.basins import basin_entropy, integrity
-
     lines = []
     try:
         found = integrity(basin)
@@ -244,7 +235,7 @@ def _size(coordinate: Coordinate, value: float, scales: Scales | None, digits: i
 
 
 def _ending(basin: Basin, outcome: Outcome) -> str:
-    from carom.studies.endings import ending_words
+    from carom.studies.endings import ending_words  # only here: it takes long to load
 
     return ending_words(outcome, basin.motions)
 
@@ -254,13 +245,9 @@ def _time(value: float, scales: Scales | None) -> str:
 
 
 def _value(case: Case, name: str, value: float, *, named: bool = True) -> str:
-    from carom.parameters.terms import SETTABLE
-
     stated = _stated(case, name, value)
     return f"{SETTABLE[stated.entry].words} {stated.text}" if named else stated.text
 
 
 def _stated(case: Case, name: str, value: float) -> InTerms:
-    from carom.parameters import in_terms_of
-
     return in_terms_of(case, name, value, digits=5)

@@ -95,18 +95,14 @@ def bifurcations(
     with progress("loading") as tell:
         from carom.bifurcations import find_bifurcations
         from carom.bifurcations.documents import diagram_document
-        from carom.cli.starts import read_value
+        from carom.cli.starts import read_ends
         from carom.models import axis
         from carom.parameters import load
 
         case = load(machine, settings or ())
         parameters = case.parameters
         varied = axis(parameters, along.strip())
-        first, last = read_value("--from", start, varied), read_value("--to", end, varied)
-        if first == last:
-            raise InputError(
-                "--to", end, "must be another value than --from; which of the two is larger does not matter"
-            )
+        interval = read_ends(start, end, varied)
         if seed is not None and not attractors:
             raise InputError("--seed", seed, "allowed only with --attractors")
         check_output(out)
@@ -114,7 +110,7 @@ def bifurcations(
         diagram = find_bifurcations(
             parameters,
             varied.name,
-            (min(first, last), max(first, last)),
+            interval,
             impacts=impacts,
             virtual=virtual,
             lasting=lasting,
@@ -217,10 +213,9 @@ def _range(parameters: Parameters, varied: Axis, option: str, given: str | None)
         from carom.cli.starts import read_range
 
         return read_range(option, given, varied)
-    present = parameters.value(varied.name)
-    if not present > 0.0:
-        raise InputError(option, None, f"needed here, as {varied.name} = {present:g} gives no range around it")
-    return AROUND[0] * present, min(AROUND[1] * present, varied.field.highest)
+    from carom.models.axes import usual_range
+
+    return usual_range(varied, parameters.value(varied.name), option, AROUND)
 
 
 def _shown(varied: Axis, value: float) -> str:

@@ -77,15 +77,14 @@ def write_netcdf(motion: Trajectory, path: str) -> None:
 
 def _dataset(motion: Trajectory) -> xarray.Dataset:
     from carom.models import jeffcott_of
-    from carom.motions.contacts import phase_flags
+    from carom.motions.contacts import in_units, phase_flags
 
     scales = motion.rotor.scales
     dataset = motion.contacts.to_dataset()
-    unit, scale = ("s", scales.time) if scales else ("1/Omega", 1.0)
     contacts = motion.lasting_contacts
     for name in ("start", "end"):
-        times = np.array([getattr(contact, name) * scale for contact in contacts], float)
-        dataset[f"contact_{name}"] = ("contact", times, {"units": unit, "long_name": f"{name} of lasting contact"})
+        times = np.array([getattr(contact, name) for contact in contacts], float)
+        dataset[f"contact_{name}"] = in_units("contact", times, "time", f"{name} of lasting contact", scales)
     flags = phase_flags(phase for phase in Phase if phase is not Phase.FLIGHT)
     phases = np.array([contact.phase for contact in contacts], np.int8)
     dataset["contact_phase"] = ("contact", phases, {"long_name": "kind of lasting contact", **flags})
@@ -95,7 +94,7 @@ def _dataset(motion: Trajectory) -> xarray.Dataset:
         "source": f"carom {version('carom')}",
         "outcome": motion.outcome.label,
         "comment": motion.outcome.meaning,
-        "end_time": motion.time * scale,
+        "end_time": motion.time * (scales.time if scales else 1.0),
         **jeffcott_of(motion.rotor).parameters.as_dict(),
     }
     return dataset

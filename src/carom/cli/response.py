@@ -78,27 +78,19 @@ def _read(
     case: Case, start: str | None, end: str | None, operating: str | None
 ) -> tuple[tuple[float, float] | None, tuple[float, float] | None]:
     """Read both ranges, and refuse a machine without a speed."""
-    from carom.cli.starts import read_range, read_value
+    from carom.cli.starts import read_ends, read_range
     from carom.models import axis
 
     if case.parameters.scales is None:
-        raise InputError(
-            "machine file",
-            case.name,
-            "must hold a [machine] table: without mass and clearance in SI units no speed is known",
-        )
+        allowed = "must hold a [machine] table: without mass and clearance in SI units no speed is known"
+        raise InputError("machine file", case.name, allowed)
     along = axis(case, "speed")
     if (start is None) != (end is None):
         option, given = ("--to", start) if end is None else ("--from", end)
         raise InputError(option, None, f"give both --from and --to, or none of them (the other one is {given})")
     interval = None
     if start is not None and end is not None:
-        first, last = read_value("--from", start, along), read_value("--to", end, along)
-        if first == last:
-            raise InputError(
-                "--to", end, "must be another speed than --from; which of the two is larger does not matter"
-            )
-        interval = min(first, last), max(first, last)
+        interval = read_ends(start, end, along)
     return interval, None if operating is None else read_range("--operating", operating, along)
 
 

@@ -76,18 +76,19 @@ def simulate(
     case = load(machine, settings or ())
     check_output(out)
     targets = {option: path for option, path in (("--csv", csv), ("--netcdf", netcdf)) if path is not None}
-    if targets:
+    for option, path in targets.items():
         from carom.cli.logs import check_file
 
-        for option, path in targets.items():
-            check_file(option, path)
+        check_file(option, path)
     with progress("simulating (the kernels are compiled on first use)") as tell:
         rotor, given, end, echo = _read(
             case, {"--start": start, "--kick": kick, "--shock": shock, "--blade-loss": blade_loss}, until
         )
         motion = _follow(rotor, given, kick, end, tell if out is None else tell.part(0.0, 0.4))
-        if targets:
-            _write_logs(motion, targets)
+        for option, path in targets.items():
+            from carom.cli.logs import write_csv, write_netcdf
+
+            (write_csv if option == "--csv" else write_netcdf)(motion, path)
         if out is not None:
             _write(out, case, motion, echo, tell.part(0.4, 1.0, "drawing"), decaying=end is None)
     if as_json:
@@ -98,15 +99,6 @@ def simulate(
         console().print(f"{echo.words}.")
         print_motion(console(), case, motion)
     say_where(out)
-
-
-def _write_logs(motion: Trajectory, targets: dict[str, str]) -> None:
-    """Write the contact log to the files that the options name."""
-    from carom.cli.logs import write_csv, write_netcdf
-
-    writers = {"--csv": write_csv, "--netcdf": write_netcdf}
-    for option, path in targets.items():
-        writers[option](motion, path)
 
 
 def _document(case: Case, motion: Trajectory, echo: Echo) -> dict[str, Any]:

@@ -83,7 +83,9 @@ def _with_angle(option: str, text: str, words: tuple[str, str], scales: Scales |
     allowed = words[0] + (words[1] if scales else _OWN)
     size, *angle = _split(option, text, (1, 2), allowed)
     if angle and (advice := comma_advice(text)) and (scales is not None or not size.strip("0.")):
-        raise InputError(option, text, f"{allowed}; {advice}{' with its unit' if scales and _is_bare(text) else ''}")
+        raise InputError(
+            option, text, f"{allowed}; {advice}{' with its unit' if scales and not any(map(str.isalpha, text)) else ''}"
+        )
     return size, _angle(option, angle[0], scales) if angle else 0.0
 
 
@@ -165,19 +167,27 @@ def _of_command_line(field: Field) -> Field:
 def read_range(option: str, text: str, varied: Axis) -> tuple[float, float]:
     """Read ``A,B``, the ends of a range of a parameter in either order; return the smaller one first."""
     allowed = f"must be two different values of {varied.name} with a comma between them"
-    first, second = (read_value(option, part, varied) for part in _split(option, text, (2,), allowed))
-    if first == second:
-        raise InputError(option, text, allowed)
-    return min(first, second), max(first, second)
+    ends = [read_value(option, part, varied) for part in _split(option, text, (2,), allowed)]
+    return _ascending(option, text, allowed, ends)
+
+
+def read_ends(start: str, end: str, varied: Axis) -> tuple[float, float]:
+    """Read ``--from`` and ``--to``, the ends of a range of a parameter in either order; return the smaller one first."""
+    allowed = "must be another value than --from; which of the two is larger does not matter"
+    return _ascending("--to", end, allowed, [read_value("--from", start, varied), read_value("--to", end, varied)])
 
 
 def read_entry_range(option: str, text: str, case: Case, entry: str) -> tuple[float, float]:
     """Read a range of an entry of the machine file, in either order, as one of the parameter that it states."""
     allowed = f"must be two different values of {entry} with a comma between them"
-    first, second = (_stated(option, part, case, entry) for part in _split(option, text, (2,), allowed))
-    if first == second:
+    ends = [_stated(option, part, case, entry) for part in _split(option, text, (2,), allowed)]
+    return _ascending(option, text, allowed, ends)
+
+
+def _ascending(option: str, text: str, allowed: str, ends: list[float]) -> tuple[float, float]:
+    if ends[0] == ends[1]:
         raise InputError(option, text, allowed)
-    return min(first, second), max(first, second)
+    return min(ends), max(ends)
 
 
 def _stated(option: str, text: str, case: Case, entry: str) -> float:
@@ -192,17 +202,10 @@ def _split(option: str, text: str, counts: tuple[int, ...], allowed: str) -> lis
     """Split at commas, but not at those that separate thousands."""
     pieces, parts = text.split(","), list[str]()
     while pieces:
-        size = next(size for size in range(len(pieces), 0, -1) if size == 1 or _is_number(",".join(pieces[:size])))
+        sizes = range(len(pieces), 1, -1)  # the longest that is one number
+        size = next((size for size in sizes if "," not in without_separators(",".join(pieces[:size]))), 1)
         parts.append(",".join(pieces[:size]).strip())
         del pieces[:size]
     if len(parts) not in counts or not all(parts):
         raise InputError(option, text, allowed)
     return parts
-
-
-def _is_bare(text: str) -> bool:
-    return not any(sign.isalpha() for sign in text)
-
-
-def _is_number(text: str) -> bool:
-    return "," not in without_separators(text)

@@ -8,6 +8,7 @@ import typer
 
 from carom.cli.terminal import AsJson, InterruptionError, Settings, check_output, console, print_document, progress
 from carom.outcome import InputError
+from carom.results import fields_of
 
 if TYPE_CHECKING:
     from carom.sweeps import SweepPlan, Tally
@@ -111,15 +112,10 @@ def _document(plan: SweepPlan, tally: Tally, failures: list[dict[str, Any]]) -> 
         "kind": plan.task.kind,
         "disturbances": plan.task.words,
         "axes": {axis.name: axis.count for axis in plan.axes},
-        "points": tally.points,
-        "done": tally.done,
-        "failed": tally.failed,
-        "waiting": tally.waiting,
+        **fields_of(tally, "points", "done", "failed", "waiting"),
         "chunks": plan.chunks,
         "starts": plan.points * plan.task.starts,
-        "computed": tally.computed,
-        "seconds": tally.seconds,
-        "rate": tally.rate,
+        **fields_of(tally, "computed", "seconds", "rate"),
         "damaged": len(tally.damaged),
         "failures": failures,
     }

@@ -8,8 +8,9 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from carom.disturbances.plans import Grid, Plan
-from carom.parameters import MACHINE_FIELDS, UNITS, Scales
+from carom.parameters import MACHINE_FIELDS, Scales
 from carom.parameters.told import number, told, told_angle
+from carom.results import in_si
 
 if TYPE_CHECKING:
     from carom.motions.starts import State
@@ -48,8 +49,8 @@ class Echo:
         document: dict[str, Any] = {"kind": self.kind, "words": self.words}
         for name, (value, scale) in self.sizes.items():
             document[name] = value
-            if scales and scale in UNITS:
-                document[f"{name}_si"] = value * float(getattr(scales, scale))
+            if scale:
+                document |= in_si(document, scales, **{name: scale})
         return document
 
 

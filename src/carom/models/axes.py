@@ -14,6 +14,8 @@ from carom.parameters.terms import no_such_parameter
 
 Ends = tuple[float | str, float | str]
 """Both ends of a range: numbers, in SI units if the parameter is physical, or text such as ``"300 N s/m"``."""
+AROUND = (0.5, 2.0)
+"""Usual range of a parameter, in multiples of its present value."""
 _Replaceable = TypeVar("_Replaceable", bound=Model)
 
 
@@ -84,6 +86,15 @@ def read_interval(parameter: str | Axis, given: Ends) -> tuple[float, float]:
     if not low < high:
         raise InputError(field.name, f"{low:g} to {high:g}", "a range of two finite values in ascending order")
     return low, high
+
+
+def usual_range(
+    along: Axis, present: float, option: str, multiples: tuple[float, float] = AROUND
+) -> tuple[float, float]:
+    """A range around the present value of a parameter, in multiples of it; ``option`` is what must be given where it is not above 0."""
+    if not present > 0.0:
+        raise InputError(option, None, f"needed: {along.name} = {present:g} gives no range around it")
+    return multiples[0] * present, min(multiples[1] * present, along.field.highest)
 
 
 def interval_around(along: Axis, value: float, given: Ends) -> tuple[float, tuple[float, float]]:

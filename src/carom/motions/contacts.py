@@ -12,7 +12,7 @@ import numpy as np
 from carom.core.friction import rebound
 from carom.outcome import Phase
 from carom.parameters import UNITS
-from carom.results import Result
+from carom.results import Result, flags
 
 if TYPE_CHECKING:
     import xarray
@@ -53,6 +53,16 @@ def column(quantity: str, words: str) -> dict[str, str]:
     return {"quantity": quantity, "words": words}
 
 
+def in_units(
+    dimension: str, values: np.ndarray, quantity: str, words: str, scales: Scales | None
+) -> tuple[str, np.ndarray, dict[str, str]]:
+    """Variable of a dataset with its unit and words; in SI if the machine is known."""
+    unit, si = _units(quantity)
+    if scales and unit != si:
+        values, unit = values * getattr(scales, quantity), si
+    return dimension, values, {"units": unit, "long_name": words}
+
+
 class Table(Result):
     """Table of columns with units, all along one dimension.
 
@@ -83,13 +93,10 @@ class Table(Result):
         """Table with units and long names as attributes; in SI if the machine is known."""
         import xarray
 
-        columns = {}
-        for name, one in self.columns.items():
-            values, (unit, si) = getattr(self, name), _units(one["quantity"])
-            if self.scales and unit != si:
-                values, unit = values * getattr(self.scales, one["quantity"]), si
-            columns[name] = (self.dimension, values, {"units": unit, "long_name": one["words"]})
-        return xarray.Dataset(columns)
+        columns = self.columns.items()
+        return xarray.Dataset(
+            {name: in_units(self.dimension, getattr(self, name), **one, scales=self.scales) for name, one in columns}
+        )
 
 
 def _units(quantity: str) -> tuple[str, str]:
@@ -242,10 +249,7 @@ class ContactHistory(Table):
 def phase_flags(phases: Iterable[Phase]) -> dict[str, Any]:
     """Attributes that give the meaning of phase numbers, by the CF conventions."""
     kinds = list(phases)
-    return {
-        "flag_values": np.array(kinds, np.int8),
-        "flag_meanings": " ".join(phase.label.replace("-", "_") for phase in kinds),
-    }
+    return flags(np.array(kinds, np.int8), (phase.label for phase in kinds))
 
 
 def polar(position: np.ndarray, velocity: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

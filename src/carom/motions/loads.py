@@ -13,10 +13,12 @@ from carom.motions.ledger import NODES, WEIGHTS, contact_power, pieces
 from carom.motions.trajectories import Trajectory
 from carom.outcome import Outcome, Phase
 from carom.parameters import Scales
-from carom.results import Result
+from carom.results import KINDS, Result
 
 RECENT = 10
 """Impacts at least, over which the power of bouncing is averaged."""
+MEASURED = ("impulse", "force", "power", "heat", "restitution_loss", "contact_time", "lasting_power")
+"""Loads that have a unit."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -71,18 +73,9 @@ class TouchdownLoads(Result):
 
     def si(self) -> dict[str, float] | None:
         """Loads in SI units by name; ``None`` without scales."""
-        scales = self.scales
-        if scales is None:
+        if self.scales is None:
             return None
-        return {
-            "impulse": self.impulse * scales.impulse,
-            "force": self.force * scales.force,
-            "power": self.power * scales.power,
-            "heat": self.heat * scales.energy,
-            "restitution_loss": self.restitution_loss * scales.energy,
-            "contact_time": self.contact_time * scales.time,
-            "lasting_power": self.lasting_power * scales.power,
-        }
+        return {name: getattr(self, name) * getattr(self.scales, KINDS[name]) for name in MEASURED}
 
 
 @checked

@@ -11,7 +11,7 @@ import numpy as np
 
 from carom.files import netcdf
 from carom.models import model_from
-from carom.motions.contacts import phase_flags
+from carom.motions.contacts import in_units, phase_flags
 from carom.motions.starts import State
 from carom.motions.trajectories import Trajectory
 from carom.outcome import InputError, Outcome, Phase
@@ -30,18 +30,16 @@ def trajectory_dataset(motion: Trajectory, times: np.ndarray | None = None) -> x
     in the co-rotating frame, and describes the first contact plane.
     """
     times = motion.sample() if times is None else np.asarray(times, float)
-    scales = motion.rotor.scales
     dataset = motion.history(times).to_dataset()
     position, velocity = motion.at_plane(times)
-    for name, values, scale, units in (
-        ("x", position.real, "length", ("c_r", "m")),
-        ("y", position.imag, "length", ("c_r", "m")),
-        ("velocity_x", velocity.real, "velocity", ("c_r Omega", "m/s")),
-        ("velocity_y", velocity.imag, "velocity", ("c_r Omega", "m/s")),
+    for name, values, quantity, what in (
+        ("x", position.real, "length", "position"),
+        ("y", position.imag, "length", "position"),
+        ("velocity_x", velocity.real, "velocity", "velocity"),
+        ("velocity_y", velocity.imag, "velocity", "velocity"),
     ):
-        words = f"{'velocity' if scale == 'velocity' else 'position'} along {name[-1]}, co-rotating frame"
-        factor = float(getattr(scales, scale)) if scales else 1.0
-        dataset[name] = ("time", values * factor, {"units": units[bool(scales)], "long_name": words})
+        words = f"{what} along {name[-1]}, co-rotating frame"
+        dataset[name] = in_units("time", values, quantity, words, motion.rotor.scales)
     return dataset.assign_coords(time=dataset["time"]).assign_attrs(_provenance(motion))
 
 

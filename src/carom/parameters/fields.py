@@ -12,6 +12,8 @@ from dataclasses import dataclass
 
 from carom.outcome import InputError, shown
 
+RPM = math.pi / 30.0
+"""One revolution per minute in rad/s."""
 _LONGEST_NAME = 60
 _MOST_SUGGESTIONS = 100
 
@@ -120,6 +122,18 @@ def by_name(*fields: Field) -> dict[str, Field]:
     return {field.name: field for field in fields}
 
 
+def length_field(
+    name: str, symbol: str, words: str, lowest: float, highest: float, example: str, zero: bool = False
+) -> Field:
+    """A length in m, which people say in mm."""
+    return Field(name, symbol, words, "a length", "m", lowest, highest, example, zero, usual="mm", usual_size=1e-3)
+
+
+def speed_field(name: str, symbol: str, words: str, example: str) -> Field:
+    """A speed of the shaft in rad/s, which people say in rpm."""
+    return Field(name, symbol, words, "an angular speed", "rad/s", 1e-6, 1e6, example, usual="rpm", usual_size=RPM)
+
+
 def _pure(name: str, symbol: str, words: str, lowest: float, highest: float, example: str, formula: str = "") -> Field:
     return Field(name, symbol, words, "a number", "", lowest, highest, example, formula=formula)
 
@@ -130,55 +144,10 @@ MACHINE_FIELDS: Mapping[str, Field] = by_name(
     Field("mass", "m", "rotor mass", "a mass", "kg", 1e-9, 1e9, '"50 kg"'),
     Field("damping", "c", "damping of the levitation", "a damping", "N s/m", 1e-30, 1e30, '"1400 N s/m"', zero=True),
     Field("stiffness", "k", "stiffness of the levitation", "a stiffness", "N/m", 1e-30, 1e30, '"9.8e5 N/m"'),
-    Field(
-        "eccentricity",
-        "e_c",
-        "eccentricity of the unbalance",
-        "a length",
-        "m",
-        1e-30,
-        1e6,
-        '"0.3 mm"',
-        zero=True,
-        usual="mm",
-        usual_size=1e-3,
-    ),
-    Field(
-        "clearance",
-        "c_r",
-        "radius of the clearance circle",
-        "a length",
-        "m",
-        1e-9,
-        1e3,
-        '"0.7 mm"',
-        usual="mm",
-        usual_size=1e-3,
-    ),
-    Field(
-        "rotor_radius",
-        "R",
-        "rotor radius at the contact",
-        "a length",
-        "m",
-        1e-9,
-        1e6,
-        '"40 mm"',
-        usual="mm",
-        usual_size=1e-3,
-    ),
-    Field(
-        "speed",
-        "Ω",
-        "rotational speed",
-        "an angular speed",
-        "rad/s",
-        1e-6,
-        1e6,
-        '"1759 rpm"',
-        usual="rpm",
-        usual_size=math.pi / 30.0,
-    ),
+    length_field("eccentricity", "e_c", "eccentricity of the unbalance", 1e-30, 1e6, '"0.3 mm"', zero=True),
+    length_field("clearance", "c_r", "radius of the clearance circle", 1e-9, 1e3, '"0.7 mm"'),
+    length_field("rotor_radius", "R", "rotor radius at the contact", 1e-9, 1e6, '"40 mm"'),
+    speed_field("speed", "Ω", "rotational speed", '"1759 rpm"'),
     # Beyond a million radians the spacing of doubles becomes visible in the angle: such a value is a typing error.
     Field("unbalance_phase", "φ", "phase of the unbalance", "an angle", "rad", -1e6, 1e6, '"12 deg"'),
     _pure("friction", "μ", "coefficient of friction", 0.0, 10.0, "0.15"),
@@ -288,6 +257,11 @@ def unknown_name(name: str, given: object, known: Mapping[str, object], where: s
     names = [f"allowed: {', '.join(known)}"] if listed else []
     remedy = " ".join(advice + names).removesuffix(";")
     return InputError(shown(name), shown(given), f"unknown name in {where}" + (f"; {remedy}" if remedy else ""))
+
+
+def unknown_names(table: Mapping[str, object], known: Mapping[str, object], where: str) -> list[InputError]:
+    """Errors for all names of a table that do not exist."""
+    return [unknown_name(name, given, known, where) for name, given in table.items() if name not in known]
 
 
 def name_errors(

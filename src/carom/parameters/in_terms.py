@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from decimal import ROUND_CEILING, ROUND_FLOOR, ROUND_HALF_EVEN, Context, Decimal, localcontext
+from decimal import ROUND_CEILING, ROUND_FLOOR, ROUND_HALF_EVEN, Decimal, localcontext
 from typing import Any, Literal, NamedTuple
 
 from carom.outcome import InputError, shown
@@ -14,12 +14,12 @@ from carom.parameters.machine import Machine
 from carom.parameters.machine_file import Case
 from carom.parameters.numbers import CONVERSIONS
 from carom.parameters.quantities import read_quantity, unit_factor, unit_of
+from carom.parameters.resolution import DECIMALS
 from carom.parameters.terms import HELPER_FIELDS, SETTABLE, TERMS, no_such_parameter, set_by
+from carom.parameters.told import RAISED
 
 Side = Literal["up", "down", "nearest"]
 _ROUNDING = {"up": ROUND_CEILING, "down": ROUND_FLOOR, "nearest": ROUND_HALF_EVEN}
-_EXACT = Context(prec=60)
-_RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 _SECONDARY_DIGITS = 3
 EXACT = 17
 """Significant digits with which a value is told without rounding."""
@@ -108,7 +108,7 @@ def in_terms_of(case: Case, name: str, value: float, side: Side = "nearest", dig
     if name not in case.parameters.varied:
         raise no_such_parameter(name, value, case.parameters.varied, case.parameters.scales is not None)
     value = read_quantity(PARAMETERS[name], value)
-    with localcontext(_EXACT):
+    with localcontext(DECIMALS):
         stated = _stated(case.machine, name, Decimal(repr(value)))
         number = _rounded(stated.exact, digits, _ROUNDING[side])
         after = _changed(case, stated, number)
@@ -209,4 +209,4 @@ def _for_people(number: Decimal) -> str:
     power = number.adjusted()
     if -5 <= power < 8 or not number:
         return f"{number:,f}"
-    return f"{number.scaleb(-power):f}×10{str(power).translate(_RAISED)}"
+    return f"{number.scaleb(-power):f}×10{str(power).translate(RAISED)}"

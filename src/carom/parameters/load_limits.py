@@ -8,19 +8,16 @@ from dataclasses import dataclass
 from typing import Any
 
 from carom.outcome import InputError, Problems, shown
-from carom.parameters.fields import Field, unknown_name
+from carom.parameters.fields import Field, by_name, unknown_names
 from carom.parameters.quantities import read_quantity
 
-LIMIT_FIELDS: Mapping[str, Field] = {
-    field.name: field
-    for field in (
-        Field("impulse", "", "normal impulse of an impact", "an impulse", "N s", 1e-12, 1e12, '"5 N s"', zero=True),
-        Field("force", "", "normal force in lasting contact", "a force", "N", 1e-12, 1e15, '"2 kN"', zero=True),
-        Field("power", "", "friction power in lasting contact", "a power", "W", 1e-12, 1e15, '"10 kW"', zero=True),
-        Field("heat", "", "friction work of a touchdown", "an energy", "J", 1e-12, 1e15, '"500 J"', zero=True),
-        Field("impacts", "", "impacts of a touchdown", "a whole number", "", 1, 1e9, "20", zero=True, whole=True),
-    )
-}
+LIMIT_FIELDS: Mapping[str, Field] = by_name(
+    Field("impulse", "", "normal impulse of an impact", "an impulse", "N s", 1e-12, 1e12, '"5 N s"', zero=True),
+    Field("force", "", "normal force in lasting contact", "a force", "N", 1e-12, 1e15, '"2 kN"', zero=True),
+    Field("power", "", "friction power in lasting contact", "a power", "W", 1e-12, 1e15, '"10 kW"', zero=True),
+    Field("heat", "", "friction work of a touchdown", "an energy", "J", 1e-12, 1e15, '"500 J"', zero=True),
+    Field("impacts", "", "impacts of a touchdown", "a whole number", "", 1, 1e9, "20", zero=True, whole=True),
+)
 """Entries of a ``[limits]`` table, in SI units; each may be left out."""
 
 
@@ -83,9 +80,7 @@ class LoadLimits:
             An unknown name, a value that is not allowed, or a table without a machine in SI units.
         """
         problems = Problems()
-        for name, value in table.items():
-            if name not in LIMIT_FIELDS:
-                problems.errors.append(unknown_name(name, value, LIMIT_FIELDS, "[limits]"))
+        problems.errors += unknown_names(table, LIMIT_FIELDS, "[limits]")
         if table and not has_scales:
             allowed = "not allowed beside [dimensionless]: limits are in SI units, which need a [machine] table"
             problems.errors.append(InputError("limits", shown(dict(table)), allowed))

@@ -11,13 +11,7 @@ from typing import Any, cast
 
 from carom.arguments import checked
 from carom.outcome import InputError, Problems, printable, shown
-from carom.parameters.fields import (
-    DIMENSIONLESS_FIELDS,
-    PHYSICAL_PARTNER,
-    Field,
-    name_errors,
-    unknown_name,
-)
+from carom.parameters.fields import DIMENSIONLESS_FIELDS, PHYSICAL_PARTNER, name_errors, unknown_names
 from carom.parameters.load_limits import LIMIT_FIELDS, LoadLimits
 from carom.parameters.machine import Machine, warn_of_proportions
 from carom.parameters.quantities import read_quantity
@@ -216,7 +210,10 @@ def load(path: str | os.PathLike[str], settings: Iterable[str] = ()) -> Case:
     )
     requirement = problems.attempt(Requirement.of_table, tables.survive, _scales(base, of_machine))
     texts = _split(settings, problems)
-    numbers = _read_settings(texts, SETTABLE if of_machine else DIMENSIONLESS_FIELDS, problems)
+    fields = SETTABLE if of_machine else DIMENSIONLESS_FIELDS
+    numbers = {
+        name: problems.attempt(read_quantity, fields[name], text) for name, text in texts.items() if name in fields
+    }
     if not of_machine:
         physical = {name: text for name, text in texts.items() if name in SETTABLE and name not in DIMENSIONLESS_FIELDS}
         problems.attempt(_refuse_physical, physical)
@@ -253,13 +250,6 @@ def _split(settings: Iterable[str], problems: Problems) -> dict[str, str]:
     return texts
 
 
-def _read_settings(texts: Mapping[str, str], fields: Mapping[str, Field], problems: Problems) -> dict[str, float]:
-    numbers = {
-        name: problems.attempt(read_quantity, fields[name], text) for name, text in texts.items() if name in fields
-    }
-    return {name: number for name, number in numbers.items() if number is not None}
-
-
 def _refuse_physical(physical: Mapping[str, str]) -> None:
     partners = {partner: name for name, partner in PHYSICAL_PARTNER.items()}
     problems = Problems()
@@ -285,9 +275,7 @@ def _read_dimensionless(tables: MachineTables) -> Parameters:
 
 def _read_zones(table: Mapping[str, Any]) -> Zones:
     problems = Problems()
-    problems.errors += [
-        unknown_name(name, value, {"limits": None}, "[zones]") for name, value in table.items() if name != "limits"
-    ]
+    problems.errors += unknown_names(table, {"limits": None}, "[zones]")
     zones = problems.attempt(Zones, *(value for name, value in table.items() if name == "limits"))
     problems.raise_all()
     return zones or Zones()

@@ -11,7 +11,7 @@ from typing import Any, Literal, get_args
 
 from carom.arguments import checked
 from carom.outcome import InputError, Problems, shown
-from carom.parameters.fields import DIMENSIONLESS_FIELDS, Field, unknown_name
+from carom.parameters.fields import DIMENSIONLESS_FIELDS, Field, unknown_names
 from carom.parameters.quantities import read_quantity
 from carom.parameters.scaling import Scales
 from carom.parameters.sizes import read_size
@@ -212,11 +212,7 @@ class Requirement:
             An unknown name, or a value that :meth:`of` would refuse.
         """
         problems = Problems()
-        problems.errors += [
-            unknown_name(name, value, SURVIVE_ENTRIES, "[survive]")
-            for name, value in table.items()
-            if name not in SURVIVE_ENTRIES
-        ]
+        problems.errors += unknown_names(table, SURVIVE_ENTRIES, "[survive]")
         names = {name: f"[survive] {name}" for name in SURVIVE_ENTRIES}
         found = problems.attempt(_read, table, names, scales, "file")
         problems.raise_all()

@@ -29,7 +29,8 @@ from carom.parameters.terms import (
 _FIRST = ("mass", "clearance", "speed", "stiffness", "damping")
 _FIELDS = (*_FIRST, *(name for name in MACHINE_FIELDS if name not in _FIRST))
 """Fields in an order in which each formula finds what it needs."""
-_EXACT = Context(prec=60)
+DECIMALS = Context(prec=60)
+"""The digits with which formulas are evaluated."""
 
 
 @dataclass(frozen=True)
@@ -135,7 +136,7 @@ class _Work:
         for need in term.needs:
             known[need], source = self._needed(need, way, written)
             given |= source
-        with localcontext(_EXACT):
+        with localcontext(DECIMALS):
             value = float(term.value(known))
         target = MACHINE_FIELDS[name]
         if not target.contains(value):
@@ -201,7 +202,7 @@ def solved(name: str, number: float, scales: Scales) -> float:
     most three times, so every double it maps to `number` lies within four units in the last place of the exact value.
     """
     conversion = CONVERSIONS[name]
-    with localcontext(_EXACT):
+    with localcontext(DECIMALS):
         exact = conversion.value(Decimal(number), scales)
         candidates = [float(f"{exact:.{digits - 1}e}") for digits in (15, 16, 17)]
     nearest = below = above = float(exact)

@@ -22,7 +22,17 @@ from typing import Any, NamedTuple
 
 from carom.arguments import checked
 from carom.outcome import InputError, Problems, shown
-from carom.parameters.fields import MACHINE_FIELDS, PARAMETERS, PHYSICAL_PARTNER, Field, by_name, unknown_name
+from carom.parameters.fields import (
+    MACHINE_FIELDS,
+    PARAMETERS,
+    PHYSICAL_PARTNER,
+    Field,
+    by_name,
+    length_field,
+    speed_field,
+    unknown_name,
+    unknown_names,
+)
 
 Decimals = Mapping[str, Decimal]
 
@@ -69,30 +79,8 @@ TERM_FIELDS: Mapping[str, Field] = by_name(
         zero=True,
         letter="G",
     ),
-    Field(
-        "rotor_diameter",
-        "2R",
-        "rotor diameter at the contact",
-        "a length",
-        "m",
-        2e-9,
-        2e6,
-        '"80 mm"',
-        usual="mm",
-        usual_size=1e-3,
-    ),
-    Field(
-        "diametral_clearance",
-        "2c_r",
-        "diameter of the clearance circle",
-        "a length",
-        "m",
-        2e-9,
-        2e3,
-        '"1.4 mm"',
-        usual="mm",
-        usual_size=1e-3,
-    ),
+    length_field("rotor_diameter", "2R", "rotor diameter at the contact", 2e-9, 2e6, '"80 mm"'),
+    length_field("diametral_clearance", "2c_r", "diameter of the clearance circle", 2e-9, 2e3, '"1.4 mm"'),
     Field(
         "natural_frequency",
         "ω_n",
@@ -114,18 +102,7 @@ TERM_FIELDS: Mapping[str, Field] = by_name(
 """Entries that stand for a field of the machine."""
 
 HELPER_FIELDS: Mapping[str, Field] = by_name(
-    Field(
-        "rated_speed",
-        "Ω_r",
-        "speed for which a balance grade is meant",
-        "an angular speed",
-        "rad/s",
-        1e-6,
-        1e6,
-        '"30 Hz"',
-        usual="rpm",
-        usual_size=math.pi / 30.0,
-    ),
+    speed_field("rated_speed", "Ω_r", "speed for which a balance grade is meant", '"30 Hz"'),
     Field("magnetic_bearings", "n", "number of equal bearings", "a whole number", "", 1, 1000, "2", whole=True),
     Field(
         "force_current_factor",
@@ -300,10 +277,6 @@ def check_names(changes: Iterable[str] | Mapping[str, Any]) -> None:
     """
     values = changes if isinstance(changes, Mapping) else dict.fromkeys(changes)
     problems = Problems()
-    problems.errors += [
-        unknown_name(name, value, SETTABLE, "a machine or its parameters")
-        for name, value in values.items()
-        if name not in SETTABLE
-    ]
+    problems.errors += unknown_names(values, SETTABLE, "a machine or its parameters")
     problems.errors += conflicts({name: value for name, value in values.items() if name in SETTABLE})
     problems.raise_all()

@@ -11,7 +11,8 @@ from carom.parameters.requirement import GRAVITY
 from carom.parameters.scaling import UNITS, Scales
 from carom.parameters.terms import SETTABLE
 
-_RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+"""Exponents as people write them."""
 _SHOWN = {
     "velocity": (1e3, "mm/s"),
     "length": (1e3, "mm"),
@@ -31,7 +32,7 @@ def number(value: float, digits: int = 4) -> str:
     rounded = float(f"{value:.{digits - 1}e}")
     if not 1e-4 <= abs(rounded) < 1e8:
         mantissa, exponent = f"{rounded:.{digits - 1}e}".split("e")
-        return f"{float(mantissa):g}×10{str(int(exponent)).translate(_RAISED)}"
+        return f"{float(mantissa):g}×10{str(int(exponent)).translate(RAISED)}"
     decimals = max(0, digits - 1 - math.floor(math.log10(abs(rounded))))
     text = f"{rounded:,.{decimals}f}"
     return text.rstrip("0").rstrip(".") if "." in text else text

@@ -8,7 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from carom.arguments import checked
-from carom.plots.cells import ink, looks_of
+from carom.plots.cells import looks_of
 from carom.plots.plane import one_axes
 from carom.plots.style import TWO_COLUMNS, styled
 
@@ -31,22 +31,9 @@ def attractors(found: AttractorSet, title: str | None = None, *, axes: Axes | No
     looks = looks_of([member.name for member in found], [member.share_of_disturbances for member in found])
     by_row = sorted(looks, key=lambda look: look.index)
     for row, (member, look) in enumerate(zip(found, by_row, strict=True)):
-        drawn.barh(
-            row,
-            100.0 * member.share_of_disturbances,
-            0.7,
-            facecolor=look.colour,
-            hatch=look.look.hatch if member.settled else "////",
-            edgecolor=ink(look.colour),
-            lw=0.3,
-        )
-        drawn.annotate(
-            f"{member.count} of {total}",
-            (100.0 * member.share_of_disturbances, row),
-            (4, 0),
-            textcoords="offset points",
-            va="center",
-        )
+        share, filled = 100.0 * member.share_of_disturbances, look.filled
+        drawn.barh(row, share, 0.7, **filled if member.settled else filled | {"hatch": "////"}, lw=0.3)
+        drawn.annotate(f"{member.count} of {total}", (share, row), (4, 0), textcoords="offset points", va="center")
     drawn.set_yticks(range(len(found)), [look.words for look in by_row])
     drawn.invert_yaxis()
     drawn.set_xlim(0.0, 115.0)

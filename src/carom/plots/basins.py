@@ -17,7 +17,7 @@ from matplotlib.ticker import MaxNLocator
 from carom.arguments import checked
 from carom.disturbances import outward_from
 from carom.outcome import InputError
-from carom.plots.cells import CHORDS, MotionLook, finish, ink, motion_looks, paint
+from carom.plots.cells import CHORDS, MotionLook, finish, motion_looks, paint
 from carom.plots.figure import StyledFigure
 from carom.plots.plane import clearance_circle, label_frame, point
 from carom.plots.rings import dial, ring
@@ -104,16 +104,7 @@ def _stacked(axes: Axes, basin: Basin, motions: Sequence[MotionLook]) -> None:
     below = np.zeros(index.shape[0])
     for entry in motions:
         share = 100.0 * (index == entry.index).sum(axis=1) / starts
-        axes.stairs(
-            below + share,
-            edges,
-            baseline=below,
-            fill=True,
-            facecolor=entry.colour,
-            edgecolor=ink(entry.colour),
-            hatch=entry.look.hatch,
-            lw=0.0,
-        )
+        axes.stairs(below + share, edges, baseline=below, fill=True, **entry.filled, lw=0.0)
         below = below + share
     axes.set_xlim(edges[0], edges[-1])
     axes.set_ylim(0.0, 100.0)
@@ -184,15 +175,7 @@ def _bars(basin: Basin, motions: list[MotionLook], title: str | None) -> Figure:
     axes = figure.subplots()
     for row, entry in enumerate(reversed(motions)):
         share = basin.share_of(basin.motions[entry.index])
-        axes.barh(
-            row,
-            100.0 * share.fraction,
-            0.62,
-            facecolor=entry.colour,
-            edgecolor=ink(entry.colour),
-            hatch=entry.look.hatch,
-            lw=0.3,
-        )
+        axes.barh(row, 100.0 * share.fraction, 0.62, **entry.filled, lw=0.3)
         axes.plot([100.0 * share.low, 100.0 * share.high], [row, row], "|-", color="#1a1a1a", lw=0.8, ms=5.0)
         said = f"{number(100.0 * share.fraction, 3)} %"
         axes.annotate(

@@ -64,7 +64,12 @@ class MotionLook:
 
     def named(self, words: str) -> Patch:
         """Entry of the legend with other words."""
-        return Patch(facecolor=self.colour, hatch=self.look.hatch, edgecolor=ink(self.colour), lw=0.4, label=words)
+        return Patch(**self.filled, lw=0.4, label=words)
+
+    @property
+    def filled(self) -> dict[str, Any]:
+        """Colour and hatching of an area."""
+        return {"facecolor": self.colour, "edgecolor": ink(self.colour), "hatch": self.look.hatch}
 
 
 def motion_looks(basin: Basin) -> list[MotionLook]:

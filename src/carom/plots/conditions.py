@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -121,28 +121,14 @@ def _roots(axes: Axes, orbits: OrbitSet) -> None:
         (empty, grey, grey, 3.0, "root without an orbit"),
     ):
         if chosen.any():
-            _mark(axes, factor * roots[chosen], face, edge, size, words)
+            look: dict[str, Any] = {"mfc": face, "mec": edge, "mew": 0.6, "ms": size}
+            places = factor * roots[chosen]
+            axes.plot(places, np.zeros_like(places), "o", **look, zorder=4, label=words, gid="root")
     possible = [[orbit for orbit in found if orbit.admissible] for found in members]
     labels = [
         f"{_name(found)}\n$T$ = {factor * root:#.4g}" for found, root in zip(possible, roots, strict=True) if found
     ]
     _name_roots(axes, factor * roots[physical][:_MOST_NAMES], labels[:_MOST_NAMES])
-
-
-def _mark(axes: Axes, roots: Floats, face: str, edge: str, size: float, words: str) -> None:
-    axes.plot(
-        roots,
-        np.zeros_like(roots),
-        linestyle="none",
-        marker="o",
-        markersize=size,
-        markerfacecolor=face,
-        markeredgecolor=edge,
-        markeredgewidth=0.6,
-        zorder=4,
-        label=words,
-        gid="root",
-    )
 
 
 def _name_roots(axes: Axes, roots: Floats, labels: list[str]) -> None:

@@ -25,13 +25,7 @@ from carom.plots.style import LOOKS, OUTCOMES, TWO_COLUMNS, Look, styled
 from carom.plots.words import axis_label, number, parameter_unit, told_in
 
 if TYPE_CHECKING:
-    from carom.bifurcations import (
-        Bifurcation,
-        Curve,
-        Diagram,
-        EquilibriumBranch,
-        OrbitBranch,
-    )
+    from carom.bifurcations import Bifurcation, Curve, Diagram, EquilibriumBranch, OrbitBranch
     from carom.proofs import Proof
     from carom.proofs.proven_lines import ProvenLine
 
@@ -287,14 +281,9 @@ def _equilibrium_branch(axes: Axes, diagram: Diagram, branch: EquilibriumBranch,
         if alpha < 1.0 and not virtual:
             continue
         shown = np.where(allowed, height, np.nan)
-        axes.plot(
-            branch.values / unit,
-            shown,
-            color=look.colour if alpha == 1.0 else LOOKS["virtual"].colour,
-            ls="--" if branch.kind == "saddle rub" else "-",
-            lw=1.1,
-            alpha=alpha,
-        )
+        colour = look.colour if alpha == 1.0 else LOOKS["virtual"].colour
+        line = "--" if branch.kind == "saddle rub" else "-"
+        axes.plot(branch.values / unit, shown, color=colour, ls=line, lw=1.1, alpha=alpha)
 
 
 def _heights(diagram: Diagram, branch: EquilibriumBranch) -> np.ndarray:
@@ -348,16 +337,10 @@ def _limits(diagram: Diagram) -> tuple[float, float]:
 def _diagram_key(diagram: Diagram, marked: list[Look], virtual: bool) -> list[Line2D]:
     entries = []
     if diagram.orbits or diagram.several:
-        words_of = {
-            "stable": "stable orbit",
-            "unstable": "unstable orbit",
-            **({"virtual": "virtual"} if virtual else {}),
-        }
-        for look, words in words_of.items():
-            entries.append(LOOKS[look].entry(words))
-    entries.append(
-        Line2D([], [], color=LOOKS["contact-free"].colour, lw=1.1, label=f"{STEADY_WORDS['contact-free']}: gap")
-    )
+        entries += [LOOKS["stable"].entry("stable orbit"), LOOKS["unstable"].entry("unstable orbit")]
+        entries += [LOOKS["virtual"].entry("virtual")] if virtual else []
+    words = f"{STEADY_WORDS['contact-free']}: gap"
+    entries.append(Line2D([], [], color=LOOKS["contact-free"].colour, lw=1.1, label=words))
     admissible = {branch.kind for branch in diagram.equilibria if branch.admissible.any()}
     for line, kind in (("-", "stable rub"), ("--", "saddle rub")):
         if kind not in admissible:

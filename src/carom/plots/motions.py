@@ -164,7 +164,9 @@ def motion(
     wall = clearance(trajectory.rotor.scales)
     _levitation(frames[0], complex(trajectory.rotor.system.arrays.offsets[trajectory.plane]), wall)
     if axes is None:
-        figure.suptitle(title or _motion_title(trajectory))
+        time = time_in_words(trajectory.time, trajectory.rotor.scales)
+        words = f"{counted(len(trajectory.contacts), 'impact')} in {time} \N{EM DASH} {ending(trajectory.outcome)}"
+        figure.suptitle(title or words)
         key(figure, frames, columns=4)
     return figure
 
@@ -200,11 +202,6 @@ def _before(axes: Axes, trajectory: Trajectory, frame: Frame, since: float, last
     times = np.arange(since, last, math.tau)
     places = clearance(trajectory.rotor.scales) * trajectory.position(times, frame)
     axes.plot(places.real, places.imag, ls="none", **_ONCE, label="before: once a turn of the shaft", gid="once a turn")
-
-
-def _motion_title(trajectory: Trajectory) -> str:
-    time = time_in_words(trajectory.time, trajectory.rotor.scales)
-    return f"{counted(len(trajectory.contacts), 'impact')} in {time} \N{EM DASH} {ending(trajectory.outcome)}"
 
 
 def _levitation(axes: Axes, equilibrium: complex, wall: float) -> None:

@@ -16,8 +16,7 @@ from carom.arguments import checked
 from carom.outcome import InputError
 from carom.plots.cells import CHORDS, MotionLook, looks_of, paint
 from carom.plots.figure import StyledFigure
-from carom.plots.plane import Floats
-from carom.plots.rings import paint_ring
+from carom.plots.rings import around, paint_ring
 from carom.plots.style import LOOKS, ONE_COLUMN, styled
 from carom.plots.words import formula, number
 
@@ -120,7 +119,7 @@ def _paint(axes: Axes, basin: Cells, motions: list[MotionLook]) -> None:
     if along[1].periodic:
         parts = -(-CHORDS // index.shape[1])
         turns = along[1].edges(parts * index.shape[1])
-        paint(axes, turns, factor * along[0].edges(index.shape[0]), np.repeat(index.T, parts, axis=0), motions, _polar)
+        paint(axes, turns, factor * along[0].edges(index.shape[0]), np.repeat(index.T, parts, axis=0), motions, around)
     else:
         x, y = (factor * each.edges(cells) for each, cells in zip(along, index.shape, strict=True))
         paint(axes, x, y, index, motions)
@@ -130,10 +129,6 @@ def _largest(basin: Cells) -> float:
     """Size of the largest disturbance, as it is drawn; a ring has the radius 1."""
     size = basin.plan.model.coordinates[0]
     return 1.0 if size.periodic else size.shown_in(basin.scales)[0] * float(size.high)
-
-
-def _polar(angle: Floats, radius: Floats) -> tuple[Floats, Floats]:
-    return radius * np.cos(angle), radius * np.sin(angle)
 
 
 def _write(axes: Axes, text: str) -> None:
@@ -150,6 +145,6 @@ def _circle(drawn: Sequence[Axes], basin: Cells, required: float) -> Artist:
     dashes = (0.0, (4.0, 2.0))
     colour = LOOKS["wall"].colour
     for axes in drawn:
-        axes.plot(*_polar(turn, np.array(factor * required)), ls=dashes, lw=0.8, color=colour, gid="required")
+        axes.plot(*around(turn, np.array(factor * required)), ls=dashes, lw=0.8, color=colour, gid="required")
     label = f"must survive: up to {number(factor * required, 3)} {formula(unit)}"
     return Line2D([], [], ls=dashes, lw=0.8, color=colour, label=label)

@@ -92,7 +92,7 @@ def path(
     for part, drawn, words in ((~outside, look, look.words), (outside, beyond, beyond.words)):
         if not part.any():
             continue
-        shown = _with_neighbours(part) if drawn is beyond else part
+        shown = with_neighbours(part) if drawn is beyond else part
         named = words if drawn is beyond or label is None else label
         axes.plot(
             np.where(shown, position.real, np.nan),
@@ -106,7 +106,7 @@ def path(
         )
 
 
-def _with_neighbours(part: NDArray[np.bool_]) -> NDArray[np.bool_]:
+def with_neighbours(part: NDArray[np.bool_]) -> NDArray[np.bool_]:
     """Widen each run by one sample on both sides, so that adjacent parts of a line meet."""
     wide = part.copy()
     wide[1:] |= part[:-1]

@@ -147,14 +147,8 @@ def _mark_points(axes: Axes, found: RegionMap, units: np.ndarray, virtual: bool)
         if not (point.admissible or virtual):
             continue
         resonance = point.resonance
-        words = "resonance of the multipliers" if resonance else "two at once"
-        mark(
-            point.value,
-            words,
-            "D" if resonance else "o",
-            4.0 if resonance else 4.5,
-            _BLACK if point.admissible else "none",
-        )
+        look = ("resonance of the multipliers", "D", 4.0) if resonance else ("two at once", "o", 4.5)
+        mark(point.value, *look, _BLACK if point.admissible else "none")
         if resonance:
             axes.annotate(
                 resonance,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -12,16 +12,15 @@ from matplotlib.figure import Figure
 
 from carom.arguments import checked
 from carom.outcome import STEADY_WORDS
+from carom.parameters.fields import RPM
 from carom.plots.figure import StyledFigure
-from carom.plots.plane import Floats, key
+from carom.plots.plane import Floats, key, with_neighbours
 from carom.plots.style import LOOKS, TWO_COLUMNS, ZONE_SHADES, Look, styled
 from carom.plots.words import number
 
 if TYPE_CHECKING:
     from carom.studies import UnbalanceResponse
 
-RPM = math.pi / 30.0
-"""One revolution per minute in rad/s."""
 NO_LEVITATION = f"no {STEADY_WORDS['contact-free']}"
 _FREE = replace(LOOKS["contact-free"], line="-", width=1.5)
 _VIRTUAL = Look("#4d4d4d", "virtual: beyond the clearance", line=":", width=1.4)
@@ -98,9 +97,14 @@ def _amplitudes(axes: Axes, response: UnbalanceResponse, speeds: Floats, width: 
             )
             axes.axhline(width * low, color="#808080", lw=0.3, zorder=0)
     axes.plot(speeds, width * np.where(inside, radius, np.nan), **_FREE.stroke, label=_FREE.words, zorder=3)
-    shown = ~inside | np.append(~inside[1:], False) | np.append(False, ~inside[:-1])
     if not inside.all():
-        axes.plot(speeds, width * np.where(shown, radius, np.nan), **_VIRTUAL.stroke, label=_VIRTUAL.words, zorder=2)
+        axes.plot(
+            speeds,
+            width * np.where(with_neighbours(~inside), radius, np.nan),
+            **_VIRTUAL.stroke,
+            label=_VIRTUAL.words,
+            zorder=2,
+        )
     wall = LOOKS["wall"]
     if top > 1.0:
         axes.axhline(width, **wall.stroke, label="wall (touchdown bearing)", zorder=2)
@@ -115,16 +119,8 @@ def _amplitudes(axes: Axes, response: UnbalanceResponse, speeds: Floats, width: 
     axes.set_ylabel("vibration (µm peak to peak)")
     radius_now = float(response.contact_free.amplitude(np.array(response.present)))
     if radius_now <= 1.0 and response.interval[0] <= response.present <= response.interval[1]:
-        axes.plot(
-            response.present / RPM,
-            width * radius_now,
-            marker="o",
-            ms=4.5,
-            color=_FREE.colour,
-            mec="#1a1a1a",
-            mew=0.8,
-            zorder=5,
-        )
+        dot: dict[str, Any] = {"marker": "o", "ms": 4.5, "color": _FREE.colour, "mec": "#1a1a1a", "mew": 0.8}
+        axes.plot(response.present / RPM, width * radius_now, **dot, zorder=5)
     right = axes.secondary_yaxis(
         "right", functions=(lambda width: 0.5e-3 * np.asarray(width), lambda radius: 2e3 * np.asarray(radius))
     )
@@ -152,23 +148,15 @@ def _half_power(axes: Axes, response: UnbalanceResponse, width: float, top: floa
         return
     height, (low, high) = free.peak / math.sqrt(2.0), free.half_power
     if height < top and math.isfinite(high):
-        axes.plot(
-            [low / RPM, high / RPM],
-            [width * height] * 2,
-            **_HALF.stroke,
-            marker="|",
-            ms=5.0,
-            label=_HALF.words,
-            zorder=4,
-        )
+        ends = [low / RPM, high / RPM]
+        axes.plot(ends, [width * height] * 2, **_HALF.stroke, marker="|", ms=5.0, label=_HALF.words, zorder=4)
 
 
 def _phases(axes: Axes, response: UnbalanceResponse, speeds: Floats) -> None:
     inside = np.abs(response.displacement) <= 1.0
     lag = np.degrees(response.lag)
     axes.plot(speeds, np.where(inside, lag, np.nan), **_FREE.stroke, zorder=3)
-    shown = ~inside | np.append(~inside[1:], False) | np.append(False, ~inside[:-1])
-    axes.plot(speeds, np.where(shown, lag, np.nan), **_VIRTUAL.stroke, zorder=2)
+    axes.plot(speeds, np.where(with_neighbours(~inside), lag, np.nan), **_VIRTUAL.stroke, zorder=2)
     for look, rub in zip((_RUB, _SADDLE), np.degrees(response.rub_lags), strict=True):
         axes.plot(speeds, rub, **look.stroke, zorder=2)
     axes.set_ylim(0.0, 270.0 if np.nanmax(np.append(response.rub_lags, 0.0)) > math.pi else 180.0)
@@ -181,16 +169,8 @@ def _marks(axes: Axes, response: UnbalanceResponse) -> None:
     words = f"{NO_LEVITATION} possible"
     for stretch in response.stretches:
         if not stretch.what.contact_free:
-            axes.axvspan(
-                stretch.low / RPM,
-                stretch.high / RPM,
-                fc="none",
-                ec="#d6d6d6",
-                hatch="////",
-                lw=0.0,
-                label=words,
-                zorder=0.5,
-            )
+            hatched: dict[str, Any] = {"fc": "none", "ec": "#d6d6d6", "hatch": "////", "lw": 0.0}
+            axes.axvspan(stretch.low / RPM, stretch.high / RPM, **hatched, label=words, zorder=0.5)
     marked = [(_PRESENT, response.present), (_CRITICAL, response.contact_free.critical_speed)]
     for look, speed in marked:
         if speed is not None and response.interval[0] <= speed <= response.interval[1]:

@@ -78,8 +78,9 @@ def paint_ring(axes: Axes, angle: Coordinate, index: np.ndarray, motions: list[M
     """Paint cells along an angle as a ring within the radius `wall`, in the colours of the motions."""
     parts = -(-CHORDS // len(index))
     edges = angle.edges(parts * len(index))
+    paint(axes, edges, wall * np.array(_RING), np.repeat(index, parts)[:, None], motions, around)
 
-    def bend(angle: Floats, radius: Floats) -> tuple[Floats, Floats]:
-        return radius * np.cos(angle), radius * np.sin(angle)
 
-    paint(axes, edges, wall * np.array(_RING), np.repeat(index, parts)[:, None], motions, bend)
+def around(angle: Floats, radius: Floats) -> tuple[Floats, Floats]:
+    """Places in the plane at angles and distances."""
+    return radius * np.cos(angle), radius * np.sin(angle)

@@ -111,7 +111,8 @@ def _logarithmic_plane(axes: Axes, largest: float) -> None:
         if modulus > 1:
             _circle(axes, abs(place), "#a6a6a6" if power else "#dcdcdc", 0.4, "modulus")
         if power or len(decades) <= 3:
-            _tag(axes, place, f"{modulus}")
+            box = {"boxstyle": "square,pad=0.15", "facecolor": "white", "edgecolor": "none"}
+            axes.text(place.real, place.imag, f"{modulus}", fontsize=6, ha="center", va="center", bbox=box, zorder=2)
     axes.set_xlim(-reach, reach)
     axes.set_ylim(-reach, reach)
     axes.set_xticks(())
@@ -121,11 +122,6 @@ def _logarithmic_plane(axes: Axes, largest: float) -> None:
         "centre $|\\lambda|$ up to 1, $1+\\log_{10}|\\lambda|$ beyond)"
     )
     axes.set_ylabel(r"direction of Im $\lambda$")
-
-
-def _tag(axes: Axes, place: complex, text: str) -> None:
-    box = {"boxstyle": "square,pad=0.15", "facecolor": "white", "edgecolor": "none"}
-    axes.text(place.real, place.imag, text, fontsize=6, ha="center", va="center", bbox=box, zorder=2)
 
 
 def _markers(axes: Axes, values: Complex, orbit: Orbit, shape: str) -> None:

@@ -39,6 +39,7 @@ from carom.orbits.orbit import Orbit
 from carom.outcome import Outcome
 from carom.parameters import Case
 from carom.parameters.told import number
+from carom.results import fields_of
 from carom.studies.recovery import coordinates_at_largest
 from carom.studies.wording import listed
 
@@ -166,15 +167,10 @@ class BearingDemand:
     def document(self) -> dict[str, Any]:
         """As plain data for JSON."""
         return {
-            "limits": [{"kind": limit.kind, "limit_si": limit.most} for limit in self.limits],
+            "limits": [fields_of(limit, "kind", limit_si="most") for limit in self.limits],
             "motions": [
-                {
-                    "motion": each.motion,
-                    "kind": each.limit.kind,
-                    "largest_si": each.largest,
-                    "share": each.share,
-                    "largest_jump_si": each.jump,
-                }
+                fields_of(each, "motion", kind="limit.kind", largest_si="largest")
+                | fields_of(each, "share", largest_jump_si="jump")
                 for each in self.motions
             ],
             "disturbances": [

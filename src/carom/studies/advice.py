@@ -12,6 +12,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
+from carom.basins.changes import WANTED
 from carom.basins.shares import percent
 from carom.closed_forms.thresholds import FOLD, ROLLING, WALL, Gain
 from carom.closed_forms.whirl import Runaway, rolling, runaway_speed
@@ -37,8 +38,6 @@ CHECKED = 10_000
 """Number of disturbances of the check."""
 SEED = 2
 """Seed of these disturbances.  No search uses it, so the check is a fresh sample."""
-WANTED = 0.99
-"""Share of the disturbances that must come back if no value leaves only recovery."""
 
 _SAME = 1e-8
 """Relative distance up to which two edges are one."""

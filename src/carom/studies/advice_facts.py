@@ -6,11 +6,13 @@ import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
+from carom.basins.changes import WANTED
 from carom.closed_forms.thresholds import Gain
 from carom.outcome import Outcome
 from carom.parameters import DIMENSIONLESS_FIELDS
-from carom.parameters.told import number
-from carom.studies.advice import WANTED, Bound, Change, Margin, evidence_of, stated
+from carom.parameters.told import number, told_entry
+from carom.results import fields_of, in_si
+from carom.studies.advice import Bound, Change, Margin, evidence_of, stated
 from carom.studies.endings import motion_words
 from carom.studies.facts import Evidence, Fact
 from carom.studies.ranges import EVENTS, Edge
@@ -27,6 +29,10 @@ CHANGES = ("Change", "Or", "For all starts")
 BEYOND = "Beyond the limits"
 """Label of the changes that ask for more than the magnetic bearings can give."""
 _NONE_NEEDED = "none needed for what the machine must survive"
+_NOTHING_BUILDABLE = (
+    "nothing that the magnetic bearings can give helps: every change found that brings all back asks for more than their "
+    "limits, so that the real machine moves otherwise; larger limits, less unbalance or a larger clearance are needed"
+)
 _LAST_ZONE = "D"
 
 
@@ -41,7 +47,7 @@ def advice_facts(study: Study) -> Iterator[Fact]:
     if enough and recommended.kind != "no-change-needed":
         yield _fact("Change", _NONE_NEEDED, "sampled")
     if unbuildable:
-        yield _fact(first, _nothing_buildable(study), "sampled")
+        yield _fact(first, _NOTHING_BUILDABLE, "sampled")
     for place, change in enumerate(recommended.changes):
         label = BEYOND if unbuildable else "Or" if place else first
         values = change_document(study, change)
@@ -72,9 +78,7 @@ def _machine(study: Study) -> str:
     machine, told = study.case.machine, present_values(study.case)
     if machine is None:
         return told
-    more = [
-        f"{name} {study.wording.field(name, getattr(machine, name))}" for name in ("mass", "clearance", "eccentricity")
-    ]
+    more = [f"{name} {told_entry(name, getattr(machine, name))}" for name in ("mass", "clearance", "eccentricity")]
     return ", ".join([told, *more])
 
 
@@ -244,13 +248,6 @@ def _none_found(study: Study) -> str:
     return f"none found that brings back all that must be survived, {searched}"
 
 
-def _nothing_buildable(study: Study) -> str:
-    return (
-        "nothing that the magnetic bearings can give helps: every change found that brings all back asks for more than their "
-        "limits, so that the real machine moves otherwise; larger limits, less unbalance or a larger clearance are needed"
-    )
-
-
 def _disturbances(study: Study) -> str:
     say, required = study.wording, study.required
     kinds = ["velocity kicks out of levitation", "starts spread over the clearance"]
@@ -274,33 +271,22 @@ def _how_sure(study: Study) -> str:
 
 def change_document(study: Study, change: Change) -> dict[str, Any]:
     """A change as plain data for JSON."""
-    gain, scales, check = change.gain, study.wording.scales, change.check
+    gain, check = change.gain, change.check
     document = {
         **_in_both(study, gain, present=change.present, value=change.value),
-        "entry": change.terms.entry,
-        "set": change.terms.setting,
-        "bound": change.bound,
-        "ratio": change.ratio,
+        **fields_of(change, entry="terms.entry", set="terms.setting", bound="bound", ratio="ratio"),
         "margin": None if change.margin is None else _margin_document(study, gain, change.margin),
         "other_end": None if change.far is None else _end_document(study, gain, change.far),
-        "disturbances": check.drawn.total,
-        "recovered": check.drawn.count,
-        "share_low": check.drawn.low,
-        "share_high": check.drawn.high,
+        **fields_of(check.drawn, disturbances="total", recovered="count", share_low="low", share_high="high"),
         "at_their_largest": sum(share.total for share in check.largest),
         "recovered_at_their_largest": sum(share.count for share in check.largest),
-        "not_nearer": [{"value": each.value, "disturbances": each.tried} for each in change.forced],
-        "beyond": [{"value": each.value, "disturbances": each.tried, "lost": 0} for each in change.beyond],
-        "radius": change.radius,
-        "zone": change.zone,
+        "not_nearer": [fields_of(each, value="value", disturbances="tried") for each in change.forced],
+        "beyond": [fields_of(each, value="value", disturbances="tried") | {"lost": 0} for each in change.beyond],
+        **fields_of(change, "radius", "zone"),
         "rolling_from": None if change.whirl is None else change.whirl.certain,
-        "buildable": change.buildable,
-        "demand": change.demand,
+        **fields_of(change, "buildable", "demand"),
     }
-    if scales is not None:
-        document["radius_si"] = change.radius * scales.length
-        document["rolling_from_si"] = None if change.whirl is None else change.whirl.certain * scales.velocity
-    return document
+    return document | in_si(document, study.wording.scales, "radius", rolling_from="velocity")
 
 
 def _margin_document(study: Study, gain: Gain, margin: Margin) -> dict[str, Any]:

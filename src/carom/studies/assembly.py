@@ -11,7 +11,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar, get_args
 
 from carom.arguments import checked
-from carom.attractors import AttractorSet, find_attractors
+from carom.attractors import AttractorSet, DisturbanceSet, find_attractors
 from carom.basins import Share
 from carom.bifurcations.boundary import BoundaryEquilibrium, boundary_equilibria
 from carom.closed_forms.equilibria import Equilibrium, find_equilibria
@@ -33,7 +33,7 @@ from carom.studies.load_checks import WorstLoads, worst_loads
 from carom.studies.orbit_ranges import single_impact_ranges
 from carom.studies.ranges import Motion, MotionRange, Threshold, free_spans, levitating_spans, steady_range
 from carom.studies.recovery import Check, Recovery, check_recovery, find_recovery, in_all
-from carom.studies.survives import Survives, required_disturbances, standard_set, survives
+from carom.studies.survives import Survives, required_disturbances, survives
 from carom.studies.verdict import Verdict, facts_of, verdict
 from carom.studies.wording import Wording
 
@@ -234,7 +234,8 @@ def study(
     tell(0.0, "equilibria and periodic orbits (the kernels are compiled on first use)")
     orbits = orbits_within_reach(rotor)
     tell(0.1, "disturbances")
-    found = find_attractors(rotor, disturbances or standard_set(required), progress=tell.part(0.1, 0.2, "disturbances"))
+    described = disturbances or DisturbanceSet(fastest=required.kick)
+    found = find_attractors(rotor, described, progress=tell.part(0.1, 0.2, "disturbances"))
     endured = survives(rotor, required, tell.part(0.2, 0.4))
     ranges = _ranges(parameters, tell.part(0.4, 0.6, "thresholds of damping and stiffness"))
     tell(0.6, "loss of levitation")

@@ -8,6 +8,7 @@ from typing import Any
 from carom.attractors import Attractor, AttractorSet, Character, document_of, exact_interval
 from carom.basins import share_of_kicks
 from carom.parameters import Parameters
+from carom.results import fields_of
 
 
 def attractors_document(
@@ -37,16 +38,13 @@ def attractors_document(
 def _attractor(entry: Attractor, total: int, character: Character, exponents: bool) -> dict[str, Any]:
     orbit, rotation = character.orbit, character.rotation
     return {
-        "outcome": entry.name.outcome.label,
-        "name": entry.name,
-        "kind": character.kind,
-        "words": character.words,
+        **fields_of(entry, outcome="name.outcome.label", name="name"),
+        **fields_of(character, "kind", "words"),
         "word": str(orbit.word) if orbit else None,
         "impacts": (orbit.impacts if orbit else entry.name.multiplicity) or None,
         "period": orbit.period if orbit else entry.period,
         "share": [entry.share_of_disturbances, *(exact_interval(entry.count, total) if total else (0.0, 1.0))],
-        "count": entry.count,
-        "known_starts": entry.known,
+        **fields_of(entry, count="count", known_starts="known"),
         "lasting": character.lasting,
         **(document_of(entry.survival) | {"transient": character.lasting == "transient"}),
         "rotation_number": rotation.number if rotation and character.kind == "torus" else None,
@@ -58,14 +56,8 @@ def _exponents(character: Character) -> dict[str, Any] | None:
     """Exponents with their errors; ``None`` where they are not known."""
     found, rates = character.exponents, character.rates
     if found is not None:
-        lists = {
-            "per_time": found.values,
-            "per_impact": found.per_impact,
-            "error_per_time": found.errors,
-            "error_per_impact": found.error_per_impact,
-        }
-        told = {name: values if values is None else values.tolist() for name, values in lists.items()}
-        return told | {"lost": found.lost}
+        per_time = fields_of(found, per_time="values", per_impact="per_impact", error_per_time="errors")
+        return per_time | fields_of(found, "error_per_impact", "lost")
     if rates is None:
         return None
     nothing = {"per_impact": None, "error_per_impact": None}

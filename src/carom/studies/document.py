@@ -13,14 +13,13 @@ import numpy as np
 
 from carom.arguments import checked
 from carom.attractors import Attractor, AttractorSet, Ending, document_of
-from carom.basins import Share
 from carom.bifurcations.boundary import BoundaryEquilibrium
 from carom.bifurcations.documents import search_document
 from carom.closed_forms.equilibria import Equilibrium
 from carom.closed_forms.thresholds import Gain
 from carom.closed_forms.whirl import rolling
 from carom.models import Jeffcott, Model
-from carom.motions.loads import touchdown_loads
+from carom.motions.loads import MEASURED, touchdown_loads
 from carom.motions.starts import State
 from carom.motions.trajectories import Trajectory
 from carom.orbits.orbit import Orbit
@@ -28,7 +27,7 @@ from carom.orbits.search import FoundOrbits
 from carom.orbits.single_impact import OrbitSet
 from carom.parameters import MACHINE_FIELDS, LoadLimits, Machine, Parameters, Scales
 from carom.parameters.indentation import gives_way, indentation_of_force, indentation_of_hit
-from carom.results import fields_of
+from carom.results import fields_of, in_si
 from carom.studies.advice import gain_of
 from carom.studies.advice_facts import change_document
 from carom.studies.endings import came_back, hardest_impulse, touching
@@ -93,17 +92,14 @@ def trajectory_document(trajectory: Trajectory, limits: LoadLimits | None = None
 
     Its loads are compared with limits, if some are stated.
     """
-    log = trajectory.contacts
-    impacts = zip(log.time, log.angle, log.radial_speed, log.angular_speed, log.normal_impulse, strict=True)
     keys = ("time", "angle", "radial_speed", "angular_speed", "normal_impulse")
+    impacts = zip(*fields_of(trajectory.contacts, *keys).values(), strict=True)
     document: dict[str, Any] = {
         **_rotor(trajectory.rotor),
         "start": _state(trajectory.start),
-        "outcome": trajectory.outcome.label,
-        "meaning": trajectory.outcome.meaning,
-        "multiplicity": trajectory.multiplicity,
-        "time": trajectory.time,
-        "impacts": [dict(zip(keys, map(float, impact), strict=True)) for impact in impacts],
+        **fields_of(trajectory, outcome="outcome.label", meaning="outcome.meaning"),
+        **fields_of(trajectory, "multiplicity", "time"),
+        "impacts": [dict(zip(keys, impact, strict=True)) for impact in impacts],
         "contacts": [
             {"kind": contact.kind, "phase": contact.phase.label, **fields_of(contact, "start", "end")}
             for contact in trajectory.lasting_contacts
@@ -122,11 +118,8 @@ def trajectory_document(trajectory: Trajectory, limits: LoadLimits | None = None
 def _loads(trajectory: Trajectory) -> dict[str, Any]:
     """Loads of a motion, in units of the equations and in SI units."""
     loads = touchdown_loads(trajectory)
-    names = ("impulse", "force", "power", "heat", "restitution_loss", "contact_time", "lasting_power")
-    return {
-        **fields_of(loads, "impacts", *names, "goes_on"),
-        **{f"{name}_si": value for name, value in (loads.si() or {}).items()},
-    }
+    document = fields_of(loads, "impacts", *MEASURED, "goes_on")
+    return document | in_si(document, loads.scales, *MEASURED)
 
 
 def study_document(study: Study) -> dict[str, Any]:
@@ -167,30 +160,23 @@ def study_document(study: Study) -> dict[str, Any]:
 def _equilibrium(entry: Equilibrium, parameters: Parameters) -> dict[str, Any]:
     scales = parameters.scales
     document = {
-        "kind": entry.kind,
-        "U": entry.position,
-        **fields_of(entry, "radius", "normal_force", "status", "stable"),
+        **fields_of(entry, kind="kind", U="position", radius="radius", normal_force="normal_force"),
+        **fields_of(entry, "status", "stable"),
         "eigenvalues": list(entry.eigenvalues),
     }
-    if scales is not None:
-        document["radius_si"] = entry.radius * scales.length
-        document["normal_force_si"] = entry.normal_force * scales.force
-        if entry.kind == "rub":
-            document |= _wall(indentation_of_force(parameters, entry.normal_force))
+    document |= in_si(document, scales, "radius", "normal_force")
+    if scales is not None and entry.kind == "rub":
+        document |= _wall(indentation_of_force(parameters, entry.normal_force))
     return document
 
 
 def _orbit(entry: Orbit, scales: Scales | None) -> dict[str, Any]:
-    document = {
-        **fields_of(entry, "name", "impacts", "period", "radial_speed", "angle", "angular_speed"),
-        "multipliers": list(entry.multipliers.values),
-        **fields_of(entry, "stable", "admissible", "reason"),
-    }
+    document = fields_of(entry, "name", "impacts", "period", "radial_speed", "angle", "angular_speed")
+    document |= fields_of(entry, multipliers="multipliers.values") | fields_of(entry, "stable", "admissible", "reason")
     if scales is not None:
         impulse = (1.0 + entry.rotor.parameters.d) * entry.radial_speed
-        document["period_si"] = entry.period * scales.time
-        document["radial_speed_si"] = entry.radial_speed * scales.velocity
-        document["normal_impulse_si"] = impulse * scales.impulse
+        document |= in_si(document, scales, "period", "radial_speed")
+        document |= {"normal_impulse_si": impulse * scales.impulse}
         document |= _wall(indentation_of_hit(entry.rotor.parameters, entry.radial_speed))
     return document
 
@@ -218,20 +204,14 @@ def _scales(scales: Scales) -> dict[str, float]:
 
 
 def _threshold(entry: Threshold, say: Wording) -> dict[str, Any]:
-    return {
-        "motion": entry.motion,
-        "kind": entry.edge.kind,
-        "exists": entry.exists,
-        "parameter": entry.gain,
-        **fields_of(entry.edge, "value", "period", "certified"),
-        **_value_in_si(say, entry.gain, entry.edge.value),
-    }
+    told = fields_of(entry, motion="motion", kind="edge.kind", exists="exists", parameter="gain")
+    told |= fields_of(entry.edge, "value", "period", "certified")
+    return told | _value_in_si(say, entry.gain, entry.edge.value)
 
 
 def _boundary(entry: BoundaryEquilibrium, say: Wording) -> dict[str, Any]:
     return {
-        "parameter": entry.gain,
-        **fields_of(entry, "value", "levitates", "kind"),
+        **fields_of(entry, parameter="gain", value="value", levitates="levitates", kind="kind"),
         "orbits": [
             fields_of(orbit, "name", "levitating_side", "stable", "period")
             for orbit in entry.orbits
@@ -244,8 +224,7 @@ def _boundary(entry: BoundaryEquilibrium, say: Wording) -> dict[str, Any]:
 
 def _range(entry: MotionRange) -> dict[str, Any]:
     return {
-        "motion": entry.motion,
-        "parameter": entry.gain,
+        **fields_of(entry, motion="motion", parameter="gain"),
         "spans": _spans(entry.spans),
         "searched": _span(entry.searched) if entry.searched else None,
         "step": entry.step,
@@ -275,33 +254,22 @@ def _check(check: Check) -> dict[str, Any]:
     example = check.example
     return {
         "value": check.value,
-        "kinds": [_returned(share) for share in check.returned],
-        "at_their_largest": [_returned(share) for share in check.largest],
+        "kinds": [fields_of(share, tried="total", came_back="count") for share in check.returned],
+        "at_their_largest": [fields_of(share, tried="total", came_back="count") for share in check.largest],
         "lost": None
         if example is None
         else {"disturbance": example.model.describe(), "coordinates": list(example.values), "motion": example.motion},
     }
 
 
-def _returned(share: Share) -> dict[str, Any]:
-    return {"tried": share.total, "came_back": share.count}
-
-
 def _attractor(entry: Attractor, parameters: Parameters) -> dict[str, Any]:
     scales = parameters.scales
-    document: dict[str, Any] = {
-        "name": entry.name,
-        "outcome": entry.name.outcome.label,
-        "settled": entry.settled,
-        "multiplicity": entry.name.multiplicity,
-        **fields_of(entry, "period", "whirl", "count", "share_of_disturbances"),
-        "known_starts": entry.known,
-        **fields_of(entry, "largest_impulse", "largest_force"),
-        **document_of(entry.survival),
-    }
+    told = fields_of(entry, name="name", outcome="name.outcome.label", settled="settled")
+    told |= fields_of(entry, multiplicity="name.multiplicity", period="period", whirl="whirl", count="count")
+    told |= fields_of(entry, "share_of_disturbances", known_starts="known")
+    told |= fields_of(entry, "largest_impulse", "largest_force")
+    document = told | document_of(entry.survival) | in_si(told, scales, "largest_impulse", "largest_force")
     if scales is not None:
-        document["largest_impulse_si"] = entry.largest_impulse * scales.impulse
-        document["largest_force_si"] = entry.largest_force * scales.force
         hit = indentation_of_hit(parameters, entry.largest_impulse / (1.0 + parameters.d))
         document |= _wall(max(hit, indentation_of_force(parameters, entry.largest_force)))
     return document
@@ -309,7 +277,7 @@ def _attractor(entry: Attractor, parameters: Parameters) -> dict[str, Any]:
 
 def _disturbances(found: AttractorSet, parameters: Parameters) -> dict[str, Any]:
     scales = parameters.scales
-    touched, smallest = touching(found), found.smallest_unrecovered_kick
+    touched = touching(found)
     document = {
         "seed": getattr(found.sample, "seed", None),
         "fastest": found.fastest,
@@ -319,23 +287,20 @@ def _disturbances(found: AttractorSet, parameters: Parameters) -> dict[str, Any]
         "recovered": came_back(found.disturbances),
         "touching": len(touched),
         "touching_recovered": came_back(touched),
-        "smallest_unrecovered_kick": smallest,
+        "smallest_unrecovered_kick": found.smallest_unrecovered_kick,
         "irregular_transient": document_of(found.transient) if found.transient else None,
         "starts": [_ending(ending) for ending in found.endings],
     }
+    document |= in_si(document, scales, smallest_unrecovered_kick="velocity")
     if scales is not None:
-        document["smallest_unrecovered_kick_si"] = None if smallest is None else smallest * scales.velocity
         document["hardest_impulse_si"] = hardest_impulse(found) * scales.impulse
         document |= _wall(indentation_of_hit(parameters, hardest_impulse(found) / (1.0 + parameters.d)))
     return document
 
 
 def _ending(entry: Ending) -> dict[str, Any]:
-    return {
-        "kind": entry.start.kind,
-        "start": _state(entry.start.state),
-        **fields_of(entry, "attractor", "time", "impacts", "hardest_impulse"),
-    }
+    start = {"kind": entry.start.kind, "start": _state(entry.start.state)}
+    return start | fields_of(entry, "attractor", "time", "impacts", "hardest_impulse")
 
 
 def _wall(indentation: float) -> dict[str, Any]:
@@ -347,7 +312,7 @@ def _rolling(rotor: Jeffcott) -> dict[str, Any]:
     """Return whether rolling backward whirl sustains itself, with its speed and force."""
     roll, scales = rolling(rotor), rotor.scales
     document = fields_of(roll, "holds", "speed", "largest_force")
+    document |= in_si(document, scales, "largest_force")
     if scales is not None:
-        document["largest_force_si"] = roll.largest_force * scales.force
         document |= _wall(indentation_of_force(rotor.parameters, roll.largest_force))
     return document

@@ -7,6 +7,8 @@ from dataclasses import dataclass, field
 from itertools import groupby
 from typing import Any, Literal
 
+from carom.results import fields_of
+
 Evidence = Literal["proven", "closed form", "searched", "sampled", "stated", "chosen by carom"]
 Topic = Literal[
     "Verdict",
@@ -65,16 +67,8 @@ class Fact:
 
     def document(self) -> dict[str, Any]:
         """As plain data for JSON."""
-        return {
-            "topic": self.topic,
-            "label": self.label,
-            "text": self.text,
-            "evidence": self.evidence,
-            "values": dict(self.values),
-            "motions": list(self.motions),
-            "disturbances": self.disturbances,
-            "detail": self.detail,
-        }
+        names = ("topic", "label", "text", "evidence", "values", "motions", "disturbances", "detail")
+        return fields_of(self, *names)
 
 
 def about(facts: Sequence[Fact], topic: Topic) -> tuple[Fact, ...]:

@@ -16,11 +16,12 @@ def proven_words(proof: Proof) -> str:
     admissible = _names(proof, "admissible", "proven")
     stable = [name for name in admissible if name in _names(proof, "stable", "proven")]
     unstable = [name for name in admissible if name in _names(proof, "stable", "refuted")]
+    orbits = proof["machine orbits"]
     facts = [
         f"levitation lies {'inside' if proof['levitation inside'].status == 'proven' else 'not inside'} the wall"
         if proof["levitation inside"].status != "undecided"
         else "",
-        _clause(proof["machine orbits"].statement) if proof["machine orbits"].status == "proven" else "",
+        f"{orbits.statement[0].lower()}{orbits.statement[1:-1]}" if orbits.status == "proven" else "",
         f"stable are {listed(stable)}" if stable else "",
         f"unstable are {listed(unstable)}" if unstable else "",
     ]
@@ -30,10 +31,6 @@ def proven_words(proof: Proof) -> str:
     if undecided:
         text += f" {counted(len(undecided), 'claim')} could not be decided: {listed([claim.name for claim in undecided[:4]])}."
     return text
-
-
-def _clause(sentence: str) -> str:
-    return sentence[0].lower() + sentence[1:-1]
 
 
 def is_proven(proof: Proof | None, orbit: Orbit) -> bool:

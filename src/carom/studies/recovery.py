@@ -24,7 +24,7 @@ from carom.basins.shares import Population, Share
 from carom.disturbances import Disturbance, Sample, Starts
 from carom.disturbances.following import follow
 from carom.models import Axis, Model, Subject, axis, model_of
-from carom.models.axes import Ends, read_interval
+from carom.models.axes import Ends, read_interval, usual_range
 from carom.motions.ensembles import Endings
 from carom.outcome import InputError
 from carom.parameters.told import told_along
@@ -251,10 +251,7 @@ def check_recovery(
 def _spans(rotor: Model, varied: Axis, within: Ends | Sequence[Span] | None) -> tuple[Span, ...]:
     """The intervals to search."""
     if within is None:
-        now = varied.value(rotor)
-        if not now > 0.0:
-            raise InputError("within", None, f"needed: {varied.name} = {now:g} gives no range around it")
-        within = 0.5 * now, min(2.0 * now, varied.field.highest)
+        within = usual_range(varied, varied.value(rotor), "within")
     if all(isinstance(span, Span) for span in within):
         return tuple(span for span in within if isinstance(span, Span))
     low, high = read_interval(varied, within)  # type: ignore[arg-type]

@@ -17,8 +17,9 @@ from carom.models import Axis, Jeffcott, Subject, axis, case_of
 from carom.models.axes import Ends, read_interval
 from carom.outcome import InputError
 from carom.parameters import Case, Scales
+from carom.parameters.fields import RPM
 from carom.results import Result, in_a_line
-from carom.studies.standards import FULL_SPEED, LARGEST, RPM, Side, required_margin, vibration_limit
+from carom.studies.standards import FULL_SPEED, LARGEST, Side, required_margin, vibration_limit
 
 SPEEDS = 801
 """Number of speeds of the curves."""

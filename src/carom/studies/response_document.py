@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from carom.parameters.fields import RPM
 from carom.results import fields_of
-from carom.studies.standards import ASSUMPTIONS, RPM, vibration_limit
+from carom.studies.standards import ASSUMPTIONS, vibration_limit
 
 if TYPE_CHECKING:
     from carom.studies.response import Stretch, UnbalanceResponse

@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from carom.outcome import STEADY_WORDS
+from carom.parameters.fields import RPM
 from carom.parameters.told import number
-from carom.studies.standards import CRITICALLY_DAMPED, RPM, vibration_limit
+from carom.studies.standards import CRITICALLY_DAMPED, vibration_limit
 from carom.studies.wording import listed
 
 if TYPE_CHECKING:
@@ -43,15 +44,13 @@ def _present(response: UnbalanceResponse) -> str:
             f"peak, and the clearance allows {micrometres(2.0 * clearance)}: the rotor touches."
         )
     lag = number(np.degrees(-np.angle(place)), 3)
+    over = width / allowed
+    ratio = f", which is exceeded {number(over, 3)} times" if over > 1.0 else ""
     return (
         f"At {rpm(speed)}, the present speed, the rotor levitates with {micrometres(width)} peak to peak "
         f"({number(abs(place), 3)} of the clearance: zone {response.zone_at(speed)} of ISO 14839-2), {lag}° behind the unbalance. "
-        f"API 617 allows {micrometres(allowed)} there{_ratio(width / allowed)}."
+        f"API 617 allows {micrometres(allowed)} there{ratio}."
     )
-
-
-def _ratio(share: float) -> str:
-    return f", which is exceeded {number(share, 3)} times" if share > 1.0 else ""
 
 
 def _critical(response: UnbalanceResponse) -> str:

@@ -23,8 +23,6 @@ import numpy as np
 
 Side = Literal["below", "inside", "above"]
 
-RPM = math.pi / 30.0
-"""One revolution per minute in rad/s."""
 LARGEST = 25.4e-6
 """Largest shaft vibration that API 617 allows, m peak to peak."""
 FULL_SPEED = 12_000.0 * math.pi / 30.0

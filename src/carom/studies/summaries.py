@@ -16,6 +16,7 @@ from carom.outcome import STEADY_WORDS, shown
 from carom.parameters import DIMENSIONLESS_FIELDS, ENTRIES, HELPER_FIELDS, MACHINE_FIELDS, Case, Machine, Parameters
 from carom.parameters.indentation import indentation_of_force, indentation_of_hit
 from carom.parameters.terms import set_by
+from carom.parameters.told import told_entry
 from carom.studies.advice import gain_of
 from carom.studies.advice_facts import check_words
 from carom.studies.proven import is_proven
@@ -153,13 +154,12 @@ def machine_rows(case: Case) -> list[ValueRow]:
     known = {name: getattr(machine, name) for name in HELPER_FIELDS if name in type(machine).model_fields}
     if machine.force_current_factor is None and machine.force_limit is None:
         del known["magnetic_bearings"]
-    say = Wording(case.parameters.scales)
     found |= {name: value for name, value in known.items() if value is not None} | machine.controller_gains
     return [
         ValueRow(
             ENTRIES[name].symbol,
             ENTRIES[name].words,
-            say.field(name, value, 6),
+            told_entry(name, value, 6),
             given_words(machine, name),
         )
         for name, value in found.items()

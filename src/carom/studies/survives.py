@@ -11,7 +11,7 @@ import math
 from dataclasses import dataclass, replace
 from typing import Literal
 
-from carom.attractors import DisturbanceSet
+from carom.attractors.starts import KICKS_SHARE
 from carom.basins import SmallestLoss, smallest_loss
 from carom.disturbances import AnyState, BaseShock, BladeLoss, Disturbance, Sample, VelocityKick
 from carom.disturbances.blows import LONGEST_SHOCK
@@ -26,8 +26,6 @@ REACH = 4.0
 """Largest kick and shock searched, as a multiple of what must be survived or is proven to be harmless."""
 BELOW = 0.999
 """Largest unbalance searched, relative to that with which levitation would fill the clearance."""
-KICKS_SHARE = 0.6
-"""Share of kicks among the disturbances of a sample; the rest start elsewhere in the clearance."""
 OF_ANOTHER_KIND = 0.2
 """Number of shocks, and of losses of a blade, relative to that of kicks and other starts, where such are required."""
 
@@ -137,8 +135,3 @@ def required_disturbances(required: Required, count: int, seed: int = 0) -> tupl
     if required.blade_loss:
         models.append((BladeLoss(required.blade_loss), more))
     return tuple(Sample(model, number, seed) for model, number in models)
-
-
-def standard_set(required: Required) -> DisturbanceSet:
-    """The disturbances whose ends are described: kicks and starts elsewhere, as fast as the kick that must be survived."""
-    return DisturbanceSet(fastest=required.kick)

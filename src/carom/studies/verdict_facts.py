@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING, Any, Literal
 from carom.basins import Share, SmallestLoss
 from carom.closed_forms.whirl import rolling
 from carom.outcome import REGULAR_BOUNCING, STEADY_WORDS, Outcome
-from carom.results import fields_of
+from carom.results import fields_of, in_si
 from carom.studies.endings import ending_words
 from carom.studies.facts import Fact
 from carom.studies.findings import stable_rub
 from carom.studies.survives import Kind, meets
-from carom.studies.wording import listed
+from carom.studies.wording import SIZES, listed
 
 if TYPE_CHECKING:
     from carom.studies.assembly import Study
@@ -120,22 +120,14 @@ def lost_to(study: Study, name: Kind, found: SmallestLoss) -> str:
 
 def survived_document(study: Study, name: Kind, found: SmallestLoss) -> dict[str, Any]:
     """What of a kind is survived, as plain data for JSON."""
-    numbers = {"harmless_up_to": found.harmless, "all_up_to": found.all_back, "smallest_lost": found.size}
-    document: dict[str, Any] = {
-        **numbers,
-        "searched_up_to": found.largest,
-        "tried": found.tried,
-        "fresh": found.fresh,
-        "angle": found.angle,
-        "lost_to": None if found.outcome is None else found.outcome.label,
-    }
+    sizes = fields_of(
+        found, harmless_up_to="harmless", all_up_to="all_back", smallest_lost="size", searched_up_to="largest"
+    )
+    document = sizes | fields_of(found, "tried", "fresh", "angle")
+    document["lost_to"] = None if found.outcome is None else found.outcome.label
     if name == "shock" and study.survives is not None:
         document["duration"] = study.survives.duration
-    factor = study.wording.unit_of(name)
-    if factor is not None:
-        document |= {f"{key}_si": None if value is None else value * factor for key, value in numbers.items()}
-        document["searched_up_to_si"] = found.largest * factor
-    return document
+    return document | in_si(sizes, study.wording.scales, **dict.fromkeys(sizes, SIZES[name]))
 
 
 def _shares(study: Study) -> Iterator[Fact]:

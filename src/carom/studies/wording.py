@@ -14,6 +14,8 @@ from carom.parameters.numbers import CONVERSIONS
 from carom.parameters.told import number, told, told_entry
 from carom.studies.ranges import Span
 
+SIZES = {"kick": "velocity", "shock": "acceleration", "blade_loss": "unbalance"}
+"""What the size of a kick, a shock or a loss of a blade is."""
 _PREFIXES = ((1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "µ"), (1e-9, "n"))
 
 
@@ -79,15 +81,8 @@ class Wording:
 
     def size_of(self, kind: str) -> Callable[[float], str]:
         """How the size of a kick, a shock or a loss of a blade is written."""
-        return {"kick": self.velocity, "shock": self.acceleration, "blade_loss": self.unbalance}[kind]
-
-    def unit_of(self, kind: str) -> float | None:
-        """One unit of the size of a kick, a shock or a loss of a blade, in SI units; ``None`` without scales."""
-        if self.scales is None:
-            return None
-        return {"kick": self.scales.velocity, "shock": self.scales.acceleration, "blade_loss": self.scales.unbalance}[
-            kind
-        ]
+        write: Callable[[float], str] = getattr(self, SIZES[kind])
+        return write
 
     def slip(self, value: float) -> str:
         """The speed of the surface of the rotor on the wall, given in ``c_r Ω``, in m/s."""
@@ -117,25 +112,17 @@ class Wording:
             return f"{number(2.0 * math.pi / period, 3)} times a turn"
         return f"{number(1.0 / (period * self.scales.time), 3)} times a second"
 
-    def field(self, name: str, value: float, digits: int = 4) -> str:
-        """An entry of a machine given in SI units, in the unit in which people usually say it: ``1,759 rpm``, ``1.592 µm``."""
-        return told_entry(name, value, digits)
-
     def gain(self, gain: Gain, value: float) -> str:
         """Damping or stiffness given as ``gamma`` or ``omega``, with its unit if the machine is known."""
         if self.scales is None:
             return number(value)
-        return f"{number(self.gain_in_si(gain, value))} {self.gain_unit(gain)}"
+        return f"{number(self.gain_in_si(gain, value))} {MACHINE_FIELDS[PHYSICAL_PARTNER[gain]].unit}"
 
     def gain_in_si(self, gain: Gain, value: float) -> float:
         """Damping in N s/m or stiffness in N/m; needs scales."""
         if self.scales is None:
             return math.nan
         return float(CONVERSIONS[gain].value(value, self.scales))
-
-    def gain_unit(self, gain: Gain) -> str:
-        """Unit of :meth:`gain_in_si`."""
-        return MACHINE_FIELDS[PHYSICAL_PARTNER[gain]].unit
 
     def gain_name(self, gain: Gain) -> str:
         """Return ``damping`` or ``stiffness``; the symbol, ``γ`` or ``ω``, if the machine is not known."""
@@ -181,9 +168,8 @@ def present_values(case: Case) -> str:
         names = ("gamma", "omega", "rho", "mu", "d")
         fields = [(DIMENSIONLESS_FIELDS[name].symbol, getattr(case.parameters, name)) for name in names]
         return ", ".join(f"{symbol} = {number(value)}" for symbol, value in fields)
-    say = Wording(case.parameters.scales)
     return ", ".join(
-        f"{name} {say.field(name, getattr(case.machine, name))}" for name in ("damping", "stiffness", "speed")
+        f"{name} {told_entry(name, getattr(case.machine, name))}" for name in ("damping", "stiffness", "speed")
     )
 
 

@@ -11,6 +11,7 @@ import numpy as np
 from carom.disturbances import Grid, KickPlane, Plan, Sample, VelocityKick
 from carom.disturbances.echo import plan_words
 from carom.outcome import Outcome
+from carom.results import in_si
 from carom.sweeps.variables import Dimension, Variable, with_si
 
 if TYPE_CHECKING:
@@ -127,8 +128,7 @@ class BasinsTask:
         if kicks:
             smallest, direction = min(kicks)
             found |= {"smallest_unrecovered_kick": smallest, "smallest_unrecovered_kick_angle": direction}
-            if rotor.scales is not None:
-                found["smallest_unrecovered_kick_si"] = smallest * rotor.scales.velocity
+            found |= in_si(found, rotor.scales, smallest_unrecovered_kick="velocity")
         return found
 
     def _batches(self, rotor: Model, seed: np.random.SeedSequence) -> Iterator[Starts]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
@@ -56,7 +55,9 @@ def compute_chunk(plan: SweepPlan, number: int) -> Chunk:
             found = plan.task.evaluate(plan.case_at(point), plan.seed_of(point))
         except Exception as problem:  # noqa: BLE001  (any error is recorded, and the sweep continues)
             arrays["status"][place] = Status.FAILED
-            failures.append(Failure(point, plan.values(point), _error_line(problem)))
+            words = str(problem) if isinstance(problem, CaromError) else f"{type(problem).__name__}: {problem}"
+            line = " ".join(words.split())[:_LONGEST_MESSAGE]
+            failures.append(Failure(point, plan.values(point), line))
             continue
         for name, value in found.items():
             arrays[name][place] = value
@@ -77,8 +78,3 @@ def _empty(plan: SweepPlan, number: int) -> dict[str, np.ndarray]:
     return {
         variable.name: np.full(shape + variable.shape, variable.fill, variable.dtype) for variable in plan.variables
     }
-
-
-def _error_line(problem: Exception) -> str:
-    words: Any = problem if isinstance(problem, CaromError) else f"{type(problem).__name__}: {problem}"
-    return " ".join(str(words).split())[:_LONGEST_MESSAGE]

@@ -14,9 +14,9 @@ import numpy as np
 
 from carom.files import sync_directory, unfinished
 from carom.outcome import InputError
+from carom.results import flags
 from carom.sweeps.integrity import SUMS, damaged_metadata, sums
 from carom.sweeps.plan import SweepPlan
-from carom.sweeps.variables import flag_attributes
 from carom.sweeps.versions import PROCESSORS, other_version, processors_record, versions
 
 OPTION, ROOT = "--out", "zarr.json"
@@ -125,7 +125,7 @@ def coordinates_of(plan: SweepPlan) -> dict[str, tuple[np.ndarray, dict[str, Any
     return axes | {
         dimension.name: (
             np.array(dimension.values, np.int8),
-            {"long_name": dimension.words, **flag_attributes(dimension.values, dimension.flags)},
+            {"long_name": dimension.words, **flags(list(dimension.values), dimension.flags)},
         )
         for dimension in plan.task.dimensions
     }

@@ -11,6 +11,7 @@ import numpy as np
 from carom.arguments import Whole, checked
 from carom.outcome import STEADY_WORDS, InputError
 from carom.parameters import DIMENSIONLESS_FIELDS, Zones
+from carom.results import fields_of, in_si
 from carom.sweeps.variables import Dimension, Variable, with_si
 
 if TYPE_CHECKING:
@@ -123,12 +124,7 @@ class StudyTask:
 
     def describe(self) -> dict[str, Any]:
         """Return what identifies the task, as plain data for JSON."""
-        return {
-            "kind": self.kind,
-            "disturbances": self.disturbances,
-            "least_damping": self.least_damping,
-            "zone_limits": list(self.zone_limits),
-        }
+        return fields_of(self, "kind", "disturbances", "least_damping", "zone_limits")
 
     def evaluate(self, machine: Case | Model, seed: np.random.SeedSequence) -> dict[str, Any]:
         """Compute the values of one machine by variable name; a variable without a value is left out.
@@ -148,12 +144,8 @@ class StudyTask:
             found |= self._simulated(rotor, case.requirement.own(rotor.scales).kick, number)
         if self.least_damping:
             found |= self._damping(rotor, case.requirement.own(rotor.scales), number)
-        scales = rotor.scales
-        if scales is not None:
-            for variable in self.variables:
-                if variable.scale and variable.name in found:
-                    found[f"{variable.name}_si"] = found[variable.name] * getattr(scales, variable.scale)
-        return found
+        scaled = {each.name: each.scale for each in self.variables if each.scale and each.name in found}
+        return found | in_si(found, rotor.scales, **scaled)
 
     def _closed_forms(self, rotor: Jeffcott, case: Case) -> dict[str, Any]:
         from carom.closed_forms.equilibria import find_equilibria

@@ -9,6 +9,7 @@ from typing import Any, Literal
 import numpy as np
 
 from carom.parameters import UNITS
+from carom.results import flags
 
 
 class Status:
@@ -74,7 +75,7 @@ class Variable:
         """Attributes in the CF convention."""
         attributes: dict[str, Any] = {"long_name": self.words}
         if self.flags:
-            attributes |= flag_attributes(tuple(range(len(self.flags))), self.flags)
+            attributes |= flags(list(range(len(self.flags))), self.flags)
         else:
             attributes["units"] = self.unit
         if self.si_of:
@@ -82,12 +83,6 @@ class Variable:
         if self.fill == -1:
             attributes["_FillValue"] = self.fill
         return attributes
-
-
-def flag_attributes(values: Sequence[int], meanings: Sequence[str]) -> dict[str, Any]:
-    """Return the attributes that say what the values of a flag mean."""
-    words = " ".join(meaning.replace("-", "_").replace(" ", "_") for meaning in meanings)
-    return {"flag_values": list(values), "flag_meanings": words}
 
 
 STATUS = Variable("status", "whether the point was computed", "status", flags=("waiting", "done", "failed"))
