@@ -70,3 +70,15 @@ def test_derivatives_are_those_of_differences():
         )
         # Third derivatives of about 1e2 times the square of the step, and rounding of 1e-14 over the step.
         assert np.abs(left_sides(unknowns)[1] - expected.T).max() < 1e-7
+
+
+@pytest.mark.jit_only
+def test_where_a_chatter_is_none_the_equations_are_not_defined():
+    """A first impact at rest in this frame, whose derivatives are singular: branches end there, they do not fail."""
+    (orbit,) = rubbing_orbits(CHATTERING)
+    nodes = orbit.nodes.copy()
+    landing = int(np.flatnonzero(orbit.word.kinds == Kind.LAND)[0])
+    nodes[landing, 1] = 0.0
+    residual, jacobian = links_of(orbit.rotor, orbit.word, Start(nodes, orbit.durations)).reduced
+    assert not np.isfinite(residual).all()
+    assert not np.isfinite(jacobian).all()

@@ -100,7 +100,7 @@ class Links:
 
     @cached_property
     def reduced(self) -> tuple[np.ndarray, np.ndarray]:
-        """Residual and its derivative by the free unknowns alone, on which the others depend."""
+        """Residual and its derivative by the free unknowns alone, on which the others depend; ``nan`` where a chatter is none."""
         if all(each == math.inf for each in self.landings.tolist()):
             return self.residual, self.jacobian
         lands = ~np.isposinf(self.landings)
@@ -111,7 +111,10 @@ class Links:
         ends = width * np.flatnonzero(lands) + width - 1
         whole[:, ends] -= whole[:, (ends + width) % len(free)]
         # The rows of a chatter say how its landing follows from its first impact.
-        follows = np.linalg.solve(whole[np.ix_(~rows, ~free)], whole[np.ix_(~rows, free)])
+        try:
+            follows = np.linalg.solve(whole[np.ix_(~rows, ~free)], whole[np.ix_(~rows, free)])
+        except np.linalg.LinAlgError:
+            return np.full(rows.sum(), np.nan), np.full((rows.sum(), free.sum()), np.nan)
         return self.residual[rows], whole[np.ix_(rows, free)] - whole[np.ix_(rows, ~free)] @ follows
 
     @cached_property
