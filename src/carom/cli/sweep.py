@@ -8,7 +8,6 @@ import typer
 
 from carom.cli.terminal import AsJson, InterruptionError, Settings, check_output, console, print_document, progress
 from carom.outcome import InputError
-from carom.results import fields_of
 
 if TYPE_CHECKING:
     from carom.sweeps import SweepPlan, Tally
@@ -107,6 +106,8 @@ def _draw(plan: SweepPlan, tally: Tally, figures: str) -> None:
 
 
 def _document(plan: SweepPlan, tally: Tally, failures: list[dict[str, Any]]) -> dict[str, Any]:
+    from carom.results import fields_of
+
     return {
         "store": str(tally.store),
         "kind": plan.task.kind,

@@ -227,7 +227,7 @@ def _compile(origin: Origin, ready: threading.Event) -> None:
         table_of(rotor)
         found = map_kicks(rotor, kicks, 17, opening_range(rotor, kicks))
         follow_kick(rotor, kicks, *telling_pair(found)[0])
-    except CaromError:
-        pass  # the page says what is wrong with this machine
+    except (CaromError, RuntimeError):
+        pass  # the page says what is wrong with this machine; and where the program ends meanwhile, no thread can begin
     finally:
         ready.set()
