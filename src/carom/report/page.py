@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import platform
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from importlib.metadata import version
 from importlib.resources import files
 from pathlib import Path
@@ -23,7 +23,15 @@ from carom.report.figures import Picture, pictures
 from carom.studies import NOT_COVERED, Study
 from carom.studies.advice_facts import BEYOND, CHANGES
 from carom.studies.facts import Fact, about, paragraphs
-from carom.studies.summaries import dimensionless_rows, machine_rows, motion_rows, range_rows, share_rows, survived_rows
+from carom.studies.summaries import (
+    MotionRow,
+    dimensionless_rows,
+    machine_rows,
+    motion_rows,
+    range_rows,
+    share_rows,
+    survived_rows,
+)
 from carom.studies.wording import machine_heading
 
 REPORT = "report.html"
@@ -97,6 +105,7 @@ def report_page(study: Study, figures: list[InlineFigure]) -> str:
         machine=machine_rows(study.case),
         dimensionless=dimensionless_rows(study.case),
         motions=motion_rows(study),
+        holding=_holding(study),
         left_out=sum(not orbit.admissible for orbit in study.orbits),
         ranges=range_rows(study),
         own=[
@@ -108,6 +117,13 @@ def report_page(study: Study, figures: list[InlineFigure]) -> str:
         not_covered=NOT_COVERED,
         versions=_versions(),
     )
+
+
+def _holding(study: Study) -> list[MotionRow]:
+    """Rows of the motions with which the rotor may go on for long, by the names that people use."""
+    words = {f"orbit {orbit.name}": orbit.name.words for orbit in study.orbits}
+    rows = [row for row in motion_rows(study) if row.state not in ("unstable", "not possible")]
+    return [replace(row, name=words.get(row.name, row.name)) for row in rows]
 
 
 def _mark(study: Study) -> str:

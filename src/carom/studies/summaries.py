@@ -60,18 +60,6 @@ class MotionRow:
     trials: str = ""
     """Number of disturbances that ended there."""
     remark: str = ""
-    words: str = ""
-    """What people call it, where the name is that of an orbit."""
-
-    @property
-    def holds(self) -> bool:
-        """Whether the rotor may go on with it for long."""
-        return self.state not in ("unstable", "not possible")
-
-    @property
-    def told(self) -> str:
-        """Its name for people."""
-        return self.words or self.name
 
 
 @dataclass(frozen=True)
@@ -265,7 +253,7 @@ def _force(say: Wording, force: float, no_model: str) -> str:
 def _bounce(orbit: Orbit, say: Wording, share: str) -> MotionRow:
     name, period, size = f"orbit {orbit.name}", say.time(orbit.period), say.velocity(orbit.radial_speed)
     if not orbit.admissible:
-        return MotionRow(name, "not possible", period, size, remark=orbit.reason, words=orbit.name.words)
+        return MotionRow(name, "not possible", period, size, remark=orbit.reason)
     impulse = (1.0 + orbit.rotor.parameters.d) * orbit.radial_speed
     grows = "" if orbit.stable else f"disturbances grow {orbit.multipliers.instability}"
     return MotionRow(
@@ -277,7 +265,6 @@ def _bounce(orbit: Orbit, say: Wording, share: str) -> MotionRow:
         f"{say.force(impulse / orbit.period)} mean",
         share,
         "; ".join(filter(None, (grows, no_rigid_wall(indentation_of_hit(orbit.rotor.parameters, orbit.radial_speed))))),
-        orbit.name.words,
     )
 
 
