@@ -186,7 +186,7 @@ def cycle_determinant(system: System, period: float, direction: complex = 1.0) -
 
     With the reset ``1 − b rᵀ`` (``r`` reads the speed along the wall's normal, ``b`` is the change of the amplitudes for
     a unit of it) the determinant lemma gives ``det(e^{MT} − 1) F₁(T)``: its zeros are the periods of the cycles.
-    The result is the determinant of the real map over ``(Re c, Im c)``, shape (2N, 2N).
+    The result is the determinant of the real map over ``(Re c, Im c)``, shape (4n, 4n).
 
     Parameters
     ----------
@@ -194,13 +194,13 @@ def cycle_determinant(system: System, period: float, direction: complex = 1.0) -
         Unit normal of the wall at the equilibrium.  The determinant does not depend on it.
     """
     arrays = system.arrays
-    modes = len(arrays.exponents)
-    units = np.concatenate([np.eye(modes), 1j * np.eye(modes)])
+    free = np.eye(system.modes)[system.free]
+    units = np.concatenate([free, 1j * free])
     arrivals = fly_all(arrays, units, np.full(len(units), float(period)))
     factor = sliding_factor(float(arrays.friction[0]), float(arrays.restitution[0]))
     columns = []
     for unit, arrival in zip(units, arrivals, strict=True):
         speed = (np.conj(direction) * (arrays.rate_rows[0] @ arrival)).real
-        image = arrival - arrays.columns[:, 0] * factor * direction * speed - unit
+        image = (arrival - arrays.columns[:, 0] * factor * direction * speed - unit)[system.free]
         columns.append(np.concatenate([image.real, image.imag]))
     return float(np.linalg.det(np.array(columns).T))

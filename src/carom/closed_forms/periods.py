@@ -68,11 +68,11 @@ class PeriodCondition:
     @checked
     def of(cls, system: System, slip: Literal[-1, 1] = 1) -> PeriodCondition:
         """Return the condition for orbits with impacts at the first plane of a system and this direction of slip."""
-        arrays = system.arrays
-        row, column = arrays.rows[0], arrays.columns[:, 0]
+        arrays, free = system.arrays, system.free
+        row, column = arrays.rows[0, free], arrays.columns[free, 0]
         modes = np.zeros((len(row), 3), complex)
         modes[:, 0], modes[:, 1] = system.exponents, row * column
-        modes[1:, 2] = row[1:] * column[:-1] * arrays.driven[1:]
+        modes[1:, 2] = row[1:] * column[:-1] * arrays.driven[free][1:]
         return cls(modes, sliding_factor(slip * float(arrays.friction[0]), float(arrays.restitution[0])))
 
     @classmethod

@@ -23,7 +23,7 @@ def rub_attracts(system: System, amplitudes: np.ndarray, contact: np.ndarray) ->
 
 
 def sliding_rates(system: System, amplitudes: np.ndarray, contact: np.ndarray) -> np.ndarray:
-    """Exponents, in ``Ω``, of the sliding motions next to a synchronous rub; shape (2N − 2C,) for ``C`` planes in contact.
+    """Exponents, in ``Ω``, of the sliding motions next to a synchronous rub; shape (4n − 2C,) for ``C`` planes in contact.
 
     The amplitudes (N,) are those of the rub, at rest in the co-rotating frame.  The state of contact (P,) is
     ``FORWARD_SLIP`` at each plane that rubs.
@@ -32,9 +32,9 @@ def sliding_rates(system: System, amplitudes: np.ndarray, contact: np.ndarray) -
     rubs = np.flatnonzero(contact == Phase.FORWARD_SLIP)
     rows, columns = arrays["rows"][rubs], arrays["columns"][:, rubs]
     grip = 1.0 + 1j * arrays["friction"][rubs]
-    modes = len(amplitudes)
-    # Real and imaginary parts of all amplitudes are changed by one, in turn.
-    changes = np.concatenate([np.eye(modes), 1j * np.eye(modes)])
+    # Real and imaginary parts of all free amplitudes are changed by one, in turn.
+    free = np.eye(len(amplitudes))[system.free]
+    changes = np.concatenate([free, 1j * free])
     y, a = rows @ amplitudes + arrays["offsets"][rubs], arrays["acceleration_rows"][rubs] @ amplitudes
     mobility = arrays["mobility"][np.ix_(rubs, rubs)] * grip
     matrix = (y.conj()[:, None] * mobility * y).real
@@ -43,7 +43,7 @@ def sliding_rates(system: System, amplitudes: np.ndarray, contact: np.ndarray) -
     turned = dy.conj()[:, :, None] * mobility * y + y.conj()[:, None] * mobility * dy[:, None, :]
     right = (dy.conj() * a + y.conj() * da).real - turned.real @ push
     force = -grip * (np.linalg.solve(matrix, right.T).T * y + push * dy)
-    rates = changes @ system.generator.T + force @ columns.T
+    rates = (changes @ system.generator.T + force @ columns.T)[:, system.free]
     jacobian = np.concatenate([rates.real, rates.imag], axis=1).T
     across = np.concatenate([(y.conj() * dy).real, (y.conj() * (changes @ arrays["rate_rows"][rubs].T)).real], axis=1)
     along = np.linalg.svd(across.T)[2][2 * len(rubs) :]

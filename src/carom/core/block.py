@@ -6,7 +6,7 @@ The flight starts from ``work.current``.  What these functions load into the wor
 from __future__ import annotations
 
 from carom.compiling.decorators import part
-from carom.core.flow import squared_modulus
+from carom.core.flow import chain_start, squared_modulus
 from carom.core.layout import DEGREE, NODES, TERMS
 
 
@@ -41,6 +41,19 @@ def basis_amplitudes(rotor, plane, amplitudes, out):
         if rotor.driven[k]:
             out[k] += rotor.rows[plane, k - 1] * amplitudes[k - 1]
             out[k - 1] = (rotor.rows[plane, k] - rotor.gaps[k] * rotor.rows[plane, k - 1]) * amplitudes[k - 1]
+            if k > 1 and rotor.driven[k - 1]:
+                _chain_amplitudes(rotor, plane, amplitudes, k, out)
+
+
+@part
+def _chain_amplitudes(rotor, plane, amplitudes, last, out):
+    """:func:`basis_amplitudes` of a chain of equal exponents up to a mode: ``tʲ/j! e^{λt}`` appears in the ``j`` last ones."""
+    first = chain_start(rotor, last)
+    for j in range(last - first + 1):
+        total = 0j
+        for k in range(first + j, last + 1):
+            total += rotor.rows[plane, k] * amplitudes[k - j]
+        out[first + j - 1 if j > 0 else last] = total
 
 
 @part
@@ -139,17 +152,39 @@ def move_to(rotor, table, time, work):
     modes = work.current.shape[0]
     for k in range(modes):
         increment = table.growth[node, k] * work.current[k]
-        if rotor.driven[k]:
+        if k > 1 and rotor.driven[k] and rotor.driven[k - 1]:
+            increment += _from_chain(rotor, table, node, k, work)
+        elif rotor.driven[k]:
             increment += table.basis[node, 0, k - 1] * work.current[k - 1]
         work.increments[k] = increment
         work.at_node[k] = work.current[k] + increment
     for k in range(modes):
         increment = _power_series(table.growth_series, k, rest) * work.at_node[k]
-        if rotor.driven[k]:
+        if k > 1 and rotor.driven[k] and rotor.driven[k - 1]:
+            increment += _from_chain_at_node(rotor, table, k, rest, work)
+        elif rotor.driven[k]:
             increment += _power_series(table.basis_series, k - 1, rest) * work.at_node[k - 1]
         increment += work.increments[k]
         work.increments[k] = increment
         work.arrival[k] = work.current[k] + increment
+
+
+@part
+def _from_chain(rotor, table, node, mode, work):
+    """What the modes before it in its chain contribute to a mode at a node."""
+    first, total = chain_start(rotor, mode), 0j
+    for j in range(1, mode - first + 1):
+        total += table.basis[node, 0, first + j - 1] * work.current[mode - j]
+    return total
+
+
+@part
+def _from_chain_at_node(rotor, table, mode, rest, work):
+    """What the modes before it in its chain, given at a node, contribute to a mode until a little later."""
+    first, total = chain_start(rotor, mode), 0j
+    for j in range(1, mode - first + 1):
+        total += _power_series(table.basis_series, first + j - 1, rest) * work.at_node[mode - j]
+    return total
 
 
 @part

@@ -30,8 +30,8 @@ def close_flights(
     bool
         Whether it converged, to positive durations.
     """
-    m, modes = nodes.shape
-    width = 2 * modes + 1
+    m, numbers = nodes.shape
+    width = 2 * numbers + 1
     matrix = np.empty((m * width, m * width + 1))
     before = np.inf
     for _ in range(steps):
@@ -41,7 +41,7 @@ def close_flights(
         for row in range(m * width):
             largest = max(largest, abs(matrix[row, m * width]))
         for i in range(m):
-            for k in range(modes):
+            for k in range(numbers):
                 size = max(size, 1.0 + abs(nodes[i, k]))
         # Rounding lets the residual fall no further: the last step has converged too.
         done = largest <= tolerance * size or (largest <= 1e3 * tolerance * size and largest >= 0.5 * before)
@@ -53,9 +53,9 @@ def close_flights(
         if done and farthest > LAST * size:
             return True
         for i in range(m):
-            for k in range(modes):
-                nodes[i, k] -= complex(matrix[i * width + k, m * width], matrix[i * width + modes + k, m * width])
-            durations[i] -= matrix[i * width + 2 * modes, m * width]
+            for k in range(numbers):
+                nodes[i, k] -= complex(matrix[i * width + k, m * width], matrix[i * width + numbers + k, m * width])
+            durations[i] -= matrix[i * width + 2 * numbers, m * width]
             if not durations[i] > 0.0:
                 return False
         if done:
@@ -75,21 +75,21 @@ def shooting_equations(nodes, arrivals, values, slopes):
 @part
 def _assemble(nodes, arrivals, values, slopes, matrix):
     """Write the equations: each segment ends at the next node, where its condition is fulfilled."""
-    m, modes = nodes.shape
-    width = 2 * modes + 1
+    m, numbers = nodes.shape
+    width = 2 * numbers + 1
     matrix[:] = 0.0
     for i in range(m):
         after = (i + 1) % m
         for row in range(width):
             for column in range(width):
                 matrix[i * width + row, i * width + column] += slopes[i, row, column]
-        for k in range(modes):
+        for k in range(numbers):
             apart = arrivals[i, k] - nodes[after, k]
             matrix[i * width + k, after * width + k] -= 1.0
-            matrix[i * width + modes + k, after * width + modes + k] -= 1.0
+            matrix[i * width + numbers + k, after * width + numbers + k] -= 1.0
             matrix[i * width + k, m * width] = apart.real
-            matrix[i * width + modes + k, m * width] = apart.imag
-        matrix[i * width + 2 * modes, m * width] = values[i]
+            matrix[i * width + numbers + k, m * width] = apart.imag
+        matrix[i * width + 2 * numbers, m * width] = values[i]
 
 
 @kernel

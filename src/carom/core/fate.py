@@ -105,7 +105,7 @@ def levitates(rotor, amplitudes, work):
         basis_amplitudes(rotor, plane, amplitudes, work.amplitudes)
         reach = math.sqrt(squared_modulus(rotor.offsets[plane]))
         for k in range(modes):
-            if rotor.exponents[k].real > 0.0:
+            if rotor.exponents[k].real > 0.0 or (k > 1 and rotor.driven[k] and rotor.driven[k - 1]):
                 return False
             if k + 1 < modes and rotor.driven[k + 1]:
                 continue
@@ -205,12 +205,13 @@ def near_rub(memory, position, speed):
 
 
 @kernel
-def at_rest(work):
-    """Whether a motion, given by its Taylor series, is at rest in the co-rotating frame."""
+def at_rest(rotor, work):
+    """Whether the free modes of a motion, given by its Taylor series, are at rest in the frame of the rotor."""
     size, rate = 1.0, 0.0
     for m in range(work.series.shape[1]):
-        size += math.sqrt(squared_modulus(work.series[0, m]))
-        rate += math.sqrt(squared_modulus(work.series[1, m]))
+        if rotor.free[m]:
+            size += math.sqrt(squared_modulus(work.series[0, m]))
+            rate += math.sqrt(squared_modulus(work.series[1, m]))
     return rate <= NEAR * size
 
 

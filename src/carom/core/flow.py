@@ -45,7 +45,9 @@ def flight_increments(rotor, starts, time, increments):
         growth = complex_expm1(rotor.exponents[k] * time)
         for i in range(flights):
             increments[i, k] = starts[i, k] * growth
-        if rotor.driven[k]:
+        if k > 1 and rotor.driven[k] and rotor.driven[k - 1]:
+            _chain_increments(rotor, starts, k, growth, time, increments)
+        elif rotor.driven[k]:
             lag = complex_expm1(-rotor.gaps[k] * time)
             response = -lag * rotor.inverse_gaps[k]
             if rotor.gaps[k] == 0.0:
@@ -53,6 +55,28 @@ def flight_increments(rotor, starts, time, increments):
             for i in range(flights):
                 increments[i, k] += starts[i, k - 1] * (1.0 + growth) * response
                 increments[i, k - 1] = starts[i, k - 1] * (growth + lag + growth * lag)
+
+
+@part
+def _chain_increments(rotor, starts, last, growth, time, increments):
+    """:func:`flight_increments` of a chain of equal exponents that ends with a mode: ``Σ_j c_{k−j} tʲ/j! e^{λt}``."""
+    first = chain_start(rotor, last)
+    for i in range(starts.shape[0]):
+        for k in range(first, last + 1):
+            increments[i, k] = starts[i, k] * growth
+            factor = 1.0
+            for j in range(1, k - first + 1):
+                factor *= time / j
+                increments[i, k] += starts[i, k - j] * ((1.0 + growth) * factor)
+
+
+@part
+def chain_start(rotor, mode):
+    """First mode of the chain that a mode belongs to."""
+    first = mode
+    while rotor.driven[first]:
+        first -= 1
+    return first
 
 
 @kernel

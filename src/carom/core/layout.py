@@ -53,21 +53,23 @@ def rotor_record(
     law: np.ndarray | None = None,
     law_number: np.ndarray | None = None,
     masses: np.ndarray | None = None,
+    free: np.ndarray | None = None,
 ) -> np.record:
     """A linear rotor with ``N`` moving modes and ``P`` contact planes, as the kernels see it.
 
     The displacement at plane ``p``, in units of that plane's clearance, is
     ``y_p(t) = offsets[p] + Σ_k rows[p, k] c_k(t)``, where the amplitudes obey ``ċ_k = λ_k c_k`` for a free-standing
-    mode and ``ċ_k = λ_k c_k + c_{k−1}`` for a driven one.  A driven mode and the one before it form a pair, which stays
-    well conditioned when their exponents meet (critical damping).  Forcing with an exponent of its own (gravity seen in
-    the co-rotating frame, say) is a mode whose ``columns`` are zero.
+    mode and ``ċ_k = λ_k c_k + c_{k−1}`` for a driven one.  A driven mode and those before it up to one that is not driven
+    form a chain.  A pair stays well conditioned when its exponents meet (critical damping); the exponents of a longer chain
+    are one number (free fall: weight, velocity, displacement).  Forcing with an exponent of its own (weight seen in the
+    co-rotating frame, say) is a mode whose ``columns`` are zero, and not free.
 
     Parameters
     ----------
     exponents : ndarray of complex, shape (N,)
         ``λ_k`` in units of the shaft speed.
     driven : ndarray of bool, shape (N,)
-        Whether mode ``k`` is driven by mode ``k − 1``; then ``Re λ_k ≥ Re λ_{k−1}`` and ``k − 1`` is not driven itself.
+        Whether mode ``k`` is driven by mode ``k − 1``; then ``Re λ_k ≥ Re λ_{k−1}``, and if ``k − 1`` is driven too, ``λ_k = λ_{k−1}``.
     offsets : ndarray of complex, shape (P,)
         Constant displacement of the planes.
     rows : ndarray of complex, shape (P, N)
@@ -82,6 +84,8 @@ def rotor_record(
         Law of each wall along its normal, and the law's own number (:class:`~carom.core.wall.Wall`).  Rigid by default.
     masses : ndarray, shape (P,), optional
         Effective mass ``1/(W M⁻¹ Wᴴ)`` of each plane: the impulse that changes its velocity by one.  Ones by default.
+    free : ndarray of bool, shape (N,), optional
+        Which modes a disturbance can change; the others are forcing, or fill the room of a larger rotor.  All by default.
 
     Returns
     -------
@@ -125,6 +129,7 @@ def rotor_record(
         "law": np.zeros(planes) if law is None else law,
         "law_number": np.zeros(planes) if law_number is None else law_number,
         "masses": np.ones(planes) if masses is None else masses,
+        "free": np.ones(modes) if free is None else free,
     }
     layout = _rotor_layout(modes, planes)
     # All fields at once: to set one takes as long as to compute it.
@@ -152,6 +157,7 @@ def _rotor_layout(modes: int, planes: int) -> np.dtype:
             *((name, REAL, (planes,)) for name in ("friction", "restitution", "surface_speed")),
             ("law", np.dtype(np.int64), (planes,)),
             *((name, REAL, (planes,)) for name in ("law_number", "masses")),
+            ("free", np.dtype(np.int8), (modes,)),
         )
     )
 

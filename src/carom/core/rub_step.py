@@ -43,7 +43,7 @@ def rub_step(rotor, contact, amplitudes, horizon, memory, rub):
     if memory.patience > 0 and leading != NOWHERE:
         position = unit(rub.position[leading, 0])
         speed = (position.conjugate() * rub.speed[leading, 0]).imag
-        end = _known_end(contact[leading] == FORWARD_SLIP, position, speed, memory, rub)
+        end = _known_end(rotor, contact[leading] == FORWARD_SLIP, position, speed, memory, rub)
         if end != CONTACT:
             return end, 0.0, leading
         if approaches_turn(memory, position, amplitudes, speed):
@@ -74,12 +74,12 @@ def rub_step(rotor, contact, amplitudes, horizon, memory, rub):
 
 
 @part
-def _known_end(slips, position, speed, memory, rub):
+def _known_end(rotor, slips, position, speed, memory, rub):
     """What lasting contact settles to, if that is known from its state; otherwise CONTACT."""
     if near_rub(memory, position, speed) or (slips and absorbed(memory.proofs, memory.rub_position, position, speed)):
         return FORWARD_RUB
     if memory.resting != 0:
-        rests = at_rest(rub)
+        rests = at_rest(rotor, rub)
         if rests and memory.resting > 0:
             return FORWARD_RUB
         memory.resting = -1 if rests else 1

@@ -8,8 +8,8 @@ here.  So all maps are smooth, even where an impact grazes or the motion is impo
 A chatter is one segment too.  Its bounces have been followed by :func:`carom.core.advance.advance`; their derivatives are
 multiplied here (:func:`carry_through_chatter`).
 
-Directions are changes of the amplitudes, to which everything here is real-linear: those by which each coordinate and each rate
-changes by ``1`` and by ``i``, ``2N`` in all, stand for the derivative.
+Directions are changes of the amplitudes, to which everything here is real-linear: those by which each of the ``S`` coordinates and
+rates changes by ``1`` and by ``i``, ``2S`` in all, stand for the derivative.
 """
 
 from __future__ import annotations
@@ -45,27 +45,26 @@ def follow_flights(rotor, basis, to_modes, rest, kinds, planes, targets, nodes, 
     Parameters
     ----------
     rotor : record of :func:`~carom.core.layout.rotor_record`
-    basis, to_modes : complex arrays, shape (N, N)
-        State (coordinates, then their rates) per amplitude, and its inverse.
-    rest : complex array, shape (N,)
+    basis, to_modes : complex arrays, shape (S, N) and (N, S)
+        State (coordinates, then their rates) per amplitude, and amplitudes per state.
+    rest : complex array, shape (S,)
         State whose amplitudes are zero.
     kinds, planes : int arrays, shape (m,)
         Kind of each segment and plane of the contact at its beginning; segments that do not fly are left out.
     targets : int array, shape (m,)
         Plane at whose wall it ends.
-    nodes : complex array, shape (m, N)
+    nodes : complex array, shape (m, S)
         States at the beginning: just before the impact.
     durations : array, shape (m,)
-    arrivals : complex array, shape (m, N)
+    arrivals : complex array, shape (m, S)
         Overwritten: states at the end.
     values : array, shape (m,)
         Overwritten: value of the condition, ``(|y|² − 1)/2``.
-    slopes : array, shape (m, 2N + 1, 2N + 1)
+    slopes : array, shape (m, 2S + 1, 2S + 1)
         Overwritten: derivative of real and imaginary parts of the end, then of the condition, by those of the node, then
         by the duration.
     """
-    modes = nodes.shape[1]
-    last = 2 * modes
+    modes, last = to_modes.shape[0], 2 * nodes.shape[1]
     moved, increments = np.empty((last + 1, modes), np.complex128), np.empty((last + 1, modes), np.complex128)
     rate = np.empty(modes, np.complex128)
     for i in range(kinds.shape[0]):
@@ -95,23 +94,23 @@ def follow_contact(rotor, basis, to_modes, rest, kinds, planes, ends, nodes, dur
 
     ``rub`` is a record of :func:`~carom.core.layout.rub_workspace`.
     """
-    modes = nodes.shape[1]
-    moved, rate = np.empty((2 * modes + 1, modes), np.complex128), np.empty(modes, np.complex128)
+    modes, last = to_modes.shape[0], 2 * nodes.shape[1]
+    moved, rate = np.empty((last + 1, modes), np.complex128), np.empty(modes, np.complex128)
     contact = np.empty(rotor.rows.shape[0], np.int64)
     for i in range(kinds.shape[0]):
         if not rubs(kinds[i]):
             continue
         directions, phase = _set_out(to_modes, rest, nodes[i], moved), phase_of(kinds[i])
-        _rest(rotor, planes[i], moved[2 * modes], directions, 0.0, sense_of_phase(phase))
+        _rest(rotor, planes[i], moved[last], directions, 0.0, sense_of_phase(phase))
         contact[:] = AWAY
         contact[planes[i]] = phase
-        normal = slopes[i, 2 * modes]
-        change = _slide(rotor, contact, planes[i], durations[i], moved[2 * modes], directions, rate, normal, rub)
+        normal = slopes[i, last]
+        change = _slide(rotor, contact, planes[i], durations[i], moved[last], directions, rate, normal, rub)
         _hand_over(basis, rest, moved, rate, arrivals[i], slopes[i])
         if ends[i] == LEAST_PUSH:
             values[i] = change
             continue
-        values[i] = _condition(rotor, planes[i], ends[i], moved[2 * modes], directions, rate, normal)
+        values[i] = _condition(rotor, planes[i], ends[i], moved[last], directions, rate, normal)
 
 
 @part
@@ -125,28 +124,28 @@ def phase_of(kind):
 @part
 def _set_out(to_modes, rest, node, moved):
     """Write the amplitudes of all changes of the state by one, and below them its own; return those of the changes."""
-    modes = node.shape[0]
-    for k in range(modes):
-        moved[2 * modes, k] = 0j
-        for j in range(modes):
-            moved[j, k], moved[modes + j, k] = to_modes[k, j], 1j * to_modes[k, j]
-            moved[2 * modes, k] += to_modes[k, j] * (node[j] - rest[j])
-    return moved[: 2 * modes]
+    size = node.shape[0]
+    for k in range(to_modes.shape[0]):
+        moved[2 * size, k] = 0j
+        for j in range(size):
+            moved[j, k], moved[size + j, k] = to_modes[k, j], 1j * to_modes[k, j]
+            moved[2 * size, k] += to_modes[k, j] * (node[j] - rest[j])
+    return moved[: 2 * size]
 
 
 @part
 def _hand_over(basis, rest, moved, rate, arrival, slopes):
     """Write the state from its amplitudes, and the derivatives of its real and imaginary parts."""
-    modes = arrival.shape[0]
-    for j in range(modes):
-        for row in range(2 * modes + 1):
+    size, modes = basis.shape
+    for j in range(size):
+        for row in range(2 * size + 1):
             change = 0j
             for k in range(modes):
-                change += basis[j, k] * (rate[k] if row == 2 * modes else moved[row, k])
-            slopes[j, row], slopes[modes + j, row] = change.real, change.imag
+                change += basis[j, k] * (rate[k] if row == 2 * size else moved[row, k])
+            slopes[j, row], slopes[size + j, row] = change.real, change.imag
         arrival[j] = rest[j]
         for k in range(modes):
-            arrival[j] += basis[j, k] * moved[2 * modes, k]
+            arrival[j] += basis[j, k] * moved[2 * size, k]
 
 
 @part
@@ -315,9 +314,9 @@ def carry_through_chatter(rotor, plane, arrivals, durations, landing, slip, dire
         Amplitudes just after the last bounce; overwritten by those of lasting contact.
     slip : {FORWARD, BACKWARD, STOPPED}
         Sense of the slip at the landing.  The last impact has the same, whatever its state says.
-    directions : complex array, shape (2N, N)
+    directions : complex array, shape (2S, N)
         Overwritten.
-    delays : array, shape (2N,)
+    delays : array, shape (2S,)
         Overwritten: derivative of the duration of the chatter.
     """
     later = np.empty_like(delays)

@@ -49,20 +49,20 @@ def sensitivity_of_flights(
     ----------
     rotor, basis, to_modes, rest, kinds, planes, targets, nodes, durations
         As for :func:`~carom.core.segments.follow_flights`.
-    accelerations : complex array, shape (N/2, N)
+    accelerations : complex array, shape (S/2, S)
         Derivative of the accelerations of the coordinates per coordinate, then per rate of a coordinate.
-    force : complex array, shape (N/2,)
+    force : complex array, shape (S/2,)
         Derivative of their constant part.
     friction, restitution, surface_speed : arrays, shape (P,)
         Derivatives of the contact law of each plane.
 
     Returns
     -------
-    array, shape (m (2N + 1),)
+    array, shape (m (2S + 1),)
         In the order of :func:`~carom.core.closure.shooting_equations`.
     """
-    m, modes = nodes.shape
-    width = 2 * modes + 1
+    (m, size), modes = nodes.shape, to_modes.shape[0]
+    width = 2 * size + 1
     left = np.empty(m * width)
     coupling = _coupling(basis, to_modes, rest, accelerations, force)
     state, changed, still = (
@@ -76,7 +76,7 @@ def sensitivity_of_flights(
         plane = planes[i]
         for k in range(modes):
             state[k] = 0j
-            for j in range(modes):
+            for j in range(size):
                 state[k] += to_modes[k, j] * (nodes[i, j] - rest[j])
         normal, sense = unit(displacement(rotor, plane, state)), sense_after(kinds[i])
         by_law = rigid_wall(friction[plane], restitution[plane], surface_speed[plane])
@@ -93,23 +93,25 @@ def sensitivity_of_flights(
         moved, y = 0j, displacement(rotor, targets[i], end)
         for k in range(modes):
             moved += rotor.rows[targets[i], k] * end_change[k]
+        for k in range(size):
             shift = 0j
             for j in range(modes):
                 shift += basis[k, j] * end_change[j]
-            left[i * width + k], left[i * width + modes + k] = shift.real, shift.imag
-        left[i * width + 2 * modes] = (y.conjugate() * moved).real
+            left[i * width + k], left[i * width + size + k] = shift.real, shift.imag
+        left[i * width + 2 * size] = (y.conjugate() * moved).real
     return left
 
 
 @part
 def _coupling(basis, to_modes, rest, accelerations, force):
     """``G``, and ``g`` as last column: what changed accelerations do to the amplitudes, per amplitude and at rest."""
-    half, modes = accelerations.shape
+    half, size = accelerations.shape
+    modes = to_modes.shape[0]
     coupling = np.zeros((modes, modes + 1), np.complex128)
     for row in range(half):
         for column in range(modes + 1):
             pull = force[row] if column == modes else 0j
-            for k in range(modes):
+            for k in range(size):
                 pull += accelerations[row, k] * (rest[k] if column == modes else basis[k, column])
             for k in range(modes):
                 coupling[k, column] += to_modes[k, half + row] * pull

@@ -1,8 +1,9 @@
 """Constants of a block of flight that the certified crossing search needs; they depend on the exponents only.
 
 On a block, a flight that starts at ``y₀`` moves as ``y(τ) = y₀ + Σ_k α_k ψ_k(τ)`` with basis functions that vanish at
-``τ = 0``: ``e^{λτ} − 1`` for a free-standing or driven mode and the divided difference ``φ`` (see
-:mod:`carom.core.flow`) in place of a driving one.  Then
+``τ = 0``: ``e^{λτ} − 1`` for a free-standing mode and the last of a chain, the divided difference ``φ`` (see
+:mod:`carom.core.flow`) in place of the first of a pair, and ``τʲ/j! e^{λτ}`` in place of mode ``j`` of a longer chain, whose
+exponents are one number.  Then
 
     |y|² − 1 = |y₀|² − 1 + Σ_k 2 Re(ȳ₀ α_k ψ_k) + Σ_k |α_k|² |ψ_k|² + Σ_{j<k} 2 Re(α_j ᾱ_k ψ_j ψ̄_k)
 
@@ -148,43 +149,63 @@ def _rows(exponents: np.ndarray, driven: np.ndarray, times: np.ndarray) -> np.nd
 
 def _basis(exponents: np.ndarray, driven: np.ndarray, times: np.ndarray) -> list[np.ndarray]:
     basis = []
-    for k, exponent in enumerate(exponents):
-        if k + 1 < len(exponents) and driven[k + 1]:
-            gap = exponents[k + 1] - exponent
-            response = times if gap == 0 else -_expm1(-gap * times) / gap
-            basis.append(np.exp(exponents[k + 1] * times) * response)
-        else:
+    for exponent, gap, order in _functions(exponents, driven):
+        if not order:
             basis.append(_expm1(exponent * times))
+            continue
+        response = times**order / math.factorial(order) if gap == 0 else -_expm1(-gap * times) / gap
+        basis.append(np.exp((exponent + gap) * times) * response)
     return basis
 
 
+def _functions(exponents: np.ndarray, driven: np.ndarray) -> list[tuple[complex, complex, int]]:
+    """Exponent of each mode, and its gap to the next and its number ``j ≥ 1`` from the start of its chain, zeros for the last."""
+    found, number = [], 0
+    for exponent, after, drives in zip(exponents, np.append(exponents[1:], 0.0), _drives(driven), strict=True):
+        number = number + 1 if drives else 0
+        found.append((exponent, after - exponent if drives else 0j, number))
+    return found
+
+
 def _derivatives(exponents: np.ndarray, driven: np.ndarray, times: np.ndarray) -> np.ndarray:
-    """Basis functions and their first three derivatives, shape (len(times), 4, N); ``φ' = λ₋φ + e^{λ₊τ}``."""
+    """Basis functions and their first three derivatives, shape (len(times), 4, N).
+
+    ``φ' = λ₋φ + e^{λ₊τ}``, and in a longer chain ``β_j' = λβ_j + β_{j−1}``.
+    """
+    functions = _functions(exponents, driven)
     values = np.empty((len(times), 4, len(exponents)), complex)
     values[:, 0] = np.transpose(_basis(exponents, driven, times))
     for n in range(3):
         values[:, n + 1] = exponents * values[:, n]
         if n == 0:
             values[:, 1] += np.where(_drives(driven), 0.0, exponents)
-        for k in np.flatnonzero(driven):
-            values[:, n + 1, k - 1] += exponents[k] ** n * (1.0 + values[:, 0, k])
+        for k, (_, _, number) in enumerate(functions):
+            if number == 1:
+                last = k + 1 + next(i for i, function in enumerate(functions[k + 1 :]) if not function[2])
+                values[:, n + 1, k] += exponents[last] ** n * (1.0 + values[:, 0, last])
+            elif number:
+                values[:, n + 1, k] += values[:, n, k - 1]
     return values
 
 
 def _power_series(exponents: np.ndarray, driven: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Coefficients of the power series of all ``e^{λτ} − 1`` and of all basis functions, each of shape (LANE_TERMS, N).
 
-    Neither has a constant term.  That of ``φ`` has the coefficients ``Σ_i λ₊ⁱ λ₋ⁿ⁻¹⁻ⁱ/n!``.
+    Neither has a constant term.  That of ``φ`` has the coefficients ``Σ_i λ₊ⁱ λ₋ⁿ⁻¹⁻ⁱ/n!``, that of ``τʲ/j! e^{λτ}`` has
+    ``λⁿ⁻ʲ/((n − j)! j!)``.
     """
     orders = np.arange(1, LANE_TERMS + 1)
     factorials = np.array([float(math.factorial(n)) for n in orders])[:, None]
     growth = exponents ** orders[:, None] / factorials
     basis = growth.copy()
-    for k in np.flatnonzero(driven):
-        pair = 0.0
-        for n in orders:
-            pair = exponents[k] * pair + exponents[k - 1] ** (n - 1)
-            basis[n - 1, k - 1] = pair / factorials[n - 1, 0]
+    for k, (exponent, gap, number) in enumerate(_functions(exponents, driven)):
+        difference = 0.0
+        for n in orders[: None if number else 0]:
+            if number == 1:
+                difference = (exponent + gap) * difference + exponent ** (n - 1)
+            else:
+                difference = math.comb(n, number) * exponent ** max(n - number, 0)
+            basis[n - 1, k] = difference / factorials[n - 1, 0]
     return growth, basis
 
 
@@ -202,18 +223,20 @@ def _expm1(z: np.ndarray) -> np.ndarray:
 def _derivative_bounds(exponents: np.ndarray, driven: np.ndarray, duration: float) -> np.ndarray:
     """Bounds of ``|ψ⁽ⁿ⁾|``, shape (3, N).
 
-    They are ``|λ|ⁿ g`` for an exponential and ``(T|λ|ⁿ + n|λ|ⁿ⁻¹) g`` for ``φ = t ∫₀¹ e^{λ_s t} ds``.  Here ``g`` is
-    the growth of the fastest growing exponential over the block, and ``λ_s`` varies between the pair's exponents.
+    They are ``|λ|ⁿ g`` for an exponential, ``(T|λ|ⁿ + n|λ|ⁿ⁻¹) g`` for ``φ = t ∫₀¹ e^{λ_s t} ds``, and by Leibniz's rule
+    ``Σ_i (n over i) |λ|ⁿ⁻ⁱ T^{j−i}/(j − i)! g`` for ``tʲ/j! e^{λt}``.  Here ``g`` is the growth of the fastest growing exponential
+    over the block, and ``λ_s`` varies between the pair's exponents.
     """
     bounds = np.empty((3, len(exponents)))
-    for k, exponent in enumerate(exponents):
-        drives = k + 1 < len(exponents) and driven[k + 1]
-        pair = [exponent, exponents[k + 1]] if drives else [exponent]
-        largest = max(abs(value) for value in pair)
-        growth = np.exp(max(0.0, *(value.real * duration for value in pair)))
+    for k, (exponent, gap, number) in enumerate(_functions(exponents, driven)):
+        largest = max(abs(exponent), abs(exponent + gap))
+        growth = np.exp(max(0.0, exponent.real * duration, (exponent + gap).real * duration))
         for n in (1, 2, 3):
-            polynomial = duration * largest**n + n * largest ** (n - 1) if drives else largest**n
-            bounds[n - 1, k] = polynomial * growth
+            terms = [
+                math.comb(n, i) * largest ** (n - i) * duration ** (number - i) / math.factorial(number - i)
+                for i in range(min(n, number) + 1)
+            ]
+            bounds[n - 1, k] = sum(terms) * growth
     return bounds
 
 

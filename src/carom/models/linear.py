@@ -12,11 +12,10 @@ from typing import Any
 import numpy as np
 
 from carom.arguments import checked
-from carom.core.layout import rotor_record
 from carom.models import linear_parameters
 from carom.models.model import Matrices, Rates
 from carom.models.modes import modes_of
-from carom.models.system import System, second_order_system, walls_as_arrays
+from carom.models.system import System, modal_system, second_order_system, walls_as_arrays
 from carom.models.touchdown import Touchdown
 from carom.outcome import InputError, shown
 from carom.parameters import Field, Scales
@@ -142,16 +141,19 @@ class LinearRotor(Result):
         if n == 1 and self.planes.tolist() == [[1.0]]:
             return self._one_coordinate(found.exponents, complex(rest[0]))
         inverse = np.linalg.inv(found.basis)
-        arrays = rotor_record(
+        return modal_system(
             exponents=found.exponents,
             driven=found.driven,
+            rest=rest,
+            shapes=found.basis[:n],
+            inverse=inverse,
             offsets=self.planes @ rest,
             rows=self.planes @ found.basis[:n],
             columns=inverse[:, n:] @ (moved / mobilities),
             **walls_as_arrays([each.wall for each in self.touchdowns]),
             masses=1.0 / mobilities.real,
+            translation=self.translation,
         )
-        return System(arrays, rest, found.basis[:n], inverse, self.translation)
 
     def _one_coordinate(self, exponents: np.ndarray, equilibrium: complex) -> System:
         """System of a rotor with one coordinate, which is its displacement at the only plane."""

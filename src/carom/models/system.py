@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
@@ -18,6 +19,8 @@ from carom.results import Result
 
 TABLES = 32
 """Number of tables kept."""
+SMALLEST = 2
+"""Least number of modes in the arrays; larger numbers are powers of two."""
 ROUNDING = 1e-12
 """Share of the sum of moduli below which the sum counts as zero."""
 
@@ -45,22 +48,30 @@ class Contact(NamedTuple):
 class System(Result):
     """Modes, contact planes and contact law of a rotor, as arrays for the kernels.
 
-    A state consists of the ``n`` coordinates of the rotor and their rates; for a rotor with one coordinate they are
-    plain numbers.  Lengths are in clearances ``c_r``, times in ``1/Ω``, in the frame that turns with the shaft.
+    A state is a view of the amplitudes: the ``n`` coordinates of the rotor and their rates; for a rotor with one coordinate they
+    are plain numbers.  Lengths are in clearances ``c_r``, times in ``1/Ω``, in the frame of the rotor: by default that which turns with
+    the shaft.
+
+    Free modes are those that a disturbance can change.  Forcing modes keep a course of their own, from the amplitudes
+    ``forced`` at time zero: the rotor is at rest where its free modes are.  Modes that only fill the room of the arrays are at zero.
 
     Attributes
     ----------
     arrays : numpy.record
-        Of :func:`~carom.core.layout.rotor_record`, with ``N = 2n`` modes and ``P`` contact planes.  Its fields as attributes take four
-        times as long as in brackets.
+        Of :func:`~carom.core.layout.rotor_record`, with ``N`` modes, ``2n`` of them free, and ``P`` contact planes.  Its fields as
+        attributes take four times as long as in brackets.
     rest : ndarray of complex, shape (n,)
-        Coordinates at the contact-free equilibrium.
+        Coordinates at rest without forcing modes: the contact-free equilibrium.
     shapes : ndarray of complex, shape (n, N)
         Coordinates per amplitude.
     inverse : ndarray of complex, shape (N, 2n), optional
         Amplitudes per coordinate, then per rate of a coordinate; computed from ``shapes`` by default.
     translation : ndarray of complex, shape (n,), optional
         Change of the coordinates when the rotor as a whole is displaced by one; ones by default.
+    forced : ndarray of complex, shape (N,), optional
+        Amplitudes of the forcing modes at time zero, zeros elsewhere; all zeros by default.
+    frame_speed : float
+        Speed at which the frame of the rotor turns, in ``Ω``.
     """
 
     arrays: np.record
@@ -68,6 +79,8 @@ class System(Result):
     shapes: np.ndarray
     inverse: np.ndarray | None = None
     translation: np.ndarray | None = None
+    forced: np.ndarray | None = None
+    frame_speed: float = 1.0
 
     @cached_property
     def table(self) -> np.record:
@@ -75,7 +88,7 @@ class System(Result):
 
         Rotors with the same modes, such as all with the same damping and stiffness, share them.
         """
-        return _table(self.exponents.tobytes(), self.arrays["driven"].tobytes())
+        return _table(self.arrays["exponents"].tobytes(), self.arrays["driven"].tobytes())
 
     @cached_property
     def contacts(self) -> tuple[Contact, ...]:
@@ -85,15 +98,36 @@ class System(Result):
         rows = arrays["rows"], arrays["rate_rows"], arrays["columns"].T
         return tuple(map(Contact, arrays["offsets"].tolist(), *rows, walls))
 
+    @property
+    def modes(self) -> int:
+        """Number ``N`` of amplitudes."""
+        return len(self.arrays["exponents"])
+
+    @cached_property
+    def free(self) -> np.ndarray:
+        """Which modes are free, shape (N,)."""
+        return np.asarray(self.arrays["free"], bool)
+
     @cached_property
     def exponents(self) -> np.ndarray:
-        """Exponents ``λ`` of free flight, shape (N,)."""
-        return np.asarray(self.arrays["exponents"])
+        """Exponents ``λ`` of the free modes, shape (2n,)."""
+        exponents = np.asarray(self.arrays["exponents"])
+        return exponents if self.free.all() else exponents[self.free]
+
+    @property
+    def decay(self) -> float:
+        """Rate at which the slowest free mode decays, in ``Ω``; negative if one grows."""
+        return -float(self.exponents.real.max())
 
     @cached_property
     def generator(self) -> np.ndarray:
-        """Matrix ``M`` of free flight ``ċ = M c``, shape (N, N)."""
-        return np.diag(self.exponents) + np.diag(self.arrays["driven"][1:].astype(complex), -1)
+        """Matrix ``M`` of flight ``ċ = M c``, shape (N, N)."""
+        return np.diag(self.arrays["exponents"]) + np.diag(self.arrays["driven"][1:].astype(complex), -1)
+
+    @property
+    def is_forced(self) -> bool:
+        """Whether forces act on it that change with time in its frame."""
+        return self.forced is not None
 
     @property
     def rates(self) -> np.ndarray:
@@ -105,30 +139,46 @@ class System(Result):
         """Coordinates, then their rates, per amplitude, shape (2n, N)."""
         n = len(self.rest)
         basis = np.empty((2 * n, self.shapes.shape[1]), complex)
-        basis[:n], basis[n:] = self.shapes, self.shapes * self.exponents
+        basis[:n], basis[n:] = self.shapes, self.shapes * self.arrays["exponents"]
         basis[n:, :-1] += self.shapes[:, 1:] * self.arrays["driven"][1:]
         return basis
 
     @cached_property
     def to_modes(self) -> np.ndarray:
-        """Amplitudes per coordinate, then per rate of a coordinate, shape (N, 2n)."""
-        return np.linalg.inv(self.basis) if self.inverse is None else self.inverse
+        """Amplitudes per coordinate, then per rate of a coordinate, shape (N, 2n); zeros for modes that are not free."""
+        if self.inverse is not None:
+            return self.inverse
+        inverse = np.zeros(self.basis.shape[::-1], complex)
+        inverse[self.free] = np.linalg.inv(self.basis[:, self.free])
+        return inverse
 
     @cached_property
     def _whole_rest(self) -> np.ndarray:
+        """Coordinates and rates at rest without forcing modes, shape (2n,)."""
         whole = np.zeros(2 * len(self.rest), complex)
         whole[: len(self.rest)] = self.rest
         return whole
 
     @cached_property
     def coordinates(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """``basis``, ``to_modes`` and the state (2n,) at rest, as the kernels take them."""
+        """``basis``, ``to_modes`` and the state (2n,) at rest, as the kernels of orbits take them, which know no forcing."""
         return self.basis, np.ascontiguousarray(self.to_modes), self._whole_rest
 
-    def amplitudes_of(self, states: np.ndarray) -> np.ndarray:
-        """Mode amplitudes of states (m, 2n), each the coordinates and then their rates; shape (m, N)."""
-        found: np.ndarray = np.einsum("nk,mk->mn", self.to_modes, states - self._whole_rest)
-        return found
+    def forced_at(self, time: float) -> np.ndarray:
+        """Amplitudes at rest at a time: those of the forcing modes, and zeros; shape (N,)."""
+        if self.forced is None:
+            return np.zeros(self.modes, complex)
+        moved: np.ndarray = self.forced * np.exp(self.arrays["exponents"] * time)
+        return moved
+
+    def amplitudes_of(self, states: np.ndarray, time: float = 0.0) -> np.ndarray:
+        """Mode amplitudes of states (m, 2n) at a time, each the coordinates and then their rates; shape (m, N)."""
+        if self.forced is None:
+            found: np.ndarray = np.einsum("nk,mk->mn", self.to_modes, states - self._whole_rest)
+            return found
+        forced = self.forced_at(time)
+        at_rest = self.states_of(forced[None])
+        return np.asarray(np.einsum("nk,mk->mn", self.to_modes, states - at_rest) + forced)
 
     def states_of(self, amplitudes: np.ndarray) -> np.ndarray:
         """States of mode amplitudes, the inverse of :meth:`amplitudes_of`."""
@@ -136,13 +186,16 @@ class System(Result):
         return found
 
     def amplitudes(self, position: complex | np.ndarray, velocity: complex | np.ndarray) -> np.ndarray:
-        """Mode amplitudes of a state, shape (N,).
+        """Mode amplitudes of a state at time zero, shape (N,).
 
         Parameters
         ----------
         position, velocity : complex, or ndarray of complex, shape (n,)
             Coordinates and their rates.
         """
+        if self.forced is not None:
+            amplitudes: np.ndarray = self.amplitudes_of(np.array([position, velocity]).reshape(1, -1))[0]
+            return amplitudes
         return self.amplitude_change(position - (self.rest if len(self.rest) > 1 else self.rest[0]), velocity)
 
     def amplitude_change(
@@ -165,10 +218,15 @@ class System(Result):
     def kicked(self, push: complex | np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Coordinates and their rates, both (..., n), just after the levitating rotor gets velocities (...) as a whole."""
         velocities = np.multiply.outer(push, self.translated)
-        return np.broadcast_to(self.rest, velocities.shape), velocities
+        if self.forced is None:
+            return np.broadcast_to(self.rest, velocities.shape), velocities
+        position, velocity = np.split(self.states_of(self.forced[None])[0], 2)
+        return np.broadcast_to(position, velocities.shape), velocities + velocity
 
     def translation_velocity(self, velocities: np.ndarray) -> np.ndarray:
         """Velocities (...) of the rotor as a whole from the rates (..., n) of the coordinates: the inverse of :meth:`kicked`."""
+        if self.forced is not None:
+            velocities = velocities - self.kicked(0.0)[1].reshape(np.shape(self.rest)[len(self.rest) == 1 :])
         if self.translation is None:
             return velocities
         moves = self.translation if len(self.rest) > 1 else self.translation[0]
@@ -188,8 +246,16 @@ class System(Result):
 
     @property
     def rest_radius(self) -> float:
-        """Largest distance of a contact plane from its centre at the contact-free equilibrium: there is levitation below 1."""
-        return float(np.abs(self.arrays["offsets"]).max())
+        """Largest distance of a contact plane from its centre at rest, or a bound of it: there is levitation below 1.
+
+        Infinite where forcing drives a free mode without bound.
+        """
+        arrays = self.arrays
+        if self.forced is None:
+            return float(np.abs(arrays["offsets"]).max())
+        if (arrays["driven"][1:] * ~self.free[:-1] * (self.forced[:-1] != 0.0)).any():
+            return math.inf
+        return float((np.abs(arrays["offsets"]) + np.abs(arrays["rows"] * self.forced).sum(axis=1)).max())
 
     @cached_property
     def planes_translated(self) -> np.ndarray:
@@ -200,7 +266,10 @@ class System(Result):
 
     @cached_property
     def base_excitation(self) -> np.ndarray:
-        """Rates of change of the amplitudes when all masses are accelerated by one along the translation, shape (N,)."""
+        """Rates of change of the amplitudes when all masses are accelerated by one along the translation, shape (N,).
+
+        Free modes only: the forcing does not depend on how the masses move.
+        """
         rates: np.ndarray = self.to_modes[:, len(self.rest) :] @ self.translated
         return rates
 
@@ -249,6 +318,49 @@ def _table(exponents: bytes, driven: bytes) -> np.record:
 def walls_as_arrays(walls: Sequence[Wall]) -> dict[str, np.ndarray]:
     """The fields of :func:`~carom.core.layout.rotor_record` for the walls at its planes."""
     return {name: np.array(values) for name, values in zip(Wall._fields, zip(*walls, strict=True), strict=True)}
+
+
+def modal_system(
+    *,
+    exponents: np.ndarray,
+    driven: np.ndarray,
+    rest: np.ndarray,
+    shapes: np.ndarray,
+    inverse: np.ndarray,
+    rows: np.ndarray,
+    columns: np.ndarray,
+    free: np.ndarray | None = None,
+    forced: np.ndarray | None = None,
+    translation: np.ndarray | None = None,
+    **planes: np.ndarray,
+) -> System:
+    """System of these modes, in arrays of one of few sizes: each size of the kernels takes seconds to compile.
+
+    Parameters
+    ----------
+    exponents, driven, free, rows, columns, **planes
+        See :func:`~carom.core.layout.rotor_record`.
+    rest, shapes, inverse, forced, translation
+        See :class:`System`.
+    """
+    modes = len(exponents)
+    size = max(SMALLEST, 1 << (modes - 1).bit_length())
+
+    def filled(values: np.ndarray, axis: int = 0, filler: complex = 0.0) -> np.ndarray:
+        room = [(0, 0)] * values.ndim
+        room[axis] = (0, size - modes)
+        return np.pad(values, room, constant_values=filler)
+
+    arrays = rotor_record(
+        exponents=filled(exponents, filler=exponents[-1]),
+        driven=filled(driven),
+        free=filled(np.ones(modes, bool) if free is None else free),
+        rows=filled(rows, 1),
+        columns=filled(columns),
+        **planes,
+    )
+    moved = None if forced is None else filled(forced)
+    return System(arrays, rest, filled(shapes, 1), filled(inverse), translation, moved)
 
 
 @checked

@@ -159,7 +159,7 @@ def pieces(trajectory: Trajectory) -> tuple[np.ndarray, np.ndarray]:
     """Edges of the stretches to integrate, and the number of stretches in each segment."""
     bounds = np.append(trajectory.segment_starts, trajectory.time)
     lengths = np.diff(bounds)
-    fastest = np.abs(trajectory.rotor.system.exponents).max()
+    fastest = np.abs(trajectory.rotor.system.arrays["exponents"]).max()
     flying = (trajectory.segment_phases == Phase.FLIGHT).all(axis=1)
     counts = np.where(flying, np.ceil(lengths * fastest / LONGEST_PIECE), 1).astype(int)
     counts = np.maximum(counts, 1)

@@ -48,7 +48,7 @@ def fresh_memory(rotor: Model, patience: int, stop_at_chatter: bool = False, *, 
     known = known_of(rotor)
     rub, around = known.rub if patience > 0 else None, known.around if patience > 0 and absorb else None
     return memory(
-        len(rotor.system.exponents),
+        rotor.system.modes,
         rub_position=rub.position if rub else 0j,
         patience=patience,
         recheck=_recheck_time(rotor),
@@ -117,7 +117,7 @@ def may_be_low(rotor: Model, patience: int) -> bool:
 
 def low_interval(rotor: Model) -> float:
     """Mean time between impacts, in ``1/Ω``, below which bounces are low."""
-    return LOW / float(np.abs(rotor.system.exponents).max())
+    return LOW / float(np.abs(rotor.system.arrays["exponents"]).max())
 
 
 def _fade(rotor: Model, arrival: np.ndarray) -> bool:
@@ -139,11 +139,11 @@ def _tools() -> tuple[np.ndarray, EventLog, np.record, np.record, np.record]:
 
 
 def _recheck_time(rotor: Model) -> float:
-    decay = -rotor.system.exponents.real.max()
+    decay = rotor.system.decay
     return min(1.0 / decay, LONG_FLIGHT) if decay > 0.0 else np.inf
 
 
 def longest_time(rotor: Model) -> float:
     """Time limit in ``1/Ω`` for a motion to settle: TIME_CONSTANTS time constants of free flight, within bounds."""
-    decay = -float(rotor.system.exponents.real.max())
+    decay = rotor.system.decay
     return min(max(TIME_CONSTANTS / decay, SHORTEST_LIMIT), LONGEST_LIMIT) if decay > 0.0 else SHORTEST_LIMIT

@@ -34,7 +34,8 @@ def follow_chatter(
     The duration is ``nan`` if it does not end as it should.  If friction stops the slip of a chatter before sliding, it is completed at the
     bounce at which this happens, with the slip carried on beyond zero: so its slip at the landing is smooth.
     """
-    system, modes, plane = rotor.system, len(arrival), following.plane
+    system, size, plane = rotor.system, len(arrival), following.plane
+    modes = system.modes
     basis, to_modes, rest = system.coordinates
     contact = np.full(len(system.arrays.rows), -1)
     contact[plane] = Phase.FLIGHT
@@ -57,12 +58,12 @@ def follow_chatter(
         bounces = bounces.first(stops + 1)
         landing, time = bounces.before[stops].copy(), float(bounces.times[stops])
         strike(system.arrays, plane, slip, landing, np.empty((0, modes), complex))
-    delays = np.empty(2 * modes)
+    delays = np.empty(2 * size)
     at = plane, bounces.before, np.diff(bounces.times), landing, slip
     carry_through_chatter(system.arrays, *at, changes, delays)
     arrival[:] = basis @ landing + rest
     moved = basis @ changes.T
-    slopes[:modes, :-1], slopes[modes:-1, :-1] = moved.real, moved.imag
+    slopes[:size, :-1], slopes[size:-1, :-1] = moved.real, moved.imag
     slopes[-1, :-1], slopes[-1, -1] = -delays, 1.0
     return time, distance, left
 

@@ -149,8 +149,8 @@ def links_of(rotor: Model, word: Word, start: Start) -> Links:
     """
     system = rotor.system
     arrays, coordinates, (nodes, durations) = system.arrays, system.coordinates, start
-    m, modes = nodes.shape
-    arrivals, values, slopes = _room(m, modes)
+    m = len(nodes)
+    arrivals, values, slopes = _room(*nodes.shape)
     follow_flights(
         arrays, *coordinates, word.kinds, word.planes, word.targets, nodes, durations, arrivals, values, slopes
     )
@@ -163,7 +163,7 @@ def links_of(rotor: Model, word: Word, start: Start) -> Links:
             if np.isfinite(time):
                 after = (i + 1) % m
                 nodes[after], durations[after], durations[i] = arrivals[i], durations[after] + durations[i] - time, time
-        at = word.kinds, word.planes, word.conditions, nodes, durations, rub_workspace(modes, len(arrays.rows))
+        at = word.kinds, word.planes, word.conditions, nodes, durations, rub_workspace(system.modes, len(arrays.rows))
         follow_contact(arrays, *coordinates, *at, arrivals, values, slopes)
     return Links(Start(nodes, durations), arrivals, values, slopes, landings, slips)
 
@@ -182,9 +182,9 @@ def by_parameter(rotor: Model, word: Word, start: Start, name: str) -> np.ndarra
     return changes
 
 
-def _room(m: int, modes: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def _room(m: int, numbers: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Arrays for the ends of ``m`` segments, the values of their conditions, and their derivatives."""
-    return np.empty((m, modes), complex), np.empty(m), np.empty((m, 2 * modes + 1, 2 * modes + 1))
+    return np.empty((m, numbers), complex), np.empty(m), np.empty((m, 2 * numbers + 1, 2 * numbers + 1))
 
 
 def closed_flights(rotor: Model, word: Word, start: Start) -> Start | None:
@@ -211,9 +211,9 @@ def pack(start: Start) -> np.ndarray:
 def unpack(unknowns: np.ndarray, segments: int) -> Start:
     """Nodes and durations from the unknowns of :func:`pack`."""
     rows = unknowns.reshape(segments, -1)
-    modes = rows.shape[1] // 2
-    nodes = np.empty((segments, modes), complex)
-    nodes.real, nodes.imag = rows[:, :modes], rows[:, modes:-1]
+    numbers = rows.shape[1] // 2
+    nodes = np.empty((segments, numbers), complex)
+    nodes.real, nodes.imag = rows[:, :numbers], rows[:, numbers:-1]
     return Start(nodes, rows[:, -1].copy())
 
 

@@ -197,7 +197,7 @@ def orbits_within_reach(machine: Subject) -> OrbitSet:
 def longest_within_reach(rotor: Jeffcott) -> float | None:
     """Period up to which :func:`orbits_within_reach` looks, in ``1/Ω``; ``None`` where it looks for all orbits."""
     condition = PeriodCondition.planar(rotor.parameters)
-    limit = min(MOST_RADIANS / float(abs(rotor.system.exponents).max()), condition.longest_told())
+    limit = min(MOST_RADIANS / float(abs(rotor.system.arrays["exponents"]).max()), condition.longest_told())
     return None if condition.longest_period() <= limit else limit
 
 

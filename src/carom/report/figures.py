@@ -117,7 +117,7 @@ def _history(study: Study, example: Ending) -> Figure:
 
 def until_decayed(rotor: Model, time: float) -> float:
     """Return the time until which a motion is shown that returns to levitation at a time, in ``1/Ω``."""
-    decay = -float(rotor.system.exponents.real.max())
+    decay = rotor.system.decay
     return min(time + (SHOWN_TAIL / decay if decay > 0.0 else 0.0), LONGEST_SHOWN)
 
 

@@ -262,7 +262,7 @@ def asked_by(case: Case, disturbances: Iterable[Sample]) -> float | None:
 
 def largest_along(motion: Trajectory, limits: tuple[BearingLimit, ...]) -> tuple[float, ...]:
     """Largest value of each limit's kind along a motion of the planar rotor, in N, A or A/s, but for jumps."""
-    fastest = 1.0 + float(np.abs(motion.rotor.system.exponents).max(initial=0.0))
+    fastest = 1.0 + float(np.abs(motion.rotor.system.arrays["exponents"]).max(initial=0.0))
     count = min(math.ceil(motion.time * fastest / STEP) + 2, MOST_INSTANTS)
     centre = Centre.along(motion, motion.sample(count))
     return tuple(float(limit.asked(centre).max()) for limit in limits)

@@ -123,7 +123,7 @@ def follow_kick(
 def _shown_until(rotor: Jeffcott, motion: Trajectory) -> float:
     events = motion.segment_starts[1:]
     if motion.outcome is Outcome.LEVITATED:
-        decay = -float(rotor.system.exponents.real.max())
+        decay = rotor.system.decay
         end = (float(events[-1]) if len(events) else 0.0) + CALM / decay
     else:
         end = motion.time + AFTERWARDS
