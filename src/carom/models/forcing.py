@@ -1,0 +1,139 @@
+"""Forces that change with time in the frame of a rotor, as modes of their own: weight, a shaken housing.
+
+With the amplitudes ``c`` of the free modes and a force of amplitude ``f`` and exponent ``σ``,
+
+    ċ = Mc + b f,      ḟ = σ f,
+
+``c − (σ − M)⁻¹ b f`` moves as without the force.  So the force is one more mode, which adds ``(σ − M)⁻¹ b`` times itself to the
+others, and which no impulse changes.  In resonance, where ``σ`` is nearly an exponent of ``M``, the force stands before the mode
+it drives and forms a chain with it: weight, velocity and displacement in free fall.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from carom.core.wall import Wall
+from carom.models.system import System, modal_system
+from carom.outcome import InputError
+
+RESONANT = 1e-3
+"""Distance of exponents, relative to one plus their size, below which a force drives a mode instead of adding to it."""
+EQUAL = 1e-12
+"""The same for exponents that are one number."""
+
+
+class Force(NamedTuple):
+    """A force on a rotor that changes with time in its frame.
+
+    Attributes
+    ----------
+    exponent : complex
+        ``σ``, in units of the shaft speed: weight turns with ``−i`` in the co-rotating frame.
+    accelerations : ndarray of complex, shape (n,)
+        Of the coordinates, at time zero.
+    """
+
+    exponent: complex
+    accelerations: np.ndarray
+
+
+def with_forces(system: System, forces: Sequence[Force]) -> System:
+    """The system with these forces.  It starts, at time zero, wherever its state says; at rest it follows the forces.
+
+    Raises
+    ------
+    InputError
+        A force is nearly in resonance with two modes that nearly coincide.
+    """
+    n, planes = system.shapes.shape[0], len(system.arrays["rows"])
+    modes = _Modes.of(system)
+    for force in forces:
+        modes = modes.driven_by(complex(force.exponent), modes.left[:, planes + n :] @ force.accelerations)
+    return modal_system(
+        exponents=modes.exponents,
+        driven=modes.driven,
+        free=modes.free,
+        forced=modes.forced,
+        rest=system.rest,
+        shapes=modes.right[planes:],
+        inverse=modes.left[:, planes:],
+        translation=system.translation,
+        rows=modes.right[:planes],
+        columns=modes.left[:, :planes],
+        **{name: system.arrays[name] for name in ("offsets", "masses", *Wall._fields)},
+    )
+
+
+@dataclass(frozen=True)
+class _Modes:
+    """Modes of a system: what each adds to displacements and coordinates (right), and what changes it (left)."""
+
+    exponents: np.ndarray
+    driven: np.ndarray
+    free: np.ndarray
+    forced: np.ndarray
+    right: np.ndarray
+    left: np.ndarray
+
+    @classmethod
+    def of(cls, system: System) -> _Modes:
+        """Modes of a system without those that only fill its arrays."""
+        arrays, forced = system.arrays, system.forced_at(0.0)
+        kept = system.free | (forced != 0.0)
+        right = np.concatenate([arrays["rows"], system.shapes])
+        left = np.concatenate([arrays["columns"], system.to_modes], axis=1)
+        numbers = arrays["exponents"], arrays["driven"].astype(bool), system.free, forced
+        return cls(*(values[kept] for values in numbers), right[:, kept], left[kept])
+
+    def driven_by(self, exponent: complex, push: np.ndarray) -> _Modes:
+        """With one more force, which changes the rates of the amplitudes by ``push``."""
+        near = self.free & (np.abs(self.exponents - exponent) <= RESONANT * (1.0 + abs(exponent)))
+        for last in np.flatnonzero(near & self.driven).tolist():
+            gap = self.exponents[last] - self.exponents[last - 1]
+            if self.free[last - 1] and abs(gap) > RESONANT * (1.0 + abs(exponent)):
+                return self._parted(last).driven_by(exponent, push - np.eye(len(push))[last] * (push[last - 1] / -gap))
+        chain = np.flatnonzero(near)
+        others = np.flatnonzero(self.free & ~near)
+        matrix = np.diag(self.exponents) + np.diag(self.driven[1:].astype(complex), -1)
+        shares = np.zeros(len(push), complex)
+        shares[others] = np.linalg.solve(
+            exponent * np.eye(len(others)) - matrix[np.ix_(others, others)], push[others]
+        )
+        if not len(chain):
+            return self._added(len(push), exponent, shares, 1.0)
+        first, last = int(chain[0]), int(chain[-1])
+        if len(chain) > 1:
+            apart = np.abs(np.append(self.exponents[chain], exponent) - exponent).max()
+            if len(chain) > 2 or not self.driven[last] or apart > EQUAL * (1.0 + abs(exponent)):
+                raise InputError("force", exponent, "an exponent not so near to two that nearly coincide")
+            shares[first] = -push[last]
+        if abs(push[first]) <= EQUAL * np.abs(push).max():
+            return self._added(len(push), exponent, shares, 1.0)
+        return self._added(first, exponent, shares / push[first], push[first])
+
+    def _parted(self, last: int) -> _Modes:
+        """With the pair that ends with a mode as two free-standing ones: their exponents are well apart."""
+        gap = self.exponents[last - 1] - self.exponents[last]
+        driven, right, left = self.driven.copy(), self.right.copy(), self.left.copy()
+        driven[last] = False
+        right[:, last - 1] += right[:, last] / gap
+        left[last] -= left[last - 1] / gap
+        return _Modes(self.exponents, driven, self.free, self.forced, right, left)
+
+    def _added(self, place: int, exponent: complex, shares: np.ndarray, amplitude: complex) -> _Modes:
+        """With a forcing mode at a place, which adds these shares to the others and drives the one after it, if there is one."""
+        driven = self.driven.copy()
+        driven[place : place + 1] = True
+        return _Modes(
+            np.insert(self.exponents, place, exponent),
+            np.insert(driven, place, False),
+            np.insert(self.free, place, False),
+            np.insert(self.forced, place, amplitude),
+            np.insert(self.right, place, self.right @ shares, axis=1),
+            np.insert(self.left, place, 0.0, axis=0),
+        )
