@@ -31,6 +31,7 @@ class Outcome(IntEnum):
     EVENT_LIMIT = 11
     CHATTER = 12
     LOW_BOUNCES = 13
+    TRIGGERED = 14
     LEVITATED = 20
     BOUNCING = 21
     MIXED = 22
@@ -85,6 +86,7 @@ _WORDS = {
     Outcome.EVENT_LIMIT: "limit of events reached",
     Outcome.CHATTER: "chatter, ends in lasting contact",
     Outcome.LOW_BOUNCES: "low bounces along the wall, undecided",
+    Outcome.TRIGGERED: "goes over to the next stage",
     Outcome.LEVITATED: "levitation",
     Outcome.BOUNCING: "bouncing",
     Outcome.MIXED: "bouncing with rub",
@@ -116,6 +118,7 @@ _MEANINGS = {
         "The rotor stays at the wall in bounces too low and quick to be followed to their end; "
         "whether they fade to lasting contact is not known."
     ),
+    Outcome.TRIGGERED: "The trigger of its stage has ended the motion; it goes on in the next stage, if there is one.",
     Outcome.LEVITATED: "The rotor returns to levitation: no later flight can reach the wall.",
     Outcome.BOUNCING: "The rotor goes on bouncing on the touchdown bearing.",
     Outcome.MIXED: "The rotor goes on bouncing with rub: bounces and lasting contact alternate.",

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import math
+
 from carom.compiling.decorators import kernel, part, passage, shared
 from carom.core.events import INSIDE, LEAVING, search
-from carom.core.fate import forget_rub, levitates, recurs
+from carom.core.fate import forget_rub, levitates, recurs, triggers, until_triggered
 from carom.core.flow import acceleration, copy, displacement, squared_modulus, velocity
 from carom.core.friction import arrival, landing
 from carom.core.joint import join, land_together, strike_together
@@ -28,7 +30,7 @@ from carom.outcome import Outcome
 CLEAR, CONTACT, GRAZING = int(Outcome.CLEAR), int(Outcome.CONTACT), int(Outcome.GRAZING)
 LANDING = -1
 TIME_REACHED, EVENT_LIMIT = int(Outcome.TIME_REACHED), int(Outcome.EVENT_LIMIT)
-CHATTER = int(Outcome.CHATTER)
+CHATTER, TRIGGERED = int(Outcome.CHATTER), int(Outcome.TRIGGERED)
 LEVITATED, BOUNCING, MIXED = int(Outcome.LEVITATED), int(Outcome.BOUNCING), int(Outcome.MIXED)
 ROLLING = int(Outcome.ROLLING)
 CHATTER_HEIGHT = 1e-13
@@ -80,7 +82,7 @@ def advance(rotor, table, amplitudes, until, contact, log, memory, work, rub):
     Returns
     -------
     outcome : int
-        ``TIME_REACHED``, ``EVENT_LIMIT`` (log full), ``GRAZING``, ``CHATTER`` or what the motion settles to.
+        ``TIME_REACHED``, ``EVENT_LIMIT`` (log full), ``GRAZING``, ``CHATTER``, ``TRIGGERED`` or what the motion settles to.
     time : float
     events : int
     """
@@ -92,10 +94,16 @@ def advance(rotor, table, amplitudes, until, contact, log, memory, work, rub):
         memory.stalled, most_stalled = 0, STALLED
     outcome = CONTACT
     while outcome == CONTACT and events < log.times.shape[0]:
-        if _slides(rotor, contact, state):
-            outcome, duration, plane = _slide(rotor, contact, until - time, memory, work, rub)
+        slides, horizon, left = _slides(rotor, contact, state), until - time, math.inf
+        if memory.watches > 0:
+            left = until_triggered(memory, slides)
+            horizon = min(horizon, left)
+        if slides:
+            outcome, duration, plane = _slide(rotor, contact, horizon, memory, work, rub)
         else:
-            outcome, duration, plane = _fly(rotor, table, until - time, contact, memory, work, rub)
+            outcome, duration, plane = _fly(rotor, table, horizon, contact, memory, work, rub)
+        if outcome == TIME_REACHED and horizon >= left:
+            outcome = TRIGGERED
         time = until if outcome == TIME_REACHED else time + duration
         memory.lap += duration
         if outcome == CONTACT:
@@ -114,6 +122,8 @@ def advance(rotor, table, amplitudes, until, contact, log, memory, work, rub):
             memory.stood = memory.stood if stands else 0.0
             if memory.stalled >= most_stalled:
                 outcome = GRAZING
+            if memory.watches > 0 and triggers(memory, slides, duration):
+                outcome = TRIGGERED
     copy(state, amplitudes)
     return (EVENT_LIMIT if outcome == CONTACT else outcome), time, events
 
@@ -285,6 +295,8 @@ def _meet(rotor, contact, plane, elapsed, memory, work, rub):
     """Apply the impact to the arriving state; return CONTACT, or how the motion has settled."""
     normal, speed = displacement(rotor, plane, work.arrival), velocity(rotor, plane, work.arrival)
     memory.turns = 0
+    if memory.watches > 0:
+        memory.struck = max(memory.struck, (normal.conjugate() * speed).real)
     # Remove the rounding error of |y| = 1 from the state, to first order; the impact law does not need that.
     excess = 0.5 * (squared_modulus(normal) - 1.0)
     move_plane(rotor, plane, complex(-excess * normal.real, -excess * normal.imag), work.arrival)

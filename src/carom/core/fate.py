@@ -30,6 +30,8 @@ from carom.core.layout import NEAR, record
 from carom.core.planar_proofs import planar_proofs
 
 NO_TURN, SET_OUT, ROUND = 0, 1, 2
+NO_CONTACT = -1.0
+"""Instead of the time for which contact has persisted: there has been none."""
 TURNS = 512
 """Full turns along the wall whose changes are added up, to compare them with those of as many before."""
 UNLIKE = 1e-3
@@ -47,6 +49,9 @@ def memory(
     stop_at_landing: bool = False,
     resting: bool = False,
     proofs: np.record | None = None,
+    contact_time: float = np.inf,
+    contact_gap: float = 0.0,
+    impact_speed: float = np.inf,
 ) -> np.record:
     """Memory of the criteria for one motion, and the options on how far to follow it.
 
@@ -66,6 +71,10 @@ def memory(
         that repels is marked by −1 until the motion has left it.
     proofs : record of :func:`~carom.core.planar_proofs.planar_proofs`, optional
         What is proven of the ends of this rotor's motions.
+    contact_time, contact_gap : float
+        End with ``TRIGGERED`` when contact has persisted for that long, interrupted by flights of at most ``contact_gap``.
+    impact_speed : float
+        End with ``TRIGGERED`` at an impact with that speed or more.
     """
     return record(
         reference=np.zeros(modes, np.complex128),
@@ -94,6 +103,12 @@ def memory(
         turn_position=np.asarray(0, np.complex128),
         turn_state=np.zeros(modes, np.complex128),
         proofs=planar_proofs() if proofs is None else proofs,
+        watches=np.asarray(min(contact_time, impact_speed) < np.inf, np.int64),
+        contact_time=np.asarray(contact_time),
+        contact_gap=np.asarray(contact_gap),
+        impact_speed=np.asarray(impact_speed),
+        struck=np.asarray(0.0),
+        touching=np.asarray(NO_CONTACT),
     )
 
 
@@ -240,6 +255,24 @@ def forget(memory):
     memory.candidate, memory.period, memory.rubbed, memory.lifting = 0, 0, 0, 0
     memory.turning, memory.turns = NO_TURN, 0
     memory.stalled, memory.stood, memory.lap = 0, 0.0, math.inf
+    memory.struck, memory.touching = 0.0, NO_CONTACT
+
+
+@kernel
+def until_triggered(memory, slides):
+    """Time after which contact that goes on as it does will have persisted long enough to trigger."""
+    left = memory.contact_time - max(memory.touching, 0.0)
+    return left if slides or (memory.touching >= 0.0 and left <= memory.contact_gap) else math.inf
+
+
+@kernel
+def triggers(memory, slides, duration):
+    """Note that a flight or a stretch of contact has ended with an event; return whether this triggers."""
+    if slides or (memory.touching >= 0.0 and duration <= memory.contact_gap):
+        memory.touching = max(memory.touching, 0.0) + duration
+    else:
+        memory.touching = 0.0
+    return memory.struck >= memory.impact_speed or memory.touching >= memory.contact_time
 
 
 @kernel

@@ -9,14 +9,18 @@
 ``linear_parameters``     its named parameters
 ``touchdown``             :class:`Touchdown`: a contact plane, and the laws of its wall
 ``modes``                 modes of a matrix, in pairs where two nearly coincide
+``forcing``               :class:`Force`: forces that change with time, as modes of their own
+``stages``                :class:`Staged`: a rotor that changes when a trigger ends a stage; :class:`Forced`: with further forces
 ``subjects``              :func:`model_of`, :func:`case_of`: any description of a rotor -> its model, its case
 ========================  =================================================================
 """
 
 from carom.models.axes import Axis, axis
+from carom.models.forcing import Force
 from carom.models.jeffcott import Jeffcott
 from carom.models.linear import LinearRotor
 from carom.models.model import Matrices, Model, Rates
+from carom.models.stages import Forced, Stage, Staged, Trigger, stages_of
 from carom.models.subjects import Subject, case_of, jeffcott_of, model_from, model_of
 from carom.models.system import System, second_order_system
 from carom.models.touchdown import FallingRestitution, Rigid, Touchdown
@@ -24,19 +28,25 @@ from carom.models.touchdown import FallingRestitution, Rigid, Touchdown
 __all__ = [
     "Axis",
     "FallingRestitution",
+    "Force",
+    "Forced",
     "Jeffcott",
     "LinearRotor",
     "Matrices",
     "Model",
     "Rates",
     "Rigid",
+    "Stage",
+    "Staged",
     "Subject",
     "System",
     "Touchdown",
+    "Trigger",
     "axis",
     "case_of",
     "jeffcott_of",
     "model_from",
     "model_of",
     "second_order_system",
+    "stages_of",
 ]

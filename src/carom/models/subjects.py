@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Mapping
 from typing import Any
 
+import numpy as np
+
 from carom.arguments import checked
+from carom.models.forcing import Force
 from carom.models.jeffcott import Jeffcott
 from carom.models.linear import LinearRotor
 from carom.models.model import Model
+from carom.models.stages import Forced, Stage, Staged, Trigger
 from carom.outcome import InputError, shown
 from carom.parameters import Case, Machine, Parameters, Zones
 
@@ -64,7 +69,19 @@ def model_from(attributes: Mapping[str, Any]) -> Model:
     """
     if "linear_rotor" in attributes:
         return LinearRotor.from_attributes(attributes)
+    if "forces" in attributes:
+        numbers = [[complex(*each) for each in force] for force in json.loads(attributes["forces"])]
+        forces = tuple(Force(exponent, np.array(accelerations)) for exponent, *accelerations in numbers)
+        return Forced(model_from(json.loads(attributes["rotor"])), forces)
+    if "stages" in attributes:
+        return Staged(tuple(map(_stage_from, json.loads(attributes["stages"]))))
     return Jeffcott(Parameters.from_attributes(attributes))
+
+
+def _stage_from(given: Mapping[str, Any]) -> Stage:
+    real, imaginary = map(np.array, given["carry"] or (0.0, 0.0))
+    carry = None if given["carry"] is None else real + 1j * imaginary
+    return Stage(model_from(given["rotor"]), Trigger(**given["trigger"]), carry)
 
 
 def case_of(subject: Subject) -> Case:

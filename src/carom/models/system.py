@@ -185,8 +185,10 @@ class System(Result):
         found: np.ndarray = np.einsum("nk,mk->mn", self.basis, amplitudes) + self._whole_rest
         return found
 
-    def amplitudes(self, position: complex | np.ndarray, velocity: complex | np.ndarray) -> np.ndarray:
-        """Mode amplitudes of a state at time zero, shape (N,).
+    def amplitudes(
+        self, position: complex | np.ndarray, velocity: complex | np.ndarray, time: float = 0.0
+    ) -> np.ndarray:
+        """Mode amplitudes of a state at a time, shape (N,).
 
         Parameters
         ----------
@@ -194,7 +196,7 @@ class System(Result):
             Coordinates and their rates.
         """
         if self.forced is not None:
-            amplitudes: np.ndarray = self.amplitudes_of(np.array([position, velocity]).reshape(1, -1))[0]
+            amplitudes: np.ndarray = self.amplitudes_of(np.array([position, velocity]).reshape(1, -1), time)[0]
             return amplitudes
         return self.amplitude_change(position - (self.rest if len(self.rest) > 1 else self.rest[0]), velocity)
 

@@ -19,7 +19,7 @@ from carom.core.lanes import lanes_record
 from carom.core.layout import rub_workspace, workspace
 from carom.core.phases import AWAY, FLIGHT
 from carom.core.processors import available_cores
-from carom.models import Model, Subject, model_of
+from carom.models import Model, Stage, Subject, model_of, stages_of
 from carom.motions.settling import (
     LOW_FOR,
     PATIENCE,
@@ -200,26 +200,58 @@ def _followed(
     threads: int,
     tell: Reporter,
 ) -> Endings:
-    """Endings of starts in one dimension."""
+    """Endings of starts in one dimension, through all stages."""
+    courses = [stages_of(rotor) for rotor in rotors]
+    begins = np.zeros(len(which))
+    endings = _in_stage([stages[0] for stages in courses], which, (positions, velocities, begins), limits, threads, tell)
+    for number in range(1, max(map(len, courses), default=1)):
+        further = np.array([number < len(stages) for stages in courses])[which]
+        on = np.flatnonzero(further & (endings.outcomes == Outcome.TRIGGERED))
+        before = endings[on]
+        for machine, stages in enumerate(courses):
+            here = which[on] == machine
+            carried = stages[number - 1].carried(before.positions[here], before.velocities[here])
+            before.positions[here], before.velocities[here] = carried
+        states = before.positions, before.velocities, before.times
+        later = _in_stage([stages[min(number, len(stages) - 1)] for stages in courses], which[on], states, limits, threads, tell)
+        later.times[:] += before.times
+        later.impacts[:] += before.impacts
+        for name, values in vars(endings).items():
+            values[on] = getattr(later, name)
+    return endings
+
+
+def _in_stage(
+    stages: Sequence[Stage],
+    which: np.ndarray,
+    starts: tuple[np.ndarray, np.ndarray, np.ndarray],
+    limits: _Limits,
+    threads: int,
+    tell: Reporter,
+) -> Endings:
+    """Endings in one stage of each machine, with times that count from its beginning; starts are positions, velocities and times."""
     # The starts of each machine are followed together, in portions; their endings are put back into the order of the starts.
-    order = slice(None) if len(rotors) == 1 else np.argsort(which, kind="stable")
-    motions = _motions(positions[order], velocities[order])
+    order = slice(None) if len(stages) == 1 else np.argsort(which, kind="stable")
+    motions = _motions(*(values[order] for values in starts))
     parts = []
-    for number, portion in _portions(which[order], len(rotors)):
-        part = _Part(rotors[number], motions[portion], fresh_counter())
+    for number, portion in _portions(which[order], len(stages)):
+        part = _Part(stages[number], motions[portion], fresh_counter())
         parts += [part] * min(threads, 1 + len(part.motions) // FEW)
     done = 0
     for finished in _settle_parts(parts, limits, threads):
         done += finished
         tell(done / len(motions))
-    return _endings(motions, order)
+    endings = _endings(motions, order)
+    ends = np.array([stage.trigger.time for stage in stages])[which]
+    endings.outcomes[(endings.outcomes == Outcome.TIME_REACHED) & (endings.times >= ends)] = Outcome.TRIGGERED
+    return endings
 
 
 def _note_low_bounces(
     rotors: Sequence[Model], which: np.ndarray, endings: Endings, limits: _Limits, threads: int
 ) -> None:
     """Note, in place, which motions that do not repeat stay at the wall in low bounces; they are followed further to see that."""
-    may = np.array([may_be_low(rotor, limits.patience) for rotor in rotors], bool)
+    may = np.array([len(stages_of(rotor)) == 1 and may_be_low(rotor, limits.patience) for rotor in rotors], bool)
     doubtful = np.flatnonzero(np.isin(endings.outcomes, REPEATING) & (endings.multiplicities == 0) & may[which])
     if not len(doubtful):
         return
@@ -280,12 +312,12 @@ def _check_starts(positions: np.ndarray, velocities: np.ndarray, planar: bool) -
         raise InputError("start position", positions[outside].flat[0], "inside the wall, |U| <= 1")
 
 
-def _motions(positions: np.ndarray, velocities: np.ndarray) -> np.recarray:
+def _motions(positions: np.ndarray, velocities: np.ndarray, times: np.ndarray) -> np.recarray:
     """Records of motions at their starts, for the kernel to fill."""
     axes = {"position": positions.shape[1:], "velocity": positions.shape[1:]}
     kind = np.dtype([(name, MOTION[name], axes.get(name, ())) for name in MOTION.names or ()])
     motions = np.recarray(positions.shape[:1], kind)
-    motions.position, motions.velocity = positions, velocities
+    motions.position, motions.velocity, motions.time = positions, velocities, times
     if positions.ndim == 1:
         motions.contact = np.where(np.abs(positions) >= 1.0 - WALL_TOLERANCE, FLIGHT, AWAY)
     return motions
@@ -302,7 +334,7 @@ def _portions(which: np.ndarray, machines: int) -> Iterator[tuple[int, slice]]:
 class _Part(NamedTuple):
     """Motions of one machine; all threads that hold the same part take motions from it by its shared counter."""
 
-    rotor: Model
+    stage: Stage
     motions: np.ndarray
     counter: np.record
 
@@ -330,35 +362,39 @@ def _settle_parts(parts: list[_Part], limits: _Limits, threads: int) -> Iterator
 
 def _settle_part(part: _Part, limits: _Limits) -> int:
     """Follow motions of a part until none is left; return how many this call has followed."""
-    until = longest_time(part.rotor) if limits.until is None else time_until(limits.until, part.rotor.scales)
-    memory = fresh_memory(part.rotor, limits.patience, absorb=True)
-    if not part.rotor.system.is_planar:
-        return _follow_singly(part, until, limits.max_events, memory)
-    task = Task(part.rotor.system.arrays, part.rotor.system.table, until, limits.max_events)
+    rotor, trigger = part.stage.rotor, part.stage.trigger
+    until = longest_time(rotor) if limits.until is None else time_until(limits.until, rotor.scales)
+    # What has settled may still be ended by a time.
+    memory = fresh_memory(rotor, limits.patience if trigger.time == np.inf else 0, absorb=True, trigger=trigger)
+    if not rotor.system.is_planar or trigger.watches_contact or (limits.until is not None and part.motions.time.any()):
+        return _follow_singly(part, until, limits, memory)
+    task = Task(rotor.system.arrays, rotor.system.table, min(until, trigger.time), limits.max_events)
     # Without the compiler, NumPy warns of divisions in lanes that do not use the result.
     with np.errstate(all="ignore"):
         return int(follow_each(task, part.motions, part.counter, _scratch.tools(memory)))
 
 
-def _follow_singly(part: _Part, until: float, most_events: int, memory: np.record) -> int:
-    """Follow the motions that this call takes from the counter, one after another: for any rotor."""
-    taken, rubs_known = 0, not memory.resting
+def _follow_singly(part: _Part, until: float, limits: _Limits, memory: np.record) -> int:
+    """Follow the motions that this call takes from the counter, one after another: for any rotor and trigger."""
+    rotor, taken, rubs_known = part.stage.rotor, 0, not memory.resting
     while (number := int(next_number(part.counter.numbers))) < len(part.motions):
         motion = part.motions[number]
-        amplitudes, contact = amplitudes_of(part.rotor, State.of(motion.position, motion.velocity))
+        begins = float(motion.time)
+        end = min(until if limits.until is None else until - begins, part.stage.trigger.time)
+        amplitudes, contact = amplitudes_of(rotor, State.of(motion.position, motion.velocity), begins)
         forget(memory)
         memory.resting = not rubs_known
         motion.time, motion.impacts, events, outcome = 0.0, 0, 0, Outcome.EVENT_LIMIT
-        while outcome is Outcome.EVENT_LIMIT and events < most_events:
-            log = EventLog.empty(min(LOGGED, most_events - events), len(amplitudes), len(contact))
+        while outcome is Outcome.EVENT_LIMIT and events < limits.max_events:
+            log = EventLog.empty(min(LOGGED, limits.max_events - events), len(amplitudes), len(contact))
             before = np.where(contact == AWAY, Phase.FLIGHT, contact)
-            outcome, time, count = follow(part.rotor, amplitudes, until - motion.time, contact, log, memory)
+            outcome, time, count = follow(rotor, amplitudes, end - motion.time, contact, log, memory)
             motion.time += time
             motion.impacts += np.count_nonzero(log.first(count).impacts(before))
             events += count
-            outcome, motion.multiplicity = settled(part.rotor, amplitudes, contact, outcome, memory)
+            outcome, motion.multiplicity = settled(rotor, amplitudes, contact, outcome, memory)
         motion.outcome = outcome
-        motion.position, motion.velocity = part.rotor.system.state(amplitudes)
+        motion.position, motion.velocity = rotor.system.state(amplitudes)
         taken += 1
     return taken
 

@@ -14,6 +14,7 @@ from carom.core.fate import doubt, memory
 from carom.core.layout import rub_workspace, workspace
 from carom.core.planar_proofs import fades_to_rolling, planar_proofs
 from carom.models import Model
+from carom.models.stages import NEVER, Trigger
 from carom.motions.recurrence import least_recurrence
 from carom.outcome import Outcome
 
@@ -39,7 +40,9 @@ MODES = 2
 """Modes of the rotors whose orbits are closed here."""
 
 
-def fresh_memory(rotor: Model, patience: int, stop_at_chatter: bool = False, *, absorb: bool = False) -> np.record:
+def fresh_memory(
+    rotor: Model, patience: int, stop_at_chatter: bool = False, *, absorb: bool = False, trigger: Trigger = NEVER
+) -> np.record:
     """Memory of a motion at its start, for :func:`~carom.motions.trajectories.follow`.
 
     With a ``patience`` of zero the motion never counts as settled.  With ``absorb`` it ends as soon as it is proven to
@@ -62,6 +65,9 @@ def fresh_memory(rotor: Model, patience: int, stop_at_chatter: bool = False, *, 
             fading=known.fading if patience > 0 and absorb else 0.0,
             hastening=known.hastening if patience > 0 else np.inf,
         ),
+        contact_time=trigger.contact_time,
+        contact_gap=trigger.contact_gap,
+        impact_speed=trigger.impact_speed,
     )
 
 

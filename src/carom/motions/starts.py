@@ -116,8 +116,8 @@ def time_until(until: float | str | None, scales: Scales | None) -> float:
     return time
 
 
-def amplitudes_of(rotor: Model, state: State) -> tuple[np.ndarray, np.ndarray]:
-    """Amplitudes of a start, and its state of contact at each plane (see :func:`carom.core.advance.advance`)."""
+def amplitudes_of(rotor: Model, state: State, time: float = 0.0) -> tuple[np.ndarray, np.ndarray]:
+    """Amplitudes of a start at a time, and its state of contact at each plane (see :func:`carom.core.advance.advance`)."""
     system = rotor.system
     coordinates = () if len(system.rest) == 1 else system.rest.shape
     for name in ("position", "velocity"):
@@ -128,7 +128,7 @@ def amplitudes_of(rotor: Model, state: State) -> tuple[np.ndarray, np.ndarray]:
             raise InputError(f"start {name}", given, "finite numbers")
     if np.max(np.abs(state.velocity)) > LARGEST_SPEED:
         raise InputError("start velocity", state.velocity, f"a speed up to {LARGEST_SPEED:g}")
-    amplitudes = system.amplitudes(state.position, state.velocity)
+    amplitudes = system.amplitudes(state.position, state.velocity, time)
     contact = np.full(len(system.arrays.rows), AWAY)
     for plane in range(len(contact)):
         # The given position of the planar rotor is used, free of the rounding of the amplitudes.

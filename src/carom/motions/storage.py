@@ -47,6 +47,8 @@ def save_trajectory(motion: Trajectory, path: str | os.PathLike[str]) -> None:
     """Write a motion as netCDF, completely or not at all, so that :func:`load_trajectory` gives the same motion."""
     import xarray
 
+    if motion.earlier:
+        raise InputError("motion", f"{len(motion.parts)} stages", "a motion of one stage: save each of motion.parts")
     columns: dict[str, Any] = {
         "segment_starts": ("segment", motion.segment_starts, {"units": "1/Omega"}),
         "segment_phases": (("segment", "plane"), motion.segment_phases, phase_flags(Phase)),
@@ -57,6 +59,7 @@ def save_trajectory(motion: Trajectory, path: str | os.PathLike[str]) -> None:
     attributes = _provenance(motion) | {
         "start": json.dumps(_numbers(motion.start)),
         "final": json.dumps(_numbers(motion.final)),
+        "begins": motion.begins,
         "end_time": motion.time,
         "multiplicity": motion.multiplicity,
         "plane": motion.plane,
@@ -88,6 +91,7 @@ def load_trajectory(path: str | os.PathLike[str]) -> Trajectory:
         segment_amplitudes=amplitudes,
         arrivals=arrivals,
         plane=int(attributes["plane"]),
+        begins=float(attributes["begins"]),
     )
 
 

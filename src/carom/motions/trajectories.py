@@ -7,7 +7,7 @@ import os
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
-from typing import TYPE_CHECKING, ClassVar, Literal
+from typing import TYPE_CHECKING, ClassVar, Literal, NamedTuple
 
 import numpy as np
 
@@ -16,7 +16,7 @@ from carom.core.advance import advance
 from carom.core.event_log import EventLog, flying
 from carom.core.layout import rub_workspace, workspace
 from carom.core.rub import fly_or_rub_all, forces_all
-from carom.models import Model, Subject, model_of
+from carom.models import Model, Subject, Trigger, model_of, stages_of
 from carom.motions.blows import Blows, blows_of
 from carom.motions.contacts import ContactHistory, ContactLog, LastingContact
 from carom.motions.settling import (
@@ -71,6 +71,10 @@ class Trajectory(Result):
         Mode amplitudes at the end of each segment except the last.
     plane : int
         Contact plane that positions, contacts and forces refer to; :meth:`seen_at` gives the motion at another.
+    begins : float
+        Time at which it begins, in ``1/Ω``: times within it count from there.
+    earlier : tuple of Trajectory
+        The stages before, if it is the last one of several (:class:`carom.models.Staged`).
     """
 
     rests_on: ClassVar[tuple[str, ...]] = ("mora2014", "brent1980")
@@ -99,6 +103,13 @@ class Trajectory(Result):
     segment_amplitudes: np.ndarray
     arrivals: np.ndarray
     plane: int = 0
+    begins: float = 0.0
+    earlier: tuple[Trajectory, ...] = ()
+
+    @property
+    def parts(self) -> tuple[Trajectory, ...]:
+        """The stages of the motion in chronological order; of most there is one."""
+        return *self.earlier, self
 
     @checked
     def seen_at(self, plane: Whole) -> Trajectory:
@@ -284,7 +295,8 @@ class Trajectory(Result):
             Another frame is asked for.
         """
         rotating, _ = self.at_plane(times)
-        return rotating if frame == "rotating" else rotating * np.exp(1j * np.asarray(times))
+        turned = self.rotor.system.frame_speed * (self.begins + np.asarray(times))
+        return rotating if frame == "rotating" else rotating * np.exp(1j * turned)
 
     @checked
     def radius(self, times: Reals) -> np.ndarray:
@@ -311,6 +323,7 @@ def simulate(
     Parameters
     ----------
     machine : Machine, Case, Parameters or model
+        Of a :class:`carom.models.Staged` the last stage reached is returned, with the ``earlier`` ones.
     start : State or Kick
         On the wall (``|U| = 1`` to within 1e-12) or inside it.
     until : float or str, optional
@@ -346,16 +359,42 @@ def simulate(
     >>> len(motion.contacts)
     257
     """
-    rotor = model_of(machine)
-    state = start.state(rotor) if isinstance(start, Kick) else start
-    amplitudes, contact = amplitudes_of(rotor, state)
+    model = model_of(machine)
+    state = start.state(model) if isinstance(start, Kick) else start
     settle = until is None if settle is None else settle
-    until = time_until(longest_time(rotor) if until is None and settle else until, rotor.scales)
-    recollection = fresh_memory(rotor, patience if settle else 0, stop_at_chatter)
+    end = None if until is None and settle else time_until(until, model.scales)
+    options = _Options(settle, stop_at_chatter, patience, max_events, Reporter.of(progress, "simulating"))
+    parts: list[Trajectory] = []
+    for stage in stages_of(model):
+        begins = parts[-1].begins + parts[-1].time if parts else 0.0
+        longest = longest_time(stage.rotor) if end is None else end - begins
+        parts.append(_follow_stage(stage.rotor, state, begins, longest, stage.trigger, options))
+        if parts[-1].outcome is not Outcome.TRIGGERED:
+            break
+        state = State.of(*stage.carried(parts[-1].final.position, parts[-1].final.velocity))
+    return dataclasses.replace(parts[-1], earlier=tuple(parts[:-1])) if len(parts) > 1 else parts[0]
+
+
+class _Options(NamedTuple):
+    settle: bool
+    stop_at_chatter: bool
+    patience: int
+    max_events: int
+    tell: Reporter
+
+
+def _follow_stage(
+    rotor: Model, start: State, begins: float, longest: float, trigger: Trigger, options: _Options
+) -> Trajectory:
+    """Follow a start at a time through one stage, for so long at most, or until its trigger ends it."""
+    settle, stop_at_chatter, patience, max_events, tell = options
+    # What has settled may still be ended by a time.
+    settle, until = settle and trigger.time == np.inf, min(longest, trigger.time)
+    amplitudes, contact = amplitudes_of(rotor, start, begins)
+    recollection = fresh_memory(rotor, patience if settle else 0, stop_at_chatter, trigger=trigger)
     first = amplitudes.copy()
     logs: list[EventLog] = []
-    reached, events, outcome = 0.0, 0, Outcome.EVENT_LIMIT
-    multiplicity, tell = 0, Reporter.of(progress, "simulating")
+    reached, events, outcome, multiplicity = 0.0, 0, Outcome.EVENT_LIMIT, 0
     while outcome is Outcome.EVENT_LIMIT and events < max_events:
         log = EventLog.empty(min(CHUNK, max_events - events), len(amplitudes), len(contact))
         outcome, time, count = follow(rotor, amplitudes, until - reached, contact, log, recollection)
@@ -367,12 +406,14 @@ def simulate(
         struck = np.concatenate([log.times for log in logs])[-LOW_FOR:]
         if np.ptp(struck) < low_interval(rotor) * (len(struck) - 1):
             outcome = Outcome.LOW_BOUNCES
+    if outcome is Outcome.TIME_REACHED:
+        reached, outcome = until, Outcome.TRIGGERED if until == trigger.time else outcome
     position, velocity = rotor.system.state(amplitudes)
     return Trajectory(
         rotor=rotor,
-        start=state,
+        start=start,
         outcome=outcome,
-        time=until if outcome is Outcome.TIME_REACHED else reached,
+        time=reached,
         final=State.of(position, velocity),
         multiplicity=multiplicity,
         segment_starts=np.concatenate([np.zeros(1), *(log.times for log in logs)]),
@@ -380,6 +421,7 @@ def simulate(
         event_planes=np.concatenate([log.planes for log in logs]),
         segment_amplitudes=np.concatenate([first[None], *(log.after for log in logs)]),
         arrivals=np.concatenate([log.before for log in logs]),
+        begins=begins,
     )
 
 

@@ -1,0 +1,40 @@
+"""Many motions of one rotor, one after another, each for the same time: for any number of modes and contact planes."""
+
+from __future__ import annotations
+
+from carom.compiling.decorators import kernel
+from carom.core.advance import advance
+from carom.core.fate import forget
+from carom.outcome import Outcome
+
+EVENT_LIMIT = int(Outcome.EVENT_LIMIT)
+
+
+@kernel
+def advance_in_turn(rotor, table, motions, duration, most_events, contacts, log, memory, work, rub, outcomes, events):
+    """Advance motions in place; one does not depend on the others, to the last bit.
+
+    Parameters
+    ----------
+    rotor, table, log, memory, work, rub
+        See :func:`~carom.core.advance.advance`.
+    motions : complex array, shape (M, N)
+        Amplitudes at the start; overwritten by those at the end.
+    duration : float
+    most_events : int
+        Events after which a motion is given up.
+    contacts : int array, shape (M, P)
+        State of contact at the start; overwritten by that at the end.
+    outcomes, events : int arrays, shape (M,)
+        Overwritten.
+    """
+    for i in range(motions.shape[0]):
+        forget(memory)
+        outcomes[i], events[i], time = EVENT_LIMIT, 0, 0.0
+        while outcomes[i] == EVENT_LIMIT and events[i] < most_events:
+            outcome, passed, count = advance(
+                rotor, table, motions[i], duration - time, contacts[i], log, memory, work, rub
+            )
+            outcomes[i] = outcome
+            events[i] += count
+            time += passed

@@ -1,0 +1,217 @@
+"""A rotor that changes while it moves: forces on it, and stages that a trigger ends, such as contact that persists."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass, replace
+from functools import cached_property
+from typing import Annotated, Any
+
+import numpy as np
+
+from carom.arguments import Infinity, Kind, Positive, checked
+from carom.models.forcing import Force, with_forces
+from carom.models.model import Matrices, Model
+from carom.models.system import System
+from carom.outcome import InputError, shown
+from carom.parameters import Field, Scales
+
+
+NotNegative = Annotated[float, Kind(lambda number: number >= 0.0, "a finite number of at least 0")]
+
+
+class _Around:
+    """A model that takes its parameters, scales and matrices from another one, its ``rotor``."""
+
+    rotor: Model
+
+    @property
+    def matrices(self) -> Matrices:
+        """Matrices of the equations of motion in the fixed frame."""
+        return self.rotor.matrices
+
+    @property
+    def scales(self) -> Scales | None:
+        """Mass, clearance and speed that convert results to SI units, if known."""
+        return self.rotor.scales
+
+    @property
+    def unbalance_phase(self) -> float:
+        """Angle of the unbalance in the co-rotating frame, in rad."""
+        return self.rotor.unbalance_phase
+
+    @property
+    def varied(self) -> Mapping[str, Field]:
+        """Named parameters that can be varied."""
+        return self.rotor.varied
+
+    def value(self, name: str) -> float:
+        """Value of a named parameter."""
+        return self.rotor.value(name)
+
+    def rates(self, name: str) -> None:
+        """No derivatives: differences of the equations of motion have to do."""
+
+
+@dataclass(frozen=True, eq=False)
+class Forced(_Around):
+    """A rotor with further forces on it that change with time in its frame, for example in a housing that is shaken.
+
+    It never is at rest in that frame: what needs an equilibrium there, such as orbits, is not found for it.
+
+    Attributes
+    ----------
+    rotor : Model
+        Without these forces; its matrices are those of the model.
+    forces : tuple of Force
+    """
+
+    rotor: Model
+    forces: tuple[Force, ...]
+
+    @cached_property
+    def system(self) -> System:
+        """Modes, contact planes and contact law, with a mode for each force."""
+        return with_forces(self.rotor.system, self.forces)
+
+    def replace(self, **changes: Any) -> Forced:
+        """Return the rotor with other values of its parameters, and the same forces."""
+        return Forced(self.rotor.replace(**changes), self.forces)
+
+    def attributes(self) -> dict[str, Any]:
+        """Return the rotor and the forces as attributes of a dataset, exact to the last bit."""
+        forces = [[force.exponent, *force.accelerations] for force in self.forces]
+        texts = [[(complex(each).real, complex(each).imag) for each in force] for force in forces]
+        return {"forces": json.dumps(texts), "rotor": json.dumps(self.rotor.attributes())}
+
+
+@checked
+@dataclass(frozen=True)
+class Trigger:
+    """What ends a stage: whichever happens first.  Times are in ``1/Ω``, speeds in ``c_r Ω``.
+
+    Attributes
+    ----------
+    time : float
+        Time since the beginning of the stage.
+    contact_time : float
+        Time for which contact has persisted, at any plane: lasting contact, or bounces.
+    contact_gap : float
+        Longest flight between two bounces of contact that persists.
+    impact_speed : float
+        Radial speed of an impact at any plane.
+    """
+
+    time: Positive | Infinity = np.inf
+    contact_time: Positive | Infinity = np.inf
+    contact_gap: NotNegative = 0.0
+    impact_speed: Positive | Infinity = np.inf
+
+    @property
+    def watches_contact(self) -> bool:
+        """Whether contact can end the stage."""
+        return min(self.contact_time, self.impact_speed) < np.inf
+
+
+NEVER = Trigger()
+"""The trigger of a stage without an end."""
+
+
+@dataclass(frozen=True, eq=False)
+class Stage:
+    """A part of a motion.
+
+    Attributes
+    ----------
+    rotor : Model
+    trigger : Trigger
+        What ends it; by default nothing.
+    carry : array_like, shape (2n, 2n), optional
+        Coordinates and rates in the next stage per coordinate and rate at the end of this one; by default they are the same.
+    """
+
+    rotor: Model
+    trigger: Trigger = NEVER
+    carry: np.ndarray | None = None
+
+    def __post_init__(self) -> None:
+        if self.carry is not None:
+            size = 2 * len(self.rotor.system.rest)
+            carry = np.array(self.carry, complex)
+            if carry.shape != (size, size) or not np.isfinite(carry).all():
+                raise InputError("carry", carry.tolist(), f"finite numbers of shape {(size, size)}")
+            object.__setattr__(self, "carry", carry)
+
+    def carried(self, position: np.ndarray, velocity: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Positions and velocities with which the next stage begins, of the shapes of those at the end of this one."""
+        if self.carry is None:
+            return position, velocity
+        n = len(self.carry) // 2
+        states = np.concatenate([np.reshape(part, (-1, n)) for part in (position, velocity)], axis=1) @ self.carry.T
+        return states[:, :n].reshape(np.shape(position)), states[:, n:].reshape(np.shape(velocity))
+
+
+@dataclass(frozen=True, eq=False)
+class Staged(_Around):
+    """A rotor that moves in stages: when the trigger of one ends it, the motion goes on in the next.
+
+    Its parameters, kicks and levitation are those of the rotor of the first stage.
+
+    Attributes
+    ----------
+    stages : tuple of Stage
+
+    Examples
+    --------
+    >>> import carom as cm
+    >>> machine = cm.models.model_of(cm.load("examples/keogh-cole.toml"))
+    >>> on_contact = cm.models.Trigger(contact_time=5.0, contact_gap=2.0)
+    >>> helped = cm.models.Staged((cm.models.Stage(machine, on_contact), cm.models.Stage(machine.replace(gamma=0.8))))
+    >>> motion = cm.simulate(helped, cm.kick("100 mm/s"))
+    >>> [part.outcome.label for part in motion.parts]
+    ['triggered', 'levitated']
+    """
+
+    stages: tuple[Stage, ...]
+
+    def __post_init__(self) -> None:
+        given: Any = self.stages
+        listed = tuple(given) if isinstance(given, Sequence) else ()
+        if not listed or not all(isinstance(each, Stage) for each in listed):
+            raise InputError("stages", shown(given), "carom.models.Stage, one or more")
+        counts = {len(each.rotor.system.rest) for each in listed}
+        if len(counts) > 1:
+            raise InputError("stages", f"rotors of {sorted(counts)} coordinates", "rotors of equally many coordinates")
+        object.__setattr__(self, "stages", listed)
+
+    @property
+    def rotor(self) -> Model:  # type: ignore[override]
+        """Rotor of the first stage."""
+        return self.stages[0].rotor
+
+    @property
+    def system(self) -> System:
+        """Modes, contact planes and contact law of the first stage."""
+        return self.rotor.system
+
+    def replace(self, **changes: Any) -> Staged:
+        """Return the rotor with other values of parameters in all stages."""
+        return Staged(tuple(replace(each, rotor=each.rotor.replace(**changes)) for each in self.stages))
+
+    def attributes(self) -> dict[str, Any]:
+        """Return the stages as attributes of a dataset, exact to the last bit."""
+        stages = [
+            {
+                "rotor": each.rotor.attributes(),
+                "trigger": asdict(each.trigger),
+                "carry": None if each.carry is None else [each.carry.real.tolist(), each.carry.imag.tolist()],
+            }
+            for each in self.stages
+        ]
+        return {"stages": json.dumps(stages)}
+
+
+def stages_of(model: Model) -> tuple[Stage, ...]:
+    """Stages in which a model moves; of most there is one without an end."""
+    return model.stages if isinstance(model, Staged) else (Stage(model),)
