@@ -55,24 +55,24 @@ def test_the_nearest_node_is_within_half_a_spacing():
         assert abs(block.nearest_node(task.table, time) - nearest) <= (abs(time / spacing % 1.0 - 0.5) < 1e-9)
 
 
-def four_modes(seed):
-    """A rotor with a pair between two free-standing modes, its table, and a flight loaded into a workspace."""
+def some_modes(seed, modes=4):
+    """A rotor with a pair between two free-standing modes, or two of those, its table, and a flight loaded into a workspace."""
     random = np.random.default_rng(seed)
-    exponents = random.uniform(-1.0, 0.3, 4) + 1j * random.uniform(-3.0, 3.0, 4)
+    exponents = random.uniform(-1.0, 0.3, modes) + 1j * random.uniform(-3.0, 3.0, modes)
     exponents[1:3] = sorted(exponents[1:3], key=lambda value: value.real)
-    driven = np.array([False, False, True, False])
+    driven = np.arange(modes) == 2
     arrays = rotor_record(
         exponents=exponents,
         driven=driven,
         offsets=np.array([0.1 - 0.2j]),
-        rows=random.normal(size=(1, 4)) + 1j * random.normal(size=(1, 4)),
-        columns=np.ones((4, 1), complex),
+        rows=random.normal(size=(1, modes)) + 1j * random.normal(size=(1, modes)),
+        columns=np.ones((modes, 1), complex),
         friction=np.zeros(1),
         restitution=np.ones(1),
         surface_speed=np.ones(1),
     )
-    work = workspace(4)
-    work.current[:] = random.normal(size=4) + 1j * random.normal(size=4)
+    work = workspace(modes)
+    work.current[:] = random.normal(size=modes) + 1j * random.normal(size=modes)
     origin = complex(arrays.offsets[0] + arrays.rows[0] @ work.current)
     block.load_products(arrays, 0, origin, work)
     return arrays, table.flight_table(exponents, driven), work, origin
@@ -87,7 +87,7 @@ def levels_of(arrays, amplitudes, times):
 @pytest.mark.parametrize("seed", range(3))
 def test_the_level_is_linear_in_the_products(seed):
     """The factors of the table times the products of the amplitudes add up to the change of ``|y|²``."""
-    arrays, tables, work, origin = four_modes(seed)
+    arrays, tables, work, origin = some_modes(seed)
     times = np.linspace(0.05, 1.0, 9) * tables.durations[0]
     factors = table._rows(arrays.exponents, arrays.driven.astype(bool), times) * times
     expected = levels_of(arrays, work.current, times) - (abs(origin) ** 2 - 1.0)
@@ -97,7 +97,7 @@ def test_the_level_is_linear_in_the_products(seed):
 @pytest.mark.parametrize("depth", range(LEVELS))
 def test_the_polynomial_that_is_loaded_is_near_the_flight(depth):
     for seed in range(3):
-        arrays, tables, work, origin = four_modes(seed)
+        arrays, tables, work, origin = some_modes(seed, 2)
         level = abs(origin) ** 2 - 1.0
         remainder = block.load_polynomial(tables, depth, level, work)
         assert remainder == pytest.approx(np.abs(work.products) @ tables.errors[depth], rel=1e-12)
@@ -119,7 +119,7 @@ def bernstein(coefficients, share):
 
 @pytest.mark.parametrize("seed", range(3))
 def test_many_modes_are_moved_to_any_time(seed):
-    arrays, tables, work, origin = four_modes(seed)
+    arrays, tables, work, origin = some_modes(seed)
     level = abs(origin) ** 2 - 1.0
     for share in (0.0, 0.004, 0.5, 0.993, 1.0):
         time = share * float(tables.durations[0])

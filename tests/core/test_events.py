@@ -582,11 +582,20 @@ def flights_that_cross_twice(seed, count):
     """Flights that leave the disc at once, come back were there no wall, and leave it again at about a given time."""
     rng, found = np.random.default_rng(seed), 0
     while found < count:
-        arrays = general_rotor(rng, "free-standing")
+        arrays = rotor_record(
+            exponents=rng.uniform(-0.2, 0.0, 2) + 1j * rng.uniform(-3.0, 3.0, 2),
+            driven=np.zeros(2, bool),
+            offsets=0.3 * complex_normal(rng, 1),
+            rows=complex_normal(rng, 1, 2),
+            columns=np.ones((2, 1), complex),
+            friction=np.zeros(1),
+            restitution=np.ones(1),
+            surface_speed=np.ones(1),
+        )
         table = flight_table(arrays.exponents, arrays.driven.astype(bool))
         times = float(table.durations[0]) * np.linspace(0.0, 0.75, 49)
         turns = np.exp(np.outer(times, arrays.exponents))
-        for amplitudes in 0.7 * complex_normal(rng, 50, 4):
+        for amplitudes in 0.7 * complex_normal(rng, 50, 2):
             outside = np.abs(arrays.offsets[0] + turns @ (arrays.rows[0] * amplitudes)) > 1.0
             ways_out = np.flatnonzero(outside[1:] & ~outside[:-1])
             if len(ways_out) > 1:

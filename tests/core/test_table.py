@@ -31,17 +31,17 @@ MACHINES = [
 ]
 
 
-def general_arrays(seed: int):
-    """Four modes with a pair, one of them growing."""
+def general_arrays(seed: int, modes: int):
+    """Modes with a pair, of four of them, or free-standing; they may grow."""
     random = np.random.default_rng(seed)
-    exponents = random.uniform(-1.0, 0.5, 4) + 1j * random.uniform(-3.0, 3.0, 4)
+    exponents = random.uniform(-1.0, 0.5, modes) + 1j * random.uniform(-3.0, 3.0, modes)
     exponents[:2] = sorted(exponents[:2], key=lambda value: value.real)
     return rotor_record(
         exponents=exponents,
-        driven=np.array([False, True, False, False]),
+        driven=np.arange(modes) == (1 if modes > 2 else -1),
         offsets=np.array([0.2 + 0.1j]),
-        rows=random.normal(size=(1, 4)) + 1j * random.normal(size=(1, 4)),
-        columns=np.ones((4, 1), complex),
+        rows=random.normal(size=(1, modes)) + 1j * random.normal(size=(1, modes)),
+        columns=np.ones((modes, 1), complex),
         friction=np.zeros(1),
         restitution=np.ones(1),
         surface_speed=np.ones(1),
@@ -50,11 +50,22 @@ def general_arrays(seed: int):
 
 def all_arrays():
     yield from (Jeffcott(parameters(*machine)).system.arrays for machine in MACHINES)
-    yield from (general_arrays(seed) for seed in range(6))
+    yield from (general_arrays(seed, modes) for modes in (2, 4) for seed in range(4))
 
 
-@pytest.fixture(params=range(len(MACHINES) + 6))
+@pytest.fixture(params=range(len(MACHINES) + 8))
 def arrays(request):
+    return list(all_arrays())[request.param]
+
+
+def test_more_modes_than_two_have_no_polynomials():
+    arrays = general_arrays(0, 4)
+    table = flight_table(arrays.exponents, arrays.driven.astype(bool))
+    assert table.coefficients.shape == (LEVELS, 0, DEGREE)
+
+
+@pytest.fixture(params=range(len(MACHINES) + 4))
+def two_modes(request):
     return list(all_arrays())[request.param]
 
 
@@ -96,16 +107,16 @@ def flight_of(arrays, amplitudes) -> Flight:
 
 
 @pytest.mark.parametrize("depth", range(LEVELS))
-def test_the_polynomial_errs_by_less_than_its_bound(arrays, depth):
+def test_the_polynomial_errs_by_less_than_its_bound(two_modes, depth):
     """At any time of the block, in proportion to that time."""
-    table = flight_table(arrays.exponents, arrays.driven.astype(bool))
+    table = flight_table(two_modes.exponents, two_modes.driven.astype(bool))
     duration = float(table.durations[depth])
     random = np.random.default_rng(5)
-    modes = len(arrays.exponents)
+    modes = len(two_modes.exponents)
     for _ in range(20):
         amplitudes = random.normal(size=modes) + 1j * random.normal(size=modes)
-        coefficients, error = polynomial_of(arrays, table, depth, amplitudes)
-        flight = flight_of(arrays, amplitudes)
+        coefficients, error = polynomial_of(two_modes, table, depth, amplitudes)
+        flight = flight_of(two_modes, amplitudes)
         rounding = 64 * EPSILON * flight.spread(duration) ** 2
         for share in (*np.linspace(0.0, 1.0, 41), 1e-3, 1e-6, 1.0 - 1e-6):
             exact = float(flight.level(share * duration)[0])
@@ -113,12 +124,12 @@ def test_the_polynomial_errs_by_less_than_its_bound(arrays, depth):
 
 
 @pytest.mark.parametrize("depth", range(LEVELS))
-def test_each_row_errs_by_less_than_its_bound_and_not_by_much_less(arrays, depth):
+def test_each_row_errs_by_less_than_its_bound_and_not_by_much_less(two_modes, depth):
     """Rows that are not all rounding come within a factor of 100 of their bound: the bound is of use."""
-    table = flight_table(arrays.exponents, arrays.driven.astype(bool))
+    table = flight_table(two_modes.exponents, two_modes.driven.astype(bool))
     duration = table.durations[depth]
     times = np.linspace(0.0, 1.0, 2001)[1:]
-    exact = tables._rows(arrays.exponents, arrays.driven.astype(bool), times * duration) * duration * times
+    exact = tables._rows(two_modes.exponents, two_modes.driven.astype(bool), times * duration) * duration * times
     j = np.arange(1, DEGREE + 1)
     binomials = np.array([math.comb(DEGREE, i) for i in j])
     basis = binomials * times[:, None] ** j * (1.0 - times[:, None]) ** (DEGREE - j)
@@ -179,10 +190,10 @@ def test_nodes_of_lanes_against_many_digits(arrays):
         assert abs(powers @ table.basis_series[:, k] - exact) <= 4 * EPSILON * abs(exact)
 
 
-def test_what_lanes_choose_from_is_the_same_table(arrays):
+def test_what_lanes_choose_from_is_the_same_table(two_modes):
     """Each block's coefficients; and errors by moduli bound those of any product's real and imaginary part."""
-    table = flight_table(arrays.exponents, arrays.driven.astype(bool))
-    modes = len(arrays.exponents)
+    table = flight_table(two_modes.exponents, two_modes.driven.astype(bool))
+    modes = len(two_modes.exponents)
     assert np.array_equal(
         np.moveaxis(table.lane_coefficients[..., :LEVELS], -1, 0), table.coefficients.transpose(0, 2, 1)
     )
@@ -252,16 +263,16 @@ def test_derivative_bounds_of_pairs_after_a_slow_mode(lower, upper):
 
 
 @pytest.mark.parametrize("depth", range(LEVELS))
-def test_the_computed_tail_is_the_whole_tail(arrays, depth):
+def test_the_computed_tail_is_the_whole_tail(two_modes, depth):
     """With twice as many Chebyshev points the error bounds do not change: nothing hides behind the last one."""
-    table = flight_table(arrays.exponents, arrays.driven.astype(bool))
+    table = flight_table(two_modes.exponents, two_modes.driven.astype(bool))
     duration = float(table.durations[depth])
     points = 2 * tables.SAMPLES
     # Whole turns are taken off in whole numbers, which keeps the cosines exact to rounding.
     turns = np.outer(2 * np.arange(points) + 1, np.arange(points)) % (4 * points)
     cosines = np.cos(np.pi * turns / (2 * points))
     times = (0.5 + 0.5 * cosines[:, 1]) * duration
-    rows = tables._rows(arrays.exponents, arrays.driven.astype(bool), times) * duration
+    rows = tables._rows(two_modes.exponents, two_modes.driven.astype(bool), times) * duration
     series = np.abs(rows @ cosines) * 2.0 / points
     tail = 2.0 * series[:, DEGREE:].sum(axis=1)
     # Each of the coefficients carries a rounding error of the whole; a real part that of its imaginary part, next to it.

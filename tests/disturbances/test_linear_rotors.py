@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
@@ -145,11 +145,17 @@ def test_random_rotors_and_shocks():
     assert checked > 0
 
 
-def test_an_undamped_rotor_in_resonance_is_refused():
-    rotor = tilting(damping=np.zeros((2, 2)), gyroscopic=np.zeros((2, 2))).model
-    frequency = np.abs(rotor.system.exponents.imag + 1.0).min()
-    with pytest.raises(InputError, match="duration"):
-        states_after_shocks(rotor, np.ones(1), math.pi / frequency, np.zeros(1))
+@pytest.mark.jit_only
+def test_an_undamped_rotor_in_resonance():
+    rotor = tilting(damping=np.zeros((2, 2)), gyroscopic=np.zeros((2, 2)))
+    rotor = replace(rotor, forcing=0.3 * rotor.forcing)
+    assert rotor.model.system.rest_radius < 1.0
+    duration = math.pi / np.abs(rotor.model.system.exponents.imag + 1.0).min()
+    place, speed, impacts = shaken(rotor, 0.05, duration, 0.7).after()
+    assert impacts == 0
+    positions, velocities, _, _ = states_after_shocks(rotor.model, np.array([0.05]), duration, np.array([0.7]))
+    assert np.allclose(positions[0], place, rtol=0, atol=1e-10)
+    assert np.allclose(velocities[0], speed, rtol=0, atol=1e-10)
 
 
 @pytest.mark.parametrize(

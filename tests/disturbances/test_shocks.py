@@ -12,7 +12,6 @@ from scipy.integrate import solve_ivp
 
 import carom
 from carom.disturbances.shocks import states_after_shocks
-from carom.outcome import InputError
 
 pytestmark = pytest.mark.jit_only
 
@@ -101,10 +100,32 @@ def test_a_short_shock_is_a_kick():
     assert apart[0] / apart[1] == pytest.approx(10.0, rel=0.05)
 
 
-def test_undamped_resonance_is_refused():
+@pytest.mark.parametrize("detuned", [0.0, 1e-9, 1e-5, 1e-2])
+def test_in_resonance_without_damping(detuned):
     machine = PAPER.replace(rho=0.1, gamma=0.0)
-    with pytest.raises(InputError, match="duration"):
-        after(machine, 0.1, math.pi / machine.omega, 0.0)
+    duration = math.pi / machine.omega * (1.0 + detuned)
+    place, speed, impacts = followed(machine, 0.1, duration, 0.4)
+    assert impacts == 0
+    position, velocity, undecided = after(machine, 0.1, duration, 0.4)
+    assert position == pytest.approx(place, abs=1e-10)
+    assert velocity == pytest.approx(speed, abs=1e-10)
+    assert not undecided
+
+
+def test_a_motion_through_the_pulse_and_after_it():
+    machine = carom.models.Jeffcott(PAPER.replace(rho=0.2, gamma=0.3))
+    shock = carom.BaseShock(6.0, 1.3)
+    motion = carom.simulate(*shock.stages(machine, 0.3))
+    pulse, after_it = motion.parts
+    position, velocity, _ = after(machine.parameters, 6.0, 1.3, 0.3)
+    assert (pulse.begins, pulse.time, after_it.begins) == (0.0, 1.3, 1.3)
+    assert len(pulse.contacts) == followed(machine.parameters, 6.0, 1.3, 0.3)[2]
+    assert pulse.final.position == pytest.approx(position, abs=1e-12)
+    assert pulse.final.velocity == pytest.approx(velocity, abs=1e-12)
+    ends = carom.simulate(machine, carom.State(position, velocity))
+    assert motion.outcome is ends.outcome
+    # In the fixed frame the path is continuous where one stage ends and the next begins.
+    assert after_it.position(0.0, "fixed") == pytest.approx(pulse.position(1.3, "fixed"), abs=1e-12)
 
 
 def test_a_shock_knows_of_no_other():

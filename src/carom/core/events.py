@@ -14,7 +14,7 @@ The search moves only over times that are proven free of a crossing.  Two proofs
    whole time ``w = f'/M₂`` before the root; ``q(root − w) ≤ f + 2R`` is negative and ``q(root)`` is not, so ``q`` has a
    root in between; if ``q`` had been positive before, it would have three roots.  What a block leaves undecided is
    tried again on shorter blocks, whose polynomials approximate more closely.
-2. *Steps* for what the shortest block leaves undecided: ``f(t + τ) ≤ f + f'τ + M₂τ²/2``, so there is no crossing before
+2. *Steps* for what the shortest block leaves undecided, and for rotors of more than MOST_IN_POLYNOMIALS modes: ``f(t + τ) ≤ f + f'τ + M₂τ²/2``, so there is no crossing before
    the first root of the right side.  The steps converge to a transversal crossing quadratically.
 
 If ``f`` reaches zero within its rounding error and is not found to rise above it, the outcome is ``grazing``.
@@ -26,6 +26,7 @@ import math
 
 from carom.compiling.decorators import kernel, part, passage
 from carom.core.block import (
+    basis_amplitudes,
     derivatives,
     load_polynomial,
     load_products,
@@ -36,7 +37,7 @@ from carom.core.block import (
     sign_changes,
 )
 from carom.core.flow import copy, displacement, nudge, squared_modulus
-from carom.core.layout import LEVELS
+from carom.core.layout import LEVELS, MOST_IN_POLYNOMIALS
 from carom.outcome import Outcome
 
 CLEAR, CONTACT, GRAZING = int(Outcome.CLEAR), int(Outcome.CONTACT), int(Outcome.GRAZING)
@@ -114,6 +115,10 @@ def _search_block(rotor, table, plane, horizon, start, work):
     level = 0.0 if start != INSIDE else squared_modulus(origin) - 1.0
     spread = _spread(rotor, plane, work.current)
     floor = ROUNDING * spread
+    if work.current.shape[0] > MOST_IN_POLYNOMIALS:
+        basis_amplitudes(rotor, plane, work.current, work.amplitudes)
+        bounds, longest = _bounds(table, work), min(table.durations[0], horizon)
+        return _step_safely(rotor, table, plane, origin, level, start, spread, longest, bounds, work)
     load_products(rotor, plane, origin, work)
     bounds = _bounds(table, work)
     for depth in range(LEVELS):

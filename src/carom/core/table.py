@@ -22,7 +22,7 @@ from functools import cache
 
 import numpy as np
 
-from carom.core.layout import DEGREE, LANE_NODES, LANE_TERMS, LEVELS, NODES, OCTET, table_record
+from carom.core.layout import DEGREE, LANE_NODES, LANE_TERMS, LEVELS, MOST_IN_POLYNOMIALS, NODES, OCTET, table_record
 
 LONGEST_BLOCK = 3.0
 """Longest time of a block.
@@ -62,7 +62,8 @@ def flight_table(exponents: np.ndarray, driven: np.ndarray) -> np.record:
         min(LONGEST_BLOCK, LARGEST_PHASE / fastest) / NODES if fastest > 0 else LONGEST_BLOCK / NODES
     )
     durations = spacing * NODES / SHORTENING ** np.arange(LEVELS)
-    coefficients, errors = _polynomials(exponents, driven, durations)
+    with_polynomials = len(exponents) <= MOST_IN_POLYNOMIALS
+    coefficients, errors = _polynomials(exponents, driven, durations) if with_polynomials else _no_polynomials()
     times = spacing * np.arange(NODES + 1)
     lane_spacing = _short_number(durations[0] / (LANE_NODES - 1))
     lane_times = lane_spacing * np.arange(LANE_NODES)
@@ -74,7 +75,9 @@ def flight_table(exponents: np.ndarray, driven: np.ndarray) -> np.record:
         errors=errors,
         lane_durations=_blocks_last(durations),
         lane_coefficients=_blocks_last(coefficients.transpose(0, 2, 1)),
-        lane_errors=_blocks_last(_errors_of_moduli(errors / durations[:, None], len(exponents))),
+        lane_errors=_blocks_last(
+            _errors_of_moduli(errors / durations[:, None], len(exponents)) if with_polynomials else errors
+        ),
         basis=_derivatives(exponents, driven, times),
         growth=_expm1(np.outer(times, exponents)),
         basis_series=basis_series,
@@ -109,6 +112,10 @@ def _polynomials(exponents: np.ndarray, driven: np.ndarray, durations: np.ndarra
     # The error of interpolation at DEGREE Chebyshev points is at most twice the tail of the series.
     errors = 2.0 * series[..., DEGREE:].sum(axis=-1) + ROUNDED * series.sum(axis=-1)
     return coefficients, errors
+
+
+def _no_polynomials() -> tuple[np.ndarray, np.ndarray]:
+    return np.empty((LEVELS, 0, DEGREE)), np.empty((LEVELS, 0))
 
 
 def _blocks_last(values: np.ndarray) -> np.ndarray:

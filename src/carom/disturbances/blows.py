@@ -14,7 +14,7 @@ from carom.outcome import InputError
 from carom.parameters import own_size
 
 if TYPE_CHECKING:
-    from carom.models import Model, Subject
+    from carom.models import Model, Staged, Subject
     from carom.motions.starts import State
 
 LONGEST_SHOCK = 1e4
@@ -168,6 +168,25 @@ class BaseShock(Disturbance):
             return displaced(rotor, np.zeros(peaks.shape, complex), np.zeros(peaks.shape), False)
         positions, velocities, undecided, touched = states_after_shocks(rotor, peaks, self.duration, directions)
         return Starts(positions, velocities, np.ones(peaks.shape, bool), undecided, touched)
+
+    def stages(self, machine: Subject, direction: float = 0.0) -> tuple[Staged, State]:
+        """Return the machine under the largest shock and then without, and its start at levitation, for :func:`carom.simulate`.
+
+        Parameters
+        ----------
+        machine : Machine, Case, Parameters or model
+        direction : float
+            Of the acceleration, rad.
+        """
+        from carom.disturbances.shocks import shaken
+        from carom.models import Stage, Staged, Trigger, model_of
+        from carom.motions.starts import State
+
+        rotor = model_of(machine)
+        size = cmath.rect(self.peak, own_size("direction", direction, "angle", None)) / 2j
+        pulse = Stage(shaken(rotor, self.duration, size), Trigger(time=self.duration))
+        position = rotor.system.rest if len(rotor.system.rest) > 1 else rotor.system.rest[0]
+        return Staged((pulse, Stage(rotor))), State.of(position, np.zeros_like(position))
 
     def release(self, machine: Subject, direction: float = 0.0) -> State:
         """Return the state at the end of one shock of the largest peak, for :func:`carom.simulate`.

@@ -12,7 +12,7 @@ it drives and forms a chain with it: weight, velocity and displacement in free f
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -25,6 +25,8 @@ RESONANT = 1e-3
 """Distance of exponents, relative to one plus their size, below which a force drives a mode instead of adding to it."""
 EQUAL = 1e-12
 """The same for exponents that are one number."""
+ONE = 1e-7
+"""Gap of a pair, relative to one plus the size of its exponents, whose square is lost in rounding."""
 
 
 class Force(NamedTuple):
@@ -92,45 +94,58 @@ class _Modes:
 
     def driven_by(self, exponent: complex, push: np.ndarray) -> _Modes:
         """With one more force, which changes the rates of the amplitudes by ``push``."""
-        near = self.free & (np.abs(self.exponents - exponent) <= RESONANT * (1.0 + abs(exponent)))
-        for last in np.flatnonzero(near & self.driven).tolist():
+        size = 1.0 + abs(exponent)
+        near = self.free & (np.abs(self.exponents - exponent) <= RESONANT * size)
+        for last in np.flatnonzero(near & self.driven & np.insert(self.free[:-1], 0, False)).tolist():
             gap = self.exponents[last] - self.exponents[last - 1]
-            if self.free[last - 1] and abs(gap) > RESONANT * (1.0 + abs(exponent)):
-                return self._parted(last).driven_by(exponent, push - np.eye(len(push))[last] * (push[last - 1] / -gap))
+            if abs(gap) > RESONANT * size:
+                push = push + np.eye(len(push))[last] * (push[last - 1] / gap)
+                return self._parted(last, gap).driven_by(exponent, push)
+            if EQUAL * size < abs(gap) <= ONE * size:
+                push = push + np.eye(len(push))[last - 1] * (push[last] * gap / 2.0)
+                return self._as_one(last, gap).driven_by(exponent, push)
         chain = np.flatnonzero(near)
         others = np.flatnonzero(self.free & ~near)
         matrix = np.diag(self.exponents) + np.diag(self.driven[1:].astype(complex), -1)
         shares = np.zeros(len(push), complex)
-        shares[others] = np.linalg.solve(
-            exponent * np.eye(len(others)) - matrix[np.ix_(others, others)], push[others]
-        )
+        shares[others] = np.linalg.solve(exponent * np.eye(len(others)) - matrix[np.ix_(others, others)], push[others])
         if not len(chain):
             return self._added(len(push), exponent, shares, 1.0)
         first, last = int(chain[0]), int(chain[-1])
         if len(chain) > 1:
             apart = np.abs(np.append(self.exponents[chain], exponent) - exponent).max()
-            if len(chain) > 2 or not self.driven[last] or apart > EQUAL * (1.0 + abs(exponent)):
+            if len(chain) > 2 or not self.driven[last] or apart > EQUAL * size:
                 raise InputError("force", exponent, "an exponent not so near to two that nearly coincide")
             shares[first] = -push[last]
         if abs(push[first]) <= EQUAL * np.abs(push).max():
             return self._added(len(push), exponent, shares, 1.0)
         return self._added(first, exponent, shares / push[first], push[first])
 
-    def _parted(self, last: int) -> _Modes:
+    def _parted(self, last: int, gap: complex) -> _Modes:
         """With the pair that ends with a mode as two free-standing ones: their exponents are well apart."""
-        gap = self.exponents[last - 1] - self.exponents[last]
         driven, right, left = self.driven.copy(), self.right.copy(), self.left.copy()
         driven[last] = False
-        right[:, last - 1] += right[:, last] / gap
-        left[last] -= left[last - 1] / gap
-        return _Modes(self.exponents, driven, self.free, self.forced, right, left)
+        right[:, last - 1] -= right[:, last] / gap
+        left[last] += left[last - 1] / gap
+        return replace(self, driven=driven, right=right, left=left)
+
+    def _as_one(self, last: int, gap: complex) -> _Modes:
+        """With the pair that ends with a mode as one of equal exponents, by an error of the square of the gap."""
+        exponents, right, left = self.exponents.copy(), self.right.copy(), self.left.copy()
+        exponents[last - 1 : last + 1] = exponents[last - 1 : last + 1].mean()
+        right[:, last] -= right[:, last - 1] * gap / 2.0
+        left[last - 1] += left[last] * gap / 2.0
+        return replace(self, exponents=exponents, right=right, left=left)
 
     def _added(self, place: int, exponent: complex, shares: np.ndarray, amplitude: complex) -> _Modes:
         """With a forcing mode at a place, which adds these shares to the others and drives the one after it, if there is one."""
-        driven = self.driven.copy()
-        driven[place : place + 1] = True
+        driven, exponents = self.driven.copy(), self.exponents
+        if place < len(driven):
+            driven[place] = True
+        if place + 1 < len(driven) and driven[place + 1]:
+            exponents = np.where(np.isin(np.arange(len(driven)), (place, place + 1)), exponent, exponents)
         return _Modes(
-            np.insert(self.exponents, place, exponent),
+            np.insert(exponents, place, exponent),
             np.insert(driven, place, False),
             np.insert(self.free, place, False),
             np.insert(self.forced, place, amplitude),

@@ -98,7 +98,7 @@ class Trigger:
     contact_time : float
         Time for which contact has persisted, at any plane: lasting contact, or bounces.
     contact_gap : float
-        Longest flight between two bounces of contact that persists.
+        Longest flight between two bounces of contact that persists; in a flight it counts as persisting until that time is over.
     impact_speed : float
         Radial speed of an impact at any plane.
     """

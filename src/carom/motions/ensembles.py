@@ -203,7 +203,9 @@ def _followed(
     """Endings of starts in one dimension, through all stages."""
     courses = [stages_of(rotor) for rotor in rotors]
     begins = np.zeros(len(which))
-    endings = _in_stage([stages[0] for stages in courses], which, (positions, velocities, begins), limits, threads, tell)
+    endings = _in_stage(
+        [stages[0] for stages in courses], which, (positions, velocities, begins), limits, threads, tell
+    )
     for number in range(1, max(map(len, courses), default=1)):
         further = np.array([number < len(stages) for stages in courses])[which]
         on = np.flatnonzero(further & (endings.outcomes == Outcome.TRIGGERED))
@@ -213,7 +215,9 @@ def _followed(
             carried = stages[number - 1].carried(before.positions[here], before.velocities[here])
             before.positions[here], before.velocities[here] = carried
         states = before.positions, before.velocities, before.times
-        later = _in_stage([stages[min(number, len(stages) - 1)] for stages in courses], which[on], states, limits, threads, tell)
+        later = _in_stage(
+            [stages[min(number, len(stages) - 1)] for stages in courses], which[on], states, limits, threads, tell
+        )
         later.times[:] += before.times
         later.impacts[:] += before.impacts
         for name, values in vars(endings).items():

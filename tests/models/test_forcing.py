@@ -1,0 +1,145 @@
+"""Forces that change with time, against the matrix exponential and known motions."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from linear_rotors import tilting, touchdowns
+from scipy.linalg import expm
+
+import carom as cm
+from carom.core.planar import planar_exponents
+from carom.core.wall import Wall
+from carom.models import Force, Forced, LinearRotor, second_order_system
+from carom.models.forcing import with_forces
+from carom.outcome import InputError, Outcome
+
+WEIGHT = (-1j, 0.01)
+FORCES = [
+    (0.1, 0.76, [WEIGHT]),
+    (0.1, 0.76, [(0.5j, 0.1), (-2.5j, 0.1j)]),
+    (1.52, 0.76, [WEIGHT]),
+    # Resonance without damping, exact and nearly so.
+    (0.0, 0.76, [(-0.24j, 0.02)]),
+    (0.0, 0.76, [(-0.24j + 1e-7j, 0.02)]),
+    (0.0, 0.76, [(-0.24j + 1e-4j, 0.02), (-1.76j, 0.1)]),
+    # Free fall, and with drag.
+    (0.0, 0.0, [(-1j, 1e-3)]),
+    (0.0, 0.0, [(-1j, 1e-3), (0.3j, 0.02)]),
+    (0.1, 0.0, [(-1j, 1e-3)]),
+    (0.01, 0.0, [(-1j, 1e-3)]),
+]
+
+
+def planar_system(gamma, omega, rest=0.2):
+    return second_order_system(
+        exponents=planar_exponents(gamma, omega),
+        equilibrium=rest / complex(omega * omega - 1.0, gamma),
+        wall=Wall(0.1, 0.9, 20.0),
+    )
+
+
+@pytest.mark.parametrize(("gamma", "omega", "forces"), FORCES)
+def test_flights_of_the_planar_rotor(gamma, omega, forces):
+    system = with_forces(planar_system(gamma, omega), [Force(rate, np.array([push])) for rate, push in forces])
+    rest, count = system.rest[0], len(forces)
+    matrix = np.zeros((2 + count, 2 + count), complex)
+    matrix[0, 1], matrix[1, :2] = 1.0, (-complex(omega**2 - 1.0, gamma), -(gamma + 2j))
+    for place, (rate, push) in enumerate(forces, start=2):
+        matrix[1, place], matrix[place, place] = push, rate
+    position, velocity = 0.1 + 0.2j, 0.3 - 0.1j
+    for begins in (0.0, 0.8):
+        amplitudes = system.amplitudes(position, velocity, begins)
+        assert np.allclose(system.state(amplitudes), (position, velocity), rtol=0, atol=1e-12)
+        started = np.exp(begins * matrix.diagonal()[2:])
+        for time in (0.01, 0.3, 2.0, 40.0):
+            exact = expm(matrix * time) @ np.array([position - rest, velocity, *started])
+            moved = system.state(system.fly(amplitudes, np.array(time)))
+            size = np.abs(exact).max()
+            assert np.allclose(moved, (exact[0] + rest, exact[1]), rtol=0, atol=1e-12 * size)
+
+
+def test_flights_of_a_rotor_of_two_coordinates():
+    model = tilting().model
+    forces = (Force(-1j, np.array([0.01, 0.002j])), Force(0.4j, np.array([0.0, 0.1])))
+    system = Forced(model, forces).system
+    assert system.modes == 8
+    assert np.array_equal(system.exponents, model.system.exponents)
+    accelerations = np.linalg.solve(model.mass, np.concatenate([model.stiffness, model.damping], axis=1))
+    matrix = np.zeros((6, 6), complex)
+    matrix[:2, 2:4], matrix[2:4, :4] = np.eye(2), -accelerations
+    matrix[2:4, 4:] = np.transpose([force.accelerations for force in forces])
+    matrix[4, 4], matrix[5, 5] = (force.exponent for force in forces)
+    state = np.array([0.1, 0.2j, 0.05, -0.1])
+    amplitudes = system.amplitudes(state[:2], state[2:])
+    for time in (0.3, 2.0, 40.0):
+        exact = expm(matrix * time) @ np.array([*(state - np.append(system.rest, [0.0, 0.0])), 1.0, 1.0])
+        position, velocity = system.state(system.fly(amplitudes, np.array(time)))
+        assert np.allclose(position - system.rest, exact[:2], rtol=0, atol=1e-12)
+        assert np.allclose(velocity, exact[2:4], rtol=0, atol=1e-12)
+
+
+def test_at_rest_only_the_forces_move_it():
+    system = with_forces(planar_system(0.3, 0.76), [Force(-1j, np.array([0.02]))])
+    position, velocity = (values[0] for values in system.kicked(0.0))
+    still = system.amplitudes(position, velocity)
+    assert np.allclose(still, system.forced, rtol=0, atol=1e-15)
+    sag = 0.02 / 0.76**2
+    # A constant force in the fixed frame displaces the centre of the circle by the static sag.
+    for time in (0.0, 1.0, 7.0):
+        place, _ = system.state(system.fly(still, np.array(time)))
+        assert place * np.exp(1j * time) == pytest.approx(sag + system.rest[0] * np.exp(1j * time), abs=1e-14)
+    assert system.rest_radius == pytest.approx(abs(system.rest[0]) + sag)
+    assert system.translation_velocity(velocity) == pytest.approx(0.0, abs=1e-15)
+
+
+def dropped():
+    """A balanced rotor in a clearance of 0.25 mm whose levitation is lost at 18,000 rpm: nothing but its weight acts on it."""
+    scales = cm.parameters.Scales(5.0, 0.25e-3, 600.0 * math.pi)
+    rotor = LinearRotor.in_fixed_frame(
+        mass=[[1.0]],
+        damping=[[0.0]],
+        stiffness=[[0.0]],
+        forcing=[0.0],
+        touchdowns=touchdowns([[1.0]], [0.1], [0.5], [100.0]),
+        scales=scales,
+    )
+    weight = 9.81 / (scales.length * scales.speed**2)
+    return Forced(rotor, (Force(-1j, np.array([-1j * weight])),))
+
+
+def test_a_drop_from_the_centre_touches_after_the_time_of_free_fall():
+    rotor = dropped()
+    motion = cm.simulate(rotor, cm.State(0.0), 200.0)
+    first = motion.contacts.time[0] * rotor.scales.time
+    assert first == pytest.approx(7.139215615e-3, abs=5e-13)
+    assert motion.at_plane(motion.contacts.time[0])[0] * np.exp(1j * motion.contacts.time[0]) == pytest.approx(-1j)
+    assert math.isinf(rotor.system.rest_radius)
+
+
+def test_a_bouncing_rotor_comes_to_rest_at_the_bottom():
+    """It leans by the friction angle: the friction that the spinning shaft meets carries its weight on the slope."""
+    rotor = dropped()
+    motion = cm.simulate(rotor, cm.State(0.0), 60_000.0, settle=False)
+    place, speed = motion.at_plane(motion.time)
+    turn = np.exp(1j * motion.time)
+    lean = np.angle(1j * place * turn)
+    assert abs(abs(lean) - math.atan(0.1)) < 0.3
+    assert abs(place) == pytest.approx(1.0, abs=1e-9)
+    assert motion.outcome is Outcome.TIME_REACHED
+
+
+def test_a_model_is_read_again_from_its_attributes():
+    rotor = dropped()
+    again = cm.models.model_from(rotor.attributes())
+    assert again.system.arrays.tobytes() == rotor.system.arrays.tobytes()
+    assert again.replace(mu=0.3).system.arrays.friction[0] == 0.3
+    assert again.value("mu") == 0.1
+    assert again.rates("mu") is None
+
+
+def test_a_force_near_two_modes_that_nearly_coincide_is_refused():
+    with pytest.raises(InputError, match="force"):
+        with_forces(planar_system(1e-5, 0.0), [Force(-1j, np.array([0.1]))])

@@ -1,0 +1,199 @@
+"""Motions in stages: their triggers against the log of contacts, and one start like many."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from compilation import sized
+from machines import PAPER
+
+import carom as cm
+from carom.models import Jeffcott, Stage, Staged, Trigger, model_from
+from carom.outcome import InputError, Outcome, Phase
+
+pytestmark = pytest.mark.jit_only
+
+ROTOR = Jeffcott(PAPER.replace(gamma=0.1))
+HELPED = ROTOR.replace(gamma=0.8)
+KICK = cm.kick(0.7, 0.4)
+
+
+def starts(count, seed=0):
+    random = np.random.default_rng(seed)
+    kicks = random.uniform(0.3, 1.2, count) * np.exp(1j * random.uniform(0.0, 6.3, count))
+    return np.full(count, ROTOR.equilibrium), kicks
+
+
+def touching(motion):
+    """Beginning and end of each time at the wall, in chronological order."""
+    times = [(time, time) for time in motion.contacts.time]
+    return sorted(times + [(each.start, each.end) for each in motion.lasting_contacts])
+
+
+def persisted(motion, gap, least):
+    """Time at which contact has lasted for so long, with flights up to ``gap``; infinite if it never has.
+
+    While it flies nobody knows whether it will touch again: contact counts as lasting until the gap is over.
+    """
+    begun, last = math.inf, -math.inf
+    for begins, ends in [*touching(motion), (math.inf, math.inf)]:
+        if begun + least <= min(begins, last + gap):
+            return begun + least
+        if begins - last > gap:
+            begun = begins
+        if begun + least <= ends < math.inf:
+            return begun + least
+        last = ends
+    return math.inf
+
+
+@pytest.mark.parametrize(("least", "gap"), [(5.0, 2.0), (3.0, 0.8), (12.0, 3.0), (0.5, 0.0), (2.0, 0.0)])
+def test_contact_that_persists_triggers_when_the_log_says_so(least, gap):
+    staged = Staged((Stage(ROTOR, Trigger(contact_time=least, contact_gap=gap)), Stage(HELPED)))
+    positions, kicks = starts(sized(40, 10))
+    triggered = 0
+    for position, kick in zip(positions, kicks, strict=True):
+        whole = cm.simulate(ROTOR, cm.State(position, kick), 200.0)
+        expected = persisted(whole, gap, least)
+        first = cm.simulate(staged, cm.State(position, kick), 200.0).parts[0]
+        if expected == math.inf:
+            assert first.outcome is not Outcome.TRIGGERED
+            continue
+        assert first.outcome is Outcome.TRIGGERED
+        assert first.time == pytest.approx(expected, abs=1e-9)
+        place, speed = whole.at(np.array([first.time - 1e-9]))
+        assert first.final.position == pytest.approx(place[0], abs=1e-6)
+        triggered += 1
+    assert triggered > (0 if gap == 0.0 else 3)
+
+
+def test_a_hard_impact_triggers_just_after_it():
+    staged = Staged((Stage(ROTOR, Trigger(impact_speed=0.5)), Stage(HELPED)))
+    seen = set()
+    for position, kick in zip(*starts(20), strict=True):
+        whole = cm.simulate(ROTOR, cm.State(position, kick), 100.0)
+        hard = np.flatnonzero(whole.contacts.radial_speed >= 0.5)
+        parts = cm.simulate(staged, cm.State(position, kick), 100.0).parts
+        seen.add(bool(len(hard)))
+        if len(hard):
+            assert parts[0].time == pytest.approx(whole.contacts.time[hard[0]], abs=1e-10)
+            assert len(parts[0].contacts) == hard[0] + 1
+            assert parts[1].contacts.time[0] > 0.0 if len(parts[1].contacts) else True
+        else:
+            assert len(parts) == 1
+    assert seen == {True, False}
+
+
+def test_the_next_stage_is_a_motion_of_its_rotor():
+    motion = cm.simulate(Staged((Stage(ROTOR, Trigger(time=7.0)), Stage(HELPED))), KICK)
+    first, second = motion.parts
+    assert (first.outcome, first.time, second.begins) == (Outcome.TRIGGERED, 7.0, 7.0)
+    assert first.final == cm.simulate(ROTOR, KICK, 7.0).final
+    alone = cm.simulate(HELPED, first.final)
+    assert (motion.outcome, motion.time, motion.final) == (alone.outcome, alone.time, alone.final)
+    assert motion.parts[0].earlier == ()
+
+
+def test_what_is_carried_over_may_change():
+    """The rotor stops dead in the fixed frame where its stage ends."""
+    stop = np.array([[1.0, 0.0], [-1j, 0.0]])
+    staged = Staged((Stage(ROTOR, Trigger(time=3.0), carry=stop), Stage(HELPED)))
+    first, second = cm.simulate(staged, KICK).parts
+    assert second.start.position == pytest.approx(first.final.position, abs=1e-15)
+    assert second.start.velocity == pytest.approx(-1j * first.final.position, abs=1e-15)
+    ends = cm.settle(staged, *starts(12))
+    for place, (position, kick) in enumerate(zip(*starts(12), strict=True)):
+        assert cm.simulate(staged, cm.State(position, kick)).outcome == ends.outcomes[place]
+
+
+@pytest.mark.parametrize(
+    "trigger",
+    [
+        Trigger(time=5.0),
+        Trigger(contact_time=4.0, contact_gap=2.0),
+        Trigger(impact_speed=0.6),
+        Trigger(6.0, 4.0, 2.0, 0.6),
+    ],
+    ids=["time", "contact", "impact", "all"],
+)
+def test_many_starts_end_as_each_alone(trigger):
+    staged = Staged((Stage(ROTOR, trigger), Stage(HELPED, Trigger(time=4.0)), Stage(ROTOR)))
+    positions, kicks = starts(sized(60, 20), seed=3)
+    ends = cm.settle(staged, positions, kicks, threads=2)
+    for place, (position, kick) in enumerate(zip(positions, kicks, strict=True)):
+        motion = cm.simulate(staged, cm.State(position, kick))
+        assert motion.outcome == ends.outcomes[place]
+        if motion.outcome is not Outcome.FORWARD_RUB:  # which settle proves before it is reached
+            assert sum(len(part.contacts) for part in motion.parts) == ends.impacts[place]
+    until = cm.settle(staged, positions, kicks, until=20.0, patience=0)
+    for place, (position, kick) in enumerate(zip(positions, kicks, strict=True)):
+        motion = cm.simulate(staged, cm.State(position, kick), 20.0)
+        assert motion.outcome == until.outcomes[place]
+        assert motion.begins + motion.time == pytest.approx(until.times[place], abs=1e-9)
+        assert motion.final.position == pytest.approx(until.positions[place], abs=1e-7)
+
+
+def test_a_mixture_of_machines_with_and_without_stages():
+    staged = Staged((Stage(ROTOR, Trigger(contact_time=4.0, contact_gap=2.0)), Stage(HELPED)))
+    positions, kicks = starts(30)
+    which = np.arange(30) % 2
+    together = cm.settle([staged, ROTOR], positions, kicks, which=which)
+    for number, machine in enumerate((staged, ROTOR)):
+        chosen = which == number
+        alone = cm.settle(machine, positions[chosen], kicks[chosen])
+        assert np.array_equal(alone.outcomes, together.outcomes[chosen])
+        assert np.array_equal(alone.times, together.times[chosen])
+
+
+def test_more_damping_after_contact_brings_back_what_bounced_on():
+    """A recovery action in a map of basins, against motions one by one."""
+    staged = Staged((Stage(ROTOR, Trigger(contact_time=5.0, contact_gap=3.0)), Stage(HELPED)))
+    grid = cm.Grid(cm.disturbances.VelocityKick(1.0), (6, 12))
+    helped, left = cm.map_basins(staged, grid), cm.map_basins(ROTOR, grid)
+    assert left.fractions.get("levitation", 0.0) < 0.5
+    assert helped.fractions == {"levitation": 1.0}
+    assert helped.to_dataset() is not None
+
+
+def test_a_start_in_lasting_contact_counts_from_its_beginning():
+    rubbing = next(each for each in cm.find_equilibria(ROTOR.replace(gamma=0.2)) if each.kind == "rub" and each.stable)
+    staged = Staged((Stage(ROTOR.replace(gamma=0.2), Trigger(contact_time=3.0)), Stage(HELPED)))
+    first = cm.simulate(staged, cm.State(rubbing.position), 50.0).parts[0]
+    assert (first.outcome, first.time) == (Outcome.TRIGGERED, 3.0)
+    assert (first.segment_phases[-1] == Phase.FORWARD_SLIP).all()
+
+
+def test_stages_are_read_again_from_their_attributes():
+    staged = Staged((Stage(ROTOR, Trigger(time=5.0, contact_gap=0.2), carry=np.eye(2) * 1j), Stage(HELPED)))
+    again = model_from(staged.attributes())
+    assert [each.trigger for each in again.stages] == [each.trigger for each in staged.stages]
+    assert np.array_equal(again.stages[0].carry, 1j * np.eye(2))
+    assert again.stages[1].rotor == HELPED
+    assert staged.replace(mu=0.3).stages[1].rotor.value("mu") == 0.3
+
+
+@pytest.mark.parametrize(
+    ("field", "made"),
+    [
+        ("stages", lambda: Staged(())),
+        ("stages", lambda: Staged((ROTOR,))),
+        ("time", lambda: Trigger(time=0.0)),
+        ("contact_gap", lambda: Trigger(contact_gap=-1.0)),
+        ("carry", lambda: Stage(ROTOR, carry=np.eye(3))),
+        ("carry", lambda: Stage(ROTOR, carry=np.full((2, 2), np.nan))),
+    ],
+)
+def test_bad_stages_are_refused(field, made):
+    with pytest.raises(InputError, match=field):
+        made()
+
+
+def test_a_motion_of_several_stages_is_saved_part_by_part(tmp_path):
+    motion = cm.simulate(Staged((Stage(ROTOR, Trigger(time=7.0)), Stage(HELPED))), KICK)
+    with pytest.raises(InputError, match="parts"):
+        motion.save(tmp_path / "whole.nc")
+    motion.parts[0].save(tmp_path / "first.nc")
+    again = cm.motions.Trajectory.load(tmp_path / "first.nc")
+    assert (again.begins, again.time, again.outcome) == (0.0, 7.0, Outcome.TRIGGERED)
