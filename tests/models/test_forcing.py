@@ -123,7 +123,7 @@ def test_a_bouncing_rotor_comes_to_rest_at_the_bottom():
     """It leans by the friction angle: the friction that the spinning shaft meets carries its weight on the slope."""
     rotor = dropped()
     motion = cm.simulate(rotor, cm.State(0.0), 60_000.0, settle=False)
-    place, speed = motion.at_plane(motion.time)
+    place, _ = motion.at_plane(motion.time)
     turn = np.exp(1j * motion.time)
     lean = np.angle(1j * place * turn)
     assert abs(abs(lean) - math.atan(0.1)) < 0.3
@@ -143,3 +143,17 @@ def test_a_model_is_read_again_from_its_attributes():
 def test_a_force_near_two_modes_that_nearly_coincide_is_refused():
     with pytest.raises(InputError, match="force"):
         with_forces(planar_system(1e-5, 0.0), [Force(-1j, np.array([0.1]))])
+
+
+def test_what_needs_rest_in_the_turning_frame_is_refused():
+    rotor = Forced(tilting().model, (Force(-1j, np.array([0.01, 0.0])),))
+    motion = cm.simulate(rotor, cm.kick(0.3), 5.0)
+    calls = (
+        lambda: cm.find_equilibria(rotor),
+        lambda: cm.find_orbits(rotor, impacts=1),
+        lambda: cm.orbits.lyapunov_exponents(rotor, cm.kick(3.0), impacts=50),
+        lambda: cm.motions.energy_ledger(motion),
+    )
+    for call in calls:
+        with pytest.raises(InputError, match="forces that change with time"):
+            call()

@@ -172,6 +172,7 @@ def find_equilibria(machine: Subject) -> EquilibriumSet:
     """
     model = model_of(machine)
     system = model.system
+    system.refuse_forces()
     rubs = [_rub(model, *balance) for balance in rub_forces(system)]
     found = (_contact_free(model), *sorted(rubs, key=lambda rub: (not rub.stable, rub.status)))
     return EquilibriumSet(model, found, complete=len(system.arrays["rows"]) <= COUNTED)

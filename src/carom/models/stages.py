@@ -17,7 +17,6 @@ from carom.models.system import System
 from carom.outcome import InputError, shown
 from carom.parameters import Field, Scales
 
-
 NotNegative = Annotated[float, Kind(lambda number: number >= 0.0, "a finite number of at least 0")]
 
 
@@ -156,7 +155,7 @@ class Stage:
 class Staged(_Around):
     """A rotor that moves in stages: when the trigger of one ends it, the motion goes on in the next.
 
-    Its parameters, kicks and levitation are those of the rotor of the first stage.
+    Its parameters, kicks, equilibria and orbits are those of the rotor of the first stage.
 
     Attributes
     ----------

@@ -15,6 +15,7 @@ from carom.core.flow import fly_all
 from carom.core.layout import rotor_record
 from carom.core.table import flight_table
 from carom.core.wall import Wall
+from carom.outcome import InputError
 from carom.results import Result
 
 TABLES = 32
@@ -49,8 +50,7 @@ class System(Result):
     """Modes, contact planes and contact law of a rotor, as arrays for the kernels.
 
     A state is a view of the amplitudes: the ``n`` coordinates of the rotor and their rates; for a rotor with one coordinate they
-    are plain numbers.  Lengths are in clearances ``c_r``, times in ``1/Ω``, in the frame of the rotor: by default that which turns with
-    the shaft.
+    are plain numbers.  Lengths are in clearances ``c_r``, times in ``1/Ω``, in the frame that turns with the shaft.
 
     Free modes are those that a disturbance can change.  Forcing modes keep a course of their own, from the amplitudes
     ``forced`` at time zero: the rotor is at rest where its free modes are.  Modes that only fill the room of the arrays are at zero.
@@ -70,8 +70,6 @@ class System(Result):
         Change of the coordinates when the rotor as a whole is displaced by one; ones by default.
     forced : ndarray of complex, shape (N,), optional
         Amplitudes of the forcing modes at time zero, zeros elsewhere; all zeros by default.
-    frame_speed : float
-        Speed at which the frame of the rotor turns, in ``Ω``.
     """
 
     arrays: np.record
@@ -80,7 +78,6 @@ class System(Result):
     inverse: np.ndarray | None = None
     translation: np.ndarray | None = None
     forced: np.ndarray | None = None
-    frame_speed: float = 1.0
 
     @cached_property
     def table(self) -> np.record:
@@ -124,10 +121,10 @@ class System(Result):
         """Matrix ``M`` of flight ``ċ = M c``, shape (N, N)."""
         return np.diag(self.arrays["exponents"]) + np.diag(self.arrays["driven"][1:].astype(complex), -1)
 
-    @property
-    def is_forced(self) -> bool:
-        """Whether forces act on it that change with time in its frame."""
-        return self.forced is not None
+    def refuse_forces(self) -> None:
+        """Refuse a rotor on which forces act that change with time in its frame: it never is at rest there."""
+        if self.forced is not None:
+            raise InputError("machine", "forces that change with time", "a rotor whose forces turn with its frame")
 
     @property
     def rates(self) -> np.ndarray:
@@ -161,7 +158,14 @@ class System(Result):
 
     @cached_property
     def coordinates(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """``basis``, ``to_modes`` and the state (2n,) at rest, as the kernels of orbits take them, which know no forcing."""
+        """``basis``, ``to_modes`` and the state (2n,) at rest, as the kernels of orbits take them.
+
+        Raises
+        ------
+        InputError
+            Forces act that change with time: orbits under these are not known.
+        """
+        self.refuse_forces()
         return self.basis, np.ascontiguousarray(self.to_modes), self._whole_rest
 
     def forced_at(self, time: float) -> np.ndarray:

@@ -78,7 +78,7 @@ def energy_ledger(trajectory: Trajectory) -> EnergyLedger:
     Raises
     ------
     InputError
-        The mass matrix is not Hermitian, so there is no kinetic energy.
+        The mass matrix is not Hermitian, so there is no kinetic energy; or forces act that change with time.
 
     See Also
     --------
@@ -93,6 +93,7 @@ def energy_ledger(trajectory: Trajectory) -> EnergyLedger:
     >>> ledger.imbalance < 1e-12
     True
     """
+    trajectory.rotor.system.refuse_forces()
     matrices = trajectory.rotor.matrices
     edges, counts = pieces(trajectory)
     if np.abs(matrices.mass - matrices.mass.conj().T).max() > HERMITIAN * np.abs(matrices.mass).max():

@@ -88,7 +88,7 @@ def full_spectrum(
     position = trajectory.position(times, "fixed")
     amplitudes = np.fft.fft(window * position) / count
     orders = np.fft.fftfreq(count, 1.0 / samples_per_turn)
-    amplitudes = amplitudes * np.exp(-1j * orders * times[0])
+    amplitudes = amplitudes * np.exp(-1j * orders * (trajectory.begins + times[0]))
     kept = np.argsort(orders)
     kept = kept[np.abs(orders[kept]) <= highest_order]
     return FullSpectrum(orders[kept], amplitudes[kept], 4.0 / turns, trajectory.rotor.scales)

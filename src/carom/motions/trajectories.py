@@ -295,8 +295,7 @@ class Trajectory(Result):
             Another frame is asked for.
         """
         rotating, _ = self.at_plane(times)
-        turned = self.rotor.system.frame_speed * (self.begins + np.asarray(times))
-        return rotating if frame == "rotating" else rotating * np.exp(1j * turned)
+        return rotating if frame == "rotating" else rotating * np.exp(1j * (self.begins + np.asarray(times)))
 
     @checked
     def radius(self, times: Reals) -> np.ndarray:

@@ -146,6 +146,7 @@ def lyapunov_exponents(
         planes touch at a time while one of the contacts lasts.
     """
     rotor = model_of(machine)
+    rotor.system.refuse_forces()
     state = start.state(rotor) if isinstance(start, Kick) else start
     directions = np.eye(2 * len(rotor.system.exponents))[:, 1:]
     for stretch in _stretches(rotor, state, transient):
