@@ -157,3 +157,23 @@ def test_what_needs_rest_in_the_turning_frame_is_refused():
     for call in calls:
         with pytest.raises(InputError, match="forces that change with time"):
             call()
+
+
+@pytest.mark.parametrize("damping", [0.0, 1e-18])
+def test_unbalance_in_undamped_resonance_drives_the_mode(damping):
+    """``z̈ + z = ρe^{it}`` grows without bound, as the matrix exponential says."""
+    rotor = LinearRotor.in_fixed_frame(
+        mass=[[1.0]],
+        damping=[[damping]],
+        stiffness=[[1.0]],
+        forcing=[0.02],
+        touchdowns=touchdowns([[1.0]], [0.1], [0.5], [9.0]),
+    )
+    motion = cm.simulate(rotor, cm.State(0.0), 120.0)
+    matrix = np.array([[0.0, 1.0, 0.0], [0.0, -2.0j, 0.02], [0.0, 0.0, 0.0]])
+    for time in (1.0, 20.0, motion.contacts.time[0]):
+        place, speed, _ = expm(matrix * time) @ np.array([0.0, 0.0, 1.0])
+        found = motion.at_plane(time - 1e-12)
+        assert found[0] == pytest.approx(place, abs=1e-10)
+        assert found[1] == pytest.approx(speed, abs=1e-10)
+    assert abs(motion.at_plane(motion.contacts.time[0])[0]) == pytest.approx(1.0, abs=1e-12)

@@ -96,14 +96,16 @@ class _Modes:
         """With one more force, which changes the rates of the amplitudes by ``push``."""
         size = 1.0 + abs(exponent)
         near = self.free & (np.abs(self.exponents - exponent) <= RESONANT * size)
-        for last in np.flatnonzero(near & self.driven & np.insert(self.free[:-1], 0, False)).tolist():
+        for last in np.flatnonzero(self.driven & np.insert(self.free[:-1], 0, False)).tolist():
             gap = self.exponents[last] - self.exponents[last - 1]
-            if abs(gap) > RESONANT * size:
+            touched = near[last] or near[last - 1]
+            if touched and abs(gap) > RESONANT * size:
                 push = push + np.eye(len(push))[last] * (push[last - 1] / gap)
                 return self._parted(last, gap).driven_by(exponent, push)
-            if EQUAL * size < abs(gap) <= ONE * size:
+            if touched and EQUAL * size < abs(gap) <= ONE * size:
                 push = push + np.eye(len(push))[last - 1] * (push[last] * gap / 2.0)
                 return self._as_one(last, gap).driven_by(exponent, push)
+            near[last - 1 : last + 1] |= touched
         chain = np.flatnonzero(near)
         others = np.flatnonzero(self.free & ~near)
         matrix = np.diag(self.exponents) + np.diag(self.driven[1:].astype(complex), -1)

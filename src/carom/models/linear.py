@@ -13,6 +13,7 @@ import numpy as np
 
 from carom.arguments import checked
 from carom.models import linear_parameters
+from carom.models.forcing import Force, with_forces
 from carom.models.model import Matrices, Rates
 from carom.models.modes import modes_of
 from carom.models.system import System, modal_system, second_order_system, walls_as_arrays
@@ -21,6 +22,8 @@ from carom.outcome import InputError, shown
 from carom.parameters import Field, Scales
 from carom.results import Result
 
+SINGULAR = 1e-14
+"""Smallest singular value of a matrix, relative to the largest, up to which it counts as singular."""
 _NUMBERS = ("mass", "damping", "stiffness", "forcing", "translation")
 
 
@@ -125,12 +128,15 @@ class LinearRotor(Result):
     def system(self) -> System:
         """Modes, contact planes and contact law."""
         n = len(self.mass)
-        try:
-            accelerations = np.linalg.solve(self.mass, np.concatenate([self.stiffness, self.damping], axis=1))
-            rest = np.linalg.solve(self.stiffness, self.forcing)
-            moved = np.linalg.solve(self.mass, self.planes.conj().T)
-        except np.linalg.LinAlgError:
-            raise InputError("mass, stiffness", "singular", "matrices that can be inverted") from None
+        if _singular(self.mass):
+            raise InputError("mass", "singular", "a matrix that can be inverted")
+        if _singular(self.stiffness) and self.forcing.any():
+            # In undamped resonance with the unbalance, which then drives a mode, there is no rest.
+            push = Force(0.0, np.linalg.solve(self.mass, self.forcing))
+            return with_forces(dataclasses.replace(self, forcing=np.zeros(n)).system, (push,))
+        accelerations = np.linalg.solve(self.mass, np.concatenate([self.stiffness, self.damping], axis=1))
+        rest = np.linalg.solve(self.stiffness, self.forcing) if self.forcing.any() else np.zeros(n, complex)
+        moved = np.linalg.solve(self.mass, self.planes.conj().T)
         generator = np.concatenate([np.eye(n, 2 * n, n), -accelerations])
         found = modes_of(generator, self.mass)
         mobilities = np.einsum("pn,np->p", self.planes, moved)
@@ -237,6 +243,12 @@ class LinearRotor(Result):
             numbers[name] = np.array(real) + 1j * np.array(imaginary)
         numbers["touchdowns"] = tuple(map(Touchdown.from_attributes, numbers["touchdowns"]))
         return cls(**numbers, scales=Scales(**scales) if scales else None)
+
+
+def _singular(matrix: np.ndarray) -> bool:
+    """Whether a matrix is singular to rounding."""
+    values = np.linalg.svd(matrix, compute_uv=False)
+    return bool(values[-1] <= SINGULAR * values[0])
 
 
 def _numbers(name: str, values: Any) -> np.ndarray:
