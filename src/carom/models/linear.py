@@ -23,7 +23,7 @@ from carom.parameters import Field, Scales
 from carom.results import Result
 
 SINGULAR = 1e-14
-"""Smallest singular value of a matrix, relative to the largest, up to which it counts as singular."""
+"""Smallest singular value of a matrix, relative to the size of its terms, up to which it counts as singular."""
 _NUMBERS = ("mass", "damping", "stiffness", "forcing", "translation")
 
 
@@ -128,9 +128,9 @@ class LinearRotor(Result):
     def system(self) -> System:
         """Modes, contact planes and contact law."""
         n = len(self.mass)
-        if _singular(self.mass):
+        if _singular(self.mass, self.mass):
             raise InputError("mass", "singular", "a matrix that can be inverted")
-        if _singular(self.stiffness) and self.forcing.any():
+        if _singular(self.stiffness, self.mass, self.damping, self.stiffness) and self.forcing.any():
             # In undamped resonance with the unbalance, which then drives a mode, there is no rest.
             push = Force(0.0, np.linalg.solve(self.mass, self.forcing))
             return with_forces(dataclasses.replace(self, forcing=np.zeros(n)).system, (push,))
@@ -245,10 +245,9 @@ class LinearRotor(Result):
         return cls(**numbers, scales=Scales(**scales) if scales else None)
 
 
-def _singular(matrix: np.ndarray) -> bool:
-    """Whether a matrix is singular to rounding."""
-    values = np.linalg.svd(matrix, compute_uv=False)
-    return bool(values[-1] <= SINGULAR * values[0])
+def _singular(matrix: np.ndarray, *terms: np.ndarray) -> bool:
+    """Whether a matrix is singular to the rounding of these."""
+    return bool(np.linalg.svd(matrix, compute_uv=False)[-1] <= SINGULAR * max(map(np.linalg.norm, terms)))
 
 
 def _numbers(name: str, values: Any) -> np.ndarray:
