@@ -93,7 +93,7 @@ def settled_both_ways(rotor, count, seed, monkeypatch):
     starts = np.sqrt(rng.uniform(0.0, 1.0, count)) * turns[0], 2.0 * np.sqrt(rng.uniform(0.0, 1.0, count)) * turns[1]
     proven = settle(rotor, *starts)
     monkeypatch.setattr(
-        "carom.motions.ensembles.fresh_memory", lambda rotor, patience, absorb: fresh_memory(rotor, patience)
+        "carom.motions.ensembles.fresh_memory", lambda rotor, patience, absorb, trigger: fresh_memory(rotor, patience)
     )
     followed = settle(rotor, *starts)
     for name in ("outcomes", "impacts", "multiplicities"):
