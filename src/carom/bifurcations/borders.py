@@ -260,7 +260,7 @@ class _Sides:
         return found
 
     def _own_at(self, side: int, distance: float) -> Orbit | None:
-        found = self.near(side, distance, self.orbit.word, Start(self.orbit.nodes, self.orbit.durations))
+        found = self.near(side, distance, self.orbit.word, self.orbit.start)
         if found is None and not self.orbit.word.flies:
             # Where a segment shrinks like a root, the orbit on the border is no start for Newton's method.
             for word, start in read_beside(self.orbit, self.at(side, distance)):
@@ -283,7 +283,7 @@ class _Sides:
                 seen = seen or word
                 # Virtual where the motion was simulated, it may be a motion on the other side: then both orbits end at the border.
                 closed = orbit_near(self.at(side, distance), word, start)
-                guess = (word, start) if closed is None else (closed.word, Start(closed.nodes, closed.durations))
+                guess = (word, start) if closed is None else (closed.word, closed.start)
                 here, there = (self.near(each, distance, *guess) for each in (side, -side))
                 found = here or there
                 if found is not None:

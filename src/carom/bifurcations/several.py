@@ -16,7 +16,7 @@ from carom.models.axes import Axis
 from carom.orbits.names import CountedName
 from carom.orbits.orbit import Orbit, orbit_near
 from carom.orbits.search import Search, Searched
-from carom.orbits.shooting import Start, pack_free
+from carom.orbits.shooting import pack_free
 from carom.outcome import CaromError
 from carom.progress import Reporter
 
@@ -106,12 +106,9 @@ def _known(rotor: Model, value: float, branches: Sequence[OrbitBranch]) -> list[
 
 def lies_on(orbit: Orbit, value: float, branch: OrbitBranch) -> bool:
     """Whether a branch passes through an orbit, whichever impact either of them begins with."""
-    turns = [k for k in range(len(orbit.word)) if orbit.word.turned(k) == branch.word]
-    if len(orbit.word) != len(branch.word) or not turns:
-        return False
-    for start in branch.starts_at(value, orbit.rotor):
-        for k in turns:
-            turned = Start(np.roll(orbit.nodes, -k, axis=0), np.roll(orbit.durations, -k))
+    turns = [orbit.start.turned(places) for places in orbit.word.turns_to(branch.word)]
+    for start in branch.starts_at(value, orbit.rotor) if turns else ():
+        for turned in turns:
             apart = np.abs(pack_free(branch.word, turned) - pack_free(branch.word, start)).max()
             if apart < SAME * (1.0 + float(np.abs(turned.nodes).max())):
                 return True

@@ -97,7 +97,7 @@ def continue_orbit(
     """
     along = axis(orbit.rotor, parameter)
     present, limits = interval_around(along, along.value(orbit.rotor), interval)
-    start = pack_free(orbit.word, Start(orbit.nodes, orbit.durations))
+    start = pack_free(orbit.word, orbit.start)
     family = Family(orbit.rotor, along, orbit.word, limits)
     return _follow(family, start, present, steps, orbit.name, virtual=virtual)
 
@@ -147,7 +147,7 @@ def switched(
         word, start, present = _beyond(orbit, along, limits)
         family, unknowns = Family(orbit.rotor, along, word, limits), pack_free(word, start)
     else:
-        alone = orbit.word, Start(orbit.nodes, orbit.durations)
+        alone = orbit.word, orbit.start
         word, start = alone if kind == PERMANENT else neighbour(kind, orbit)
         family, unknowns = Family(orbit.rotor, along, word, limits), pack_free(word, start)
     return _follow(family, unknowns, present, None, CountedName(family.word.impacts, 1), virtual=virtual)
@@ -164,7 +164,7 @@ def _beyond(orbit: Orbit, along: Axis, limits: tuple[float, float]) -> tuple[Wor
         for word, start in read_beside(orbit, rotor):
             found = orbit_near(rotor, word, start) if is_other(word, orbit.word) else None
             if found is not None and found.admissible:
-                return found.word, Start(found.nodes, found.durations), there
+                return found.word, found.start, there
     raise CaromError("no orbit of another word was found beside the border")
 
 
@@ -307,11 +307,7 @@ def _without_flight(word: Word, start: Start) -> tuple[Word, Start] | None:
     if len(lifts) != 1 or word.impacts or word.lands.sum() != 1 or start.durations[lifts[0]] > 1.01 * BRIEF:
         return None
     first = int(lifts[0])
-    turned, nodes, durations = (
-        word.turned(first),
-        np.roll(start.nodes, -first, axis=0),
-        np.roll(start.durations, -first),
-    )
+    turned, (nodes, durations) = word.turned(first), start.turned(first)
     if turned[1].kind is not Kind.LAND or turned[2] != turned[-1] or turned[2].kind is Kind.ROLL:
         return None
     if len(word) == 3:

@@ -15,10 +15,17 @@ from carom.parameters.exact import read_exact
 from carom.parameters.fields import unknown_name
 from carom.proofs.balls import ball_of, exact_ends, interval
 from carom.proofs.hypotheses import NUMBERS, Hypotheses, dimensionless_of
+from carom.proofs.series import I, hyperbolic
 
 
 class Numbers(NamedTuple):
-    """The numbers of the equations; balls or power series of balls."""
+    """The numbers of the equations; balls or power series of balls.
+
+    With ``S = −γ − 2i``, ``P = ω² − 1 + iγ`` and the real ``D = S²/4 − P = γ²/4 − ω²``, a flight changes position and velocity
+    relative to the contact-free equilibrium by
+
+        [[e − S/2 o, o], [−P o, e + S/2 o]],      e = e^{St/2} cosh(√D t),      o = e^{St/2} sinh(√D t)/√D .
+    """
 
     gamma: Any
     omega_squared: Any
@@ -26,6 +33,43 @@ class Numbers(NamedTuple):
     mu: Any
     d: Any
     radius_ratio: Any
+
+    @property
+    def half(self) -> Any:
+        """``S/2``."""
+        return self.gamma * -0.5 - I
+
+    @property
+    def split(self) -> Any:
+        """``D``, negative below critical damping."""
+        return self.gamma * self.gamma * 0.25 - self.omega_squared
+
+    @property
+    def product(self) -> Any:
+        """``P``, the stiffness in the co-rotating frame."""
+        return self.omega_squared - 1 + self.gamma * I
+
+    @property
+    def q(self) -> Any:
+        """``(1 + d)(1 + iμ)``: what an impact takes away of the velocity, over its radial speed."""
+        return (1 + self.d) * (1 + self.mu * I)
+
+    @property
+    def levitation(self) -> Any:
+        """``|U*|``, for balls."""
+        return self.rho / abs(self.product)
+
+    def flight(self, time: Any) -> tuple[Any, Any, Any]:
+        """``e``, ``o`` and ``e^{St/2}`` at a time."""
+        even, odd = hyperbolic(self.split, time)
+        growth = (self.half * time).exp()
+        return even * growth, odd * growth, growth
+
+    def fly(self, away: Any, velocity: Any, time: Any) -> tuple[Any, Any]:
+        """Distance from the contact-free equilibrium, and velocity, after a time."""
+        even, odd, _ = self.flight(time)
+        share = odd * self.half
+        return (even - share) * away + odd * velocity, (even + share) * velocity - odd * away * self.product
 
 
 @dataclass(frozen=True)

@@ -47,7 +47,7 @@ def _single_impact(rotor: Rotor, evidence: Evidence, options: Options) -> list[C
     """Equilibria, and all orbits with one impact a period."""
     longest = options.get("longest_period")
     periods = all_periods(rotor, evidence, None if longest is None else rational_of(longest), int(options["cells"]))
-    slip = slip_claim(rotor, evidence)
+    slip = slip_claim(rotor.numbers, evidence)
     claims = [*steady_claims(rotor), _periods_claim(rotor, periods), slip]
     admissible, doubts = [], []
     if not periods.complete:
@@ -85,7 +85,7 @@ def _periods_claim(rotor: Rotor, periods: Periods) -> Claim:
     reasons = [f"F1 may have roots next to T = {', '.join(places[:MOST_PLACES])}{more}"] if places else []
     if not periods.none_beyond:
         reasons.append(f"periods beyond {float(periods.end):.6g}/Omega were not looked at")
-        if not rotor.gamma > 0:
+        if not rotor.numbers.gamma > 0:
             reasons.append("without damping there is no longest period")
     return claim_of(
         "machine",
@@ -93,7 +93,7 @@ def _periods_claim(rotor: Rotor, periods: Periods) -> Claim:
         f"F1 has exactly {count} root{'' if count == 1 else 's'} T > 0, each of them simple.",
         1 if periods.complete else 0,
         reason="; ".join(reasons),
-        limited=bool(periods.open) and rotor.hypotheses.exact and bool(rotor.gamma > 0),
+        limited=bool(periods.open) and rotor.hypotheses.exact and bool(rotor.numbers.gamma > 0),
     )
 
 
