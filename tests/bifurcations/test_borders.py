@@ -7,7 +7,7 @@ from functools import cache, reduce
 import numpy as np
 import pytest
 
-from carom.bifurcations import Bifurcation, Border, OrbitBranch, continue_orbit, examine_border
+from carom.bifurcations import Bifurcation, Border, OrbitBranch, continue_orbit, examine_border, switch
 from carom.bifurcations.neighbours import neighbour
 from carom.models import Jeffcott
 from carom.motions import State, simulate
@@ -24,7 +24,7 @@ pytestmark = pytest.mark.jit_only
 @cache
 def three_impacts() -> OrbitBranch:
     """The branch of orbits with one impact more that ends where the doubled orbit grazes."""
-    return located("grazing", 0.08267).switch((0.079, 0.088))
+    return switch(located("grazing", 0.08267), (0.079, 0.088))
 
 
 @cache
@@ -107,7 +107,7 @@ def test_where_friction_stops_the_slip_the_motion_goes_on_continuously():
     assert found.beyond.segments == "impact0"
     assert found.beyond.stable
     assert found.verdict == "continuous"
-    branch = point.switch((0.5, 1.2))
+    branch = switch(point, (0.5, 1.2))
     assert str(branch.word) == "impact0"
     assert branch.admissible[branch.values < point.value - 1e-6].all()
     # There it is what the simulation does, and it attracts.
@@ -127,7 +127,7 @@ def test_no_orbit_is_constructed_beyond_other_points():
     with pytest.raises(InputError, match="border"):
         examine_border(located("period-doubling", 0.08556))
     with pytest.raises(InputError, match="special point"):
-        located("fold", 0.08267).switch()
+        switch(located("fold", 0.08267))
     with pytest.raises(InputError, match="another flight"):
         neighbour("vanishing-impact", find_orbits(PAPER)["B1,d"])
 
@@ -183,7 +183,7 @@ def test_the_orbit_attracts_between_these_points_and_repels_outside():
 
 def test_the_doubled_branch_of_three_impacts_is_found():
     (point,) = [each for each in resonant().special if each.kind == "period-doubling"]
-    branch = point.switch((0.0865, 0.089))
+    branch = switch(point, (0.0865, 0.089))
     assert branch.word.impacts == 6
     assert "period-halving" in branch.stops
     assert len(doubled().word) == 2

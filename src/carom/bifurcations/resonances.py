@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from carom.bifurcations.conditions import conditions_at
-from carom.bifurcations.curves import Codimension2Point
+from carom.bifurcations.curve_results import Codimension2Point
 from carom.bifurcations.planes import Plane
 from carom.bifurcations.points import Bifurcation
 from carom.continuation.branch import Steps

@@ -10,7 +10,7 @@ import numpy as np
 from carom.bifurcations.branches import OrbitBranch
 from carom.bifurcations.neighbours import NEIGHBOURS, neighbour
 from carom.bifurcations.points import HALVING, Bifurcation
-from carom.bifurcations.words import continue_orbit, renamed, switched
+from carom.bifurcations.words import continue_orbit, renamed, switch
 from carom.models import Model
 from carom.models.axes import Axis
 from carom.orbits.names import CountedName
@@ -65,7 +65,7 @@ def several_impacts(
             if not (virtual or point.admissible) or not _begins_another(point, impacts, [*singles, *found]):
                 continue
             try:
-                add(switched(point.kind, point.orbit, along.name, limits, virtual=virtual))
+                add(switch(point, limits, virtual=virtual))
             except CaromError:
                 continue
 

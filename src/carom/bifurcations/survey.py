@@ -8,7 +8,8 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from carom.bifurcations.changes import PlanePoint, UnexplainedChange, accounts_for, causes_between, change_between
-from carom.bifurcations.curves import Curve, continue_curve
+from carom.bifurcations.curve_results import Curve
+from carom.bifurcations.curves import continue_curve
 from carom.bifurcations.motions import Motions, motions_at
 from carom.bifurcations.passing import crossings, passes, with_curve
 from carom.bifurcations.planes import Plane

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from collections import OrderedDict
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache, partial
 from itertools import combinations
 from math import isfinite, prod
 from typing import Any
@@ -158,39 +157,38 @@ TESTS: dict[str, Callable[[FamilyPoint], float]] = {
 """Functions that vanish at special points; not finite where they are not defined."""
 
 
-class Family:
+class Orbits:
+    """Orbits of a word by their unknowns and the values of parameters; the last ones, and the last rotors, are remembered."""
+
+    def __init__(self, word: Word, rotor_of: Callable[..., Model]) -> None:
+        self.word, self._rotor_of = word, rotor_of
+        self.rotor_at = lru_cache(REMEMBERED)(self._rotor_at)
+        self._known = lru_cache(REMEMBERED)(self._evaluated)
+
+    def _rotor_at(self, *place: float) -> Model | None:
+        """The rotor at values of the parameters; ``None`` where there is none."""
+        try:
+            return self._rotor_of(*place)
+        except InputError:
+            return None
+
+    def point(self, u: np.ndarray, *place: float) -> FamilyPoint | None:
+        """The segments from the free unknowns; ``None`` where they are not defined."""
+        return self._known(u.tobytes(), *place)
+
+    def _evaluated(self, unknowns: bytes, *place: float) -> FamilyPoint | None:
+        rotor = self.rotor_at(*place)
+        return None if rotor is None else point_at(rotor, self.word, np.frombuffer(unknowns))
+
+
+class Family(Orbits):
     """The equations of orbits of a word along a parameter."""
 
     def __init__(self, rotor: Model, along: Axis, word: Word, limits: tuple[float, float]) -> None:
-        self.rotor, self.along, self.word, self.limits = rotor, along, word, limits
+        super().__init__(word, partial(along.move, rotor))
+        self.rotor, self.along, self.limits = rotor, along, limits
         self.size = max(abs(along.value(rotor)), 0.1 * (limits[1] - limits[0]))
         self.at_walls = _at_walls(rotor, word)
-        self.points: OrderedDict[tuple[bytes, float], FamilyPoint | None] = OrderedDict()
-        self.rotors: OrderedDict[float, Model | None] = OrderedDict()
-
-    def rotor_at(self, p: float) -> Model | None:
-        """The rotor at a value of the parameter; ``None`` where it has none."""
-        if p not in self.rotors:
-            try:
-                self.rotors[p] = self.along.move(self.rotor, p)
-            except InputError:
-                self.rotors[p] = None
-            if len(self.rotors) > REMEMBERED:
-                self.rotors.popitem(last=False)
-        return self.rotors[p]
-
-    def point(self, u: np.ndarray, p: float) -> FamilyPoint | None:
-        """The segments at a point; ``None`` where they are not defined."""
-        key = u.tobytes(), p
-        if key not in self.points:
-            self.points[key] = self._evaluated(u, p)
-            if len(self.points) > REMEMBERED:
-                self.points.popitem(last=False)
-        return self.points[key]
-
-    def _evaluated(self, u: np.ndarray, p: float) -> FamilyPoint | None:
-        rotor = self.rotor_at(p)
-        return None if rotor is None else point_at(rotor, self.word, u)
 
     def whole(self, u: np.ndarray, p: float) -> np.ndarray:
         """All nodes and durations, in the order of :func:`~carom.orbits.shooting.pack`, from the unknowns."""
@@ -222,18 +220,14 @@ class Family:
         return None if found is None else pack(found)
 
     def _by_parameter(self, point: FamilyPoint, p: float) -> np.ndarray:
-        """Derivative of the equations by the parameter: exact, or by a difference to a side where the rotor exists."""
+        """Derivative of the equations by the parameter: exact, or by a difference inside the limits."""
         exact = by_parameter(point.rotor, self.word, point.links.start, self.along.name)
         if exact is not None:
             return exact
-        step, here = DIFFERENCE * self.size, point.links.reduced[0]
-        rotor = self.rotor_at(p + step)
-        if rotor is None:
-            step = -step
-            rotor = self.rotor_at(p + step)
-        if rotor is None:
-            return np.full(len(here), np.nan)
-        slope: np.ndarray = (links_of(rotor, self.word, point.links.start).reduced[0] - here) / step
+        step = DIFFERENCE * self.size
+        step = step if p + step <= self.limits[1] else -step
+        moved = links_of(self.along.move(self.rotor, p + step), self.word, point.links.start)
+        slope: np.ndarray = (moved.reduced[0] - point.links.reduced[0]) / step
         return slope
 
     def beside(self, doubled: np.ndarray, p: float, tangent: np.ndarray) -> tuple[np.ndarray, float]:

@@ -102,9 +102,8 @@ def continue_orbit(
     return _follow(family, start, present, steps, orbit.name, virtual=virtual)
 
 
-def switched(
-    kind: str, orbit: Orbit, parameter: str, interval: Ends | None = None, *, virtual: bool = True
-) -> OrbitBranch:
+@checked
+def switch(point: Bifurcation, interval: Ends | None = None, *, virtual: bool = True) -> OrbitBranch:
     """Branch that crosses or continues another at a special point.
 
     At a period doubling it is that of orbits of twice the period.  Where a maximum of the radius or an impact grazes, and
@@ -116,11 +115,7 @@ def switched(
 
     Parameters
     ----------
-    kind : str
-        Kind of the special point.
-    orbit : Orbit
-        The orbit there.
-    parameter : str
+    point : Bifurcation
     interval : tuple of float or str, optional
         Range of the parameter; by default a fifth of it to either side.
     virtual : bool
@@ -133,9 +128,10 @@ def switched(
     CaromError
         No orbit is found next to it.
     """
+    kind, orbit = point.kind, point.orbit
     if kind not in ("period-doubling", *BORDERS):
         raise InputError("special point", kind, f"a period doubling, or one of: {', '.join(BORDERS)}")
-    along = axis(orbit.rotor, parameter)
+    along = axis(orbit.rotor, point.parameter)
     value = along.value(orbit.rotor)
     ends = (value - BEYOND * abs(value), value + BEYOND * abs(value)) if interval is None else interval
     present, limits = interval_around(along, value, ends)

@@ -29,34 +29,20 @@ where ``μ(w² − ω²) − γw`` exceeds ``p``, at every angle, or zero, on av
 from __future__ import annotations
 
 import math
-from typing import Literal, NamedTuple, Protocol, get_args
+from typing import Literal, NamedTuple, get_args
 
 import numpy as np
 
 from carom.arguments import checked
 from carom.models import Jeffcott, Subject, jeffcott_of
 from carom.outcome import InputError
+from carom.parameters import Numbers, Parameters
 
 Gain = Literal["gamma", "omega"]
 Steady = Literal["contact-free", "rub", "rolling"]
 BoundaryKind = Literal["persistence", "non-smooth fold", "degenerate"]
-
-
-class Values(Protocol):
-    """Dimensionless parameters: :class:`~carom.parameters.Parameters`, or plain numbers of the same names."""
-
-    @property
-    def gamma(self) -> float: ...  # noqa: D102
-    @property
-    def omega(self) -> float: ...  # noqa: D102
-    @property
-    def rho(self) -> float: ...  # noqa: D102
-    @property
-    def mu(self) -> float: ...  # noqa: D102
-    @property
-    def d(self) -> float: ...  # noqa: D102
-    @property
-    def radius_ratio(self) -> float: ...  # noqa: D102
+Values = Parameters | Numbers
+"""Dimensionless parameters, checked or as plain numbers."""
 
 
 class End(NamedTuple):

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Any, ClassVar, overload
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -23,9 +23,8 @@ from carom.orbits.search import GUESSES, Impacts, Searched, search_orbits
 from carom.orbits.shooting import Start
 from carom.orbits.stability import Multipliers, multipliers_of_all
 from carom.orbits.word import Kind, Word
-from carom.outcome import InputError
 from carom.progress import Reporter, ShowProgress, shows_progress
-from carom.results import Result, in_a_line
+from carom.results import Members, in_a_line
 
 MOST_RADIANS = 1500.0
 """Largest modulus ``|λT|`` of the fastest mode over the longest period that is searched: some hundred orbits."""
@@ -35,7 +34,7 @@ FORWARD, BACKWARD = Word.of(Kind.IMPACT_FORWARD), Word.of(Kind.IMPACT_BACKWARD)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class OrbitSet(Result, Sequence[Orbit]):
+class OrbitSet(Members[Orbit]):
     """Orbits of a rotor; look one up by index or by name, ``orbits["B1,d"]``.
 
     Without a search they are all with one impact a period of the planar rotor, virtual ones included.  With a search they are admissible:
@@ -63,6 +62,7 @@ class OrbitSet(Result, Sequence[Orbit]):
     """
 
     figure: ClassVar[str] = "equilibria_and_orbits"
+    called: ClassVar[str] = "orbit"
 
     # Not narrower: without a search it is a planar rotor, whose parameters are read.
     rotor: Any
@@ -73,25 +73,6 @@ class OrbitSet(Result, Sequence[Orbit]):
     longest_period: float
     complete: bool
     slip_stays_forward: bool
-
-    def __len__(self) -> int:
-        return len(self.members)
-
-    def __iter__(self) -> Iterator[Orbit]:
-        return iter(self.members)
-
-    @overload
-    def __getitem__(self, key: int | str) -> Orbit: ...
-    @overload
-    def __getitem__(self, key: slice) -> tuple[Orbit, ...]: ...
-    def __getitem__(self, key: int | str | slice) -> Orbit | tuple[Orbit, ...]:
-        if not isinstance(key, str):
-            return self.members[key]
-        for orbit in self.members:
-            if orbit.name == key:
-                return orbit
-        names = ", ".join(orbit.name for orbit in self.members) or "none, there are no orbits"
-        raise InputError("orbit", key, f"one of: {names}")
 
     def rows(self) -> list[tuple[str, str]]:
         """Each orbit, and whether the list is complete or how much was searched."""

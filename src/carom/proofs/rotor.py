@@ -20,7 +20,8 @@ from typing import Any, NamedTuple
 
 from flint import arb, ctx
 
-from carom.proofs.balls import ball_of
+from carom.proofs.balls import ball_of, enclosures_of
+from carom.proofs.claims import Claim, claim_of
 from carom.proofs.hypotheses import NUMBERS, Hypotheses
 from carom.proofs.lines import Numbers
 
@@ -116,3 +117,8 @@ class Rotor:
             number is not None and period.contains_interior(2 * arb.pi() * number / (1 + sign * frequency))
             for number, sign in zip(whole, (1, -1), strict=True)
         )
+
+    def claim(self, about: str, kind: str, statement: str, sign: int, reason: str = "", **balls: Any) -> Claim:
+        """Claim about it, with enclosures of those balls that are bounded; more bits may decide what is undecided of one machine."""
+        values, limited = enclosures_of(**balls), self.hypotheses.exact
+        return claim_of(about, kind, statement, sign, reason=reason, enclosures=values, limited=limited)

@@ -19,14 +19,15 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import partial
 from math import ceil
 from typing import Any
 
 from flint import arb
 
-from carom.proofs.balls import decided, enclosures_of, exact_ends
+from carom.proofs.balls import decided, exact_ends
 from carom.proofs.cells import NEGATIVE, Analytic, Cells, cells_of, power_of_two_below, show
-from carom.proofs.claims import Claim, Status, claim_of
+from carom.proofs.claims import Claim, Status
 from carom.proofs.courses import Course, Return
 from carom.proofs.evidence import Evidence, NotShownError, rational_of
 from carom.proofs.periods import Periods
@@ -71,23 +72,22 @@ def _radial_speeds(rotor: Rotor, back: Return) -> list[Any] | None:
 def orbit_claims(rotor: Rotor, orbit: Candidate, evidence: Evidence) -> tuple[list[Claim], Status]:
     """Claims about one orbit, and whether it is a motion of the machine."""
     course, name = orbit.course, orbit.name
-    solution = claim_of(
+    solution = rotor.claim(
         name,
         "solution",
         "The closing conditions of an orbit with one impact a period and forward slip have a solution with a period and a "
         "radial speed in these intervals; it is simple, so no other is next to it.",
         1,
-        enclosures=enclosures_of(
-            period=course.back.period, radial_speed=course.speed, angular_speed=course.angular_speed
-        ),
+        period=course.back.period,
+        radial_speed=course.speed,
+        angular_speed=course.angular_speed,
     )
-    outward = claim_of(
+    outward = rotor.claim(
         name,
         "outward",
         "Its radial speed before the impact is positive: it meets the wall from inside.",
         decided(course.speed) or (-1 if course.speed.is_zero() else 0),
-        reason="its radial speed is not above 0" if course.speed <= 0 else "the sign of its radial speed is open",
-        limited=rotor.hypotheses.exact,
+        "its radial speed is not above 0" if course.speed <= 0 else "the sign of its radial speed is open",
     )
     claims = [solution, outward]
     if outward.status == "proven":
@@ -113,14 +113,13 @@ def _slip_claim(rotor: Rotor, orbit: Candidate) -> Claim:
     after = orbit.course.slip_after
     free = rotor.hypotheses.rational("mu") == (Fraction(0),)
     words = "friction would stop its slip, or its slip is backward"
-    return claim_of(
+    return rotor.claim(
         orbit.name,
         "slip",
         "Its slip is forward before the impact and after it, or there is no friction.",
         1 if free else decided(after),
-        reason=words if after < 0 else "whether its slip stays forward is open",
-        enclosures=enclosures_of(slip_after=after),
-        limited=rotor.hypotheses.exact,
+        words if after < 0 else "whether its slip stays forward is open",
+        slip_after=after,
     )
 
 
@@ -129,16 +128,18 @@ def _slip_claim(rotor: Rotor, orbit: Candidate) -> Claim:
 
 def _inside_claim(rotor: Rotor, orbit: Candidate, evidence: Evidence) -> Claim:
     """Claim that the orbit stays inside the wall strictly between its impacts."""
-    statement = "It stays inside the wall, |U| < 1, strictly between its impacts."
+    claim = partial(
+        rotor.claim, orbit.name, "inside", "It stays inside the wall, |U| < 1, strictly between its impacts."
+    )
     period, radius = orbit.course.back.period, Analytic(orbit.course.heights)
     # Without rebound the rotor leaves with no radial speed, and the push decides.
     order = 2 if rotor.hypotheses.rational("d") == (Fraction(0),) else 1
     found = evidence.take(f"flight of {orbit.name}", lambda: _flight(rotor, period, radius, order))
     if found is None:
-        reason = (
-            "neither could be shown: it comes too close to the wall for the precision or the width of the given numbers"
+        return claim(
+            0,
+            "neither could be shown: it comes too close to the wall for the precision or the width of the given numbers",
         )
-        return claim_of(orbit.name, "inside", statement, 0, reason=reason, limited=rotor.hypotheses.exact)
     if "outside" in found:
         time = rational_of(found["outside"])
         if time == 0:
@@ -149,12 +150,12 @@ def _inside_claim(rotor: Rotor, orbit: Candidate, evidence: Evidence) -> Claim:
             reason = f"it would be outside the wall at t = {float(time):.6g} after the impact"
         if not shown:
             raise NotShownError(f"the certificate does not show that {orbit.name} leaves the wall at {time}")
-        return claim_of(orbit.name, "inside", statement, -1, reason=reason)
+        return claim(-1, reason)
     cells = Cells.from_document(found)
     if set(cells.kinds) - {NEGATIVE} or not _ends_inside(period, radius, cells.cuts[0], cells.cuts[-1], order):
         raise NotShownError(f"the certificate does not show that {orbit.name} stays inside the wall")
     show(radius, cells)
-    return claim_of(orbit.name, "inside", statement, 1)
+    return claim(1)
 
 
 def _ends_inside(period: Any, radius: Analytic, first: Fraction, last: Fraction, order: int) -> bool:
@@ -209,12 +210,11 @@ def _stability_claim(rotor: Rotor, orbit: Candidate) -> Claim:
         signs[TOO_LARGE] = -1
     sign = min(signs.values())
     reasons = [words for words, value in signs.items() if value == sign]
-    return claim_of(
+    return rotor.claim(
         orbit.name,
         "stable",
         "All three multipliers of the impact map at it lie inside the unit circle.",
         sign,
-        reason="; ".join(reasons) if sign < 0 else f"it is open whether {', or whether '.join(reasons)}",
-        enclosures=enclosures_of(trace=found.trace, minors=found.minors, determinant=found.determinant),
-        limited=rotor.hypotheses.exact,
+        "; ".join(reasons) if sign < 0 else f"it is open whether {', or whether '.join(reasons)}",
+        **found._asdict(),
     )

@@ -14,11 +14,12 @@ first turning point ``τ = (2/γ) x⁻¹ artanh x``, ``x² = 4D/γ²`` and ``D =
 
 from __future__ import annotations
 
+from functools import partial
 from typing import Any
 
 from flint import arb
 
-from carom.proofs.balls import decided, enclosures_of
+from carom.proofs.balls import decided
 from carom.proofs.claims import Claim, claim_of
 from carom.proofs.lines import Numbers
 from carom.proofs.rotor import Rotor
@@ -31,25 +32,20 @@ def steady_claims(rotor: Rotor) -> list[Claim]:
 
 
 def _levitation_claims(rotor: Rotor) -> list[Claim]:
-    radius = rotor.numbers.levitation
-    inside = -1 if rotor.on_the_wall else decided(1 - radius)
-    reason = (
-        "it lies on the wall"
-        if rotor.on_the_wall
-        else "it lies outside the wall"
-        if inside
-        else "the sign of |U*| - 1 could not be shown"
-    )
-    damping = rotor.hypotheses.numbers["gamma"]
+    radius, damping = rotor.numbers.levitation, rotor.hypotheses.numbers["gamma"]
+    inside, reason = decided(1 - radius), "the sign of |U*| - 1 could not be shown"
+    if rotor.on_the_wall:
+        inside, reason = -1, "it lies on the wall"
+    elif inside:
+        reason = "it lies outside the wall"
     return [
-        claim_of(
+        rotor.claim(
             "levitation",
             "inside",
             "The contact-free equilibrium lies inside the wall, |U*| < 1.",
             inside,
-            reason=reason,
-            enclosures=enclosures_of(radius=radius),
-            limited=rotor.hypotheses.exact,
+            reason,
+            radius=radius,
         ),
         claim_of(
             "levitation",
@@ -71,14 +67,13 @@ def _claims_of_rub(rotor: Rotor, name: str, side: int) -> list[Claim]:
     n = rotor.numbers
     square, half = rub_discriminant(n), rub_balance(n)
     sign = _sign_of_square(rotor, square)
-    exists = claim_of(
+    which = "larger" if side > 0 else "smaller"
+    exists = rotor.claim(
         name,
         "solution",
-        "The balance of forces of a synchronous rub has two solutions; this is that of the "
-        f"{'larger' if side > 0 else 'smaller'} normal force.",
+        f"The balance of forces of a synchronous rub has two solutions; this is that of the {which} normal force.",
         sign,
-        reason="no rub is in balance, or both are one" if sign < 0 else "the rubs may meet in a fold",
-        limited=rotor.hypotheses.exact,
+        "no rub is in balance, or both are one" if sign < 0 else "the rubs may meet in a fold",
     )
     if exists.status != "proven":
         return [exists]
@@ -88,28 +83,23 @@ def _claims_of_rub(rotor: Rotor, name: str, side: int) -> list[Claim]:
         # The form without cancellation.
         force = wall_condition(n) / (half - side * root)
         force = arb(0) if rotor.on_the_wall else force
-    pressed = claim_of(
+    pushes = decided(force) or (-1 if force.is_zero() else 0)
+    pressed = rotor.claim(
         name,
         "pressed",
         "The wall pushes the rotor there: its normal force is positive.",
-        decided(force) or (-1 if force.is_zero() else 0),
-        reason="the wall would have to pull, or does not push"
-        if force <= 0
-        else "the sign of its normal force is open",
-        enclosures=enclosures_of(normal_force=force),
-        limited=rotor.hypotheses.exact,
+        pushes,
+        "the wall would have to pull, or does not push" if force <= 0 else "the sign of its normal force is open",
+        normal_force=force,
     )
     given = rotor.hypotheses.rational("gamma", "mu")
     damping = -1 if given and given[0] + 2 * given[1] == 0 else decided(n.gamma + 2 * n.mu)
-    attracts = claim_of(
+    attracts = rotor.claim(
         name,
         "attracts sliding",
         "It is a motion of the machine, and small disturbances along the wall die out.",
-        min(side, damping, {"proven": 1, "refuted": -1, "undecided": 0}[pressed.status]),
-        reason="it is a saddle along the wall"
-        if side < 0
-        else "it is not pressed on the wall, or sliding is not damped",
-        limited=rotor.hypotheses.exact,
+        min(side, damping, pushes),
+        "it is a saddle along the wall" if side < 0 else "it is not pressed on the wall, or sliding is not damped",
     )
     return [exists, pressed, attracts]
 
@@ -145,17 +135,15 @@ def _kick_claim(rotor: Rotor) -> Claim:
     statement = "The rotor levitates inside the wall, and no kick out of levitation slower than the lower number brings it to the wall."
     room = 1 - rotor.numbers.levitation
     damping = rotor.hypotheses.numbers["gamma"]
+    claim = partial(rotor.claim, "kick", "harmless", statement)
     if rotor.on_the_wall or room < 0 or damping.high < 0:
-        reason = "it does not levitate inside the wall, or any kick grows"
-        return claim_of("kick", "harmless", statement, -1, reason=reason)
+        return claim(-1, "it does not levitate inside the wall, or any kick grows")
     if not (room > 0 and damping.low >= 0):
-        reason = "it may not levitate inside the wall, or a kick may grow"
-        return claim_of("kick", "harmless", statement, 0, reason=reason, limited=rotor.hypotheses.exact)
+        return claim(0, "it may not levitate inside the wall, or a kick may grow")
     speed = room / _largest_response(rotor.numbers)
     if not (speed.is_finite() and speed > 0):
-        reason = "the largest response to a kick could not be enclosed"
-        return claim_of("kick", "harmless", statement, 0, reason=reason, limited=rotor.hypotheses.exact)
-    return claim_of("kick", "harmless", statement, 1, enclosures=enclosures_of(speed=speed))
+        return claim(0, "the largest response to a kick could not be enclosed")
+    return claim(1, speed=speed)
 
 
 def _largest_response(n: Numbers) -> Any:

@@ -100,7 +100,7 @@ def _periods_claim(rotor: Rotor, periods: Periods) -> Claim:
 def _no_solution(rotor: Rotor, names: str, known: bool) -> Claim:
     statement = "The closing conditions of an orbit with one impact a period have solutions at this root of F1."
     reason = "its radial speeds are not real" if known else "its two radial speeds may meet in a fold"
-    return claim_of(names, "solution", statement, -1 if known else 0, reason=reason, limited=rotor.hypotheses.exact)
+    return rotor.claim(names, "solution", statement, -1 if known else 0, reason)
 
 
 THEOREMS: Mapping[str, Theorem] = {
