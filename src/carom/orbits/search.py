@@ -19,10 +19,10 @@ from carom.motions.starts import State
 from carom.motions.trajectories import Trajectory, simulate
 from carom.orbits.names import CountedName
 from carom.orbits.orbit import Orbit, lasts, orbit_of_links, same_orbit
-from carom.orbits.recognising import orbit_of_motion, segments_of
+from carom.orbits.recognising import lift_offs, orbit_of_motion, segments_of
 from carom.orbits.shooting import Start, closed_flights, converged, links_of, pack
 from carom.orbits.word import Word
-from carom.outcome import InputError, Outcome, Phase
+from carom.outcome import InputError, Outcome
 from carom.progress import Reporter
 
 GUESSES, MOST_IMPACTS = 1500, 64
@@ -270,10 +270,8 @@ class Search:
         """Stretches of a motion that come back closest, with their number of impacts; through a landing, from lift-off to lift-off."""
         most = LANDS if landing else IMPACTS * (self.impacts + 1)
         motion = simulate(self.rotor, start, FOLLOWED, stop_at_chatter=not landing, max_events=most)
-        events = np.arange(len(motion.event_planes))
-        flying = motion.segment_phases == Phase.FLIGHT
-        lifts = events[~flying[events, motion.event_planes] & flying[events + 1, motion.event_planes]]
         if landing:
+            lifts = lift_offs(motion)
             yield from self._cut(motion, lifts[1:] if len(lifts) > 3 else lifts, range(1, 4), contact=True)
         impacts = np.flatnonzero(motion.is_impact)
         yield from self._cut(motion, impacts, range(1, self.impacts + 1), contact=False)

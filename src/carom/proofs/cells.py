@@ -108,21 +108,23 @@ def _leads(terms: list[Any], order: int, width: Any) -> bool:
 
 def cells_of(
     function: Analytic, low: Fraction, high: Fraction, *, width: Fraction, least: Fraction, most: int, kinds: str
-) -> Cells | Fraction:
+) -> Cells:
     """Cells from one place to another, on each of which something is shown.
 
     Cells have at first the given width; one that is narrower than ``least`` is left open, and the search ends after ``most`` cells
-    and attempts.  ``kinds`` says what is looked for: without :data:`POSITIVE` a place at which the function is positive ends the
-    search, and is returned.
+    and attempts.  ``kinds`` says what is looked for: without :data:`POSITIVE` a cell in whose middle the function is positive ends the
+    search, and is left open.
     """
     cuts, found, left = [low], "", low
+    if low == high:
+        return Cells((low,), "")
     for _ in range(most):
         right = min(left + width, high)
         sign, slope, middle = function.on(left, right)
         signs, slopes = {1: POSITIVE, -1: NEGATIVE}, {1: RISING, -1: FALLING}
         kind = signs.get(sign) or slopes.get(slope, OPEN)
         if middle > 0 and POSITIVE not in kinds:
-            return (left + right) / 2
+            return Cells((*cuts, right), found + OPEN)
         if kind not in kinds or kind == OPEN:
             if right - left > least:
                 width = (right - left) / 2

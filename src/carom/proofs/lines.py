@@ -7,7 +7,7 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Any, NamedTuple
 
-from flint import arb_series, ctx
+from flint import arb_series
 
 from carom.outcome import InputError
 from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS
@@ -74,7 +74,7 @@ class Numbers(NamedTuple):
 
 @dataclass(frozen=True)
 class Line:
-    """All machines whose parameter lies in an interval, the other numbers those of the hypotheses.
+    """All machines whose parameter lies in an interval, the other numbers those of the hypotheses, at the precision of their first use.
 
     Attributes
     ----------
@@ -125,33 +125,20 @@ class Line:
             found["gamma"] = found["gamma"] + value * 0
         return Numbers(*(found[name] for name in NUMBERS))
 
-    @property
+    @cached_property
     def _balls(self) -> dict[str, Any]:
-        return self._remembered("numbers", lambda: {n: ball_of(self.hypotheses.numbers[n]) for n in NUMBERS})
+        return {name: ball_of(self.hypotheses.numbers[name]) for name in NUMBERS}
 
-    @property
+    @cached_property
     def _set(self) -> dict[str, Any]:
         """Numbers that do not follow from the machine's table."""
         names = {"omega_squared" if name == "omega" else name for name in self.hypotheses.settings}
         return {name: ball for name, ball in self._balls.items() if name in names}
 
-    @property
+    @cached_property
     def _machine(self) -> dict[str, Any]:
         values = self.hypotheses.values.items()
-        return self._remembered(
-            "machine", lambda: {name: ball_of(read_exact(MACHINE_FIELDS[name], text)) for name, text in values}
-        )
-
-    def _remembered(self, name: str, make: Any) -> dict[str, Any]:
-        """What is made once at each precision."""
-        key = name, ctx.prec
-        if key not in self._memory:
-            self._memory[key] = make()
-        return self._memory[key]
-
-    @cached_property
-    def _memory(self) -> dict[tuple[str, int], dict[str, Any]]:
-        return {}
+        return {name: ball_of(read_exact(MACHINE_FIELDS[name], text)) for name, text in values}
 
 
 def line_of(hypotheses: Hypotheses, name: str, start: str, stop: str) -> Line:

@@ -125,23 +125,17 @@ def all_periods(rotor: Rotor, evidence: Evidence, longest: Fraction | None, most
     if not sign:
         raise NotShownError("the certificate does not show the sign of F1 next to 0")
     least = width / 2 ** max(rotor.bits // 2, 20)
-    search = _limited(condition, start, end, width=width, least=least, most=most)
-    cells = Cells.from_document(evidence.take("cells of F1", lambda: search().document()))
+    limits = {"width": width, "least": least, "most": most}
+    found = evidence.take(
+        "cells of F1",
+        lambda: cells_of(condition, start, end, kinds=POSITIVE + NEGATIVE + RISING + FALLING, **limits).document(),
+    )
+    cells = Cells.from_document(found)
     if cells.cuts[0] != start or cells.cuts[-1] > end:
         raise NotShownError("the cells of a certificate do not begin where the first one ends")
     show(condition, cells)
-    found = _roots_on(rotor, condition, cells, sign, evidence)
-    return replace(found, none_beyond=bound is not None and cells.cuts[-1] == bound)
-
-
-def _limited(function: Analytic, low: Fraction, high: Fraction, **limits: Any) -> Callable[[], Cells]:
-    def search() -> Cells:
-        if low == high:
-            return Cells((low,), "")
-        found = cells_of(function, low, high, kinds=POSITIVE + NEGATIVE + RISING + FALLING, **limits)
-        return found if isinstance(found, Cells) else Cells((low,), "")
-
-    return search
+    roots = _roots_on(rotor, condition, cells, sign, evidence)
+    return replace(roots, none_beyond=bound is not None and cells.cuts[-1] == bound)
 
 
 def _text(number: Fraction | None) -> str | None:

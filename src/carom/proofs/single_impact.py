@@ -26,7 +26,7 @@ from typing import Any
 from flint import arb
 
 from carom.proofs.balls import decided, exact_ends
-from carom.proofs.cells import NEGATIVE, Analytic, Cells, cells_of, power_of_two_below, show
+from carom.proofs.cells import NEGATIVE, OPEN, Analytic, Cells, cells_of, power_of_two_below, show
 from carom.proofs.claims import Claim, Status
 from carom.proofs.courses import Course, Return
 from carom.proofs.evidence import Evidence, NotShownError, rational_of
@@ -190,12 +190,11 @@ def _flight(rotor: Rotor, period: Any, radius: Analytic, order: int) -> dict[str
     last = ceil((low - ends[1]) / grid) * grid
     if not _ends_inside(period, radius, first, last, order):
         return None
-    if first == last:
-        return Cells((first,), "").document()
     found = cells_of(radius, first, last, width=width, least=least, most=MOST_CELLS, kinds=NEGATIVE)
-    if isinstance(found, Fraction):
-        return {"outside": str(found)}
-    return found.document() if found.cuts[-1] == last and set(found.kinds) == {NEGATIVE} else None
+    middle = sum(found.cuts[-2:]) / 2
+    if found.kinds.endswith(OPEN) and radius.sign(middle) > 0:
+        return {"outside": str(middle)}
+    return found.document() if found.cuts[-1] == last and not set(found.kinds) - {NEGATIVE} else None
 
 
 # ------------------------------------------------------------------------------------------------ stability
