@@ -14,7 +14,7 @@ from carom.parameters import Numbers, Parameters
 
 TURNS = {"resonance-1:1": 1.0, "resonance-1:2": -1.0}
 """Value of the double multiplier at each resonance."""
-ASIDE = 1e-5
+FROM_RESONANCE = 1e-5
 """Distance of the pair's sum from ±2 at the start of the curve; on some curves it never exceeds 1e-4."""
 ARRIVED, ITERATIONS = 1e-10, 20
 
@@ -27,7 +27,7 @@ def beside_resonance(parameters: Parameters, plane: Plane, point: Codimension2Po
     """
     base, place = Numbers.of(parameters), np.array(point.value)
     plane.axes(parameters)
-    wanted = TURNS[point.kind] * (2.0 - ASIDE)
+    wanted = TURNS[point.kind] * (2.0 - FROM_RESONANCE)
 
     def conditions(u: np.ndarray, y: float) -> np.ndarray:
         period, speed, x = u.tolist()

@@ -40,24 +40,24 @@ DIFFERENCE = 1e-6
 """Step of the differences by the parameter, relative to its size, where there is no exact derivative; they only bend the predicted direction."""
 REMEMBERED = 64
 """Points whose segments are kept: each is asked for by the equations, their derivative and all watches."""
-SHORTEST, ALONE = 1e-6, 1e-3
+SHORTEST, SHORTEST_ALONE = 1e-6, 1e-3
 """Duration of a flight, in ``1/Ω``, at which a branch ends; the second for the only flight of a period, which can vanish if ``d = 1``:
 there rounding shifts the parameter of the orbit by some 1e-7."""
-ASIDE = 0.02
+FROM_DOUBLING = 0.02
 """Distance, in the norm of all unknowns, at which a branch born in a period doubling is begun."""
 CORRECTIONS = 20
-FAR = "far from a motion"
+FAR_FROM_MOTION = "far from a motion"
 """Where a branch ends that is not followed among virtual orbits."""
-LYING, BRIEF = "flights vanish", 0.03
+FLIGHTS_VANISH, SHORTEST_FLIGHT = "flights vanish", 0.03
 """Where a branch ends because flights between lasting contacts vanish, and their duration there, in ``1/Ω``: their height falls
 with the fourth power of it, so that there is nothing to be computed beyond."""
-GONE, LONG_GONE = "contact vanishes", -0.05
+CONTACT_VANISHES, BEYOND_VANISHING = "contact vanishes", -0.05
 """Where a branch ends beyond the value at which a stretch of lasting contact shrinks to nothing, and its duration there, in ``1/Ω``."""
-STILL = 1e-9
+AT_REST = 1e-9
 """Radial speeds, in ``c_r Ω``, at or below which nodes are no orbit: the equilibrium on the wall solves the equations with any durations."""
 FAST = 3.0
 """Speed before an impact, in ``c_r Ω``, above which steps grow with it."""
-FAR_OUT, FAR_IN = -0.3, -0.1
+RADIUS_MARGIN, SPEED_MARGIN = -0.3, -0.1
 """Margins of the radius and of the radial speed at an impact beyond which an orbit is far from being a motion."""
 
 
@@ -132,7 +132,7 @@ def point_at(rotor: Model, word: Word, unknowns: np.ndarray) -> FamilyPoint | No
     """The segments of a word from the unknowns of :func:`~carom.orbits.shooting.pack_free`; ``None`` where they are not defined."""
     start = unpack_free(word, unknowns)
     # The contact after a chatter may vanish: lasting contact begins there.  Contact that shrinks to nothing goes on with negative duration.
-    shortest = ALONE if word.flies and len(word) == 1 else SHORTEST
+    shortest = SHORTEST_ALONE if word.flies and len(word) == 1 else SHORTEST
     if min(start.durations[word.timed_flights].tolist(), default=np.inf) < shortest:
         return None
     links = links_of(rotor, word, start)
@@ -232,13 +232,13 @@ class Family(Orbits):
 
     def beside(self, doubled: np.ndarray, p: float, tangent: np.ndarray) -> tuple[np.ndarray, float]:
         """Point of the branch in the hyperplane at a distance along a direction from a point."""
-        u = doubled + ASIDE * tangent
+        u = doubled + FROM_DOUBLING * tangent
         for _ in range(CORRECTIONS):
             residual = self.residual(u, p)
             if not np.isfinite(residual).all():
                 break
             slopes = self.jacobian(u, p) * np.append(np.ones(len(u)), self.size)
-            misses = np.append(-residual, ASIDE - tangent @ (u - doubled))
+            misses = np.append(-residual, FROM_DOUBLING - tangent @ (u - doubled))
             change = applied(np.linalg.solve, slopes, np.append(tangent, 0.0), misses)
             if change is None:
                 break
@@ -270,7 +270,11 @@ class Family(Orbits):
     def _nearness(self, u: np.ndarray, p: float) -> float:
         """Above zero as long as the orbit is a motion, or not far from one."""
         point = self.point(u, p)
-        return np.nan if point is None else min(point.margins.radius - FAR_OUT, point.margins.approach - FAR_IN, 1.0)
+        return (
+            np.nan
+            if point is None
+            else min(point.margins.radius - RADIUS_MARGIN, point.margins.approach - SPEED_MARGIN, 1.0)
+        )
 
     def watches(self, start: np.ndarray, *, virtual: bool = True) -> list[Watch]:
         """Functions that vanish at the special points, and where the branch ends."""
@@ -312,20 +316,20 @@ class Family(Orbits):
         fastest = max(FASTEST, 2.0 * self.fastest(start))
         ends: dict[str, Callable[[np.ndarray, float], float]] = {BOUNDLESS: lambda u, _: fastest - self.fastest(u)}
         if not virtual:
-            ends[FAR] = self._nearness
+            ends[FAR_FROM_MOTION] = self._nearness
         touches, lifts = (
             self.word.timed & np.array([segment.kind.lasts for segment in self.word]),
             self.word.kinds == Kind.LIFT,
         )
         if touches.any():
-            ends[GONE] = beyond(touches, LONG_GONE)
+            ends[CONTACT_VANISHES] = beyond(touches, BEYOND_VANISHING)
         if lifts.any():
-            ends[LYING] = beyond(lifts, BRIEF)
+            ends[FLIGHTS_VANISH] = beyond(lifts, SHORTEST_FLIGHT)
         if (halves := halving(self.word, start)) is not None:
             ends[HALVING] = lambda u, _: halves(u)
         watches = [Watch(kind, function, at_zero="end") for kind, function in ends.items()]
         if self.word.flies:
-            watches.append(Watch(HOPF, lambda u, _: self.fastest(u) - STILL, at_zero="avoid"))
+            watches.append(Watch(HOPF, lambda u, _: self.fastest(u) - AT_REST, at_zero="avoid"))
         return watches
 
 

@@ -18,7 +18,7 @@ from carom.bifurcations.conditions import BOUNDLESS, corrected, with_slip
 from carom.bifurcations.neighbours import BORDERS, is_other, neighbour, read_beside
 from carom.bifurcations.points import CONTACT_CHANGES, EXTREMUM, HALVING, HOPF, ONSET, PERMANENT, Bifurcation
 from carom.bifurcations.single_impact import special_orbit
-from carom.bifurcations.word_equations import BRIEF, FAR, GONE, LYING, Family
+from carom.bifurcations.word_equations import CONTACT_VANISHES, FAR_FROM_MOTION, FLIGHTS_VANISH, SHORTEST_FLIGHT, Family
 from carom.continuation import Branch, SpecialPoint, Steps, continue_branch
 from carom.continuation.roots import bracketed_root, sign_change
 from carom.models.axes import Axis, Ends, axis, interval_around
@@ -34,6 +34,11 @@ CLOSE_STEPS = replace(STEPS, largest=0.1)
 """For orbits with one impact, of which figures and documents show every orbit of a branch."""
 ON_BORDER = 1e-8
 """Margin that counts as zero at a border."""
+HIDING = {
+    **dict.fromkeys(("grazing", ONSET, EXTREMUM), ("vanishing-impact", HOPF)),
+    **dict.fromkeys(("fold", "slide-stop"), ("cone-limit",)),
+}
+"""Special points at which others, of these kinds, mean nothing of their own."""
 LEAVES = (PERMANENT, "lift-off")
 """Where contact that never leaves the wall begins to."""
 BESIDE = 1e-5
@@ -202,14 +207,12 @@ def _follow(
         reach=family.reach,
         crossings="",
     )
-    vanishing = *branch.of_kind("vanishing-impact"), *branch.of_kind(HOPF)
-    passed = branch.of_kind(HALVING), vanishing, branch.of_kind("cone-limit")
     whole = [family.whole(u, p) for u, p in zip(branch.unknowns, branch.parameters.tolist(), strict=True)]
-    wanted = [point for point in branch.special if _is_special(family, point, *passed)]
+    wanted = [point for point in branch.special if _is_special(family, branch, point)]
     special = [found for point in wanted if (found := _special_point(family, branch, point, name)) is not None]
     stops = list(branch.stops)
     for end, place in ((0, 0.0), (-1, len(branch) - 1.0)):
-        lies = stops[end] in (LYING, "step too small")
+        lies = stops[end] in (FLIGHTS_VANISH, "step too small")
         point = _permanent_contact(family, whole[end], branch.parameters[end], place) if lies else None
         if point is not None:
             special.append(point)
@@ -300,7 +303,7 @@ def _permanent_contact(family: Family, unknowns: np.ndarray, value: float, place
 def _without_flight(word: Word, start: Start) -> tuple[Word, Start] | None:
     """The contact of a period without its only flight, if it is of one kind before and after this."""
     lifts = np.flatnonzero(word.kinds == Kind.LIFT)
-    if len(lifts) != 1 or word.impacts or word.lands.sum() != 1 or start.durations[lifts[0]] > 1.01 * BRIEF:
+    if len(lifts) != 1 or word.impacts or word.lands.sum() != 1 or start.durations[lifts[0]] > 1.01 * SHORTEST_FLIGHT:
         return None
     first = int(lifts[0])
     turned, (nodes, durations) = word.turned(first), start.turned(first)
@@ -312,13 +315,7 @@ def _without_flight(word: Word, start: Start) -> tuple[Word, Start] | None:
     return Word(turned[3:]), Start(nodes[3:], durations[3:])
 
 
-def _is_special(
-    family: Family,
-    point: SpecialPoint,
-    halvings: tuple[SpecialPoint, ...],
-    vanishing: tuple[SpecialPoint, ...],
-    limits: tuple[SpecialPoint, ...],
-) -> bool:
+def _is_special(family: Family, branch: Branch, point: SpecialPoint) -> bool:
     """Whether a special point of the continuation is one of orbits.
 
     Where a period is halved, the branch turns and two multipliers pass through one: nothing of its own.  Where an
@@ -329,13 +326,11 @@ def _is_special(
     """
     if point.kind == HALVING:
         return True
-    if point.kind in (FAR, LYING, GONE, BOUNDLESS) or any(
-        abs(point.place - halving.place) < 1e-3 for halving in halvings
-    ):
+    if point.kind in (FAR_FROM_MOTION, FLIGHTS_VANISH, CONTACT_VANISHES, BOUNDLESS):
         return False
-    if point.kind in ("grazing", ONSET, EXTREMUM) and any(_meet(point, other) for other in vanishing):
+    if any(abs(point.place - other.place) < 1e-3 for other in branch.of_kind(HALVING)):
         return False
-    if point.kind in ("fold", "slide-stop") and any(_meet(point, other) for other in limits):
+    if any(_meet(point, other) for kind in HIDING.get(point.kind, ()) for other in branch.of_kind(kind)):
         return False
     if point.kind == "neimark-sacker":
         there = family.point(point.unknowns, point.parameter)

@@ -252,7 +252,7 @@ class Orbit(Result):
 
 
 def multipliers_of(links: Links) -> Multipliers:
-    """Non-trivial Floquet multipliers, on the plane of changes that keep the first node at the end of the last segment."""
+    """Non-trivial Floquet multipliers: those of the return map on the section at the first node."""
     return multipliers(on_section(links))
 
 
