@@ -18,11 +18,8 @@
 ``curve_results``   a curve of bifurcations in two parameters, and points on it
 ``curves``          following such a curve
 ``word_curves``     those of orbits of any word
-``conditions``      test functions of orbits with one impact and of equilibria
-``resonances``      where Neimark–Sacker curves begin
+``conditions``      orbits with one impact by their closed form: solutions, names and test functions; those of equilibria
 ``passing``         whether a known curve passes through a point
-``naming``          names of the orbits of a curve
-``solutions``       all solutions of the closed form's equations
 ``planes``          the plane of two parameters
 ``regions``         regions of a plane with the same motions
 ``cells``           groups of neighbouring cells

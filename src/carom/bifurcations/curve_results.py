@@ -53,7 +53,7 @@ class Codimension2Point:
     @property
     def resonance(self) -> str:
         """Ratio of a resonance, such as ``"1:3"``; otherwise empty."""
-        return RESONANCES.get(self.kinds[0], "")
+        return self.kinds[0].removeprefix("resonance-") if self.kinds[0] in RESONANCES else ""
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -11,15 +11,16 @@ import numpy as np
 from carom.arguments import checked
 from carom.bifurcations.conditions import (
     BOUNDLESS,
+    ENDING,
     FASTEST,
     RESONANCES,
     TESTS,
     conditions_at,
     grazing_equations,
+    orbits_on_curve,
     profile_at,
 )
 from carom.bifurcations.curve_results import Codimension2Point, Curve
-from carom.bifurcations.naming import orbits_on_curve
 from carom.bifurcations.planes import EDGE, Plane
 from carom.bifurcations.points import Bifurcation
 from carom.bifurcations.word_curves import continue_word_curve
@@ -66,7 +67,7 @@ KINDS: dict[str, _Kind] = {
     "neimark-sacker": _Kind(
         2,
         ("grazing", "boundary-equilibrium", "slip-stop", "resonance-1:3", "resonance-1:4"),
-        ("resonance-1:1", "resonance-1:2"),
+        ENDING,
     ),
     "grazing": _Kind(3, ("fold", "speed-fold", "period-doubling", "boundary-equilibrium", "slip-stop")),
     "slip-stop": _Kind(2, ("fold", "period-doubling", "grazing")),

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from carom.bifurcations.conditions import ENDING, RESONANCES
 from carom.bifurcations.curve_results import Codimension2Point, Curve
 from carom.bifurcations.planes import EDGE, Plane
 from carom.bifurcations.points import HALVING, Bifurcation
@@ -21,9 +22,6 @@ DIFFERENCE = 1e-6
 """Step of the central differences, relative to the size of the unknown."""
 ON_CURVE = 1e-6
 """Margin that counts as zero on a curve on which one vanishes."""
-RESONANCES = {"resonance-1:1": 2.0, "resonance-1:2": -2.0, "resonance-1:3": -1.0, "resonance-1:4": 0.0}
-"""Sum of the two multipliers at resonances of a Neimark–Sacker curve, which ends at the first two."""
-ENDING = ("resonance-1:1", "resonance-1:2")
 
 
 class _CurveEquations(Orbits):

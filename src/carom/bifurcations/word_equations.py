@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from carom.bifurcations.branches import speeds_at
 from carom.bifurcations.conditions import BOUNDLESS, FASTEST
 from carom.bifurcations.points import EXTREMUM, HALVING, HOPF, OF_CONTACT, ONSET, PERMANENT
 from carom.continuation import Watch
@@ -27,7 +28,6 @@ from carom.orbits.shooting import (
     Links,
     by_parameter,
     closed_flights,
-    free_entries,
     links_of,
     pack,
     unpack,
@@ -188,7 +188,8 @@ class Family(Orbits):
         super().__init__(word, partial(along.move, rotor))
         self.rotor, self.along, self.limits = rotor, along, limits
         self.size = max(abs(along.value(rotor)), 0.1 * (limits[1] - limits[0]))
-        self.at_walls = _at_walls(rotor, word)
+        self.strikes = np.array([segment.kind.is_impact for segment in word])
+        self.struck = word.planes[self.strikes]
 
     def whole(self, u: np.ndarray, p: float) -> np.ndarray:
         """All nodes and durations, in the order of :func:`~carom.orbits.shooting.pack`, from the unknowns."""
@@ -249,9 +250,10 @@ class Family(Orbits):
 
     def speeds(self, u: np.ndarray) -> list[complex]:
         """``ṙ`` in ``c_r Ω`` and ``θ̇`` in ``Ω`` before each impact, as real and imaginary part."""
-        positions, velocities = (self.at_walls @ u).tolist()
-        ratios = [(abs(y), v / y) for y, v in zip(positions, velocities, strict=True)]
-        return [complex(radius * ratio.real, ratio.imag) for radius, ratio in ratios]
+        speeds: list[complex] = speeds_at(
+            self.rotor, self.struck, unpack_free(self.word, u).nodes[self.strikes]
+        ).tolist()
+        return speeds
 
     def fastest(self, u: np.ndarray) -> float:
         """Largest radial speed before an impact."""
@@ -331,21 +333,6 @@ class Family(Orbits):
         if self.word.flies:
             watches.append(Watch(HOPF, lambda u, _: self.fastest(u) - AT_REST, at_zero="avoid"))
         return watches
-
-
-def _at_walls(rotor: Model, word: Word) -> np.ndarray:
-    """Displacement at its contact plane before each of the k impacts, and its rate, per free unknown, complex, shape (2, k, unknowns)."""
-    struck = np.flatnonzero([segment.kind.is_impact for segment in word])
-    rows = rotor.system.planes[word.planes[struck]]
-    k, n = rows.shape
-    # Of each segment: real and imaginary parts of the coordinates and their rates, and the duration.
-    width = 4 * n + 1
-    each = np.zeros((2, k, len(word), width), complex)
-    for rate, impact in np.ndindex(2, k):
-        for imaginary in (0, 1):
-            begins = n * (2 * imaginary + rate)
-            each[rate, impact, struck[impact], begins : begins + n] = rows[impact] * 1j**imaginary
-    return each.reshape(2, k, len(word) * width)[:, :, free_entries(word.lands, width)]
 
 
 def halving(word: Word, start: np.ndarray) -> Callable[[np.ndarray], float] | None:

@@ -17,7 +17,6 @@ If all lie inside or on it, none of these is violated.  So a violated one proves
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from fractions import Fraction
 from functools import partial
 from math import ceil
@@ -37,23 +36,15 @@ MOST_CELLS = 1000
 """Cells of one flight after which the search ends."""
 
 
-@dataclass(frozen=True)
-class Candidate:
-    """A solution of the closing conditions of an orbit."""
-
-    name: str
-    course: Course
-
-
-def candidates(rotor: Rotor, periods: Periods) -> Iterator[tuple[str, list[Candidate] | None]]:
-    """Both solutions at each root, or none, or ``None`` where this is undecided, with the names they would have."""
+def candidates(rotor: Rotor, periods: Periods) -> Iterator[tuple[str, dict[str, Course] | None]]:
+    """Both solutions of the closing conditions at each root, or none, or ``None`` where this is undecided, with the names they would have."""
     for root in periods.roots:
         back = Return(rotor.numbers, root.ball)
         letters = "bd" if root.longer else "ac"
         names = [f"B{root.pair},{letter}" for letter in letters]
         found, speeds = None, _radial_speeds(rotor, back)
         if speeds is not None:
-            found = [Candidate(name, Course(back, speed)) for name, speed in zip(names, speeds, strict=False)]
+            found = {name: Course(back, speed) for name, speed in zip(names, speeds, strict=False)}
         yield f"B{root.pair},{'/'.join(letters)}", found
 
 
@@ -69,9 +60,8 @@ def _radial_speeds(rotor: Rotor, back: Return) -> list[Any] | None:
     return list(back.speeds())
 
 
-def orbit_claims(rotor: Rotor, orbit: Candidate, evidence: Evidence) -> tuple[list[Claim], Status]:
+def orbit_claims(rotor: Rotor, name: str, course: Course, evidence: Evidence) -> tuple[list[Claim], Status]:
     """Claims about one orbit, and whether it is a motion of the machine."""
-    course, name = orbit.course, orbit.name
     solution = rotor.claim(
         name,
         "solution",
@@ -91,7 +81,7 @@ def orbit_claims(rotor: Rotor, orbit: Candidate, evidence: Evidence) -> tuple[li
     )
     claims = [solution, outward]
     if outward.status == "proven":
-        claims += [_inside_claim(rotor, orbit, evidence), _slip_claim(rotor, orbit)]
+        claims += [_inside_claim(rotor, name, course, evidence), _slip_claim(rotor, name, course)]
     kinds = {claim.status for claim in claims}
     status: Status = "refuted" if "refuted" in kinds else "undecided" if "undecided" in kinds else "proven"
     claims.append(
@@ -105,16 +95,16 @@ def orbit_claims(rotor: Rotor, orbit: Candidate, evidence: Evidence) -> tuple[li
             limited_by_precision=any(claim.limited_by_precision for claim in claims),
         )
     )
-    return [*claims, _stability_claim(rotor, orbit)], status
+    return [*claims, _stability_claim(rotor, name, course)], status
 
 
-def _slip_claim(rotor: Rotor, orbit: Candidate) -> Claim:
+def _slip_claim(rotor: Rotor, name: str, course: Course) -> Claim:
     """Claim that the slip stays forward throughout the impact."""
-    after = orbit.course.slip_after
+    after = course.slip_after
     free = rotor.hypotheses.rational("mu") == (Fraction(0),)
     words = "friction would stop its slip, or its slip is backward"
     return rotor.claim(
-        orbit.name,
+        name,
         "slip",
         "Its slip is forward before the impact and after it, or there is no friction.",
         1 if free else decided(after),
@@ -126,15 +116,13 @@ def _slip_claim(rotor: Rotor, orbit: Candidate) -> Claim:
 # ------------------------------------------------------------------------------------------------ between the impacts
 
 
-def _inside_claim(rotor: Rotor, orbit: Candidate, evidence: Evidence) -> Claim:
+def _inside_claim(rotor: Rotor, name: str, course: Course, evidence: Evidence) -> Claim:
     """Claim that the orbit stays inside the wall strictly between its impacts."""
-    claim = partial(
-        rotor.claim, orbit.name, "inside", "It stays inside the wall, |U| < 1, strictly between its impacts."
-    )
-    period, radius = orbit.course.back.period, Analytic(orbit.course.heights)
+    claim = partial(rotor.claim, name, "inside", "It stays inside the wall, |U| < 1, strictly between its impacts.")
+    period, radius = course.back.period, Analytic(course.heights)
     # Without rebound the rotor leaves with no radial speed, and the push decides.
     order = 2 if rotor.hypotheses.rational("d") == (Fraction(0),) else 1
-    found = evidence.take(f"flight of {orbit.name}", lambda: _flight(rotor, period, radius, order))
+    found = evidence.take(f"flight of {name}", lambda: _flight(rotor, period, radius, order))
     if found is None:
         return claim(
             0,
@@ -149,11 +137,11 @@ def _inside_claim(rotor: Rotor, orbit: Candidate, evidence: Evidence) -> Claim:
             shown = 0 < time < exact_ends(period)[0] and radius.sign(time) > 0
             reason = f"it would be outside the wall at t = {float(time):.6g} after the impact"
         if not shown:
-            raise NotShownError(f"the certificate does not show that {orbit.name} leaves the wall at {time}")
+            raise NotShownError(f"the certificate does not show that {name} leaves the wall at {time}")
         return claim(-1, reason)
     cells = Cells.from_document(found)
     if set(cells.kinds) - {NEGATIVE} or not _ends_inside(period, radius, cells.cuts[0], cells.cuts[-1], order):
-        raise NotShownError(f"the certificate does not show that {orbit.name} stays inside the wall")
+        raise NotShownError(f"the certificate does not show that {name} stays inside the wall")
     show(radius, cells)
     return claim(1)
 
@@ -200,9 +188,9 @@ def _flight(rotor: Rotor, period: Any, radius: Analytic, order: int) -> dict[str
 # ------------------------------------------------------------------------------------------------ stability
 
 
-def _stability_claim(rotor: Rotor, orbit: Candidate) -> Claim:
+def _stability_claim(rotor: Rotor, name: str, course: Course) -> Claim:
     """Claim that all multipliers lie inside the unit circle."""
-    found = orbit.course.invariants
+    found = course.invariants
     conserved = rotor.hypotheses.rational("d", "gamma") == (Fraction(1), Fraction(0))
     signs = {words: decided(ball) for words, ball in found.conditions.items()}
     if conserved:
@@ -210,7 +198,7 @@ def _stability_claim(rotor: Rotor, orbit: Candidate) -> Claim:
     sign = min(signs.values())
     reasons = [words for words, value in signs.items() if value == sign]
     return rotor.claim(
-        orbit.name,
+        name,
         "stable",
         "All three multipliers of the impact map at it lie inside the unit circle.",
         sign,

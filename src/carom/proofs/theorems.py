@@ -59,11 +59,11 @@ def _single_impact(rotor: Rotor, evidence: Evidence, options: Options) -> list[C
         if not found:
             claims.append(_no_solution(rotor, names, found is not None))
             doubts += [] if found is not None else [f"it is open whether {names} exist"]
-        for orbit in found or ():
-            told, status = orbit_claims(rotor, orbit, evidence)
+        for name, course in (found or {}).items():
+            told, status = orbit_claims(rotor, name, course, evidence)
             claims += told
-            admissible += [orbit.name] if status == "proven" else []
-            doubts += [f"it is open whether {orbit.name} is a motion"] if status == "undecided" else []
+            admissible += [name] if status == "proven" else []
+            doubts += [f"it is open whether {name} is a motion"] if status == "undecided" else []
     statement = "The machine has no motion with one impact a period that is synchronous with the shaft."
     if admissible:
         names = ", ".join(sorted(admissible, key=lambda name: (len(name), name)))
