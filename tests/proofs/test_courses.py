@@ -124,7 +124,9 @@ def test_values_agree_with_closed_forms_written_a_second_time():
             for row, other in zip(course.jacobian(), written.jacobian(), strict=True):
                 assert all(a.overlaps(b) and a.rad() < 1e-15 * (1 + abs(a)) for a, b in zip(row, other, strict=True))
             time = arb(random.uniform(0.0, 1.0)) * period
-            for ours, theirs in zip(course.heights(time, 8), written.radius_series(time, 8), strict=True):
+            with terms(8):
+                heights = course.height(arb_series([time, 1]))[0]
+            for ours, theirs in zip(heights, written.radius_series(time, 8), strict=True):
                 assert (ours * speed).overlaps(theirs)
                 assert ours.rad() < 1e-15 * (1 + abs(ours))
 

@@ -26,7 +26,7 @@ from flint import arb, arb_series
 from carom.proofs.balls import decided
 from carom.proofs.blocks import Block, Branch, OpenError, OrbitBranch, slopes_on
 from carom.proofs.courses import Course, period_condition
-from carom.proofs.flights import stays_inside
+from carom.proofs.flights import NARROWEST, stays_inside
 from carom.proofs.lines import Numbers
 from carom.proofs.periods import none_beyond, slowest_decay
 from carom.proofs.series import hull, terms
@@ -271,7 +271,7 @@ def why_virtual(orbit: OrbitBranch) -> str | None:
 # ------------------------------------------------------------------------------------------------ between the impacts
 
 
-def inside(plain: Course, along: Along, touch: Any = None) -> bool | None:
+def inside(plain: Course, along: Along, touch: Any = None, narrowest: float = NARROWEST) -> bool | None:
     """Whether an orbit with ``ṙ > 0`` stays inside the wall between its impacts; ``None`` if this is open.
 
     ``(|U|² − 1)/ṙ`` vanishes at both impacts, with the rates ``−2d`` after the first and ``2`` before the second.  The function
@@ -285,4 +285,4 @@ def inside(plain: Course, along: Along, touch: Any = None) -> bool | None:
     def height(time: Any, backward: bool) -> Any:
         return plain.height(time, backward)[0]
 
-    return stays_inside(height, narrow, plain.back.period, (2 * plain.back.numbers.d, arb(2)), touch)
+    return stays_inside(height, narrow, plain.back.period, (2 * plain.back.numbers.d, arb(2)), touch, narrowest)

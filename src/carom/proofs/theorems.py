@@ -60,7 +60,7 @@ def _single_impact(rotor: Rotor, evidence: Evidence, options: Options) -> list[C
             claims.append(_no_solution(rotor, names, found is not None))
             doubts += [] if found is not None else [f"it is open whether {names} exist"]
         for name, course in (found or {}).items():
-            told, status = orbit_claims(rotor, name, course, evidence)
+            told, status = orbit_claims(rotor, name, course)
             claims += told
             admissible += [name] if status == "proven" else []
             doubts += [f"it is open whether {name} is a motion"] if status == "undecided" else []
