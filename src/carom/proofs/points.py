@@ -16,13 +16,13 @@ from typing import Any, NamedTuple
 
 from flint import arb, arb_series
 
-from carom.proofs.balls import decided, enclosure_of, exact_ends, rational
+from carom.proofs.balls import decided, enclosure_of, exact_ends
 from carom.proofs.block_orbits import inside
 from carom.proofs.claims import Claim, claim_of
 from carom.proofs.courses import Course, Return
 from carom.proofs.criticality import flip_coefficient
-from carom.proofs.evidence import Evidence, NotShownError, rational_of
-from carom.proofs.krawczyk import System, derivatives, enclosed_zero, newton
+from carom.proofs.evidence import Evidence, NotShownError
+from carom.proofs.krawczyk import System, derivatives, found_zero, shown_zero
 from carom.proofs.lines import Line, line_of
 from carom.proofs.rotor import Rotor
 from carom.proofs.seeds import point_seeds
@@ -119,14 +119,10 @@ def _all_searched(line: Line) -> list[dict[str, Any]]:
 
 def _searched(line: Line, kind: str, label: str, guess: list[float]) -> dict[str, Any]:
     """Centre and width of a box with exactly one zero; no centre if none is found."""
-    system = _system(line, kind)
-    centre = newton(system, guess)
-    found = None if centre is None else enclosed_zero(system, centre)
-    entry: dict[str, Any] = {"kind": kind, "label": label, "near": guess}
-    at = None if found is None else dict(zip(KINDS[kind].unknowns, found[0], strict=True))
-    if centre is not None and found is not None and at is not None and _in_range(line, at):
-        entry |= {"centre": [str(exact_ends(x)[0]) for x in centre], "width": found[1]}
-    return entry
+    entry, found = {"kind": kind, "label": label, "near": guess}, found_zero(_system(line, kind), guess)
+    if found is None or not _in_range(line, dict(zip(KINDS[kind].unknowns, found[1], strict=True))):
+        return entry
+    return entry | found[0]
 
 
 def _system(line: Line, kind: str) -> System:
@@ -141,11 +137,10 @@ def _claims_of(line: Line, label: str, entry: Mapping[str, Any]) -> list[Claim]:
         near = f"{float(entry['near'][-1]):.9g}"
         reason = f"the search in double precision found one near {near}, which could not be shown"
         return [point.claim("", statement, 0, reason)]
-    centre = [rational(rational_of(text)).mid() for text in entry["centre"]]
-    found = enclosed_zero(_system(line, entry["kind"]), centre, int(entry["width"]))
-    if found is None or len(centre) != len(kind.unknowns):
+    found = shown_zero(_system(line, entry["kind"]), entry)
+    if found is None:
         raise NotShownError(f"the certificate does not show the {entry['kind']} of {label}")
-    point = Point(line, entry["kind"], label, dict(zip(kind.unknowns, found[0], strict=True)))
+    point = Point(line, entry["kind"], label, dict(zip(kind.unknowns, found, strict=True)))
     if not _in_range(line, point.at):
         raise NotShownError(f"the {entry['kind']} of {label} is not at a value and at times that are looked at")
     claims = [point.claim("", statement, 1, **point.at)]

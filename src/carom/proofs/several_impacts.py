@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from fractions import Fraction
 from functools import partial
 from typing import Any
 
-from flint import ctx
-
-from carom.proofs.balls import decided, enclosure_of, exact_ends, rational
+from carom.proofs.balls import decided, enclosure_of
 from carom.proofs.claims import Claim, claim_of
-from carom.proofs.evidence import Evidence, NotShownError, rational_of
-from carom.proofs.krawczyk import enclosed_zero, newton
+from carom.proofs.evidence import Evidence, NotShownError
+from carom.proofs.krawczyk import found_zero, shown_zero
 from carom.proofs.lines import Numbers
 from carom.proofs.rotor import Rotor
 from carom.proofs.seeds import shooting_seeds
@@ -43,21 +40,14 @@ def _searched(rotor: Rotor, impacts: int) -> Iterator[dict[str, Any]]:
     known: list[ShootingOrbit] = []
     system = partial(equations_of, rotor.numbers)
     for guess in shooting_seeds(rotor.hypotheses, impacts):
-        centre = newton(system, guess)
-        found = None if centre is None else enclosed_zero(system, centre)
-        if centre is None or found is None:
+        found = found_zero(system, guess)
+        if found is None:
             continue
-        orbit = _orbit_of(rotor.numbers, found[0])
+        orbit = _orbit_of(rotor.numbers, found[1])
         if orbit.outward() <= 0 or orbit.repeats() is not False or any(_same(orbit, other) for other in known):
             continue
         known.append(orbit)
-        yield {"centre": [_text(x) for x in centre], "width": found[1]}
-
-
-def _text(ball: Any) -> str:
-    """An exact ball as a fraction with a power of two below."""
-    scale = 2**ctx.prec
-    return str(Fraction(round(exact_ends(ball)[0] * scale), scale))
+        yield found[0]
 
 
 def _orbit_of(numbers: Numbers, balls: Sequence[Any]) -> ShootingOrbit:
@@ -84,13 +74,12 @@ def _shown(numbers: Numbers, name: str, entry: Mapping[str, Any]) -> ShootingOrb
     """Enclosure of the orbit of an entry of the evidence."""
     if set(entry) != {"centre", "width"}:
         raise NotShownError(f"the certificate must give a centre and a width of {name}")
-    centre = [rational(rational_of(text)).mid() for text in entry["centre"]]
-    if len(centre) % 4 or not 8 <= len(centre) <= 4 * MOST_IMPACTS:
+    if len(entry["centre"]) % 4 or not 8 <= len(entry["centre"]) <= 4 * MOST_IMPACTS:
         raise NotShownError(f"the certificate has no orbit of 2 to {MOST_IMPACTS} impacts as {name}")
-    found = enclosed_zero(partial(equations_of, numbers), centre, int(entry["width"]))
+    found = shown_zero(partial(equations_of, numbers), entry)
     if found is None:
         raise NotShownError(f"the certificate does not show {name}")
-    return _orbit_of(numbers, found[0])
+    return _orbit_of(numbers, found)
 
 
 def _claims_of(name: str, orbit: ShootingOrbit) -> list[Claim]:
