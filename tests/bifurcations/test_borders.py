@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from carom.bifurcations import Bifurcation, Border, OrbitBranch, continue_orbit, examine_border, switch
-from carom.bifurcations.neighbours import neighbour
+from carom.bifurcations.neighbours import NEIGHBOURS
 from carom.models import Jeffcott
 from carom.motions import State, simulate
 from carom.orbits import find_orbits, impact_map
@@ -42,14 +42,14 @@ def jump() -> Border:
 
 def test_the_orbit_on_the_border_solves_the_equations_of_both_words():
     point = located("grazing", 0.08267)
-    word, start = neighbour("grazing", point.orbit)
+    word, start = NEIGHBOURS["grazing"](point.orbit)
     assert (word.impacts, len(start.durations)) == (3, 3)
     assert start.durations.sum() == pytest.approx(point.orbit.period, abs=1e-12)
     more = orbit_near(point.orbit.rotor, word, start)
     assert more is not None
     # At a grazing impact the speed is the root of the error of its height.
     assert abs(more.margins.approach) < 1e-5
-    back, again = neighbour("vanishing-impact", more)
+    back, again = NEIGHBOURS["vanishing-impact"](more)
     assert back == point.orbit.word
     assert again.durations.sum() == pytest.approx(point.orbit.period, abs=1e-5)
 
@@ -129,7 +129,7 @@ def test_no_orbit_is_constructed_beyond_other_points():
     with pytest.raises(InputError, match="special point"):
         switch(located("fold", 0.08267))
     with pytest.raises(InputError, match="another flight"):
-        neighbour("vanishing-impact", find_orbits(PAPER)["B1,d"])
+        NEIGHBOURS["vanishing-impact"](find_orbits(PAPER)["B1,d"])
 
 
 # ------------------------------------------------------------------------- special points of three impacts

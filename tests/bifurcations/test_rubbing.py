@@ -19,7 +19,7 @@ from carom.bifurcations import (
     find_bifurcations,
     switch,
 )
-from carom.bifurcations.neighbours import neighbour
+from carom.bifurcations.neighbours import NEIGHBOURS
 from carom.models import Jeffcott
 from carom.motions import State
 from carom.orbits import lift_off_of, rubbing_orbits
@@ -236,7 +236,7 @@ def test_beyond_the_onset_the_chatter_becomes_many_impacts(chatter):
     assert real[(kinds["vanishing-impact"].value < branch.values) & (branch.values < kinds["grazing"].value)].all()
     # The next impact appears where the last flight touches the wall 1e-3 after its beginning.
     assert branch.values[real].max() < kinds["grazing"].value < point.value
-    assert len(neighbour("grazing", kinds["grazing"].orbit)[0]) == branch.impacts + 1
+    assert len(NEIGHBOURS["grazing"](kinds["grazing"].orbit)[0]) == branch.impacts + 1
 
 
 @pytest.mark.jit_only

@@ -28,27 +28,6 @@ MOST_EVENTS = 20_000
 """Events of a motion from which a period is read."""
 
 
-def neighbour(kind: str, orbit: Orbit) -> tuple[Word, Start]:
-    """Word, nodes and durations of the orbit on a border, read as one of the neighbouring word.
-
-    Parameters
-    ----------
-    kind : str
-        ``"grazing"``, ``"vanishing-impact"`` or ``"slip-stop"``; beyond other borders a period is simulated
-        (:func:`read_beside`).
-    orbit : Orbit
-        The orbit on the border.
-
-    Raises
-    ------
-    InputError
-        Another kind, or no orbit is left without the impact.
-    """
-    if kind not in NEIGHBOURS:
-        raise InputError("border", kind, f"one of {', '.join(NEIGHBOURS)}: no orbit is constructed beyond others")
-    return NEIGHBOURS[kind](orbit)
-
-
 def setting_out(orbit: Orbit) -> State:
     """State on an orbit from which motions beside it are simulated.
 
@@ -173,6 +152,9 @@ NEIGHBOURS: dict[str, Callable[[Orbit], tuple[Word, Start]]] = {
     "vanishing-impact": _without_impact,
     "slip-stop": _with_other_slip,
 }
-"""Borders beyond which the orbit of the neighbouring word is known."""
+"""Borders beyond which the orbit of the neighbouring word is known: from the orbit on the border its word, nodes and durations.
+
+Beyond other borders a period is simulated (:func:`read_beside`).  :class:`InputError` if no orbit is left without the impact.
+"""
 BORDERS = (*NEIGHBOURS, *OF_CONTACT)
 """Special points at which the word of a motion changes."""

@@ -8,7 +8,7 @@ from functools import reduce
 import numpy as np
 
 from carom.bifurcations.branches import OrbitBranch
-from carom.bifurcations.neighbours import NEIGHBOURS, neighbour
+from carom.bifurcations.neighbours import NEIGHBOURS
 from carom.bifurcations.points import HALVING, Bifurcation
 from carom.bifurcations.words import continue_orbit, renamed, switch
 from carom.models import Model
@@ -90,7 +90,7 @@ def _begins_another(point: Bifurcation, impacts: int, known: Sequence[OrbitBranc
     if point.kind not in NEIGHBOURS or not point.orbit.word.flies:
         return False
     try:
-        word, start = neighbour(point.kind, point.orbit)
+        word, start = NEIGHBOURS[point.kind](point.orbit)
     except CaromError:
         return False
     other = orbit_near(point.orbit.rotor, word, start) if 1 < word.impacts <= impacts else None

@@ -15,7 +15,7 @@ import numpy as np
 from carom.arguments import checked
 from carom.bifurcations.branches import OrbitBranch, orbit_at, speeds_at
 from carom.bifurcations.conditions import BOUNDLESS, corrected, with_slip
-from carom.bifurcations.neighbours import BORDERS, is_other, neighbour, read_beside
+from carom.bifurcations.neighbours import BORDERS, NEIGHBOURS, is_other, read_beside
 from carom.bifurcations.points import CONTACT_CHANGES, EXTREMUM, HALVING, HOPF, ONSET, PERMANENT, Bifurcation
 from carom.bifurcations.single_impact import special_orbit
 from carom.bifurcations.word_equations import CONTACT_VANISHES, FAR_FROM_MOTION, FLIGHTS_VANISH, SHORTEST_FLIGHT, Family
@@ -149,7 +149,7 @@ def switch(point: Bifurcation, interval: Ends | None = None, *, virtual: bool = 
         family, unknowns = Family(orbit.rotor, along, word, limits), pack_free(word, start)
     else:
         alone = orbit.word, orbit.start
-        word, start = alone if kind == PERMANENT else neighbour(kind, orbit)
+        word, start = alone if kind == PERMANENT else NEIGHBOURS[kind](orbit)
         family, unknowns = Family(orbit.rotor, along, word, limits), pack_free(word, start)
     return _follow(family, unknowns, present, None, CountedName(family.word.impacts, 1), virtual=virtual)
 

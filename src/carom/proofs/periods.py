@@ -20,15 +20,13 @@ from fractions import Fraction
 from math import ceil, floor
 from typing import Any
 
-from flint import acb, arb, arb_series
+from flint import acb, arb_series
 
 from carom.proofs.balls import exact_ends, interval
 from carom.proofs.cells import (
-    FALLING,
     NEGATIVE,
     OPEN,
     POSITIVE,
-    RISING,
     Analytic,
     Cells,
     cells_of,
@@ -121,15 +119,12 @@ def all_periods(rotor: Rotor, evidence: Evidence, longest: Fraction | None, most
     if first is None:
         return Periods((), Fraction(0), False, ((Fraction(0), end),))
     start = rational_of(first)
-    sign = condition.sign_next_to(arb(0), start, lead, 1)
+    sign = condition.sign_next_to_zero(start, lead)
     if not sign:
         raise NotShownError("the certificate does not show the sign of F1 next to 0")
     least = width / 2 ** max(rotor.bits // 2, 20)
     limits = {"width": width, "least": least, "most": most}
-    found = evidence.take(
-        "cells of F1",
-        lambda: cells_of(condition, start, end, kinds=POSITIVE + NEGATIVE + RISING + FALLING, **limits).document(),
-    )
+    found = evidence.take("cells of F1", lambda: cells_of(condition, start, end, **limits).document())
     cells = Cells.from_document(found)
     if cells.cuts[0] != start or cells.cuts[-1] > end:
         raise NotShownError("the cells of a certificate do not begin where the first one ends")
@@ -196,7 +191,7 @@ def _first_coefficient(rotor: Rotor) -> int:
 def _first_cell(condition: Analytic, lead: int, width: Fraction) -> Fraction | None:
     """Length of an interval next to zero on which ``F₁`` keeps its sign; ``None`` if none is found."""
     for _ in range(SHORTEST_CELL):
-        if condition.sign_next_to(arb(0), width, lead, 1):
+        if condition.sign_next_to_zero(width, lead):
             return width
         width /= 2
     return None
