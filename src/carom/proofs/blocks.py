@@ -229,11 +229,8 @@ class Branch:
 def value_on(block: Block, period: Any) -> Any:
     """The period condition at one period, on all of a block."""
     condition = period_condition(block.whole, period)
-    with terms(2):
-        about = condition(block.moving(block.middle), period)
-    with terms(3):
-        everywhere = condition(block.moving(block.ball), period)
-    return about[0] + (about[1] + everywhere[2] * block.off) * block.off
+    near, far = block.moving(block.middle), block.moving(block.ball)
+    return enclosed(block, near, far, lambda numbers: condition(numbers, period))[0]
 
 
 class OrbitBranch:

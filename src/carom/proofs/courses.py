@@ -10,11 +10,11 @@ from collections.abc import Callable
 from functools import cached_property
 from typing import Any
 
-from flint import acb, arb, arb_series
+from flint import acb, arb
 
 from carom.proofs.lines import Numbers
 from carom.proofs.rotor import Invariants
-from carom.proofs.series import I, first, imaginary, real, short_return, squared, terms
+from carom.proofs.series import I, first, imaginary, real, short_return, squared
 
 _SHORT = 2.7
 """Bound of ``|λ T|`` below which the period condition is summed: less than the reach of the sum, for its derivatives."""
@@ -183,12 +183,6 @@ class Course:
         across = real(place)
         height = across * 2 + squared(place) * self.speed
         return height, real(rate) + (across * real(rate) + imaginary(place) * imaginary(rate)) * self.speed
-
-    def heights(self, time: Any, length: int) -> list[Any]:
-        """Taylor coefficients of ``(|U|² − 1)/ṙ`` about every point of a ball of times after the impact."""
-        with terms(length):
-            found = self.height(arb_series([time, 1]))[0]
-            return [found[k] for k in range(length)]
 
     def jacobian(self) -> list[list[Any]]:
         """Derivative of the impact map over ``(θ, ṙ, θ̇)``, by rows; regular for ``ṙ = 0``."""
