@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from workload import source_paper_machine
 
-from carom.bifurcations import Bifurcation, Plane, continue_curve, continue_orbit
+from carom.bifurcations import Bifurcation, Plane, continue_curve, continue_orbit, switch
 from carom.orbits import find_orbits
 
 PER_ORBIT = "branch along the damping, per orbit"
@@ -30,7 +30,7 @@ def test_branch(benchmark, impacts):
 
 
 def test_curve_of_two_impacts(benchmark):
-    (grazing,) = [point for point in doubling().switch((0.081, 0.0845)).special if point.kind == "grazing"]
+    (grazing,) = [point for point in switch(doubling(), (0.081, 0.0845)).special if point.kind == "grazing"]
     benchmark.group = "curve in two parameters, per point"
     plane = Plane("gamma", "omega", (0.05, 0.15), (0.74, 0.78))
     curve = benchmark.pedantic(continue_curve, args=(grazing, plane), rounds=3)

@@ -11,7 +11,7 @@ machine = cm.load("../source-paper.toml")
 branch = cm.continue_orbit(cm.find_orbits(machine)["B1,d"], "gamma", (0.07, 0.1))
 (doubling,) = (point for point in branch.special if point.kind == "period-doubling")
 print(f"doubles at gamma = {doubling.value:.10f}")
-doubled = doubling.switch((0.08, 0.0834))
+doubled = cm.bifurcations.switch(doubling, (0.08, 0.0834))
 print(f"orbits of period {doubled.period.min():.4f} to {doubled.period.max():.4f}; ends: {doubled.stops}")
 
 # %%

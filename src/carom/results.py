@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Iterable, Mapping, Sequence, Set, Sized
+from collections.abc import Iterable, Iterator, Mapping, Sequence, Set, Sized
 from enum import Enum
 from importlib import import_module
 from numbers import Complex
 from operator import attrgetter
 from types import MappingProxyType
-from typing import Any, ClassVar
+from typing import Any, ClassVar, TypeVar, overload
 
 import numpy as np
 
@@ -18,6 +18,7 @@ from carom.outcome import InputError
 from carom.references import REFERENCES, Citations, carom_itself
 from carom.tabular import Tabular
 
+Member = TypeVar("Member")
 WIDEST = 120
 """Largest number of characters of a line, without the name before it."""
 FEW = 4
@@ -86,6 +87,40 @@ class Result(Tabular):
             return own
         holders = (getattr(self, name, None) for name in _OF_THE_MACHINE)
         return next((found for holder in holders if (found := getattr(holder, "scales", None)) is not None), None)
+
+
+class Members(Result, Sequence[Member]):
+    """Result that holds others, to look up by index or, where they have names, by name.
+
+    ``called`` is what an error calls one of them.
+    """
+
+    called: ClassVar[str]
+    members: tuple[Member, ...]
+
+    def __len__(self) -> int:
+        return len(self.members)
+
+    def __iter__(self) -> Iterator[Member]:
+        return iter(self.members)
+
+    def __contains__(self, key: object) -> bool:
+        return key in self.members or key in self._names
+
+    @overload
+    def __getitem__(self, key: int | str) -> Member: ...
+    @overload
+    def __getitem__(self, key: slice) -> tuple[Member, ...]: ...
+    def __getitem__(self, key: int | str | slice) -> Member | tuple[Member, ...]:
+        if not isinstance(key, str):
+            return self.members[key]
+        if key not in self._names:
+            raise InputError(self.called, key, f"one of: {', '.join(self._names) or 'none'}")
+        return self.members[self._names.index(key)]
+
+    @property
+    def _names(self) -> list[str]:
+        return [getattr(member, "name", "") for member in self.members]
 
 
 def told_as(kind: str, value: object, scales: Any) -> str:

@@ -7,7 +7,7 @@ import pytest
 from machines import PAPER
 
 from carom import find_orbits
-from carom.bifurcations import Bifurcation, Plane, continue_curve, continue_orbit
+from carom.bifurcations import Bifurcation, Plane, continue_curve, continue_orbit, switch
 from carom.models import Jeffcott
 
 from .auto_equations import follow, why_missing
@@ -47,7 +47,7 @@ def test_curve_is_that_of_auto(kind, tmp_path):
 def test_branch_of_two_impacts_has_the_folds_and_period_doublings_of_auto(tmp_path):
     branch = continue_orbit(find_orbits(Jeffcott(PAPER))["B1,d"], "gamma", (0.075, 0.11))
     (doubling,) = [special for special in branch.special if special.kind == "period-doubling"]
-    doubled = doubling.switch((0.078, 0.09))
+    doubled = switch(doubling, (0.078, 0.09))
     theirs: dict[str, set[float]] = {"fold": set(), "period-doubling": set()}
     # Which folds it reports of those it passes depends on the last bit of its start: it starts wherever the branch passes.
     for number, start in enumerate(doubled.starts_at(0.083)):

@@ -7,8 +7,8 @@ from functools import cache, reduce
 import numpy as np
 import pytest
 
-from carom.bifurcations import Bifurcation, Border, OrbitBranch, continue_orbit, examine_border
-from carom.bifurcations.neighbours import neighbour
+from carom.bifurcations import Bifurcation, Border, OrbitBranch, continue_orbit, examine_border, switch
+from carom.bifurcations.neighbours import NEIGHBOURS
 from carom.models import Jeffcott
 from carom.motions import State, simulate
 from carom.orbits import find_orbits, impact_map
@@ -24,7 +24,7 @@ pytestmark = pytest.mark.jit_only
 @cache
 def three_impacts() -> OrbitBranch:
     """The branch of orbits with one impact more that ends where the doubled orbit grazes."""
-    return located("grazing", 0.08267).switch((0.079, 0.088))
+    return switch(located("grazing", 0.08267), (0.079, 0.088))
 
 
 @cache
@@ -42,14 +42,14 @@ def jump() -> Border:
 
 def test_the_orbit_on_the_border_solves_the_equations_of_both_words():
     point = located("grazing", 0.08267)
-    word, start = neighbour("grazing", point.orbit)
+    word, start = NEIGHBOURS["grazing"](point.orbit)
     assert (word.impacts, len(start.durations)) == (3, 3)
     assert start.durations.sum() == pytest.approx(point.orbit.period, abs=1e-12)
     more = orbit_near(point.orbit.rotor, word, start)
     assert more is not None
     # At a grazing impact the speed is the root of the error of its height.
     assert abs(more.margins.approach) < 1e-5
-    back, again = neighbour("vanishing-impact", more)
+    back, again = NEIGHBOURS["vanishing-impact"](more)
     assert back == point.orbit.word
     assert again.durations.sum() == pytest.approx(point.orbit.period, abs=1e-5)
 
@@ -107,7 +107,7 @@ def test_where_friction_stops_the_slip_the_motion_goes_on_continuously():
     assert found.beyond.segments == "impact0"
     assert found.beyond.stable
     assert found.verdict == "continuous"
-    branch = point.switch((0.5, 1.2))
+    branch = switch(point, (0.5, 1.2))
     assert str(branch.word) == "impact0"
     assert branch.admissible[branch.values < point.value - 1e-6].all()
     # There it is what the simulation does, and it attracts.
@@ -127,9 +127,9 @@ def test_no_orbit_is_constructed_beyond_other_points():
     with pytest.raises(InputError, match="border"):
         examine_border(located("period-doubling", 0.08556))
     with pytest.raises(InputError, match="special point"):
-        located("fold", 0.08267).switch()
+        switch(located("fold", 0.08267))
     with pytest.raises(InputError, match="another flight"):
-        neighbour("vanishing-impact", find_orbits(PAPER)["B1,d"])
+        NEIGHBOURS["vanishing-impact"](find_orbits(PAPER)["B1,d"])
 
 
 # ------------------------------------------------------------------------- special points of three impacts
@@ -183,7 +183,7 @@ def test_the_orbit_attracts_between_these_points_and_repels_outside():
 
 def test_the_doubled_branch_of_three_impacts_is_found():
     (point,) = [each for each in resonant().special if each.kind == "period-doubling"]
-    branch = point.switch((0.0865, 0.089))
+    branch = switch(point, (0.0865, 0.089))
     assert branch.word.impacts == 6
     assert "period-halving" in branch.stops
     assert len(doubled().word) == 2

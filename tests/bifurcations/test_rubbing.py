@@ -10,8 +10,16 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import minimize_scalar
 
 from carom import find_orbits, simulate
-from carom.bifurcations import Bifurcation, OrbitBranch, Plane, continue_curve, continue_orbit, find_bifurcations
-from carom.bifurcations.neighbours import neighbour
+from carom.bifurcations import (
+    Bifurcation,
+    OrbitBranch,
+    Plane,
+    continue_curve,
+    continue_orbit,
+    find_bifurcations,
+    switch,
+)
+from carom.bifurcations.neighbours import NEIGHBOURS
 from carom.models import Jeffcott
 from carom.motions import State
 from carom.orbits import lift_off_of, rubbing_orbits
@@ -178,7 +186,7 @@ def test_contact_becomes_permanent_where_a_steady_whirl_is_only_just_pressed_on(
 @pytest.mark.jit_only
 def test_beyond_permanent_contact_the_whirl_does_not_leave_the_wall(chatter):
     point = special(chatter, "permanent-contact")
-    branch = point.switch((0.23, 0.26))
+    branch = switch(point, (0.23, 0.26))
     assert str(branch.word) == "slide+"
     above, below = branch.values > point.value + 1e-9, branch.values < point.value - 1e-9
     assert branch.admissible[above].all()
@@ -203,7 +211,7 @@ def test_beyond_permanent_contact_the_whirl_does_not_leave_the_wall(chatter):
 @pytest.mark.jit_only
 def test_beyond_the_onset_the_chatter_becomes_many_impacts(chatter):
     point = special(chatter, "contact-onset")
-    branch = point.switch((point.value * (1.0 - 2e-5), point.value * (1.0 + 2e-5)))
+    branch = switch(point, (point.value * (1.0 - 2e-5), point.value * (1.0 + 2e-5)))
     assert branch.word.flies
     assert branch.impacts > 10
     real = branch.admissible
@@ -228,7 +236,7 @@ def test_beyond_the_onset_the_chatter_becomes_many_impacts(chatter):
     assert real[(kinds["vanishing-impact"].value < branch.values) & (branch.values < kinds["grazing"].value)].all()
     # The next impact appears where the last flight touches the wall 1e-3 after its beginning.
     assert branch.values[real].max() < kinds["grazing"].value < point.value
-    assert len(neighbour("grazing", kinds["grazing"].orbit)[0]) == branch.impacts + 1
+    assert len(NEIGHBOURS["grazing"](kinds["grazing"].orbit)[0]) == branch.impacts + 1
 
 
 @pytest.mark.jit_only

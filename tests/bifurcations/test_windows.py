@@ -6,8 +6,7 @@ from compilation import sized
 from machines import PAPER
 
 from carom.bifurcations import orbit_windows, windows
-from carom.bifurcations.conditions import conditions_at, corrected
-from carom.bifurcations.solutions import orbit_solutions
+from carom.bifurcations.conditions import conditions_at, corrected, orbit_solutions
 from carom.models import Jeffcott
 from carom.orbits.single_impact import orbits_within_reach
 from carom.outcome import CaromError

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from carom import simulate
-from carom.bifurcations import Bifurcation, Curve, Plane, continue_curve, continue_orbit
+from carom.bifurcations import Bifurcation, Curve, Plane, continue_curve, continue_orbit, switch
 from carom.models import Jeffcott
 from carom.motions import State
 from carom.orbits import find_orbits, orbit_of_motion
@@ -71,7 +71,7 @@ def test_points_of_a_curve_are_found_again_along_one_parameter(kind):
         at = find_orbits(PAPER.replace(omega=float(y)))[single.name]
         branch = continue_orbit(at, "gamma", (0.075, 0.11))
         (doubling,) = [each for each in branch.special if each.kind == "period-doubling"]
-        values = [each.value for each in doubling.switch((0.08, 0.087)).special if each.kind == kind]
+        values = [each.value for each in switch(doubling, (0.08, 0.087)).special if each.kind == kind]
         assert np.abs(np.array(values) - x).min() < 1e-8
 
 

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from linear_rotors import touchdowns
 
-from carom.bifurcations import Bifurcation, OrbitBranch, continue_orbit
+from carom.bifurcations import Bifurcation, OrbitBranch, continue_orbit, switch
 from carom.bifurcations.conditions import TESTS, conditions_at
 from carom.bifurcations.word_equations import Family
 from carom.models import Jeffcott, LinearRotor
@@ -36,7 +36,7 @@ def single() -> OrbitBranch:
 @cache
 def doubled() -> OrbitBranch:
     (point,) = [point for point in single().special if point.kind == "period-doubling"]
-    return point.switch((0.078, 0.09))
+    return switch(point, (0.078, 0.09))
 
 
 def located(kind: str, near: float) -> Bifurcation:
@@ -199,7 +199,7 @@ def test_the_next_period_doubling_of_the_doubled_branch():
     point = located("period-doubling", 0.08556)
     assert not point.orbit.admissible
     assert np.abs(point.orbit.multipliers.values + 1.0).min() < 1e-7
-    branch = point.switch((point.value - 3e-4, point.value + 3e-4))
+    branch = switch(point, (point.value - 3e-4, point.value + 3e-4))
     assert len(branch.word) == 4
     (end,) = [p for p in branch.special if p.kind == "period-halving"]
     assert end.value == pytest.approx(point.value, abs=1e-11)
@@ -209,12 +209,12 @@ def test_a_doubled_branch_whose_equations_are_singular_is_not_found(monkeypatch)
     (point,) = [point for point in single().special if point.kind == "period-doubling"]
     monkeypatch.setattr(Family, "jacobian", lambda self, u, p: np.zeros((len(u), len(u) + 1)))
     with pytest.raises(CaromError, match="no orbit of twice the period was found"):
-        point.switch((0.078, 0.09))
+        switch(point, (0.078, 0.09))
 
 
 def test_no_branch_begins_at_a_fold():
     with pytest.raises(InputError, match="period doubling"):
-        located("fold", 0.08267).switch()
+        switch(located("fold", 0.08267))
     with pytest.raises(InputError, match="interval"):
         continue_orbit(find_orbits(PAPER)["B1,d"], "gamma", (0.2, 0.3))
 
@@ -271,7 +271,7 @@ def test_extrema_of_the_radius_where_friction_stops_the_slip():
 
 def test_neimark_sacker_points_have_a_pair_of_multipliers_on_the_unit_circle():
     """A multiplier without bound at the end of a step is none of them."""
-    branch = located("grazing", 0.0826743).switch((0.07, 0.0999))
+    branch = switch(located("grazing", 0.0826743), (0.07, 0.0999))
     turning = [point.orbit.multipliers.values for point in branch.special if point.kind == "neimark-sacker"]
     assert turning
     for values in turning:

@@ -36,7 +36,7 @@ def test_orbit_closes_in_the_rotating_frame_and_strikes_once_a_period_in_the_fix
 def test_each_impact_of_an_orbit_with_two_is_marked(damped, read):
     branch = carom.continue_orbit(damped.orbits["B1,d"], "gamma", (0.08, 0.1))
     (doubling,) = (point for point in branch.special if point.kind == "period-doubling")
-    orbit = doubling.switch((0.082, 0.0834)).orbits[-1]
+    orbit = carom.bifurcations.switch(doubling, (0.082, 0.0834)).orbits[-1]
     assert orbit.impacts == 2
     rotating, fixed = plots.orbit(orbit, periods=3).axes
     (strikes,) = read.lines(rotating, "backward")

@@ -55,7 +55,6 @@ def test_certificate_is_verified(machine, tmp_path):
 def test_check_searches_nothing(document, monkeypatch):
     for name in ("cells_of", "_longest_period", "_first_cell"):
         monkeypatch.setattr(f"carom.proofs.periods.{name}", None)
-    monkeypatch.setattr("carom.proofs.single_impact.cells_of", None)
     monkeypatch.setattr("carom.proofs.slip.time_out", None)
 
     assert len(check(document)) == len(document["claims"])
@@ -150,10 +149,6 @@ def test_damaged_certificate_is_refused_in_one_line(document, key, value):
         ("first cell", "10"),
         ("root 1 of F1", ["1", "2"]),
         ("root 1 of F1", ["1e999999999", "2"]),
-        ("flight of B1,d", {"outside": "1"}),
-        ("flight of B1,d", None),
-        ("flight of B1,d", {"cuts": ["1", "5"], "kinds": "-"}),
-        ("flight of B1,d", {"cuts": ["1/1000", "2"], "kinds": "+"}),
         ("out of the clearance after", "1/100000"),
     ],
 )

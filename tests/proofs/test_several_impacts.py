@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from fractions import Fraction
+from functools import partial
 
 import numpy as np
 import pytest
@@ -19,18 +20,12 @@ from carom.proofs.balls import at_precision
 from carom.proofs.evidence import Evidence, NotShownError
 from carom.proofs.hypotheses import hypotheses_of
 from carom.proofs.krawczyk import enclosed_zero, newton
-from carom.proofs.lines import Numbers
 from carom.proofs.rotor import Rotor
 from carom.proofs.several_impacts import several_impact_claims
-from carom.proofs.words import Flights, ShootingOrbit
+from carom.proofs.words import ShootingOrbit, equations_of
 
 NEAR_DOUBLING = PAPER.replace(gamma=0.0832)
 """Just below the period doubling of B1,d, which is supercritical."""
-
-
-def flights_of(parameters) -> Flights:
-    rotor = Rotor(hypotheses_of(parameters))
-    return Flights(Numbers(rotor.gamma, rotor.omega_squared, rotor.rho, rotor.mu, rotor.d, rotor.radius_ratio))
 
 
 BORN = 3
@@ -67,13 +62,14 @@ def test_simulation_from_the_enclosure_repeats(proof):
 
 def test_derivative_over_a_period_is_that_of_the_kernels(proof):
     with at_precision(128):
-        flights = flights_of(NEAR_DOUBLING)
+        numbers = Rotor(hypotheses_of(NEAR_DOUBLING)).numbers
+        equations = partial(equations_of, numbers)
         centre = [
             arb(Fraction(text).numerator) / Fraction(text).denominator
             for text in proof.evidence["orbits"][BORN - 1]["centre"]
         ]
-        found, _ = enclosed_zero(flights.equations, [x.mid() for x in centre])
-        orbit = ShootingOrbit(flights, (tuple(found[:4]), tuple(found[4:])))
+        found, _ = enclosed_zero(equations, [x.mid() for x in centre])
+        orbit = ShootingOrbit(numbers, (tuple(found[:4]), tuple(found[4:])))
         jacobian = orbit.jacobian()
         margins = orbit.margins()
     rotor = Jeffcott(NEAR_DOUBLING)
@@ -109,19 +105,21 @@ def test_orbit_of_one_impact_run_twice_is_not_told_as_one_of_two():
     angle = orbit.angle - float(np.angle(orbit.rotor.equilibrium))
     guess = [angle, orbit.radial_speed, orbit.angular_speed, orbit.period] * 2
     with at_precision(128):
-        flights = flights_of(PAPER)
-        found, _ = enclosed_zero(flights.equations, newton(flights.equations, guess))
-        assert ShootingOrbit(flights, (tuple(found[:4]), tuple(found[4:]))).repeats() is None
+        numbers = Rotor(hypotheses_of(PAPER)).numbers
+        equations = partial(equations_of, numbers)
+        found, _ = enclosed_zero(equations, newton(equations, guess))
+        assert ShootingOrbit(numbers, (tuple(found[:4]), tuple(found[4:]))).repeats() is None
 
 
 def test_orbit_of_one_impact_by_shooting_has_the_claims_of_the_closed_form():
     orbit, closed = cm.find_orbits(PAPER)["B1,d"], prove(PAPER)["B1,d solution"]
     angle = orbit.angle - float(np.angle(orbit.rotor.equilibrium))
     with at_precision(128):
-        flights = flights_of(PAPER)
-        guess = newton(flights.equations, [angle, orbit.radial_speed, orbit.angular_speed, orbit.period])
-        found, _ = enclosed_zero(flights.equations, guess)
-        shot = ShootingOrbit(flights, (tuple(found),))
+        numbers = Rotor(hypotheses_of(PAPER)).numbers
+        equations = partial(equations_of, numbers)
+        guess = newton(equations, [angle, orbit.radial_speed, orbit.angular_speed, orbit.period])
+        found, _ = enclosed_zero(equations, guess)
+        shot = ShootingOrbit(numbers, (tuple(found),))
         assert shot.stays_inside() is True
         assert min(float(margin) for margin in shot.margins().values()) > 0
         assert abs(found[3] - arb(closed.enclosures["period"].low)) < 1e-25
@@ -134,10 +132,11 @@ def test_flight_through_the_wall_is_told():
     assert not orbit.admissible
     angle = orbit.angle - float(np.angle(orbit.rotor.equilibrium))
     with at_precision(128):
-        flights = flights_of(at)
-        guess = newton(flights.equations, [angle, orbit.radial_speed, orbit.angular_speed, orbit.period])
-        found, _ = enclosed_zero(flights.equations, guess)
-        assert ShootingOrbit(flights, (tuple(found),)).stays_inside() is False
+        numbers = Rotor(hypotheses_of(at)).numbers
+        equations = partial(equations_of, numbers)
+        guess = newton(equations, [angle, orbit.radial_speed, orbit.angular_speed, orbit.period])
+        found, _ = enclosed_zero(equations, guess)
+        assert ShootingOrbit(numbers, (tuple(found),)).stays_inside() is False
 
 
 @pytest.mark.parametrize("first", [0, 4], ids=["the same", "from its other impact"])

@@ -7,12 +7,12 @@ from dataclasses import dataclass
 from typing import Any
 
 from carom.arguments import checked
-from carom.orbits.names import OrbitName
+from carom.orbits.names import Name, OrbitName
 from carom.outcome import DRIFTING_RUB, STEADY_WORDS, Outcome
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class MotionName(str):
+class MotionName(Name):
     """Name of a motion, such as ``"levitation"`` or ``"2-impact bouncing"``: a text that also carries what it says.
 
     Parameters
@@ -50,9 +50,6 @@ class MotionName(str):
         elif outcome is Outcome.FORWARD_RUB:
             text = DRIFTING_RUB if drifting else STEADY_WORDS["rub"]
         return super().__new__(cls, f"{text} ({number})" if number > 1 else text)
-
-    def __getnewargs__(self) -> tuple[Any, ...]:  # for copies and pickles
-        return self.outcome, self.multiplicity, self.drifting, self.orbit, self.number
 
     @classmethod
     @checked

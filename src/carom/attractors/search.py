@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -21,7 +21,7 @@ from carom.motions.settling import PATIENCE
 from carom.motions.starts import Kick, State
 from carom.outcome import IRREGULAR_BOUNCING, InputError, Outcome
 from carom.progress import Reporter, ShowProgress, shows_progress
-from carom.results import Result, in_a_line
+from carom.results import Members, in_a_line
 
 RECOGNISED = (
     "Levitation is proven. A rub at rest is recognised by its rest and by its linearised sliding, other rubs by a full turn "
@@ -32,7 +32,7 @@ RECOGNISED = (
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class AttractorSet(Result):
+class AttractorSet(Members[Attractor]):
     """All attractors found; look one up by name, ``found["B1,d"]``.
 
     Attributes
@@ -52,6 +52,7 @@ class AttractorSet(Result):
     rests_on: ClassVar[tuple[str, ...]] = ("mora2014", "brent1980")
 
     figure: ClassVar[str] = "attractors"
+    called: ClassVar[str] = "attractor"
 
     rotor: Model
     members: tuple[Attractor, ...]
@@ -69,21 +70,6 @@ class AttractorSet(Result):
                 for member in self.members
             ),
         ]
-
-    def __len__(self) -> int:
-        return len(self.members)
-
-    def __iter__(self) -> Iterator[Attractor]:
-        return iter(self.members)
-
-    def __contains__(self, name: object) -> bool:
-        return any(member.name == name for member in self.members)
-
-    def __getitem__(self, name: str) -> Attractor:
-        for member in self.members:
-            if member.name == name:
-                return member
-        raise InputError("attractor", name, f"one of: {', '.join(member.name for member in self.members)}")
 
     @property
     def disturbances(self) -> tuple[Ending, ...]:

@@ -10,7 +10,7 @@ from typing import Any, Literal
 
 import numpy as np
 
-from carom.arguments import Seed, Whole, checked
+from carom.arguments import Positive, Seed, Whole, checked
 from carom.closed_forms.equilibria import find_equilibria
 from carom.closed_forms.known import known_of
 from carom.disturbances import FASTEST, AnyState, KickPlane, Plan, Starts, VelocityKick
@@ -19,7 +19,7 @@ from carom.disturbances.following import require_start
 from carom.models import Model, Subject, model_of
 from carom.motions.starts import Kick, State
 from carom.orbits.orbit import Orbit
-from carom.outcome import STEADY_WORDS, InputError
+from carom.outcome import STEADY_WORDS
 from carom.parameters import Scales, own_size, usual_kick
 from carom.parameters.told import told
 
@@ -95,13 +95,7 @@ class DisturbanceSet:
 
     count: Whole = DISTURBANCES
     seed: Seed = 0
-    fastest: float = FASTEST
-
-    def __post_init__(self) -> None:
-        if self.count < 0:
-            raise InputError("count", self.count, "a whole number of at least 0")
-        if not (math.isfinite(self.fastest) and self.fastest > 0.0):
-            raise InputError("fastest", self.fastest, "a finite speed above 0, in c_r Omega")
+    fastest: Positive = FASTEST
 
     @classmethod
     @checked

@@ -4,6 +4,7 @@
 ``classification``      :func:`map_basins` and the frozen :class:`Basin`
 ``dataset``             endings as a dataset with coordinates, units and provenance
 ``shares``              the share of disturbances that come back, with its confidence interval
+``brackets``            the bracket that a search for the smallest loss finds
 ``losses``              the smallest kicks, shocks, steps and releases that are lost
 ``families``            kinds of disturbances by size and direction, as searches for losses take them
 ``blade_losses``        the smallest unbalance after the loss of a blade that is not survived
@@ -15,12 +16,13 @@
 ======================  ==================================================================================
 """
 
+from carom.basins.brackets import SmallestLoss
 from carom.basins.changes import GainChange, least_gain_change
 from carom.basins.classification import Basin, Cells, map_basins, map_cells
 from carom.basins.entropy import BasinEntropy, basin_entropy
 from carom.basins.gains import GainMap, map_gains
 from carom.basins.integrity_measures import Integrity, integrity
-from carom.basins.losses import SmallestLoss, smallest_loss
+from carom.basins.losses import smallest_loss
 from carom.basins.shares import Population, Share, share_of_kicks
 
 __all__ = [

@@ -10,8 +10,8 @@ from dataclasses import replace
 
 import numpy as np
 
+from carom.basins.brackets import MOST_CHECKS, ROUND, TOLERANCE, Bracket, SmallestLoss, lost
 from carom.basins.families import UNBALANCE
-from carom.basins.losses import MOST_CHECKS, ROUND, TOLERANCE, SmallestLoss, lost
 from carom.closed_forms.thresholds import harmless_blade_loss
 from carom.disturbances import BladeLoss, Starts
 from carom.disturbances.coordinates import TURN
@@ -36,14 +36,13 @@ def smallest_blade_loss(
     ``size`` is the eccentricity after the loss, ``angle`` its phase relative to the unbalance before.  A model whose
     unbalance is not larger than the present one is refused.
     """
-    search = _Search(rotor, model, threads)
     present, largest = rotor.parameters.rho, model.eccentricity_after
     if present >= largest:
         allowed = f"more than the present one, {present:.6g}, in clearances: a search of what is survived begins there"
         raise InputError("eccentricity_after", f"{largest:.6g}", allowed)
     # Every change of the unbalance up to its harmless size is a step to at most this unbalance, at any phase.
     proven = harmless_blade_loss(rotor) - present
-    search.base = replace(search.base, harmless=max(proven, 0.0), largest=largest)
+    search = _Search(rotor, model, max(proven, 0.0), threads)
     low = max(present, min(proven, largest))
     if proven >= largest:
         return search.result(largest, 0)
@@ -67,37 +66,16 @@ def smallest_blade_loss(
         if found is None:
             return search.result(back, DRAWN + ROUND)
         back = search.bisect(low, found)
-    return search.result(search.base.harmless or None, 0)
+    return search.result(max(proven, 0.0) or None, 0)
 
 
-class _Search:
+class _Search(Bracket):
     """Unbalances tried so far, and the smallest that was lost."""
 
-    def __init__(self, rotor: Jeffcott, model: BladeLoss, threads: int | None) -> None:
+    def __init__(self, rotor: Jeffcott, model: BladeLoss, harmless: float, threads: int | None) -> None:
+        sizes = {"quantity": UNBALANCE, "harmless": harmless, "largest": model.eccentricity_after}
+        super().__init__(kind=model.kind, **sizes, tolerance=TOLERANCE, scales=rotor.scales)
         self.rotor, self.model, self.threads = rotor, model, threads
-        self.base = SmallestLoss(
-            model.kind,
-            None,
-            None,
-            None,
-            False,
-            0.0,
-            None,
-            0,
-            0.0,
-            0.0,
-            TOLERANCE,
-            0,
-            UNBALANCE,
-            rotor.scales,
-        )
-        self.back = 0.0
-
-    def result(self, all_back: float | None, fresh: int) -> SmallestLoss:
-        """Bracket found; ``all_back`` is the largest unbalance up to which all came back."""
-        return replace(
-            self.base, all_back=all_back, fresh=fresh, recovered=self.back if self.base.size else all_back or 0.0
-        )
 
     def loses(self, after: float, phases: np.ndarray | None = None) -> bool:
         """Whether an unbalance is lost at some phase; note it if so."""
@@ -107,12 +85,11 @@ class _Search:
             starts: Starts = at.starts(self.rotor, some)
             outcomes = follow(at.machine_after(self.rotor), starts, threads=self.threads).outcomes
             gone = np.flatnonzero(lost(outcomes) & starts.exists)
-            self.base = replace(self.base, tried=self.base.tried + int(np.count_nonzero(starts.exists)))
+            self.tried += int(np.count_nonzero(starts.exists))
             if not len(gone):
                 continue
-            if self.base.size is None or after < self.base.size:
-                angle = float(np.angle(np.exp(1j * some[gone[0]])))
-                self.base = replace(self.base, size=after, angle=angle, outcome=Outcome(int(outcomes[gone[0]])))
+            if self.best is None or after < self.best[1]:
+                self.best = 0.0, after, float(some[gone[0]]), Outcome(int(outcomes[gone[0]]))
             return True
         return False
 
@@ -121,7 +98,8 @@ class _Search:
         while high - low > TOLERANCE * high:
             middle = 0.5 * (low + high)
             low, high = (low, middle) if self.loses(middle) else (middle, high)
-        self.back = low
+        if self.best is not None:
+            self.best = low, *self.best[1:]
         return low
 
     def draw(self, low: float, high: float, seed: int) -> float | None:

@@ -11,13 +11,13 @@ from typing import Any
 
 import numpy as np
 
+from carom.basins.brackets import SmallestLoss
 from carom.basins.changes import WANTED, GainChange
 from carom.basins.classification import Basin
 from carom.basins.entropy import basin_entropy
 from carom.basins.families import size_coordinate
 from carom.basins.gains import GainMap
 from carom.basins.integrity_measures import integrity
-from carom.basins.losses import SmallestLoss
 from carom.basins.shares import Share, starts_enough
 from carom.closed_forms.thresholds import harmless_blade_loss, harmless_shock, harmless_unbalance_step
 from carom.disturbances import BaseShock, BladeLoss, Sample, UnbalanceStep

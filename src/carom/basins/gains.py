@@ -7,11 +7,11 @@ import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from itertools import tee
-from typing import TYPE_CHECKING, Any, ClassVar, TypeAlias
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, TypeAlias
 
 import numpy as np
 
-from carom.arguments import Count, Whole, checked
+from carom.arguments import Count, Whole, checked, whole
 from carom.basins.dataset import Mapped, provenance
 from carom.basins.entropy import entropies, usual_side
 from carom.basins.integrity_measures import safe_size
@@ -33,6 +33,8 @@ if TYPE_CHECKING:
 
     from carom.parameters import Scales
 
+Several = Annotated[int, whole(2)]
+"""A number of values of a parameter."""
 Node: TypeAlias = tuple[Plan, tuple[float, float]]
 """Disturbances, and values of the two parameters."""
 CHUNK = 50_000
@@ -109,7 +111,7 @@ def map_gains(
     names: tuple[str, str] = ("stiffness", "damping"),
     *,
     ranges: tuple[Ends | None, Ends | None] = (None, None),
-    shape: tuple[int, int] = (16, 16),
+    shape: tuple[Several, Several] = (16, 16),
     patience: Whole = PATIENCE,
     max_events: Count = MOST_EVENTS,
     threads: Count | None = None,
@@ -160,8 +162,6 @@ def map_gains(
     axes = axis(rotor, names[0]), axis(rotor, names[1])
     if axes[0].name == axes[1].name:
         raise InputError("names", ",".join(names), "two different parameters")
-    if any(count < 2 for count in shape):
-        raise InputError("shape", "x".join(map(str, shape)), "at least 2 values of each parameter")
     values = [_values(rotor, varied, given, count) for varied, given, count in zip(axes, ranges, shape, strict=True)]
     limits = {"patience": patience, "max_events": max_events}
     nodes = [(float(x), float(y)) for x in values[0] for y in values[1]]

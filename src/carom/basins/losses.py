@@ -6,26 +6,20 @@ the smallest size found that does not.
 
 from __future__ import annotations
 
-import math
-from dataclasses import dataclass
-from typing import ClassVar
-
 import numpy as np
 
 from carom.arguments import Count, checked
+from carom.basins.blade_losses import smallest_blade_loss
+from carom.basins.brackets import MOST_CHECKS, ROUND, TOLERANCE, Bracket, SmallestLoss, lost
 from carom.basins.families import Family, family_of
-from carom.basins.shares import CONFIDENCE
 from carom.disturbances import BladeLoss, Disturbance, Starts
 from carom.disturbances.coordinates import TURN
 from carom.disturbances.following import follow
 from carom.models import Jeffcott, Model, Subject, jeffcott_of
 from carom.outcome import InputError, Outcome
-from carom.parameters import Scales
 from carom.progress import Reporter, ShowProgress, shows_progress
-from carom.results import Result
 
 DIRECTIONS, SIZES = 96, 96
-TOLERANCE = 1e-3
 TOGETHER = 768
 """About as many starts of a scan are followed at once, at a few sizes; larger ones only if none of them is lost."""
 NARROWED = 4
@@ -34,107 +28,8 @@ BESIDE = 8
 """Directions to each side of the best one so far, in each round."""
 BELOW = 24
 """Sizes up to the best one so far, tried in each direction."""
-DRAWN, ROUND = 2000, 720
-"""Fresh starts below the smallest loss, and directions over a full turn at the upper end of these sizes."""
-MOST_CHECKS = 8
-"""Number of times that fresh starts may reduce the smallest loss."""
-
-
-@dataclass(frozen=True, repr=False)
-class SmallestLoss(Result):
-    """Bracket of the size at which disturbances begin to be lost.
-
-    Attributes
-    ----------
-    kind : str
-        Kind of the disturbance: ``"kick"``, ``"shock"``, ``"unbalance-step"``, ``"blade-loss"``, ``"release"``, or that of
-        another model; of a kick plane ``"kick"``.
-    size : float or None
-        Smallest lost size found: change of velocity in ``c_r Ω``, peak acceleration in ``c_r Ω²``, change of the
-        eccentricity in ``c_r`` (for the loss of a blade: eccentricity after it), speed along the wall in ``c_r Ω`` (fixed
-        frame), or first coordinate of another model.  ``None`` where none was found.
-    angle : float or None
-        Its direction in rad.  For a kick or shock as in :mod:`carom.disturbances`; for a step the direction from the
-        eccentricity after the step to the one before it, relative to the one after; for the loss of a blade the phase of the
-        unbalance after it; for a release the place on the wall.
-    outcome : Outcome or None
-        Outcome of the motion after it.
-    backward : bool
-        Whether it is a release in backward whirl.
-    recovered : float
-        A smaller size in this direction, within the tolerance, that comes back.
-    all_back : float or None
-        Largest size up to which all starts tried came back: those of the search and ``fresh`` ones.  ``None`` where the
-        smallest starts are lost already.
-    fresh : int
-        Number of starts up to ``all_back`` that are independent of the search: 2,000 drawn uniformly over the area of the
-        disc beyond the harmless size (of releases: over places and speeds), and 720 directions over a full turn at that size.
-    harmless : float
-        Size up to which contact is proven to be impossible in any direction; 0 where nothing is proven.
-    largest : float
-        Largest size searched.
-    tolerance : float
-        Relative width to which the smallest loss is bisected, and angle in rad between the last directions tried.
-    tried : int
-        Number of starts followed.
-    quantity : str
-        Property of the scales by which sizes are converted to SI units.
-    scales : Scales or None
-        Those of the machine.
-    """
-
-    rests_on: ClassVar[tuple[str, ...]] = ("mora2014", "clopper1934")
-
-    kind: str
-    size: float | None
-    angle: float | None
-    outcome: Outcome | None
-    backward: bool
-    recovered: float
-    all_back: float | None
-    fresh: int
-    harmless: float
-    largest: float
-    tolerance: float
-    tried: int
-    quantity: str = ""
-    scales: Scales | None = None
-
-    shown: ClassVar[tuple[str, ...]] = (
-        "kind",
-        "size",
-        "angle",
-        "outcome",
-        "recovered",
-        "all_back",
-        "fresh",
-        "harmless",
-        "largest",
-        "tried",
-    )
-
-    @property
-    def words(self) -> str:
-        """The bracket in a line."""
-        told = {name: self.line_of(name, getattr(self, name)) for name in ("size", "all_back", "harmless", "largest")}
-        lost = f"none lost up to {told['largest']}" if self.size is None else f"smallest lost {told['size']}"
-        back = "" if self.all_back is None else f", all back up to {told['all_back']}"
-        return f"{lost}{back}, harmless up to {told['harmless']}"
-
-    def kind_of(self, name: str) -> str:
-        """Sizes are of one kind."""
-        return (
-            self.quantity if name in ("size", "recovered", "all_back", "harmless", "largest") else super().kind_of(name)
-        )
-
-    @property
-    def share_below(self) -> float:
-        """Share of the disturbances beyond the harmless size and up to ``all_back``, by area, that may be lost: a bound at 95 %.
-
-        ``1 − 0.05^{1/n}`` for ``n`` starts of which none is lost (Clopper and Pearson, one-sided).
-        """
-        drawn = max(self.fresh - ROUND, 0)
-        return -math.expm1(math.log(1.0 - CONFIDENCE) / drawn) if drawn else 1.0
+DRAWN = 2000
+"""Fresh starts below the smallest loss."""
 
 
 @checked
@@ -193,8 +88,6 @@ def smallest_loss(
     if rotor.parameters.gamma < 0.0:
         raise InputError("gamma", rotor.parameters.gamma, "at least 0: there is no levitation to come back to")
     if isinstance(model, BladeLoss):
-        from carom.basins.blade_losses import smallest_blade_loss  # that module needs this one
-
         return smallest_blade_loss(rotor, model, threads=threads, tell=Reporter.of(progress, "trying unbalances"))
     family = family_of(rotor, model)
     search = _Search(rotor, family, tolerance, threads)
@@ -227,40 +120,14 @@ def _all_round(family: Family, directions: int) -> np.ndarray:
     return TURN * np.arange(family.turns * directions) / directions
 
 
-class _Search:
-    """State of a search: the number of starts tried, and the best bracket.
-
-    The bracket holds a recovered size, the smallest lost size, its direction and its outcome.
-    """
+class _Search(Bracket):
+    """Search among the disturbances of a family."""
 
     def __init__(self, rotor: Jeffcott, family: Family, tolerance: float, threads: int | None) -> None:
+        sizes = {name: getattr(family, name) for name in ("kind", "quantity", "harmless", "largest")}
+        super().__init__(**sizes, tolerance=tolerance, scales=rotor.scales)
         self.rotor, self.family, self.tolerance, self.threads = rotor, family, tolerance, threads
-        self.tried = 0
-        self.best: tuple[float, float, float, Outcome] | None = None
-
-    def result(self, all_back: float | None, fresh: int) -> SmallestLoss:
-        """Result of the search so far."""
-        family = self.family
-        recovered, size, angle, outcome = self.best or (all_back or 0.0, None, None, None)
-        backward = angle is not None and family.turns > 1 and angle % (2.0 * TURN) >= TURN
-        if angle is not None:
-            angle = math.remainder(angle, TURN)
-        return SmallestLoss(
-            kind=family.kind,
-            size=size,
-            angle=angle,
-            outcome=outcome,
-            backward=backward,
-            recovered=recovered,
-            all_back=all_back,
-            fresh=fresh,
-            harmless=family.harmless,
-            largest=family.largest,
-            tolerance=self.tolerance,
-            tried=self.tried,
-            quantity=family.quantity,
-            scales=self.rotor.scales,
-        )
+        self.turns = family.turns
 
     def scan(self, angles: np.ndarray, levels: np.ndarray) -> None:
         """Scan directions at increasing sizes, the first of which is known to recover, up to that at which some are lost.
@@ -317,11 +184,6 @@ class _Search:
         outcomes[~starts.exists] = Outcome.GRAZING
         self.tried += int(np.count_nonzero(starts.exists & ~starts.undecided))
         return outcomes, lost(outcomes)
-
-
-def lost(outcomes: np.ndarray) -> np.ndarray:
-    """Which outcomes are not levitation; those that double precision cannot decide do not count as lost."""
-    return (outcomes != Outcome.LEVITATED) & (outcomes != Outcome.GRAZING)
 
 
 def smallest_lost(rotor: Model, kicks: Starts, outcomes: np.ndarray) -> tuple[float, float] | None:

@@ -15,13 +15,11 @@
 ``paths``           how far states are from the path of an orbit
 ``boundary``        where levitation meets the wall
 ``windows``         ranges of a parameter in which orbits are motions
-``curves``          curves of bifurcations in two parameters
+``curve_results``   a curve of bifurcations in two parameters, and points on it
+``curves``          following such a curve
 ``word_curves``     those of orbits of any word
-``conditions``      test functions of orbits with one impact and of equilibria
-``resonances``      where Neimark–Sacker curves begin
+``conditions``      orbits with one impact by their closed form: solutions, names and test functions; those of equilibria
 ``passing``         whether a known curve passes through a point
-``naming``          names of the orbits of a curve
-``solutions``       all solutions of the closed form's equations
 ``planes``          the plane of two parameters
 ``regions``         regions of a plane with the same motions
 ``cells``           groups of neighbouring cells
@@ -37,7 +35,8 @@ from carom.bifurcations.boundary import BoundaryEquilibrium, boundary_equilibria
 from carom.bifurcations.branches import OrbitBranch
 from carom.bifurcations.cells import Region
 from carom.bifurcations.changes import UnexplainedChange
-from carom.bifurcations.curves import KINDS, Codimension2Point, Curve, continue_curve
+from carom.bifurcations.curve_results import Codimension2Point, Curve
+from carom.bifurcations.curves import KINDS, continue_curve
 from carom.bifurcations.diagrams import Diagram, find_bifurcations
 from carom.bifurcations.motions import Motions, motions_at
 from carom.bifurcations.planes import Plane
@@ -46,7 +45,7 @@ from carom.bifurcations.regions import RegionMap, map_regions
 from carom.bifurcations.samples import AttractorSample, sample_attractors
 from carom.bifurcations.steady import EquilibriumBranch, RollingBranch
 from carom.bifurcations.windows import OrbitWindows, Window, WindowEnd, orbit_windows
-from carom.bifurcations.words import continue_orbit
+from carom.bifurcations.words import continue_orbit, switch
 
 __all__ = [
     "KINDS",
@@ -77,4 +76,5 @@ __all__ = [
     "motions_at",
     "orbit_windows",
     "sample_attractors",
+    "switch",
 ]

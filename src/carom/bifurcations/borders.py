@@ -4,17 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from itertools import groupby
-from typing import Literal, NamedTuple
+from typing import Literal
 
 import numpy as np
 
 from carom.arguments import checked
-from carom.bifurcations.neighbours import BORDERS, NEIGHBOURS, is_other, neighbour, read_beside, setting_out
+from carom.bifurcations.neighbours import BORDERS, NEIGHBOURS, is_other, read_beside, setting_out
 from carom.bifurcations.paths import Path
 from carom.bifurcations.points import Bifurcation
 from carom.models import Model
-from carom.models.axes import Axis, axis
+from carom.models.axes import axis
 from carom.motions.starts import State
 from carom.motions.trajectories import Trajectory, simulate
 from carom.orbits.exponents import CONFIDENT, lyapunov_exponents
@@ -164,14 +165,12 @@ class Border(Result):
 
     def rows(self) -> list[tuple[str, str]]:
         """What was found."""
+        exponents = ", ".join(f"{value:.3g} ± {error:.1g}" for value, error in self.exponents)
         return [
             ("found", self.words),
             ("distances", ", ".join(f"{each:.3g}" for each in self.distances)),
             ("departures", ", ".join(f"{each:.3g}" for each in self.departures) or "none followed"),
-            (
-                "exponents",
-                ", ".join(f"{value:.3g} ± {error:.1g}" for value, error in self.exponents) or "none measured",
-            ),
+            ("exponents", exponents or "none measured"),
         ]
 
 
@@ -197,41 +196,33 @@ def examine_border(point: Bifurcation) -> Border:
     """
     if point.kind not in BORDERS:
         raise InputError("border", point.kind, f"one of {', '.join(BORDERS)}")
-    orbit, sides = point.orbit, _Sides.of(point)
+    orbit, sides = point.orbit, _Sides(point)
     contacts = orbit.nodes
     own = sides.own() if point.admissible else {}
     if point.kind in NEIGHBOURS:
-        known, start = neighbour(point.kind, orbit)
+        known, start = NEIGHBOURS[point.kind](orbit)
         contacts = np.concatenate([contacts, start.nodes])
         neighbours = sides.near(-1, sides.least, known, start), sides.near(1, sides.least, known, start)
         word: Word | None = known
     else:
         word, neighbours = sides.read()
     inside = sum(side for side, found in own.items() if found is not None)
-    followed: tuple[_Followed, ...] = ()
+    followed: list[tuple[float, tuple[float, float]]] = []
     held = own.get(inside)
     if held is not None and held.stable:
-        apart = Path.of(orbit).distances if not orbit.word.flies else _from_contacts(contacts)
-        followed = tuple(_follow(orbit, apart, sides.at(-inside, distance)) for distance in sides.distances)
-    departures, exponents = tuple(each.departure for each in followed), tuple(each.exponent for each in followed)
+        apart = Path.of(orbit).distances if not orbit.word.flies else partial(_from_contacts, contacts)
+        followed = [_follow(orbit, apart, sides.at(-inside, distance)) for distance in sides.distances]
+    departures, exponents = tuple(departure for departure, _ in followed), tuple(found for _, found in followed)
     return Border(point, inside, word, neighbours, sides.distances, departures, exponents)
 
 
-@dataclass(frozen=True)
 class _Sides:
     """Rotors on both sides of a border, and the orbits there."""
 
-    orbit: Orbit
-    along: Axis
-    value: float
-    distances: tuple[float, ...]
-
-    @classmethod
-    def of(cls, point: Bifurcation) -> _Sides:
-        orbit = point.orbit
-        return cls(
-            orbit, axis(orbit.rotor, point.parameter), point.value, tuple(step * abs(point.value) for step in STEPS)
-        )
+    def __init__(self, point: Bifurcation) -> None:
+        self.orbit, self.value = point.orbit, point.value
+        self.along = axis(self.orbit.rotor, point.parameter)
+        self.distances = tuple(step * abs(point.value) for step in STEPS)
 
     def at(self, side: int, distance: float) -> Model:
         """Rotor on a side."""
@@ -260,7 +251,7 @@ class _Sides:
         return found
 
     def _own_at(self, side: int, distance: float) -> Orbit | None:
-        found = self.near(side, distance, self.orbit.word, Start(self.orbit.nodes, self.orbit.durations))
+        found = self.near(side, distance, self.orbit.word, self.orbit.start)
         if found is None and not self.orbit.word.flies:
             # Where a segment shrinks like a root, the orbit on the border is no start for Newton's method.
             for word, start in read_beside(self.orbit, self.at(side, distance)):
@@ -283,7 +274,7 @@ class _Sides:
                 seen = seen or word
                 # Virtual where the motion was simulated, it may be a motion on the other side: then both orbits end at the border.
                 closed = orbit_near(self.at(side, distance), word, start)
-                guess = (word, start) if closed is None else (closed.word, Start(closed.nodes, closed.durations))
+                guess = (word, start) if closed is None else (closed.word, closed.start)
                 here, there = (self.near(each, distance, *guess) for each in (side, -side))
                 found = here or there
                 if found is not None:
@@ -291,41 +282,29 @@ class _Sides:
         return seen, (None, None)
 
 
-class _Followed(NamedTuple):
-    """A motion that starts beside an orbit: where its last events are, and how fast motions beside it part."""
-
-    departure: float
-    exponent: tuple[float, float] = (np.nan, np.nan)
-
-
-def _from_contacts(contacts: np.ndarray) -> Callable[[np.ndarray], np.ndarray]:
+def _from_contacts(contacts: np.ndarray, states: np.ndarray) -> np.ndarray:
     """Distance of states (m, 2n) before impacts from the nearest of those of an orbit, shape (m,)."""
-
-    def apart(states: np.ndarray) -> np.ndarray:
-        nearest: np.ndarray = np.abs(states[:, None] - contacts).max(axis=2).min(axis=1)
-        return nearest
-
-    return apart
+    nearest: np.ndarray = np.abs(states[:, None] - contacts).max(axis=2).min(axis=1)
+    return nearest
 
 
-def _follow(orbit: Orbit, apart: Callable[[np.ndarray], np.ndarray], rotor: Model) -> _Followed:
-    """Largest distance of a motion at its last events from the orbit beside which it starts, and its exponent."""
-    before = setting_out(orbit)
+def _follow(orbit: Orbit, apart: Callable[[np.ndarray], np.ndarray], rotor: Model) -> tuple[float, tuple[float, float]]:
+    """Largest distance of a motion from the orbit beside which it starts, at its last events; its largest Lyapunov exponent if irregular."""
+    before, regular = setting_out(orbit), (np.nan, np.nan)
     start = State(before.position, before.velocity * (1.0 + BESIDE))
     motion: Trajectory = simulate(rotor, start, settle=True, patience=PATIENCE)
     if motion.outcome not in (Outcome.BOUNCING, Outcome.MIXED):
         if any(segment.kind.flies for segment in orbit.word) or motion.outcome not in STAYING:
-            return _Followed(np.inf)
+            return np.inf, regular
         motion = simulate(rotor, motion.final, TURNS * orbit.period)
     last = motion.arrivals[-LATEST:] if orbit.word.flies else _settled_on(motion, orbit.period)
-    states = motion.rotor.system.states_of(last)
-    departure = float(apart(states).max())
+    departure = float(apart(motion.rotor.system.states_of(last)).max())
     if motion.outcome is Outcome.TIME_REACHED or motion.multiplicity or departure > LARGEST_STEP:
-        return _Followed(departure)
+        return departure, regular
     try:
-        return _Followed(departure, lyapunov_exponents(rotor, motion.final, MEASURED).across)
+        return departure, lyapunov_exponents(rotor, motion.final, MEASURED).across
     except CaromError:  # its segments cannot be repeated to eight digits, or it stops hitting the wall
-        return _Followed(departure)
+        return departure, regular
 
 
 def _settled_on(motion: Trajectory, period: float) -> np.ndarray:

@@ -10,9 +10,8 @@ from typing import Any, ClassVar
 import numpy as np
 
 from carom.arguments import checked
-from carom.bifurcations.conditions import is_admissible, jacobian_at, name_of, with_slip
+from carom.bifurcations.conditions import Solution, is_admissible, jacobian_at, name_of, with_slip
 from carom.bifurcations.points import Bifurcation
-from carom.bifurcations.solutions import Solution
 from carom.models import Model
 from carom.models.axes import Axis
 from carom.orbits.names import CountedName, OrbitName

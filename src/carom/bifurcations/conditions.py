@@ -1,27 +1,34 @@
-"""Test functions of single-impact orbits and of equilibria, which vanish at bifurcations."""
+"""Single-impact orbits by their closed form: solutions, names, and test functions that vanish at bifurcations, also of equilibria."""
 
 from __future__ import annotations
 
 import cmath
 import math
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
 
+from carom.closed_forms.periods import PeriodCondition
 from carom.closed_forms.thresholds import rolling_condition, rub_fold_condition, wall_condition
 from carom.core import planar
-from carom.models import Jeffcott
+from carom.models import Jeffcott, Subject, jeffcott_of
 from carom.orbits.maps import Section
-from carom.orbits.names import OrbitName
+from carom.orbits.names import OrbitName, Slip, in_order
 from carom.orbits.orbit import Orbit
-from carom.orbits.single_impact import orbit_at
+from carom.orbits.single_impact import orbit_at, orbits_of_roots
 from carom.orbits.stability import multipliers
 from carom.parameters import Numbers
 
 BOUNDLESS, FASTEST = "radial speed without bound", 30.0
 """Radial speed, in ``c_r Ω``, beyond which orbits are not followed: with one impact it grows without bound where ``a₁₂`` vanishes."""
+
+BELOW = 1e-4
+"""Relative distance from a period within which a root counts as that period."""
+PLACES = 5
+"""Points of a curve at which the number of the pair is determined: it increases where a shorter pair appears."""
 
 CORRECTIONS, CORRECTED = 12, 1e-10
 """Largest number of steps of Newton's method, and the last of them, relative: the error that is left is its square."""
@@ -134,6 +141,60 @@ def name_of(numbers: Numbers, pair: int, period: float, speed: float) -> OrbitNa
     return OrbitName(pair, conditions.period_fold > 0.0, conditions.speed_fold > 0.0, -1 if numbers.mu < 0.0 else 1)
 
 
+def meeting_at(kind: str, name: OrbitName) -> tuple[OrbitName, ...]:
+    """Orbits that meet at a special point of an orbit: two at a fold, the longer or faster one last; else itself."""
+    if kind == "fold":
+        return replace(name, longer=False), replace(name, longer=True)
+    if kind == "speed-fold":
+        return replace(name, faster=False), replace(name, faster=True)
+    return (name,)
+
+
+def orbits_on_curve(kind: str, points: Sequence[tuple[Numbers, float, float]]) -> tuple[OrbitName, ...]:
+    """Names of the orbits that bifurcate on a curve, in order, from numbers, period and radial speed along it."""
+    last = max(len(points) - 1, 1)
+    pairs = [_pair(*points[i][:2]) for i in np.linspace(0, len(points) - 1, PLACES).round().astype(int)]
+    names: set[OrbitName] = set()
+    for i, (numbers, period, speed) in enumerate(points):
+        pair = pairs[round(i / last * (PLACES - 1))]
+        names.update(meeting_at(kind, name_of(numbers, pair, period, speed)))
+    return in_order(names)
+
+
+def _pair(numbers: Numbers, period: float) -> int:
+    """Number of the pair of periods, counted by the shorter roots of ``F₁``."""
+    shorter = PeriodCondition.planar(numbers.parameters).roots((1.0 - BELOW) * period)
+    return (len(shorter.periods) + int(shorter.starts_below)) // 2 + 1
+
+
+class Solution(NamedTuple):
+    """A solution, without multipliers and without certified admissibility."""
+
+    name: OrbitName
+    numbers: Numbers
+    """Parameters; with negative ``mu`` for backward slip."""
+    period: float
+    radial_speed: float
+    """In ``1/Ω`` and ``c_r Ω``."""
+
+
+def orbit_solutions(machine: Subject, longest_period: float | None = None, *, backward: bool = False) -> list[Solution]:
+    """Solve the equations at all roots of ``F₁`` up to a longest period, in ``1/Ω``, with forward or backward slip.
+
+    Only solutions with a positive radial speed, which meet the wall from inside; see
+    :func:`carom.orbits.single_impact.find_orbits`.
+    """
+    rotor = jeffcott_of(machine)
+    if rotor.equilibrium == 0.0:
+        return []
+    slip: Slip = -1 if backward else 1
+    numbers = with_slip(Numbers.of(rotor.parameters), slip)
+    roots = PeriodCondition.planar(rotor.parameters, slip).roots(longest_period)
+    periods: list[float] = roots.periods.tolist()
+    orbits = orbits_of_roots(rotor, roots, slip)
+    return [Solution(name, numbers, periods[root], speed) for name, root, speed in orbits if speed > 0.0]
+
+
 def orbit_of(numbers: Numbers, pair: int, period: float, speed: float) -> Orbit:
     """Orbit with certified admissibility and its multipliers; it has backward slip if ``mu`` is negative."""
     conditions = conditions_at(numbers, period, speed)
@@ -158,8 +219,10 @@ def pressed_on(numbers: Numbers, period: float, speed: float) -> float:
     return float((stiffness * conditions.lever * speed - damping * velocity).real + abs(velocity) ** 2)
 
 
-RESONANCES = {"resonance-1:1": "1:1", "resonance-1:2": "1:2", "resonance-1:3": "1:3", "resonance-1:4": "1:4"}
-"""Kinds of resonances of a pair of multipliers with modulus one, and their ratios."""
+RESONANCES = {"resonance-1:1": 2.0, "resonance-1:2": -2.0, "resonance-1:3": -1.0, "resonance-1:4": 0.0}
+"""Sum of two multipliers of modulus one at each of their resonances."""
+ENDING = ("resonance-1:1", "resonance-1:2")
+"""Resonances at which curves of Neimark–Sacker bifurcations begin and end: two multipliers meet at 1, or at −1."""
 TESTS: dict[str, Callable[[Numbers, float, float], float]] = {
     "fold": lambda n, period, speed: conditions_at(n, period, speed).period_fold,
     "speed-fold": lambda n, period, speed: conditions_at(n, period, speed).speed_fold,
@@ -171,10 +234,10 @@ TESTS: dict[str, Callable[[Numbers, float, float], float]] = {
     "boundary-equilibrium": lambda n, period, speed: wall_condition(n),
     "rub-fold": lambda n, period, speed: rub_fold_condition(n),
     "rolling-limit": lambda n, period, speed: rolling_condition(n),
-    "resonance-1:1": lambda n, period, speed: 2.0 - conditions_at(n, period, speed).pair_sum,
-    "resonance-1:2": lambda n, period, speed: 2.0 + conditions_at(n, period, speed).pair_sum,
-    "resonance-1:3": lambda n, period, speed: 1.0 + conditions_at(n, period, speed).pair_sum,
-    "resonance-1:4": lambda n, period, speed: conditions_at(n, period, speed).pair_sum,
     "contact-onset": lambda n, period, speed: pressed_on(n, period, speed) if n.d == 0.0 else math.nan,
+    **{
+        kind: lambda n, period, speed, total=total: conditions_at(n, period, speed).pair_sum - total  # type: ignore[misc]
+        for kind, total in RESONANCES.items()
+    },
 }
 """Functions of the numbers, the period and the radial speed that vanish at each kind of special point."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import ClassVar, NamedTuple
 
 import numpy as np
@@ -209,35 +210,26 @@ def find_bifurcations(
     along = axis(model, parameter)
     limits = read_interval(along, interval)
     tell = Reporter.of(progress, "following motions")
-    nothing = np.empty(0)
-    found, rolling, followed = _Followed((), (), None, (), ()), RollingBranch(nothing, nothing, nothing > 0.0), 0.0
+    nothing, found, followed = np.empty(0), _Followed(), 0.0
+    rolling = RollingBranch(nothing, nothing, nothing > 0.0)
     if isinstance(model, Jeffcott):
         followed = 1.0 if not attractors else FOLLOWING_SHARE
-        chosen = _Chosen(impacts, virtual, lasting)
-        found = _follow(model.parameters, along, limits, chosen, tell.part(0.0, followed))
+        follow = partial(_follow, model.parameters, along, limits, tell.part(0.0, followed))
+        found = follow(impacts=impacts, virtual=virtual, lasting=lasting)
         rolling = rolling_branch(model, along, limits)
     disturbances = DisturbanceSet.of(model, attractors, seed) if attractors else None
+    samples: tuple[AttractorSample, ...] = ()
+    if disturbances:
+        samples = sample_attractors(model, parameter, limits, disturbances, progress=tell.part(followed, 1.0))
     return Diagram(
         model=model,
         axis=along,
         interval=limits,
         equilibria=equilibrium_branches(model, along, limits),
         rolling=rolling,
-        orbits=found.orbits,
-        several=found.several,
-        search=found.searched,
-        rubbing=found.rubbing,
-        points=found.points,
-        attractors=sample_attractors(
-            model,
-            parameter,
-            limits,
-            disturbances,
-            progress=tell.part(followed, 1.0),
-        )
-        if disturbances
-        else (),
+        attractors=samples,
         disturbances=disturbances,
+        **found._asdict(),
     )
 
 
@@ -245,60 +237,61 @@ def special_points(
     parameters: Parameters, parameter: str, interval: tuple[float, float], *, virtual: bool, lasting: bool
 ) -> tuple[Bifurcation, ...]:
     """Special points of :func:`find_bifurcations`, in ascending order of the parameter."""
-    chosen = _Chosen(1, virtual, lasting)
-    return _follow(parameters, axis(parameters, parameter), interval, chosen, Reporter()).points
-
-
-class _Chosen(NamedTuple):
-    """Which branches to follow; see :func:`find_bifurcations`."""
-
-    impacts: int
-    virtual: bool
-    lasting: bool
+    along = axis(parameters, parameter)
+    return _follow(parameters, along, interval, Reporter(), virtual=virtual, lasting=lasting).points
 
 
 class _Followed(NamedTuple):
     """Branches of orbits and of motions with lasting contact, and the special points of all motions."""
 
-    orbits: tuple[OrbitBranch, ...]
-    several: tuple[OrbitBranch, ...]
-    searched: Searched | None
-    rubbing: tuple[OrbitBranch, ...]
-    points: tuple[Bifurcation, ...]
+    orbits: tuple[OrbitBranch, ...] = ()
+    several: tuple[OrbitBranch, ...] = ()
+    search: Searched | None = None
+    rubbing: tuple[OrbitBranch, ...] = ()
+    points: tuple[Bifurcation, ...] = ()
 
 
 def _follow(
-    parameters: Parameters, along: Axis, limits: tuple[float, float], chosen: _Chosen, tell: Reporter
+    parameters: Parameters,
+    along: Axis,
+    limits: tuple[float, float],
+    tell: Reporter,
+    *,
+    impacts: int = 1,
+    virtual: bool,
+    lasting: bool,
 ) -> _Followed:
+    """Follow the branches that :func:`find_bifurcations` is asked for."""
     branches: list[OrbitBranch] = []
     rubbing: list[OrbitBranch] = []
-    single = tell.part(0.0, 1.0 if chosen.impacts == 1 else SINGLE_SHARE)
+    single = tell.part(0.0, 1.0 if impacts == 1 else SINGLE_SHARE)
     for done, value in enumerate(np.linspace(*limits, SAMPLES).tolist()):
         here = parameters.replace(**{along.name: value})
         for orbit in _orbits(here):
-            wanted = chosen.virtual or orbit.admissible or orbit.name.pair == 1
+            wanted = virtual or orbit.admissible or orbit.name.pair == 1
             if wanted and not any(lies_on(orbit, value, branch) for branch in branches):
                 branches.append(continue_orbit(orbit, along.name, limits))
-        for motion in rubbing_orbits(here) if chosen.lasting else ():
+        for motion in rubbing_orbits(here) if lasting else ():
             if not any(lies_on(motion, value, branch) for branch in rubbing):
-                branch = continue_orbit(motion, along.name, limits, virtual=chosen.virtual)
+                branch = continue_orbit(motion, along.name, limits, virtual=virtual)
                 rubbing.append(renamed(branch, RubbingName(motion.impacts, len(rubbing) + 1)))
         single((done + 1) / SAMPLES)
     several: tuple[OrbitBranch, ...] = ()
-    searched: Searched | None = None
-    if chosen.impacts > 1:
-        at, rest = (Jeffcott(parameters), along, limits, chosen.impacts, branches), tell.part(SINGLE_SHARE, 1.0)
-        several, searched = several_impacts(*at, virtual=chosen.virtual, tell=rest)
-    points: list[Bifurcation] = [
+    search: Searched | None = None
+    if impacts > 1:
+        rest = tell.part(SINGLE_SHARE, 1.0)
+        several, search = several_impacts(
+            Jeffcott(parameters), along, limits, impacts, branches, virtual=virtual, tell=rest
+        )
+    points = [
         *steady_points(parameters, along, limits),
         *(point for branch in branches for point in branch.special),
+        # A branch ends by halving its period in a doubling of another: one point.
+        *(point for branch in several for point in branch.special if point.kind != HALVING),
+        *(point for branch in rubbing for point in branch.special),
     ]
-    # A branch ends by halving its period in a doubling of another: one point.
-    points += [point for branch in several for point in branch.special if point.kind != HALVING]
-    points += [point for branch in rubbing for point in branch.special]
-    return _Followed(
-        tuple(branches), several, searched, tuple(rubbing), tuple(sorted(points, key=lambda point: point.value))
-    )
+    points.sort(key=lambda point: point.value)
+    return _Followed(tuple(branches), several, search, tuple(rubbing), tuple(points))
 
 
 def _orbits(parameters: Parameters) -> Iterator[Orbit]:

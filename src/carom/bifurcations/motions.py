@@ -5,9 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from carom.arguments import checked
-from carom.bifurcations.conditions import is_admissible, spectral_radii
+from carom.bifurcations.conditions import Solution, is_admissible, orbit_solutions, spectral_radii
 from carom.bifurcations.diagrams import LONGEST_PERIOD
-from carom.bifurcations.solutions import Solution, orbit_solutions
 from carom.closed_forms.equilibria import BOUNDARY
 from carom.closed_forms.thresholds import has_stable_rub
 from carom.closed_forms.whirl import rolling

@@ -28,27 +28,6 @@ MOST_EVENTS = 20_000
 """Events of a motion from which a period is read."""
 
 
-def neighbour(kind: str, orbit: Orbit) -> tuple[Word, Start]:
-    """Word, nodes and durations of the orbit on a border, read as one of the neighbouring word.
-
-    Parameters
-    ----------
-    kind : str
-        ``"grazing"``, ``"vanishing-impact"`` or ``"slip-stop"``; beyond other borders a period is simulated
-        (:func:`read_beside`).
-    orbit : Orbit
-        The orbit on the border.
-
-    Raises
-    ------
-    InputError
-        Another kind, or no orbit is left without the impact.
-    """
-    if kind not in NEIGHBOURS:
-        raise InputError("border", kind, f"one of {', '.join(NEIGHBOURS)}: no orbit is constructed beyond others")
-    return NEIGHBOURS[kind](orbit)
-
-
 def setting_out(orbit: Orbit) -> State:
     """State on an orbit from which motions beside it are simulated.
 
@@ -79,7 +58,7 @@ def read_beside(orbit: Orbit, rotor: Model) -> list[tuple[Word, Start]]:
         Fewer if nothing recurs after about a period, or if what happens in it has no word.
     """
     # The orbit of the same word there is no motion, but nearer to the one that is sought than that on the border.
-    beside = orbit_near(rotor, orbit.word, Start(orbit.nodes, orbit.durations)) or orbit
+    beside = orbit_near(rotor, orbit.word, orbit.start) or orbit
     motion = simulate(rotor, setting_out(beside), SIMULATED * orbit.period, max_events=MOST_EVENTS)
     times, places = motion.segment_starts[1:], np.arange(len(motion.event_planes))
     before, after = (motion.segment_phases[places + later, motion.event_planes] for later in (0, 1))
@@ -88,7 +67,7 @@ def read_beside(orbit: Orbit, rotor: Model) -> list[tuple[Word, Start]]:
     begins = np.flatnonzero(changes & (times > INSTANT) & (times < orbit.period))
     if not changes[times > INSTANT].any():
         whirl = orbit_of_whirl(motion, orbit.period)
-        return [] if whirl is None else [(whirl.word, Start(whirl.nodes, whirl.durations))]
+        return [] if whirl is None else [(whirl.word, whirl.start)]
     if not len(begins):
         return []
     # From the first change on: whether a later period is like it is what is asked.  A chatter must not be cut.
@@ -112,7 +91,7 @@ def read_beside(orbit: Orbit, rotor: Model) -> list[tuple[Word, Start]]:
 
 def is_other(word: Word, known: Word) -> bool:
     """Whether two words differ, whichever segment they begin with."""
-    return len(word) != len(known) or all(word.turned(k) != known for k in range(len(word)))
+    return not word.turns_to(known)
 
 
 def _with_impact(orbit: Orbit) -> tuple[Word, Start]:
@@ -148,7 +127,7 @@ def _without_impact(orbit: Orbit) -> tuple[Word, Start]:
     word = orbit.word.turned(first)
     if len(word) == 1 or not word[-2].kind.flies:
         raise InputError("orbit", str(orbit.word), "one with another flight than that after the impact that vanishes")
-    nodes, durations = np.roll(orbit.nodes, -first, axis=0), np.roll(orbit.durations, -first)
+    nodes, durations = orbit.start.turned(first)
     durations[-2] += durations[-1]
     return Word(word[:-1]), Start(nodes[:-1], durations[:-1])
 
@@ -165,7 +144,7 @@ def _with_other_slip(orbit: Orbit) -> tuple[Word, Start]:
     _, i, slip = min(gaps)
     slides = Kind.IMPACT_FORWARD if slip > 0.0 else Kind.IMPACT_BACKWARD
     changed = Segment(Kind.IMPACT_STOPPED if orbit.word[i].kind.sense else slides, orbit.word[i].plane)
-    return Word((*orbit.word[:i], changed, *orbit.word[i + 1 :])), Start(orbit.nodes, orbit.durations)
+    return Word((*orbit.word[:i], changed, *orbit.word[i + 1 :])), orbit.start
 
 
 NEIGHBOURS: dict[str, Callable[[Orbit], tuple[Word, Start]]] = {
@@ -173,6 +152,9 @@ NEIGHBOURS: dict[str, Callable[[Orbit], tuple[Word, Start]]] = {
     "vanishing-impact": _without_impact,
     "slip-stop": _with_other_slip,
 }
-"""Borders beyond which the orbit of the neighbouring word is known."""
+"""Borders beyond which the orbit of the neighbouring word is known: from the orbit on the border its word, nodes and durations.
+
+Beyond other borders a period is simulated (:func:`read_beside`).  :class:`InputError` if no orbit is left without the impact.
+"""
 BORDERS = (*NEIGHBOURS, *OF_CONTACT)
 """Special points at which the word of a motion changes."""

@@ -6,7 +6,8 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from carom.bifurcations.curves import KINDS, Curve
+from carom.bifurcations.curve_results import Curve
+from carom.bifurcations.curves import KINDS
 from carom.bifurcations.points import Bifurcation
 from carom.orbits.names import CountedName
 

@@ -5,22 +5,18 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, ClassVar, Literal
+from typing import Any, ClassVar, Literal
 
 from carom.arguments import checked
 from carom.bifurcations.conditions import orbit_of
 from carom.closed_forms.thresholds import FOLD, ROLLING, WALL
 from carom.models import Subject, jeffcott_of
-from carom.models.axes import Ends
 from carom.orbits.names import OrbitName
 from carom.orbits.orbit import Orbit
 from carom.outcome import InputError
 from carom.parameters import Numbers, Scales
 from carom.parameters.told import told_entry
 from carom.results import Result
-
-if TYPE_CHECKING:
-    from carom.bifurcations.branches import OrbitBranch
 
 MotionKind = Literal["orbit", "contact-free", "rub", "rolling", "rubbing"]
 HALVING = "period-halving"
@@ -155,10 +151,3 @@ class Bifurcation(Result):
                 "bifurcation", f"{self.kind} of {self.name or 'a motion without a name'}", "one of an orbit"
             )
         return orbit_of(self.numbers, self.name.pair, self.period, self.radial_speed)
-
-    @checked
-    def switch(self, interval: Ends | None = None) -> OrbitBranch:
-        """Branch that is born here or goes on with the neighbouring word; see :func:`carom.bifurcations.words.switched`."""
-        from carom.bifurcations.words import switched  # that module needs this one
-
-        return switched(self.kind, self.orbit, self.parameter, interval)

@@ -11,7 +11,8 @@ import numpy as np
 from carom.arguments import Count, checked
 from carom.bifurcations.cells import Region, regions_between
 from carom.bifurcations.changes import UnexplainedChange
-from carom.bifurcations.curves import Codimension2Point, Curve, can_be_followed, continue_curve
+from carom.bifurcations.curve_results import Codimension2Point, Curve
+from carom.bifurcations.curves import can_be_followed, continue_curve
 from carom.bifurcations.diagrams import special_points
 from carom.bifurcations.motions import Motions, motions_at
 from carom.bifurcations.passing import passes, with_curve

@@ -8,15 +8,15 @@ from functools import reduce
 import numpy as np
 
 from carom.bifurcations.branches import OrbitBranch
-from carom.bifurcations.neighbours import NEIGHBOURS, neighbour
+from carom.bifurcations.neighbours import NEIGHBOURS
 from carom.bifurcations.points import HALVING, Bifurcation
-from carom.bifurcations.words import continue_orbit, renamed, switched
+from carom.bifurcations.words import continue_orbit, renamed, switch
 from carom.models import Model
 from carom.models.axes import Axis
 from carom.orbits.names import CountedName
 from carom.orbits.orbit import Orbit, orbit_near
 from carom.orbits.search import Search, Searched
-from carom.orbits.shooting import Start, pack_free
+from carom.orbits.shooting import pack_free
 from carom.outcome import CaromError
 from carom.progress import Reporter
 
@@ -65,7 +65,7 @@ def several_impacts(
             if not (virtual or point.admissible) or not _begins_another(point, impacts, [*singles, *found]):
                 continue
             try:
-                add(switched(point.kind, point.orbit, along.name, limits, virtual=virtual))
+                add(switch(point, limits, virtual=virtual))
             except CaromError:
                 continue
 
@@ -90,7 +90,7 @@ def _begins_another(point: Bifurcation, impacts: int, known: Sequence[OrbitBranc
     if point.kind not in NEIGHBOURS or not point.orbit.word.flies:
         return False
     try:
-        word, start = neighbour(point.kind, point.orbit)
+        word, start = NEIGHBOURS[point.kind](point.orbit)
     except CaromError:
         return False
     other = orbit_near(point.orbit.rotor, word, start) if 1 < word.impacts <= impacts else None
@@ -106,12 +106,9 @@ def _known(rotor: Model, value: float, branches: Sequence[OrbitBranch]) -> list[
 
 def lies_on(orbit: Orbit, value: float, branch: OrbitBranch) -> bool:
     """Whether a branch passes through an orbit, whichever impact either of them begins with."""
-    turns = [k for k in range(len(orbit.word)) if orbit.word.turned(k) == branch.word]
-    if len(orbit.word) != len(branch.word) or not turns:
-        return False
-    for start in branch.starts_at(value, orbit.rotor):
-        for k in turns:
-            turned = Start(np.roll(orbit.nodes, -k, axis=0), np.roll(orbit.durations, -k))
+    turns = [orbit.start.turned(places) for places in orbit.word.turns_to(branch.word)]
+    for start in branch.starts_at(value, orbit.rotor) if turns else ():
+        for turned in turns:
             apart = np.abs(pack_free(branch.word, turned) - pack_free(branch.word, start)).max()
             if apart < SAME * (1.0 + float(np.abs(turned.nodes).max())):
                 return True

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from carom.bifurcations.conditions import conditions_at, margins_of, name_of, profile_at
-from carom.bifurcations.naming import meeting_at
+from carom.bifurcations.conditions import conditions_at, margins_of, meeting_at, name_of, profile_at
 from carom.bifurcations.points import Bifurcation
 from carom.parameters import Numbers
 

@@ -8,20 +8,26 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from carom.bifurcations.changes import PlanePoint, UnexplainedChange, accounts_for, causes_between, change_between
-from carom.bifurcations.curves import Curve, continue_curve
+from carom.bifurcations.conditions import ENDING, RESONANCES, conditions_at
+from carom.bifurcations.curve_results import Codimension2Point, Curve
+from carom.bifurcations.curves import continue_curve
 from carom.bifurcations.motions import Motions, motions_at
 from carom.bifurcations.passing import crossings, passes, with_curve
 from carom.bifurcations.planes import Plane
 from carom.bifurcations.points import Bifurcation
-from carom.bifurcations.resonances import TURNS, beside_resonance
+from carom.continuation.branch import Steps
+from carom.continuation.equations import Equations
 from carom.outcome import CaromError
-from carom.parameters import Parameters
+from carom.parameters import Numbers, Parameters
 from carom.progress import Reporter
 
 INSET = 1e-3
 """Distance of the outermost points from the edges, in widths of the plane."""
 BESIDE = 0.01
 """Distance from a curve at which motions on both sides are compared, as a fraction of the line that it crosses."""
+FROM_RESONANCE = 1e-5
+"""Distance of the sum of two multipliers from ±2 where a curve that begins at a resonance is begun; on some curves it never exceeds 1e-4."""
+ARRIVED, ITERATIONS = 1e-10, 20
 MOST_CHANGES = 30
 """Largest number of changes searched between two neighbouring points."""
 
@@ -62,13 +68,47 @@ class Survey:
 
     def leave_resonances(self) -> None:
         """Follow the Neimark–Sacker curves that begin at the resonances 1:1 and 1:2 of the known curves."""
-        for point in [point for curve in self.curves for point in curve.codimension2 if point.kind in TURNS]:
+        for point in [point for curve in self.curves for point in curve.codimension2 if point.kind in ENDING]:
             at = self.plane.at(self.parameters, *point.value)
             torus = Bifurcation.near("neimark-sacker", at, point.period, point.radial_speed)
             if point.admissible and not self._known(torus):
-                near = beside_resonance(self.parameters, self.plane, point)
+                near = self._beside_resonance(point)
                 if near is not None:
                     self._follow(near)
+
+    def _beside_resonance(self, point: Codimension2Point) -> Bifurcation | None:
+        """A point of the Neimark–Sacker curve next to the resonance where it begins; ``None`` outside the plane.
+
+        For the pair of multipliers ``e^{±iα}`` the sum ``2 cos α`` is prescribed; place, period and radial speed are the
+        unknowns, found by Newton's method.
+        """
+        base, plane, place = Numbers.of(self.parameters), self.plane, np.array(point.value)
+        wanted = np.copysign(2.0 - FROM_RESONANCE, RESONANCES[point.kind])
+
+        def conditions(u: np.ndarray, y: float) -> np.ndarray:
+            period, speed, x = u.tolist()
+            if not (period > 0.0 and np.isfinite((x, y)).all()):
+                return np.full(4, np.nan)
+            at = conditions_at(plane.numbers_at(base, x, y), period, speed)
+            return np.array([at.closing, at.balance, at.neimark_sacker, at.pair_sum - wanted])
+
+        scales = np.array([1.0, 1.0, *np.maximum(np.abs(place), 0.1 * plane.widths)])
+        equations = Equations(conditions, None, scales, Steps())
+        unknowns = np.array([point.period, point.radial_speed, *place]) / scales
+        for _ in range(ITERATIONS):
+            value = equations.value(unknowns)
+            if not np.isfinite(value).all():
+                return None
+            period, speed, x, y = (unknowns * scales).tolist()
+            if np.abs(value).max() < ARRIVED:
+                lows, highs = np.transpose([plane.first_range, plane.second_range])
+                inside = ((lows <= (x, y)) & ((x, y) <= highs)).all()
+                return Bifurcation("neimark-sacker", plane.numbers_at(base, x, y), period, speed) if inside else None
+            try:
+                unknowns -= np.linalg.solve(equations.jacobian(unknowns), value)
+            except np.linalg.LinAlgError:
+                return None
+        return None
 
     def explain(self, first: PlanePoint, last: PlanePoint) -> None:
         """Find the cause of every change of motions on the straight line between two points.

@@ -18,15 +18,16 @@ import numpy as np
 from carom.arguments import checked
 from carom.bifurcations.branches import OrbitBranch, passing
 from carom.bifurcations.conditions import (
+    Solution,
     conditions_at,
     corrected,
     grazing_equations,
     is_admissible,
     margins_of,
     orbit_of,
+    orbit_solutions,
     spectral_radii,
 )
-from carom.bifurcations.solutions import Solution, orbit_solutions
 from carom.bifurcations.words import STEPS, continue_orbit
 from carom.continuation.roots import bracketed_root, sign_change
 from carom.models import Jeffcott, Subject, axis, jeffcott_of

@@ -6,16 +6,14 @@ the special point.  The derivatives of the orbit's equations are exact, by the p
 
 from __future__ import annotations
 
-from collections import OrderedDict
-
 import numpy as np
 
-from carom.bifurcations.curves import Codimension2Point, Curve
+from carom.bifurcations.conditions import ENDING, RESONANCES
+from carom.bifurcations.curve_results import Codimension2Point, Curve
 from carom.bifurcations.planes import EDGE, Plane
 from carom.bifurcations.points import HALVING, Bifurcation
-from carom.bifurcations.word_equations import REMEMBERED, TESTS, FamilyPoint, halving, point_at
+from carom.bifurcations.word_equations import TESTS, FamilyPoint, Orbits, halving
 from carom.continuation import Branch, Steps, Watch, continue_branch
-from carom.models import Model
 from carom.orbits.shooting import by_parameter, pack_free
 from carom.outcome import InputError
 
@@ -24,57 +22,31 @@ DIFFERENCE = 1e-6
 """Step of the central differences, relative to the size of the unknown."""
 ON_CURVE = 1e-6
 """Margin that counts as zero on a curve on which one vanishes."""
-RESONANCES = {"resonance-1:1": 2.0, "resonance-1:2": -2.0, "resonance-1:3": -1.0, "resonance-1:4": 0.0}
-"""Sum of the two multipliers at resonances of a Neimark–Sacker curve, which ends at the first two."""
-ENDING = ("resonance-1:1", "resonance-1:2")
 
 
-class _CurveEquations:
+class _CurveEquations(Orbits):
     """The equations of special points of one kind of orbits of one word."""
 
     def __init__(self, special: Bifurcation, plane: Plane, sizes: np.ndarray) -> None:
-        self.kind, self.word, self.rotor, self.plane = special.kind, special.orbit.word, special.orbit.rotor, plane
-        self.sizes = sizes
-        self.known: OrderedDict[bytes, FamilyPoint | None] = OrderedDict()
-        self.rotors: OrderedDict[tuple[float, float], Model | None] = OrderedDict()
+        rotor = special.orbit.rotor
+        super().__init__(special.orbit.word, lambda x, y: rotor.replace(**{plane.first: x, plane.second: y}))
+        self.kind, self.plane, self.sizes = special.kind, plane, sizes
         self.weight = 1.0
 
-    def rotor_at(self, place: tuple[float, float]) -> Model | None:
-        """The rotor at a place; ``None`` where it has none."""
-        if place not in self.rotors:
-            changes = {self.plane.first: place[0], self.plane.second: place[1]}
-            try:
-                self.rotors[place] = self.rotor.replace(**changes)
-            except InputError:
-                self.rotors[place] = None
-            if len(self.rotors) > REMEMBERED:
-                self.rotors.popitem(last=False)
-        return self.rotors[place]
-
-    def point(self, x: np.ndarray) -> FamilyPoint | None:
+    def at(self, x: np.ndarray) -> FamilyPoint | None:
         """The orbit at nodes, durations and both parameters."""
-        key = x.tobytes()
-        if key not in self.known:
-            rotor = self.rotor_at((float(x[-2]), float(x[-1])))
-            self.known[key] = None if rotor is None else point_at(rotor, self.word, x[:-2])
-            if len(self.known) > REMEMBERED:
-                self.known.popitem(last=False)
-        return self.known[key]
+        return self.point(x[:-2], *x[-2:].tolist())
 
     def left_sides(self, x: np.ndarray) -> np.ndarray:
         """Equations of the orbit, then that of the special point."""
-        at = self.point(x)
-        return (
-            np.full(len(x) - 1, np.nan) if at is None else np.append(at.links.reduced[0], self.weight * self.test(at))
-        )
-
-    def test(self, at: FamilyPoint) -> float:
-        """Function that vanishes at the special point."""
-        return TESTS[self.kind](at)
+        at = self.at(x)
+        if at is None:
+            return np.full(len(x) - 1, np.nan)
+        return np.append(at.links.reduced[0], self.weight * TESTS[self.kind](at))
 
     def slopes(self, x: np.ndarray) -> np.ndarray:
         """Derivatives of the equations."""
-        at = self.point(x)
+        at = self.at(x)
         if at is None:
             return np.full((len(x) - 1, len(x)), np.nan)
         whole = np.empty((len(x) - 1, len(x)))
@@ -137,7 +109,7 @@ def continue_word_curve(special: Bifurcation, plane: Plane, steps: Steps | None 
 def _watches(equations: _CurveEquations, plane: Plane, start: np.ndarray) -> list[Watch]:
     def watch(name: str) -> Watch:
         def value(u: np.ndarray, p: float) -> float:
-            at = equations.point(np.append(u, p))
+            at = equations.at(np.append(u, p))
             found = np.nan if at is None else at.pair_sum - RESONANCES[name] if name in RESONANCES else TESTS[name](at)
             return found if np.isfinite(found) else np.nan
 
@@ -154,32 +126,29 @@ def _watches(equations: _CurveEquations, plane: Plane, start: np.ndarray) -> lis
 
 
 def _curve(special: Bifurcation, plane: Plane, equations: _CurveEquations, branch: Branch) -> Curve:
-    def happens(x: np.ndarray) -> bool:
-        at = equations.point(x)
-        return at is not None and at.margins.least > -ON_CURVE
+    def measured(x: np.ndarray) -> tuple[float, float, bool]:
+        """Period, radial speed, and whether the orbit is a motion of the machine."""
+        at = equations.at(x)
+        return (np.nan, np.nan, False) if at is None else (*_period_and_speed(at), at.margins.least > -ON_CURVE)
 
     rows = np.column_stack([branch.unknowns, branch.parameters])
-    points = [equations.point(row) for row in rows]
+    periods, speeds, admissible = map(np.array, zip(*map(measured, rows), strict=True))
     meetings = []
     for point in branch.special:
         if point.kind in (EDGE, "turning point"):
             continue
         x = np.append(point.unknowns, point.parameter)
-        at = equations.point(x)
-        if at is not None:
-            other = "period-doubling" if point.kind == HALVING else point.kind
-            kinds = (other,) if other in RESONANCES else (special.kind, other)
-            place = float(x[-2]), float(x[-1])
-            meetings.append(Codimension2Point(kinds, place, *_period_and_speed(at), happens(x)))
-    measured = np.array([_period_and_speed(at) if at is not None else (np.nan, np.nan) for at in points])
+        other = "period-doubling" if point.kind == HALVING else point.kind
+        kinds = (other,) if other in RESONANCES else (special.kind, other)
+        meetings.append(Codimension2Point(kinds, (float(x[-2]), float(x[-1])), *measured(x)))
     stops = [EDGE if stop == "parameter limit" else stop for stop in branch.stops]
     return Curve(
         kind=special.kind,
         plane=plane,
         points=rows[:, -2:],
-        periods=measured[:, 0],
-        radial_speeds=measured[:, 1],
-        admissible=np.array([happens(row) for row in rows]),
+        periods=periods,
+        radial_speeds=speeds,
+        admissible=admissible,
         orbits=(special.orbit.name,),
         codimension2=tuple(meetings),
         stops=(stops[0], stops[1]),

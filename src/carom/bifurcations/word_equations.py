@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from collections import OrderedDict
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache, partial
 from itertools import combinations
 from math import isfinite, prod
 from typing import Any
 
 import numpy as np
 
+from carom.bifurcations.branches import speeds_at
 from carom.bifurcations.conditions import BOUNDLESS, FASTEST
 from carom.bifurcations.points import EXTREMUM, HALVING, HOPF, OF_CONTACT, ONSET, PERMANENT
 from carom.continuation import Watch
@@ -28,7 +28,6 @@ from carom.orbits.shooting import (
     Links,
     by_parameter,
     closed_flights,
-    free_entries,
     links_of,
     pack,
     unpack,
@@ -41,24 +40,24 @@ DIFFERENCE = 1e-6
 """Step of the differences by the parameter, relative to its size, where there is no exact derivative; they only bend the predicted direction."""
 REMEMBERED = 64
 """Points whose segments are kept: each is asked for by the equations, their derivative and all watches."""
-SHORTEST, ALONE = 1e-6, 1e-3
+SHORTEST, SHORTEST_ALONE = 1e-6, 1e-3
 """Duration of a flight, in ``1/Ω``, at which a branch ends; the second for the only flight of a period, which can vanish if ``d = 1``:
 there rounding shifts the parameter of the orbit by some 1e-7."""
-ASIDE = 0.02
+FROM_DOUBLING = 0.02
 """Distance, in the norm of all unknowns, at which a branch born in a period doubling is begun."""
 CORRECTIONS = 20
-FAR = "far from a motion"
+FAR_FROM_MOTION = "far from a motion"
 """Where a branch ends that is not followed among virtual orbits."""
-LYING, BRIEF = "flights vanish", 0.03
+FLIGHTS_VANISH, SHORTEST_FLIGHT = "flights vanish", 0.03
 """Where a branch ends because flights between lasting contacts vanish, and their duration there, in ``1/Ω``: their height falls
 with the fourth power of it, so that there is nothing to be computed beyond."""
-GONE, LONG_GONE = "contact vanishes", -0.05
+CONTACT_VANISHES, BEYOND_VANISHING = "contact vanishes", -0.05
 """Where a branch ends beyond the value at which a stretch of lasting contact shrinks to nothing, and its duration there, in ``1/Ω``."""
-STILL = 1e-9
+AT_REST = 1e-9
 """Radial speeds, in ``c_r Ω``, at or below which nodes are no orbit: the equilibrium on the wall solves the equations with any durations."""
 FAST = 3.0
 """Speed before an impact, in ``c_r Ω``, above which steps grow with it."""
-FAR_OUT, FAR_IN = -0.3, -0.1
+RADIUS_MARGIN, SPEED_MARGIN = -0.3, -0.1
 """Margins of the radius and of the radial speed at an impact beyond which an orbit is far from being a motion."""
 
 
@@ -133,7 +132,7 @@ def point_at(rotor: Model, word: Word, unknowns: np.ndarray) -> FamilyPoint | No
     """The segments of a word from the unknowns of :func:`~carom.orbits.shooting.pack_free`; ``None`` where they are not defined."""
     start = unpack_free(word, unknowns)
     # The contact after a chatter may vanish: lasting contact begins there.  Contact that shrinks to nothing goes on with negative duration.
-    shortest = ALONE if word.flies and len(word) == 1 else SHORTEST
+    shortest = SHORTEST_ALONE if word.flies and len(word) == 1 else SHORTEST
     if min(start.durations[word.timed_flights].tolist(), default=np.inf) < shortest:
         return None
     links = links_of(rotor, word, start)
@@ -158,39 +157,39 @@ TESTS: dict[str, Callable[[FamilyPoint], float]] = {
 """Functions that vanish at special points; not finite where they are not defined."""
 
 
-class Family:
+class Orbits:
+    """Orbits of a word by their unknowns and the values of parameters; the last ones, and the last rotors, are remembered."""
+
+    def __init__(self, word: Word, rotor_of: Callable[..., Model]) -> None:
+        self.word, self._rotor_of = word, rotor_of
+        self.rotor_at = lru_cache(REMEMBERED)(self._rotor_at)
+        self._known = lru_cache(REMEMBERED)(self._evaluated)
+
+    def _rotor_at(self, *place: float) -> Model | None:
+        """The rotor at values of the parameters; ``None`` where there is none."""
+        try:
+            return self._rotor_of(*place)
+        except InputError:
+            return None
+
+    def point(self, u: np.ndarray, *place: float) -> FamilyPoint | None:
+        """The segments from the free unknowns; ``None`` where they are not defined."""
+        return self._known(u.tobytes(), *place)
+
+    def _evaluated(self, unknowns: bytes, *place: float) -> FamilyPoint | None:
+        rotor = self.rotor_at(*place)
+        return None if rotor is None else point_at(rotor, self.word, np.frombuffer(unknowns))
+
+
+class Family(Orbits):
     """The equations of orbits of a word along a parameter."""
 
     def __init__(self, rotor: Model, along: Axis, word: Word, limits: tuple[float, float]) -> None:
-        self.rotor, self.along, self.word, self.limits = rotor, along, word, limits
+        super().__init__(word, partial(along.move, rotor))
+        self.rotor, self.along, self.limits = rotor, along, limits
         self.size = max(abs(along.value(rotor)), 0.1 * (limits[1] - limits[0]))
-        self.at_walls = _at_walls(rotor, word)
-        self.points: OrderedDict[tuple[bytes, float], FamilyPoint | None] = OrderedDict()
-        self.rotors: OrderedDict[float, Model | None] = OrderedDict()
-
-    def rotor_at(self, p: float) -> Model | None:
-        """The rotor at a value of the parameter; ``None`` where it has none."""
-        if p not in self.rotors:
-            try:
-                self.rotors[p] = self.along.move(self.rotor, p)
-            except InputError:
-                self.rotors[p] = None
-            if len(self.rotors) > REMEMBERED:
-                self.rotors.popitem(last=False)
-        return self.rotors[p]
-
-    def point(self, u: np.ndarray, p: float) -> FamilyPoint | None:
-        """The segments at a point; ``None`` where they are not defined."""
-        key = u.tobytes(), p
-        if key not in self.points:
-            self.points[key] = self._evaluated(u, p)
-            if len(self.points) > REMEMBERED:
-                self.points.popitem(last=False)
-        return self.points[key]
-
-    def _evaluated(self, u: np.ndarray, p: float) -> FamilyPoint | None:
-        rotor = self.rotor_at(p)
-        return None if rotor is None else point_at(rotor, self.word, u)
+        self.strikes = np.array([segment.kind.is_impact for segment in word])
+        self.struck = word.planes[self.strikes]
 
     def whole(self, u: np.ndarray, p: float) -> np.ndarray:
         """All nodes and durations, in the order of :func:`~carom.orbits.shooting.pack`, from the unknowns."""
@@ -222,29 +221,25 @@ class Family:
         return None if found is None else pack(found)
 
     def _by_parameter(self, point: FamilyPoint, p: float) -> np.ndarray:
-        """Derivative of the equations by the parameter: exact, or by a difference to a side where the rotor exists."""
+        """Derivative of the equations by the parameter: exact, or by a difference inside the limits."""
         exact = by_parameter(point.rotor, self.word, point.links.start, self.along.name)
         if exact is not None:
             return exact
-        step, here = DIFFERENCE * self.size, point.links.reduced[0]
-        rotor = self.rotor_at(p + step)
-        if rotor is None:
-            step = -step
-            rotor = self.rotor_at(p + step)
-        if rotor is None:
-            return np.full(len(here), np.nan)
-        slope: np.ndarray = (links_of(rotor, self.word, point.links.start).reduced[0] - here) / step
+        step = DIFFERENCE * self.size
+        step = step if p + step <= self.limits[1] else -step
+        moved = links_of(self.along.move(self.rotor, p + step), self.word, point.links.start)
+        slope: np.ndarray = (moved.reduced[0] - point.links.reduced[0]) / step
         return slope
 
     def beside(self, doubled: np.ndarray, p: float, tangent: np.ndarray) -> tuple[np.ndarray, float]:
         """Point of the branch in the hyperplane at a distance along a direction from a point."""
-        u = doubled + ASIDE * tangent
+        u = doubled + FROM_DOUBLING * tangent
         for _ in range(CORRECTIONS):
             residual = self.residual(u, p)
             if not np.isfinite(residual).all():
                 break
             slopes = self.jacobian(u, p) * np.append(np.ones(len(u)), self.size)
-            misses = np.append(-residual, ASIDE - tangent @ (u - doubled))
+            misses = np.append(-residual, FROM_DOUBLING - tangent @ (u - doubled))
             change = applied(np.linalg.solve, slopes, np.append(tangent, 0.0), misses)
             if change is None:
                 break
@@ -255,9 +250,10 @@ class Family:
 
     def speeds(self, u: np.ndarray) -> list[complex]:
         """``ṙ`` in ``c_r Ω`` and ``θ̇`` in ``Ω`` before each impact, as real and imaginary part."""
-        positions, velocities = (self.at_walls @ u).tolist()
-        ratios = [(abs(y), v / y) for y, v in zip(positions, velocities, strict=True)]
-        return [complex(radius * ratio.real, ratio.imag) for radius, ratio in ratios]
+        speeds: list[complex] = speeds_at(
+            self.rotor, self.struck, unpack_free(self.word, u).nodes[self.strikes]
+        ).tolist()
+        return speeds
 
     def fastest(self, u: np.ndarray) -> float:
         """Largest radial speed before an impact."""
@@ -276,7 +272,11 @@ class Family:
     def _nearness(self, u: np.ndarray, p: float) -> float:
         """Above zero as long as the orbit is a motion, or not far from one."""
         point = self.point(u, p)
-        return np.nan if point is None else min(point.margins.radius - FAR_OUT, point.margins.approach - FAR_IN, 1.0)
+        return (
+            np.nan
+            if point is None
+            else min(point.margins.radius - RADIUS_MARGIN, point.margins.approach - SPEED_MARGIN, 1.0)
+        )
 
     def watches(self, start: np.ndarray, *, virtual: bool = True) -> list[Watch]:
         """Functions that vanish at the special points, and where the branch ends."""
@@ -318,36 +318,21 @@ class Family:
         fastest = max(FASTEST, 2.0 * self.fastest(start))
         ends: dict[str, Callable[[np.ndarray, float], float]] = {BOUNDLESS: lambda u, _: fastest - self.fastest(u)}
         if not virtual:
-            ends[FAR] = self._nearness
+            ends[FAR_FROM_MOTION] = self._nearness
         touches, lifts = (
             self.word.timed & np.array([segment.kind.lasts for segment in self.word]),
             self.word.kinds == Kind.LIFT,
         )
         if touches.any():
-            ends[GONE] = beyond(touches, LONG_GONE)
+            ends[CONTACT_VANISHES] = beyond(touches, BEYOND_VANISHING)
         if lifts.any():
-            ends[LYING] = beyond(lifts, BRIEF)
+            ends[FLIGHTS_VANISH] = beyond(lifts, SHORTEST_FLIGHT)
         if (halves := halving(self.word, start)) is not None:
             ends[HALVING] = lambda u, _: halves(u)
         watches = [Watch(kind, function, at_zero="end") for kind, function in ends.items()]
         if self.word.flies:
-            watches.append(Watch(HOPF, lambda u, _: self.fastest(u) - STILL, at_zero="avoid"))
+            watches.append(Watch(HOPF, lambda u, _: self.fastest(u) - AT_REST, at_zero="avoid"))
         return watches
-
-
-def _at_walls(rotor: Model, word: Word) -> np.ndarray:
-    """Displacement at its contact plane before each of the k impacts, and its rate, per free unknown, complex, shape (2, k, unknowns)."""
-    struck = np.flatnonzero([segment.kind.is_impact for segment in word])
-    rows = rotor.system.planes[word.planes[struck]]
-    k, n = rows.shape
-    # Of each segment: real and imaginary parts of the coordinates and their rates, and the duration.
-    width = 4 * n + 1
-    each = np.zeros((2, k, len(word), width), complex)
-    for rate, impact in np.ndindex(2, k):
-        for imaginary in (0, 1):
-            begins = n * (2 * imaginary + rate)
-            each[rate, impact, struck[impact], begins : begins + n] = rows[impact] * 1j**imaginary
-    return each.reshape(2, k, len(word) * width)[:, :, free_entries(word.lands, width)]
 
 
 def halving(word: Word, start: np.ndarray) -> Callable[[np.ndarray], float] | None:

@@ -15,10 +15,10 @@ import numpy as np
 from carom.arguments import checked
 from carom.bifurcations.branches import OrbitBranch, orbit_at, speeds_at
 from carom.bifurcations.conditions import BOUNDLESS, corrected, with_slip
-from carom.bifurcations.neighbours import BORDERS, is_other, neighbour, read_beside
+from carom.bifurcations.neighbours import BORDERS, NEIGHBOURS, is_other, read_beside
 from carom.bifurcations.points import CONTACT_CHANGES, EXTREMUM, HALVING, HOPF, ONSET, PERMANENT, Bifurcation
 from carom.bifurcations.single_impact import special_orbit
-from carom.bifurcations.word_equations import BRIEF, FAR, GONE, LYING, Family
+from carom.bifurcations.word_equations import CONTACT_VANISHES, FAR_FROM_MOTION, FLIGHTS_VANISH, SHORTEST_FLIGHT, Family
 from carom.continuation import Branch, SpecialPoint, Steps, continue_branch
 from carom.continuation.roots import bracketed_root, sign_change
 from carom.models.axes import Axis, Ends, axis, interval_around
@@ -34,6 +34,11 @@ CLOSE_STEPS = replace(STEPS, largest=0.1)
 """For orbits with one impact, of which figures and documents show every orbit of a branch."""
 ON_BORDER = 1e-8
 """Margin that counts as zero at a border."""
+HIDING = {
+    **dict.fromkeys(("grazing", ONSET, EXTREMUM), ("vanishing-impact", HOPF)),
+    **dict.fromkeys(("fold", "slide-stop"), ("cone-limit",)),
+}
+"""Special points at which others, of these kinds, mean nothing of their own."""
 LEAVES = (PERMANENT, "lift-off")
 """Where contact that never leaves the wall begins to."""
 BESIDE = 1e-5
@@ -97,14 +102,13 @@ def continue_orbit(
     """
     along = axis(orbit.rotor, parameter)
     present, limits = interval_around(along, along.value(orbit.rotor), interval)
-    start = pack_free(orbit.word, Start(orbit.nodes, orbit.durations))
+    start = pack_free(orbit.word, orbit.start)
     family = Family(orbit.rotor, along, orbit.word, limits)
     return _follow(family, start, present, steps, orbit.name, virtual=virtual)
 
 
-def switched(
-    kind: str, orbit: Orbit, parameter: str, interval: Ends | None = None, *, virtual: bool = True
-) -> OrbitBranch:
+@checked
+def switch(point: Bifurcation, interval: Ends | None = None, *, virtual: bool = True) -> OrbitBranch:
     """Branch that crosses or continues another at a special point.
 
     At a period doubling it is that of orbits of twice the period.  Where a maximum of the radius or an impact grazes, and
@@ -116,11 +120,7 @@ def switched(
 
     Parameters
     ----------
-    kind : str
-        Kind of the special point.
-    orbit : Orbit
-        The orbit there.
-    parameter : str
+    point : Bifurcation
     interval : tuple of float or str, optional
         Range of the parameter; by default a fifth of it to either side.
     virtual : bool
@@ -133,9 +133,10 @@ def switched(
     CaromError
         No orbit is found next to it.
     """
+    kind, orbit = point.kind, point.orbit
     if kind not in ("period-doubling", *BORDERS):
         raise InputError("special point", kind, f"a period doubling, or one of: {', '.join(BORDERS)}")
-    along = axis(orbit.rotor, parameter)
+    along = axis(orbit.rotor, point.parameter)
     value = along.value(orbit.rotor)
     ends = (value - BEYOND * abs(value), value + BEYOND * abs(value)) if interval is None else interval
     present, limits = interval_around(along, value, ends)
@@ -147,8 +148,8 @@ def switched(
         word, start, present = _beyond(orbit, along, limits)
         family, unknowns = Family(orbit.rotor, along, word, limits), pack_free(word, start)
     else:
-        alone = orbit.word, Start(orbit.nodes, orbit.durations)
-        word, start = alone if kind == PERMANENT else neighbour(kind, orbit)
+        alone = orbit.word, orbit.start
+        word, start = alone if kind == PERMANENT else NEIGHBOURS[kind](orbit)
         family, unknowns = Family(orbit.rotor, along, word, limits), pack_free(word, start)
     return _follow(family, unknowns, present, None, CountedName(family.word.impacts, 1), virtual=virtual)
 
@@ -164,7 +165,7 @@ def _beyond(orbit: Orbit, along: Axis, limits: tuple[float, float]) -> tuple[Wor
         for word, start in read_beside(orbit, rotor):
             found = orbit_near(rotor, word, start) if is_other(word, orbit.word) else None
             if found is not None and found.admissible:
-                return found.word, Start(found.nodes, found.durations), there
+                return found.word, found.start, there
     raise CaromError("no orbit of another word was found beside the border")
 
 
@@ -206,14 +207,12 @@ def _follow(
         reach=family.reach,
         crossings="",
     )
-    vanishing = *branch.of_kind("vanishing-impact"), *branch.of_kind(HOPF)
-    passed = branch.of_kind(HALVING), vanishing, branch.of_kind("cone-limit")
     whole = [family.whole(u, p) for u, p in zip(branch.unknowns, branch.parameters.tolist(), strict=True)]
-    wanted = [point for point in branch.special if _is_special(family, point, *passed)]
+    wanted = [point for point in branch.special if _is_special(family, branch, point)]
     special = [found for point in wanted if (found := _special_point(family, branch, point, name)) is not None]
     stops = list(branch.stops)
     for end, place in ((0, 0.0), (-1, len(branch) - 1.0)):
-        lies = stops[end] in (LYING, "step too small")
+        lies = stops[end] in (FLIGHTS_VANISH, "step too small")
         point = _permanent_contact(family, whole[end], branch.parameters[end], place) if lies else None
         if point is not None:
             special.append(point)
@@ -304,14 +303,10 @@ def _permanent_contact(family: Family, unknowns: np.ndarray, value: float, place
 def _without_flight(word: Word, start: Start) -> tuple[Word, Start] | None:
     """The contact of a period without its only flight, if it is of one kind before and after this."""
     lifts = np.flatnonzero(word.kinds == Kind.LIFT)
-    if len(lifts) != 1 or word.impacts or word.lands.sum() != 1 or start.durations[lifts[0]] > 1.01 * BRIEF:
+    if len(lifts) != 1 or word.impacts or word.lands.sum() != 1 or start.durations[lifts[0]] > 1.01 * SHORTEST_FLIGHT:
         return None
     first = int(lifts[0])
-    turned, nodes, durations = (
-        word.turned(first),
-        np.roll(start.nodes, -first, axis=0),
-        np.roll(start.durations, -first),
-    )
+    turned, (nodes, durations) = word.turned(first), start.turned(first)
     if turned[1].kind is not Kind.LAND or turned[2] != turned[-1] or turned[2].kind is Kind.ROLL:
         return None
     if len(word) == 3:
@@ -320,13 +315,7 @@ def _without_flight(word: Word, start: Start) -> tuple[Word, Start] | None:
     return Word(turned[3:]), Start(nodes[3:], durations[3:])
 
 
-def _is_special(
-    family: Family,
-    point: SpecialPoint,
-    halvings: tuple[SpecialPoint, ...],
-    vanishing: tuple[SpecialPoint, ...],
-    limits: tuple[SpecialPoint, ...],
-) -> bool:
+def _is_special(family: Family, branch: Branch, point: SpecialPoint) -> bool:
     """Whether a special point of the continuation is one of orbits.
 
     Where a period is halved, the branch turns and two multipliers pass through one: nothing of its own.  Where an
@@ -337,13 +326,11 @@ def _is_special(
     """
     if point.kind == HALVING:
         return True
-    if point.kind in (FAR, LYING, GONE, BOUNDLESS) or any(
-        abs(point.place - halving.place) < 1e-3 for halving in halvings
-    ):
+    if point.kind in (FAR_FROM_MOTION, FLIGHTS_VANISH, CONTACT_VANISHES, BOUNDLESS):
         return False
-    if point.kind in ("grazing", ONSET, EXTREMUM) and any(_meet(point, other) for other in vanishing):
+    if any(abs(point.place - other.place) < 1e-3 for other in branch.of_kind(HALVING)):
         return False
-    if point.kind in ("fold", "slide-stop") and any(_meet(point, other) for other in limits):
+    if any(_meet(point, other) for kind in HIDING.get(point.kind, ()) for other in branch.of_kind(kind)):
         return False
     if point.kind == "neimark-sacker":
         there = family.point(point.unknowns, point.parameter)

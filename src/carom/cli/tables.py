@@ -37,7 +37,6 @@ from carom.studies.wording import counted, no_rigid_wall
 if TYPE_CHECKING:
     from carom.closed_forms.equilibria import Equilibrium
     from carom.orbits.orbit import Orbit
-    from carom.orbits.search import FoundOrbits
     from carom.orbits.single_impact import OrbitSet
     from carom.parameters import Case
 
@@ -115,7 +114,7 @@ def print_orbits(console: Console, case: Case, equilibria: tuple[Equilibrium, ..
     console.print(orbits.argument)
 
 
-def print_found_orbits(console: Console, case: Case, found: FoundOrbits) -> None:
+def print_found_orbits(console: Console, case: Case, found: OrbitSet) -> None:
     """Print the orbits with at most a number of impacts."""
     _print_parameters(console, case)
     if len(found):

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, ClassVar, Literal, overload
+from typing import Any, ClassVar, Literal
 
 import numpy as np
 
@@ -15,7 +14,7 @@ from carom.closed_forms.statics import COUNTED, rub_forces, static_state
 from carom.models import Jeffcott, Model, Subject, model_of
 from carom.outcome import Phase
 from carom.parameters import Scales
-from carom.results import Result, in_a_line
+from carom.results import Members, Result, in_a_line
 
 Kind = Literal["contact-free", "rub"]
 Status = Literal["admissible", "boundary", "virtual"]
@@ -90,7 +89,7 @@ class Equilibrium(Result):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class EquilibriumSet(Result):
+class EquilibriumSet(Members[Equilibrium]):
     """The equilibria of a rotor: the contact-free one, then the synchronous rubs, stable ones first.
 
     Attributes
@@ -102,6 +101,7 @@ class EquilibriumSet(Result):
     """
 
     figure: ClassVar[str] = "equilibria"
+    called: ClassVar[str] = "equilibrium"
 
     rotor: Model
     members: tuple[Equilibrium, ...]
@@ -117,19 +117,6 @@ class EquilibriumSet(Result):
             for at in self.members
         ]
         return [("rotor", in_a_line(self.rotor)), *lines, ("complete", in_a_line(self.complete))]
-
-    def __len__(self) -> int:
-        return len(self.members)
-
-    def __iter__(self) -> Iterator[Equilibrium]:
-        return iter(self.members)
-
-    @overload
-    def __getitem__(self, place: int) -> Equilibrium: ...
-    @overload
-    def __getitem__(self, place: slice) -> tuple[Equilibrium, ...]: ...
-    def __getitem__(self, place: int | slice) -> Equilibrium | tuple[Equilibrium, ...]:
-        return self.members[place]
 
     @cached_property
     def argument(self) -> str:

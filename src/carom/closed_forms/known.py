@@ -1,6 +1,6 @@
-"""What is known exactly about where motions of a model end: asked for here, so that general code need not ask which it is.
+"""Exact results on where motions end, for the models that have some: levitation apart, only the planar rotor.
 
-Nothing is known of a model that is not registered; its motions are followed until they have settled.
+General code asks :func:`known_of` and does the same for every model; without exact results motions are followed until they settle.
 """
 
 from __future__ import annotations
@@ -22,27 +22,27 @@ ROTORS = 64
 
 @dataclass(frozen=True)
 class Known:
-    """What is known of a model."""
+    """Exact results of a model; the default values say that there are none."""
 
     rubs: bool = False
-    """Whether its synchronous rubs are known."""
+    """Whether all its synchronous rubs have closed forms."""
     rub: Equilibrium | None = None
     """The synchronous rub that attracts sliding, also for ``d = 1``, where it does not attract bouncing."""
     around: RubNeighbourhood | None = None
     """A neighbourhood of that rub which sliding never leaves."""
     runaway: float = np.inf
-    """Speed of backward whirl beyond which sliding is certain to run away to lasting rolling; infinite if there is none."""
+    """Backward whirl speed from which a sliding rotor goes over to rolling that lasts; infinite if there is none."""
     fading: float = 0.0
-    """Speed after an impact that has stopped the slip up to which bounces are certain to fade to lasting rolling; 0 if there is none."""
+    """Rebound speed, after an impact that stops the slip, up to which the bounces die out in rolling that lasts; 0 if there is none."""
     hastening: float = np.inf
-    """Speed of whirl in the fixed frame beyond which sliding is certain to gain speed for ever; infinite if there is none."""
+    """Whirl speed in the fixed frame from which a sliding rotor speeds up without bound; infinite if there is none."""
     rolling_force: float = 0.0
-    """Largest normal force over a turn of rolling; 0 where that is not known."""
+    """Largest normal force over a turn of rolling; 0 without a closed form."""
 
 
 @singledispatch
 def known_of(model: Model) -> Known:
-    """What is known of a model."""
+    """Exact results of a model."""
     return Known()
 
 

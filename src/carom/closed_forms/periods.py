@@ -8,7 +8,7 @@ from typing import Literal
 
 import numpy as np
 
-from carom.arguments import Reals, checked
+from carom.arguments import Positive, Reals, checked
 from carom.core import periods
 from carom.core.friction import sliding_factor
 from carom.core.planar import planar_exponents
@@ -120,7 +120,7 @@ class PeriodCondition:
         return -math.log(FADED) / growth if fades else math.inf
 
     @checked
-    def roots(self, longest_period: float | None = None) -> PeriodRoots:
+    def roots(self, longest_period: Positive | None = None) -> PeriodRoots:
         """All roots up to ``longest_period``; by default all roots there are.
 
         Parameters
@@ -141,8 +141,6 @@ class PeriodCondition:
             growth = -2.0 * self.modes[:, 0].real.max()
             raise InputError("gamma", growth, "above 0, or longest_period must limit the orbits searched")
         end = bound if longest_period is None else longest_period
-        if not (np.isfinite(end) and end > 0):
-            raise InputError("longest_period", longest_period, "a finite time above 0, in 1/Omega")
         if end > self.longest_told():
             raise CaromError(
                 f"periods above {self.longest_told():.3g}/Omega cannot be told apart; give a shorter longest_period"

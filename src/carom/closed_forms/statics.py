@@ -20,7 +20,7 @@ from __future__ import annotations
 from itertools import combinations
 
 import numpy as np
-from numpy.polynomial import polynomial
+from numpy.polynomial import Polynomial
 
 from carom.models import System
 
@@ -87,49 +87,38 @@ def _two_planes(h: np.ndarray, rest: np.ndarray) -> np.ndarray:
     starts = []
     for order in (np.array([0, 1]), np.array([1, 0])):
         first, second = _conditions(h[np.ix_(order, order)], rest[order])
-        for force in np.roots(_resultant(first, second)[::-1]):
+        for force in np.roots(_resultant(first, second).coef[::-1]):
             if abs(force.imag) > NEARLY_REAL * (1.0 + abs(force)):
                 continue
             for condition in (first, second):
-                quadratic = [polynomial.polyval(force.real, part) for part in reversed(condition)]
+                quadratic = [part(force.real) for part in reversed(condition)]
                 starts += [np.array([force.real, other.real])[order] for other in np.roots(quadratic)]
     return np.array(starts).reshape(-1, 2)
 
 
-def _conditions(h: np.ndarray, rest: np.ndarray) -> tuple[list[np.ndarray], list[np.ndarray]]:
+def _conditions(h: np.ndarray, rest: np.ndarray) -> tuple[list[Polynomial], list[Polynomial]]:
     """``|y₁D|² − |y₂D|²`` and ``|D|² − |y₂D|²``: coefficients of powers of ``N₂``, each a polynomial in ``N₁``."""
-    second = np.array([rest[1], h[0, 0] * rest[1] - h[1, 0] * rest[0]])
-    constant, linear = np.array([1.0, h[0, 0]]), np.array([h[1, 1], h[0, 0] * h[1, 1] - h[0, 1] * h[1, 0]])
+    second = Polynomial([rest[1], h[0, 0] * rest[1] - h[1, 0] * rest[0]])
+    constant = Polynomial([1.0, h[0, 0]])
+    linear = Polynomial([h[1, 1], h[0, 0] * h[1, 1] - h[0, 1] * h[1, 0]])
     lever, size = h[1, 1] * rest[0] - h[0, 1] * rest[1], _product(second, second)
-    apart = [
-        np.array([abs(rest[0]) ** 2]),
-        np.array([2.0 * (rest[0].conjugate() * lever).real]),
-        np.array([abs(lever) ** 2]),
-    ]
-    whole = [_product(constant, constant), 2.0 * _product(constant, linear), _product(linear, linear)]
-    return [polynomial.polysub(apart[0], size), *apart[1:]], [polynomial.polysub(whole[0], size), *whole[1:]]
+    apart = Polynomial([abs(rest[0]) ** 2]) - size, 2.0 * (rest[0].conjugate() * lever).real, abs(lever) ** 2
+    whole = _product(constant, constant) - size, 2.0 * _product(constant, linear), _product(linear, linear)
+    return [apart[0], *(Polynomial([part]) for part in apart[1:])], list(whole)
 
 
-def _product(one: np.ndarray, other: np.ndarray) -> np.ndarray:
+def _product(one: Polynomial, other: Polynomial) -> Polynomial:
     """``Re(p̄ q)`` of two polynomials in a real variable."""
-    product: np.ndarray = polynomial.polymul(one.conj(), other).real
-    return product
+    return Polynomial((Polynomial(one.coef.conj()) * other).coef.real)
 
 
-def _resultant(first: list[np.ndarray], second: list[np.ndarray]) -> np.ndarray:
+def _resultant(first: list[Polynomial], second: list[Polynomial]) -> Polynomial:
     """Resultant of two quadratics whose coefficients are polynomials."""
 
-    def crossed(i: int, j: int) -> np.ndarray:
-        part: np.ndarray = polynomial.polysub(
-            polynomial.polymul(first[i], second[j]), polynomial.polymul(first[j], second[i])
-        )
-        return part
+    def crossed(i: int, j: int) -> Polynomial:
+        return first[i] * second[j] - first[j] * second[i]
 
-    outer = crossed(2, 0)
-    resultant: np.ndarray = polynomial.polysub(
-        polynomial.polymul(outer, outer), polynomial.polymul(crossed(2, 1), crossed(1, 0))
-    )
-    return resultant
+    return crossed(2, 0) * crossed(2, 0) - crossed(2, 1) * crossed(1, 0)
 
 
 def _anywhere(planes: int) -> np.ndarray:

@@ -29,34 +29,18 @@ where ``μ(w² − ω²) − γw`` exceeds ``p``, at every angle, or zero, on av
 from __future__ import annotations
 
 import math
-from typing import Literal, NamedTuple, Protocol, get_args
+from typing import Literal, NamedTuple, get_args
 
-import numpy as np
-
-from carom.arguments import checked
+from carom.arguments import Positive, checked
 from carom.models import Jeffcott, Subject, jeffcott_of
 from carom.outcome import InputError
+from carom.parameters import Numbers, Parameters
 
 Gain = Literal["gamma", "omega"]
 Steady = Literal["contact-free", "rub", "rolling"]
 BoundaryKind = Literal["persistence", "non-smooth fold", "degenerate"]
-
-
-class Values(Protocol):
-    """Dimensionless parameters: :class:`~carom.parameters.Parameters`, or plain numbers of the same names."""
-
-    @property
-    def gamma(self) -> float: ...  # noqa: D102
-    @property
-    def omega(self) -> float: ...  # noqa: D102
-    @property
-    def rho(self) -> float: ...  # noqa: D102
-    @property
-    def mu(self) -> float: ...  # noqa: D102
-    @property
-    def d(self) -> float: ...  # noqa: D102
-    @property
-    def radius_ratio(self) -> float: ...  # noqa: D102
+Values = Parameters | Numbers
+"""Dimensionless parameters, checked or as plain numbers."""
 
 
 class End(NamedTuple):
@@ -300,7 +284,7 @@ def harmless_kick(machine: Subject) -> float:
 
 
 @checked
-def harmless_shock(machine: Subject, duration: float) -> float:
+def harmless_shock(machine: Subject, duration: Positive) -> float:
     """Peak acceleration up to which a half-sine shock of the base provably never brings the rotor to the wall.
 
     The deviation is the convolution of the shock with the response to a kick, which is at most ``g``
@@ -314,8 +298,6 @@ def harmless_shock(machine: Subject, duration: float) -> float:
         ``T``, in ``1/Ω``.
     """
     rotor = jeffcott_of(machine)
-    if not (np.isfinite(duration) and duration > 0.0):
-        raise InputError("duration", duration, "a time above 0, in 1/Omega")
     return harmless_kick(rotor) * math.pi / (2.0 * duration)
 
 

@@ -23,13 +23,11 @@ from carom.orbits.maps import ImpactMap, Section, StroboscopicMap, impact_map, s
 from carom.orbits.orbit import Margins, Orbit, orbit_near
 from carom.orbits.recognising import orbit_of_motion
 from carom.orbits.rubbing import LiftOff, lift_off_of, rubbing_orbits
-from carom.orbits.search import FoundOrbits
 from carom.orbits.single_impact import OrbitSet, find_orbits, orbits_within_reach, period_condition
 from carom.orbits.stability import Multipliers, multipliers
 from carom.orbits.word import Kind, Segment, Word
 
 __all__ = [
-    "FoundOrbits",
     "ImpactMap",
     "Kind",
     "LiftOff",

@@ -152,21 +152,25 @@ def lyapunov_exponents(
     for stretch in _stretches(rotor, state, transient):
         directions, _ = _carried(stretch.passages, directions)
         state = stretch.end
-    before, grown, durations, words = _apart(stretch.rate, directions), [], [], []
-    struck, landings = np.zeros(len(rotor.system.arrays.rows)), 0
+    before, grown, stretches = _apart(stretch.rate, directions), [], []
     for stretch in _stretches(rotor, state, impacts):
         directions, factors = _carried(stretch.passages, directions)
-        grown.append(factors)
-        durations.append(stretch.durations)
-        words.append(stretch.word)
-        struck += stretch.struck
-        landings += stretch.landings
-    if sum(map(len, words)) < batches:
-        raise CaromError(f"only {sum(map(len, words))} segments were measured: raise impacts or lower batches")
-    return _result(
-        rotor, np.concatenate(grown), np.concatenate(durations), _apart(stretch.rate, directions) - before,
-        words, struck, landings, batches,
-    )  # fmt: skip
+        grown.append(np.log(factors))
+        stretches.append(stretch)
+    words, durations = [each.word for each in stretches], np.concatenate([each.durations for each in stretches])
+    if len(durations) < batches:
+        raise CaromError(f"only {len(durations)} segments were measured: raise impacts or lower batches")
+    section, time = directions.shape[1], float(durations.sum())
+    kept = _directions_kept(rotor, words)
+    rate = float((_apart(stretch.rate, directions) - before)[kept]) / time
+    values, errors = np.full(section + 1, -np.inf), np.zeros(section + 1)
+    values[:kept], errors[:kept] = _means(np.concatenate(grown)[:, :kept], durations, batches)
+    values[-1], errors[-1] = rate, abs(rate)
+    order = np.argsort(-values, kind="stable")
+    struck = np.sum([each.struck for each in stretches], axis=0)
+    volume = _growth_of_volume(rotor, struck, time) if kept == section else -math.inf
+    landings = sum(each.landings for each in stretches)
+    return LyapunovExponents(values[order], errors[order], rate, volume, int(struck.sum()), landings, time)
 
 
 @checked
@@ -255,28 +259,6 @@ def _apart(rate: np.ndarray, directions: np.ndarray) -> np.ndarray:
     apart = [np.linalg.norm(rate - directions[:, :k] @ (directions[:, :k].T @ rate)) for k in range(len(rate))]
     logarithms: np.ndarray = np.log(apart)
     return logarithms
-
-
-def _result(
-    rotor: Model,
-    factors: np.ndarray,
-    durations: np.ndarray,
-    along: np.ndarray,
-    words: list[Word],
-    struck: np.ndarray,
-    landings: int,
-    batches: int,
-) -> LyapunovExponents:
-    """Exponents from the growth of each direction in each segment, and of the distance along the motion."""
-    section, time = factors.shape[1], float(durations.sum())
-    kept = _directions_kept(rotor, words)
-    rate = float(along[kept]) / time
-    values, errors = np.full(section + 1, -np.inf), np.zeros(section + 1)
-    values[:kept], errors[:kept] = _means(np.log(factors[:, :kept]), durations, batches)
-    values[-1], errors[-1] = rate, abs(rate)
-    order = np.argsort(-values, kind="stable")
-    volume = _growth_of_volume(rotor, struck, time) if kept == section else -math.inf
-    return LyapunovExponents(values[order], errors[order], rate, volume, int(struck.sum()), landings, time)
 
 
 def _directions_kept(rotor: Model, words: list[Word]) -> int:

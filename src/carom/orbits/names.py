@@ -3,16 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
-from typing import Literal
+from dataclasses import dataclass, fields
+from typing import Any, Literal
 
 from carom.outcome import REGULAR_BOUNCING
 
 Slip = Literal[1, -1]
 
 
+class Name(str):
+    """A text that is made from parts, which it carries: a frozen dataclass."""
+
+    def __getnewargs__(self) -> tuple[Any, ...]:  # for copies and pickles
+        return tuple(getattr(self, part.name) for part in fields(self))  # type: ignore[arg-type]
+
+
 @dataclass(frozen=True, eq=False, repr=False)
-class OrbitName(str):
+class OrbitName(Name):
     """Name of a single-impact orbit, such as ``"B1,d"``: a text that also carries what it says.
 
     Parameters
@@ -34,15 +41,12 @@ class OrbitName(str):
 
     def __new__(cls, pair: int, longer: bool, faster: bool, slip: Slip = 1) -> OrbitName:
         """Make the text from the parts."""
-        return super().__new__(cls, f"{'B' if slip > 0 else 'R'}{pair},{_letter(longer, faster)}")
-
-    def __getnewargs__(self) -> tuple[int, bool, bool, Slip]:  # type: ignore[override]  # for copies and pickles
-        return self.pair, self.longer, self.faster, self.slip
+        return super().__new__(cls, f"{'B' if slip > 0 else 'R'}{pair},{'abcd'[longer + 2 * faster]}")
 
     @property
     def letter(self) -> str:
         """``a`` and ``c`` have the shorter period, ``b`` and ``d`` the longer; ``a`` and ``b`` the lower speed."""
-        return _letter(self.longer, self.faster)
+        return self[-1]
 
     @property
     def words(self) -> str:
@@ -78,12 +82,8 @@ def combined(names: Iterable[OrbitName]) -> str:
     return ", ".join("/".join([first, *(name.letter for name in others)]) for first, *others in pairs.values())
 
 
-def _letter(longer: bool, faster: bool) -> str:
-    return "abcd"[longer + 2 * faster]
-
-
 @dataclass(frozen=True, eq=False, repr=False)
-class CountedName(str):
+class CountedName(Name):
     """Name of an orbit with several impacts a period or lasting contact, such as ``"P2,1"``: a text that also carries what it says.
 
     Parameters
@@ -100,9 +100,6 @@ class CountedName(str):
     def __new__(cls, impacts: int, number: int) -> CountedName:
         """Make the text from the parts."""
         return super().__new__(cls, f"P{impacts},{number}")
-
-    def __getnewargs__(self) -> tuple[int, int]:  # type: ignore[override]  # for copies and pickles
-        return self.impacts, self.number
 
 
 class RubbingName(CountedName):

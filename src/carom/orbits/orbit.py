@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, ClassVar, overload
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -127,6 +126,11 @@ class Orbit(Result):
         return cls(rotor, name, word, *start, multipliers_of(links), reason)
 
     @property
+    def start(self) -> Start:
+        """Nodes and durations."""
+        return Start(self.nodes, self.durations)
+
+    @property
     def period(self) -> float:
         """In ``1/Ω``."""
         return float(self.durations.sum())
@@ -212,7 +216,7 @@ class Orbit(Result):
     @cached_property
     def links(self) -> Links:
         """Its segments with their exact derivatives."""
-        return links_of(self.rotor, self.word, Start(self.nodes, self.durations))
+        return links_of(self.rotor, self.word, self.start)
 
     @cached_property
     def margins(self) -> Margins:
@@ -248,7 +252,7 @@ class Orbit(Result):
 
 
 def multipliers_of(links: Links) -> Multipliers:
-    """Non-trivial Floquet multipliers, on the plane of changes that keep the first node at the end of the last segment."""
+    """Non-trivial Floquet multipliers: those of the return map on the section at the first node."""
     return multipliers(on_section(links))
 
 
@@ -315,9 +319,9 @@ def orbit_of_links(rotor: Model, word: Word, links: Links, name: OrbitName | Cou
     """Orbit from converged equations, as short as it is and beginning at its fastest impact."""
     nodes, durations = links.start
     count = shortest(word, nodes)
-    first = beginning(rotor, Word(word[:count]), nodes[:count])
-    places = (np.arange(count) + first) % count
-    kept, start = Word(word[:count]).turned(first), Start(nodes[places], durations[places])
+    once = Word(word[:count])
+    first = beginning(rotor, once, nodes[:count])
+    kept, start = once.turned(first), Start(nodes[:count], durations[:count]).turned(first)
     return Orbit.from_links(rotor, kept, links_of(rotor, kept, start), name or CountedName(kept.impacts, 1))
 
 
@@ -341,39 +345,5 @@ def beginning(rotor: Model, word: Word, nodes: np.ndarray) -> int:
 
 def same_orbit(first: Orbit, second: Orbit) -> bool:
     """Whether two orbits are the same, whichever segment they begin with."""
-    return any(np.abs(nodes - second.nodes).max() <= 1e2 * ALIKE for nodes in _turns(first, second.word))
-
-
-def _turns(orbit: Orbit, word: Word) -> Sequence[np.ndarray]:
-    """The nodes of an orbit, beginning with each segment from which it has this word."""
-    if len(word) != len(orbit.word):
-        return ()
-    places = range(len(word))
-    return [np.roll(orbit.nodes, -k, axis=0) for k in places if orbit.word.turned(k) == word]
-
-
-class OrbitSequence(Sequence[Orbit]):
-    """Orbits of a result, to look up by index or by name; ``if_none`` says what it means that there are none."""
-
-    if_none: ClassVar[str]
-
-    members: tuple[Orbit, ...]
-
-    def __len__(self) -> int:
-        return len(self.members)
-
-    def __iter__(self) -> Iterator[Orbit]:
-        return iter(self.members)
-
-    @overload
-    def __getitem__(self, key: int | str) -> Orbit: ...
-    @overload
-    def __getitem__(self, key: slice) -> tuple[Orbit, ...]: ...
-    def __getitem__(self, key: int | str | slice) -> Orbit | tuple[Orbit, ...]:
-        if not isinstance(key, str):
-            return self.members[key]
-        for orbit in self.members:
-            if orbit.name == key:
-                return orbit
-        names = ", ".join(orbit.name for orbit in self.members) or self.if_none
-        raise InputError("orbit", key, f"one of: {names}")
+    turns = (first.start.turned(places).nodes for places in first.word.turns_to(second.word))
+    return any(np.abs(nodes - second.nodes).max() <= 1e2 * ALIKE for nodes in turns)

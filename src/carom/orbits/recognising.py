@@ -64,7 +64,8 @@ def orbit_of_motion(motion: Trajectory) -> Orbit | None:
     if motion.is_landing[first:].any():
         # The last period may begin within a chatter: look for one from lift-off to lift-off.
         period = motion.time - float(times[begun])
-        return _between_lift_offs(simulate(motion.rotor, motion.final, (1.0 + MORE) * period), period)
+        later = simulate(motion.rotor, motion.final, (1.0 + MORE) * period)
+        return _between(later, lift_offs(later), period)
     return _closed(motion, first, len(motion.arrivals))
 
 
@@ -81,12 +82,11 @@ def first_of_period(motion: Trajectory, count: int) -> int:
     return noted[-min(count, len(noted))]
 
 
-def _between_lift_offs(motion: Trajectory, period: float) -> Orbit | None:
-    """Orbit from the first lift-off of a motion to the one a period later."""
+def lift_offs(motion: Trajectory) -> np.ndarray:
+    """Events of a motion at which it lifts off a plane."""
     flying = motion.segment_phases == Phase.FLIGHT
     events = np.arange(len(motion.event_planes))
-    lifts = np.flatnonzero(~flying[events, motion.event_planes] & flying[events + 1, motion.event_planes])
-    return _between(motion, lifts, period)
+    return np.flatnonzero(~flying[events, motion.event_planes] & flying[events + 1, motion.event_planes])
 
 
 def orbit_of_whirl(motion: Trajectory, period: float) -> Orbit | None:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, fields, replace
-from typing import Annotated, ClassVar
+from typing import Annotated
 
 import numpy as np
 
@@ -18,13 +18,12 @@ from carom.motions.ensembles import Endings, settle
 from carom.motions.starts import State
 from carom.motions.trajectories import Trajectory, simulate
 from carom.orbits.names import CountedName
-from carom.orbits.orbit import Orbit, OrbitSequence, lasts, orbit_of_links, same_orbit
-from carom.orbits.recognising import orbit_of_motion, segments_of
+from carom.orbits.orbit import Orbit, lasts, orbit_of_links, same_orbit
+from carom.orbits.recognising import lift_offs, orbit_of_motion, segments_of
 from carom.orbits.shooting import Start, closed_flights, converged, links_of, pack
 from carom.orbits.word import Word
-from carom.outcome import InputError, Outcome, Phase
+from carom.outcome import InputError, Outcome
 from carom.progress import Reporter
-from carom.results import Result, in_a_line
 
 GUESSES, MOST_IMPACTS = 1500, 64
 """Default number of guesses for each number of impacts, and the most impacts that are searched."""
@@ -124,52 +123,10 @@ class Searched:
         )
 
 
-@dataclass(frozen=True, eq=False, repr=False)
-class FoundOrbits(Result, OrbitSequence):
-    """Orbits with at most a number of impacts a period; look one up by index or name, ``found["P2,1"]``.
-
-    Those known before come first, under their names: of the planar rotor all with one impact, and those from a lift-off to the
-    next.  The others come from a search, which proves nothing: an orbit to which no guess led is missing.
-
-    Attributes
-    ----------
-    rotor : Model
-    impacts : int
-        Most impacts a period.
-    members : tuple of Orbit
-        Admissible ones, stable or not; of those found the fewest impacts first, then the shortest period.
-    search : Searched
-        How much was tried.
-    """
-
-    if_none: ClassVar[str] = "none, no orbits were found"
-
-    rotor: Model
-    impacts: int
-    members: tuple[Orbit, ...]
-    search: Searched
-
-    def rows(self) -> list[tuple[str, str]]:
-        """Each orbit, and how much was searched."""
-        told = [
-            (
-                orbit.name,
-                f"period {self.line_of('period', orbit.period)}, {'stable' if orbit.stable else 'unstable'}, {orbit.segments}",
-            )
-            for orbit in self
-        ]
-        return [("rotor", in_a_line(self.rotor)), *told, ("search", self.argument)]
-
-    @property
-    def argument(self) -> str:
-        """How much was searched, and what share of fresh motions ended on the orbits, in a few sentences."""
-        return self.search.words
-
-
 def search_orbits(
     rotor: Model, impacts: int, guesses: int, seed: int, known: Sequence[Orbit], tell: Reporter
-) -> FoundOrbits:
-    """Search orbits with at most a number of impacts a period.
+) -> tuple[tuple[Orbit, ...], Searched]:
+    """Search orbits with at most a number of impacts a period: the admissible ones known then, and what was tried.
 
     Motions of an ensemble are followed until they settle; the orbits on which they end are closed.  Then stretches of other
     motions are corrected by Newton's method.  At last fresh motions are followed until they settle.
@@ -183,7 +140,7 @@ def search_orbits(
     """
     search = Search(rotor, impacts, known)
     done = search.run(SETTLED, guesses, FRESH, [seed], tell)
-    return FoundOrbits(rotor, impacts, search.named(), done)
+    return search.named(), done
 
 
 def random_starts(
@@ -313,10 +270,8 @@ class Search:
         """Stretches of a motion that come back closest, with their number of impacts; through a landing, from lift-off to lift-off."""
         most = LANDS if landing else IMPACTS * (self.impacts + 1)
         motion = simulate(self.rotor, start, FOLLOWED, stop_at_chatter=not landing, max_events=most)
-        events = np.arange(len(motion.event_planes))
-        flying = motion.segment_phases == Phase.FLIGHT
-        lifts = events[~flying[events, motion.event_planes] & flying[events + 1, motion.event_planes]]
         if landing:
+            lifts = lift_offs(motion)
             yield from self._cut(motion, lifts[1:] if len(lifts) > 3 else lifts, range(1, 4), contact=True)
         impacts = np.flatnonzero(motion.is_impact)
         yield from self._cut(motion, impacts, range(1, self.impacts + 1), contact=False)
@@ -378,7 +333,7 @@ class Search:
         self.found.append(orbit)
         most = max(1, self.impacts // max(orbit.impacts, 1))
         for place in range(len(orbit.word)):
-            turned = Start(np.roll(orbit.nodes, -place, axis=0), np.roll(orbit.durations, -place))
+            turned = orbit.start.turned(place)
             for times in range(1, most + 1):
                 several = Start(np.tile(turned.nodes, (times, 1)), np.tile(turned.durations, times))
                 word = orbit.word.turned(place).repeated(times)

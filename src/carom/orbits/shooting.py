@@ -47,6 +47,10 @@ class Start(NamedTuple):
     nodes: np.ndarray
     durations: np.ndarray
 
+    def turned(self, places: int) -> Start:
+        """The same period, beginning with another segment."""
+        return Start(np.roll(self.nodes, -places, axis=0), np.roll(self.durations, -places))
+
 
 @dataclass(frozen=True, eq=False)
 class Links:

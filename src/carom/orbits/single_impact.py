@@ -1,4 +1,4 @@
-"""Single-impact orbits in closed form: all of them, with admissibility and multipliers."""
+"""Orbits of a rotor: all with one impact a period in closed form, with admissibility and multipliers, or those that a search finds."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import cmath
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import ClassVar, overload
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -17,14 +17,14 @@ from carom.models import Jeffcott, Subject, jeffcott_of, model_of
 from carom.orbits.admissibility import slip_stays_forward, why_virtual
 from carom.orbits.maps import Section
 from carom.orbits.names import OrbitName, Slip
-from carom.orbits.orbit import Orbit, OrbitSequence
+from carom.orbits.orbit import Orbit
 from carom.orbits.rubbing import rubbing_orbits
-from carom.orbits.search import GUESSES, FoundOrbits, Impacts, search_orbits
+from carom.orbits.search import GUESSES, Impacts, Searched, search_orbits
 from carom.orbits.shooting import Start
 from carom.orbits.stability import Multipliers, multipliers_of_all
 from carom.orbits.word import Kind, Word
 from carom.progress import Reporter, ShowProgress, shows_progress
-from carom.results import Result, in_a_line
+from carom.results import Members, in_a_line
 
 MOST_RADIANS = 1500.0
 """Largest modulus ``|λT|`` of the fastest mode over the longest period that is searched: some hundred orbits."""
@@ -34,47 +34,64 @@ FORWARD, BACKWARD = Word.of(Kind.IMPACT_FORWARD), Word.of(Kind.IMPACT_BACKWARD)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class OrbitSet(Result, OrbitSequence):
-    """All single-impact orbits of a rotor; look one up by index or by name, ``orbits["B1,d"]``.
+class OrbitSet(Members[Orbit]):
+    """Orbits of a rotor; look one up by index or by name, ``orbits["B1,d"]``.
+
+    Without a search they are all with one impact a period of the planar rotor, virtual ones included.  With a search they are admissible:
+    first those known before, of the planar rotor all with one impact and those from a lift-off to the next, under their names; then
+    those that the search found, the fewest impacts first, then the shortest period.  It proves nothing: an orbit to which no guess led is missing.
 
     Attributes
     ----------
-    rotor : Jeffcott
+    rotor : Model
     members : tuple of Orbit
+    impacts : int
+        Most impacts a period.
+    search : Searched or None
+        How much was searched; ``None`` without a search.
     periods : ndarray
-        All roots of ``F₁``.  Each gives up to two orbits.
+        All roots of ``F₁``, each of which gives up to two orbits; empty with a search.
     longest_period : float
-        End of the searched range.
+        End of the searched range; infinite with a search.
     complete : bool
         Whether there is provably no other root.
     slip_stays_forward : bool
         Whether it is proven that the slip of every orbit inside the wall stays forward throughout its impacts.
-        Otherwise orbits with backward slip are listed too, but orbits whose impacts stop the slip are not searched.
+        Otherwise orbits with backward slip are listed too, but without a search orbits whose impacts stop the slip are missing.
         Only a rotor about as small as its clearance can have either.
     """
 
     figure: ClassVar[str] = "equilibria_and_orbits"
-    if_none: ClassVar[str] = "none, there are no orbits"
+    called: ClassVar[str] = "orbit"
 
-    rotor: Jeffcott
+    # Not narrower: without a search it is a planar rotor, whose parameters are read.
+    rotor: Any
     members: tuple[Orbit, ...]
+    impacts: int
+    search: Searched | None
     periods: np.ndarray
     longest_period: float
     complete: bool
     slip_stays_forward: bool
 
     def rows(self) -> list[tuple[str, str]]:
-        """Each orbit, and whether the list is complete."""
+        """Each orbit, and whether the list is complete or how much was searched."""
         told = []
         for orbit in self:
-            words = f"{'stable' if orbit.stable else 'unstable'}, {orbit.reason or 'admissible'}"
+            stable = "stable" if orbit.stable else "unstable"
             period, speed = (self.line_of(name, getattr(orbit, name)) for name in ("period", "radial_speed"))
-            told.append((orbit.name, f"period {period}, radial speed {speed}, {words}"))
-        return [("rotor", in_a_line(self.rotor)), *told, ("complete", in_a_line(self.complete))]
+            words = f"{stable}, {orbit.segments}"
+            if self.search is None:
+                words = f"radial speed {speed}, {stable}, {orbit.reason or 'admissible'}"
+            told.append((orbit.name, f"period {period}, {words}"))
+        end = ("complete", in_a_line(self.complete)) if self.search is None else ("search", self.argument)
+        return [("rotor", in_a_line(self.rotor)), *told, end]
 
     @property
     def argument(self) -> str:
-        """Why no orbit is missing, in one sentence."""
+        """Why no orbit is missing, in one sentence; or how much was searched, in a few."""
+        if self.search is not None:
+            return self.search.words
         count = len(self.periods)
         found = f"F1 has {count or 'no'} root{'' if count == 1 else 's'} for 0 < T ≤ {self.longest_period:.4g}/Ω"
         search = f"{found}, isolated by a bound of its second derivative"
@@ -93,12 +110,6 @@ def period_condition(machine: Subject, periods: Reals) -> np.ndarray:
     return PeriodCondition.planar(rotor.parameters).value(np.asarray(periods, float))
 
 
-@overload
-def find_orbits(machine: Subject, longest_period: float | None = None) -> OrbitSet: ...
-@overload
-def find_orbits(
-    machine: Subject, *, impacts: int, guesses: int = GUESSES, seed: int = 0, progress: ShowProgress = None
-) -> FoundOrbits: ...
 @checked
 @shows_progress
 def find_orbits(
@@ -109,7 +120,7 @@ def find_orbits(
     guesses: Count = GUESSES,
     seed: Seed = 0,
     progress: ShowProgress = None,
-) -> OrbitSet | FoundOrbits:
+) -> OrbitSet:
     """All orbits with one impact a period, synchronous with the shaft, or a search for those with at most so many.
 
     With ``q = (1 + d)(1 + iμ)`` and the return of the flight to its start, ``a₁₂`` and ``a₂₂`` of
@@ -135,7 +146,7 @@ def find_orbits(
 
     Returns
     -------
-    OrbitSet or FoundOrbits
+    OrbitSet
         All orbits with one impact, virtual ones included, each with its reason; or the admissible orbits with at most so many
         impacts that are known, and what was searched.
 
@@ -164,7 +175,11 @@ def find_orbits(
     if impacts is not None:
         model, tell = model_of(machine), Reporter.of(progress, "searching orbits")
         known = [*orbits_within_reach(model), *rubbing_orbits(model)] if isinstance(model, Jeffcott) else []
-        return search_orbits(model, impacts, guesses, seed, [orbit for orbit in known if orbit.admissible], tell)
+        there = [orbit for orbit in known if orbit.admissible]
+        members, search = search_orbits(model, impacts, guesses, seed, there, tell)
+        return OrbitSet(
+            model, members, impacts, search, np.empty(0), math.inf, complete=False, slip_stays_forward=False
+        )
     rotor = jeffcott_of(machine)
     condition = PeriodCondition.planar(rotor.parameters)
     roots = condition.roots(longest_period)
@@ -178,7 +193,16 @@ def find_orbits(
             for orbit in reversed_orbits
             if rotor.parameters.radius_ratio + 1.0 + orbit.angular_speed < 0.0 < orbit.radial_speed
         ]
-    return OrbitSet(rotor, tuple(orbits), roots.periods, roots.longest_period, roots.proven, forward_only)
+    return OrbitSet(
+        rotor,
+        tuple(orbits),
+        1,
+        None,
+        roots.periods,
+        roots.longest_period,
+        roots.proven,
+        slip_stays_forward=forward_only,
+    )
 
 
 @checked

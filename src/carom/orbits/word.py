@@ -169,6 +169,10 @@ class Word(Sequence[Segment]):
         """The same cycle, beginning with another segment."""
         return Word(self.segments[places:] + self.segments[:places])
 
+    def turns_to(self, other: Word) -> list[int]:
+        """Places at which the cycle can begin to be another word; none if they differ."""
+        return [k for k in range(len(self)) if len(self) == len(other) and self.turned(k) == other]
+
     @cached_property
     def kinds(self) -> np.ndarray:
         """Kinds as whole numbers, shape (m,)."""

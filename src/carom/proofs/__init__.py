@@ -3,7 +3,7 @@
 ==================  ==============================================================
 ``hypotheses``      the numbers of a machine exactly as they are given
 ``balls``           exact numbers to balls, balls to decimal enclosures
-``rotor``           closed forms of the planar rotor in ball arithmetic
+``rotor``           a rotor whose numbers are balls, and the conditions of stability
 ``cells``           signs of an analytic function on intervals
 ``periods``         all roots of ``F₁``
 ``single_impact``   orbits with one impact a period: existence, course, stability
@@ -12,13 +12,12 @@
 ``series``          functions of balls and of power series of balls
 ``courses``         orbits with one impact a period with their derivatives
 ``krawczyk``        zeros of systems, enclosed and unique
-``lines``           machines that differ in one number
+``lines``           numbers of the equations; machines that differ in one
 ``blocks``          an orbit on an interval of a parameter, by mean value forms
 ``block_orbits``    all orbits on such an interval
 ``crossings``       the one change inside an open interval
 ``ranges``          claims about an interval of a parameter
 ``points``          bifurcation points along a parameter
-``steady_points``   those of levitation and rubs
 ``criticality``     whether a period doubling is super- or subcritical
 ``flights``         whether a flight stays inside the wall
 ``words``           motions with several impacts a period, by shooting

@@ -44,11 +44,6 @@ def ball_of(number: ExactNumber) -> Any:
     return ball * arb.pi() ** number.turns if number.turns else ball
 
 
-def squared(ball: Any) -> Any:
-    """Square of a real ball; its power with the exponent 2 is not defined where the ball may be negative."""
-    return ball * ball
-
-
 def decided(ball: Any) -> int:
     """Sign that is proven for all numbers of a real ball: 1, −1, or 0 if none is."""
     if ball > 0:

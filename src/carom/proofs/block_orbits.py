@@ -21,11 +21,12 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from flint import acb, arb, arb_series
+from flint import arb, arb_series
 
+from carom.proofs.balls import decided
 from carom.proofs.blocks import Block, Branch, OpenError, OrbitBranch, slopes_on
 from carom.proofs.courses import Course, period_condition
-from carom.proofs.flights import stays_inside
+from carom.proofs.flights import NARROWEST, stays_inside
 from carom.proofs.lines import Numbers
 from carom.proofs.periods import none_beyond, slowest_decay
 from carom.proofs.series import hull, terms
@@ -116,14 +117,14 @@ def _start(n: Numbers) -> tuple[float, int]:
     the ``k``-th on are at most ``8k x^k/((1 − x)²LT)`` times ``|q|``, ``x = (LT/6)²``.
     """
     base, slope = (1 - n.d) / 2, (1 + n.d) * (n.gamma - 2 * n.mu) / 12
-    longest = abs(n.gamma) / 2 + 1 + abs(n.gamma * n.gamma * 0.25 - n.omega_squared).sqrt()
-    grip, elastic = abs((1 + n.d) * acb(1, n.mu)), base.is_zero()
+    longest = abs(n.gamma) / 2 + 1 + abs(n.split).sqrt()
+    grip, elastic = abs(n.q), base.is_zero()
     time = 0.5
     while time > 1e-9:
         share = (longest * time / 6) ** 2
         rest = grip * 8 * (2 if elastic else 1) * share ** (2 if elastic else 1) / (1 - share) ** 2 / (longest * time)
         if share < 0.3 and (abs(slope) * time > rest if elastic else base > rest):
-            return time, _sign(slope) if elastic else 1
+            return time, decided(slope) if elastic else 1
         time /= 2
     raise OpenError("F1 may vanish next to T = 0")
 
@@ -135,8 +136,8 @@ def _sign_and_slope(block: Block, low: float, high: float) -> tuple[int, int]:
     plain = condition(block.whole, period)
     if not plain.is_finite():
         return 0, 0
-    if not plain.contains(0):
-        return (1 if plain > 0 else -1), 0
+    if decided(plain):
+        return decided(plain), 0
     middle = period.mid()
     late = period - middle
     with terms(_ORDER + 1):
@@ -149,11 +150,7 @@ def _sign_and_slope(block: Block, low: float, high: float) -> tuple[int, int]:
     for k in range(_ORDER - 1, 0, -1):
         rate, value = k * near[k] + late * rate, near[k] + late * value
     value = condition(block.centre, middle) + across * block.off + late * value
-    return _sign(value), _sign(rate)
-
-
-def _sign(ball: Any) -> int:
-    return 1 if ball > 0 else -1 if ball < 0 else 0
+    return decided(value), decided(rate)
 
 
 def remaining(block: Block, cells: Sequence[Cell]) -> list[tuple[float, float, int]]:
@@ -170,7 +167,7 @@ def remaining(block: Block, cells: Sequence[Cell]) -> list[tuple[float, float, i
         narrow = high - low <= _NARROWEST_PERIODS
         if not slope and high - low <= 16 * _NARROWEST_PERIODS:
             found = slopes_on(block, hull(low, high))
-            slope = 0 if found is None else _sign(found.rate)
+            slope = 0 if found is None else decided(found.rate)
         if slope or narrow:
             left.append((low, high, slope))
             continue
@@ -274,7 +271,7 @@ def why_virtual(orbit: OrbitBranch) -> str | None:
 # ------------------------------------------------------------------------------------------------ between the impacts
 
 
-def inside(plain: Course, along: Along, touch: Any = None) -> bool | None:
+def inside(plain: Course, along: Along, touch: Any = None, narrowest: float = NARROWEST) -> bool | None:
     """Whether an orbit with ``ṙ > 0`` stays inside the wall between its impacts; ``None`` if this is open.
 
     ``(|U|² − 1)/ṙ`` vanishes at both impacts, with the rates ``−2d`` after the first and ``2`` before the second.  The function
@@ -288,4 +285,4 @@ def inside(plain: Course, along: Along, touch: Any = None) -> bool | None:
     def height(time: Any, backward: bool) -> Any:
         return plain.height(time, backward)[0]
 
-    return stays_inside(height, narrow, plain.back.period, (2 * plain.back.numbers.d, arb(2)), touch)
+    return stays_inside(height, narrow, plain.back.period, (2 * plain.back.numbers.d, arb(2)), touch, narrowest)

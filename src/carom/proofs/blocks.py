@@ -119,13 +119,18 @@ def _rates(block: Block, period: Any) -> tuple[Any, Any, tuple[Any, Any, Any]]:
     )
 
 
-def enclosed(block: Block, near: Any, far: Any, function: Callable[[Any], Any]) -> Any:
-    """Values of a function of something known as series of two terms in the middle, and of three on the block."""
+def enclosed(block: Block, near: Any, far: Any, function: Callable[[Any], Any]) -> tuple[Any, Any, Any]:
+    """Value, slope and half of the second derivative of a function on a block.
+
+    It is one of something known as series of two terms in the middle, and of three on the block.
+    """
     with terms(2):
         about = function(near)
     with terms(3):
         everywhere = function(far)
-    return narrower(about[0] + (about[1] + everywhere[2] * block.off) * block.off, everywhere[0])
+    bend = everywhere[2]
+    value = narrower(about[0] + (about[1] + bend * block.off) * block.off, everywhere[0])
+    return value, narrower(everywhere[1], about[1] + 2 * bend * block.off), bend
 
 
 class Branch:
@@ -176,7 +181,7 @@ class Branch:
 
     def along(self, function: Callable[[Return], Any]) -> Any:
         """Enclosure of a function of the returns on the block."""
-        return enclosed(self.block, self.near, self.far, function)
+        return enclosed(self.block, self.near, self.far, function)[0]
 
     def _root_at_centre(self, low: float, high: float) -> Any:
         """The root in the middle of the block, by bisection and by interval Newton steps."""
@@ -224,11 +229,8 @@ class Branch:
 def value_on(block: Block, period: Any) -> Any:
     """The period condition at one period, on all of a block."""
     condition = period_condition(block.whole, period)
-    with terms(2):
-        about = condition(block.moving(block.middle), period)
-    with terms(3):
-        everywhere = condition(block.moving(block.ball), period)
-    return about[0] + (about[1] + everywhere[2] * block.off) * block.off
+    near, far = block.moving(block.middle), block.moving(block.ball)
+    return enclosed(block, near, far, lambda numbers: condition(numbers, period))[0]
 
 
 class OrbitBranch:
@@ -251,29 +253,18 @@ class OrbitBranch:
 
     def __init__(self, branch: Branch, faster: bool) -> None:
         self.branch, block = branch, branch.block
+        found = enclosed(block, branch.near, branch.far, lambda back: back.speeds()[faster])
+        self.speed = found[0]
         with terms(2):
-            near = branch.near.speeds()[faster]
+            self.near = Course(branch.near, branch.near.speeds()[faster])
         with terms(3):
-            far = branch.far.speeds()[faster]
-        speed = narrower(far[0], near[0] + (near[1] + far[2] * block.off) * block.off)
-        slope = narrower(far[1], near[1] + 2 * far[2] * block.off)
-        self.speed = speed
-        with terms(2):
-            self.near = Course(branch.near, near)
-        with terms(3):
-            self.far = Course(branch.far, arb_series([speed, slope, far[2]]))
-        self.plain = Course(branch.plain, speed)
+            self.far = Course(branch.far, arb_series(list(found)))
+        self.plain = Course(branch.plain, self.speed)
 
     def along(self, function: Callable[[Course], Any]) -> Any:
         """Enclosure of a function of the orbit on the block."""
-        return enclosed(self.branch.block, self.near, self.far, function)
+        return self.over(function)[0]
 
-    def over(self, function: Callable[[Course], Any]) -> tuple[Any, Any]:
-        """Enclosures of a function of the orbit on the block and of its slope."""
-        block = self.branch.block
-        with terms(2):
-            about = function(self.near)
-        with terms(3):
-            everywhere = function(self.far)
-        slope = narrower(everywhere[1], about[1] + 2 * everywhere[2] * block.off)
-        return self.along(function), slope
+    def over(self, function: Callable[[Course], Any]) -> tuple[Any, Any, Any]:
+        """Enclosures of a function of the orbit on the block, of its slope and of half of its second derivative."""
+        return enclosed(self.branch.block, self.near, self.far, function)

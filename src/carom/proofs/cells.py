@@ -4,8 +4,7 @@ On a cell with middle ``m`` and half width ``h``, ``f = Σ_{k<n} c_k (x − m)^k
 ``m`` are narrow balls, the last is one that holds for every ``ξ`` of the cell.  If ``|c_0|`` exceeds the sum of all other
 moduli times ``h^k``, ``f`` keeps its sign on the cell; in the same way ``f'`` does.
 
-At a place where ``f`` and its first derivatives are known to vanish, the first term that does not takes the part of
-``c_0``, on an interval that begins or ends there.
+Next to zero, where ``f`` and its first derivatives are known to vanish, the first term that does not takes the part of ``c_0``.
 """
 
 from __future__ import annotations
@@ -14,6 +13,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
+
+from flint import arb
 
 from carom.proofs.balls import decided, interval
 from carom.proofs.evidence import NotShownError, rational_of
@@ -65,7 +66,7 @@ class Analytic:
 
     def __init__(self, series: Callable[[Any, int], list[Any]]) -> None:
         self.series = series
-        self._cells: dict[tuple[Fraction, Fraction], tuple[int, int, int]] = {}
+        self._cells: dict[tuple[Fraction, Fraction], tuple[int, int]] = {}
         self._signs: dict[Fraction, int] = {}
 
     def sign(self, place: Fraction) -> int:
@@ -74,8 +75,8 @@ class Analytic:
             self._signs[place] = decided(self.series(interval(place, place), 2)[0])
         return self._signs[place]
 
-    def on(self, low: Fraction, high: Fraction) -> tuple[int, int, int]:
-        """Signs of the function and of its slope on a cell, 0 where none is shown, and its sign in the middle."""
+    def on(self, low: Fraction, high: Fraction) -> tuple[int, int]:
+        """Signs of the function and of its slope on a cell, 0 where none is shown."""
         if (low, high) not in self._cells:
             middle, half = (low + high) / 2, (high - low) / 2
             about = self.series(interval(middle, middle), ORDER)
@@ -83,19 +84,17 @@ class Analytic:
             width = interval(half, half)
             value = decided(about[0]) if _leads(about, 0, width) else 0
             slope = decided(about[1]) if _leads([k * about[k] for k in range(ORDER + 1)], 1, width) else 0
-            self._cells[low, high] = value, slope, decided(about[0])
+            self._cells[low, high] = value, slope
         return self._cells[low, high]
 
-    def sign_next_to(self, place: Any, width: Fraction, order: int, side: int) -> int:
-        """Sign on an interval next to a zero, the zero itself left out; 0 if none is shown.
+    def sign_next_to_zero(self, width: Fraction, order: int) -> int:
+        """Sign on the interval from zero, which is left out, to a width; 0 if none is shown.
 
-        At the zero, ``place``, the function and its derivatives below ``order`` vanish.  The interval extends by ``width`` from
-        the lower (``side`` 1) or upper end (−1) of the ball.
+        At zero the function and its derivatives below ``order`` vanish.
         """
-        reach = interval(Fraction(0), width)
-        about = self.series(place, ORDER)
-        about.append(self.series(place + side * reach, ORDER + 1)[ORDER])
-        return decided(about[order]) * side**order if _leads(about, order, interval(width, width)) else 0
+        about = self.series(arb(0), ORDER)
+        about.append(self.series(interval(Fraction(0), width), ORDER + 1)[ORDER])
+        return decided(about[order]) if _leads(about, order, interval(width, width)) else 0
 
 
 def _leads(terms: list[Any], order: int, width: Any) -> bool:
@@ -107,27 +106,21 @@ def _leads(terms: list[Any], order: int, width: Any) -> bool:
 
 
 def cells_of(
-    function: Analytic, low: Fraction, high: Fraction, *, width: Fraction, least: Fraction, most: int, kinds: str
-) -> Cells | Fraction:
+    function: Analytic, low: Fraction, high: Fraction, *, width: Fraction, least: Fraction, most: int
+) -> Cells:
     """Cells from one place to another, on each of which something is shown.
 
     Cells have at first the given width; one that is narrower than ``least`` is left open, and the search ends after ``most`` cells
-    and attempts.  ``kinds`` says what is looked for: without :data:`POSITIVE` a place at which the function is positive ends the
-    search, and is returned.
+    and attempts.
     """
     cuts, found, left = [low], "", low
-    for _ in range(most):
+    for _ in range(most if low < high else 0):
         right = min(left + width, high)
-        sign, slope, middle = function.on(left, right)
-        signs, slopes = {1: POSITIVE, -1: NEGATIVE}, {1: RISING, -1: FALLING}
-        kind = signs.get(sign) or slopes.get(slope, OPEN)
-        if middle > 0 and POSITIVE not in kinds:
-            return (left + right) / 2
-        if kind not in kinds or kind == OPEN:
-            if right - left > least:
-                width = (right - left) / 2
-                continue
-            kind = OPEN
+        sign, slope = function.on(left, right)
+        kind = {1: POSITIVE, -1: NEGATIVE}.get(sign) or {1: RISING, -1: FALLING}.get(slope, OPEN)
+        if kind == OPEN and right - left > least:
+            width = (right - left) / 2
+            continue
         left, found = right, found + kind
         cuts.append(right)
         if left == high:
@@ -140,7 +133,7 @@ def cells_of(
 def show(function: Analytic, cells: Cells) -> None:
     """Show what is said of each cell; :class:`NotShownError` if it is not so."""
     for low, high, kind in zip(cells.cuts, cells.cuts[1:], cells.kinds, strict=False):
-        sign, slope, _ = (0, 0, 0) if kind == OPEN else function.on(low, high)
+        sign, slope = (0, 0) if kind == OPEN else function.on(low, high)
         told = {POSITIVE: sign > 0, NEGATIVE: sign < 0, RISING: slope > 0, FALLING: slope < 0, OPEN: True}
         if not told.get(kind, False):
             raise NotShownError(f"the certificate does not show {kind!r} between {low} and {high}")

@@ -4,18 +4,17 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from textwrap import wrap
-from typing import Any, ClassVar, Literal, get_args, overload
+from typing import Any, ClassVar, Literal, get_args
 
 from carom.arguments import checked
 from carom.files import write_whole
-from carom.outcome import InputError
 from carom.proofs.balls import Enclosure
 from carom.proofs.hypotheses import Hypotheses
-from carom.results import WIDEST, Result
+from carom.results import WIDEST, Members
 
 FORMAT = "carom proof 1"
 Status = Literal["proven", "refuted", "undecided"]
@@ -92,7 +91,7 @@ def claim_of(
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Proof(Result, Sequence[Claim]):
+class Proof(Members[Claim]):
     """Claims about a machine with the evidence that decides them.
 
     Look a claim up by index or by name, ``proof["B1,d stable"]``.
@@ -114,6 +113,7 @@ class Proof(Result, Sequence[Claim]):
     """
 
     rests_on: ClassVar[tuple[str, ...]] = ("mora2014", "johansson2017", "krawczyk1969")
+    called: ClassVar[str] = "claim"
 
     theorem: str
     hypotheses: Hypotheses
@@ -122,6 +122,11 @@ class Proof(Result, Sequence[Claim]):
     bits: int
     not_claimed: tuple[str, ...]
     evidence: Mapping[str, Any]
+
+    @property
+    def members(self) -> tuple[Claim, ...]:  # type: ignore[override]  # a field would be in the certificate twice
+        """The claims."""
+        return self.claims
 
     @checked
     def with_status(self, status: Status) -> tuple[Claim, ...]:
@@ -170,21 +175,3 @@ class Proof(Result, Sequence[Claim]):
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write the certificate to a file."""
         write_whole(Path(path), json.dumps(self.document(), indent=1, ensure_ascii=False).encode())
-
-    def __len__(self) -> int:
-        return len(self.claims)
-
-    def __iter__(self) -> Iterator[Claim]:
-        return iter(self.claims)
-
-    @overload
-    def __getitem__(self, key: int | str) -> Claim: ...
-    @overload
-    def __getitem__(self, key: slice) -> tuple[Claim, ...]: ...
-    def __getitem__(self, key: int | str | slice) -> Claim | tuple[Claim, ...]:
-        if not isinstance(key, str):
-            return self.claims[key]
-        for claim in self.claims:
-            if claim.name == key:
-                return claim
-        raise InputError("claim", key, f"one of: {', '.join(claim.name for claim in self.claims) or 'none'}")

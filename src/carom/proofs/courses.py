@@ -1,11 +1,6 @@
 """Single-impact orbits for balls and power series of balls: closing conditions, course, derivative of the impact map.
 
-The frame is turned such that the impact is at ``U = 1``.  With ``S = −γ − 2i``, ``P = ω² − 1 + iγ`` and the real
-``D = S²/4 − P = γ²/4 − ω²``, a flight changes position and velocity relative to the contact-free equilibrium by
-
-    [[e − S/2 o, o], [−P o, e + S/2 o]],      e = e^{St/2} cosh(√D t),      o = e^{St/2} sinh(√D t)/√D .
-
-The levers ``a₁₂`` and ``a₂₂`` of the return after a period are computed from whichever form loses least on wide balls: by
+The frame is turned such that the impact is at ``U = 1``; :class:`~carom.proofs.lines.Numbers` has the flight.  The levers ``a₁₂`` and ``a₂₂`` of the return after a period are computed from whichever form loses least on wide balls: by
 Bernoulli numbers at short periods, by the exponents ``λ± = S/2 ± √D`` where these are well apart, by ``e`` and ``o`` otherwise.
 """
 
@@ -15,11 +10,11 @@ from collections.abc import Callable
 from functools import cached_property
 from typing import Any
 
-from flint import acb, arb, arb_series
+from flint import acb, arb
 
 from carom.proofs.lines import Numbers
 from carom.proofs.rotor import Invariants
-from carom.proofs.series import I, first, hyperbolic, imaginary, real, short_return, squared, terms
+from carom.proofs.series import I, first, imaginary, real, short_return, squared
 
 _SHORT = 2.7
 """Bound of ``|λ T|`` below which the period condition is summed: less than the reach of the sum, for its derivatives."""
@@ -30,36 +25,27 @@ def period_condition(whole: Numbers, period: Any) -> Callable[[Numbers, Any], An
 
     At short periods it is ``F₁`` itself, else the entire function ``|det(1 − e^{MT})|²F₁``.
     """
-    apart = abs(whole.gamma * whole.gamma * 0.25 - whole.omega_squared).sqrt()
+    apart = abs(whole.split).sqrt()
     return _short_condition if (abs(whole.gamma) * 0.5 + 1 + apart) * period < _SHORT else entire_condition
 
 
 def _short_condition(n: Numbers, period: Any) -> Any:
-    found = short_return(n.gamma * -0.5 - I, n.gamma * n.gamma * 0.25 - n.omega_squared, period)
-    if found is None:
-        return period * arb.nan()
-    return 1 + real(_grip(n) * found[1])
+    found = short_return(n.half, n.split, period)
+    return period * arb.nan() if found is None else 1 + real(n.q * found[1])
 
 
 def entire_condition(n: Numbers, period: Any) -> Any:
     """``|det(1 − e^{MT})|²F₁``."""
     numerator, gap = numerator_and_gap(n, period)
-    other = gap + _grip(n) * numerator
+    other = gap + n.q * numerator
     return real(other) * real(gap) + imaginary(other) * imaginary(gap)
 
 
 def numerator_and_gap(n: Numbers, period: Any) -> tuple[Any, Any]:
     """``a₂₂ det(1 − e^{MT})`` and ``det(1 − e^{MT})``."""
-    half = n.gamma * -0.5 - I
-    even, odd = hyperbolic(n.gamma * n.gamma * 0.25 - n.omega_squared, period)
-    growth = (half * period).exp()
-    even, odd, decay = even * growth, odd * growth, growth * growth
-    return even + half * odd - decay, 1 - even * 2 + decay
-
-
-def _grip(n: Numbers) -> Any:
-    """``q = (1 + d)(1 + iμ)``."""
-    return (1 + n.d) * (1 + n.mu * I)
+    even, odd, growth = n.flight(period)
+    decay = growth * growth
+    return even + n.half * odd - decay, 1 - even * 2 + decay
 
 
 class Return:
@@ -85,10 +71,7 @@ class Return:
     def __init__(self, numbers: Numbers, period: Any) -> None:
         n = self.numbers = numbers
         self.period = period
-        self.half = n.gamma * -0.5 - I
-        self.split = n.gamma * n.gamma * 0.25 - n.omega_squared
-        self.product = n.omega_squared - 1 + n.gamma * I
-        self.q = _grip(n)
+        self.half, self.split, self.product, self.q = n.half, n.split, n.product, n.q
         place, turn = self._levers()
         self.a12, self.a22 = place, turn
         self.lever, self.turn = self.q * place, self.q * turn
@@ -104,21 +87,13 @@ class Return:
             up, down = self.half + root, self.half - root
             one, other = 1 / ((-up * self.period).exp() - 1), 1 / ((-down * self.period).exp() - 1)
             return (one - other) / (root * 2), (up * one - down * other) / (root * 2)
-        even, odd, growth = self.flight(self.period)
-        decay = growth * growth
-        gap = 1 - even * 2 + decay
-        return odd / gap, (even + self.half * odd - decay) / gap
-
-    def flight(self, time: Any) -> tuple[Any, Any, Any]:
-        """``e``, ``o`` and ``e^{St/2}`` at a time."""
-        even, odd = hyperbolic(self.split, time)
-        growth = (self.half * time).exp()
-        return even * growth, odd * growth, growth
+        numerator, gap = numerator_and_gap(self.numbers, self.period)
+        return self.over[1] / gap, numerator / gap
 
     @cached_property
     def over(self) -> tuple[Any, Any, Any]:
         """The flight over the period."""
-        return self.flight(self.period)
+        return self.numbers.flight(self.period)
 
     @cached_property
     def closing_rate(self) -> Any:
@@ -199,7 +174,7 @@ class Course:
         state at the next impact, which is exact there, as it does not depend on the period.
         """
         back = self.back
-        even, odd, _ = back.flight(time)
+        even, odd, _ = back.numbers.flight(time)
         share = back.half * odd
         start = self.approach if backward else self.leaving
         # The contact-free equilibrium is at 1 + q a₁₂ṙ.
@@ -208,12 +183,6 @@ class Course:
         across = real(place)
         height = across * 2 + squared(place) * self.speed
         return height, real(rate) + (across * real(rate) + imaginary(place) * imaginary(rate)) * self.speed
-
-    def heights(self, time: Any, length: int) -> list[Any]:
-        """Taylor coefficients of ``(|U|² − 1)/ṙ`` about every point of a ball of times after the impact."""
-        with terms(length):
-            found = self.height(arb_series([time, 1]))[0]
-            return [found[k] for k in range(length)]
 
     def jacobian(self) -> list[list[Any]]:
         """Derivative of the impact map over ``(θ, ṙ, θ̇)``, by rows; regular for ``ṙ = 0``."""

@@ -54,10 +54,8 @@ def image_of_curve(course: Course, curve: Sequence[Any]) -> list[Any]:
     leaving = (arriving + (course.angular_speed + angular) * I - back.q * arriving) * place
 
     def flown(late: Any) -> tuple[Any, Any]:
-        even, odd, _ = back.flight(arb_series([back.period]) + late)
-        share = back.half * odd
-        away = place - levitation
-        return (even - share) * away + odd * leaving + levitation, (even + share) * leaving - back.product * odd * away
+        away, velocity = back.numbers.fly(place - levitation, leaving, arb_series([back.period]) + late)
+        return away + levitation, velocity
 
     # The delay makes |U| = 1 at each power in turn, as the rate of |U|² is 2ṙ at the end.
     late = arb_series([0])

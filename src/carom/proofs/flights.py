@@ -14,12 +14,17 @@ Height = Callable[[Any, bool], Any]
 the second, as a ball or a power series."""
 _ORDER = 4
 """Order of Taylor's formula on a cell of times."""
-_NARROWEST = 1e-4
-"""Width of a cell, as a share of half the flight, at which the search gives up."""
+NARROWEST, FINEST = 1e-4, 1e-11
+"""Width of a cell, as a share of half the flight, at which the search gives up: on blocks, and for one machine.
+
+Next to a maximum at a small depth below the wall the cells become as narrow as the root of the depth.
+"""
 _SAMPLES = 16
 
 
-def stays_inside(height: Height, narrow: Height, period: Any, falls: tuple[Any, Any], touch: Any = None) -> bool | None:
+def stays_inside(
+    height: Height, narrow: Height, period: Any, falls: tuple[Any, Any], touch: Any = None, narrowest: float = NARROWEST
+) -> bool | None:
     """Whether a height that vanishes at both impacts is negative in between; ``None`` if this is open.
 
     ``height`` gives balls for balls, ``narrow`` narrower ones for exact times.  ``falls`` are the rates, not negative, at which
@@ -41,7 +46,7 @@ def stays_inside(height: Height, narrow: Height, period: Any, falls: tuple[Any, 
                 continue
             if touched is not None and _touches(height, (low, high), backward, touched):
                 continue
-            if not high - low > _NARROWEST * end:
+            if not high - low > narrowest * end:
                 return None
             middle = 0.5 * (low + high)
             stack += [(middle, high), (low, middle)]

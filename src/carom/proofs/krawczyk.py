@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from flint import arb, arb_mat, arb_series, ctx
 
+from carom.proofs.balls import exact_ends, rational
+from carom.proofs.evidence import rational_of
 from carom.proofs.series import terms
 
 System = Callable[..., Sequence[Any]]
@@ -87,3 +89,19 @@ def enclosed_zero(system: System, centre: Sequence[Any], width: int | None = Non
                 break
         return inner, bits
     return None
+
+
+def found_zero(system: System, guess: Sequence[Any]) -> tuple[dict[str, Any], list[Any]] | None:
+    """Evidence of a zero near a guess, for a certificate, and balls that contain it; ``None`` if none is shown."""
+    centre = newton(system, guess)
+    found = None if centre is None else enclosed_zero(system, centre)
+    if centre is None or found is None:
+        return None
+    return {"centre": [str(exact_ends(x)[0]) for x in centre], "width": found[1]}, found[0]
+
+
+def shown_zero(system: System, evidence: Mapping[str, Any]) -> list[Any] | None:
+    """Balls that contain the zero of such evidence; ``None`` if it shows none."""
+    centre = [rational(rational_of(text)).mid() for text in evidence["centre"]]
+    found = enclosed_zero(system, centre, int(evidence["width"]))
+    return None if found is None else found[0]

@@ -7,7 +7,7 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Any, NamedTuple
 
-from flint import arb_series, ctx
+from flint import arb_series
 
 from carom.outcome import InputError
 from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS
@@ -15,10 +15,17 @@ from carom.parameters.exact import read_exact
 from carom.parameters.fields import unknown_name
 from carom.proofs.balls import ball_of, exact_ends, interval
 from carom.proofs.hypotheses import NUMBERS, Hypotheses, dimensionless_of
+from carom.proofs.series import I, hyperbolic
 
 
 class Numbers(NamedTuple):
-    """The numbers of the equations; balls or power series of balls."""
+    """The numbers of the equations; balls or power series of balls.
+
+    With ``S = −γ − 2i``, ``P = ω² − 1 + iγ`` and the real ``D = S²/4 − P = γ²/4 − ω²``, a flight changes position and velocity
+    relative to the contact-free equilibrium by
+
+        [[e − S/2 o, o], [−P o, e + S/2 o]],      e = e^{St/2} cosh(√D t),      o = e^{St/2} sinh(√D t)/√D .
+    """
 
     gamma: Any
     omega_squared: Any
@@ -27,10 +34,47 @@ class Numbers(NamedTuple):
     d: Any
     radius_ratio: Any
 
+    @property
+    def half(self) -> Any:
+        """``S/2``."""
+        return self.gamma * -0.5 - I
+
+    @property
+    def split(self) -> Any:
+        """``D``, negative below critical damping."""
+        return self.gamma * self.gamma * 0.25 - self.omega_squared
+
+    @property
+    def product(self) -> Any:
+        """``P``, the stiffness in the co-rotating frame."""
+        return self.omega_squared - 1 + self.gamma * I
+
+    @property
+    def q(self) -> Any:
+        """``(1 + d)(1 + iμ)``: what an impact takes away of the velocity, over its radial speed."""
+        return (1 + self.d) * (1 + self.mu * I)
+
+    @property
+    def levitation(self) -> Any:
+        """``|U*|``, for balls."""
+        return self.rho / abs(self.product)
+
+    def flight(self, time: Any) -> tuple[Any, Any, Any]:
+        """``e``, ``o`` and ``e^{St/2}`` at a time."""
+        even, odd = hyperbolic(self.split, time)
+        growth = (self.half * time).exp()
+        return even * growth, odd * growth, growth
+
+    def fly(self, away: Any, velocity: Any, time: Any) -> tuple[Any, Any]:
+        """Distance from the contact-free equilibrium, and velocity, after a time."""
+        even, odd, _ = self.flight(time)
+        share = odd * self.half
+        return (even - share) * away + odd * velocity, (even + share) * velocity - odd * away * self.product
+
 
 @dataclass(frozen=True)
 class Line:
-    """All machines whose parameter lies in an interval, the other numbers those of the hypotheses.
+    """All machines whose parameter lies in an interval, the other numbers those of the hypotheses, at the precision of their first use.
 
     Attributes
     ----------
@@ -81,33 +125,20 @@ class Line:
             found["gamma"] = found["gamma"] + value * 0
         return Numbers(*(found[name] for name in NUMBERS))
 
-    @property
+    @cached_property
     def _balls(self) -> dict[str, Any]:
-        return self._remembered("numbers", lambda: {n: ball_of(self.hypotheses.numbers[n]) for n in NUMBERS})
+        return {name: ball_of(self.hypotheses.numbers[name]) for name in NUMBERS}
 
-    @property
+    @cached_property
     def _set(self) -> dict[str, Any]:
         """Numbers that do not follow from the machine's table."""
         names = {"omega_squared" if name == "omega" else name for name in self.hypotheses.settings}
         return {name: ball for name, ball in self._balls.items() if name in names}
 
-    @property
+    @cached_property
     def _machine(self) -> dict[str, Any]:
         values = self.hypotheses.values.items()
-        return self._remembered(
-            "machine", lambda: {name: ball_of(read_exact(MACHINE_FIELDS[name], text)) for name, text in values}
-        )
-
-    def _remembered(self, name: str, make: Any) -> dict[str, Any]:
-        """What is made once at each precision."""
-        key = name, ctx.prec
-        if key not in self._memory:
-            self._memory[key] = make()
-        return self._memory[key]
-
-    @cached_property
-    def _memory(self) -> dict[tuple[str, int], dict[str, Any]]:
-        return {}
+        return {name: ball_of(read_exact(MACHINE_FIELDS[name], text)) for name, text in values}
 
 
 def line_of(hypotheses: Hypotheses, name: str, start: str, stop: str) -> Line:

@@ -20,15 +20,13 @@ from fractions import Fraction
 from math import ceil, floor
 from typing import Any
 
-from flint import arb, arb_series
+from flint import acb, arb_series
 
-from carom.proofs.balls import exact_ends, interval, squared
+from carom.proofs.balls import exact_ends, interval
 from carom.proofs.cells import (
-    FALLING,
     NEGATIVE,
     OPEN,
     POSITIVE,
-    RISING,
     Analytic,
     Cells,
     cells_of,
@@ -39,7 +37,7 @@ from carom.proofs.courses import entire_condition, numerator_and_gap
 from carom.proofs.evidence import Evidence, NotShownError, rational_of
 from carom.proofs.lines import Numbers
 from carom.proofs.rotor import Rotor
-from carom.proofs.series import terms
+from carom.proofs.series import I, terms
 
 SHORTEST_CELL = 200
 """Binary digits of the length of the cell next to zero at which the search there ends."""
@@ -121,27 +119,18 @@ def all_periods(rotor: Rotor, evidence: Evidence, longest: Fraction | None, most
     if first is None:
         return Periods((), Fraction(0), False, ((Fraction(0), end),))
     start = rational_of(first)
-    sign = condition.sign_next_to(arb(0), start, lead, 1)
+    sign = condition.sign_next_to_zero(start, lead)
     if not sign:
         raise NotShownError("the certificate does not show the sign of F1 next to 0")
     least = width / 2 ** max(rotor.bits // 2, 20)
-    search = _limited(condition, start, end, width=width, least=least, most=most)
-    cells = Cells.from_document(evidence.take("cells of F1", lambda: search().document()))
+    limits = {"width": width, "least": least, "most": most}
+    found = evidence.take("cells of F1", lambda: cells_of(condition, start, end, **limits).document())
+    cells = Cells.from_document(found)
     if cells.cuts[0] != start or cells.cuts[-1] > end:
         raise NotShownError("the cells of a certificate do not begin where the first one ends")
     show(condition, cells)
-    found = _roots_on(rotor, condition, cells, sign, evidence)
-    return replace(found, none_beyond=bound is not None and cells.cuts[-1] == bound)
-
-
-def _limited(function: Analytic, low: Fraction, high: Fraction, **limits: Any) -> Callable[[], Cells]:
-    def search() -> Cells:
-        if low == high:
-            return Cells((low,), "")
-        found = cells_of(function, low, high, kinds=POSITIVE + NEGATIVE + RISING + FALLING, **limits)
-        return found if isinstance(found, Cells) else Cells((low,), "")
-
-    return search
+    roots = _roots_on(rotor, condition, cells, sign, evidence)
+    return replace(roots, none_beyond=bound is not None and cells.cuts[-1] == bound)
 
 
 def _text(number: Fraction | None) -> str | None:
@@ -153,7 +142,7 @@ def _text(number: Fraction | None) -> str | None:
 
 def slowest_decay(n: Numbers) -> Any:
     """Rate at which the slower mode of free motion decays."""
-    split, half = n.gamma * n.gamma / 4 - n.omega_squared, n.gamma / 2
+    split, half = n.split, n.gamma / 2
     root = split.nonnegative_part().sqrt()
     # On both sides of critical damping only the difference bounds all machines.
     return half if split < 0 else n.omega_squared / (half + root) if split > 0 else half - root
@@ -161,17 +150,16 @@ def slowest_decay(n: Numbers) -> Any:
 
 def none_beyond(n: Numbers, time: Any) -> bool:
     """Whether the decay keeps ``F₁`` above zero from a period on."""
-    split, half, rate = n.gamma * n.gamma / 4 - n.omega_squared, n.gamma / 2, slowest_decay(n)
+    split, rate = n.split, slowest_decay(n)
     if not (n.gamma > 0 and rate * time >= 1):
         return False
     slow = (-rate * time).exp()
-    size = (1 + n.d) * (1 + squared(n.mu)).sqrt()
-    swings = [1 + (squared(half) + 1).sqrt() * time]
+    swings = [1 + abs(n.half) * time]
     if not split.contains(0):
         root = abs(split).sqrt()
-        across = ((half, side * root - 1) if split < 0 else (side * root - half, 1) for side in (1, -1))
-        swings.append(sum((squared(one) + squared(arb(other))).sqrt() for one, other in across) / (2 * root))
-    return any(size * (slow * swing + squared(slow)) < squared(1 - slow) for swing in swings)
+        across = I * root if split < 0 else acb(root)
+        swings.append((abs(n.half + across) + abs(n.half - across)) / (2 * root))
+    return any(abs(n.q) * (slow * swing + slow * slow) < (1 - slow) * (1 - slow) for swing in swings)
 
 
 def _longest_period(n: Numbers) -> Fraction | None:
@@ -203,7 +191,7 @@ def _first_coefficient(rotor: Rotor) -> int:
 def _first_cell(condition: Analytic, lead: int, width: Fraction) -> Fraction | None:
     """Length of an interval next to zero on which ``F₁`` keeps its sign; ``None`` if none is found."""
     for _ in range(SHORTEST_CELL):
-        if condition.sign_next_to(arb(0), width, lead, 1):
+        if condition.sign_next_to_zero(width, lead):
             return width
         width /= 2
     return None
@@ -233,7 +221,7 @@ def _roots_on(rotor: Rotor, condition: Analytic, cells: Cells, start: int, evide
         period = interval(near, far)
         if rotor.pole_in(period):
             continue
-        if not rotor.gamma > 0 and numerator_and_gap(rotor.numbers, period)[1].contains(0):
+        if not rotor.numbers.gamma > 0 and numerator_and_gap(rotor.numbers, period)[1].contains(0):
             unclear.append((near, far))
         else:
             roots.append(Root(near, far, count // 2 + 1, bool(count % 2)))

@@ -11,101 +11,82 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Any
+from functools import cached_property, partial
+from typing import Any, NamedTuple
 
 from flint import arb, arb_series
 
-from carom.proofs.balls import Enclosure, decided, enclosure_of, exact_ends, rational
+from carom.proofs.balls import decided, enclosure_of, exact_ends
 from carom.proofs.block_orbits import inside
 from carom.proofs.claims import Claim, claim_of
 from carom.proofs.courses import Course, Return
 from carom.proofs.criticality import flip_coefficient
-from carom.proofs.evidence import Evidence, NotShownError, rational_of
-from carom.proofs.krawczyk import System, enclosed_zero, newton
+from carom.proofs.evidence import Evidence, NotShownError
+from carom.proofs.krawczyk import System, derivatives, found_zero, shown_zero
 from carom.proofs.lines import Line, line_of
 from carom.proofs.rotor import Rotor
 from carom.proofs.seeds import point_seeds
 from carom.proofs.series import first, real, terms
-from carom.proofs.steady_points import boundary, rub_fold, steady_claims
-
-Enclosures = Mapping[str, Enclosure]
+from carom.proofs.steady import rub_balance, rub_discriminant, wall_condition
 
 
-@dataclass(frozen=True)
-class Kind:
+class Kind(NamedTuple):
     """A kind of point.
 
     Attributes
     ----------
     unknowns : tuple of str
-    equations : callable
-        Takes a line, and the unknowns in their order.
     words : str
         What is stated to be there.
-    test : callable or None
-        Function of a course that vanishes at the point and changes its sign along the branch.
+    vanishes : callable
+        Function that vanishes there: of the course of an orbit, of its return if its radial speed is no unknown, or of the
+        numbers if there is no orbit.  Of grazing the height between the impacts and its rate vanish.
     """
 
     unknowns: tuple[str, ...]
-    equations: Callable[..., tuple[Any, ...]]
     words: str
-    test: Callable[[Course], Any] | None = None
+    vanishes: Callable[[Any], Any]
 
 
-def _fold(line: Line, period: Any, value: Any) -> tuple[Any, ...]:
-    back = Return(line.at(value), period)
-    return back.closing, back.closing_rate
-
-
-def _speed_fold(line: Line, period: Any, value: Any) -> tuple[Any, ...]:
-    back = Return(line.at(value), period)
-    return back.closing, back.discriminant
-
-
-def _shrinking(line: Line, period: Any, value: Any) -> tuple[Any, ...]:
-    back = Return(line.at(value), period)
-    return back.closing, 1 - back.levitation
-
-
-def _grazing(line: Line, time: Any, period: Any, speed: Any, value: Any) -> tuple[Any, ...]:
-    course = Course(Return(line.at(value), period), speed)
-    return course.back.closing, course.balance, *course.height(time)
-
-
-def _tested(test: Callable[[Course], Any]) -> Callable[..., tuple[Any, ...]]:
-    def equations(line: Line, period: Any, speed: Any, value: Any) -> tuple[Any, ...]:
-        course = Course(Return(line.at(value), period), speed)
-        return course.back.closing, course.balance, test(course)
-
-    return equations
-
-
-def _of_test(words: str, test: Callable[[Course], Any]) -> Kind:
-    return Kind(("period", "radial_speed", "value"), _tested(test), words, test)
-
-
+_STEADY, _PERIOD, _ORBIT = ("value",), ("period", "value"), ("period", "radial_speed", "value")
 KINDS: Mapping[str, Kind] = {
-    "fold": Kind(("period", "value"), _fold, "two periods of orbits meet: F1 = 0 and dF1/dT = 0"),
-    "speed-fold": Kind(("period", "value"), _speed_fold, "the two radial speeds of a period meet"),
-    "period-doubling": _of_test("an orbit has a multiplier -1", lambda course: course.invariants.at_minus_one),
-    "neimark-sacker": _of_test(
-        "the product of two multipliers of an orbit is 1", lambda course: course.invariants.of_pairs
+    "fold": Kind(_PERIOD, "two periods of orbits meet: F1 = 0 and dF1/dT = 0", lambda back: back.closing_rate),
+    "speed-fold": Kind(_PERIOD, "the two radial speeds of a period meet", lambda back: back.discriminant),
+    "period-doubling": Kind(_ORBIT, "an orbit has a multiplier -1", lambda course: course.invariants.at_minus_one),
+    "neimark-sacker": Kind(
+        _ORBIT, "the product of two multipliers of an orbit is 1", lambda course: course.invariants.of_pairs
     ),
-    "slip-stop": _of_test("friction just stops the slip in the impact of an orbit", lambda course: course.slip_after),
+    "slip-stop": Kind(
+        _ORBIT, "friction just stops the slip in the impact of an orbit", lambda course: course.slip_after
+    ),
     "grazing": Kind(
-        ("touch", "period", "radial_speed", "value"),
-        _grazing,
+        ("touch", *_ORBIT),
         "an orbit touches the wall between its impacts without radial speed",
+        lambda course: course.height,
     ),
     "non-smooth-hopf": Kind(
-        ("period", "value"), _shrinking, "an orbit shrinks into the equilibrium on the wall, |U*| = 1"
+        _PERIOD, "an orbit shrinks into the equilibrium on the wall, |U*| = 1", lambda back: 1 - back.levitation
     ),
-    "boundary-equilibrium": Kind(("value",), boundary, "the contact-free equilibrium is on the wall, |U*| = 1"),
-    "rub-fold": Kind(("value",), rub_fold, "the two synchronous rubs meet"),
+    "boundary-equilibrium": Kind(_STEADY, "the contact-free equilibrium is on the wall, |U*| = 1", wall_condition),
+    "rub-fold": Kind(_STEADY, "the two synchronous rubs meet", rub_discriminant),
 }
 """Kinds of points that can be proven."""
 _LABEL, _MOST_POINTS = re.compile(r"B[0-9]{1,4},[abcd]|contact-free|rub"), 1000
 """Motions that points belong to, and how many a certificate may have."""
+
+
+def equations_of(line: Line, kind: Kind, *unknowns: Any) -> tuple[Any, ...]:
+    """Left sides of the extended system of a kind, from the unknowns in their order."""
+    at = dict(zip(kind.unknowns, unknowns, strict=True))
+    numbers = line.at(at["value"])
+    if "period" not in at:
+        return (kind.vanishes(numbers),)
+    back = Return(numbers, at["period"])
+    if "radial_speed" not in at:
+        return back.closing, kind.vanishes(back)
+    course = Course(back, at["radial_speed"])
+    found = kind.vanishes(course)
+    return back.closing, course.balance, *(found(at["touch"]) if "touch" in at else (found,))
 
 
 def point_claims(rotor: Rotor, evidence: Evidence, options: Any) -> list[Claim]:
@@ -114,7 +95,7 @@ def point_claims(rotor: Rotor, evidence: Evidence, options: Any) -> list[Claim]:
     The rotor's own value of the parameter does not matter.
     """
     line = line_of(rotor.hypotheses, str(options["along"]), str(options["from"]), str(options["to"]))
-    found = evidence.take("points", lambda: [_searched(line, *seed) for seed in point_seeds(line)])
+    found = evidence.take("points", lambda: _all_searched(line))
     claims: list[Claim] = []
     told: set[tuple[str, str]] = set()
     if len(found) > _MOST_POINTS:
@@ -131,45 +112,43 @@ def point_claims(rotor: Rotor, evidence: Evidence, options: Any) -> list[Claim]:
     return claims
 
 
+def _all_searched(line: Line) -> list[dict[str, Any]]:
+    seeds = [seed for seed in point_seeds(line) if seed[0] in KINDS]
+    return [_searched(line, kind, label, [at[name] for name in KINDS[kind].unknowns]) for kind, label, at in seeds]
+
+
 def _searched(line: Line, kind: str, label: str, guess: list[float]) -> dict[str, Any]:
     """Centre and width of a box with exactly one zero; no centre if none is found."""
-    system = _system(line, kind)
-    centre = newton(system, guess)
-    found = None if centre is None else enclosed_zero(system, centre)
-    entry: dict[str, Any] = {"kind": kind, "label": label, "near": guess}
-    at = None if found is None else dict(zip(KINDS[kind].unknowns, found[0], strict=True))
-    if centre is not None and found is not None and at is not None and _in_range(line, at):
-        entry |= {"centre": [str(exact_ends(x)[0]) for x in centre], "width": found[1]}
-    return entry
+    entry, found = {"kind": kind, "label": label, "near": guess}, found_zero(_system(line, kind), guess)
+    if found is None or not _in_range(line, dict(zip(KINDS[kind].unknowns, found[1], strict=True))):
+        return entry
+    return entry | found[0]
 
 
 def _system(line: Line, kind: str) -> System:
-    equations = KINDS[kind].equations
-    return lambda *unknowns: equations(line, *unknowns)
+    return partial(equations_of, line, KINDS[kind])
 
 
 def _claims_of(line: Line, label: str, entry: Mapping[str, Any]) -> list[Claim]:
     kind = KINDS[entry["kind"]]
     statement = f"Along {line.name}, {kind.words}, at exactly one point of a box around these values."
+    point = Point(line, entry["kind"], label, {})
     if "centre" not in entry:
-        reason = (
-            f"the search in double precision found one near {float(entry['near'][-1]):.9g}, which could not be shown"
-        )
-        return [_claim(entry["kind"], f"of {label}", statement, 0, reason=reason)]
-    centre = [rational(rational_of(text)).mid() for text in entry["centre"]]
-    found = enclosed_zero(_system(line, entry["kind"]), centre, int(entry["width"]))
-    if found is None or len(centre) != len(kind.unknowns):
+        near = f"{float(entry['near'][-1]):.9g}"
+        reason = f"the search in double precision found one near {near}, which could not be shown"
+        return [point.claim("", statement, 0, reason)]
+    found = shown_zero(_system(line, entry["kind"]), entry)
+    if found is None:
         raise NotShownError(f"the certificate does not show the {entry['kind']} of {label}")
-    values = dict(zip(kind.unknowns, found[0], strict=True))
-    if not _in_range(line, values):
+    point = Point(line, entry["kind"], label, dict(zip(kind.unknowns, found, strict=True)))
+    if not _in_range(line, point.at):
         raise NotShownError(f"the {entry['kind']} of {label} is not at a value and at times that are looked at")
-    enclosures = {name: enclosure_of(ball) for name, ball in values.items()}
-    claims = [_claim(entry["kind"], f"of {label}", statement, 1, enclosures=enclosures)]
+    claims = [point.claim("", statement, 1, **point.at)]
     try:
-        return [*claims, *_nature(line, entry["kind"], label, values)]
+        return [*claims, *_nature(point)]
     except (ValueError, ZeroDivisionError) as problem:
         reason = f"a formula has a pole next to it: {problem}"
-        return [*claims, _claim(entry["kind"], f"of {label} transversal", "It is transversal.", 0, reason)]
+        return [*claims, point.claim("transversal", "It is transversal.", 0, reason)]
 
 
 def _in_range(line: Line, at: Mapping[str, Any]) -> bool:
@@ -180,198 +159,213 @@ def _in_range(line: Line, at: Mapping[str, Any]) -> bool:
     return line.ends[0] <= high and low <= line.ends[1] and bool(period > 0 and 0 < touch < period)
 
 
-def _claim(
-    about: str, kind: str, statement: str, sign: int, reason: str = "", enclosures: Enclosures | None = None
-) -> Claim:
-    """Claim that more bits do not decide, as the search for points would not find others with them."""
-    return claim_of(about, kind, statement, sign, reason=reason, enclosures=enclosures, limited=False)
-
-
 # ------------------------------------------------------------------------------------------------ what happens there
 
 
-def _nature(line: Line, kind: str, label: str, at: Mapping[str, Any]) -> list[Claim]:
+@dataclass(frozen=True)
+class Point:
+    """A point that is shown.
+
+    Attributes
+    ----------
+    line : Line
+    kind : str
+    label : str
+        The motion that it belongs to.
+    at : mapping of str to arb
+        Enclosures of the unknowns.
+    """
+
+    line: Line
+    kind: str
+    label: str
+    at: Mapping[str, Any]
+
+    def claim(self, what: str, statement: str, sign: int, reason: str = "", **balls: Any) -> Claim:
+        """Claim that more bits do not decide, as the search for points would not find others with them."""
+        values = {name: enclosure_of(ball) for name, ball in balls.items()}
+        about = f"of {self.label} {what}".rstrip()
+        return claim_of(self.kind, about, statement, sign, reason=reason, enclosures=values, limited=False)
+
+    def moved(self, period_rate: Any = 0, by: int = 1) -> Return:
+        """The return of the orbit as a power series of the parameter; with ``by`` zero of its period alone."""
+        value = arb_series([self.at["value"], by])
+        return Return(self.line.at(value), arb_series([self.at["period"], period_rate]))
+
+    @cached_property
+    def course(self) -> Course:
+        """The orbit there."""
+        back = Return(self.line.at(self.at["value"]), self.at["period"])
+        if self.kind == "non-smooth-hopf":
+            return Course(back, arb(0))
+        if self.kind == "speed-fold":
+            return Course(back, -real(back.lever) / back.lever_squared)
+        faster = self.label.split()[0][-1] in "cd"
+        return Course(back, self.at["radial_speed"] if "radial_speed" in self.at else back.speeds()[faster])
+
+    @cached_property
+    def rates(self) -> tuple[Any, Any]:
+        """``T'`` and ``ṙ'`` along the branch; not finite at a fold."""
+
+        def closing(period: Any, speed: Any, value: Any) -> tuple[Any, Any]:
+            moved = Course(Return(self.line.at(value), period), speed)
+            return moved.back.closing, moved.balance
+
+        _, slopes = derivatives(closing, (self.course.back.period, self.course.speed, self.at["value"]))
+        period_rate = -slopes[0, 2] / slopes[0, 0]
+        return period_rate, -(slopes[1, 2] + slopes[1, 0] * period_rate) / slopes[1, 1]
+
+
+def _nature(point: Point) -> list[Claim]:
     """Claims about transversality, criticality and the motion at a point."""
-    if kind in ("boundary-equilibrium", "rub-fold"):
-        return steady_claims(line, kind, label, at["value"])
-    course = Course(Return(line.at(at["value"]), at["period"]), _speed(line, kind, label, at))
-    claims = []
-    if kind in ("fold", "speed-fold"):
-        claims.append(_fold_claim(line, kind, label, at))
-    elif kind == "non-smooth-hopf":
-        claims += _shrinking_claims(line, label, course, at)
-    else:
-        claims.append(_crossing_claim(line, kind, label, course, at))
-    if kind == "period-doubling":
-        claims += _flip_claims(label, course)
-    if kind == "neimark-sacker":
-        claims.append(_torus_claim(label, course))
-    return [*claims, _motion_claim(kind, label, course, at)]
+    if "period" not in point.at:
+        return _steady_claims(point)
+    claims = {"fold": _fold_claims, "speed-fold": _speed_fold_claims, "non-smooth-hopf": _shrinking_claims}.get(
+        point.kind, _crossing_claims
+    )(point)
+    if point.kind == "period-doubling":
+        claims += _flip_claims(point)
+    if point.kind == "neimark-sacker":
+        claims.append(_torus_claim(point))
+    return [*claims, _motion_claim(point)]
 
 
-def _speed(line: Line, kind: str, label: str, at: Mapping[str, Any]) -> Any:
-    if "radial_speed" in at:
-        return at["radial_speed"]
-    if kind == "non-smooth-hopf":
-        return arb(0)
-    back = Return(line.at(at["value"]), at["period"])
-    if kind == "speed-fold":
-        return -real(back.lever) / back.lever_squared
-    return back.speeds()[label.split()[0][-1] in "cd"]
+_BALANCES = {
+    1: (
+        "non-smooth fold",
+        "It is a non-smooth fold: a synchronous rub, a saddle along the wall, exists on the side where the rotor levitates.",
+    ),
+    -1: (
+        "persistence",
+        "It is persistence: a synchronous rub pressed on the wall exists where the contact-free equilibrium is outside.",
+    ),
+    0: ("kind", "It is a non-smooth fold or persistence."),
+}
 
 
-def _rates(line: Line, course: Course, value: Any) -> tuple[Any, Any]:
-    """``T'`` and ``ṙ'`` along the branch; not finite at a fold."""
-    period, speed = course.back.period, course.speed
-
-    def equations(*unknowns: Any) -> tuple[Any, Any]:
-        moved = Course(Return(line.at(unknowns[2]), unknowns[0]), unknowns[1])
-        return moved.back.closing, moved.balance
-
-    columns = []
+def _steady_claims(point: Point) -> list[Claim]:
+    """Claims about transversality and about the motions on both sides of a point of levitation or rubs."""
     with terms(2):
-        for place in range(3):
-            balls = (period, speed, value)
-            found = equations(*(arb_series([x, 1]) if k == place else x for k, x in enumerate(balls)))
-            columns.append([x[1] if isinstance(x, arb_series) else arb(0) for x in found])
-    (along, balance), (_, tilt), (push, lift) = columns
-    slope = -push / along
-    return slope, -(lift + balance * slope) / tilt
+        slope = KINDS[point.kind].vanishes(point.line.at(arb_series([point.at["value"], 1])))[1]
+    words = f"The condition vanishes with this slope by {point.line.name}, which is not zero."
+    claims = [point.claim("transversal", words, abs(decided(slope)), "the sign of the slope is open", slope=slope)]
+    if point.kind == "boundary-equilibrium":
+        balance = rub_balance(point.line.at(point.at["value"]))
+        sign = decided(balance)
+        claims.append(point.claim(*_BALANCES[sign], abs(sign), "this is open", balance=balance))
+    return claims
 
 
-def _slope(line: Line, course: Course, value: Any, test: Callable[[Course], Any]) -> Any:
-    """Derivative of a function of the orbit along its branch."""
-    period_rate, speed_rate = _rates(line, course, value)
+def _crossing_claims(point: Point) -> list[Claim]:
+    """Claim that the test function of a point changes its sign along the branch."""
+    period_rate, speed_rate = point.rates
     with terms(2):
-        back = Return(line.at(arb_series([value, 1])), arb_series([course.back.period, period_rate]))
-        return test(Course(back, arb_series([course.speed, speed_rate])))[1]
-
-
-def _crossing_claim(line: Line, kind: str, label: str, course: Course, at: Mapping[str, Any]) -> Claim:
-    test = KINDS[kind].test or (lambda moved: moved.height(arb_series([at["touch"]]))[0])
-    slope = _slope(line, course, at["value"], test)
+        moved = Course(point.moved(period_rate), arb_series([point.course.speed, speed_rate]))
+        found = KINDS[point.kind].vanishes(moved)
+        slope = (found(arb_series([point.at["touch"]]))[0] if point.kind == "grazing" else found)[1]
     sign, reason = decided(slope), "the sign of the slope is open"
-    words = (
-        f"Along the branch of the orbit, the test function vanishes with this slope by {line.name}, which is not zero."
-    )
-    if kind == "grazing":
+    words = f"Along the branch of the orbit, the test function vanishes with this slope by {point.line.name}, which is not zero."
+    if point.kind == "grazing":
         with terms(3):
-            curve = course.height(arb_series([at["touch"], 1]))[0][2]
-        sign = sign if curve < 0 else 0
-        words = f"The touch is a maximum of the radius, whose height (|U|^2 - 1)/radial speed grows by {line.name} with this slope, not zero."
-        reason = "whether the touch is a maximum is open"
-    return _claim(
-        kind, f"of {label} transversal", words, abs(sign), reason=reason, enclosures={"slope": enclosure_of(slope)}
-    )
+            curve = point.course.height(arb_series([point.at["touch"], 1]))[0][2]
+        sign, reason = (sign if curve < 0 else 0), "whether the touch is a maximum is open"
+        words = f"The touch is a maximum of the radius, whose height (|U|^2 - 1)/radial speed grows by {point.line.name} with this slope, not zero."
+    return [point.claim("transversal", words, abs(sign), reason, slope=slope)]
 
 
-def _fold_claim(line: Line, kind: str, label: str, at: Mapping[str, Any]) -> Claim:
-    with terms(3):
-        back = Return(line.at(at["value"]), arb_series([at["period"], 1]))
-        curve = back.closing[2] * 2
+def _speed_fold_claims(point: Point) -> list[Claim]:
     with terms(2):
-        moved = Return(line.at(arb_series([at["value"], 1])), arb_series([at["period"]]))
-        push = moved.closing[1]
-    if kind == "speed-fold":
-        rate = Return(line.at(at["value"]), at["period"]).closing_rate
-        with terms(2):
-            slope = -push / rate
-            shift = Return(line.at(arb_series([at["value"], 1])), arb_series([at["period"], slope])).discriminant[1]
-        words = "The discriminant of the radial speeds passes through zero with this slope, not zero, and the period is simple."
-        return _claim(
-            kind, f"of {label} transversal", words, abs(decided(shift)), enclosures={"slope": enclosure_of(shift)}
-        )
-    side = -decided(curve) * decided(push)
-    words = f"It is a quadratic fold: d2F1/dT2 and the derivative of F1 by {line.name} are not zero. Both periods exist for "
-    words += f"{'larger' if side > 0 else 'smaller'} values of {line.name} next to it, and none for {'smaller' if side > 0 else 'larger'} ones."
-    values = {"curvature": enclosure_of(curve), "slope": enclosure_of(push)}
-    return _claim(
-        kind, f"of {label} transversal", words, abs(side), reason="a derivative may vanish", enclosures=values
+        slope = -point.moved().closing[1] / point.course.back.closing_rate
+        shift = point.moved(slope).discriminant[1]
+    words = (
+        "The discriminant of the radial speeds passes through zero with this slope, not zero, and the period is simple."
     )
+    return [point.claim("transversal", words, abs(decided(shift)), slope=shift)]
 
 
-def _flip_claims(label: str, course: Course) -> list[Claim]:
-    trace, _, determinant = course.invariants
+def _fold_claims(point: Point) -> list[Claim]:
+    with terms(3):
+        curve = point.moved(1, by=0).closing[2] * 2
+    with terms(2):
+        push = point.moved().closing[1]
+    side, name = -decided(curve) * decided(push), point.line.name
+    both, none = ("larger", "smaller") if side > 0 else ("smaller", "larger")
+    words = f"It is a quadratic fold: d2F1/dT2 and the derivative of F1 by {name} are not zero. Both periods exist for "
+    words += f"{both} values of {name} next to it, and none for {none} ones."
+    return [point.claim("transversal", words, abs(side), "a derivative may vanish", curvature=curve, slope=push)]
+
+
+def _flip_claims(point: Point) -> list[Claim]:
+    trace, _, determinant = point.course.invariants
     # The other two multipliers have the sum τ + 1 and the product −D.
     total, product = trace + 1, -determinant
     signs = [decided(x) for x in (1 - total + product, 1 + total + product, 1 - product, 1 + product)]
     others = min(signs)
-    coefficient = flip_coefficient(course)
+    coefficient = flip_coefficient(point.course)
     # The normal form needs that no other multiplier is on the unit circle.
     sign = decided(coefficient) if 0 not in signs else 0
     words = "super" if sign > 0 else "sub"
     born = "born stable" if sign > 0 and others > 0 else "unstable"
     return [
-        _claim(
-            "period-doubling",
-            f"of {label} simple",
+        point.claim(
+            "simple",
             "The other two multipliers lie inside the unit circle.",
             others,
-            reason="one of them is outside" if others < 0 else "whether they lie inside is open",
+            "one of them is outside" if others < 0 else "whether they lie inside is open",
         ),
-        _claim(
-            "period-doubling",
-            f"of {label} {words}critical" if sign else f"of {label} critical",
+        point.claim(
+            f"{words}critical" if sign else "critical",
             f"It is {words}critical: on the centre manifold the impact map is x -> -x + b x^3 with this b, not zero. Orbits of "
             f"twice the period next to it are {born}, as far as they stay inside the wall.",
             abs(sign),
-            reason="the sign of b is open, or another multiplier may be on the unit circle",
-            enclosures={"b": enclosure_of(coefficient)},
+            "the sign of b is open, or another multiplier may be on the unit circle",
+            b=coefficient,
         ),
     ]
 
 
-def _torus_claim(label: str, course: Course) -> Claim:
-    trace, _, determinant = course.invariants
+def _torus_claim(point: Point) -> Claim:
+    trace, _, determinant = point.course.invariants
     total = trace - determinant
     strong = [decided(total - k) for k in (-2, -1, 0, 1, 2)]
     sign = 1 if abs(total) < 2 and 0 not in strong[1:3] else -1 if abs(total) > 2 else 0
-    return _claim(
-        "neimark-sacker",
-        f"of {label} complex",
+    return point.claim(
+        "complex",
         "A conjugate pair of multipliers lies on the unit circle, with this sum; it is at no resonance 1:1, 1:2, 1:3 or 1:4.",
         sign,
-        reason="the two multipliers are real: this is no Neimark-Sacker bifurcation"
+        "the two multipliers are real: this is no Neimark-Sacker bifurcation"
         if sign < 0
         else "it may be at a strong resonance",
-        enclosures={"pair_sum": enclosure_of(total)},
+        pair_sum=total,
     )
 
 
-def _shrinking_claims(line: Line, label: str, course: Course, at: Mapping[str, Any]) -> list[Claim]:
-    slope, reach = _rates(line, course, at["value"])[1], real(course.back.lever)
+def _shrinking_claims(point: Point) -> list[Claim]:
+    slope, reach = point.rates[1], real(point.course.back.lever)
     side = decided(reach)
-    words = "subcritical" if side < 0 else "supercritical"
-    where = "inside" if side < 0 else "outside"
-    values = {"speed_slope": enclosure_of(slope), "reach": enclosure_of(reach)}
+    words, where = ("subcritical", "inside") if side < 0 else ("supercritical", "outside")
+    grows = f"Its radial speed grows from zero by {point.line.name} with this slope, not zero."
+    means = (
+        f"It is {words}: next to it the small cycle has a positive radial speed where the contact-free equilibrium is {where} "
+        "the wall, as Re(q a12) has this sign."
+    )
+    open_ = "the sign of the slope is open"
     return [
-        _claim(
-            "non-smooth-hopf",
-            f"of {label} transversal",
-            f"Its radial speed grows from zero by {line.name} with this slope, not zero.",
-            abs(decided(slope)),
-            reason="the sign of the slope is open",
-            enclosures=values,
-        ),
-        _claim(
-            "non-smooth-hopf",
-            f"of {label} {words}" if side else f"of {label} critical",
-            f"It is {words}: next to it the small cycle has a positive radial speed where the contact-free equilibrium is {where} "
-            "the wall, as Re(q a12) has this sign.",
-            abs(side),
-            reason="the sign of Re(q a12) is open",
-        ),
+        point.claim("transversal", grows, abs(decided(slope)), open_, speed_slope=slope, reach=reach),
+        point.claim(words if side else "critical", means, abs(side), "the sign of Re(q a12) is open"),
     ]
 
 
-def _motion_claim(kind: str, label: str, course: Course, at: Mapping[str, Any]) -> Claim:
+def _motion_claim(point: Point) -> Claim:
     """Claim that the orbit there is a motion of the machine, but for what the point itself is about."""
+    kind, course = point.kind, point.course
     small = kind == "non-smooth-hopf"
     outward = 1 if small else decided(course.speed)
     free = course.back.numbers.mu.is_zero()
     slip = 1 if kind == "slip-stop" or free else decided(course.slip_after)
-    stays = inside(course, lambda function: first(function(course)), at.get("touch")) if outward > 0 else None
+    touch = point.at.get("touch")
+    stays = inside(course, lambda function: first(function(course)), touch) if outward > 0 else None
     sign = min(outward, slip, {True: 1, False: -1, None: 0}[stays]) if outward > 0 else outward
     what = "The small cycles next to it are motions" if small else "The orbit there is a motion"
     statement = f"{what} of the machine: inside the wall between the impacts{', but for the touch' if kind == 'grazing' else ''}."
-    return _claim(kind, f"of {label} motion", statement, sign, reason="it is virtual" if sign < 0 else "this is open")
+    return point.claim("motion", statement, sign, "it is virtual" if sign < 0 else "this is open")

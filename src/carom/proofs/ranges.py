@@ -7,11 +7,12 @@ parameter and blocks share their ends, an orbit keeps its name along a stretch.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from functools import partial, reduce
 from itertools import groupby, pairwise
-from math import floor, log2
+from math import ceil, floor, log2
 from typing import Any
 
 from carom.progress import Reporter
@@ -56,27 +57,33 @@ class Stretch:
     @property
     def inner(self) -> tuple[str, str]:
         """Its ends in decimal numbers, rounded inward where it is proven, else outward."""
-        return _decimal(self.low, not self.reason), _decimal(self.high, bool(self.reason))
+        return _written(self.low, self.high, inward=not self.reason)
 
     @property
     def ends(self) -> str:
         """The interval between these."""
-        return "[" + ", ".join(self.inner) + "]"
+        return _interval(self.inner)
 
     def fact(self, name: str) -> OrbitFact | None:
         """What holds for an orbit of a name."""
         return next((fact for fact in self.facts or () if fact.name == name), None)
 
 
+def _written(low: Fraction, high: Fraction, *, inward: bool) -> tuple[str, str]:
+    """Both ends as decimal numbers, rounded inward or outward."""
+    return _decimal(low, inward), _decimal(high, not inward)
+
+
+def _interval(ends: tuple[str, str]) -> str:
+    return f"[{', '.join(ends)}]"
+
+
 def _decimal(value: Fraction, upward: bool) -> str:
     """Decimal number of 12 places on one side of a number."""
     scale = 10**12
-    scaled = (
-        -(-value.numerator * scale // value.denominator) if upward else value.numerator * scale // value.denominator
-    )
+    scaled = ceil(value * scale) if upward else floor(value * scale)
     whole, places = divmod(abs(scaled), scale)
-    text = f"{'-' if scaled < 0 else ''}{whole}.{places:012d}"
-    return text.rstrip("0").rstrip(".")
+    return f"{'-' if scaled < 0 else ''}{whole}.{places:012d}".rstrip("0").rstrip(".")
 
 
 def range_claims(rotor: Rotor, evidence: Evidence, options: Any) -> list[Claim]:
@@ -119,7 +126,7 @@ def _cuts(line: Line, most: int, narrowest: Fraction, tell: Reporter) -> list[li
     while place < high or len(found) == 1:
         end = high if place + step * Fraction(21, 20) >= high else _short(place + step, step)
         try:
-            _decided_facts(line, place, end)
+            _facts(line, place, end, decided=True)
         except OpenError as problem:
             if len(found) < most and step > skip:
                 step = max(step / 2, skip)
@@ -144,27 +151,17 @@ def _short(number: Fraction, step: Fraction) -> Fraction:
     return Fraction(round(number * scale), scale)
 
 
-def _facts(line: Line, low: Fraction, high: Fraction) -> tuple[OrbitFact, ...]:
+def _facts(line: Line, low: Fraction, high: Fraction, *, decided: bool) -> tuple[OrbitFact, ...]:
+    """What holds for all orbits on a block; :class:`OpenError` if their number, or on request one of these facts, is not decided."""
     block = Block(line, interval(low, low), interval(high, high))
     try:
-        return tuple(orbits_on(block, first_cells(block)))
+        facts = tuple(orbits_on(block, first_cells(block)))
     except (ArithmeticError, ValueError) as problem:
         # Series cannot be divided where their first term may vanish.
         raise OpenError(f"a formula has a pole next to it: {problem}") from None
-
-
-def _decided_facts(line: Line, low: Fraction, high: Fraction) -> tuple[OrbitFact, ...]:
-    facts = _facts(line, low, high)
-    for doubt in filter(None, (fact.doubt for fact in facts)):
+    for doubt in filter(None, (fact.doubt for fact in facts if decided)):
         raise OpenError(doubt)
     return facts
-
-
-def _facts_if_counted(line: Line, low: Fraction, high: Fraction) -> tuple[OrbitFact, ...] | None:
-    try:
-        return _facts(line, low, high)
-    except OpenError:
-        return None
 
 
 def _pieces(line: Line, cuts: Sequence[Sequence[str]], most: int, tell: Reporter) -> list[Stretch]:
@@ -177,12 +174,13 @@ def _pieces(line: Line, cuts: Sequence[Sequence[str]], most: int, tell: Reporter
         raise NotShownError("a reason of the certificate why a block is open is not one short line")
     found = []
     for before, after, (_, reason) in zip(ends, ends[1:], cuts[1:], strict=False):
+        facts = None
         try:
-            facts = _facts_if_counted(line, before, after) if reason else _decided_facts(line, before, after)
+            facts = _facts(line, before, after, decided=not reason)
         except OpenError as problem:
-            raise NotShownError(
-                f"the certificate does not show what it claims up to {float(after):.9g}: {problem}"
-            ) from None
+            if not reason:
+                told = f"the certificate does not show what it claims up to {float(after):.9g}: {problem}"
+                raise NotShownError(told) from None
         decided = facts is not None and not any(fact.doubt for fact in facts)
         tell(float((after - low) / (high - low)) if high > low else 1.0)
         found.append(Stretch(before, after, facts, "" if decided else str(reason)))
@@ -198,13 +196,14 @@ def _stretches(pieces: Sequence[Stretch]) -> list[Stretch]:
     found = []
     for _, group in groupby(pieces, key=_signature):
         members = list(group)
-        facts = []
-        for same in zip(*(member.facts or () for member in members), strict=True):
-            period, speed = same[0].period, same[0].speed
-            for fact in same[1:]:
-                period, speed = hull(period, fact.period), hull(speed, fact.speed)
-            name, admissible, stable, reason, instability = same[0].signature
-            facts.append(OrbitFact(name, admissible, stable, reason, instability, period, speed))
+        facts = [
+            replace(
+                same[0],
+                period=reduce(hull, (fact.period for fact in same)),
+                speed=reduce(hull, (fact.speed for fact in same)),
+            )
+            for same in zip(*(member.facts or () for member in members), strict=True)
+        ]
         reasons = list(dict.fromkeys(member.reason for member in members if member.reason))
         more = f", and {len(reasons) - 1} more" if len(reasons) > 1 else ""
         counted = None if members[0].facts is None else tuple(facts)
@@ -241,43 +240,39 @@ def _all_claim(line: Line, stretches: Sequence[Stretch], slip: Claim) -> Claim:
 
 def _orbit_claims(line: Line, name: str, stretches: Sequence[Stretch]) -> list[Claim]:
     """Claims about one orbit on the whole interval, with the longest stretch on which each is shown."""
-    return [
-        _whole_claim(line, name, "exists", "its closing conditions have a solution", stretches, lambda fact: True),
-        _whole_claim(
-            line, name, "admissible", "it is a motion of the machine", stretches, lambda fact: fact.admissible
-        ),
-        _whole_claim(
-            line, name, "stable", "all its multipliers lie inside the unit circle", stretches, lambda fact: fact.stable
-        ),
-    ]
-
-
-def _whole_claim(line: Line, name: str, kind: str, words: str, stretches: Sequence[Stretch], holds: Any) -> Claim:
-    told: list[tuple[bool | None, Stretch]] = []
-    for stretch in stretches:
-        fact = stretch.fact(name)
-        value = holds(fact) if fact else None if stretch.facts is None else False
-        told.append((value, stretch))
-    runs = [(value, [stretch for _, stretch in group]) for value, group in groupby(told, key=lambda entry: entry[0])]
-    shown = [run for value, run in runs if value]
-    longest = max(shown, key=lambda run: run[-1].high - run[0].low, default=None)
-    enclosures: dict[str, Enclosure] = {}
-    reasons = []
-    if longest:
-        widest = Stretch(longest[0].low, longest[-1].high, (), "")
-        enclosures = {
-            name: Enclosure(end, end, (Fraction(end), Fraction(end)))
-            for name, end in zip(("from", "to"), widest.inner, strict=True)
+    kinds: dict[str, tuple[str, Callable[[OrbitFact], bool | None]]] = {
+        "exists": ("its closing conditions have a solution", lambda fact: True),
+        "admissible": ("it is a motion of the machine", lambda fact: fact.admissible),
+        "stable": ("all its multipliers lie inside the unit circle", lambda fact: fact.stable),
+    }
+    claims = []
+    for kind, (words, holds) in kinds.items():
+        runs: dict[bool | None, list[tuple[Fraction, Fraction]]] = {True: [], False: [], None: []}
+        for value, group in groupby(stretches, key=partial(_told, name, holds)):
+            members = list(group)
+            runs[value].append((members[0].low, members[-1].high))
+        where = {
+            value: ", ".join(_interval(_written(*run, inward=value is not None)) for run in found)
+            for value, found in runs.items()
         }
-    told_on = [Stretch(run[0].low, run[-1].high, (), "").ends for run in shown]
-    reasons += [f"shown on {', '.join(told_on)}"] if told_on else []
-    contrary = [Stretch(run[0].low, run[-1].high, (), "").ends for value, run in runs if value is False]
-    open_ = [Stretch(run[0].low, run[-1].high, (), "open").ends for value, run in runs if value is None]
-    reasons += [f"the contrary on {', '.join(contrary)}"] if contrary else []
-    reasons += [f"open on {', '.join(open_)}"] if open_ else []
-    status: Status = "refuted" if contrary else "undecided" if open_ else "proven"
-    statement = f"For all {line.words}, {words}."
-    return Claim(name, kind, statement, status, "" if status == "proven" else "; ".join(reasons), enclosures)
+        enclosures: dict[str, Enclosure] = {}
+        if runs[True]:
+            ends = _written(*max(runs[True], key=lambda run: run[1] - run[0]), inward=True)
+            enclosures = {
+                side: Enclosure(end, end, (Fraction(end),) * 2) for side, end in zip(("from", "to"), ends, strict=True)
+            }
+        headings = {True: "shown on", False: "the contrary on", None: "open on"}
+        reason = "; ".join(f"{told} {where[value]}" for value, told in headings.items() if where[value])
+        status: Status = "refuted" if runs[False] else "undecided" if runs[None] else "proven"
+        reason = "" if status == "proven" else reason
+        claims.append(Claim(name, kind, f"For all {line.words}, {words}.", status, reason, enclosures))
+    return claims
+
+
+def _told(name: str, holds: Callable[[OrbitFact], bool | None], stretch: Stretch) -> bool | None:
+    """Whether something holds for an orbit on a stretch; ``None`` if this is open."""
+    fact = stretch.fact(name)
+    return holds(fact) if fact else None if stretch.facts is None else False
 
 
 def _stretch_claim(line: Line, stretch: Stretch) -> Claim:
@@ -286,18 +281,12 @@ def _stretch_claim(line: Line, stretch: Stretch) -> Claim:
     if stretch.reason:
         statement = "The orbits with one impact a period and what they are do not change."
         return claim_of(about, "orbits", statement, 0, reason=stretch.reason, limited=False)
-    told = []
-    for fact in stretch.facts or ():
-        nature = ["motion of the machine" if fact.admissible else f"no motion ({fact.reason})"]
-        nature.append("stable" if fact.stable else f"unstable ({fact.instability})")
-        told.append(f"{fact.name}: {', '.join(nature)}")
-    enclosures: dict[str, Enclosure] = {}
-    for fact in stretch.facts or ():
-        enclosures |= {
-            f"{fact.name}{PERIOD}": enclosure_of(fact.period),
-            f"{fact.name} radial_speed": enclosure_of(fact.speed),
-        }
+    told, enclosures, facts = [], {}, stretch.facts or ()
+    for fact in facts:
+        motion = "motion of the machine" if fact.admissible else f"no motion ({fact.reason})"
+        told.append(f"{fact.name}: {motion}, {'stable' if fact.stable else f'unstable ({fact.instability})'}")
+        enclosures[f"{fact.name}{PERIOD}"] = enclosure_of(fact.period)
+        enclosures[f"{fact.name} radial_speed"] = enclosure_of(fact.speed)
     statement = "The closing conditions have exactly these solutions, and each keeps its properties: "
     claim = claim_of(about, "orbits", statement + ("; ".join(told) or "none"), 1, enclosures=enclosures, limited=False)
-    motions = tuple(fact.name for fact in stretch.facts or () if fact.admissible)
-    return replace(claim, interval=stretch.inner, motions=motions)
+    return replace(claim, interval=stretch.inner, motions=tuple(fact.name for fact in facts if fact.admissible))

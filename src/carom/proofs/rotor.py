@@ -1,14 +1,7 @@
-"""Closed forms of the planar rotor in ball arithmetic.
+"""A rotor whose numbers are balls, and the conditions of stability.
 
-The phase ``φ`` only turns motions, so every frame here is turned such that the impact of an orbit is at ``U = 1``.
-
-In the fixed frame a deviation from the levitation whirl obeys ``v̈ + γv̇ + ω²v = 0``, which is real.  Its response to an
-impulse, ``h``, with ``h(0) = 0`` and ``h'(0) = 1``, is
-
-    h(t) = e^{−γt/2} S(t),      S(t) = sinh(t√Δ/2)/(√Δ/2),      Δ = γ² − 4ω²,
-
-an entire function of ``Δ``: nothing happens at critical damping.  In the co-rotating frame ``f(t) = e^{−it}h(t)`` obeys
-``f̈ + (γ + 2i)ḟ + χf = 0`` with ``χ = ω² − 1 + iγ``, whence all Taylor coefficients by a recurrence.  With
+The phase ``φ`` only turns motions, so every frame here is turned such that the impact of an orbit is at ``U = 1``.  With
+``f(t) = e^{−it}h(t)``, ``h`` the response of the fixed frame to an impulse (:mod:`carom.proofs.steady`), and
 
     δ(T) = e^{−(γ+2i)T},      D(T) = det(1 − flow over T) = 1 − 2f'(T) − (γ + 2i)f(T) + δ(T),
 
@@ -25,9 +18,10 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Any, NamedTuple
 
-from flint import acb, arb, ctx
+from flint import arb, ctx
 
-from carom.proofs.balls import ball_of, squared
+from carom.proofs.balls import ball_of, enclosures_of
+from carom.proofs.claims import Claim, claim_of
 from carom.proofs.hypotheses import NUMBERS, Hypotheses
 from carom.proofs.lines import Numbers
 
@@ -91,36 +85,13 @@ class Rotor:
     ----------
     bits : int
         Precision.
-    gamma, omega_squared, rho, mu, d, radius_ratio : arb
-    split : arb
-        ``Δ = γ² − 4ω²``.
-    chi, q : acb
-        ``χ = ω² − 1 + iγ`` and ``(1 + d)(1 + iμ)``.
+    numbers : Numbers
+        The numbers of the equations.
     """
 
     def __init__(self, hypotheses: Hypotheses) -> None:
         self.hypotheses, self.bits = hypotheses, ctx.prec
-        self.gamma, self.omega_squared, self.rho, self.mu, self.d, self.radius_ratio = (
-            ball_of(hypotheses.numbers[name]) for name in NUMBERS
-        )
-        self.split = squared(self.gamma) - 4 * self.omega_squared
-        self.chi = acb(self.omega_squared - 1, self.gamma)
-        self.q = (1 + self.d) * acb(1, self.mu)
-
-    @property
-    def numbers(self) -> Numbers:
-        """The numbers of the equations."""
-        return Numbers(*(getattr(self, name) for name in NUMBERS))
-
-    @cached_property
-    def levitation_squared(self) -> Any:
-        """``|U*|²``."""
-        return squared(self.rho) / squared_modulus(self.chi)
-
-    @cached_property
-    def levitation_radius(self) -> Any:
-        """``|U*|``."""
-        return self.levitation_squared.nonnegative_part().sqrt()
+        self.numbers = Numbers(*(ball_of(hypotheses.numbers[name]) for name in NUMBERS))
 
     @cached_property
     def on_the_wall(self) -> bool:
@@ -131,20 +102,14 @@ class Rotor:
     @cached_property
     def fastest(self) -> float:
         """Modulus of the faster exponent of the co-rotating frame, about."""
-        gamma, split = float(self.gamma.mid()), float(self.split.mid())
-        return abs(gamma) / 2 + abs(complex(split) ** 0.5) / 2 + 1.0
-
-    # ------------------------------------------------------------------------------------------- flight
-
-    def response(self, time: Any) -> tuple[Any, Any]:
-        """``h`` and ``h'`` at a time, real."""
-        return response_of(self.gamma, self.split, time)
+        gamma, split = float(self.numbers.gamma.mid()), float(self.numbers.split.mid())
+        return abs(gamma) / 2 + abs(complex(split) ** 0.5) + 1.0
 
     def pole_in(self, period: Any) -> bool:
         """Whether ``D`` is known to vanish once, inside a ball: at a resonance, without damping."""
         if self.hypotheses.rational("gamma") != (Fraction(0),):
             return False
-        frequency = self.omega_squared.sqrt()
+        frequency = self.numbers.omega_squared.sqrt()
         turns = [period * (1 + sign * frequency) / (2 * arb.pi()) for sign in (1, -1)]
         whole = [turn.unique_fmpz() for turn in turns]
         apart = sum(not turn.contains_integer() for turn in turns) == 1
@@ -153,27 +118,7 @@ class Rotor:
             for number, sign in zip(whole, (1, -1), strict=True)
         )
 
-
-def response_of(gamma: Any, split: Any, time: Any) -> tuple[Any, Any]:
-    """``h`` and ``h'`` of ``ḧ + γḣ + ω²h = 0`` with ``h(0) = 0``, ``h'(0) = 1`` and ``split`` = ``γ² − 4ω²``."""
-    half = gamma * time / 2
-    squared_phase = split * squared(time) / 4
-    if split < 0:
-        phase = (-squared_phase).sqrt()
-        decay = (-half).exp()
-        cosine, response = phase.cos(), time * phase.sinc()
-    elif split > 0 and squared_phase > 1:
-        # No growing exponential: the slower rate is a quotient, not a difference.
-        rate = split.sqrt() / 2
-        slow, fast = (-(half - rate * time)).exp(), (-(half + rate * time)).exp()
-        return (slow - fast) / (2 * rate), (slow + fast) / 2 - gamma * (slow - fast) / (4 * rate)
-    else:
-        decay = (-half).exp()
-        cosine = (squared_phase / 4).hypgeom_0f1(arb(1) / 2)
-        response = time * (squared_phase / 4).hypgeom_0f1(arb(3) / 2)
-    return decay * response, decay * (cosine - gamma * response / 2)
-
-
-def squared_modulus(number: Any) -> Any:
-    """``|z|²``."""
-    return squared(number.real) + squared(number.imag)
+    def claim(self, about: str, kind: str, statement: str, sign: int, reason: str = "", **balls: Any) -> Claim:
+        """Claim about it, with enclosures of those balls that are bounded; more bits may decide what is undecided of one machine."""
+        values, limited = enclosures_of(**balls), self.hypotheses.exact
+        return claim_of(about, kind, statement, sign, reason=reason, enclosures=values, limited=limited)

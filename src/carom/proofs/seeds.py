@@ -35,47 +35,24 @@ def doubles_of(hypotheses: Hypotheses) -> Parameters:
     return numbers.replace(**changes)
 
 
-def point_seeds(line: Line) -> list[tuple[str, str, list[float]]]:
-    """Bifurcation points along a parameter: their kinds, the motions and guesses of the unknowns."""
+def point_seeds(line: Line) -> list[tuple[str, str, dict[str, float]]]:
+    """Bifurcation points along a parameter: their kinds, the motions and guesses of all that may be unknown."""
     low, high = (float(end) for end in line.ends)
-    found: list[tuple[str, str, list[float]]] = []
     if not low < high:
         # Doubles cannot tell the ends apart.
-        return found
+        return []
+    found = []
     for point in find_bifurcations(doubles_of(line.hypotheses), line.name, (low, high)).points:
-        period, speed, value = point.period, point.radial_speed, point.value
-        guess = {
-            "fold": [period, value],
-            "speed-fold": [period, value],
-            "non-smooth-hopf": [period, value],
-            "boundary-equilibrium": [value],
-            "rub-fold": [value],
-            "grazing": [_touch(line, period, speed, value), period, speed, value],
-        }.get(point.kind, [period, speed, value])
-        if point.kind in KNOWN and not point.name.startswith("R"):
-            found.append((point.kind, str(point.name), [float(x) for x in guess]))
+        at = {name: float(getattr(point, name)) for name in ("period", "radial_speed", "value")}
+        at["touch"] = _touch(line, **at) if point.kind == "grazing" else 0.0
+        if not point.name.startswith("R"):
+            found.append((point.kind, str(point.name), at))
     return found
 
 
-KNOWN = (
-    "fold",
-    "speed-fold",
-    "period-doubling",
-    "neimark-sacker",
-    "slip-stop",
-    "grazing",
-    "non-smooth-hopf",
-    "boundary-equilibrium",
-    "rub-fold",
-)
-"""Kinds of points with an extended system."""
-
-
-def _touch(line: Line, period: float, speed: float, value: float) -> float:
+def _touch(line: Line, period: float, radial_speed: float, value: float) -> float:
     """Time of the highest point between the impacts, away from both."""
-    if not (np.isfinite(period) and np.isfinite(speed)):
-        return 0.0
-    course = Course(Return(line.at(arb(value)), arb(period)), arb(speed))
+    course = Course(Return(line.at(arb(value)), arb(period)), arb(radial_speed))
     heights = [float(course.height(arb(period * k / _SAMPLES))[0].mid()) for k in range(_SAMPLES + 1)]
     tops = [k for k in range(1, _SAMPLES) if heights[k - 1] <= heights[k] >= heights[k + 1]]
     return period * max(tops, key=lambda k: heights[k], default=_SAMPLES // 2) / _SAMPLES

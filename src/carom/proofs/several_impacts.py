@@ -3,18 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from fractions import Fraction
+from functools import partial
 from typing import Any
 
-from flint import ctx
-
-from carom.proofs.balls import decided, enclosure_of, exact_ends, rational
+from carom.proofs.balls import decided, enclosure_of
 from carom.proofs.claims import Claim, claim_of
-from carom.proofs.evidence import Evidence, NotShownError, rational_of
-from carom.proofs.krawczyk import enclosed_zero, newton
+from carom.proofs.evidence import Evidence, NotShownError
+from carom.proofs.krawczyk import found_zero, shown_zero
+from carom.proofs.lines import Numbers
 from carom.proofs.rotor import Rotor
 from carom.proofs.seeds import shooting_seeds
-from carom.proofs.words import UNKNOWNS, Flights, ShootingOrbit
+from carom.proofs.words import UNKNOWNS, ShootingOrbit, equations_of
 
 MOST_IMPACTS = 24
 """Impacts a period up to which orbits can be proven."""
@@ -22,14 +21,13 @@ MOST_IMPACTS = 24
 
 def several_impact_claims(rotor: Rotor, evidence: Evidence, options: Any) -> list[Claim]:
     """Claims about periodic motions with 2 to ``impacts`` impacts a period, an option."""
-    flights = Flights(rotor.numbers)
-    found = evidence.take("orbits", lambda: list(_searched(rotor, flights, int(options["impacts"]))))
+    found = evidence.take("orbits", lambda: list(_searched(rotor, int(options["impacts"]))))
     if any(len(entry["centre"]) > 4 * int(options["impacts"]) for entry in found):
         raise NotShownError("the certificate has an orbit with more impacts than its options")
     claims: list[Claim] = []
     known: list[ShootingOrbit] = []
     for number, entry in enumerate(found, 1):
-        orbit = _shown(flights, f"orbit {number}", entry)
+        orbit = _shown(rotor.numbers, f"orbit {number}", entry)
         if any(_same(orbit, other) for other in known):
             raise NotShownError(f"the certificate lists an orbit twice: orbit {number}")
         known.append(orbit)
@@ -37,30 +35,23 @@ def several_impact_claims(rotor: Rotor, evidence: Evidence, options: Any) -> lis
     return claims
 
 
-def _searched(rotor: Rotor, flights: Flights, impacts: int) -> Iterator[dict[str, Any]]:
+def _searched(rotor: Rotor, impacts: int) -> Iterator[dict[str, Any]]:
     """Centres and widths of boxes with exactly one solution, each orbit once."""
     known: list[ShootingOrbit] = []
+    system = partial(equations_of, rotor.numbers)
     for guess in shooting_seeds(rotor.hypotheses, impacts):
-        centre = newton(flights.equations, guess)
-        found = None if centre is None else enclosed_zero(flights.equations, centre)
-        if centre is None or found is None:
+        found = found_zero(system, guess)
+        if found is None:
             continue
-        orbit = _orbit_of(flights, found[0])
+        orbit = _orbit_of(rotor.numbers, found[1])
         if orbit.outward() <= 0 or orbit.repeats() is not False or any(_same(orbit, other) for other in known):
             continue
         known.append(orbit)
-        digits = ctx.prec
-        yield {"centre": [_text(x, digits) for x in centre], "width": found[1]}
+        yield found[0]
 
 
-def _text(ball: Any, bits: int) -> str:
-    """An exact ball as a fraction with a power of two below."""
-    value = exact_ends(ball)[0]
-    return str(Fraction(round(value * 2**bits), 2**bits))
-
-
-def _orbit_of(flights: Flights, balls: Sequence[Any]) -> ShootingOrbit:
-    return ShootingOrbit(flights, tuple(tuple(balls[k : k + 4]) for k in range(0, len(balls), 4)))
+def _orbit_of(numbers: Numbers, balls: Sequence[Any]) -> ShootingOrbit:
+    return ShootingOrbit(numbers, tuple(tuple(balls[k : k + 4]) for k in range(0, len(balls), 4)))
 
 
 def _same(one: ShootingOrbit, other: ShootingOrbit) -> bool:
@@ -79,17 +70,16 @@ def _same(one: ShootingOrbit, other: ShootingOrbit) -> bool:
     return False
 
 
-def _shown(flights: Flights, name: str, entry: Mapping[str, Any]) -> ShootingOrbit:
+def _shown(numbers: Numbers, name: str, entry: Mapping[str, Any]) -> ShootingOrbit:
     """Enclosure of the orbit of an entry of the evidence."""
     if set(entry) != {"centre", "width"}:
         raise NotShownError(f"the certificate must give a centre and a width of {name}")
-    centre = [rational(rational_of(text)).mid() for text in entry["centre"]]
-    if len(centre) % 4 or not 8 <= len(centre) <= 4 * MOST_IMPACTS:
+    if len(entry["centre"]) % 4 or not 8 <= len(entry["centre"]) <= 4 * MOST_IMPACTS:
         raise NotShownError(f"the certificate has no orbit of 2 to {MOST_IMPACTS} impacts as {name}")
-    found = enclosed_zero(flights.equations, centre, int(entry["width"]))
+    found = shown_zero(partial(equations_of, numbers), entry)
     if found is None:
         raise NotShownError(f"the certificate does not show {name}")
-    return _orbit_of(flights, found[0])
+    return _orbit_of(numbers, found)
 
 
 def _claims_of(name: str, orbit: ShootingOrbit) -> list[Claim]:
@@ -112,7 +102,7 @@ def _claims_of(name: str, orbit: ShootingOrbit) -> list[Claim]:
 
 def _admissible_claim(name: str, orbit: ShootingOrbit) -> Claim:
     signs = {"it would meet the wall from outside": orbit.outward()}
-    if not orbit.flights.numbers.mu.is_zero():
+    if not orbit.numbers.mu.is_zero():
         signs["friction would stop its slip, or its slip is backward"] = min(map(decided, orbit.slip_after()))
     if min(signs.values()) > 0:
         signs["it would cross the wall between its impacts"] = {True: 1, False: -1, None: 0}[orbit.stays_inside()]

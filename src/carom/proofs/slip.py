@@ -17,11 +17,10 @@ from fractions import Fraction
 
 from flint import arb
 
-from carom.proofs.balls import exact_ends, rational, squared
+from carom.proofs.balls import exact_ends, rational
 from carom.proofs.claims import Claim, claim_of
 from carom.proofs.evidence import Evidence, NotShownError, rational_of
 from carom.proofs.lines import Numbers
-from carom.proofs.rotor import Rotor
 
 STEPS = 64
 STATEMENT = (
@@ -30,36 +29,36 @@ STATEMENT = (
 )
 
 
-def slip_claim(rotor: Rotor | Numbers, evidence: Evidence, statement: str = STATEMENT) -> Claim:
+def slip_claim(n: Numbers, evidence: Evidence, statement: str = STATEMENT) -> Claim:
     """Claim that no orbit with one impact a period stops its slip or slips backward; of one machine, or all that balls hold."""
-    if rotor.mu.is_zero():
+    if n.mu.is_zero():
         return claim_of("machine", "slip", "There is no friction: slip changes nothing.", 1)
-    found = evidence.take("out of the clearance after", lambda: time_out(rotor))
+    found = evidence.take("out of the clearance after", lambda: time_out(n))
     if found is None:
         reason = "the rotor is so small or so strongly held that it may stay inside after such an impact"
-        if not rotor.gamma >= 0:
+        if not n.gamma >= 0:
             reason = "the argument needs damping that is not negative"
         return claim_of("machine", "slip", statement, 0, reason=reason, limited=False)
-    if not out_of_clearance(rotor, rational_of(found)):
+    if not out_of_clearance(n, rational_of(found)):
         raise NotShownError(f"the certificate does not show that the rotor is out of the clearance after {found}")
     return claim_of("machine", "slip", statement, 1)
 
 
-def out_of_clearance(rotor: Rotor | Numbers, time: Fraction) -> bool:
+def out_of_clearance(n: Numbers, time: Fraction) -> bool:
     """Whether ``b > 1`` at a time of at most half a turn."""
     moment = rational(time)
-    if not (time > 0 and moment <= arb.pi() and rotor.gamma >= 0):
+    if not (time > 0 and moment <= arb.pi() and n.gamma >= 0):
         return False
     # Damping is strongest at the upper end; there e^{−γτ} has its least value.
-    gamma = exact_ends(rotor.gamma)[1]
+    gamma = exact_ends(n.gamma)[1]
     way = (1 - (-rational(gamma) * moment).exp()) / rational(gamma) if gamma else moment
-    return bool(rotor.radius_ratio * way - (rotor.omega_squared + rotor.rho) * squared(moment) / 2 > 1)
+    return bool(n.radius_ratio * way - (n.omega_squared + n.rho) * moment * moment / 2 > 1)
 
 
-def time_out(rotor: Rotor | Numbers) -> str | None:
+def time_out(n: Numbers) -> str | None:
     """A time at which ``b > 1``; ``None`` if none is found."""
     for k in range(1, STEPS + 1):
         time = Fraction(314 * k, 100 * STEPS)
-        if out_of_clearance(rotor, time):
+        if out_of_clearance(n, time):
             return str(time)
     return None

@@ -8,19 +8,22 @@
 ``K = (1 + μ²)N − κ + μγ``, the square root of it for the larger ``N`` and its negative for the smaller.
 
 *Harmless kick.*  A kick of speed ``v`` out of levitation moves the rotor in the fixed frame along its own direction by
-``v h(t)`` with the real response ``h`` of :mod:`carom.proofs.rotor`, at most ``v h(τ)`` with the first turning point
-``τ = (2/γ) x⁻¹ artanh x``, ``x² = Δ/γ²``.  So it stays inside while ``v h(τ) < 1 − |U*|``.
+``v h(t)`` with the real response ``h`` to an impulse, ``ḧ + γḣ + ω²h = 0``, ``h(0) = 0`` and ``ḣ(0) = 1``: at most by ``v h(τ)`` with the
+first turning point ``τ = (2/γ) x⁻¹ artanh x``, ``x² = 4D/γ²`` and ``D = γ²/4 − ω²``.  So it stays inside while ``v h(τ) < 1 − |U*|``.
 """
 
 from __future__ import annotations
 
+from functools import partial
 from typing import Any
 
 from flint import arb
 
-from carom.proofs.balls import decided, enclosures_of, squared
+from carom.proofs.balls import decided
 from carom.proofs.claims import Claim, claim_of
-from carom.proofs.rotor import Rotor, squared_modulus
+from carom.proofs.lines import Numbers
+from carom.proofs.rotor import Rotor
+from carom.proofs.series import hyperbolic, squared
 
 
 def steady_claims(rotor: Rotor) -> list[Claim]:
@@ -29,25 +32,20 @@ def steady_claims(rotor: Rotor) -> list[Claim]:
 
 
 def _levitation_claims(rotor: Rotor) -> list[Claim]:
-    square = rotor.levitation_squared
-    inside = -1 if rotor.on_the_wall else decided(1 - square)
-    reason = (
-        "it lies on the wall"
-        if rotor.on_the_wall
-        else "it lies outside the wall"
-        if inside
-        else "the sign of |U*| - 1 could not be shown"
-    )
-    damping = rotor.hypotheses.numbers["gamma"]
+    radius, damping = rotor.numbers.levitation, rotor.hypotheses.numbers["gamma"]
+    inside, reason = decided(1 - radius), "the sign of |U*| - 1 could not be shown"
+    if rotor.on_the_wall:
+        inside, reason = -1, "it lies on the wall"
+    elif inside:
+        reason = "it lies outside the wall"
     return [
-        claim_of(
+        rotor.claim(
             "levitation",
             "inside",
             "The contact-free equilibrium lies inside the wall, |U*| < 1.",
             inside,
-            reason=reason,
-            enclosures=enclosures_of(radius=rotor.levitation_radius),
-            limited=rotor.hypotheses.exact,
+            reason,
+            radius=radius,
         ),
         claim_of(
             "levitation",
@@ -62,57 +60,64 @@ def _levitation_claims(rotor: Rotor) -> list[Claim]:
 
 def _rub_claims(rotor: Rotor) -> list[Claim]:
     """Claims about both synchronous rubs, that of the larger normal force first."""
-    kappa = 1 - rotor.omega_squared
-    square = squared(rotor.rho) * (1 + squared(rotor.mu)) - squared(rotor.gamma + rotor.mu * kappa)
-    claims = []
-    for name, side in (("rub 1", 1), ("rub 2", -1)):
-        claims += _claims_of_rub(rotor, name, side, square, kappa - rotor.mu * rotor.gamma)
-    return claims
+    return [claim for name, side in (("rub 1", 1), ("rub 2", -1)) for claim in _claims_of_rub(rotor, name, side)]
 
 
-def _claims_of_rub(rotor: Rotor, name: str, side: int, square: Any, half: Any) -> list[Claim]:
+def _claims_of_rub(rotor: Rotor, name: str, side: int) -> list[Claim]:
+    n = rotor.numbers
+    square, half = rub_discriminant(n), rub_balance(n)
     sign = _sign_of_square(rotor, square)
-    exists = claim_of(
+    which = "larger" if side > 0 else "smaller"
+    exists = rotor.claim(
         name,
         "solution",
-        "The balance of forces of a synchronous rub has two solutions; this is that of the "
-        f"{'larger' if side > 0 else 'smaller'} normal force.",
+        f"The balance of forces of a synchronous rub has two solutions; this is that of the {which} normal force.",
         sign,
-        reason="no rub is in balance, or both are one" if sign < 0 else "the rubs may meet in a fold",
-        limited=rotor.hypotheses.exact,
+        "no rub is in balance, or both are one" if sign < 0 else "the rubs may meet in a fold",
     )
     if exists.status != "proven":
         return [exists]
     root = square.sqrt()
-    force = (half + side * root) / (1 + squared(rotor.mu))
+    force = (half + side * root) / (1 + n.mu * n.mu)
     if half * side < 0:
         # The form without cancellation.
-        force = (squared_modulus(rotor.chi) - squared(rotor.rho)) / (half - side * root)
+        force = wall_condition(n) / (half - side * root)
         force = arb(0) if rotor.on_the_wall else force
-    pressed = claim_of(
+    pushes = decided(force) or (-1 if force.is_zero() else 0)
+    pressed = rotor.claim(
         name,
         "pressed",
         "The wall pushes the rotor there: its normal force is positive.",
-        decided(force) or (-1 if force.is_zero() else 0),
-        reason="the wall would have to pull, or does not push"
-        if force <= 0
-        else "the sign of its normal force is open",
-        enclosures=enclosures_of(normal_force=force),
-        limited=rotor.hypotheses.exact,
+        pushes,
+        "the wall would have to pull, or does not push" if force <= 0 else "the sign of its normal force is open",
+        normal_force=force,
     )
     given = rotor.hypotheses.rational("gamma", "mu")
-    damping = -1 if given and given[0] + 2 * given[1] == 0 else decided(rotor.gamma + 2 * rotor.mu)
-    attracts = claim_of(
+    damping = -1 if given and given[0] + 2 * given[1] == 0 else decided(n.gamma + 2 * n.mu)
+    attracts = rotor.claim(
         name,
         "attracts sliding",
         "It is a motion of the machine, and small disturbances along the wall die out.",
-        min(side, damping, {"proven": 1, "refuted": -1, "undecided": 0}[pressed.status]),
-        reason="it is a saddle along the wall"
-        if side < 0
-        else "it is not pressed on the wall, or sliding is not damped",
-        limited=rotor.hypotheses.exact,
+        min(side, damping, pushes),
+        "it is a saddle along the wall" if side < 0 else "it is not pressed on the wall, or sliding is not damped",
     )
     return [exists, pressed, attracts]
+
+
+def wall_condition(n: Numbers) -> Any:
+    """``(ω² − 1)² + γ² − ρ²``: zero where ``|U*| = 1``."""
+    return squared(n.product) - n.rho * n.rho
+
+
+def rub_discriminant(n: Numbers) -> Any:
+    """``ρ²(1 + μ²) − (γ + μκ)²``: a quarter of the discriminant of both rubs."""
+    pull = n.gamma + n.mu * (1 - n.omega_squared)
+    return n.rho * n.rho * (1 + n.mu * n.mu) - pull * pull
+
+
+def rub_balance(n: Numbers) -> Any:
+    """``κ − μγ``, which decides what becomes of levitation where it meets the wall."""
+    return 1 - n.omega_squared - n.mu * n.gamma
 
 
 def _sign_of_square(rotor: Rotor, square: Any) -> int:
@@ -128,30 +133,28 @@ def _sign_of_square(rotor: Rotor, square: Any) -> int:
 def _kick_claim(rotor: Rotor) -> Claim:
     """Claim that kicks below a speed are harmless; without damping or with it, and refuted where no speed is small enough."""
     statement = "The rotor levitates inside the wall, and no kick out of levitation slower than the lower number brings it to the wall."
-    room = 1 - rotor.levitation_radius
+    room = 1 - rotor.numbers.levitation
     damping = rotor.hypotheses.numbers["gamma"]
+    claim = partial(rotor.claim, "kick", "harmless", statement)
     if rotor.on_the_wall or room < 0 or damping.high < 0:
-        reason = "it does not levitate inside the wall, or any kick grows"
-        return claim_of("kick", "harmless", statement, -1, reason=reason)
+        return claim(-1, "it does not levitate inside the wall, or any kick grows")
     if not (room > 0 and damping.low >= 0):
-        reason = "it may not levitate inside the wall, or a kick may grow"
-        return claim_of("kick", "harmless", statement, 0, reason=reason, limited=rotor.hypotheses.exact)
-    speed = room / _largest_response(rotor)
+        return claim(0, "it may not levitate inside the wall, or a kick may grow")
+    speed = room / _largest_response(rotor.numbers)
     if not (speed.is_finite() and speed > 0):
-        reason = "the largest response to a kick could not be enclosed"
-        return claim_of("kick", "harmless", statement, 0, reason=reason, limited=rotor.hypotheses.exact)
-    return claim_of("kick", "harmless", statement, 1, enclosures=enclosures_of(speed=speed))
+        return claim(0, "the largest response to a kick could not be enclosed")
+    return claim(1, speed=speed)
 
 
-def _largest_response(rotor: Rotor) -> Any:
+def _largest_response(n: Numbers) -> Any:
     """``h(τ)``, the largest value of the response."""
-    gamma, split = rotor.gamma, rotor.split
+    half, split = n.gamma / 2, n.split
     if split < 0:
         frequency = (-split).sqrt()
-        time = 2 * arb.atan2(frequency, gamma) / frequency
+        time = arb.atan2(frequency, half) / frequency
     elif split > 0:
         rate = split.sqrt()
-        time = (squared(gamma + rate) / (4 * rotor.omega_squared)).log() / rate
+        time = ((half + rate) * (half + rate) / n.omega_squared).log() / (2 * rate)
     else:
-        time = 2 / gamma * (split / squared(gamma)).hypgeom_2f1(arb(1) / 2, arb(1), arb(3) / 2)
-    return rotor.response(time)[0]
+        time = (split / (half * half)).hypgeom_2f1(arb(1) / 2, arb(1), arb(3) / 2) / half
+    return (-half * time).exp() * hyperbolic(split, time)[1]

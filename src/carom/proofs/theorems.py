@@ -47,7 +47,7 @@ def _single_impact(rotor: Rotor, evidence: Evidence, options: Options) -> list[C
     """Equilibria, and all orbits with one impact a period."""
     longest = options.get("longest_period")
     periods = all_periods(rotor, evidence, None if longest is None else rational_of(longest), int(options["cells"]))
-    slip = slip_claim(rotor, evidence)
+    slip = slip_claim(rotor.numbers, evidence)
     claims = [*steady_claims(rotor), _periods_claim(rotor, periods), slip]
     admissible, doubts = [], []
     if not periods.complete:
@@ -59,11 +59,11 @@ def _single_impact(rotor: Rotor, evidence: Evidence, options: Options) -> list[C
         if not found:
             claims.append(_no_solution(rotor, names, found is not None))
             doubts += [] if found is not None else [f"it is open whether {names} exist"]
-        for orbit in found or ():
-            told, status = orbit_claims(rotor, orbit, evidence)
+        for name, course in (found or {}).items():
+            told, status = orbit_claims(rotor, name, course)
             claims += told
-            admissible += [orbit.name] if status == "proven" else []
-            doubts += [f"it is open whether {orbit.name} is a motion"] if status == "undecided" else []
+            admissible += [name] if status == "proven" else []
+            doubts += [f"it is open whether {name} is a motion"] if status == "undecided" else []
     statement = "The machine has no motion with one impact a period that is synchronous with the shaft."
     if admissible:
         names = ", ".join(sorted(admissible, key=lambda name: (len(name), name)))
@@ -85,7 +85,7 @@ def _periods_claim(rotor: Rotor, periods: Periods) -> Claim:
     reasons = [f"F1 may have roots next to T = {', '.join(places[:MOST_PLACES])}{more}"] if places else []
     if not periods.none_beyond:
         reasons.append(f"periods beyond {float(periods.end):.6g}/Omega were not looked at")
-        if not rotor.gamma > 0:
+        if not rotor.numbers.gamma > 0:
             reasons.append("without damping there is no longest period")
     return claim_of(
         "machine",
@@ -93,14 +93,14 @@ def _periods_claim(rotor: Rotor, periods: Periods) -> Claim:
         f"F1 has exactly {count} root{'' if count == 1 else 's'} T > 0, each of them simple.",
         1 if periods.complete else 0,
         reason="; ".join(reasons),
-        limited=bool(periods.open) and rotor.hypotheses.exact and bool(rotor.gamma > 0),
+        limited=bool(periods.open) and rotor.hypotheses.exact and bool(rotor.numbers.gamma > 0),
     )
 
 
 def _no_solution(rotor: Rotor, names: str, known: bool) -> Claim:
     statement = "The closing conditions of an orbit with one impact a period have solutions at this root of F1."
     reason = "its radial speeds are not real" if known else "its two radial speeds may meet in a fold"
-    return claim_of(names, "solution", statement, -1 if known else 0, reason=reason, limited=rotor.hypotheses.exact)
+    return rotor.claim(names, "solution", statement, -1 if known else 0, reason)
 
 
 THEOREMS: Mapping[str, Theorem] = {

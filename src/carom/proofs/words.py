@@ -19,51 +19,28 @@ from flint import acb, arb, arb_mat
 from carom.proofs.flights import stays_inside
 from carom.proofs.lines import Numbers
 from carom.proofs.rotor import Invariants
-from carom.proofs.series import I, conjugate, hyperbolic, imaginary, real, squared
+from carom.proofs.series import I, conjugate, imaginary, real, squared
 
 UNKNOWNS = ("angle", "radial_speed", "angular_speed", "duration")
 """Unknowns of each impact, in their order."""
 
 
-class Flights:
-    """Flights and impacts of a rotor.
+def equations_of(n: Numbers, *unknowns: Any) -> list[Any]:
+    """Differences between the end of each flight and the state before the next impact."""
+    impacts = [unknowns[k : k + 4] for k in range(0, len(unknowns), 4)]
+    found = []
+    for here, there in zip(impacts, [*impacts[1:], impacts[0]], strict=True):
+        target = (there[0] * I).exp()
+        away, velocity = n.fly(*_leaving(n, here), here[3])
+        gap, speed = away + n.levitation - target, velocity - (there[1] + there[2] * I) * target
+        found += [real(gap), imaginary(gap), real(speed), imaginary(speed)]
+    return found
 
-    Parameters
-    ----------
-    numbers : Numbers
-        Balls.
-    """
 
-    def __init__(self, numbers: Numbers) -> None:
-        n = self.numbers = numbers
-        self.half = acb(-n.gamma / 2, -1)
-        self.split = n.gamma * n.gamma / 4 - n.omega_squared
-        self.product = acb(n.omega_squared - 1, n.gamma)
-        self.levitation = n.rho / abs(self.product)
-        self.q = (1 + n.d) * acb(1, n.mu)
-
-    def fly(self, away: Any, velocity: Any, time: Any) -> tuple[Any, Any]:
-        """Distance from the contact-free equilibrium, and velocity, after a time."""
-        even, odd = hyperbolic(self.split, time)
-        growth = (self.half * time).exp()
-        even, odd = even * growth, odd * growth
-        share = odd * self.half
-        return (even - share) * away + odd * velocity, (even + share) * velocity - odd * away * self.product
-
-    def departure(self, radial: Any, angular: Any) -> Any:
-        """Velocity after an impact in the frame of the contact."""
-        return radial + angular * I - radial * self.q
-
-    def equations(self, *unknowns: Any) -> list[Any]:
-        """Differences between the end of each flight and the state before the next impact."""
-        impacts = [unknowns[k : k + 4] for k in range(0, len(unknowns), 4)]
-        found = []
-        for here, there in zip(impacts, [*impacts[1:], impacts[0]], strict=True):
-            place, target = (here[0] * I).exp(), (there[0] * I).exp()
-            away, velocity = self.fly(place - self.levitation, self.departure(here[1], here[2]) * place, here[3])
-            gap, speed = away + self.levitation - target, velocity - (there[1] + there[2] * I) * target
-            found += [real(gap), imaginary(gap), real(speed), imaginary(speed)]
-        return found
+def _leaving(n: Numbers, impact: Sequence[Any]) -> tuple[Any, Any]:
+    """Distance from the contact-free equilibrium, and velocity, just after an impact."""
+    place = (impact[0] * I).exp()
+    return place - n.levitation, (impact[1] + impact[2] * I - impact[1] * n.q) * place
 
 
 @dataclass(frozen=True)
@@ -72,12 +49,13 @@ class ShootingOrbit:
 
     Attributes
     ----------
-    flights : Flights
+    numbers : Numbers
+        Balls.
     impacts : tuple of tuple of arb
         Enclosures of :data:`UNKNOWNS`.
     """
 
-    flights: Flights
+    numbers: Numbers
     impacts: tuple[tuple[Any, ...], ...]
 
     @property
@@ -93,7 +71,7 @@ class ShootingOrbit:
 
     def slip_after(self) -> list[Any]:
         """Slip velocity after each impact."""
-        n = self.flights.numbers
+        n = self.numbers
         return [n.radius_ratio + 1 + a - n.mu * (1 + n.d) * r for _, r, a, _ in self.impacts]
 
     def stays_inside(self) -> bool | None:
@@ -104,17 +82,13 @@ class ShootingOrbit:
         return False if False in found else None if None in found else True
 
     def _flight_inside(self, here: Sequence[Any], there: Sequence[Any]) -> bool | None:
-        flights = self.flights
-        place, target = (here[0] * I).exp(), (there[0] * I).exp()
-        starts = (
-            (place - flights.levitation, flights.departure(here[1], here[2]) * place),
-            (target - flights.levitation, (there[1] + there[2] * I) * target),
-        )
+        n, target = self.numbers, (there[0] * I).exp()
+        starts = _leaving(n, here), (target - n.levitation, (there[1] + there[2] * I) * target)
 
         def height(time: Any, backward: bool) -> Any:
-            return squared(flights.fly(starts[backward][0], starts[backward][1], time)[0] + flights.levitation) - 1
+            return squared(n.fly(*starts[backward], time)[0] + n.levitation) - 1
 
-        return stays_inside(height, height, here[3], (2 * flights.numbers.d * here[1], 2 * there[1]))
+        return stays_inside(height, height, here[3], (2 * n.d * here[1], 2 * there[1]))
 
     def jacobian(self) -> Any:
         """Derivative of the map over one period on the section before the first impact, over ``(θ, ṙ, θ̇)``; arb_mat."""
@@ -125,19 +99,13 @@ class ShootingOrbit:
 
     def _step(self, here: Sequence[Any], there: Sequence[Any]) -> Any:
         """Derivative of the impact map, with the change of the time of arrival."""
-        flights = self.flights
-        place, target = (here[0] * I).exp(), (there[0] * I).exp()
+        n, place, target = self.numbers, (here[0] * I).exp(), (there[0] * I).exp()
         local = there[1] + there[2] * I
         velocity = local * target
-        force = 2 * flights.half * velocity - flights.product * (target - flights.levitation)
-        starts = (
-            (I * place, I * flights.departure(here[1], here[2]) * place),
-            (acb(0), (1 - flights.q) * place),
-            (acb(0), I * place),
-        )
+        force = 2 * n.half * velocity - n.product * (target - n.levitation)
         columns = []
-        for start in starts:
-            moved, changed = flights.fly(start[0], start[1], here[3])
+        for away, start in ((I * place, I * _leaving(n, here)[1]), (acb(0), (1 - n.q) * place), (acb(0), I * place)):
+            moved, changed = n.fly(away, start, here[3])
             late = -real(conjugate(target) * moved) / there[1]
             turned = imaginary(conjugate(target) * (moved + velocity * late))
             change = conjugate(target) * (changed + force * late) - I * local * turned
@@ -146,7 +114,7 @@ class ShootingOrbit:
 
     def margins(self) -> dict[str, Any]:
         """Conditions of stability (:attr:`~carom.proofs.rotor.Invariants.conditions`)."""
-        n = self.flights.numbers
+        n = self.numbers
         determinant = n.d ** (2 * len(self.impacts)) * (-2 * n.gamma * self.period).exp()
         return Invariants.of(self.jacobian().tolist(), determinant).conditions
 

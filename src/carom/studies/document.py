@@ -23,7 +23,6 @@ from carom.motions.loads import MEASURED, touchdown_loads
 from carom.motions.starts import State
 from carom.motions.trajectories import Trajectory
 from carom.orbits.orbit import Orbit
-from carom.orbits.search import FoundOrbits
 from carom.orbits.single_impact import OrbitSet
 from carom.parameters import MACHINE_FIELDS, LoadLimits, Machine, Parameters, Scales
 from carom.parameters.indentation import gives_way, indentation_of_force, indentation_of_hit
@@ -58,7 +57,7 @@ def orbits_document(
 
 
 @checked
-def found_orbits_document(parameters: Parameters, found: FoundOrbits) -> dict[str, Any]:
+def found_orbits_document(parameters: Parameters, found: OrbitSet) -> dict[str, Any]:
     """Return the document of orbits with at most a number of impacts."""
     return {
         "parameters": parameters.as_dict(),
@@ -67,7 +66,7 @@ def found_orbits_document(parameters: Parameters, found: FoundOrbits) -> dict[st
             {**_orbit(entry, parameters.scales), "word": str(entry.word), "contacts": _contacts(entry)}
             for entry in found
         ],
-        "search": search_document(found.search),
+        "search": search_document(found.search) if found.search else None,
         "argument": found.argument,
     }
 

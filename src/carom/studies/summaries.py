@@ -221,7 +221,7 @@ def simple_motion_rows(
 
 
 def _share(found: AttractorSet | None, name: str) -> str:
-    if found is None or name not in found or not found[name].count:
+    if found is None or name not in {member.name for member in found} or not found[name].count:
         return ""
     return f"{found[name].count} of {len(found.disturbances)}"
 

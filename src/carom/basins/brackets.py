@@ -1,0 +1,156 @@
+"""The bracket that a search for the smallest disturbance that is lost finds."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any, ClassVar
+
+import numpy as np
+
+from carom.basins.shares import CONFIDENCE
+from carom.disturbances.coordinates import TURN
+from carom.outcome import Outcome
+from carom.parameters import Scales
+from carom.results import Result
+
+TOLERANCE = 1e-3
+ROUND = 720
+"""Directions over a full turn among the fresh starts, at the upper end of their sizes."""
+MOST_CHECKS = 8
+"""Number of times that fresh starts may reduce the smallest loss."""
+
+
+@dataclass(frozen=True, repr=False)
+class SmallestLoss(Result):
+    """Bracket of the size at which disturbances begin to be lost.
+
+    Attributes
+    ----------
+    kind : str
+        Kind of the disturbance: ``"kick"``, ``"shock"``, ``"unbalance-step"``, ``"blade-loss"``, ``"release"``, or that of
+        another model; of a kick plane ``"kick"``.
+    size : float or None
+        Smallest lost size found: change of velocity in ``c_r Ω``, peak acceleration in ``c_r Ω²``, change of the
+        eccentricity in ``c_r`` (for the loss of a blade: eccentricity after it), speed along the wall in ``c_r Ω`` (fixed
+        frame), or first coordinate of another model.  ``None`` where none was found.
+    angle : float or None
+        Its direction in rad.  For a kick or shock as in :mod:`carom.disturbances`; for a step the direction from the
+        eccentricity after the step to the one before it, relative to the one after; for the loss of a blade the phase of the
+        unbalance after it; for a release the place on the wall.
+    outcome : Outcome or None
+        Outcome of the motion after it.
+    backward : bool
+        Whether it is a release in backward whirl.
+    recovered : float
+        A smaller size in this direction, within the tolerance, that comes back.
+    all_back : float or None
+        Largest size up to which all starts tried came back: those of the search and ``fresh`` ones.  ``None`` where the
+        smallest starts are lost already.
+    fresh : int
+        Number of starts up to ``all_back`` that are independent of the search: 2,000 drawn uniformly over the area of the
+        disc beyond the harmless size (of releases: over places and speeds), and 720 directions over a full turn at that size.
+    harmless : float
+        Size up to which contact is proven to be impossible in any direction; 0 where nothing is proven.
+    largest : float
+        Largest size searched.
+    tolerance : float
+        Relative width to which the smallest loss is bisected, and angle in rad between the last directions tried.
+    tried : int
+        Number of starts followed.
+    quantity : str
+        Property of the scales by which sizes are converted to SI units.
+    scales : Scales or None
+        Those of the machine.
+    """
+
+    rests_on: ClassVar[tuple[str, ...]] = ("mora2014", "clopper1934")
+
+    kind: str
+    size: float | None
+    angle: float | None
+    outcome: Outcome | None
+    backward: bool
+    recovered: float
+    all_back: float | None
+    fresh: int
+    harmless: float
+    largest: float
+    tolerance: float
+    tried: int
+    quantity: str = ""
+    scales: Scales | None = None
+
+    shown: ClassVar[tuple[str, ...]] = (
+        "kind",
+        "size",
+        "angle",
+        "outcome",
+        "recovered",
+        "all_back",
+        "fresh",
+        "harmless",
+        "largest",
+        "tried",
+    )
+
+    @property
+    def words(self) -> str:
+        """The bracket in a line."""
+        told = {name: self.line_of(name, getattr(self, name)) for name in ("size", "all_back", "harmless", "largest")}
+        lost = f"none lost up to {told['largest']}" if self.size is None else f"smallest lost {told['size']}"
+        back = "" if self.all_back is None else f", all back up to {told['all_back']}"
+        return f"{lost}{back}, harmless up to {told['harmless']}"
+
+    def kind_of(self, name: str) -> str:
+        """Sizes are of one kind."""
+        return (
+            self.quantity if name in ("size", "recovered", "all_back", "harmless", "largest") else super().kind_of(name)
+        )
+
+    @property
+    def share_below(self) -> float:
+        """Share of the disturbances beyond the harmless size and up to ``all_back``, by area, that may be lost: a bound at 95 %.
+
+        ``1 − 0.05^{1/n}`` for ``n`` starts of which none is lost (Clopper and Pearson, one-sided).
+        """
+        drawn = max(self.fresh - ROUND, 0)
+        return -math.expm1(math.log(1.0 - CONFIDENCE) / drawn) if drawn else 1.0
+
+
+class Bracket:
+    """What a search has tried, and the best bracket: a recovered size, the smallest lost size, its direction and its outcome.
+
+    Parameters
+    ----------
+    **given
+        What the search is of: attributes of :class:`SmallestLoss`.
+    """
+
+    turns = 1
+    """Turns of the directions; from the second on they mean backward whirl."""
+
+    def __init__(self, **given: Any) -> None:
+        self.given = given
+        self.tried = 0
+        self.best: tuple[float, float, float, Outcome] | None = None
+
+    def result(self, all_back: float | None, fresh: int) -> SmallestLoss:
+        """Result of the search so far; ``all_back`` is the largest size up to which all came back."""
+        recovered, size, angle, outcome = self.best or (all_back or 0.0, None, None, None)
+        return SmallestLoss(
+            **self.given,
+            size=size,
+            angle=None if angle is None else math.remainder(angle, TURN),
+            outcome=outcome,
+            backward=angle is not None and self.turns > 1 and angle % (2.0 * TURN) >= TURN,
+            recovered=recovered,
+            all_back=all_back,
+            fresh=fresh,
+            tried=self.tried,
+        )
+
+
+def lost(outcomes: np.ndarray) -> np.ndarray:
+    """Which outcomes are not levitation; those that double precision cannot decide do not count as lost."""
+    return (outcomes != Outcome.LEVITATED) & (outcomes != Outcome.GRAZING)
