@@ -6,13 +6,12 @@ from linear_rotors import touchdowns
 
 import carom as cm
 from carom.disturbances import AnyState, BaseShock, BladeLoss, Sample, VelocityKick
-from carom.models import Jeffcott, LinearRotor
+from carom.models import Edge, Jeffcott, LinearRotor, Span
 from carom.motions import settle
 from carom.outcome import InputError
 from carom.parameters import Parameters
 from carom.studies import check_recovery, find_recovery
-from carom.studies.ranges import Edge, Span
-from carom.studies.recovery import in_all
+from carom.studies.trials import in_all
 
 SOURCE = Parameters(gamma=0.1, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7)
 SPEED = 1.3

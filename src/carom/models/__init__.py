@@ -2,6 +2,7 @@
 
 ========================  =================================================================
 ``axes``                  :class:`Axis`: any named parameter of any model, to vary
+``spans``                 :class:`Span`: an interval of a parameter, with what happens at its ends
 ``model``                 :class:`Model`: what every description of a rotor offers
 ``system``                :class:`System`: modes and contact planes of any linear rotor
 ``jeffcott``              :class:`Jeffcott`: the planar rigid rotor, by its parameters
@@ -17,12 +18,14 @@ from carom.models.axes import Axis, axis
 from carom.models.jeffcott import Jeffcott
 from carom.models.linear import LinearRotor
 from carom.models.model import Matrices, Model, Rates
+from carom.models.spans import Edge, Span
 from carom.models.subjects import Subject, case_of, jeffcott_of, model_from, model_of
 from carom.models.system import System, second_order_system
 from carom.models.touchdown import FallingRestitution, Rigid, Touchdown
 
 __all__ = [
     "Axis",
+    "Edge",
     "FallingRestitution",
     "Jeffcott",
     "LinearRotor",
@@ -30,6 +33,7 @@ __all__ = [
     "Model",
     "Rates",
     "Rigid",
+    "Span",
     "Subject",
     "System",
     "Touchdown",

@@ -23,7 +23,7 @@ import cmath
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
@@ -40,11 +40,8 @@ from carom.outcome import Outcome
 from carom.parameters import Case
 from carom.parameters.told import number
 from carom.results import fields_of
-from carom.studies.recovery import coordinates_at_largest
+from carom.studies.trials import coordinates_at_largest
 from carom.studies.wording import listed
-
-if TYPE_CHECKING:
-    from carom.studies.assembly import Study
 
 ROLLING = MotionName(Outcome.ROLLING)
 STEP = 0.05
@@ -278,11 +275,8 @@ def largest_jumps(motion: Trajectory, limits: tuple[BearingLimit, ...]) -> tuple
     return tuple(limit.per_jump * largest for limit in limits)
 
 
-def actuator_words(study: Study) -> str:
+def actuator_words(demand: BearingDemand) -> str:
     """Say which motions ask for more than the magnetic bearings can give."""
-    demand = study.bearing_demand
-    if demand is None:
-        return ""
     most = listed([f"{limit.words(limit.most)} of {limit.kind}" for limit in demand.limits])
     sentences = [f"Levitation control is assumed linear, and one magnetic bearing gives at most {most}."]
     for motion in dict.fromkeys(each.motion for each in demand.motions):

@@ -17,16 +17,15 @@ from carom.parameters import DIMENSIONLESS_FIELDS, ENTRIES, HELPER_FIELDS, MACHI
 from carom.parameters.indentation import indentation_of_force, indentation_of_hit
 from carom.parameters.terms import set_by
 from carom.parameters.told import told_entry
-from carom.studies.advice import gain_of
 from carom.studies.advice_facts import check_words
+from carom.studies.data import StudyData
 from carom.studies.proven import is_proven
-from carom.studies.ranges import EVENTS, Motion
+from carom.studies.ranges import EVENTS, Motion, MotionRange
 from carom.studies.verdict_facts import KINDS, lost_to
 from carom.studies.wording import Wording, no_rigid_wall
 
 if TYPE_CHECKING:
     from carom.attractors import Attractor, AttractorSet
-    from carom.studies.assembly import Study
 
 
 @dataclass(frozen=True)
@@ -107,7 +106,7 @@ MOTIONS: dict[Motion, str] = {
 """Names of the motions whose ranges are known."""
 
 
-def survived_rows(study: Study) -> list[SurvivedRow]:
+def survived_rows(study: StudyData) -> list[SurvivedRow]:
     """Return a row for each kind of disturbance that was searched; none where there is no stable levitation."""
     if study.survives is None:
         return []
@@ -127,7 +126,7 @@ def survived_rows(study: Study) -> list[SurvivedRow]:
     return rows
 
 
-def share_rows(study: Study) -> list[ShareRow]:
+def share_rows(study: StudyData) -> list[ShareRow]:
     """Return a row for each kind of disturbance that must be survived, and for starts elsewhere in the clearance."""
     change = study.recommendation.advised
     now = study.present.returned if study.present else ()
@@ -187,7 +186,7 @@ def dimensionless_rows(case: Case) -> list[ValueRow]:
     ]
 
 
-def motion_rows(study: Study) -> list[MotionRow]:
+def motion_rows(study: StudyData) -> list[MotionRow]:
     """Return the rows of all motions: steady ones, orbits, and other motions in which disturbances ended."""
     rows = simple_motion_rows(study.equilibria, study.orbits, study.wording, study.attractors)
     proven = {f"orbit {orbit.name}" for orbit in study.orbits if is_proven(study.proof, orbit)}
@@ -286,7 +285,7 @@ def _seen(say: Wording, member: Attractor, found: AttractorSet, parameters: Para
     )
 
 
-def threshold_rows(study: Study) -> list[ThresholdRow]:
+def threshold_rows(study: StudyData) -> list[ThresholdRow]:
     """Return a row for every threshold of damping and stiffness."""
     say = study.wording
     rows = []
@@ -298,38 +297,33 @@ def threshold_rows(study: Study) -> list[ThresholdRow]:
             ThresholdRow(
                 MOTIONS[entry.motion],
                 entry.exists,
-                say.gain_name(entry.gain),
-                say.gain(entry.gain, entry.edge.value) if say.scales else "",
-                f"{DIMENSIONLESS_FIELDS[entry.gain].symbol} = {entry.edge.value:.5g}",
+                say.name(entry.parameter),
+                say.value(entry.parameter, entry.edge.value) if say.scales else "",
+                f"{DIMENSIONLESS_FIELDS[entry.parameter].symbol} = {entry.edge.value:.5g}",
                 what,
             )
         )
     return rows
 
 
-def range_rows(study: Study) -> list[tuple[str, ...]]:
-    """Return rows that say where each motion exists along each gain of ``study.gains``.
+def range_rows(study: StudyData) -> list[tuple[str, ...]]:
+    """Return rows that say where each motion exists along each parameter of ``study.recoveries``.
 
-    The last rows say where all that must be survived came back, and what is advised.
+    The last rows say where all that must be survived came back, and what is advised with how that was checked.
     """
-    say = study.wording
-    rows = []
-    for motion, name in MOTIONS.items():
-        cells = []
-        for gain in study.gains:
-            entry = study.range_of(motion, gain)
-            cells.append(say.where(gain, entry.spans, entry.searched) if entry else "not searched")
-        rows.append((name, *cells))
-    return [*rows, *_recovery_rows(study)]
+    say, found = study.wording, study.recoveries
+    changes = {change.parameter: change for change in study.recommendation.changes}
+    rows = [(name, *(_where(say, entry.range_of(motion)) for entry in found)) for motion, name in MOTIONS.items()]
+    back = [
+        say.where(entry.along.name, entry.spans) if entry.range_of("single-impact") else "not searched"
+        for entry in found
+    ]
+    advised = [
+        f"{change.terms.text}, where {check_words(study, change.check)}" if change else "none"
+        for change in (changes.get(entry.along.name) for entry in found)
+    ]
+    return [*rows, ("all that must be survived comes back", *back), ("advised", *advised)]
 
 
-def _recovery_rows(study: Study) -> list[tuple[str, ...]]:
-    """Say where all that must be survived came back, what is advised, and how that was checked."""
-    say = study.wording
-    back, advised = [], []
-    for gain in study.gains:
-        found = next((entry for entry in study.recoveries if gain_of(entry) == gain), None)
-        back.append(say.where(gain, found.spans) if found else "not searched")
-        change = next((entry for entry in study.recommendation.changes if entry.gain == gain), None)
-        advised.append(f"{change.terms.text}, where {check_words(study, change.check)}" if change else "none")
-    return [("all that must be survived comes back", *back), ("advised", *advised)]
+def _where(say: Wording, entry: MotionRange | None) -> str:
+    return say.where(entry.parameter, entry.spans, entry.searched) if entry else "not searched"

@@ -1,0 +1,86 @@
+"""Intervals of a parameter in which something holds, and what happens at their ends."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from operator import attrgetter
+
+
+@dataclass(frozen=True)
+class Edge:
+    """End of an interval of a parameter.
+
+    Attributes
+    ----------
+    value : float
+        Value of the parameter; 0 and infinity are possible.
+    kind : str
+        What happens there: ``"boundary-equilibrium"``, ``"rub-fold"``, ``"rolling-limit"`` or ``"simulated"``; for
+        orbits a kind of :class:`~carom.bifurcations.Bifurcation`, or ``"vanishing-period"``.  Empty if nothing happens
+        there, at the end of the axis or of a search.
+    period, radial_speed : float or None
+        Of the orbit that appears, vanishes or changes there: its period in ``1/Ω`` and radial speed in ``c_r Ω``.
+    name : str
+        Name of this orbit; empty if there is none.
+    certified : bool
+        Whether the edge is exact, or confirmed by the certified orbits close by on both sides.
+    motion : MotionName or None
+        For the kind ``"simulated"``: the motion in which a disturbance ended beyond the edge.
+    """
+
+    value: float
+    kind: str = ""
+    period: float | None = None
+    radial_speed: float | None = None
+    name: str = ""
+    certified: bool = True
+    motion: str | None = None
+
+
+@dataclass(frozen=True)
+class Span:
+    """An interval of a parameter, by its ends; ``value in span`` says whether it holds a value."""
+
+    low: Edge
+    high: Edge
+
+    def __iter__(self) -> Iterator[Edge]:
+        return iter((self.low, self.high))
+
+    def __contains__(self, value: float) -> bool:
+        return self.low.value <= value <= self.high.value
+
+
+_value = attrgetter("value")
+
+
+def outside(spans: Iterable[Span], within: Span) -> tuple[Span, ...]:
+    """Return the parts of ``within`` that no span covers; spans are in ascending order."""
+    gaps, start = [], within.low
+    for span in spans:
+        if span.low.value > start.value:
+            gaps.append(Span(start, min(span.low, within.high, key=_value)))
+        start = max(start, span.high, key=_value)
+    gaps.append(Span(start, within.high))
+    return tuple(gap for gap in gaps if gap.low.value < gap.high.value)
+
+
+def common(first: Sequence[Span], second: Sequence[Span]) -> tuple[Span, ...]:
+    """Return the overlaps of two sets of spans."""
+    overlaps = [
+        Span(max(one.low, other.low, key=_value), min(one.high, other.high, key=_value))
+        for one in first
+        for other in second
+    ]
+    return tuple(sorted((span for span in overlaps if span.low.value < span.high.value), key=lambda s: s.low.value))
+
+
+def holds(spans: Iterable[Span], value: float) -> bool:
+    """Whether some of the spans hold a value."""
+    return any(value in span for span in spans)
+
+
+def paired(ends: Sequence[Edge]) -> tuple[Span, ...]:
+    """The spans whose ends these are, in ascending order."""
+    return tuple(Span(*pair) for pair in zip(ends[::2], ends[1::2], strict=True))
