@@ -11,6 +11,7 @@ from machines import random_parameters
 
 from carom.closed_forms.equilibria import find_equilibria
 from carom.closed_forms.thresholds import ranges_of
+from carom.closed_forms.whirl import rolling
 from carom.models import Edge, Jeffcott, Span, axis
 from carom.motions.starts import State
 from carom.motions.trajectories import simulate
@@ -277,3 +278,44 @@ def test_progress_grows_to_one():
 
     assert shares == sorted(shares)
     assert shares[-1] == 1.0
+
+
+# ------------------------------------------------------------------------------------------------ any parameter
+
+
+@pytest.mark.parametrize("name", ["speed", "friction", "clearance", "mass"])
+def test_ranges_along_any_parameter_agree_with_the_motions_there(name):
+    rotor = Jeffcott(README.parameters)
+    along = axis(rotor, name)
+    found = {entry.motion: entry for entry in motion_ranges(rotor, along)}
+    low, high = (edge.value for edge in found["single-impact"].searched)
+    for value in np.random.default_rng(5).uniform(low, high, sized(12, 2, 60)):
+        there = along.move(rotor, float(value))
+        orbits = [orbit for orbit in orbits_within_reach(there) if orbit.admissible]
+        expected = {
+            "contact-free": levitates(there.parameters),
+            "rub": rubs(there.parameters),
+            "rolling": rolling(there).holds,
+            "single-impact": bool(orbits),
+            "stable-single-impact": any(orbit.stable for orbit in orbits),
+        }
+        assert {motion: entry.exists_at(value) for motion, entry in found.items()} == expected
+
+
+def test_ends_along_any_parameter_say_what_happens_there():
+    rotor = Jeffcott(README.parameters)
+    found = {entry.motion: entry for entry in motion_ranges(rotor, axis(rotor, "speed"))}
+    for edge in (threshold.edge for threshold in found["contact-free"].thresholds):
+        there = rotor.replace(speed=edge.value)
+        assert (edge.kind, abs(there.equilibrium)) == ("boundary-equilibrium", pytest.approx(1.0, rel=1e-12))
+    assert len(found["contact-free"].thresholds) == 2
+
+
+def test_a_physical_parameter_has_the_ranges_of_its_dimensionless_one():
+    rotor = Jeffcott(README.parameters)
+    for own, physical in zip(
+        *(motion_ranges(rotor, axis(rotor, name)) for name in ("omega", "stiffness")), strict=True
+    ):
+        assert (physical.parameter, physical.motion) == ("stiffness", own.motion)
+        values = [edge.value**2 * README.scales.stiffness for span in own.spans for edge in span]
+        assert [edge.value for span in physical.spans for edge in span] == pytest.approx(values, rel=1e-14)

@@ -5,6 +5,7 @@ import pytest
 from linear_rotors import touchdowns
 
 import carom as cm
+from carom.closed_forms import harmless_kick
 from carom.disturbances import AnyState, BaseShock, BladeLoss, Sample, VelocityKick
 from carom.models import Edge, Jeffcott, LinearRotor, Span
 from carom.motions import settle
@@ -109,6 +110,33 @@ def test_any_parameter_of_any_model():
     along_speed = find_recovery(machine, "speed", kicks, within=("1500 rpm", "1900 rpm"))
     moved = along_speed.checks[0].value
     assert all(share.total == 60 for share in along_speed.clear[0].returned), moved
+
+
+def test_without_a_range_it_is_looked_for_where_nothing_else_can_hold_the_rotor():
+    machine = cm.load("examples/keogh-cole.toml")
+    kicks = [Sample(VelocityKick.of(machine, "166 mm/s"), 60)]
+    found = find_recovery(machine, "speed", kicks)
+    (span,) = found.searched
+    assert found.spans == (span,)
+    assert found.range_of("contact-free").exists_at(span.low.value)
+    motions = [found.range_of(motion) for motion in ("rub", "single-impact")]
+    assert not any(
+        entry.exists_at(value) for entry in motions for value in np.linspace(*(e.value for e in span), 9)[1:-1]
+    )
+    own, physical = (find_recovery(machine, name, kicks) for name in ("gamma", "damping"))
+    ends = [edge.value * machine.parameters.scales.damping for span in own.spans for edge in span]
+    assert [edge.value for span in physical.spans for edge in span] == pytest.approx(ends, rel=1e-14)
+
+
+def test_what_came_back_at_the_present_value_is_taken_for_the_range_around_it():
+    """Nothing comes back from a rub, but small kicks never reach it."""
+    rotor = Jeffcott(SOURCE)
+    small = [Sample(VelocityKick(0.5 * harmless_kick(rotor)), 60)]
+    present = check_recovery(rotor, small)
+    assert present.recovers
+    around = find_recovery(rotor, "gamma", small, present=present)
+    assert around.span_at(SOURCE.gamma) is not None
+    assert find_recovery(rotor, "gamma", small).span_at(SOURCE.gamma) is None
 
 
 def test_where_nothing_levitates_nothing_recovers():

@@ -4,7 +4,7 @@ Read them in this order.
 
 =======================  ========================================================================================
 ``assembly``             :func:`study` and the frozen :class:`Study`
-``data``                 :class:`StudyData`: what a study has found, before it is told
+``study_data``           :class:`StudyData`: what a study has found, before it is told
 ``ranges``               for which values of a parameter each simple motion exists
 ``trials``               disturbances followed at one value of a parameter after another
 ``recovery``             :func:`find_recovery`: which values of any parameter leave only recovery
@@ -24,6 +24,7 @@ Read them in this order.
 ``document``             results as JSON
 ``attractors_document``  attractors as JSON
 ``response``             :func:`unbalance_response`: amplitude, phase and contact over the speed of the shaft
+``response_data``        what it has found, before it is told
 ``response_words``       what it says about the machine, in sentences
 ``response_document``    the response as JSON
 ``standards``            limits of vibration: API 617, ISO 14839-2
@@ -37,7 +38,8 @@ from carom.studies.facts import Fact
 from carom.studies.load_checks import LoadCheck, WorstLoads, check_loads, worst_loads
 from carom.studies.ranges import MotionRange, Threshold
 from carom.studies.recovery import Recovery, find_recovery
-from carom.studies.response import Separation, Steady, Stretch, UnbalanceResponse, unbalance_response
+from carom.studies.response import UnbalanceResponse, unbalance_response
+from carom.studies.response_data import Separation, Steady, Stretch
 from carom.studies.survives import Survives
 from carom.studies.trials import Check, Lost, check_recovery
 from carom.studies.verdict import NOT_COVERED, Verdict

@@ -13,10 +13,10 @@ from carom.parameters import in_terms_of
 from carom.parameters.told import number, told_entry
 from carom.results import fields_of, in_si
 from carom.studies.advice import Bound, Change, Margin, evidence_of
-from carom.studies.data import StudyData
 from carom.studies.endings import motion_words
 from carom.studies.facts import Evidence, Fact
 from carom.studies.ranges import EVENTS
+from carom.studies.study_data import StudyData
 from carom.studies.trials import Check, Lost
 from carom.studies.verdict_facts import judged
 from carom.studies.wording import Wording, counted, entry_words, present_values

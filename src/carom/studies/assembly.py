@@ -23,11 +23,11 @@ from carom.parameters import Case, Requirement
 from carom.progress import Reporter, ShowProgress, shows_progress
 from carom.results import in_a_line
 from carom.studies.advice import recommend
-from carom.studies.data import StudyData
 from carom.studies.document import study_document
 from carom.studies.facts import Fact
 from carom.studies.load_checks import worst_loads
 from carom.studies.recovery import find_recovery
+from carom.studies.study_data import StudyData
 from carom.studies.survives import required_disturbances, survives
 from carom.studies.trials import Check, check_recovery, in_all
 from carom.studies.verdict import Verdict, facts_of, verdict
@@ -42,7 +42,7 @@ SEED = 1
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Study(StudyData):
-    """The study of a machine: what was found (:class:`~carom.studies.data.StudyData`), and what follows from it in words."""
+    """The study of a machine: what was found (:class:`~carom.studies.study_data.StudyData`), and what follows from it in words."""
 
     def rows(self) -> list[tuple[str, str]]:
         """The machine, its motions, and the first sentences of the verdict."""

@@ -29,12 +29,12 @@ from carom.parameters import MACHINE_FIELDS, LoadLimits, Machine, Parameters, Sc
 from carom.parameters.indentation import gives_way, indentation_of_force, indentation_of_hit
 from carom.results import fields_of, in_si
 from carom.studies.advice_facts import change_document
-from carom.studies.data import StudyData
 from carom.studies.endings import came_back, hardest_impulse, touching
 from carom.studies.facts import Fact
 from carom.studies.load_checks import check_loads, loads_entry
 from carom.studies.ranges import MotionRange, Threshold
 from carom.studies.recovery import Recovery
+from carom.studies.study_data import StudyData
 from carom.studies.trials import Check
 from carom.studies.verdict import Verdict
 from carom.studies.verdict_facts import requirement_document, survived_document

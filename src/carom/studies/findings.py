@@ -10,11 +10,11 @@ from carom.outcome import STEADY_WORDS
 from carom.parameters import GRAVITY
 from carom.parameters.indentation import gives_way, indentation_of_force, indentation_of_hit
 from carom.parameters.told import number
-from carom.studies.data import StudyData
 from carom.studies.endings import came_back, ending_phrase, hardest_impulse, motion_words, touching
 from carom.studies.facts import Topic
 from carom.studies.ranges import Motion
 from carom.studies.recovery import Recovery
+from carom.studies.study_data import StudyData
 from carom.studies.wording import Wording, counted, listed, no_rigid_wall, steel_words
 
 if TYPE_CHECKING:

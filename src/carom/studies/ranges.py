@@ -6,7 +6,7 @@ One parameter is varied alone, with all others fixed.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Literal, get_args
@@ -14,23 +14,17 @@ from typing import Literal, get_args
 import numpy as np
 
 from carom.bifurcations import orbit_windows
+from carom.bifurcations.steady import steady_points
 from carom.closed_forms.equilibria import find_equilibria
-from carom.closed_forms.thresholds import (
-    FOLD,
-    ROLLING,
-    WALL,
-    Gain,
-    Steady,
-    ranges_of,
-    rub_fold_condition,
-    wall_condition,
-)
+from carom.closed_forms.thresholds import Gain, Steady, ranges_of
 from carom.closed_forms.whirl import rolling
-from carom.models import Axis, Edge, Jeffcott, Model, Span
+from carom.models import Axis, Edge, Jeffcott, Model, Span, axis
 from carom.models.axes import usual_range
 from carom.models.spans import holds, paired
 from carom.orbits.single_impact import longest_within_reach, orbits_within_reach
 from carom.outcome import CaromError
+from carom.parameters import PHYSICAL_PARTNER
+from carom.parameters.told import own_entry
 from carom.progress import ShowProgress
 
 Motion = Steady | Literal["single-impact", "stable-single-impact"]
@@ -50,13 +44,11 @@ EVENTS = {
     "rolling-limit": "friction just keeps the rotor rolling at every angle",
 }
 """What happens at the ends of the ranges of motions."""
-FINEST_STEP = {"gamma": 0.1}
-"""Relative step between the values at which all orbits are computed, where it is not :data:`USUAL_STEP`."""
-USUAL_STEP = 0.05
+DAMPING_STEP, STEP = 0.1, 0.05
+"""Relative steps between the values at which all orbits are computed: along damping, and along other parameters."""
+_OWN: dict[str, str] = {there: own for own, there in PHYSICAL_PARTNER.items()}
 NEARBY = 1e-6
 """Relative distance from an edge at which the certified lists of orbits must confirm it."""
-EXACT = 1e-14
-"""Relative width of the bracket of an end that has no closed form."""
 
 
 @dataclass(frozen=True)
@@ -121,59 +113,54 @@ def motion_ranges(rotor: Model, along: Axis, progress: ShowProgress = None) -> t
     """
     if not isinstance(rotor, Jeffcott):
         return ()
-    values = _values(rotor, along)
-    return (*_steady_ranges(rotor, along, values), *_orbit_ranges(rotor, along, values, progress))
+    own = _OWN.get(along.name, along.name)
+    varied = axis(rotor, own)
+    values = _values(rotor, varied)
+    steady = _known(rotor, own) if own in get_args(Gain) else _steady_ranges(rotor, varied, values)
+    found = (*steady, *(_orbit_ranges(rotor, varied, values, progress) if values else ()))
+    return found if own == along.name else tuple(_of_the_machine(rotor, along, entry) for entry in found)
+
+
+def _of_the_machine(rotor: Jeffcott, along: Axis, entry: MotionRange) -> MotionRange:
+    """The same range of what a machine has in place of a dimensionless parameter."""
+
+    def told(span: Span) -> Span:
+        return Span(*(replace(edge, value=own_entry(entry.parameter, edge.value, rotor.scales)[1]) for edge in span))
+
+    searched = told(entry.searched) if entry.searched else None
+    return replace(entry, parameter=along.name, spans=tuple(map(told, entry.spans)), searched=searched)
+
+
+def _known(rotor: Jeffcott, name: str) -> list[MotionRange]:
+    """Steady motions along damping and stiffness, in closed form."""
+    gain: Gain = name  # type: ignore[assignment]
+    return [MotionRange(motion, gain, ranges_of(motion, rotor.parameters, gain)) for motion in get_args(Steady)]
 
 
 def _steady_ranges(rotor: Jeffcott, along: Axis, values: Sequence[float]) -> list[MotionRange]:
-    """By closed forms along damping and stiffness; along other parameters by bisection between the values searched."""
-    if along.name in get_args(Gain):
-        name: Gain = along.name  # type: ignore[assignment]
-        return [MotionRange(motion, name, ranges_of(motion, rotor.parameters, name)) for motion in get_args(Steady)]
+    """Steady motions along any other parameter, between their special points."""
     if not values:
         return []
-    searched = Span(Edge(values[0]), Edge(values[-1]))
-    exists: dict[Steady, Callable[[Jeffcott], bool]] = {
-        "contact-free": lambda there: find_equilibria(there)[0].status == "admissible",
-        "rub": lambda there: any(rub.status == "admissible" for rub in find_equilibria(there)[1:]),
-        "rolling": lambda there: rolling(there).holds,
-    }
-    return [
-        MotionRange(motion, along.name, _bisected(rotor, along, values, motion, there), searched)
-        for motion, there in exists.items()
-    ]
+    low, high = values[0], values[-1]
+    points = sorted(steady_points(rotor.parameters, along, (low, high)), key=lambda point: point.value)
+    edges = [Edge(low), *(Edge(point.value, point.kind) for point in points), Edge(high)]
+    there = [_steady_at(along.move(rotor, 0.5 * (one.value + other.value))) for one, other in pairwise(edges)]
+    found = []
+    for motion in get_args(Steady):
+        sides = pairwise([False, *(motion in each for each in there), False])
+        ends = [edge for edge, (below, above) in zip(edges, sides, strict=True) if below != above]
+        found.append(MotionRange(motion, along.name, paired(ends), Span(edges[0], edges[-1])))
+    return found
 
 
-def _bisected(
-    rotor: Jeffcott, along: Axis, values: Sequence[float], motion: Steady, exists: Callable[[Jeffcott], bool]
-) -> tuple[Span, ...]:
-    """Where a steady motion exists, from whether it does at values in ascending order."""
-
-    def there(value: float) -> bool:
-        return exists(along.move(rotor, value))
-
-    ends = [Edge(values[0])] if there(values[0]) else []
-    for low, high in pairwise(values):
-        before = there(low)
-        if before == there(high):
-            continue
-        while high - low > EXACT * high:
-            middle = 0.5 * (low + high)
-            if middle in (low, high):
-                break
-            low, high = (middle, high) if there(middle) == before else (low, middle)
-        at = along.move(rotor, low).parameters
-        folds = motion == "rub" and abs(rub_fold_condition(at)) < abs(wall_condition(at))
-        ends.append(Edge(high, FOLD if folds else ROLLING if motion == "rolling" else WALL))
-    if len(ends) % 2:
-        ends.append(Edge(values[-1]))
-    return paired(ends)
+def _steady_at(rotor: Jeffcott) -> set[str]:
+    """The steady motions that exist."""
+    found: set[str] = {each.kind for each in find_equilibria(rotor) if each.status == "admissible"}
+    return found | {"rolling"} if rolling(rotor).holds else found
 
 
 def _orbit_ranges(rotor: Jeffcott, along: Axis, values: Sequence[float], progress: ShowProgress) -> list[MotionRange]:
     """All orbits and the stable ones."""
-    if not values:
-        return []
     found: dict[Motion, tuple[Span, ...] | None] = {"single-impact": (), "stable-single-impact": ()}
     if rotor.parameters.rho > 0.0:  # a balanced rotor has no such orbit
         try:
@@ -215,8 +202,8 @@ def _values(rotor: Jeffcott, along: Axis) -> list[float]:
     lowest, highest = max(lowest, limits.lowest), min(highest, limits.highest)
     if lowest >= highest or not all(_can_search(along.move(rotor, value)) for value in (lowest, highest)):
         return []
-    steps = math.ceil(math.log(highest / lowest) / math.log1p(FINEST_STEP.get(along.name, USUAL_STEP)))
-    return np.geomspace(lowest, highest, steps + 1).tolist()
+    step = DAMPING_STEP if along.name == "gamma" else STEP
+    return np.geomspace(lowest, highest, math.ceil(math.log(highest / lowest) / math.log1p(step)) + 1).tolist()
 
 
 def _can_search(rotor: Jeffcott) -> bool:

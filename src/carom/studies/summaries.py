@@ -18,9 +18,9 @@ from carom.parameters.indentation import indentation_of_force, indentation_of_hi
 from carom.parameters.terms import set_by
 from carom.parameters.told import told_entry
 from carom.studies.advice_facts import check_words
-from carom.studies.data import StudyData
 from carom.studies.proven import is_proven
 from carom.studies.ranges import EVENTS, Motion, MotionRange
+from carom.studies.study_data import StudyData
 from carom.studies.verdict_facts import KINDS, lost_to
 from carom.studies.wording import Wording, no_rigid_wall
 

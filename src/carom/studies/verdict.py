@@ -11,10 +11,10 @@ from dataclasses import dataclass
 
 from carom.studies.actuator import actuator_words
 from carom.studies.advice_facts import advice_facts
-from carom.studies.data import StudyData
 from carom.studies.facts import Fact, about
 from carom.studies.findings import FINDINGS
 from carom.studies.proven import proven_words
+from carom.studies.study_data import StudyData
 from carom.studies.verdict_facts import KINDS, Level, judged, verdict_facts
 
 NOT_COVERED = (

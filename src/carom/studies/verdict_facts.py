@@ -9,10 +9,10 @@ from carom.basins import Share, SmallestLoss
 from carom.closed_forms.whirl import rolling
 from carom.outcome import REGULAR_BOUNCING, STEADY_WORDS, Outcome
 from carom.results import fields_of, in_si
-from carom.studies.data import StudyData
 from carom.studies.endings import ending_words
 from carom.studies.facts import Fact
 from carom.studies.findings import stable_rub
+from carom.studies.study_data import StudyData
 from carom.studies.survives import Kind, meets
 from carom.studies.wording import SIZES, listed
 
