@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 
+from carom.parameters.conversions import CONVERSIONS
 from carom.parameters.fields import PHYSICAL_PARTNER
-from carom.parameters.numbers import CONVERSIONS
 from carom.parameters.requirement import GRAVITY
 from carom.parameters.scaling import UNITS, Scales
 from carom.parameters.terms import SETTABLE

@@ -19,7 +19,7 @@ from carom.closed_forms.whirl import Runaway, rolling, runaway_speed
 from carom.disturbances import Sample
 from carom.models import Edge, Jeffcott, Span
 from carom.parameters import Case, InTerms, in_terms_of
-from carom.parameters.numbers import CONVERSIONS
+from carom.parameters.conversions import CONVERSIONS
 from carom.results import Result
 from carom.studies.actuator import asked_by
 from carom.studies.facts import Evidence
