@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from operator import attrgetter
+from itertools import pairwise
 
 
 @dataclass(frozen=True)
@@ -52,28 +52,15 @@ class Span:
         return self.low.value <= value <= self.high.value
 
 
-_value = attrgetter("value")
+def spans_where(edges: Iterable[Edge], there: Callable[[float], bool]) -> tuple[Span, ...]:
+    """The spans between edges in which something holds, by whether it does in the middle between neighbours.
 
-
-def outside(spans: Iterable[Span], within: Span) -> tuple[Span, ...]:
-    """Return the parts of ``within`` that no span covers; spans are in ascending order."""
-    gaps, start = [], within.low
-    for span in spans:
-        if span.low.value > start.value:
-            gaps.append(Span(start, min(span.low, within.high, key=_value)))
-        start = max(start, span.high, key=_value)
-    gaps.append(Span(start, within.high))
-    return tuple(gap for gap in gaps if gap.low.value < gap.high.value)
-
-
-def common(first: Sequence[Span], second: Sequence[Span]) -> tuple[Span, ...]:
-    """Return the overlaps of two sets of spans."""
-    overlaps = [
-        Span(max(one.low, other.low, key=_value), min(one.high, other.high, key=_value))
-        for one in first
-        for other in second
-    ]
-    return tuple(sorted((span for span in overlaps if span.low.value < span.high.value), key=lambda s: s.low.value))
+    Of edges with one value the first counts.
+    """
+    first = {edge.value: edge for edge in reversed(list(edges))}
+    ordered = [first[value] for value in sorted(first)]
+    sides = [False, *(there(0.5 * (one.value + other.value)) for one, other in pairwise(ordered)), False]
+    return paired([edge for edge, (below, above) in zip(ordered, pairwise(sides), strict=True) if below != above])
 
 
 def holds(spans: Iterable[Span], value: float) -> bool:

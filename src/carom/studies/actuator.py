@@ -212,12 +212,12 @@ def bearing_demand(
     limits = limits_of(case)
     if not limits:
         return None
-    motions = []
-    for entry in equilibria:
-        if entry.status != "virtual" and entry.stable:
-            name = LEVITATION if entry.kind == "contact-free" else SYNCHRONOUS_RUB
-            whirl = Centre.whirling(entry.radius, 1.0)
-            motions += [Demand(name.words, limit, float(limit.asked(whirl))) for limit in limits]
+    whirls = [
+        (LEVITATION if entry.kind == "contact-free" else SYNCHRONOUS_RUB, Centre.whirling(entry.radius, 1.0))
+        for entry in equilibria
+        if entry.status != "virtual" and entry.stable
+    ]
+    motions = [Demand(name.words, limit, float(limit.asked(whirl))) for name, whirl in whirls for limit in limits]
     for orbit in orbits:
         if orbit.admissible and orbit.stable:
             motion = orbit.trajectory()

@@ -12,16 +12,15 @@ from carom.outcome import Outcome
 from carom.parameters import in_terms_of
 from carom.parameters.told import number, told_entry
 from carom.results import fields_of, in_si
-from carom.studies.advice import Bound, Change, Margin, evidence_of
+from carom.studies.advice import Change, Margin, evidence_of
 from carom.studies.endings import motion_words
 from carom.studies.facts import Evidence, Fact
-from carom.studies.ranges import EVENTS
+from carom.studies.ranges import event_words
 from carom.studies.study_data import StudyData
 from carom.studies.trials import Check, Lost
 from carom.studies.verdict_facts import judged
 from carom.studies.wording import Wording, counted, entry_words, present_values
 
-_BOUNDS: dict[Bound, str] = {"at least": "at least ", "at most": "at most ", "about": ""}
 CHANGES = ("Change", "Or", "For all starts")
 """Labels of the changes that help."""
 BEYOND = "Beyond the limits"
@@ -36,11 +35,17 @@ _LAST_ZONE = "D"
 
 def advice_facts(study: StudyData) -> Iterator[Fact]:
     """The machine, what it does now, the changes that help, and how sure all this is."""
-    yield _fact("Machine", _machine(study))
-    yield _now(study)
+    say, machine, told = study.wording, study.case.machine, present_values(study.case)
+    if machine is not None:
+        names = ("mass", "clearance", "eccentricity")
+        told = ", ".join([told, *(f"{name} {told_entry(name, getattr(machine, name))}" for name in names)])
+    yield _fact("Machine", told)
+    level, outcome, _ = judged(study)
+    levitates = f"levitates at {_place(say, study.equilibria[0].radius)}, zone {study.zone}"
+    yield _fact("Now", levitates if study.levitates else outcome.lower(), "closed form")
     recommended = study.recommendation
     unbuildable = recommended.kind == "nothing-buildable"
-    enough = judged(study)[0] == "all-tried-came-back"
+    enough = level == "all-tried-came-back"
     first = "For all starts" if enough else "Change"
     if enough and recommended.kind != "no-change-needed":
         yield _fact("Change", _NONE_NEEDED, "sampled")
@@ -48,8 +53,7 @@ def advice_facts(study: StudyData) -> Iterator[Fact]:
         yield _fact(first, _NOTHING_BUILDABLE, "sampled")
     for place, change in enumerate(recommended.changes):
         label = BEYOND if unbuildable else "Or" if place else first
-        values = change_document(study, change)
-        yield _fact(label, _change(study, change), values=values)
+        yield _fact(label, _change(study, change), values=change_document(study, change))
         yield from _details(study, change)
     if recommended.kind == "no-change-found":
         yield _fact(first, _none_found(study), "sampled")
@@ -58,7 +62,9 @@ def advice_facts(study: StudyData) -> Iterator[Fact]:
         for margin in recommended.margins:
             present = _in_both(study, margin.parameter, present=study.case.parameters.value(margin.parameter))
             values = present | _margin_document(study, margin)
-            yield _fact("Margin", _own_margin(study, margin), evidence_of(margin.edge), values, detail=True)
+            yield _fact(
+                "Margin", _own_margin(say, present["present"], margin), evidence_of(margin.edge), values, detail=True
+            )
     yield _fact("Disturbances", _disturbances(study))
     yield _fact("How sure", _how_sure(study))
 
@@ -69,27 +75,11 @@ def _fact(
     return Fact("Recommendation", text, label, evidence, values or {}, detail=detail)
 
 
-def _machine(study: StudyData) -> str:
-    """The present values in a line."""
-    machine, told = study.case.machine, present_values(study.case)
-    if machine is None:
-        return told
-    more = [f"{name} {told_entry(name, getattr(machine, name))}" for name in ("mass", "clearance", "eccentricity")]
-    return ", ".join([told, *more])
-
-
-def _now(study: StudyData) -> Fact:
-    levitation = study.equilibria[0]
-    if not study.levitates:
-        return _fact("Now", judged(study)[1].lower(), "closed form")
-    return _fact("Now", f"levitates at {_place(study, levitation.radius)}, zone {study.zone}", "closed form")
-
-
-def _place(study: StudyData, radius: float) -> str:
+def _place(say: Wording, radius: float) -> str:
     """Return a radius with the clearance beside it where lengths are known."""
-    if study.wording.scales is None:
+    if say.scales is None:
         return f"{number(radius, 3)} of the clearance"
-    return f"a radius of {study.wording.length(radius)} (clearance {study.wording.length(1.0)})"
+    return f"a radius of {say.length(radius)} (clearance {say.length(1.0)})"
 
 
 def _change(study: StudyData, change: Change) -> str:
@@ -99,10 +89,8 @@ def _change(study: StudyData, change: Change) -> str:
     what = "stiffness" if name == "omega" and study.wording.scales is None else study.wording.name(name)
     times = "there is none now" if math.isinf(change.ratio) else f"{what} × {number(change.ratio, 3)}"
     now = _stated(study, name, change.present)
-    text = (
-        f"{entry_words(terms.entry)} {now} → {_BOUNDS[change.bound]}{terms.text} ({', '.join([*terms.beside, times])})"
-    )
-    return text if change.bound == "about" else f"{text}, tried {_farthest(study, change)}"
+    bound, tried = ("", "") if change.bound == "about" else (f"{change.bound} ", f", tried {_farthest(study, change)}")
+    return f"{entry_words(terms.entry)} {now} → {bound}{terms.text} ({', '.join([*terms.beside, times])}){tried}"
 
 
 def _farthest(study: StudyData, change: Change) -> str:
@@ -125,7 +113,7 @@ def _details(study: StudyData, change: Change) -> Iterator[Fact]:
         worse = study.zone not in (None, _LAST_ZONE)
         still = "still " if study.zone == _LAST_ZONE else ""
         zone = f"{zone}, which is worse than now" if worse else f"{still}{zone}: less unbalance is needed too"
-    yield _fact("Then", f"levitates at {_place(study, change.radius)}, {zone}", "closed form", detail=True)
+    yield _fact("Then", f"levitates at {_place(study.wording, change.radius)}, {zone}", "closed form", detail=True)
     yield _fact("Tried", _tried(study, change), "sampled", detail=True)
     for check in change.forced:
         yield _fact("Not nearer", _forced(study, change.parameter, check), "sampled", detail=True)
@@ -209,9 +197,8 @@ def _end(say: Wording, name: str, edge: Edge) -> str:
     return f"{say.value(name, edge.value)}, {_where(edge)} ({evidence_of(edge)})"
 
 
-def _own_margin(study: StudyData, margin: Margin) -> str:
-    say, name, end = study.wording, margin.parameter, margin.edge.value
-    own = study.case.parameters.value(name)
+def _own_margin(say: Wording, own: float, margin: Margin) -> str:
+    name, end = margin.parameter, margin.edge.value
     share = f"{number(100.0 * margin.share, 2)} % {'above' if own > end else 'below'} {say.value(name, end)}"
     return f"{say.name(name)} {say.value(name, own)} is {share}, {_where(margin.edge)}"
 
@@ -220,7 +207,7 @@ def _where(edge: Edge) -> str:
     """Say what happens at the end of a range."""
     if edge.motion is not None:
         return f"beyond which disturbances ended in {motion_words(edge.motion)}"
-    return f"where {EVENTS.get(edge.kind, f'an orbit ends ({edge.kind})')}"
+    return f"where {event_words(edge)}"
 
 
 def _none_found(study: StudyData) -> str:

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Callable, Mapping
 
+from carom.attractors import AttractorSet
 from carom.attractors.names import LEVITATION
+from carom.closed_forms.equilibria import Equilibrium
 from carom.closed_forms.whirl import Rolling, Runaway, rolling, runaway_speed
+from carom.orbits.orbit import Orbit
 from carom.outcome import STEADY_WORDS
 from carom.parameters import GRAVITY
 from carom.parameters.indentation import gives_way, indentation_of_force, indentation_of_hit
@@ -16,13 +19,6 @@ from carom.studies.ranges import Motion
 from carom.studies.recovery import Recovery
 from carom.studies.study_data import StudyData
 from carom.studies.wording import Wording, counted, listed, no_rigid_wall, steel_words
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
-
-    from carom.attractors import AttractorSet
-    from carom.closed_forms.equilibria import Equilibrium
-    from carom.orbits.orbit import Orbit
 
 RUB, ROLLING = STEADY_WORDS["rub"], STEADY_WORDS["rolling"]
 

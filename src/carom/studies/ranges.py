@@ -8,7 +8,6 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from itertools import pairwise
 from typing import Literal, get_args
 
 import numpy as np
@@ -20,7 +19,7 @@ from carom.closed_forms.thresholds import Gain, Steady, ranges_of
 from carom.closed_forms.whirl import rolling
 from carom.models import Axis, Edge, Jeffcott, Model, Span, axis
 from carom.models.axes import usual_range
-from carom.models.spans import holds, paired
+from carom.models.spans import holds, spans_where
 from carom.orbits.single_impact import longest_within_reach, orbits_within_reach
 from carom.outcome import CaromError
 from carom.parameters import PHYSICAL_PARTNER
@@ -49,6 +48,11 @@ DAMPING_STEP, STEP = 0.1, 0.05
 _OWN: dict[str, str] = {there: own for own, there in PHYSICAL_PARTNER.items()}
 NEARBY = 1e-6
 """Relative distance from an edge at which the certified lists of orbits must confirm it."""
+
+
+def event_words(edge: Edge) -> str:
+    """What happens at the end of a range, in words."""
+    return EVENTS.get(edge.kind, f"an orbit ends ({edge.kind})")
 
 
 @dataclass(frozen=True)
@@ -116,8 +120,7 @@ def motion_ranges(rotor: Model, along: Axis, progress: ShowProgress = None) -> t
     own = _OWN.get(along.name, along.name)
     varied = axis(rotor, own)
     values = _values(rotor, varied)
-    steady = _known(rotor, own) if own in get_args(Gain) else _steady_ranges(rotor, varied, values)
-    found = (*steady, *(_orbit_ranges(rotor, varied, values, progress) if values else ()))
+    found = (*_steady_ranges(rotor, varied, values), *_orbit_ranges(rotor, varied, values, progress))
     return found if own == along.name else tuple(_of_the_machine(rotor, along, entry) for entry in found)
 
 
@@ -131,26 +134,21 @@ def _of_the_machine(rotor: Jeffcott, along: Axis, entry: MotionRange) -> MotionR
     return replace(entry, parameter=along.name, spans=tuple(map(told, entry.spans)), searched=searched)
 
 
-def _known(rotor: Jeffcott, name: str) -> list[MotionRange]:
-    """Steady motions along damping and stiffness, in closed form."""
-    gain: Gain = name  # type: ignore[assignment]
-    return [MotionRange(motion, gain, ranges_of(motion, rotor.parameters, gain)) for motion in get_args(Steady)]
-
-
 def _steady_ranges(rotor: Jeffcott, along: Axis, values: Sequence[float]) -> list[MotionRange]:
-    """Steady motions along any other parameter, between their special points."""
+    """By closed forms along damping and stiffness; along other parameters between the special points of steady motions."""
+    if along.name in get_args(Gain):
+        gain: Gain = along.name  # type: ignore[assignment]
+        return [MotionRange(motion, gain, ranges_of(motion, rotor.parameters, gain)) for motion in get_args(Steady)]
     if not values:
         return []
-    low, high = values[0], values[-1]
-    points = sorted(steady_points(rotor.parameters, along, (low, high)), key=lambda point: point.value)
-    edges = [Edge(low), *(Edge(point.value, point.kind) for point in points), Edge(high)]
-    there = [_steady_at(along.move(rotor, 0.5 * (one.value + other.value))) for one, other in pairwise(edges)]
-    found = []
-    for motion in get_args(Steady):
-        sides = pairwise([False, *(motion in each for each in there), False])
-        ends = [edge for edge, (below, above) in zip(edges, sides, strict=True) if below != above]
-        found.append(MotionRange(motion, along.name, paired(ends), Span(edges[0], edges[-1])))
-    return found
+    searched = Span(Edge(values[0]), Edge(values[-1]))
+    points = steady_points(rotor.parameters, along, (values[0], values[-1]))
+    edges = [*searched, *(Edge(point.value, point.kind) for point in points)]
+
+    def where(motion: Steady) -> tuple[Span, ...]:
+        return spans_where(edges, lambda value: motion in _steady_at(along.move(rotor, value)))
+
+    return [MotionRange(motion, along.name, where(motion), searched) for motion in get_args(Steady)]
 
 
 def _steady_at(rotor: Jeffcott) -> set[str]:
@@ -161,6 +159,8 @@ def _steady_at(rotor: Jeffcott) -> set[str]:
 
 def _orbit_ranges(rotor: Jeffcott, along: Axis, values: Sequence[float], progress: ShowProgress) -> list[MotionRange]:
     """All orbits and the stable ones."""
+    if not values:
+        return []
     found: dict[Motion, tuple[Span, ...] | None] = {"single-impact": (), "stable-single-impact": ()}
     if rotor.parameters.rho > 0.0:  # a balanced rotor has no such orbit
         try:

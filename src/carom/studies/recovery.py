@@ -20,7 +20,7 @@ from carom.arguments import Count, Seed, checked
 from carom.disturbances import Sample
 from carom.models import Axis, Edge, Model, Span, Subject, axis, model_of
 from carom.models.axes import Ends, read_interval, usual_range
-from carom.models.spans import common, holds, outside, paired
+from carom.models.spans import holds, paired, spans_where
 from carom.outcome import InputError
 from carom.parameters.told import told_along
 from carom.progress import Reporter, ShowProgress, shows_progress
@@ -181,9 +181,13 @@ def _places(
     orbits = known.get("single-impact")
     if orbits is None or orbits.searched is None:
         return [()]
-    levitating = common(known["contact-free"].spans, (orbits.searched,))
-    without = common(outside(orbits.spans, orbits.searched), outside(known["rub"].spans, orbits.searched))
-    alone = common(without, known["contact-free"].spans)
+    levitation, others = known["contact-free"], (orbits, known["rub"])
+    spans = [span for entry in (*others, levitation) for span in entry.spans]
+    edges = [*orbits.searched, *(edge for span in spans for edge in span if edge.value in orbits.searched)]
+    levitating = spans_where(edges, levitation.exists_at)
+    alone = spans_where(
+        edges, lambda value: levitation.exists_at(value) and not any(entry.exists_at(value) for entry in others)
+    )
     if present is not None and present.recovers and not holds(alone, varied.value(rotor)):
         return [levitating]
     return [alone, levitating] if alone != levitating else [alone]

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from itertools import zip_longest
-from typing import TYPE_CHECKING, Literal
+from typing import Literal
 
+from carom.attractors import Attractor, AttractorSet
 from carom.attractors.names import LEVITATION, SYNCHRONOUS_RUB
 from carom.basins import Share
 from carom.basins.shares import percent
@@ -19,13 +20,10 @@ from carom.parameters.terms import set_by
 from carom.parameters.told import told_entry
 from carom.studies.advice_facts import check_words
 from carom.studies.proven import is_proven
-from carom.studies.ranges import EVENTS, Motion, MotionRange
+from carom.studies.ranges import Motion, MotionRange, event_words
 from carom.studies.study_data import StudyData
 from carom.studies.verdict_facts import KINDS, lost_to
 from carom.studies.wording import Wording, no_rigid_wall
-
-if TYPE_CHECKING:
-    from carom.attractors import Attractor, AttractorSet
 
 
 @dataclass(frozen=True)
@@ -59,18 +57,6 @@ class MotionRow:
     trials: str = ""
     """Number of disturbances that ended there."""
     remark: str = ""
-
-
-@dataclass(frozen=True)
-class ThresholdRow:
-    """A value of damping or stiffness at which a motion appears or vanishes."""
-
-    motion: str
-    exists: str
-    quantity: str
-    value: str
-    dimensionless: str
-    what: str
 
 
 @dataclass(frozen=True)
@@ -285,24 +271,16 @@ def _seen(say: Wording, member: Attractor, found: AttractorSet, parameters: Para
     )
 
 
-def threshold_rows(study: StudyData) -> list[ThresholdRow]:
-    """Return a row for every threshold of damping and stiffness."""
+def threshold_rows(study: StudyData) -> list[tuple[str, ...]]:
+    """Return a row for every threshold: motion, side on which it exists, quantity, its values as told and dimensionless, and event."""
     say = study.wording
-    rows = []
+    rows: list[tuple[str, ...]] = []
     for entry in study.thresholds:
-        what = EVENTS.get(entry.edge.kind, f"an orbit ends ({entry.edge.kind})") + (
-            "" if entry.edge.certified else " (located, but not confirmed by the orbits close by)"
-        )
-        rows.append(
-            ThresholdRow(
-                MOTIONS[entry.motion],
-                entry.exists,
-                say.name(entry.parameter),
-                say.value(entry.parameter, entry.edge.value) if say.scales else "",
-                f"{DIMENSIONLESS_FIELDS[entry.parameter].symbol} = {entry.edge.value:.5g}",
-                what,
-            )
-        )
+        name, edge = entry.parameter, entry.edge
+        own = f"{DIMENSIONLESS_FIELDS[name].symbol} = {edge.value:.5g}"
+        sure = "" if edge.certified else " (located, but not confirmed by the orbits close by)"
+        told = say.value(name, edge.value) if say.scales else ""
+        rows.append((MOTIONS[entry.motion], entry.exists, say.name(name), told, own, f"{event_words(edge)}{sure}"))
     return rows
 
 
