@@ -17,8 +17,6 @@ from carom.parameters import read_quantity
 from carom.parameters.fields import RPM
 from carom.results import in_a_line
 from carom.studies.response_data import ResponseData, steady_at, stretches_between
-from carom.studies.response_document import response_document
-from carom.studies.response_words import sentences
 
 SPEEDS = 801
 """Number of speeds of the curves."""
@@ -41,10 +39,14 @@ class UnbalanceResponse(ResponseData):
     @cached_property
     def words(self) -> tuple[str, ...]:
         """What the response says about the machine, in sentences."""
+        from carom.studies.response_words import sentences  # only here: a study does without
+
         return sentences(self)
 
     def to_dict(self) -> dict[str, Any]:
         """Return the response as ``carom response --json`` prints it."""
+        from carom.studies.response_document import response_document  # only here: a study does without
+
         return response_document(self, self.words)
 
 
