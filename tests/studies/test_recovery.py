@@ -7,7 +7,7 @@ from linear_rotors import touchdowns
 import carom as cm
 from carom.closed_forms import harmless_kick
 from carom.disturbances import AnyState, BaseShock, BladeLoss, Sample, VelocityKick
-from carom.models import Edge, Jeffcott, LinearRotor, Span
+from carom.models import Jeffcott, LinearRotor
 from carom.motions import settle
 from carom.outcome import InputError
 from carom.parameters import Parameters
@@ -102,7 +102,13 @@ def test_any_parameter_of_any_model():
         touchdowns=touchdowns([[1.0]], [0.1], [0.6], [30.0]),
     )
     name = next(name for name in rotor.varied if "friction" in name)
-    found = find_recovery(rotor, name, [Sample(VelocityKick(0.8), 60)], within=(0.02, 0.9))
+    kicks = [Sample(VelocityKick(0.8), 60)]
+    assert (
+        check_recovery(rotor, kicks, along=name).drawn
+        == check_recovery(rotor, kicks, along=name, value=rotor.value(name)).drawn
+    )
+    assert check_recovery(rotor, kicks).drawn.total == 60
+    found = find_recovery(rotor, name, kicks, within=(0.02, 0.9))
     assert found.along.name == name
     assert found.clear
     machine = cm.load("examples/keogh-cole.toml", ["damping=4000 N s/m"])
@@ -140,7 +146,7 @@ def test_what_came_back_at_the_present_value_is_taken_for_the_range_around_it():
 
 
 def test_where_nothing_levitates_nothing_recovers():
-    found = find_recovery(SOURCE, "gamma", tried(50), within=[Span(Edge(0.02), Edge(0.06))])
+    found = find_recovery(SOURCE, "gamma", tried(50), within=(0.02, 0.06))
     assert found.spans == ()
     assert all(check.example.motion is None for check in found.checks)
 

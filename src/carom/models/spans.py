@@ -63,11 +63,6 @@ def spans_where(edges: Iterable[Edge], there: Callable[[float], bool]) -> tuple[
     return paired([edge for edge, (below, above) in zip(ordered, pairwise(sides), strict=True) if below != above])
 
 
-def holds(spans: Iterable[Span], value: float) -> bool:
-    """Whether some of the spans hold a value."""
-    return any(value in span for span in spans)
-
-
 def paired(ends: Sequence[Edge]) -> tuple[Span, ...]:
     """The spans whose ends these are, in ascending order."""
     return tuple(Span(*pair) for pair in zip(ends[::2], ends[1::2], strict=True))

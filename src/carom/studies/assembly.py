@@ -164,10 +164,7 @@ def _present(rotor: Jeffcott, tried: tuple[Sample, ...]) -> Check:
 
 def _refuse_another_machine(case: Case, disturbances: Plan | Disturbance | None) -> None:
     """Refuse disturbances that change the machine."""
-    if disturbances is None:
-        return
-    model = disturbances if isinstance(disturbances, Disturbance) else disturbances.model
-    rotor = Jeffcott(case.parameters)
-    if model.machine_after(rotor) is not rotor:
+    model, rotor = getattr(disturbances, "model", disturbances), Jeffcott(case.parameters)
+    if isinstance(model, Disturbance) and model.machine_after(rotor) is not rotor:
         allowed = "one that leaves the machine as it is: study the machine after it, or follow it with map_basins"
         raise InputError("disturbances", model.kind, allowed)

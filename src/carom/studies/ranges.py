@@ -19,7 +19,7 @@ from carom.closed_forms.thresholds import Gain, Steady, ranges_of
 from carom.closed_forms.whirl import rolling
 from carom.models import Axis, Edge, Jeffcott, Model, Span, axis
 from carom.models.axes import usual_range
-from carom.models.spans import holds, spans_where
+from carom.models.spans import spans_where
 from carom.orbits.single_impact import longest_within_reach, orbits_within_reach
 from carom.outcome import CaromError
 from carom.parameters import PHYSICAL_PARTNER
@@ -103,7 +103,7 @@ class MotionRange:
 
     def exists_at(self, value: float) -> bool:
         """Whether the motion exists for this value."""
-        return holds(self.spans, value)
+        return any(value in span for span in self.spans)
 
 
 def motion_ranges(rotor: Model, along: Axis, progress: ShowProgress = None) -> tuple[MotionRange, ...]:

@@ -20,7 +20,7 @@ from carom.arguments import Count, Seed, checked
 from carom.disturbances import Sample
 from carom.models import Axis, Edge, Model, Span, Subject, axis, model_of
 from carom.models.axes import Ends, read_interval, usual_range
-from carom.models.spans import holds, paired, spans_where
+from carom.models.spans import paired, spans_where
 from carom.outcome import InputError
 from carom.parameters.told import told_along
 from carom.progress import Reporter, ShowProgress, shows_progress
@@ -98,7 +98,7 @@ def find_recovery(
     along: str,
     disturbances: Sequence[Sample],
     *,
-    within: Ends | Sequence[Span] | None = None,
+    within: Ends | None = None,
     present: Check | None = None,
     seed: Seed = 0,
     threads: Count | None = None,
@@ -114,8 +114,8 @@ def find_recovery(
     disturbances : sequence of Sample
         Kinds of disturbances with the number drawn at each value.  Where the parameter changes the scales (shaft speed,
         clearance) they keep their size in SI units.
-    within : tuple of float or str, or sequence of Span, optional
-        The range to search, in the unit of the parameter, or several; by default where the planar rotor levitates and no other
+    within : tuple of float or str, optional
+        The range to search, in the unit of the parameter; by default where the planar rotor levitates and no other
         simple motion can hold it, or, if nothing is found there, wherever it levitates.  For other rotors half to twice the present
         value.
     present : Check, optional
@@ -166,17 +166,14 @@ def find_recovery(
 
 
 def _places(
-    rotor: Model,
-    varied: Axis,
-    within: Ends | Sequence[Span] | None,
-    motions: tuple[MotionRange, ...],
-    present: Check | None,
+    rotor: Model, varied: Axis, within: Ends | None, motions: tuple[MotionRange, ...], present: Check | None
 ) -> list[tuple[Span, ...]]:
     """The intervals to search, and those to search if no value of these leaves only recovery."""
-    if within is not None:
-        return [_read(varied, within)]
     if not motions:
-        return [_read(varied, usual_range(varied, varied.value(rotor), "within"))]
+        low, high = read_interval(varied, within or usual_range(varied, varied.value(rotor), "within"))
+        if not low > 0.0:
+            raise InputError("within", f"{low:g} to {high:g}", "a range above 0")
+        return [(Span(Edge(low), Edge(high)),)]
     known = {entry.motion: entry for entry in motions}
     orbits = known.get("single-impact")
     if orbits is None or orbits.searched is None:
@@ -188,18 +185,9 @@ def _places(
     alone = spans_where(
         edges, lambda value: levitation.exists_at(value) and not any(entry.exists_at(value) for entry in others)
     )
-    if present is not None and present.recovers and not holds(alone, varied.value(rotor)):
+    if present is not None and present.recovers and not any(varied.value(rotor) in span for span in alone):
         return [levitating]
     return [alone, levitating] if alone != levitating else [alone]
-
-
-def _read(varied: Axis, within: Ends | Sequence[Span]) -> tuple[Span, ...]:
-    if all(isinstance(span, Span) for span in within):
-        return tuple(span for span in within if isinstance(span, Span))
-    low, high = read_interval(varied, within)  # type: ignore[arg-type]
-    if not low > 0.0:
-        raise InputError("within", f"{low:g} to {high:g}", "a range above 0")
-    return (Span(Edge(low), Edge(high)),)
 
 
 def _recovering(trial: Trial, span: Span) -> tuple[Span, ...]:

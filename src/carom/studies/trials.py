@@ -99,7 +99,7 @@ def check_recovery(
     machine: Subject,
     disturbances: Sequence[Sample],
     *,
-    along: str = "gamma",
+    along: str | None = None,
     value: float | None = None,
     seed: Seed = 0,
     threads: Count | None = None,
@@ -108,13 +108,15 @@ def check_recovery(
 
     Parameters
     ----------
-    machine, along, disturbances, seed, threads
+    machine, disturbances, seed, threads
         As for :func:`find_recovery`; ``seed`` draws all samples anew.
+    along : str, optional
+        The parameter, by default the first of the model.
     value : float, optional
         In the unit of the parameter.
     """
     rotor = model_of(machine)
-    varied = axis(rotor, along)
+    varied = axis(rotor, along or next(iter(rotor.varied)))
     there = varied.value(rotor) if value is None else value
     return Trial(rotor, varied, tuple(disturbances), seed, threads).at(there)
 

@@ -9,7 +9,7 @@ from typing import Any
 
 from carom.arguments import checked
 from carom.models import Span
-from carom.parameters import DIMENSIONLESS_FIELDS, Case, Scales
+from carom.parameters import DIMENSIONLESS_FIELDS, UNITS, Case, Scales
 from carom.parameters.indentation import gives_way
 from carom.parameters.told import number, own_entry, told, told_entry
 
@@ -60,7 +60,7 @@ class Wording:
 
     def length(self, value: float) -> str:
         """A length given in ``c_r``."""
-        return self._quantity(value, "length", "m", "c_r")
+        return self._quantity(value, "length")
 
     def radius(self, value: float) -> str:
         """A radius in both units, for example ``0.955 c_r (0.668 mm)``."""
@@ -69,7 +69,7 @@ class Wording:
 
     def time(self, value: float) -> str:
         """A time given in ``1/Ω``."""
-        return f"{number(value, 3)}/Ω" if self.scales is None else self._quantity(value, "time", "s", "")
+        return self._quantity(value, "time")
 
     def velocity(self, value: float) -> str:
         """A velocity of the rotor centre given in ``c_r Ω``; always in mm/s, so that those of a page compare at a glance."""
@@ -90,25 +90,25 @@ class Wording:
 
     def slip(self, value: float) -> str:
         """The speed of the surface of the rotor on the wall, given in ``c_r Ω``, in m/s."""
-        return self._plain(value, "velocity", "m/s", "c_r Ω")
+        return f"{number(value * self.scales.velocity, 3)} m/s" if self.scales else told(value, "velocity", None)
 
     def force(self, value: float) -> str:
         """A force given in ``m c_r Ω²``; below 100,000 N without prefix, as bearing loads are usually given in N."""
         if self.scales is not None and abs(value) * self.scales.force >= 1e5:
             return _with_prefix(value * self.scales.force, "N", least=1.0)
-        return self._plain(value, "force", "N", "m c_r Ω²")
+        return told(value, "force", self.scales)
 
     def impulse(self, value: float) -> str:
         """An impulse given in ``m c_r Ω``."""
-        return self._plain(value, "impulse", "N s", "m c_r Ω")
+        return told(value, "impulse", self.scales)
 
     def energy(self, value: float) -> str:
         """An energy given in ``m c_r² Ω²``."""
-        return self._quantity(value, "energy", "J", "m c_r² Ω²", least=1.0)
+        return self._quantity(value, "energy", least=1.0)
 
     def power(self, value: float) -> str:
         """A power given in ``m c_r² Ω³``."""
-        return self._quantity(value, "power", "W", "m c_r² Ω³", least=1.0)
+        return self._quantity(value, "power", least=1.0)
 
     def per_second(self, period: float) -> str:
         """Write the frequency of an event with this period, in ``1/Ω``."""
@@ -147,15 +147,10 @@ class Wording:
             parts.append(f"below {last}" if from_start else f"above {first}" if to_end else f"from {first} to {last}")
         return " and ".join(parts)
 
-    def _quantity(self, value: float, scale: str, unit: str, own_unit: str, least: float = 0.1) -> str:
+    def _quantity(self, value: float, kind: str, least: float = 0.1) -> str:
         if self.scales is None:
-            return f"{number(value, 3)} {own_unit}"
-        return _with_prefix(value * getattr(self.scales, scale), unit, least)
-
-    def _plain(self, value: float, scale: str, unit: str, own_unit: str) -> str:
-        if self.scales is None:
-            return f"{number(value, 3)} {own_unit}"
-        return f"{number(value * getattr(self.scales, scale), 3)} {unit}"
+            return told(value, kind, None)
+        return _with_prefix(value * getattr(self.scales, kind), UNITS[kind][1], least)
 
 
 def present_values(case: Case) -> str:
