@@ -27,7 +27,7 @@ from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
-from carom.attractors import AttractorSet, Ending, MotionName
+from carom.attractors import AttractorSet, MotionName
 from carom.attractors.names import LEVITATION, SYNCHRONOUS_RUB
 from carom.closed_forms.equilibria import Equilibrium
 from carom.closed_forms.whirl import Rolling
@@ -227,16 +227,12 @@ def bearing_demand(
         whirl = Centre.whirling(1.0, -roll.speed)
         motions += [Demand(ROLLING.words, limit, float(limit.asked(whirl))) for limit in limits]
     tried = found.disturbances
-    peaks = np.array([_until_known(ending, limits) for ending in tried]).reshape(len(tried), 2, len(limits))
+    again = (simulate(ending.rotor, ending.start.state, ending.time) for ending in tried)  # until their ends are known
+    peaks = np.array([(largest_along(motion, limits), largest_jumps(motion, limits)) for motion in again])
+    peaks = peaks.reshape(len(tried), 2, len(limits))
     shares = tuple(peaks[:, 0, place] / limit.most for place, limit in enumerate(limits))
     came_back = np.array([ending.recovered for ending in tried], bool)
     return BearingDemand(limits, tuple(motions), shares, tuple(peaks[:, 1].T), came_back)
-
-
-def _until_known(ending: Ending, limits: tuple[BearingLimit, ...]) -> tuple[tuple[float, ...], tuple[float, ...]]:
-    """Largest values and jumps of a disturbance, which is simulated once more."""
-    motion = simulate(ending.rotor, ending.start.state, ending.time)
-    return largest_along(motion, limits), largest_jumps(motion, limits)
 
 
 def asked_by(case: Case, disturbances: Iterable[Sample]) -> float | None:

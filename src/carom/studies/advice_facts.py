@@ -30,6 +30,10 @@ _NOTHING_BUILDABLE = (
     "nothing that the magnetic bearings can give helps: every change found that brings all back asks for more than their "
     "limits, so that the real machine moves otherwise; larger limits, less unbalance or a larger clearance are needed"
 )
+_HOW_SURE = (
+    "closed form: exact; searched: complete lists of orbits at values close together; sampled: seeded random "
+    "disturbances, so that rare ones may end elsewhere."
+)
 _LAST_ZONE = "D"
 
 
@@ -66,7 +70,10 @@ def advice_facts(study: StudyData) -> Iterator[Fact]:
                 "Margin", _own_margin(say, present["present"], margin), evidence_of(margin.edge), values, detail=True
             )
     yield _fact("Disturbances", _disturbances(study))
-    yield _fact("How sure", _how_sure(study))
+    proven = "Only what is called proven is."
+    if study.proof is not None:
+        proven = "Proven is only what “Proven” says of the present values, not the change."
+    yield _fact("How sure", f"{_HOW_SURE} {proven}")
 
 
 def _fact(
@@ -232,16 +239,6 @@ def _disturbances(study: StudyData) -> str:
     if required.blade_loss:
         text += f"; losses of a blade that leave an unbalance of {say.unbalance(required.blade_loss)}"
     return f"{text}; of faster ones, and of other kinds, nothing is said"
-
-
-def _how_sure(study: StudyData) -> str:
-    text = (
-        "closed form: exact; searched: complete lists of orbits at values close together; sampled: seeded random "
-        "disturbances, so that rare ones may end elsewhere. "
-    )
-    if study.proof is None:
-        return text + "Only what is called proven is."
-    return text + "Proven is only what “Proven” says of the present values, not the change."
 
 
 def change_document(study: StudyData, change: Change) -> dict[str, Any]:

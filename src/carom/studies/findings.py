@@ -212,9 +212,12 @@ def _no_return(study: StudyData, runaway: Runaway) -> str:
     say, at = study.wording, study.case.parameters
     force = runaway.certain**2 - at.omega**2 + at.rho
     power = at.mu * force * max(runaway.rolling_speed - runaway.certain, 0.0)
+    certain, average = say.velocity(runaway.certain), say.velocity(runaway.average)
+    # Below the speed that is certain the unbalance decides.
+    perhaps = "" if certain == average else f", and it may get there from about {average} on"
     return (
-        f"There is no return if, in lasting contact, its centre moves backward faster than {say.velocity(runaway.certain)} (whirl at "
-        f"{number(runaway.certain, 3)} times the speed of the shaft){_perhaps(study, runaway)}; the bearing then carries up to "
+        f"There is no return if, in lasting contact, its centre moves backward faster than {certain} (whirl at "
+        f"{number(runaway.certain, 3)} times the speed of the shaft){perhaps}; the bearing then carries up to "
         f"{_with_weight(study, force)}, and friction takes {say.power(power)} from the drive."
     )
 
@@ -236,12 +239,6 @@ def _interrupted(study: StudyData, roll: Rolling) -> str:
     return f" (from {every_angle} on it can roll for a part of each turn only, and slides in between)"
 
 
-def _perhaps(study: StudyData, runaway: Runaway) -> str:
-    """Name the lower speed from which the unbalance decides whether backward whirl runs away."""
-    certain, average = study.wording.velocity(runaway.certain), study.wording.velocity(runaway.average)
-    return "" if certain == average else f", and it may get there from about {average} on"
-
-
 def _with_weight(study: StudyData, force: float) -> str:
     """Return a force with its multiple of the weight of the rotor."""
     text, scales = study.wording.force(force), study.rotor.scales
@@ -251,10 +248,10 @@ def _with_weight(study: StudyData, force: float) -> str:
 
 
 def _remedies(study: StudyData) -> str:
-    return "\n".join(" ".join(_remedies_along(study.wording, found)) for found in study.recoveries)
+    return "\n".join(_remedies_along(study.wording, found) for found in study.recoveries)
 
 
-def _remedies_along(say: Wording, found: Recovery) -> list[str]:
+def _remedies_along(say: Wording, found: Recovery) -> str:
     along = found.along
     name, own = say.name(along.name), say.value(along.name, along.value(found.rotor))
     parts = []
@@ -267,7 +264,7 @@ def _remedies_along(say: Wording, found: Recovery) -> list[str]:
             f"{_POSSIBLE['stable-single-impact'].rstrip(',')} were not searched: there are too many orbits to follow"
         )
     what = name if say.scales is None else f"{name[0].upper()}{name[1:]}"  # A symbol keeps its case: Ω is not ω.
-    return [f"{what} (this machine: {own}): {'; '.join(parts)}.", _recovery_words(say, found, name)]
+    return f"{what} (this machine: {own}): {'; '.join(parts)}. {_recovery_words(say, found, name)}"
 
 
 def _recovery_words(say: Wording, found: Recovery, name: str) -> str:

@@ -21,7 +21,6 @@ from carom.basins.shares import Population, Share
 from carom.disturbances import Disturbance, Sample, Starts
 from carom.disturbances.following import follow
 from carom.models import Axis, Model, Subject, axis, model_of
-from carom.motions.ensembles import Endings
 from carom.results import Result
 
 FIRST_LOOK = 200
@@ -157,7 +156,9 @@ class Trial:
                 counts[row, place] += ends.recovered.size - len(gone), ends.recovered.size
             if len(gone):
                 self.last[place] = values[:, gone[:KEPT]]
-                example = example or _lost(rotor, models[place], values[:, gone[0]], ends[gone[:1]])
+                if example is None:
+                    _, names = name_motions(models[place].machine_after(rotor), ends[gone[:1]])
+                    example = Lost(models[place], tuple(values[:, gone[0]].tolist()), names[0] if names else None)
                 if stop:
                     break
         of = [Population.of_model(model, rotor.scales) for model in models]
@@ -195,12 +196,6 @@ class Trial:
             if not along.periodic:
                 np.clip(row, along.low, along.high, out=row)
         return chosen
-
-
-def _lost(rotor: Model, model: Disturbance, values: np.ndarray, ends: Endings) -> Lost:
-    """The one disturbance with these coordinates, which ended so."""
-    _, names = name_motions(model.machine_after(rotor), ends)
-    return Lost(model, tuple(values.tolist()), names[0] if names else None)
 
 
 def _coordinates(sample: Sample, random: np.random.Generator, count: int, largest: bool = False) -> np.ndarray:

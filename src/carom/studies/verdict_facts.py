@@ -38,9 +38,8 @@ def verdict_facts(study: StudyData) -> Iterator[Fact]:
     yield from _others(study)
 
 
-def required_words(study: StudyData) -> str:
-    """What the machine must survive, in words."""
-    say, required = study.wording, study.required
+def _required(study: StudyData) -> Fact:
+    say, required, source = study.wording, study.required, study.case.requirement.source
     parts = [f"kicks of up to {say.velocity(required.kick)}"]
     if required.shock:
         parts.append(
@@ -48,17 +47,12 @@ def required_words(study: StudyData) -> str:
         )
     if required.blade_loss:
         parts.append(f"the loss of a blade that leaves an unbalance of {say.unbalance(required.blade_loss)}")
-    return listed(parts)
-
-
-def _required(study: StudyData) -> Fact:
-    source = study.case.requirement.source
     how = _CHOSEN[source]
-    if source == "default" and study.wording.scales is None:
+    if source == "default" and say.scales is None:
         how = "chosen by carom"
     elif source != "default" and study.case.requirement.kick is None:
         how = f"{how}; the kick is {_CHOSEN['default']}"
-    return Fact("Verdict", f"{required_words(study)} ({how})", "Must survive", values=requirement_document(study))
+    return Fact("Verdict", f"{listed(parts)} ({how})", "Must survive", values=requirement_document(study))
 
 
 def requirement_document(study: StudyData) -> dict[str, Any]:
