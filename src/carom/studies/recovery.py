@@ -148,6 +148,9 @@ def find_recovery(
     >>> found = cm.studies.find_recovery(machine, "damping", [kicks], within=("2000 N s/m", "8000 N s/m"))
     >>> len(found.spans), found.spans[0].low.motion
     (1, 'synchronous rub')
+    >>> slower = cm.studies.find_recovery(machine, "speed", [kicks])
+    >>> [(round(span.low.value), round(span.high.value), span.high.kind) for span in slower.spans]
+    [(92, 120, 'boundary-equilibrium')]
     """
     rotor = model_of(machine)
     varied = axis(rotor, along)
