@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any
+from typing import Any, ClassVar
 
 from carom.arguments import checked
 from carom.attractors import DisturbanceSet, find_attractors
@@ -43,6 +43,8 @@ SEED = 1
 @dataclass(frozen=True, eq=False, repr=False)
 class Study(StudyData):
     """The study of a machine: what was found (:class:`~carom.studies.study_data.StudyData`), and what follows from it in words."""
+
+    figure: ClassVar[str] = "overview"
 
     def rows(self) -> list[tuple[str, str]]:
         """The machine, its motions, and the first sentences of the verdict."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -30,6 +30,8 @@ class UnbalanceResponse(ResponseData):
 
     Its attributes are those of :class:`~carom.studies.response_data.ResponseData`.
     """
+
+    figure: ClassVar[str] = "unbalance_response"
 
     def rows(self) -> list[tuple[str, str]]:
         """The machine, the range, and what is said of it."""

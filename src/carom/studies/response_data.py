@@ -105,8 +105,6 @@ class ResponseData(Result):
 
     rests_on: ClassVar[tuple[str, ...]] = ("api617", "iso14839")
 
-    figure: ClassVar[str] = "unbalance_response"
-
     case: Case
     contact_free: SpeedResponse
     interval: tuple[float, float]

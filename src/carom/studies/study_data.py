@@ -59,8 +59,6 @@ class StudyData(Result):
 
     rests_on: ClassVar[tuple[str, ...]] = ("mora2014", "iso14839")
 
-    figure: ClassVar[str] = "overview"
-
     case: Case
     rotor: Jeffcott
     equilibria: tuple[Equilibrium, ...]
