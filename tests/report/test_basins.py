@@ -41,9 +41,9 @@ def test_the_change_is_the_one_that_was_checked(real, monkeypatch):
     ((now, here), (after, there)), required = drawn(monkeypatch, real)
     change = real.recommendation.changes[0]
     assert here.rotor.parameters == real.case.parameters
-    assert there.rotor.value(change.gain) == change.check.value
+    assert there.rotor.value(change.parameter) == change.check.value
     assert (
-        there.rotor.parameters.replace(**{change.gain: real.case.parameters.value(change.gain)})
+        there.rotor.parameters.replace(**{change.parameter: real.case.parameters.value(change.parameter)})
         == here.rotor.parameters
     )
     assert here.plan == there.plan

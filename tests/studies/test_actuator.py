@@ -225,7 +225,7 @@ def test_jumps_of_the_current_are_told_apart_from_its_rate():
     )
     assert (demand.jumps[0] > 0.0).tolist() == struck.tolist()
     assert (demand.disturbances[0] > 0.0).all()
-    text = actuator_words(result)
+    text = actuator_words(demand)
     assert "one magnetic bearing gives at most 40,000 A/s of slew rate" in text
     largest = demand.jumps[0].max()
     assert f"At an impact the controller asks at once for a current that differs by up to {number(largest)} A." in text

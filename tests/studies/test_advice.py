@@ -9,9 +9,9 @@ import pytest
 import carom as cm
 from carom.models import Jeffcott
 from carom.motions import settle, simulate
-from carom.parameters import Case, Machine, Zones
+from carom.parameters import Case, Machine, Zones, in_terms_of
 from carom.studies.actuator import Centre, asked_by, largest_along, limits_of
-from carom.studies.advice import stated, with_setting
+from carom.studies.advice import with_setting
 from carom.studies.facts import about
 from carom.studies.survives import required_disturbances
 
@@ -78,7 +78,7 @@ def test_the_setting_can_be_pasted():
     result = cm.study(cm.load("examples/keogh-cole.toml"))
     for change in result.recommendation.changes:
         after = cm.load("examples/keogh-cole.toml", [change.terms.setting])
-        assert after.parameters.value(change.gain) == change.value
+        assert after.parameters.value(change.parameter) == change.value
         told = [fact.text for fact in about(result.facts, "Recommendation") if fact.label == "Set"]
         assert f'--set "{change.terms.setting}"' in told
 
@@ -87,11 +87,11 @@ def test_gains_are_advised_where_the_file_has_gains():
     case = case_of(machine_of())
     result = cm.study(case)
     assert result.recommendation.kind == "change"
-    entries = {change.gain: change.terms.entry for change in result.recommendation.changes}
+    entries = {change.parameter: change.terms.entry for change in result.recommendation.changes}
     assert set(entries.items()) <= {("gamma", "derivative_gain"), ("omega", "proportional_gain")}
     for change in result.recommendation.changes:
         text = next(fact.text for fact in about(result.facts, "Recommendation") if change.terms.text in fact.text)
-        unit = "A s/m" if change.gain == "gamma" else "A/m"
+        unit = "A s/m" if change.parameter == "gamma" else "A/m"
         assert re.search(rf"tried (up|down) to [\d,.]+ {unit}$", text)
         assert change.check.recovers
     beyond = [fact.text for fact in about(result.facts, "Recommendation") if fact.label == "Tried"]
@@ -117,7 +117,7 @@ def test_no_advice_beyond_the_limits_of_the_bearings():
 
 def test_what_a_change_asks_for_is_the_largest_along_fresh_motions():
     case = case_of(machine_of(current_limit="10 A"))
-    case = with_setting(case, stated(case, "gamma", 0.6))
+    case = with_setting(case, in_terms_of(case, "gamma", 0.6))
     required = case.requirement.own(case.parameters.scales)
     asked = asked_by(case, required_disturbances(required, 100))
     rotor, limits = Jeffcott(case.parameters), limits_of(case)
@@ -157,7 +157,7 @@ def test_a_value_that_is_not_the_least_names_the_sample_that_forced_it():
             for check in change.forced:
                 seen += 1
                 assert not check.recovers
-                rotor = Jeffcott(parameters.replace(**{change.gain: check.value}))
+                rotor = Jeffcott(parameters.replace(**{change.parameter: check.value}))
                 lost = check.example
                 starts = lost.model.starts(rotor, *(np.array([value]) for value in lost.values))
                 assert not settle(rotor, starts.positions, starts.velocities).recovered.any()

@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 
 import carom
+from carom.closed_forms.thresholds import ranges_of
 from carom.closed_forms.whirl import rolling, runaway_speed
 from carom.studies import Wording
 from carom.studies.findings import _backward_whirl
-from carom.studies.ranges import steady_range
 
 SCALES = carom.parameters.Scales(mass=50.0, clearance=0.7e-3, speed=184.2)
 SOURCE = carom.parameters.Parameters(
@@ -32,15 +32,15 @@ def said_of(parameters: carom.parameters.Parameters) -> str:
 def test_two_limits_of_rolling_are_told_apart():
     text = said_of(SOURCE)
     roll, say = rolling(carom.models.Jeffcott(SOURCE)), Wording(SCALES)
-    every_angle, bound = say.gain("gamma", roll.largest_damping), say.gain("gamma", roll.damping_bound)
+    every_angle, bound = say.value("gamma", roll.largest_damping), say.value("gamma", roll.damping_bound)
     assert every_angle != bound
     assert (
         f"Only damping above {bound} rules that out (from {every_angle} on it can roll for a part of each turn only, "
         "and slides in between)"
     ) in text
     # The smaller one is the threshold in the table.
-    (threshold,) = steady_range(SOURCE, "rolling", "gamma").thresholds
-    assert threshold.edge.value == roll.largest_damping
+    ((_, threshold),) = ranges_of("rolling", SOURCE, "gamma")
+    assert threshold.value == roll.largest_damping
 
 
 def test_a_balanced_rotor_has_one_limit_of_rolling():

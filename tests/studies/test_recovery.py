@@ -5,14 +5,14 @@ import pytest
 from linear_rotors import touchdowns
 
 import carom as cm
+from carom.closed_forms import harmless_kick
 from carom.disturbances import AnyState, BaseShock, BladeLoss, Sample, VelocityKick
 from carom.models import Jeffcott, LinearRotor
 from carom.motions import settle
 from carom.outcome import InputError
 from carom.parameters import Parameters
 from carom.studies import check_recovery, find_recovery
-from carom.studies.ranges import Edge, Span
-from carom.studies.recovery import in_all
+from carom.studies.trials import in_all
 
 SOURCE = Parameters(gamma=0.1, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7)
 SPEED = 1.3
@@ -102,7 +102,13 @@ def test_any_parameter_of_any_model():
         touchdowns=touchdowns([[1.0]], [0.1], [0.6], [30.0]),
     )
     name = next(name for name in rotor.varied if "friction" in name)
-    found = find_recovery(rotor, name, [Sample(VelocityKick(0.8), 60)], within=(0.02, 0.9))
+    kicks = [Sample(VelocityKick(0.8), 60)]
+    assert (
+        check_recovery(rotor, kicks, along=name).drawn
+        == check_recovery(rotor, kicks, along=name, value=rotor.value(name)).drawn
+    )
+    assert check_recovery(rotor, kicks).drawn.total == 60
+    found = find_recovery(rotor, name, kicks, within=(0.02, 0.9))
     assert found.along.name == name
     assert found.clear
     machine = cm.load("examples/keogh-cole.toml", ["damping=4000 N s/m"])
@@ -112,8 +118,35 @@ def test_any_parameter_of_any_model():
     assert all(share.total == 60 for share in along_speed.clear[0].returned), moved
 
 
+def test_without_a_range_it_is_looked_for_where_nothing_else_can_hold_the_rotor():
+    machine = cm.load("examples/keogh-cole.toml")
+    kicks = [Sample(VelocityKick.of(machine, "166 mm/s"), 60)]
+    found = find_recovery(machine, "speed", kicks)
+    (span,) = found.searched
+    assert found.spans == (span,)
+    assert found.range_of("contact-free").exists_at(span.low.value)
+    motions = [found.range_of(motion) for motion in ("rub", "single-impact")]
+    assert not any(
+        entry.exists_at(value) for entry in motions for value in np.linspace(*(e.value for e in span), 9)[1:-1]
+    )
+    own, physical = (find_recovery(machine, name, kicks) for name in ("gamma", "damping"))
+    ends = [edge.value * machine.parameters.scales.damping for span in own.spans for edge in span]
+    assert [edge.value for span in physical.spans for edge in span] == pytest.approx(ends, rel=1e-14)
+
+
+def test_what_came_back_at_the_present_value_is_taken_for_the_range_around_it():
+    """Nothing comes back from a rub, but small kicks never reach it."""
+    rotor = Jeffcott(SOURCE)
+    small = [Sample(VelocityKick(0.5 * harmless_kick(rotor)), 60)]
+    present = check_recovery(rotor, small)
+    assert present.recovers
+    around = find_recovery(rotor, "gamma", small, present=present)
+    assert around.span_at(SOURCE.gamma) is not None
+    assert find_recovery(rotor, "gamma", small).span_at(SOURCE.gamma) is None
+
+
 def test_where_nothing_levitates_nothing_recovers():
-    found = find_recovery(SOURCE, "gamma", tried(50), within=[Span(Edge(0.02), Edge(0.06))])
+    found = find_recovery(SOURCE, "gamma", tried(50), within=(0.02, 0.06))
     assert found.spans == ()
     assert all(check.example.motion is None for check in found.checks)
 

@@ -4,9 +4,9 @@ import math
 
 import pytest
 
+from carom.models import Edge, Span
 from carom.parameters import Scales
 from carom.parameters.told import number, told_entry
-from carom.studies.ranges import Edge, Span
 from carom.studies.wording import Wording, counted, listed
 
 SI = Wording(Scales(mass=50.0, clearance=0.7e-3, speed=184.2))
@@ -48,14 +48,14 @@ def test_quantities_with_units():
     assert SI.velocity(0.05) == "6.45 mm/s"
     assert SI.velocity(2.0) == "258 mm/s"
     assert SI.slip(58.142857) == "7.5 m/s"
-    assert SI.gain_name("gamma") == "damping"
+    assert SI.name("gamma") == "damping"
     assert SI.force(0.75853) == "901 N"
     assert SI.force(3265.0) == "3.88 MN"
     assert SI.impulse(1.4359) == "9.26 N s"
     assert SI.power(0.11378 * 58.142857) == "1.01 kW"
     assert SI.per_second(2.328416) == "79.1 times a second"
-    assert SI.gain("gamma", 0.37001594) == "3,408 N s/m"
-    assert SI.gain("omega", 0.76) == "979,900 N/m"
+    assert SI.value("gamma", 0.37001594) == "3,408 N s/m"
+    assert SI.value("omega", 0.76) == "979,900 N/m"
 
 
 def test_entries_of_a_machine_are_in_usual_units_and_short_lengths_in_micrometres():
@@ -71,12 +71,12 @@ def test_quantities_without_scales_keep_the_units_of_the_equations():
     assert PLAIN.time(2.5) == "2.5/Ω"
     assert PLAIN.velocity(0.05) == "0.05 c_r Ω"
     assert PLAIN.slip(58.0) == "58 c_r Ω"
-    assert PLAIN.gain_name("omega") == "ω"
+    assert PLAIN.name("omega") == "ω"
     assert PLAIN.force(0.75853) == "0.759 m c_r Ω²"
     assert PLAIN.power(2.0) == "2 m c_r² Ω³"
     assert PLAIN.per_second(math.pi) == "2 times a turn"
-    assert PLAIN.gain("gamma", 0.37001594) == "0.37"
-    assert math.isnan(PLAIN.gain_in_si("gamma", 0.1))
+    assert PLAIN.value("gamma", 0.37001594) == "0.37"
+    assert PLAIN.in_si("gamma", value=0.1) == {}
 
 
 def span(low, high):

@@ -44,7 +44,7 @@ from carom.bifurcations.points import Bifurcation
 from carom.bifurcations.regions import RegionMap, map_regions
 from carom.bifurcations.samples import AttractorSample, sample_attractors
 from carom.bifurcations.steady import EquilibriumBranch, RollingBranch
-from carom.bifurcations.windows import OrbitWindows, Window, WindowEnd, orbit_windows
+from carom.bifurcations.windows import OrbitWindows, orbit_windows
 from carom.bifurcations.words import continue_orbit, switch
 
 __all__ = [
@@ -65,8 +65,6 @@ __all__ = [
     "RegionMap",
     "RollingBranch",
     "UnexplainedChange",
-    "Window",
-    "WindowEnd",
     "boundary_equilibria",
     "continue_curve",
     "continue_orbit",

@@ -30,7 +30,7 @@ from carom.bifurcations.conditions import (
 )
 from carom.bifurcations.words import STEPS, continue_orbit
 from carom.continuation.roots import bracketed_root, sign_change
-from carom.models import Jeffcott, Subject, axis, jeffcott_of
+from carom.models import Edge, Jeffcott, Span, Subject, axis, jeffcott_of
 from carom.orbits.admissibility import slip_stays_forward
 from carom.orbits.single_impact import longest_within_reach, radial_speeds
 from carom.outcome import CaromError
@@ -55,38 +55,6 @@ Level = Literal["possible", "stable"]
 
 
 @dataclass(frozen=True)
-class WindowEnd:
-    """One end of a window.
-
-    Attributes
-    ----------
-    value : float
-        Value of the parameter.
-    kind : str
-        Kind of the special point there (:class:`~carom.bifurcations.Bifurcation`), ``"vanishing-period"``, or empty at
-        the end of the searched range.
-    name : str
-        Name of the orbit that appears, vanishes or changes there; empty at the end of the searched range.
-    period, radial_speed : float or None
-        Its period in ``1/Ω`` and radial speed in ``c_r Ω``.
-    """
-
-    value: float
-    kind: str = ""
-    name: str = ""
-    period: float | None = None
-    radial_speed: float | None = None
-
-
-@dataclass(frozen=True)
-class Window:
-    """An interval of the parameter throughout which there is an orbit."""
-
-    low: WindowEnd
-    high: WindowEnd
-
-
-@dataclass(frozen=True)
 class OrbitWindows:
     """Windows of single-impact orbits along one parameter, in ascending order.
 
@@ -95,17 +63,17 @@ class OrbitWindows:
     parameter : str
     values : tuple of float
         Values at which all orbits were searched.
-    possible : tuple of Window
+    possible : tuple of Span
         Windows where some orbit is admissible, stable or not.
-    stable : tuple of Window or None
+    stable : tuple of Span or None
         Windows where some admissible orbit is stable; ``None`` where that was not searched, as more than :data:`MOST_FOLLOWED`
         orbits would have to be followed.
     """
 
     parameter: str
     values: tuple[float, ...]
-    possible: tuple[Window, ...]
-    stable: tuple[Window, ...] | None
+    possible: tuple[Span, ...]
+    stable: tuple[Span, ...] | None
 
 
 class _Member(NamedTuple):
@@ -119,8 +87,8 @@ class _Member(NamedTuple):
 class _Arc(NamedTuple):
     """A part of a branch between two special points."""
 
-    low: WindowEnd
-    high: WindowEnd
+    low: Edge
+    high: Edge
     possible: bool
     stable: bool
 
@@ -150,7 +118,7 @@ def orbit_windows(
     rotor, tell = jeffcott_of(machine), Reporter.of(progress, "following orbits")
     along, interval = axis(rotor, parameter), (values[0], values[-1])
     branches: list[OrbitBranch] = []
-    pieces: dict[Level, list[Window]] = {"possible": [], "stable": []}
+    pieces: dict[Level, list[Span]] = {"possible": [], "stable": []}
     tried = dict.fromkeys(pieces, 0)
     for k, value in enumerate(values):
         reach = values[max(k - 1, 0)], values[min(k + 1, len(values) - 1)]
@@ -175,14 +143,14 @@ def orbit_windows(
                 continue
             arcs = _arcs(branches[-1], interval)
             for level, known in pieces.items():
-                known += [Window(arc.low, arc.high) for arc in arcs if getattr(arc, level)]
+                known += [Span(arc.low, arc.high) for arc in arcs if getattr(arc, level)]
             levels = _open(pieces, *reach)
         tell((k + 1) / len(values))
     stable = _joined(pieces["stable"]) if "stable" in pieces else None
     return OrbitWindows(parameter, tuple(values), _joined(pieces["possible"]), stable)
 
 
-def _open(pieces: dict[Level, list[Window]], low: float, high: float) -> list[Level]:
+def _open(pieces: dict[Level, list[Span]], low: float, high: float) -> list[Level]:
     """Levels at which the windows known do not hold all of an interval."""
     return [
         level
@@ -268,23 +236,23 @@ def _arcs(branch: OrbitBranch, interval: tuple[float, float]) -> list[_Arc]:
     return arcs
 
 
-def _branch_end(branch: OrbitBranch, end: Literal[0, -1], interval: tuple[float, float]) -> WindowEnd:
+def _branch_end(branch: OrbitBranch, end: Literal[0, -1], interval: tuple[float, float]) -> Edge:
     value, period, speed = (float(each[end]) for each in (branch.values, branch.period, branch.radial_speed))
     stop = branch.stops[end]
     if stop in ("parameter limit", "closed loop"):
-        return WindowEnd(value)
+        return Edge(value)
     return _end_at(branch, interval, value, stop, branch.names[end], period, speed)
 
 
 def _end_at(
     branch: OrbitBranch, interval: tuple[float, float], value: float, kind: str, name: str, period: float, speed: float
-) -> WindowEnd:
+) -> Edge:
     """End of a window; where the period is too short for shooting, which loses digits there, by the closed form.
 
     That is where the period vanishes, or the end of the interval to which it is short.
     """
     if not period < SHORT:
-        return WindowEnd(value, kind, name, period, speed)
+        return Edge(value, kind, period, speed, name)
 
     def closing(there: float) -> float:
         return conditions_at(branch.numbers_at(there), VANISHED, speed).closing
@@ -296,12 +264,12 @@ def _end_at(
         at = conditions_at(branch.numbers_at(value), VANISHED, speed)
         speeds = radial_speeds(math.sqrt(1.0 + at.boundary), at.lever)
         speed = min(speeds, key=lambda each: abs(each - speed), default=speed)
-        return WindowEnd(value, "vanishing-period", name, VANISHED, speed)
+        return Edge(value, "vanishing-period", VANISHED, speed, name)
     for limit in interval:
         found = corrected(branch.numbers_at(limit), period, speed)
         if found is not None and found[0] < SHORT:
-            return WindowEnd(limit)
-    return WindowEnd(value, kind, name, period, speed)
+            return Edge(limit)
+    return Edge(value, kind, period, speed, name)
 
 
 def _halfway(branch: OrbitBranch, course: np.ndarray) -> tuple[Numbers, float, float] | None:
@@ -316,12 +284,12 @@ def _halfway(branch: OrbitBranch, course: np.ndarray) -> tuple[Numbers, float, f
     return None if found is None else (numbers, *found)
 
 
-def _joined(pieces: Iterable[Window]) -> tuple[Window, ...]:
+def _joined(pieces: Iterable[Span]) -> tuple[Span, ...]:
     """Merge windows that touch or overlap."""
-    joined: list[Window] = []
+    joined: list[Span] = []
     for piece in sorted(pieces, key=lambda window: window.low.value):
         if joined and piece.low.value <= joined[-1].high.value + MERGED * abs(piece.low.value):
             last = joined.pop()
-            piece = Window(last.low, max(last.high, piece.high, key=lambda end: end.value))
+            piece = Span(last.low, max(last.high, piece.high, key=lambda end: end.value))
         joined.append(piece)
     return tuple(joined)

@@ -237,11 +237,13 @@ def _print_left_out(console: Console, orbits: OrbitSet, most_virtual: int = 8) -
 
 
 def _thresholds(study: Study) -> Table:
-    values = ["value", "dimensionless"] if study.wording.scales is not None else ["dimensionless"]
-    headings = ("motion", "exists", "quantity", *values, "where")
-    table = plain_table("Thresholds, each with all else as it is", *headings, right=["value"], no_wrap=values)
+    headings = ("motion", "exists", "quantity", "value", "dimensionless", "where")
+    shown = [heading for heading in headings if heading != "value" or study.wording.scales is not None]
+    table = plain_table(
+        "Thresholds, each with all else as it is", *shown, right=["value"], no_wrap=("value", "dimensionless")
+    )
     for row in threshold_rows(study):
-        table.add_row(row.motion, row.exists, row.quantity, *(getattr(row, value) for value in values), row.what)
+        table.add_row(*(cell for heading, cell in zip(headings, row, strict=True) if heading in shown))
     return table
 
 

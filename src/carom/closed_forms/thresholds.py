@@ -29,10 +29,10 @@ where ``μ(w² − ω²) − γw`` exceeds ``p``, at every angle, or zero, on av
 from __future__ import annotations
 
 import math
-from typing import Literal, NamedTuple, get_args
+from typing import Literal, get_args
 
 from carom.arguments import Positive, checked
-from carom.models import Jeffcott, Subject, jeffcott_of
+from carom.models import Edge, Jeffcott, Span, Subject, jeffcott_of
 from carom.outcome import InputError
 from carom.parameters import Numbers, Parameters
 
@@ -43,15 +43,7 @@ Values = Parameters | Numbers
 """Dimensionless parameters, checked or as plain numbers."""
 
 
-class End(NamedTuple):
-    """End of a range of one gain, and the event there; the event is empty at zero and at infinity."""
-
-    value: float
-    kind: str = ""
-
-
-Ranges = tuple[tuple[End, End], ...]
-ZERO, INFINITE = End(0.0), End(math.inf)
+ZERO, INFINITE = Edge(0.0), Edge(math.inf)
 WALL, FOLD, ROLLING = "boundary-equilibrium", "rub-fold", "rolling-limit"
 DEGENERATE = 1e-12
 
@@ -99,15 +91,15 @@ def boundary_kind(at: Values) -> BoundaryKind:
     return "non-smooth fold" if balance > 0.0 else "persistence"
 
 
-def _levitation_ranges(at: Values, gain: Gain) -> Ranges:
+def _levitation_ranges(at: Values, gain: Gain) -> tuple[Span, ...]:
     if gain == "gamma":
         half = _leg(at.rho, _kappa(at))
-        return ((End(half, WALL) if half > 0.0 else ZERO, INFINITE),)
+        return (Span(Edge(half, WALL) if half > 0.0 else ZERO, INFINITE),)
     half = _leg(at.rho, at.gamma)
     if half == 0.0:
-        return ((ZERO, INFINITE),)
-    above = (End(math.sqrt(1.0 + half), WALL), INFINITE)
-    return ((ZERO, End(math.sqrt(1.0 - half), WALL)), above) if half < 1.0 else (above,)
+        return (Span(ZERO, INFINITE),)
+    above = Span(Edge(math.sqrt(1.0 + half), WALL), INFINITE)
+    return (Span(ZERO, Edge(math.sqrt(1.0 - half), WALL)), above) if half < 1.0 else (above,)
 
 
 # ------------------------------------------------------------------------------------------------ synchronous rub
@@ -158,16 +150,16 @@ def rub_limit(machine: Subject) -> float:
     return _rub_end(jeffcott_of(machine).parameters).value
 
 
-def _rub_end(at: Values) -> End:
+def _rub_end(at: Values) -> Edge:
     if _rub_fold_force(at) >= 0.0:
-        return End(largest_pull(at) - at.mu * _kappa(at), FOLD)
-    return End(_leg(at.rho, _kappa(at)), WALL)
+        return Edge(largest_pull(at) - at.mu * _kappa(at), FOLD)
+    return Edge(_leg(at.rho, _kappa(at)), WALL)
 
 
-def _rub_ranges(at: Values, gain: Gain) -> Ranges:
+def _rub_ranges(at: Values, gain: Gain) -> tuple[Span, ...]:
     if gain == "gamma":
         end = _rub_end(at)
-        return ((ZERO, end),) if end.value > 0.0 else ()
+        return (Span(ZERO, end),) if end.value > 0.0 else ()
     pull, touch, half = largest_pull(at), at.rho / math.hypot(1.0, at.mu), _leg(at.rho, at.gamma)
     # Ends of the range of κ; the soft one is the upper one.
     if at.mu == 0.0:
@@ -177,8 +169,8 @@ def _rub_ranges(at: Values, gain: Gain) -> Ranges:
         stiff = (-half, WALL) if at.gamma >= -touch else (-(pull + at.gamma) / at.mu, FOLD)
     if not stiff[0] < min(soft[0], 1.0):
         return ()
-    low = End(math.sqrt(1.0 - soft[0]), soft[1]) if soft[0] < 1.0 else ZERO
-    return ((low, End(math.sqrt(1.0 - stiff[0]), stiff[1])),)
+    low = Edge(math.sqrt(1.0 - soft[0]), soft[1]) if soft[0] < 1.0 else ZERO
+    return (Span(low, Edge(math.sqrt(1.0 - stiff[0]), stiff[1])),)
 
 
 # ------------------------------------------------------------------------------------------------ backward whirl
@@ -237,12 +229,12 @@ def rolling_friction(at: Values) -> float:
     return (force * drag + at.rho * math.sqrt(square + drag * drag)) / square
 
 
-def _rolling_ranges(at: Values, gain: Gain) -> Ranges:
+def _rolling_ranges(at: Values, gain: Gain) -> tuple[Span, ...]:
     limit = rolling_damping(at) if gain == "gamma" else rolling_stiffness(at)
-    return ((ZERO, End(limit, ROLLING)),) if limit > 0.0 else ()
+    return (Span(ZERO, Edge(limit, ROLLING)),) if limit > 0.0 else ()
 
 
-def ranges_of(motion: Steady, at: Values, gain: Gain) -> Ranges:
+def ranges_of(motion: Steady, at: Values, gain: Gain) -> tuple[Span, ...]:
     """Values from zero on of one gain for which a steady motion exists, the other parameters unchanged; in ascending order.
 
     The motion is levitation inside the wall, a synchronous rub that is pressed on the wall, or rolling that holds at every

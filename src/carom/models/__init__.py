@@ -2,6 +2,7 @@
 
 ========================  =================================================================
 ``axes``                  :class:`Axis`: any named parameter of any model, to vary
+``spans``                 :class:`Span`: an interval of a parameter, with what happens at its ends
 ``model``                 :class:`Model`: what every description of a rotor offers
 ``system``                :class:`System`: modes and contact planes of any linear rotor
 ``jeffcott``              :class:`Jeffcott`: the planar rigid rotor, by its parameters
@@ -20,6 +21,7 @@ from carom.models.forcing import Force
 from carom.models.jeffcott import Jeffcott
 from carom.models.linear import LinearRotor
 from carom.models.model import Matrices, Model, Rates
+from carom.models.spans import Edge, Span
 from carom.models.stages import Forced, Stage, Staged, Trigger, stages_of
 from carom.models.subjects import Subject, case_of, jeffcott_of, model_from, model_of
 from carom.models.system import System, second_order_system
@@ -27,6 +29,7 @@ from carom.models.touchdown import FallingRestitution, Rigid, Touchdown
 
 __all__ = [
     "Axis",
+    "Edge",
     "FallingRestitution",
     "Force",
     "Forced",
@@ -36,6 +39,7 @@ __all__ = [
     "Model",
     "Rates",
     "Rigid",
+    "Span",
     "Stage",
     "Staged",
     "Subject",

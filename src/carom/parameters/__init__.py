@@ -8,8 +8,9 @@
 ``exact``                 text with units -> exact numbers, for proofs
 ``sizes``                 sizes of starts and disturbances, in units of the equations or with a unit
 ``toml_reader``           TOML file -> raw tables
-``numbers``               :class:`Numbers`: plain dimensionless numbers, conversion from and to SI units
-``scaling``               :class:`Scales` and their units, :class:`Parameters`
+``scaling``               :class:`Scales` and their units
+``conversions``           dimensionless numbers from and to SI units
+``numbers``               :class:`Parameters`, and :class:`Numbers`: the same plain, unchecked
 ``resolution``            entries in whatever terms -> numbers of a machine
 ``machine``               :class:`Machine`, conversion to parameters and back
 ``load_limits``           :class:`LoadLimits` of a touchdown bearing
@@ -33,7 +34,7 @@ from carom.parameters.in_terms import InTerms, in_terms_of
 from carom.parameters.load_limits import LIMIT_FIELDS, LoadLimits
 from carom.parameters.machine import Machine
 from carom.parameters.machine_file import Case, Zones, load
-from carom.parameters.numbers import Numbers
+from carom.parameters.numbers import Numbers, Parameters
 from carom.parameters.quantities import read_quantity
 from carom.parameters.requirement import (
     GRAVITY,
@@ -44,7 +45,7 @@ from carom.parameters.requirement import (
     Shock,
     usual_kick,
 )
-from carom.parameters.scaling import UNITS, Parameters, Scales
+from carom.parameters.scaling import UNITS, Scales
 from carom.parameters.sizes import Size, own_size, read_size
 from carom.parameters.terms import ENTRIES, HELPER_FIELDS, SETTABLE, TERM_FIELDS, TERMS, field_to_set, field_to_vary
 

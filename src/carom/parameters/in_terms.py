@@ -9,10 +9,10 @@ from decimal import ROUND_CEILING, ROUND_FLOOR, ROUND_HALF_EVEN, Decimal, localc
 from typing import Any, Literal, NamedTuple
 
 from carom.outcome import InputError, shown
+from carom.parameters.conversions import CONVERSIONS
 from carom.parameters.fields import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, PARAMETERS, PHYSICAL_PARTNER, Field
 from carom.parameters.machine import Machine
 from carom.parameters.machine_file import Case
-from carom.parameters.numbers import CONVERSIONS
 from carom.parameters.quantities import read_quantity, unit_factor, unit_of
 from carom.parameters.resolution import DECIMALS
 from carom.parameters.terms import HELPER_FIELDS, SETTABLE, TERMS, no_such_parameter, set_by

@@ -16,7 +16,8 @@ from __future__ import annotations
 
 import math
 
-from carom.parameters.scaling import Parameters, Scales
+from carom.parameters.numbers import Parameters
+from carom.parameters.scaling import Scales
 
 STEEL = 2.1e11
 """Young's modulus of steel, Pa."""

@@ -13,10 +13,11 @@ import pydantic
 
 from carom.arguments import checked
 from carom.outcome import CaromWarning, InputError, Problems, shown
+from carom.parameters.conversions import CONVERSIONS
 from carom.parameters.fields import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, PHYSICAL_PARTNER
-from carom.parameters.numbers import CONVERSIONS
+from carom.parameters.numbers import Parameters
 from carom.parameters.resolution import Resolved, resolve, solved
-from carom.parameters.scaling import Parameters, Scales
+from carom.parameters.scaling import Scales
 from carom.parameters.terms import DEFAULTS, ENTRIES, HELPER_FIELDS
 from carom.parameters.told import number, told_entry
 from carom.parameters.toml_reader import read_machine_tables

@@ -14,9 +14,10 @@ from carom.outcome import InputError, Problems, printable, shown
 from carom.parameters.fields import DIMENSIONLESS_FIELDS, PHYSICAL_PARTNER, name_errors, unknown_names
 from carom.parameters.load_limits import LIMIT_FIELDS, LoadLimits
 from carom.parameters.machine import Machine, warn_of_proportions
+from carom.parameters.numbers import Parameters
 from carom.parameters.quantities import read_quantity
 from carom.parameters.requirement import Requirement
-from carom.parameters.scaling import Parameters, Scales
+from carom.parameters.scaling import Scales
 from carom.parameters.terms import SETTABLE, check_names, set_by
 from carom.parameters.told import number, shown_in, told
 from carom.parameters.toml_reader import MachineTables, read_machine_tables

@@ -9,8 +9,8 @@ from decimal import Context, Decimal, localcontext
 from typing import Any
 
 from carom.outcome import InputError, Problems, shown
+from carom.parameters.conversions import CONVERSIONS
 from carom.parameters.fields import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, name_errors
-from carom.parameters.numbers import CONVERSIONS
 from carom.parameters.quantities import read_decimal, read_quantity
 from carom.parameters.scaling import Scales
 from carom.parameters.terms import (

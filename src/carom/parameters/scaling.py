@@ -1,20 +1,12 @@
-"""Scales and dimensionless parameters of a rotor inside a clearance."""
+"""Scales of a rotor inside a clearance: the units of the equations."""
 
 from __future__ import annotations
 
-import dataclasses
-import json
-import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
 
-from carom.arguments import checked
-from carom.outcome import InputError, shown
-from carom.parameters.fields import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, PARAMETERS, Field
-from carom.parameters.numbers import Numbers
+from carom.parameters.fields import MACHINE_FIELDS, Field
 from carom.parameters.quantities import read_quantity
-from carom.parameters.terms import no_such_parameter
 
 UNITS = {
     "mass": ("m", "kg"),
@@ -35,10 +27,6 @@ UNITS = {
 
 SCALING = ("mass", "clearance", "speed")
 """Fields of a machine that are its scales."""
-
-# Smallest |omega² - 1 + i gamma|, by which the unbalance is divided to get the contact-free equilibrium: below it
-# the equilibrium lies so far out that rounding leaves no digits for positions inside the clearance.
-_RESONANCE = 1e-9
 
 
 @dataclass(frozen=True)
@@ -71,7 +59,7 @@ class Scales:
 
     def __post_init__(self) -> None:
         for name in SCALING:
-            object.__setattr__(self, name, _number(MACHINE_FIELDS, name, getattr(self, name)))
+            object.__setattr__(self, name, plain_number(MACHINE_FIELDS, name, getattr(self, name)))
 
     @property
     def length(self) -> float:
@@ -129,134 +117,7 @@ class Scales:
         return self.mass * (self.speed * self.speed)
 
 
-@dataclass(frozen=True)
-class Parameters:
-    """Dimensionless parameters of a rotor inside a clearance, in the co-rotating frame.
-
-    Parameters
-    ----------
-    gamma : float
-        Scaled damping c/(m Ω), equation (2.12) of the source paper. Negative values are allowed: a branch of
-        orbits may be followed there.
-    omega : float
-        Natural over rotational frequency, sqrt(k/(m Ω²)), (2.12); positive.
-    rho : float
-        Eccentricity over clearance e_c/c_r, (2.12); not negative.
-    phi : float
-        Phase of the unbalance, rad.
-    mu : float
-        Coefficient of friction; not negative.
-    d : float
-        Coefficient of restitution, 0 to 1.
-    radius_ratio : float
-        Rotor radius over clearance R/c_r; positive.
-    scales : Scales, optional
-        Units that convert results to SI units.
-
-    Raises
-    ------
-    InputError
-        If a number is not finite or outside the range of its entry in
-        :data:`carom.parameters.fields.DIMENSIONLESS_FIELDS`, or ``gamma = 0`` and ``omega = 1``: a rotor in undamped
-        resonance has no equilibrium.
-    """
-
-    gamma: float
-    omega: float
-    rho: float
-    phi: float
-    mu: float
-    d: float
-    radius_ratio: float
-    scales: Scales | None = None
-
-    def __post_init__(self) -> None:
-        for name in DIMENSIONLESS_FIELDS:
-            object.__setattr__(self, name, _number(DIMENSIONLESS_FIELDS, name, getattr(self, name)))
-        if math.hypot(self.omega * self.omega - 1.0, self.gamma) < _RESONANCE:
-            allowed = f"must differ from 0 by {_RESONANCE:g} or more where omega = 1 (undamped resonance)"
-            raise InputError("gamma", self.gamma, allowed)
-        if not isinstance(self.scales, Scales | None):
-            raise InputError("scales", shown(self.scales), "must be a carom.parameters.Scales, or None")
-
-    def replace(self, /, **changes: Any) -> Parameters:
-        """Return a copy with other values, dimensionless or physical.
-
-        Parameters
-        ----------
-        **changes
-            Numbers by their names; physical ones in SI units, or text with a unit.  Physical ones are set first, each
-            with all others unchanged; a dimensionless one then moves alone.  ``scales`` are changed before all others.
-
-        Raises
-        ------
-        InputError
-            If a name is unknown or a value not allowed, or a physical value is given without scales.
-        """
-        varied = self.varied
-        for name, value in changes.items():
-            if name not in varied and name != "scales":
-                raise no_such_parameter(name, value, varied, self.scales is not None)
-        physical = {name: value for name, value in changes.items() if name in MACHINE_FIELDS}
-        own = {name: value for name, value in changes.items() if name not in physical}
-        if not physical:
-            return Parameters(**(vars(self) | own))
-        numbers = Numbers.of(dataclasses.replace(self, scales=own.pop("scales")) if "scales" in own else self)
-        for name, value in physical.items():
-            numbers = numbers.moved(name, read_quantity(MACHINE_FIELDS[name], value))
-        return dataclasses.replace(numbers.parameters, **own) if own else numbers.parameters
-
-    @property
-    def varied(self) -> Mapping[str, Field]:
-        """What :meth:`replace` can vary: dimensionless parameters, and with scales the fields of the machine too."""
-        return DIMENSIONLESS_FIELDS if self.scales is None else PARAMETERS
-
-    @checked
-    def value(self, name: str) -> float:
-        """Present value of a parameter, in SI units if it is a physical one.
-
-        Raises
-        ------
-        InputError
-            If the name is unknown, or a physical one without scales.
-        """
-        if name not in self.varied:
-            raise no_such_parameter(name, "wanted", self.varied, self.scales is not None)
-        return Numbers.of(self).value(name)
-
-    @property
-    def words(self) -> str:
-        """In a line: what a machine has in SI units, or the dimensionless numbers."""
-        from carom.parameters.told import told_entry  # that module needs this one
-
-        names = DIMENSIONLESS_FIELDS if self.scales is None else MACHINE_FIELDS
-        return ", ".join(f"{PARAMETERS[name].symbol} {told_entry(name, self.value(name))}" for name in names)
-
-    def as_dict(self) -> dict[str, float]:
-        """Return the seven numbers by name, without the scales."""
-        return {name: getattr(self, name) for name in DIMENSIONLESS_FIELDS}
-
-    def attributes(self) -> dict[str, str]:
-        """Return the numbers and the scales as attributes of a dataset, exact to the last bit."""
-        scales = dataclasses.asdict(self.scales) if self.scales else None
-        return {"parameters": json.dumps(self.as_dict()), "scales": json.dumps(scales)}
-
-    @classmethod
-    def from_attributes(cls, attributes: Mapping[str, str]) -> Parameters:
-        """Parameters from the attributes of a dataset that :meth:`attributes` has given.
-
-        Raises
-        ------
-        InputError
-            A value is not allowed.
-        KeyError, TypeError, ValueError
-            An attribute is missing, or is not such text.
-        """
-        numbers, scales = (json.loads(attributes[name]) for name in ("parameters", "scales"))
-        return cls(**numbers, scales=Scales(**scales) if scales else None)
-
-
-def _number(fields: Mapping[str, Field], name: str, given: object) -> float:
+def plain_number(fields: Mapping[str, Field], name: str, given: object) -> float:
     """Check a number given in Python; text with units is refused here."""
     if isinstance(given, str):
         raise fields[name].error(given, "this is text, not a number")

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 
+from carom.parameters.conversions import CONVERSIONS
 from carom.parameters.fields import PHYSICAL_PARTNER
-from carom.parameters.numbers import CONVERSIONS
 from carom.parameters.requirement import GRAVITY
 from carom.parameters.scaling import UNITS, Scales
 from carom.parameters.terms import SETTABLE
@@ -114,11 +114,17 @@ def told_range(name: str, values: Iterable[float]) -> str:
     return told_between(told_entry(name, min(ends)), told_entry(name, max(ends)))
 
 
+def own_entry(name: str, value: float, scales: Scales | None) -> tuple[str, float]:
+    """A parameter with a value; with scales what a machine has in place of a dimensionless one, in SI units."""
+    if scales is None or name not in PHYSICAL_PARTNER:
+        return name, value
+    return PHYSICAL_PARTNER[name], float(CONVERSIONS[name].value(value, scales))
+
+
 def told_along(name: str, values: Iterable[float], scales: Scales | None = None) -> str:
     """Write a parameter with the range of some values; with scales what a machine has in place of a dimensionless one."""
-    if scales is not None and name in PHYSICAL_PARTNER:
-        name, values = PHYSICAL_PARTNER[name], [CONVERSIONS[name].value(value, scales) for value in values]
-    return f"{name} {told_range(name, values)}"
+    (entry, *_), own = zip(*(own_entry(name, value, scales) for value in values), strict=True)
+    return f"{entry} {told_range(entry, own)}"
 
 
 def told_between(low: str, high: str) -> str:

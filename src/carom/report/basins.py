@@ -8,11 +8,11 @@ from carom import plots
 from carom.basins import Cells, map_cells
 from carom.disturbances import BaseShock, BladeLoss, Disturbance, Grid, KickPlane
 from carom.models import Model, axis
+from carom.parameters import in_terms_of
 from carom.studies import Study
-from carom.studies.advice import stated
-from carom.studies.advice_facts import entry_words
 from carom.studies.survives import Kind
 from carom.studies.verdict_facts import lost_kinds, required_kinds
+from carom.studies.wording import entry_words
 
 CELLS: dict[Kind, tuple[int, ...]] = {"kick": (120, 120), "shock": (24, 60), "blade_loss": (120,)}
 """Cells of a basin: both parts of a kick, peak and direction of a shock, phase of the unbalance after the loss of a blade."""
@@ -52,9 +52,9 @@ def draw(study: Study) -> Figure:
         panels = [("now", here), ("after a change", _MISSING[study.recommendation.kind])]
     else:
         # As the study moved the machine to the value that it checked.
-        changed = axis(study.rotor, change.gain).move(study.rotor, change.value)
+        changed = axis(study.rotor, change.parameter).move(study.rotor, change.value)
         there = _basin(changed, model.rescaled(study.rotor.scales, changed.scales), kind)
-        entry, value = entry_words(change.terms.entry), stated(study.case, change.gain, change.present).text
+        entry, value = entry_words(change.terms.entry), in_terms_of(study.case, change.parameter, change.present).text
         panels = [(f"now\n{entry} {value}", here), (f"after the change\n{entry} {change.terms.text}", there)]
     with plots.heading(study.case.name):  # the panels say the values
         return plots.basin_pair(panels, None if kind == "blade_loss" else _required(study, kind)[0])

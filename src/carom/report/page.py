@@ -109,8 +109,8 @@ def report_page(study: Study, figures: list[InlineFigure]) -> str:
         left_out=sum(not orbit.admissible for orbit in study.orbits),
         ranges=range_rows(study),
         own=[
-            (study.wording.gain_name(gain), study.wording.gain(gain, study.case.parameters.value(gain)))
-            for gain in study.gains
+            (study.wording.name(name), study.wording.value(name, study.case.parameters.value(name)))
+            for name in (found.along.name for found in study.recoveries)
         ],
         searched=[entry for entry in study.ranges if entry.motion == "single-impact"],
         figures=figures,

@@ -4,11 +4,12 @@ Read them in this order.
 
 =======================  ========================================================================================
 ``assembly``             :func:`study` and the frozen :class:`Study`
-``ranges``               for which damping and stiffness equilibria exist, in closed form
-``orbit_ranges``         for which damping and stiffness single-impact orbits are possible, by search
+``study_data``           :class:`StudyData`: what a study has found, before it is told
+``ranges``               for which values of a parameter each simple motion exists
+``trials``               disturbances followed at one value of a parameter after another
+``recovery``             :func:`find_recovery`: which values of any parameter leave only recovery
 ``survives``             the sizes of kicks, shocks and losses of a blade up to which none is lost
-``recovery``             which values of a parameter leave only recovery, for any rotor and disturbances
-``advice``               the least change of a gain that leaves only recovery, in the user's terms and within limits
+``advice``               the least change that leaves only recovery, in the user's terms and within limits
 ``load_checks``          loads of touchdowns against stated limits
 ``actuator``             what motions ask of the magnetic bearings, against the limits of these
 ``endings``              where simulated disturbances ended
@@ -23,6 +24,7 @@ Read them in this order.
 ``document``             results as JSON
 ``attractors_document``  attractors as JSON
 ``response``             :func:`unbalance_response`: amplitude, phase and contact over the speed of the shaft
+``response_data``        what it has found, before it is told
 ``response_words``       what it says about the machine, in sentences
 ``response_document``    the response as JSON
 ``standards``            limits of vibration: API 617, ISO 14839-2
@@ -34,10 +36,12 @@ from carom.studies.assembly import Study, study
 from carom.studies.document import found_orbits_document, orbits_document, trajectory_document
 from carom.studies.facts import Fact
 from carom.studies.load_checks import LoadCheck, WorstLoads, check_loads, worst_loads
-from carom.studies.ranges import Edge, MotionRange, Span, Threshold, free_spans
-from carom.studies.recovery import Check, Lost, Recovery, check_recovery, find_recovery
-from carom.studies.response import Separation, Steady, Stretch, UnbalanceResponse, unbalance_response
+from carom.studies.ranges import MotionRange, Threshold
+from carom.studies.recovery import Recovery, find_recovery
+from carom.studies.response import UnbalanceResponse, unbalance_response
+from carom.studies.response_data import Separation, Steady, Stretch
 from carom.studies.survives import Survives
+from carom.studies.trials import Check, Lost, check_recovery
 from carom.studies.verdict import NOT_COVERED, Verdict
 from carom.studies.wording import Wording
 
@@ -45,7 +49,6 @@ __all__ = [
     "NOT_COVERED",
     "Change",
     "Check",
-    "Edge",
     "Fact",
     "LoadCheck",
     "Lost",
@@ -54,7 +57,6 @@ __all__ = [
     "Recommendation",
     "Recovery",
     "Separation",
-    "Span",
     "Steady",
     "Stretch",
     "Study",
@@ -68,7 +70,6 @@ __all__ = [
     "check_recovery",
     "find_recovery",
     "found_orbits_document",
-    "free_spans",
     "orbits_document",
     "study",
     "trajectory_document",

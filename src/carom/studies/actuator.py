@@ -23,11 +23,11 @@ import cmath
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
-from carom.attractors import AttractorSet, Ending, MotionName
+from carom.attractors import AttractorSet, MotionName
 from carom.attractors.names import LEVITATION, SYNCHRONOUS_RUB
 from carom.closed_forms.equilibria import Equilibrium
 from carom.closed_forms.whirl import Rolling
@@ -40,11 +40,8 @@ from carom.outcome import Outcome
 from carom.parameters import Case
 from carom.parameters.told import number
 from carom.results import fields_of
-from carom.studies.recovery import coordinates_at_largest
+from carom.studies.trials import coordinates_at_largest
 from carom.studies.wording import listed
-
-if TYPE_CHECKING:
-    from carom.studies.assembly import Study
 
 ROLLING = MotionName(Outcome.ROLLING)
 STEP = 0.05
@@ -215,12 +212,12 @@ def bearing_demand(
     limits = limits_of(case)
     if not limits:
         return None
-    motions = []
-    for entry in equilibria:
-        if entry.status != "virtual" and entry.stable:
-            name = LEVITATION if entry.kind == "contact-free" else SYNCHRONOUS_RUB
-            whirl = Centre.whirling(entry.radius, 1.0)
-            motions += [Demand(name.words, limit, float(limit.asked(whirl))) for limit in limits]
+    whirls = [
+        (LEVITATION if entry.kind == "contact-free" else SYNCHRONOUS_RUB, Centre.whirling(entry.radius, 1.0))
+        for entry in equilibria
+        if entry.status != "virtual" and entry.stable
+    ]
+    motions = [Demand(name.words, limit, float(limit.asked(whirl))) for name, whirl in whirls for limit in limits]
     for orbit in orbits:
         if orbit.admissible and orbit.stable:
             motion = orbit.trajectory()
@@ -230,16 +227,12 @@ def bearing_demand(
         whirl = Centre.whirling(1.0, -roll.speed)
         motions += [Demand(ROLLING.words, limit, float(limit.asked(whirl))) for limit in limits]
     tried = found.disturbances
-    peaks = np.array([_until_known(ending, limits) for ending in tried]).reshape(len(tried), 2, len(limits))
+    again = (simulate(ending.rotor, ending.start.state, ending.time) for ending in tried)  # until their ends are known
+    peaks = np.array([(largest_along(motion, limits), largest_jumps(motion, limits)) for motion in again])
+    peaks = peaks.reshape(len(tried), 2, len(limits))
     shares = tuple(peaks[:, 0, place] / limit.most for place, limit in enumerate(limits))
     came_back = np.array([ending.recovered for ending in tried], bool)
     return BearingDemand(limits, tuple(motions), shares, tuple(peaks[:, 1].T), came_back)
-
-
-def _until_known(ending: Ending, limits: tuple[BearingLimit, ...]) -> tuple[tuple[float, ...], tuple[float, ...]]:
-    """Largest values and jumps of a disturbance, which is simulated once more."""
-    motion = simulate(ending.rotor, ending.start.state, ending.time)
-    return largest_along(motion, limits), largest_jumps(motion, limits)
 
 
 def asked_by(case: Case, disturbances: Iterable[Sample]) -> float | None:
@@ -278,11 +271,8 @@ def largest_jumps(motion: Trajectory, limits: tuple[BearingLimit, ...]) -> tuple
     return tuple(limit.per_jump * largest for limit in limits)
 
 
-def actuator_words(study: Study) -> str:
+def actuator_words(demand: BearingDemand) -> str:
     """Say which motions ask for more than the magnetic bearings can give."""
-    demand = study.bearing_demand
-    if demand is None:
-        return ""
     most = listed([f"{limit.words(limit.most)} of {limit.kind}" for limit in demand.limits])
     sentences = [f"Levitation control is assumed linear, and one magnetic bearing gives at most {most}."]
     for motion in dict.fromkeys(each.motion for each in demand.motions):

@@ -14,21 +14,20 @@ from typing import Literal
 
 from carom.basins.changes import WANTED
 from carom.basins.shares import percent
-from carom.closed_forms.thresholds import FOLD, ROLLING, WALL, Gain
+from carom.closed_forms.thresholds import FOLD, ROLLING, WALL
 from carom.closed_forms.whirl import Runaway, rolling, runaway_speed
 from carom.disturbances import Sample
-from carom.models import Jeffcott
-from carom.parameters import PHYSICAL_PARTNER, Case, InTerms, in_terms_of
-from carom.parameters.in_terms import Side
-from carom.parameters.numbers import CONVERSIONS
+from carom.models import Edge, Jeffcott, Span
+from carom.parameters import Case, InTerms, in_terms_of
+from carom.parameters.conversions import CONVERSIONS
 from carom.results import Result
 from carom.studies.actuator import asked_by
-from carom.studies.ranges import Edge, MotionRange, Span
-from carom.studies.recovery import Check, Recovery, check_recovery, in_all
+from carom.studies.facts import Evidence
+from carom.studies.recovery import Recovery
+from carom.studies.trials import Check, check_recovery, in_all
 
 Kind = Literal["change", "no-change-needed", "nothing-buildable", "no-change-found"]
 Bound = Literal["at least", "at most", "about"]
-Evidence = Literal["closed form", "searched", "sampled"]
 
 MARGINS = (0.05, 0.1, 0.2, 0.4)
 """Relative distances of the advised damping or stiffness from the end of a range, tried until a check passes."""
@@ -50,23 +49,25 @@ class Margin:
 
     Attributes
     ----------
+    parameter : str
     edge : Edge
         The end of the range.
     share : float
         Distance of the value from it, relative to the damping or stiffness there.
     """
 
+    parameter: str
     edge: Edge
     share: float
 
 
 @dataclass(frozen=True)
 class Change:
-    """A change of one gain, the other as it is, and how it was checked.
+    """A change of one parameter, the others as they are, and how it was checked.
 
     Attributes
     ----------
-    gain : {"gamma", "omega"}
+    parameter : str
     present, value : float
         Present value and the new one, which is exactly that of ``terms``.
     terms : InTerms
@@ -93,7 +94,7 @@ class Change:
         Largest multiple of a limit of the magnetic bearings that a disturbance asked for; ``None`` if no limit is stated.
     """
 
-    gain: Gain
+    parameter: str
     present: float
     value: float
     terms: InTerms
@@ -125,13 +126,13 @@ class Recommendation(Result):
     changes : tuple of Change
         Alternatives, the least change first; with ``"nothing-buildable"`` those that ask for more than the magnetic bearings can
         give.
-    margins : tuple of (gain, Margin)
+    margins : tuple of Margin
         If no change is needed: how far the present values lie from where a disturbance was lost.
     """
 
     kind: Kind
     changes: tuple[Change, ...]
-    margins: tuple[tuple[Gain, Margin], ...]
+    margins: tuple[Margin, ...]
 
     @property
     def advised(self) -> Change | None:
@@ -141,22 +142,18 @@ class Recommendation(Result):
     def rows(self) -> list[tuple[str, str]]:
         """Each change in the terms of the machine file, and what came back with it."""
         told = [(one.terms.entry, f"{one.bound} {one.terms.text}: {one.check.drawn.words}") for one in self.changes]
-        margins = [(f"margin of {gain}", percent(margin.share)) for gain, margin in self.margins]
+        margins = [(f"margin of {margin.parameter}", percent(margin.share)) for margin in self.margins]
         return [("kind", self.kind), *told, *margins]
 
 
 def recommend(
-    case: Case,
-    disturbances: Sequence[Sample],
-    recoveries: Sequence[Recovery],
-    ranges: Sequence[MotionRange],
-    needed: bool,
+    case: Case, disturbances: Sequence[Sample], recoveries: Sequence[Recovery], needed: bool
 ) -> Recommendation:
-    """Recommend a value of each gain along which recovery was searched."""
+    """Recommend a value of each parameter along which recovery was searched."""
     if not needed:
-        margins = [_nearest(case, recovery) for recovery in recoveries]
+        margins = [_nearest(recovery) for recovery in recoveries]
         return Recommendation("no-change-needed", (), tuple(margin for margin in margins if margin))
-    advisers = [_Adviser(case, tuple(disturbances), recovery, tuple(ranges)) for recovery in recoveries]
+    advisers = [_Adviser(case, tuple(disturbances), recovery) for recovery in recoveries]
     found = [change for adviser in advisers if (change := adviser.least())]
     if not found:
         found = [change for adviser in advisers if (change := adviser.least_wanted())]
@@ -174,38 +171,27 @@ def evidence_of(edge: Edge) -> Evidence:
     return "closed form" if edge.kind in _CLOSED_FORMS else "searched"
 
 
-def gain_of(recovery: Recovery) -> Gain:
-    """The gain along which recovery was searched."""
-    return "gamma" if recovery.along.name == "gamma" else "omega"
-
-
-def stated(case: Case, gain: Gain, value: float, side: Side = "nearest") -> InTerms:
-    """A value of a gain as the file of the machine would state it."""
-    scales = case.parameters.scales
-    if case.machine is None or scales is None:
-        return in_terms_of(case, gain, value, side)
-    return in_terms_of(case, PHYSICAL_PARTNER[gain], float(CONVERSIONS[gain].value(value, scales)), side)
-
-
 def with_setting(case: Case, terms: InTerms) -> Case:
     """The case with this value set, as by ``--set``."""
     text = terms.setting.partition("=")[2]
     return case.replace(**{terms.entry: terms.value if case.machine is None else text})
 
 
-def _nearest(case: Case, recovery: Recovery) -> tuple[Gain, Margin] | None:
-    gain = gain_of(recovery)
-    present = case.parameters.value(gain)
-    span = recovery.span_at(present)
-    if span is None:
-        return None
-    margins = [Margin(edge, _distance(gain, present, edge.value)) for edge in (span.low, span.high) if _happens(edge)]
-    return (gain, min(margins, key=lambda margin: margin.share)) if margins else None
+def _nearest(recovery: Recovery) -> Margin | None:
+    present = recovery.along.value(recovery.rotor)
+    margins = [_margin(recovery, present, edge) for edge in recovery.span_at(present) or () if _happens(edge)]
+    return min(margins, key=lambda margin: margin.share, default=None)
 
 
-def _distance(gain: Gain, value: float, end: float) -> float:
-    """Return the distance of two values relative to the damping or stiffness at the end."""
-    return abs((value / end) ** CONVERSIONS[gain].power - 1.0)
+def _margin(recovery: Recovery, value: float, edge: Edge) -> Margin:
+    """Distance of a value from an edge, relative to the damping or stiffness there."""
+    return Margin(recovery.along.name, edge, abs((value / edge.value) ** _power(recovery) - 1.0))
+
+
+def _power(recovery: Recovery) -> int:
+    """Power of the parameter that is proportional to what the machine has: the stiffness to that of ``ω``."""
+    name = recovery.along.name
+    return CONVERSIONS[name].power if name in CONVERSIONS else 1
 
 
 def _happens(edge: Edge) -> bool:
@@ -215,26 +201,25 @@ def _happens(edge: Edge) -> bool:
 
 @dataclass(frozen=True)
 class _Adviser:
-    """Looks for the least change along one gain."""
+    """Looks for the least change along one parameter."""
 
     case: Case
     disturbances: tuple[Sample, ...]
     recovery: Recovery
-    ranges: tuple[MotionRange, ...]
 
     @property
-    def gain(self) -> Gain:
-        return gain_of(self.recovery)
+    def name(self) -> str:
+        return self.recovery.along.name
 
     @property
     def present(self) -> float:
-        return self.case.parameters.value(self.gain)
+        return self.recovery.along.value(self.recovery.rotor)
 
     def least(self) -> Change | None:
         """The nearest value in a range of recovery whose check passes; the first that the bearings can give, if one can."""
         forced: list[Check] = []
         best: Change | None = None
-        for span in sorted(self.recovery.spans, key=self._away):
+        for span in sorted(self.recovery.spans, key=lambda span: self._away(self._ends(span).low.value)):
             for value, farther in self._values(span):
                 if farther and best is None:
                     break
@@ -251,33 +236,29 @@ class _Adviser:
 
     def least_wanted(self) -> Change | None:
         """The nearest value tried at which the wanted share comes back, if none leaves only recovery."""
-        tried = [check.value for check in self.recovery.checks if check.value != self.present]
-        for value in sorted(
-            tried, key=lambda value: abs(math.log(value / self.present)) if self.present > 0 else value
-        ):
-            rough = check_recovery(
-                self.recovery.rotor, self.recovery.disturbances, along=self.gain, value=value, seed=SEED + 1
-            )
-            if min(share.fraction for share in rough.returned) < WANTED:
+        found = self.recovery
+        tried = [check.value for check in found.checks if check.value != self.present]
+        for value in sorted(tried, key=self._away):
+            rough = check_recovery(found.rotor, found.disturbances, along=self.name, value=value, seed=SEED + 1)
+            if not _enough(rough):
                 continue
             terms = self._terms(value)
             check = self._checked(terms)
-            if min(share.fraction for share in check.returned) >= WANTED:
+            if _enough(check):
                 return self._change(terms, check, None, ())
         return None
 
-    def _away(self, span: Span) -> float:
-        near, _ = self._ends(span)
-        return abs(math.log(near.value / self.present)) if self.present > 0.0 else near.value
+    def _away(self, value: float) -> float:
+        return abs(math.log(value / self.present)) if self.present > 0.0 else value
 
-    def _ends(self, span: Span) -> tuple[Edge, Edge]:
+    def _ends(self, span: Span) -> Span:
         """The near and the far end of a span, seen from the present value; of a span that holds it the low and the high one."""
-        return (span.low, span.high) if self.present < span.high.value else (span.high, span.low)
+        return span if self.present < span.high.value else Span(span.high, span.low)
 
     def _values(self, span: Span) -> Iterator[tuple[float, bool]]:
         """Values inside a span, the nearest first, and whether they are only for the sake of the bearings."""
         near, far = (edge.value for edge in self._ends(span))
-        inward = math.copysign(1.0, far - near) / CONVERSIONS[self.gain].power
+        inward = math.copysign(1.0, far - near) / _power(self.recovery)
         middle = math.sqrt(near * far)
         for margin in MARGINS + FARTHER:
             value = near * (1.0 + margin) ** inward
@@ -288,12 +269,12 @@ class _Adviser:
 
     def _terms(self, value: float) -> InTerms:
         """The new value as the file would state it, rounded away from the present one."""
-        return stated(self.case, self.gain, value, "up" if self.present < value else "down")
+        return in_terms_of(self.case, self.name, value, "up" if self.present < value else "down")
 
     def _checked(self, terms: InTerms) -> Check:
-        value = with_setting(self.case, terms).parameters.value(self.gain)
+        value = with_setting(self.case, terms).parameters.value(self.name)
         sample = in_all(self.disturbances, CHECKED)
-        return check_recovery(self.recovery.rotor, sample, along=self.gain, value=value, seed=SEED)
+        return check_recovery(self.recovery.rotor, sample, along=self.name, value=value, seed=SEED)
 
     def _change(self, terms: InTerms, check: Check, span: Span | None, forced: tuple[Check, ...]) -> Change:
         value, present = check.value, self.present
@@ -305,19 +286,19 @@ class _Adviser:
         bound: Bound = "about"
         if span is not None:
             near, end = self._ends(span)
-            margin = Margin(self._best_known(near), _distance(self.gain, value, near.value))
+            margin = _margin(self.recovery, value, self._best_known(near))
             far = end if _happens(end) else None
-            low, high = min(value, end.value), max(value, end.value)
+            low, high = sorted((value, end.value))
             beyond = tuple(each for each in self.recovery.clear if low < each.value < high)
             if far is None and beyond:
                 bound = "at least" if present < value else "at most"
         radius = abs(rotor.equilibrium)
         return Change(
-            self.gain,
+            self.name,
             present,
             value,
             terms,
-            (value / present) ** CONVERSIONS[self.gain].power if present > 0.0 else math.inf,
+            (value / present) ** _power(self.recovery) if present > 0.0 else math.inf,
             bound,
             margin,
             far,
@@ -332,12 +313,15 @@ class _Adviser:
 
     def _best_known(self, edge: Edge) -> Edge:
         """Return the closed form of an edge, if several motions end there and one of them has a closed form."""
-        exact = [
-            other
-            for entry in self.ranges
-            if entry.gain == self.gain
-            for span in entry.spans
-            for other in (span.low, span.high)
-            if other.kind in _CLOSED_FORMS and math.isclose(other.value, edge.value, rel_tol=_SAME)
-        ]
-        return exact[0] if exact and edge.kind != "simulated" else edge
+        if edge.kind == "simulated":
+            return edge
+        known = (other for entry in self.recovery.motions for span in entry.spans for other in span)
+        exact = (
+            each for each in known if each.kind in _CLOSED_FORMS and math.isclose(each.value, edge.value, rel_tol=_SAME)
+        )
+        return next(exact, edge)
+
+
+def _enough(check: Check) -> bool:
+    """Whether the wanted share of each kind of disturbance came back."""
+    return min(share.fraction for share in check.returned) >= WANTED

@@ -4,26 +4,23 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from carom.basins.changes import WANTED
-from carom.closed_forms.thresholds import Gain
+from carom.models import Edge
 from carom.outcome import Outcome
-from carom.parameters import DIMENSIONLESS_FIELDS
+from carom.parameters import in_terms_of
 from carom.parameters.told import number, told_entry
 from carom.results import fields_of, in_si
-from carom.studies.advice import Bound, Change, Margin, evidence_of, stated
+from carom.studies.advice import Change, Margin, evidence_of
 from carom.studies.endings import motion_words
 from carom.studies.facts import Evidence, Fact
-from carom.studies.ranges import EVENTS, Edge
-from carom.studies.recovery import Check, Lost
+from carom.studies.ranges import event_words
+from carom.studies.study_data import StudyData
+from carom.studies.trials import Check, Lost
 from carom.studies.verdict_facts import judged
-from carom.studies.wording import counted, listed, present_values
+from carom.studies.wording import Wording, counted, entry_words, present_values
 
-if TYPE_CHECKING:
-    from carom.studies.assembly import Study
-
-_BOUNDS: dict[Bound, str] = {"at least": "at least ", "at most": "at most ", "about": ""}
 CHANGES = ("Change", "Or", "For all starts")
 """Labels of the changes that help."""
 BEYOND = "Beyond the limits"
@@ -33,16 +30,26 @@ _NOTHING_BUILDABLE = (
     "nothing that the magnetic bearings can give helps: every change found that brings all back asks for more than their "
     "limits, so that the real machine moves otherwise; larger limits, less unbalance or a larger clearance are needed"
 )
+_HOW_SURE = (
+    "closed form: exact; searched: complete lists of orbits at values close together; sampled: seeded random "
+    "disturbances, so that rare ones may end elsewhere."
+)
 _LAST_ZONE = "D"
 
 
-def advice_facts(study: Study) -> Iterator[Fact]:
+def advice_facts(study: StudyData) -> Iterator[Fact]:
     """The machine, what it does now, the changes that help, and how sure all this is."""
-    yield _fact("Machine", _machine(study))
-    yield _now(study)
+    say, machine, told = study.wording, study.case.machine, present_values(study.case)
+    if machine is not None:
+        names = ("mass", "clearance", "eccentricity")
+        told = ", ".join([told, *(f"{name} {told_entry(name, getattr(machine, name))}" for name in names)])
+    yield _fact("Machine", told)
+    level, outcome, _ = judged(study)
+    levitates = f"levitates at {_place(say, study.equilibria[0].radius)}, zone {study.zone}"
+    yield _fact("Now", levitates if study.levitates else outcome.lower(), "closed form")
     recommended = study.recommendation
     unbuildable = recommended.kind == "nothing-buildable"
-    enough = judged(study)[0] == "all-tried-came-back"
+    enough = level == "all-tried-came-back"
     first = "For all starts" if enough else "Change"
     if enough and recommended.kind != "no-change-needed":
         yield _fact("Change", _NONE_NEEDED, "sampled")
@@ -50,21 +57,23 @@ def advice_facts(study: Study) -> Iterator[Fact]:
         yield _fact(first, _NOTHING_BUILDABLE, "sampled")
     for place, change in enumerate(recommended.changes):
         label = BEYOND if unbuildable else "Or" if place else first
-        values = change_document(study, change)
-        yield _fact(label, _change(study, change), values=values)
+        yield _fact(label, _change(study, change), values=change_document(study, change))
         yield from _details(study, change)
     if recommended.kind == "no-change-found":
         yield _fact(first, _none_found(study), "sampled")
     elif recommended.kind == "no-change-needed":
         yield _fact("Change", _NONE_NEEDED, "sampled")
-        for gain, margin in recommended.margins:
-            values = {
-                **_in_both(study, gain, present=study.case.parameters.value(gain)),
-                **_margin_document(study, gain, margin),
-            }
-            yield _fact("Margin", _own_margin(study, gain, margin), evidence_of(margin.edge), values, detail=True)
+        for margin in recommended.margins:
+            present = _in_both(study, margin.parameter, present=study.case.parameters.value(margin.parameter))
+            values = present | _margin_document(study, margin)
+            yield _fact(
+                "Margin", _own_margin(say, present["present"], margin), evidence_of(margin.edge), values, detail=True
+            )
     yield _fact("Disturbances", _disturbances(study))
-    yield _fact("How sure", _how_sure(study))
+    proven = "Only what is called proven is."
+    if study.proof is not None:
+        proven = "Proven is only what “Proven” says of the present values, not the change."
+    yield _fact("How sure", f"{_HOW_SURE} {proven}")
 
 
 def _fact(
@@ -73,55 +82,36 @@ def _fact(
     return Fact("Recommendation", text, label, evidence, values or {}, detail=detail)
 
 
-def _machine(study: Study) -> str:
-    """The present values in a line."""
-    machine, told = study.case.machine, present_values(study.case)
-    if machine is None:
-        return told
-    more = [f"{name} {told_entry(name, getattr(machine, name))}" for name in ("mass", "clearance", "eccentricity")]
-    return ", ".join([told, *more])
-
-
-def _now(study: Study) -> Fact:
-    levitation = study.equilibria[0]
-    if not study.levitates:
-        return _fact("Now", judged(study)[1].lower(), "closed form")
-    return _fact("Now", f"levitates at {_place(study, levitation.radius)}, zone {study.zone}", "closed form")
-
-
-def _place(study: Study, radius: float) -> str:
+def _place(say: Wording, radius: float) -> str:
     """Return a radius with the clearance beside it where lengths are known."""
-    if study.wording.scales is None:
+    if say.scales is None:
         return f"{number(radius, 3)} of the clearance"
-    return f"a radius of {study.wording.length(radius)} (clearance {study.wording.length(1.0)})"
+    return f"a radius of {say.length(radius)} (clearance {say.length(1.0)})"
 
 
-def _change(study: Study, change: Change) -> str:
+def _change(study: StudyData, change: Change) -> str:
     """The change in the terms of the machine file, what it is in others, and how far beyond it was tried."""
-    gain, terms = change.gain, change.terms
-    beside = [
-        *terms.beside,
-        "there is none now" if math.isinf(change.ratio) else f"{_name(study, gain)} × {number(change.ratio, 3)}",
-    ]
-    now = stated(study.case, gain, change.present).text
-    text = f"{entry_words(terms.entry)} {now} → {_BOUNDS[change.bound]}{terms.text} ({', '.join(beside)})"
-    if change.bound == "about":
-        return text
+    name, terms = change.parameter, change.terms
+    # ω varies with the square root of the stiffness.
+    what = "stiffness" if name == "omega" and study.wording.scales is None else study.wording.name(name)
+    times = "there is none now" if math.isinf(change.ratio) else f"{what} × {number(change.ratio, 3)}"
+    now = _stated(study, name, change.present)
+    bound, tried = ("", "") if change.bound == "about" else (f"{change.bound} ", f", tried {_farthest(study, change)}")
+    return f"{entry_words(terms.entry)} {now} → {bound}{terms.text} ({', '.join([*terms.beside, times])}){tried}"
+
+
+def _farthest(study: StudyData, change: Change) -> str:
+    """How far beyond a change was tried: ``up to 60 N s/m``."""
     farthest = max((check.value for check in change.beyond), key=lambda at: abs(at - change.value))
-    return f"{text}, tried {'up' if farthest > change.value else 'down'} to {stated(study.case, gain, farthest).text}"
+    return f"{'up' if farthest > change.value else 'down'} to {_stated(study, change.parameter, farthest)}"
 
 
-def entry_words(entry: str) -> str:
-    """An entry of the machine file as people say it: ``derivative gain``; a dimensionless number by its symbol."""
-    return DIMENSIONLESS_FIELDS[entry].symbol if entry in DIMENSIONLESS_FIELDS else entry.replace("_", " ")
+def _stated(study: StudyData, name: str, value: float) -> str:
+    """A value as the file of the machine would state it."""
+    return in_terms_of(study.case, name, value).text
 
 
-def _name(study: Study, gain: Gain) -> str:
-    """``damping`` or ``stiffness``; ``ω`` varies with the square root of the latter."""
-    return "stiffness" if gain == "omega" and study.wording.scales is None else study.wording.gain_name(gain)
-
-
-def _details(study: Study, change: Change) -> Iterator[Fact]:
+def _details(study: StudyData, change: Change) -> Iterator[Fact]:
     """The lines under a change: how to try it, margin, levitation there, what was tried, what remains."""
     yield _fact("Set", f'--set "{change.terms.setting}"', detail=True)
     yield _fact("Margin", _margin(study, change), detail=True)
@@ -130,10 +120,10 @@ def _details(study: Study, change: Change) -> Iterator[Fact]:
         worse = study.zone not in (None, _LAST_ZONE)
         still = "still " if study.zone == _LAST_ZONE else ""
         zone = f"{zone}, which is worse than now" if worse else f"{still}{zone}: less unbalance is needed too"
-    yield _fact("Then", f"levitates at {_place(study, change.radius)}, {zone}", "closed form", detail=True)
+    yield _fact("Then", f"levitates at {_place(study.wording, change.radius)}, {zone}", "closed form", detail=True)
     yield _fact("Tried", _tried(study, change), "sampled", detail=True)
     for check in change.forced:
-        yield _fact("Not nearer", _forced(study, change.gain, check), "sampled", detail=True)
+        yield _fact("Not nearer", _forced(study, change.parameter, check), "sampled", detail=True)
     if change.demand is not None:
         most = (
             f"{number(change.demand, 3)} times the limit"
@@ -149,19 +139,18 @@ def _details(study: Study, change: Change) -> Iterator[Fact]:
         yield _fact("Remains", remains, "closed form", detail=True)
 
 
-def _tried(study: Study, change: Change) -> str:
+def _tried(study: StudyData, change: Change) -> str:
     """Say how many disturbances were followed at the value and beyond it, and how many came back."""
-    gain, value = change.gain, change.value
     text = check_words(study, change.check)
     if not change.beyond:
         return f"{text}; no value beyond it was tried"
-    last = max((check.value for check in change.beyond), key=lambda at: abs(at - value))
     each = min(check.tried for check in change.beyond)
-    places = f"{counted(len(change.beyond), 'value')} {'up' if last > value else 'down'} to {stated(study.case, gain, last).text}"
-    return f"{text}; beyond it none was lost of {each:,} at {'each of ' if len(change.beyond) > 1 else ''}{places}"
+    several = "each of " if len(change.beyond) > 1 else ""
+    places = f"{several}{counted(len(change.beyond), 'value')} {_farthest(study, change)}"
+    return f"{text}; beyond it none was lost of {each:,} at {places}"
 
 
-def check_words(study: Study, check: Check) -> str:
+def check_words(study: StudyData, check: Check) -> str:
     """Say how many fresh disturbances were followed at a value, how fast they were, and how many came back."""
     drawn = check.drawn
     sample = f"{drawn.total:,} fresh disturbances of up to {study.wording.velocity(study.required.kick)}"
@@ -176,14 +165,14 @@ def check_words(study: Study, check: Check) -> str:
     )
 
 
-def _forced(study: Study, gain: Gain, check: Check) -> str:
+def _forced(study: StudyData, name: str, check: Check) -> str:
     """Say which disturbance was lost at a nearer value."""
     lost = check.tried - check.drawn.count - sum(share.count for share in check.largest)
     example = f", such as {lost_words(study, check.example)}" if check.example else ""
-    return f"at {stated(study.case, gain, check.value).text} {lost:,} of {check.tried:,} {'was' if lost == 1 else 'were'} lost{example}"
+    return f"at {_stated(study, name, check.value)} {lost:,} of {check.tried:,} {'was' if lost == 1 else 'were'} lost{example}"
 
 
-def lost_words(study: Study, lost: Lost) -> str:
+def lost_words(study: StudyData, lost: Lost) -> str:
     """Describe a disturbance that was lost, by its coordinates."""
     along = lost.model.coordinates
     sizes = [
@@ -202,56 +191,49 @@ def lost_words(study: Study, lost: Lost) -> str:
 _KINDS = {"kick": "a kick", "state": "a start in the clearance", "shock": "a shock", "blade-loss": "a loss of a blade"}
 
 
-def _margin(study: Study, change: Change) -> str:
-    say, gain, margin, far = study.wording, change.gain, change.margin, change.far
+def _margin(study: StudyData, change: Change) -> str:
+    say, name, margin, far = study.wording, change.parameter, change.margin, change.far
     if margin is None:
         share = f"{number(100.0 * WANTED, 3)} %"
         return f"none: no value tried brings all back, and this one brings back at least {share} (sampled)"
-    text = f"{number(100.0 * margin.share, 2)} % beyond {say.gain(gain, margin.edge.value)}, {_where(margin.edge)} ({evidence_of(margin.edge)})"
-    if far is None:
-        return text
-    other = evidence_of(far)
-    return f"{text}; stay on this side of {say.gain(gain, far.value)}, {_where(far)} ({other})"
+    text = f"{number(100.0 * margin.share, 2)} % beyond {_end(say, name, margin.edge)}"
+    return text if far is None else f"{text}; stay on this side of {_end(say, name, far)}"
 
 
-def _own_margin(study: Study, gain: Gain, margin: Margin) -> str:
-    say = study.wording
-    own, end = study.case.parameters.value(gain), margin.edge.value
-    side = "above" if own > end else "below"
-    share = f"{number(100.0 * margin.share, 2)} % {side} {say.gain(gain, end)}"
-    return f"{say.gain_name(gain)} {say.gain(gain, own)} is {share}, {_where(margin.edge)}"
+def _end(say: Wording, name: str, edge: Edge) -> str:
+    return f"{say.value(name, edge.value)}, {_where(edge)} ({evidence_of(edge)})"
+
+
+def _own_margin(say: Wording, own: float, margin: Margin) -> str:
+    name, end = margin.parameter, margin.edge.value
+    share = f"{number(100.0 * margin.share, 2)} % {'above' if own > end else 'below'} {say.value(name, end)}"
+    return f"{say.name(name)} {say.value(name, own)} is {share}, {_where(margin.edge)}"
 
 
 def _where(edge: Edge) -> str:
     """Say what happens at the end of a range."""
     if edge.motion is not None:
         return f"beyond which disturbances ended in {motion_words(edge.motion)}"
-    return f"where {EVENTS.get(edge.kind, f'an orbit ends ({edge.kind})')}"
+    return f"where {event_words(edge)}"
 
 
-def _searched(study: Study) -> str:
+def _none_found(study: StudyData) -> str:
     """The ranges in which a change was looked for."""
     say = study.wording
     ranges = [
-        f"{say.gain_name(entry.gain)} from {say.gain(entry.gain, entry.searched.low.value)} to "
-        f"{say.gain(entry.gain, entry.searched.high.value)}"
+        f"{say.name(entry.parameter)} from {' to '.join(say.value(entry.parameter, edge.value) for edge in entry.searched)}"
         for entry in study.ranges
         if entry.motion == "single-impact" and entry.searched is not None
     ]
-    return f"of {' and '.join(ranges)}, each alone" if ranges else ""
-
-
-def _none_found(study: Study) -> str:
-    searched = _searched(study)
-    if not searched:
+    if not ranges:
         return "none found: no range of damping or stiffness could be searched"
-    return f"none found that brings back all that must be survived, {searched}"
+    return f"none found that brings back all that must be survived, of {' and '.join(ranges)}, each alone"
 
 
-def _disturbances(study: Study) -> str:
+def _disturbances(study: StudyData) -> str:
     say, required = study.wording, study.required
-    kinds = ["velocity kicks out of levitation", "starts spread over the clearance"]
-    text = f"{listed(kinds)}, both of up to {say.velocity(required.kick)} as seen in the room"
+    text = "velocity kicks out of levitation and starts spread over the clearance"
+    text += f", both of up to {say.velocity(required.kick)} as seen in the room"
     if required.shock:
         text += f"; shocks of up to {say.acceleration(required.shock.peak)} over {say.time(required.shock.duration)}"
     if required.blade_loss:
@@ -259,24 +241,14 @@ def _disturbances(study: Study) -> str:
     return f"{text}; of faster ones, and of other kinds, nothing is said"
 
 
-def _how_sure(study: Study) -> str:
-    text = (
-        "closed form: exact; searched: complete lists of orbits at values close together; sampled: seeded random "
-        "disturbances, so that rare ones may end elsewhere. "
-    )
-    if study.proof is None:
-        return text + "Only what is called proven is."
-    return text + "Proven is only what “Proven” says of the present values, not the change."
-
-
-def change_document(study: Study, change: Change) -> dict[str, Any]:
+def change_document(study: StudyData, change: Change) -> dict[str, Any]:
     """A change as plain data for JSON."""
-    gain, check = change.gain, change.check
+    name, check = change.parameter, change.check
     document = {
-        **_in_both(study, gain, present=change.present, value=change.value),
+        **_in_both(study, name, present=change.present, value=change.value),
         **fields_of(change, entry="terms.entry", set="terms.setting", bound="bound", ratio="ratio"),
-        "margin": None if change.margin is None else _margin_document(study, gain, change.margin),
-        "other_end": None if change.far is None else _end_document(study, gain, change.far),
+        "margin": None if change.margin is None else _margin_document(study, change.margin),
+        "other_end": None if change.far is None else _end_document(study, name, change.far),
         **fields_of(check.drawn, disturbances="total", recovered="count", share_low="low", share_high="high"),
         "at_their_largest": sum(share.total for share in check.largest),
         "recovered_at_their_largest": sum(share.count for share in check.largest),
@@ -289,20 +261,14 @@ def change_document(study: Study, change: Change) -> dict[str, Any]:
     return document | in_si(document, study.wording.scales, "radius", rolling_from="velocity")
 
 
-def _margin_document(study: Study, gain: Gain, margin: Margin) -> dict[str, Any]:
-    return {**_end_document(study, gain, margin.edge), "share": margin.share}
+def _margin_document(study: StudyData, margin: Margin) -> dict[str, Any]:
+    return _end_document(study, margin.parameter, margin.edge) | {"share": margin.share}
 
 
-def _end_document(study: Study, gain: Gain, edge: Edge) -> dict[str, Any]:
-    ends = _in_both(study, gain, end=edge.value)
-    return {**ends, "at_end": edge.motion or edge.kind, "evidence": evidence_of(edge)}
+def _end_document(study: StudyData, name: str, edge: Edge) -> dict[str, Any]:
+    return _in_both(study, name, end=edge.value) | {"at_end": edge.motion or edge.kind, "evidence": evidence_of(edge)}
 
 
-def _in_both(study: Study, gain: Gain, **values: float) -> dict[str, Any]:
-    """Return values of a gain, with those in SI units if the machine is known."""
-    say = study.wording
-    document: dict[str, Any] = {"parameter": gain, **values}
-    if say.scales is not None:
-        document["quantity"] = say.gain_name(gain)
-        document |= {f"{name}_si": say.gain_in_si(gain, value) for name, value in values.items()}
-    return document
+def _in_both(study: StudyData, name: str, **values: float) -> dict[str, Any]:
+    """Return values of a parameter, with those in SI units if the machine is known."""
+    return {"parameter": name, **values, **study.wording.in_si(name, **values)}

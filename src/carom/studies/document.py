@@ -6,8 +6,9 @@ ends in ``_si``; those keys exist if the machine is known.  Values that are not 
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from importlib.metadata import version
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -16,9 +17,8 @@ from carom.attractors import Attractor, AttractorSet, Ending, document_of
 from carom.bifurcations.boundary import BoundaryEquilibrium
 from carom.bifurcations.documents import search_document
 from carom.closed_forms.equilibria import Equilibrium
-from carom.closed_forms.thresholds import Gain
 from carom.closed_forms.whirl import rolling
-from carom.models import Jeffcott, Model
+from carom.models import Jeffcott, Model, Span
 from carom.motions.loads import MEASURED, touchdown_loads
 from carom.motions.starts import State
 from carom.motions.trajectories import Trajectory
@@ -27,17 +27,17 @@ from carom.orbits.single_impact import OrbitSet
 from carom.parameters import MACHINE_FIELDS, LoadLimits, Machine, Parameters, Scales
 from carom.parameters.indentation import gives_way, indentation_of_force, indentation_of_hit
 from carom.results import fields_of, in_si
-from carom.studies.advice import gain_of
 from carom.studies.advice_facts import change_document
 from carom.studies.endings import came_back, hardest_impulse, touching
+from carom.studies.facts import Fact
 from carom.studies.load_checks import check_loads, loads_entry
-from carom.studies.ranges import MotionRange, Span, Threshold
-from carom.studies.recovery import Check, Recovery
+from carom.studies.ranges import MotionRange, Threshold
+from carom.studies.recovery import Recovery
+from carom.studies.study_data import StudyData
+from carom.studies.trials import Check
+from carom.studies.verdict import Verdict
 from carom.studies.verdict_facts import requirement_document, survived_document
 from carom.studies.wording import Wording
-
-if TYPE_CHECKING:
-    from carom.studies.assembly import Study
 
 
 @checked
@@ -121,7 +121,7 @@ def _loads(trajectory: Trajectory) -> dict[str, Any]:
     return document | in_si(document, loads.scales, *MEASURED)
 
 
-def study_document(study: Study) -> dict[str, Any]:
+def study_document(study: StudyData, verdict: Verdict, facts: Sequence[Fact]) -> dict[str, Any]:
     """Return the document of a study, with all its results."""
     case, say = study.case, study.wording
     return {
@@ -131,13 +131,13 @@ def study_document(study: Study) -> dict[str, Any]:
         "scales_si": _scales(case.parameters.scales) if case.parameters.scales else None,
         "zone": study.zone,
         "zone_limits": list(case.zones.limits),
-        "verdict": fields_of(study.verdict, "level", "outcome", "reason", "headline"),
+        "verdict": fields_of(verdict, "level", "outcome", "reason", "headline"),
         "requirement": requirement_document(study),
         "survives": {name: survived_document(study, name, found) for name, found in study.survives.items()}
         if study.survives
         else None,
         "share": study.share.document if study.share else None,
-        "facts": [fact.document() for fact in study.facts],
+        "facts": [fact.document() for fact in facts],
         "thresholds": [_threshold(entry, say) for entry in study.thresholds],
         "ranges": [_range(entry) for entry in study.ranges],
         "boundaries": [_boundary(entry, say) for entry in study.boundaries],
@@ -180,13 +180,6 @@ def _orbit(entry: Orbit, scales: Scales | None) -> dict[str, Any]:
     return document
 
 
-def _value_in_si(say: Wording, gain: Gain, value: float) -> dict[str, Any]:
-    """Return the keys of damping or stiffness in SI units; none if the machine is not known."""
-    if say.scales is None:
-        return {}
-    return {"quantity": say.gain_name(gain), "value_si": say.gain_in_si(gain, value)}
-
-
 def _state(state: State) -> dict[str, Any]:
     return fields_of(state, U="position", V="velocity")
 
@@ -203,9 +196,9 @@ def _scales(scales: Scales) -> dict[str, float]:
 
 
 def _threshold(entry: Threshold, say: Wording) -> dict[str, Any]:
-    told = fields_of(entry, motion="motion", kind="edge.kind", exists="exists", parameter="gain")
+    told = fields_of(entry, motion="motion", kind="edge.kind", exists="exists", parameter="parameter")
     told |= fields_of(entry.edge, "value", "period", "certified")
-    return told | _value_in_si(say, entry.gain, entry.edge.value)
+    return told | say.in_si(entry.parameter, value=entry.edge.value)
 
 
 def _boundary(entry: BoundaryEquilibrium, say: Wording) -> dict[str, Any]:
@@ -217,21 +210,20 @@ def _boundary(entry: BoundaryEquilibrium, say: Wording) -> dict[str, Any]:
             if orbit.admissible
         ],
         "complete": entry.complete,
-        **_value_in_si(say, entry.gain, entry.value),
+        **say.in_si(entry.gain, value=entry.value),
     }
 
 
 def _range(entry: MotionRange) -> dict[str, Any]:
     return {
-        **fields_of(entry, motion="motion", parameter="gain"),
+        **fields_of(entry, "motion", "parameter", "step"),
         "spans": _spans(entry.spans),
         "searched": _span(entry.searched) if entry.searched else None,
-        "step": entry.step,
     }
 
 
 def _span(span: Span) -> list[float]:
-    return [span.low.value, span.high.value]
+    return [edge.value for edge in span]
 
 
 def _spans(spans: tuple[Span, ...]) -> list[list[float]]:
@@ -239,13 +231,13 @@ def _spans(spans: tuple[Span, ...]) -> list[list[float]]:
 
 
 def _recovery(entry: Recovery, say: Wording) -> dict[str, Any]:
-    gain = gain_of(entry)
+    name = entry.along.name
     return {
-        "parameter": gain,
+        "parameter": name,
         "searched": _spans(entry.searched),
         "spans": _spans(entry.spans),
-        "ends": [[span.low.motion or span.low.kind, span.high.motion or span.high.kind] for span in entry.spans],
-        "values": [_check(check) | _value_in_si(say, gain, check.value) for check in entry.checks],
+        "ends": [[edge.motion or edge.kind for edge in span] for span in entry.spans],
+        "values": [_check(check) | say.in_si(name, value=check.value) for check in entry.checks],
     }
 
 

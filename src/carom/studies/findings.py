@@ -2,38 +2,33 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Callable, Mapping
 
+from carom.attractors import AttractorSet
 from carom.attractors.names import LEVITATION
-from carom.closed_forms.thresholds import Gain
+from carom.closed_forms.equilibria import Equilibrium
 from carom.closed_forms.whirl import Rolling, Runaway, rolling, runaway_speed
+from carom.orbits.orbit import Orbit
 from carom.outcome import STEADY_WORDS
 from carom.parameters import GRAVITY
 from carom.parameters.indentation import gives_way, indentation_of_force, indentation_of_hit
 from carom.parameters.told import number
-from carom.studies.advice import gain_of
 from carom.studies.endings import came_back, ending_phrase, hardest_impulse, motion_words, touching
 from carom.studies.facts import Topic
 from carom.studies.ranges import Motion
-from carom.studies.wording import counted, listed, no_rigid_wall, steel_words
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
-
-    from carom.attractors import AttractorSet
-    from carom.closed_forms.equilibria import Equilibrium
-    from carom.orbits.orbit import Orbit
-    from carom.studies.assembly import Study
+from carom.studies.recovery import Recovery
+from carom.studies.study_data import StudyData
+from carom.studies.wording import Wording, counted, listed, no_rigid_wall, steel_words
 
 RUB, ROLLING = STEADY_WORDS["rub"], STEADY_WORDS["rolling"]
 
 
-def stable_rub(study: Study) -> Equilibrium | None:
+def stable_rub(study: StudyData) -> Equilibrium | None:
     """Return the stable, admissible synchronous rub, which can hold the rotor, if there is one."""
     return next((rub for rub in study.rubs if rub.stable and rub.status == "admissible"), None)
 
 
-def _levitation(study: Study) -> str:
+def _levitation(study: StudyData) -> str:
     say, levitation = study.wording, study.equilibria[0]
     limits = ", ".join(number(limit, 3) for limit in study.case.zones.limits)
     if levitation.status == "virtual":
@@ -54,7 +49,7 @@ def _levitation(study: Study) -> str:
     return " ".join([text, *_loss_of_levitation(study)])
 
 
-def _loss_of_levitation(study: Study) -> list[str]:
+def _loss_of_levitation(study: StudyData) -> list[str]:
     """Say how levitation ends if one gain is changed far enough."""
     say = study.wording
     places: dict[str, list[str]] = {}
@@ -63,7 +58,7 @@ def _loss_of_levitation(study: Study) -> list[str]:
         if (boundary.value < own) != (boundary.levitates == "above"):
             continue  # beyond the range in which this machine levitates
         moves = "falls" if boundary.levitates == "above" else "rises"
-        where = f"{say.gain_name(boundary.gain)} {moves} to {say.gain(boundary.gain, boundary.value)}"
+        where = f"{say.name(boundary.gain)} {moves} to {say.value(boundary.gain, boundary.value)}"
         places.setdefault(_LOSS[boundary.kind], []).append(where)
     return [f"Where {' or '.join(where)}, {what}." for what, where in places.items()]
 
@@ -75,7 +70,7 @@ _LOSS = {
 }
 
 
-def _rub(study: Study) -> str:
+def _rub(study: StudyData) -> str:
     rubs = [rub for rub in study.rubs if rub.status != "virtual"]
     if not rubs:
         return f"No {RUB} exists: the unbalance cannot keep the rotor pressed against the bearing."
@@ -94,7 +89,7 @@ def _rub(study: Study) -> str:
     )
 
 
-def _rub_load(study: Study, rub: Equilibrium) -> str:
+def _rub_load(study: StudyData, rub: Equilibrium) -> str:
     say, parameters = study.wording, study.case.parameters
     indentation = indentation_of_force(parameters, rub.normal_force)
     if gives_way(indentation):
@@ -110,14 +105,14 @@ def _rub_load(study: Study, rub: Equilibrium) -> str:
     return text
 
 
-def _of_hit(study: Study, impulse: float) -> str:
+def _of_hit(study: StudyData, impulse: float) -> str:
     """Return a clause on whether the rigid wall is a valid model for the normal impulse of a hit; empty if it is."""
     parameters = study.case.parameters
     text = no_rigid_wall(indentation_of_hit(parameters, impulse / (1.0 + parameters.d)))
     return f"; {text}" if text else ""
 
 
-def _bouncing(study: Study) -> str:
+def _bouncing(study: StudyData) -> str:
     orbits = study.orbits
     stable = study.stable_orbits
     unstable = [orbit for orbit in orbits if orbit.admissible and not orbit.stable]
@@ -149,7 +144,7 @@ def _bouncing(study: Study) -> str:
     return " ".join(sentences)
 
 
-def _stable_orbit(study: Study, orbit: Orbit) -> str:
+def _stable_orbit(study: StudyData, orbit: Orbit) -> str:
     say, parameters = study.wording, study.case.parameters
     impulse = (1.0 + parameters.d) * orbit.radial_speed
     words = orbit.name.words
@@ -162,7 +157,7 @@ def _stable_orbit(study: Study, orbit: Orbit) -> str:
     )
 
 
-def _disturbances(study: Study) -> str:
+def _disturbances(study: StudyData) -> str:
     say, found = study.wording, study.attractors
     text = f"Simulated to where they settle: {found.words()}. {_endings(study)}"
     hardest = hardest_impulse(found)
@@ -171,7 +166,7 @@ def _disturbances(study: Study) -> str:
     return text
 
 
-def _endings(study: Study) -> str:
+def _endings(study: StudyData) -> str:
     found = study.attractors
     counts = {member.name: member.count for member in found if member.count}
     if list(counts) == [LEVITATION]:
@@ -192,10 +187,10 @@ def _irregular(found: AttractorSet) -> str:
     return f" Of such irregular motions {lasting.survival.words}." if lasting and lasting.survival else ""
 
 
-def _backward_whirl(study: Study) -> str:
+def _backward_whirl(study: StudyData) -> str:
     say, gamma = study.wording, study.case.parameters.gamma
     roll, runaway = rolling(study.rotor), runaway_speed(study.rotor)
-    bound = say.gain("gamma", roll.damping_bound)
+    bound = say.value("gamma", roll.damping_bound)
     if roll.damping_bound <= 0.0:
         return "Friction cannot sustain any backward whirl in lasting contact, whatever the damping."
     if gamma > roll.damping_bound:
@@ -204,27 +199,30 @@ def _backward_whirl(study: Study) -> str:
     if not roll.holds:
         return (
             "The rotor cannot roll backward round the bearing for a whole turn, but backward whirl that slides for a part of "
-            f"each turn is not ruled out; {say.gain_name('gamma')} above {bound} would rule it out."
+            f"each turn is not ruled out; {say.name('gamma')} above {bound} would rule it out."
         )
     return (
         f"Dry friction can drive the rotor backward round the bearing. {_no_return(study, runaway)} {_where_it_ends(study, roll)} "
-        f"Only {say.gain_name('gamma')} above {bound} rules that out{_interrupted(study, roll)}."
+        f"Only {say.name('gamma')} above {bound} rules that out{_interrupted(study, roll)}."
     )
 
 
-def _no_return(study: Study, runaway: Runaway) -> str:
+def _no_return(study: StudyData, runaway: Runaway) -> str:
     """Say from which speed backward whirl runs away, and with which load on the bearing."""
     say, at = study.wording, study.case.parameters
     force = runaway.certain**2 - at.omega**2 + at.rho
     power = at.mu * force * max(runaway.rolling_speed - runaway.certain, 0.0)
+    certain, average = say.velocity(runaway.certain), say.velocity(runaway.average)
+    # Below the speed that is certain the unbalance decides.
+    perhaps = "" if certain == average else f", and it may get there from about {average} on"
     return (
-        f"There is no return if, in lasting contact, its centre moves backward faster than {say.velocity(runaway.certain)} (whirl at "
-        f"{number(runaway.certain, 3)} times the speed of the shaft){_perhaps(study, runaway)}; the bearing then carries up to "
+        f"There is no return if, in lasting contact, its centre moves backward faster than {certain} (whirl at "
+        f"{number(runaway.certain, 3)} times the speed of the shaft){perhaps}; the bearing then carries up to "
         f"{_with_weight(study, force)}, and friction takes {say.power(power)} from the drive."
     )
 
 
-def _where_it_ends(study: Study, roll: Rolling) -> str:
+def _where_it_ends(study: StudyData, roll: Rolling) -> str:
     """Say with which load it ends in rolling, or that a rigid wall is no model of that."""
     indentation = indentation_of_force(study.case.parameters, roll.largest_force)
     if gives_way(indentation):
@@ -233,21 +231,15 @@ def _where_it_ends(study: Study, roll: Rolling) -> str:
     return f"It ends in {ROLLING}, with {force}, and stays in it."
 
 
-def _interrupted(study: Study, roll: Rolling) -> str:
+def _interrupted(study: StudyData, roll: Rolling) -> str:
     """Explain the two limits of rolling, if they differ in the digits shown."""
-    every_angle, bound = (study.wording.gain("gamma", limit) for limit in (roll.largest_damping, roll.damping_bound))
+    every_angle, bound = (study.wording.value("gamma", limit) for limit in (roll.largest_damping, roll.damping_bound))
     if every_angle == bound:
         return ""
     return f" (from {every_angle} on it can roll for a part of each turn only, and slides in between)"
 
 
-def _perhaps(study: Study, runaway: Runaway) -> str:
-    """Name the lower speed from which the unbalance decides whether backward whirl runs away."""
-    certain, average = study.wording.velocity(runaway.certain), study.wording.velocity(runaway.average)
-    return "" if certain == average else f", and it may get there from about {average} on"
-
-
-def _with_weight(study: Study, force: float) -> str:
+def _with_weight(study: StudyData, force: float) -> str:
     """Return a force with its multiple of the weight of the rotor."""
     text, scales = study.wording.force(force), study.rotor.scales
     if scales is None:
@@ -255,44 +247,43 @@ def _with_weight(study: Study, force: float) -> str:
     return f"{text} ({number(force * scales.acceleration / GRAVITY, 3)} times the weight of the rotor)"
 
 
-def _remedies(study: Study) -> str:
-    return "\n".join(" ".join(_remedies_along(study, gain)) for gain in study.gains)
+def _remedies(study: StudyData) -> str:
+    return "\n".join(_remedies_along(study.wording, found) for found in study.recoveries)
 
 
-def _remedies_along(study: Study, gain: Gain) -> list[str]:
-    say = study.wording
-    name, own = say.gain_name(gain), say.gain(gain, study.case.parameters.value(gain))
+def _remedies_along(say: Wording, found: Recovery) -> str:
+    along = found.along
+    name, own = say.name(along.name), say.value(along.name, along.value(found.rotor))
     parts = []
     for motion, words in _POSSIBLE.items():
-        entry = study.range_of(motion, gain)
+        entry = found.range_of(motion)
         if entry is not None and (entry.spans or motion != "stable-single-impact"):
-            parts.append(f"{words} {say.where(gain, entry.spans, entry.searched)}")
-    if study.range_of("single-impact", gain) and not study.range_of("stable-single-impact", gain):
+            parts.append(f"{words} {say.where(along.name, entry.spans, entry.searched)}")
+    if found.range_of("single-impact") and not found.range_of("stable-single-impact"):
         parts.append(
             f"{_POSSIBLE['stable-single-impact'].rstrip(',')} were not searched: there are too many orbits to follow"
         )
-    along = name if say.scales is None else f"{name[0].upper()}{name[1:]}"  # A symbol keeps its case: Ω is not ω.
-    return [f"{along} (this machine: {own}): {'; '.join(parts)}.", _recovery_words(study, gain)]
+    what = name if say.scales is None else f"{name[0].upper()}{name[1:]}"  # A symbol keeps its case: Ω is not ω.
+    return f"{what} (this machine: {own}): {'; '.join(parts)}. {_recovery_words(say, found, name)}"
 
 
-def _recovery_words(study: Study, gain: Gain) -> str:
-    """Say where along a gain everything tried came back, how much was tried, and what was met beyond."""
-    say, name = study.wording, study.wording.gain_name(gain)
-    found = next((entry for entry in study.recoveries if gain_of(entry) == gain), None)
-    if found is None:
+def _recovery_words(say: Wording, found: Recovery, name: str) -> str:
+    """Say where along a parameter everything tried came back, how much was tried, and what was met beyond."""
+    along = found.along.name
+    if not found.range_of("single-impact"):
         return f"At which {name} all that must be survived comes back was not searched."
     if not found.searched:
         return f"There is no {name} in the range searched without another motion that can hold the rotor."
     if not found.spans:
         return f"At no {name} tried all that must be survived came back."
-    low, high = (min(span.low.value for span in found.searched), max(span.high.value for span in found.searched))
+    low, high = say.value(along, found.searched[0].low.value), say.value(along, found.searched[-1].high.value)
     each = min(check.tried for check in found.clear)
-    ends = {(edge.motion, edge.value) for span in found.spans for edge in (span.low, span.high) if edge.motion}
-    met = [f"some end in {motion_words(motion)} beyond {say.gain(gain, value)}" for motion, value in sorted(ends)]
+    ends = {(edge.motion, edge.value) for span in found.spans for edge in span if edge.motion}
+    met = [f"some end in {motion_words(motion)} beyond {say.value(along, value)}" for motion, value in sorted(ends)]
     beyond = f"; {listed(met)}" if met else ""
     return (
         f"Of {each:,} disturbances at each of {counted(len(found.clear), 'value')} of {name} none was lost "
-        f"{say.where(gain, found.spans)}, searched from {say.gain(gain, low)} to {say.gain(gain, high)}{beyond}."
+        f"{say.where(along, found.spans)}, searched from {low} to {high}{beyond}."
     )
 
 
@@ -304,7 +295,7 @@ _POSSIBLE: dict[Motion, str] = {
 }
 
 
-FINDINGS: Mapping[Topic, Callable[[Study], str]] = {
+FINDINGS: Mapping[Topic, Callable[[StudyData], str]] = {
     "Levitation": _levitation,
     "Rub": _rub,
     "Bouncing": _bouncing,

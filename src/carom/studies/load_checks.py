@@ -146,13 +146,11 @@ def worst_loads(found: AttractorSet, limits: LoadLimits) -> WorstLoads:
     if not checked:
         return WorstLoads((), (), (), 0)
     worst, names, counts = [], [], []
-    for place in range(len(checked[0][1])):
-        name, check = max(((name, checks[place]) for name, checks in checked), key=lambda pair: _severity(pair[1]))
-        worst.append(check)
-        names.append(str(name))
-        counts.append(sum(checks[place].exceeded for _, checks in checked))
+    for each in zip(*(checks for _, checks in checked), strict=True):
+        place = max(
+            range(len(each)), key=lambda of: (each[of].exceeded, each[of].value > each[of].limit, each[of].value)
+        )
+        worst.append(each[place])
+        names.append(str(checked[place][0]))
+        counts.append(sum(check.exceeded for check in each))
     return WorstLoads(tuple(worst), tuple(names), tuple(counts), len(checked))
-
-
-def _severity(check: LoadCheck) -> tuple[bool, bool, float]:
-    return check.exceeded, check.value > check.limit, check.value

@@ -1,18 +1,30 @@
-"""For which damping, and for which stiffness, a motion exists: exact for equilibria.
+"""For which values of a parameter each simple motion exists: exact for steady ones, by search for orbits.
 
-Damping and stiffness are the gains that a designer can change.  Each is varied alone, with all other parameters fixed,
-and is written as ``gamma`` or ``omega`` here; the scales convert them to N s/m and N/m.
+One parameter is varied alone, with all others fixed.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Literal
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Literal, get_args
 
-from carom.arguments import checked
-from carom.attractors import MotionName
+import numpy as np
+
+from carom.bifurcations import orbit_windows
+from carom.bifurcations.steady import steady_points
+from carom.closed_forms.equilibria import find_equilibria
 from carom.closed_forms.thresholds import Gain, Steady, ranges_of
-from carom.parameters import Parameters
+from carom.closed_forms.whirl import rolling
+from carom.models import Axis, Edge, Jeffcott, Model, Span, axis
+from carom.models.axes import usual_range
+from carom.models.spans import spans_where
+from carom.orbits.single_impact import longest_within_reach, orbits_within_reach
+from carom.outcome import CaromError
+from carom.parameters import PHYSICAL_PARTNER
+from carom.parameters.told import own_entry
+from carom.progress import ShowProgress
 
 Motion = Steady | Literal["single-impact", "stable-single-impact"]
 
@@ -31,72 +43,44 @@ EVENTS = {
     "rolling-limit": "friction just keeps the rotor rolling at every angle",
 }
 """What happens at the ends of the ranges of motions."""
+DAMPING_STEP, STEP = 0.1, 0.05
+"""Relative steps between the values at which all orbits are computed: along damping, and along other parameters."""
+_OWN: dict[str, str] = {there: own for own, there in PHYSICAL_PARTNER.items()}
+NEARBY = 1e-6
+"""Relative distance from an edge at which the certified lists of orbits must confirm it."""
 
 
-@dataclass(frozen=True)
-class Edge:
-    """End of a span.
-
-    Attributes
-    ----------
-    value : float
-        ``gamma`` or ``omega``; 0 and infinity are possible.
-    kind : str
-        What happens there: ``"boundary-equilibrium"``, ``"rub-fold"``, ``"rolling-limit"`` or ``"simulated"``; for
-        orbits a kind of :class:`~carom.bifurcations.Bifurcation`, or ``"vanishing-period"``.  Empty if nothing happens
-        there, at the end of the axis or of a search.
-    period : float or None
-        Period of the orbit that appears, vanishes or changes there, in ``1/Ω``.
-    certified : bool
-        Whether the edge is exact, or confirmed by the certified orbits close by on both sides.
-    motion : MotionName or None
-        For the kind ``"simulated"``: the motion in which a disturbance ended beyond the edge.
-    """
-
-    value: float
-    kind: str = ""
-    period: float | None = None
-    certified: bool = True
-    motion: MotionName | None = None
-
-
-@dataclass(frozen=True)
-class Span:
-    """An interval of one gain."""
-
-    low: Edge
-    high: Edge
-
-    def __contains__(self, value: float) -> bool:
-        return self.low.value <= value <= self.high.value
+def event_words(edge: Edge) -> str:
+    """What happens at the end of a range, in words."""
+    return EVENTS.get(edge.kind, f"an orbit ends ({edge.kind})")
 
 
 @dataclass(frozen=True)
 class Threshold:
-    """A value of one gain at which a motion appears or vanishes.
+    """A value of a parameter at which a motion appears or vanishes.
 
     Attributes
     ----------
     motion : {"contact-free", "rub", "single-impact", "stable-single-impact", "rolling"}
-    gain : {"gamma", "omega"}
+    parameter : str
     exists : {"above", "below"}
         On which side of the value the motion exists.
     """
 
     motion: Motion
-    gain: Gain
+    parameter: str
     edge: Edge
     exists: Literal["above", "below"]
 
 
 @dataclass(frozen=True)
 class MotionRange:
-    """The values of one gain for which a motion exists, all other parameters fixed.
+    """The values of a parameter for which a motion exists, all other parameters fixed.
 
     Attributes
     ----------
     motion : {"contact-free", "rub", "single-impact", "stable-single-impact", "rolling"}
-    gain : {"gamma", "omega"}
+    parameter : str
     spans : tuple of Span
         Disjoint, in ascending order.
     searched : Span or None
@@ -106,7 +90,7 @@ class MotionRange:
     """
 
     motion: Motion
-    gain: Gain
+    parameter: str
     spans: tuple[Span, ...]
     searched: Span | None = None
     step: float = 0.0
@@ -114,73 +98,127 @@ class MotionRange:
     @property
     def thresholds(self) -> tuple[Threshold, ...]:
         """The edges at which the motion appears or vanishes."""
-        found = []
-        for span in self.spans:
-            if span.low.kind:
-                found.append(Threshold(self.motion, self.gain, span.low, "above"))
-            if span.high.kind:
-                found.append(Threshold(self.motion, self.gain, span.high, "below"))
-        return tuple(found)
+        sides = [(edge, side) for span in self.spans for edge, side in zip(span, ("above", "below"), strict=True)]
+        return tuple(Threshold(self.motion, self.parameter, edge, side) for edge, side in sides if edge.kind)  # type: ignore[arg-type]
 
     def exists_at(self, value: float) -> bool:
-        """Whether the motion exists for this value of the gain."""
+        """Whether the motion exists for this value."""
         return any(value in span for span in self.spans)
 
 
-def outside(spans: tuple[Span, ...], within: Span) -> tuple[Span, ...]:
-    """Return the parts of ``within`` that no span covers."""
-    gaps, start = [], within.low
-    for span in spans:
-        if span.low.value > start.value:
-            gaps.append(Span(start, min(span.low, within.high, key=_value)))
-        start = max(start, span.high, key=_value)
-    if start.value < within.high.value:
-        gaps.append(Span(start, within.high))
-    return tuple(gap for gap in gaps if gap.low.value < gap.high.value)
+def motion_ranges(rotor: Model, along: Axis, progress: ShowProgress = None) -> tuple[MotionRange, ...]:
+    """Return the values of a parameter for which each simple motion of the planar rotor exists; none for other rotors.
+
+    Where a synchronous rub exists with positive damping, a stable one does too, unless the restitution is one.  Orbits with one
+    impact a period are searched (:func:`~carom.bifurcations.orbit_windows`): along damping from a fraction of the machine's own to
+    where the rotor is far overdamped, else from half to twice the machine's own value.  There are ranges of all admissible orbits,
+    and of the stable ones if there are not too many to follow; none where no search is possible: without damping, or with so
+    little that there are too many orbits to follow or to list.
+    """
+    if not isinstance(rotor, Jeffcott):
+        return ()
+    own = _OWN.get(along.name, along.name)
+    varied = axis(rotor, own)
+    values = _values(rotor, varied)
+    found = (*_steady_ranges(rotor, varied, values), *_orbit_ranges(rotor, varied, values, progress))
+    return found if own == along.name else tuple(_of_the_machine(rotor, along, entry) for entry in found)
 
 
-def common(first: tuple[Span, ...], second: tuple[Span, ...]) -> tuple[Span, ...]:
-    """Return the overlaps of two sets of spans."""
-    overlaps = [
-        Span(max(one.low, other.low, key=_value), min(one.high, other.high, key=_value))
-        for one in first
-        for other in second
+def _of_the_machine(rotor: Jeffcott, along: Axis, entry: MotionRange) -> MotionRange:
+    """The same range of what a machine has in place of a dimensionless parameter."""
+
+    def told(span: Span) -> Span:
+        return Span(*(replace(edge, value=own_entry(entry.parameter, edge.value, rotor.scales)[1]) for edge in span))
+
+    searched = told(entry.searched) if entry.searched else None
+    return replace(entry, parameter=along.name, spans=tuple(map(told, entry.spans)), searched=searched)
+
+
+def _steady_ranges(rotor: Jeffcott, along: Axis, values: Sequence[float]) -> list[MotionRange]:
+    """By closed forms along damping and stiffness; along other parameters between the special points of steady motions."""
+    if along.name in get_args(Gain):
+        gain: Gain = along.name  # type: ignore[assignment]
+        return [MotionRange(motion, gain, ranges_of(motion, rotor.parameters, gain)) for motion in get_args(Steady)]
+    if not values:
+        return []
+    searched = Span(Edge(values[0]), Edge(values[-1]))
+    points = steady_points(rotor.parameters, along, (values[0], values[-1]))
+    edges = [*searched, *(Edge(point.value, point.kind) for point in points)]
+
+    def where(motion: Steady) -> tuple[Span, ...]:
+        return spans_where(edges, lambda value: motion in _steady_at(along.move(rotor, value)))
+
+    return [MotionRange(motion, along.name, where(motion), searched) for motion in get_args(Steady)]
+
+
+def _steady_at(rotor: Jeffcott) -> set[str]:
+    """The steady motions that exist."""
+    found: set[str] = {each.kind for each in find_equilibria(rotor) if each.status == "admissible"}
+    return found | {"rolling"} if rolling(rotor).holds else found
+
+
+def _orbit_ranges(rotor: Jeffcott, along: Axis, values: Sequence[float], progress: ShowProgress) -> list[MotionRange]:
+    """All orbits and the stable ones."""
+    if not values:
+        return []
+    found: dict[Motion, tuple[Span, ...] | None] = {"single-impact": (), "stable-single-impact": ()}
+    if rotor.parameters.rho > 0.0:  # a balanced rotor has no such orbit
+        try:
+            windows = orbit_windows(rotor, along.name, values, progress)
+        except CaromError:
+            return []
+        found = {"single-impact": windows.possible, "stable-single-impact": windows.stable}
+    searched, step = Span(Edge(values[0]), Edge(values[-1])), values[1] / values[0] - 1.0
+    return [
+        MotionRange(
+            motion,
+            along.name,
+            tuple(_confirmed(rotor, along, span, stable=motion == "stable-single-impact") for span in spans),
+            searched,
+            step,
+        )
+        for motion, spans in found.items()
+        if spans is not None
     ]
-    return tuple(sorted((span for span in overlaps if span.low.value < span.high.value), key=lambda s: s.low.value))
 
 
-def _value(edge: Edge) -> float:
-    return edge.value
+def _values(rotor: Jeffcott, along: Axis) -> list[float]:
+    """Return the values to search, in geometric progression; the list of orbits is complete at each of them.
 
-
-@checked
-def free_spans(ranges: tuple[MotionRange, ...], gain: Gain) -> tuple[Span, ...] | None:
-    """Return where along one gain the contact-free motion exists, but neither a rub nor a single-impact orbit.
-
-    The spans lie within the range searched for orbits; ``None`` if orbits were not searched.
+    Empty where it is at none.
     """
-    here = {entry.motion: entry for entry in ranges if entry.gain == gain}
-    orbits = here.get("single-impact")
-    if orbits is None or orbits.searched is None or "rub" not in here:
-        return None
-    searched = orbits.searched
-    quiet = common(outside(orbits.spans, searched), outside(here["rub"].spans, searched))
-    return common(quiet, here["contact-free"].spans)
+    at, limits = rotor.parameters, along.field
+    if along.name == "gamma":
+        lowest = min(0.02 * max(1.0, at.omega), 0.5 * at.gamma if at.gamma > 0 else 1.0)
+        highest = 8.0 * max(1.0, at.omega, at.gamma)
+        while lowest < 0.1 * highest and not _can_search(along.move(rotor, lowest)):
+            lowest *= 2.0
+        highest = min(highest, limits.highest)
+        # A soft rotor is so strongly overdamped there that one of its exponents decays very slowly.
+        while highest > 4.0 * max(lowest, at.gamma) and not _can_search(along.move(rotor, highest)):
+            highest *= 0.5
+    else:
+        lowest, highest = usual_range(along, along.value(rotor), "within")
+    lowest, highest = max(lowest, limits.lowest), min(highest, limits.highest)
+    if lowest >= highest or not all(_can_search(along.move(rotor, value)) for value in (lowest, highest)):
+        return []
+    step = DAMPING_STEP if along.name == "gamma" else STEP
+    return np.geomspace(lowest, highest, math.ceil(math.log(highest / lowest) / math.log1p(step)) + 1).tolist()
 
 
-def levitating_spans(ranges: tuple[MotionRange, ...], gain: Gain) -> tuple[Span, ...] | None:
-    """Return where along one gain the contact-free motion exists, within the range searched for orbits; ``None`` if none was."""
-    here = {entry.motion: entry for entry in ranges if entry.gain == gain}
-    orbits = here.get("single-impact")
-    if orbits is None or orbits.searched is None:
-        return None
-    return common(here["contact-free"].spans, (orbits.searched,))
+def _can_search(rotor: Jeffcott) -> bool:
+    return rotor.parameters.gamma > 0.0 and longest_within_reach(rotor) is None
 
 
-def steady_range(parameters: Parameters, motion: Steady, gain: Gain) -> MotionRange:
-    """Return where a steady motion exists (:func:`~carom.closed_forms.thresholds.ranges_of`).
+def _confirmed(rotor: Jeffcott, along: Axis, span: Span, *, stable: bool) -> Span:
+    """A span of orbits whose ends are certified where the orbits found close by on both sides confirm them."""
 
-    Where a synchronous rub exists with positive damping, a stable one does too, unless the restitution is one.
-    """
-    spans = tuple(Span(Edge(*low), Edge(*high)) for low, high in ranges_of(motion, parameters, gain))
-    return MotionRange(motion, gain, spans)
+    def exists(value: float) -> bool:
+        orbits = orbits_within_reach(along.move(rotor, value))
+        return any(orbit.admissible and (orbit.stable or not stable) for orbit in orbits)
+
+    def checked_at(edge: Edge, inward: float) -> Edge:
+        places = (edge.value * (1.0 + side * NEARBY) for side in (inward, -inward))
+        return replace(edge, certified=[exists(place) for place in places] == [True, False]) if edge.kind else edge
+
+    return Span(checked_at(span.low, 1.0), checked_at(span.high, -1.0))

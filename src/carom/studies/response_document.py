@@ -2,20 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from importlib.metadata import version
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from carom.parameters.fields import RPM
 from carom.results import fields_of
+from carom.studies.response_data import ResponseData, Stretch
 from carom.studies.standards import ASSUMPTIONS, vibration_limit
 
-if TYPE_CHECKING:
-    from carom.studies.response import Stretch, UnbalanceResponse
 
-
-def response_document(response: UnbalanceResponse) -> dict[str, Any]:
+def response_document(response: ResponseData, words: Sequence[str]) -> dict[str, Any]:
     """Return the document of a response over speed: speeds in rad/s and rpm, amplitudes in clearances and in m."""
     free, margin = response.contact_free, response.separation
     return {
@@ -42,12 +41,12 @@ def response_document(response: UnbalanceResponse) -> dict[str, Any]:
             "unstable_rub_lag": response.rub_lags[1].tolist(),
             "api_617_limit_si": vibration_limit(response.speeds).tolist(),
         },
-        "words": list(response.words),
+        "words": list(words),
         "assumptions": list(ASSUMPTIONS),
     }
 
 
-def _at(response: UnbalanceResponse, speed: float) -> dict[str, Any]:
+def _at(response: ResponseData, speed: float) -> dict[str, Any]:
     """Contact-free response at a speed."""
     place = complex(response.contact_free.displacement(np.array(speed)))
     return {

@@ -2,18 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
 from carom.outcome import STEADY_WORDS
 from carom.parameters.fields import RPM
 from carom.parameters.told import number
+from carom.studies.response_data import ResponseData, Stretch
 from carom.studies.standards import CRITICALLY_DAMPED, vibration_limit
 from carom.studies.wording import listed
-
-if TYPE_CHECKING:
-    from carom.studies.response import Stretch, UnbalanceResponse
 
 RUB = STEADY_WORDS["rub"]
 
@@ -28,13 +24,13 @@ def micrometres(length: float) -> str:
     return f"{number(1e6 * length, 3 if length < 1e-3 else 4)} µm"
 
 
-def sentences(response: UnbalanceResponse) -> tuple[str, ...]:
+def sentences(response: ResponseData) -> tuple[str, ...]:
     """Present speed, critical speed, separation, and where the rotor touches."""
     found = [_present(response), _critical(response), _separation(response), _limit(response), *_contact(response)]
     return tuple(sentence for sentence in found if sentence)
 
 
-def _present(response: UnbalanceResponse) -> str:
+def _present(response: ResponseData) -> str:
     speed, clearance = response.present, response.scales.clearance
     place = complex(response.contact_free.displacement(np.array(speed)))
     width, allowed = 2.0 * clearance * abs(place), float(vibration_limit(np.array(speed)))
@@ -53,7 +49,7 @@ def _present(response: UnbalanceResponse) -> str:
     )
 
 
-def _critical(response: UnbalanceResponse) -> str:
+def _critical(response: ResponseData) -> str:
     free = response.contact_free
     if free.critical_speed is None:
         return (
@@ -78,7 +74,7 @@ def _critical(response: UnbalanceResponse) -> str:
     )
 
 
-def _separation(response: UnbalanceResponse) -> str:
+def _separation(response: ResponseData) -> str:
     margin, factor = response.separation, response.contact_free.amplification_factor
     if margin is None:
         return ""
@@ -96,7 +92,7 @@ def _separation(response: UnbalanceResponse) -> str:
     )
 
 
-def _limit(response: UnbalanceResponse) -> str:
+def _limit(response: ResponseData) -> str:
     over = [stretch for stretch in response.exceeds_api_617 if stretch.what]
     if not over:
         return "The limit of API 617 is nowhere exceeded in this range."
@@ -105,7 +101,7 @@ def _limit(response: UnbalanceResponse) -> str:
     return f"The limit of API 617 is exceeded {_from_to(over)}."
 
 
-def _contact(response: UnbalanceResponse) -> list[str]:
+def _contact(response: ResponseData) -> list[str]:
     stretches = response.stretches
     touching = [stretch for stretch in stretches if not stretch.what.contact_free]
     if not touching:

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from itertools import zip_longest
-from typing import TYPE_CHECKING, Literal
+from typing import Literal
 
+from carom.attractors import Attractor, AttractorSet
 from carom.attractors.names import LEVITATION, SYNCHRONOUS_RUB
 from carom.basins import Share
 from carom.basins.shares import percent
@@ -17,16 +18,12 @@ from carom.parameters import DIMENSIONLESS_FIELDS, ENTRIES, HELPER_FIELDS, MACHI
 from carom.parameters.indentation import indentation_of_force, indentation_of_hit
 from carom.parameters.terms import set_by
 from carom.parameters.told import told_entry
-from carom.studies.advice import gain_of
 from carom.studies.advice_facts import check_words
 from carom.studies.proven import is_proven
-from carom.studies.ranges import EVENTS, Motion
+from carom.studies.ranges import Motion, MotionRange, event_words
+from carom.studies.study_data import StudyData
 from carom.studies.verdict_facts import KINDS, lost_to
 from carom.studies.wording import Wording, no_rigid_wall
-
-if TYPE_CHECKING:
-    from carom.attractors import Attractor, AttractorSet
-    from carom.studies.assembly import Study
 
 
 @dataclass(frozen=True)
@@ -63,18 +60,6 @@ class MotionRow:
 
 
 @dataclass(frozen=True)
-class ThresholdRow:
-    """A value of damping or stiffness at which a motion appears or vanishes."""
-
-    motion: str
-    exists: str
-    quantity: str
-    value: str
-    dimensionless: str
-    what: str
-
-
-@dataclass(frozen=True)
 class SurvivedRow:
     """What of one kind of disturbance is survived."""
 
@@ -107,7 +92,7 @@ MOTIONS: dict[Motion, str] = {
 """Names of the motions whose ranges are known."""
 
 
-def survived_rows(study: Study) -> list[SurvivedRow]:
+def survived_rows(study: StudyData) -> list[SurvivedRow]:
     """Return a row for each kind of disturbance that was searched; none where there is no stable levitation."""
     if study.survives is None:
         return []
@@ -127,7 +112,7 @@ def survived_rows(study: Study) -> list[SurvivedRow]:
     return rows
 
 
-def share_rows(study: Study) -> list[ShareRow]:
+def share_rows(study: StudyData) -> list[ShareRow]:
     """Return a row for each kind of disturbance that must be survived, and for starts elsewhere in the clearance."""
     change = study.recommendation.advised
     now = study.present.returned if study.present else ()
@@ -187,7 +172,7 @@ def dimensionless_rows(case: Case) -> list[ValueRow]:
     ]
 
 
-def motion_rows(study: Study) -> list[MotionRow]:
+def motion_rows(study: StudyData) -> list[MotionRow]:
     """Return the rows of all motions: steady ones, orbits, and other motions in which disturbances ended."""
     rows = simple_motion_rows(study.equilibria, study.orbits, study.wording, study.attractors)
     proven = {f"orbit {orbit.name}" for orbit in study.orbits if is_proven(study.proof, orbit)}
@@ -286,50 +271,37 @@ def _seen(say: Wording, member: Attractor, found: AttractorSet, parameters: Para
     )
 
 
-def threshold_rows(study: Study) -> list[ThresholdRow]:
-    """Return a row for every threshold of damping and stiffness."""
+def threshold_rows(study: StudyData) -> list[tuple[str, ...]]:
+    """Return a row for every threshold: motion, side on which it exists, quantity, its values as told and dimensionless, and event."""
     say = study.wording
-    rows = []
+    rows: list[tuple[str, ...]] = []
     for entry in study.thresholds:
-        what = EVENTS.get(entry.edge.kind, f"an orbit ends ({entry.edge.kind})") + (
-            "" if entry.edge.certified else " (located, but not confirmed by the orbits close by)"
-        )
-        rows.append(
-            ThresholdRow(
-                MOTIONS[entry.motion],
-                entry.exists,
-                say.gain_name(entry.gain),
-                say.gain(entry.gain, entry.edge.value) if say.scales else "",
-                f"{DIMENSIONLESS_FIELDS[entry.gain].symbol} = {entry.edge.value:.5g}",
-                what,
-            )
-        )
+        name, edge = entry.parameter, entry.edge
+        own = f"{DIMENSIONLESS_FIELDS[name].symbol} = {edge.value:.5g}"
+        sure = "" if edge.certified else " (located, but not confirmed by the orbits close by)"
+        told = say.value(name, edge.value) if say.scales else ""
+        rows.append((MOTIONS[entry.motion], entry.exists, say.name(name), told, own, f"{event_words(edge)}{sure}"))
     return rows
 
 
-def range_rows(study: Study) -> list[tuple[str, ...]]:
-    """Return rows that say where each motion exists along each gain of ``study.gains``.
+def range_rows(study: StudyData) -> list[tuple[str, ...]]:
+    """Return rows that say where each motion exists along each parameter of ``study.recoveries``.
 
-    The last rows say where all that must be survived came back, and what is advised.
+    The last rows say where all that must be survived came back, and what is advised with how that was checked.
     """
-    say = study.wording
-    rows = []
-    for motion, name in MOTIONS.items():
-        cells = []
-        for gain in study.gains:
-            entry = study.range_of(motion, gain)
-            cells.append(say.where(gain, entry.spans, entry.searched) if entry else "not searched")
-        rows.append((name, *cells))
-    return [*rows, *_recovery_rows(study)]
+    say, found = study.wording, study.recoveries
+    changes = {change.parameter: change for change in study.recommendation.changes}
+    rows = [(name, *(_where(say, entry.range_of(motion)) for entry in found)) for motion, name in MOTIONS.items()]
+    back = [
+        say.where(entry.along.name, entry.spans) if entry.range_of("single-impact") else "not searched"
+        for entry in found
+    ]
+    advised = [
+        f"{change.terms.text}, where {check_words(study, change.check)}" if change else "none"
+        for change in (changes.get(entry.along.name) for entry in found)
+    ]
+    return [*rows, ("all that must be survived comes back", *back), ("advised", *advised)]
 
 
-def _recovery_rows(study: Study) -> list[tuple[str, ...]]:
-    """Say where all that must be survived came back, what is advised, and how that was checked."""
-    say = study.wording
-    back, advised = [], []
-    for gain in study.gains:
-        found = next((entry for entry in study.recoveries if gain_of(entry) == gain), None)
-        back.append(say.where(gain, found.spans) if found else "not searched")
-        change = next((entry for entry in study.recommendation.changes if entry.gain == gain), None)
-        advised.append(f"{change.terms.text}, where {check_words(study, change.check)}" if change else "none")
-    return [("all that must be survived comes back", *back), ("advised", *advised)]
+def _where(say: Wording, entry: MotionRange | None) -> str:
+    return say.where(entry.parameter, entry.spans, entry.searched) if entry else "not searched"

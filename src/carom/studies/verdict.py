@@ -6,19 +6,16 @@ The best possible verdict is that every disturbance tried came back.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 from carom.studies.actuator import actuator_words
 from carom.studies.advice_facts import advice_facts
 from carom.studies.facts import Fact, about
 from carom.studies.findings import FINDINGS
 from carom.studies.proven import proven_words
+from carom.studies.study_data import StudyData
 from carom.studies.verdict_facts import KINDS, Level, judged, verdict_facts
-
-if TYPE_CHECKING:
-    from carom.studies.assembly import Study
 
 NOT_COVERED = (
     "Disturbances other than those simulated. They are samples: one between them, or a larger one, may end elsewhere.",
@@ -64,7 +61,7 @@ class Verdict:
         return " ".join((self.lead, *self.survived))
 
 
-def facts_of(study: Study) -> Iterator[Fact]:
+def facts_of(study: StudyData) -> Iterator[Fact]:
     """List all facts of a study, in the order in which they are told."""
     yield from verdict_facts(study)
     yield from advice_facts(study)
@@ -74,7 +71,7 @@ def facts_of(study: Study) -> Iterator[Fact]:
     if study.proof is not None:
         yield Fact("Proven", proven_words(study.proof), evidence="proven")
     if study.bearing_demand is not None:
-        yield Fact("Magnetic bearings", actuator_words(study))
+        yield Fact("Magnetic bearings", actuator_words(study.bearing_demand))
     if study.loads is not None:
         for text in study.loads.words.split("\n"):
             yield Fact("Touchdown loads", text)
@@ -82,10 +79,10 @@ def facts_of(study: Study) -> Iterator[Fact]:
         yield Fact("Not covered", text)
 
 
-def verdict(study: Study) -> Verdict:
+def verdict(study: StudyData, found: Sequence[Fact]) -> Verdict:
     """Write the verdict of a study from its facts."""
     level, outcome, reason = judged(study)
-    facts = {fact.label: fact.text for fact in about(study.facts, "Verdict")}
+    facts = {fact.label: fact.text for fact in about(found, "Verdict")}
     survived = [
         f"{label}{'' if label == 'Shock' else ':'} {facts[label]}." for label in KINDS.values() if label in facts
     ]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any, Literal
+from typing import Any, Literal
 
 from carom.basins import Share, SmallestLoss
 from carom.closed_forms.whirl import rolling
@@ -12,11 +12,9 @@ from carom.results import fields_of, in_si
 from carom.studies.endings import ending_words
 from carom.studies.facts import Fact
 from carom.studies.findings import stable_rub
+from carom.studies.study_data import StudyData
 from carom.studies.survives import Kind, meets
 from carom.studies.wording import SIZES, listed
-
-if TYPE_CHECKING:
-    from carom.studies.assembly import Study
 
 Level = Literal["no-contact-free-motion", "may-not-come-back", "all-tried-came-back"]
 KINDS: dict[Kind, str] = {"kick": "Kick", "shock": "Shock", "blade_loss": "Blade loss"}
@@ -30,7 +28,7 @@ _CHOSEN = {
 }
 
 
-def verdict_facts(study: Study) -> Iterator[Fact]:
+def verdict_facts(study: StudyData) -> Iterator[Fact]:
     """What must be survived, what of each kind is survived, shares, and what else may hold the rotor."""
     yield _required(study)
     if study.survives is not None:
@@ -40,9 +38,8 @@ def verdict_facts(study: Study) -> Iterator[Fact]:
     yield from _others(study)
 
 
-def required_words(study: Study) -> str:
-    """What the machine must survive, in words."""
-    say, required = study.wording, study.required
+def _required(study: StudyData) -> Fact:
+    say, required, source = study.wording, study.required, study.case.requirement.source
     parts = [f"kicks of up to {say.velocity(required.kick)}"]
     if required.shock:
         parts.append(
@@ -50,20 +47,15 @@ def required_words(study: Study) -> str:
         )
     if required.blade_loss:
         parts.append(f"the loss of a blade that leaves an unbalance of {say.unbalance(required.blade_loss)}")
-    return listed(parts)
-
-
-def _required(study: Study) -> Fact:
-    source = study.case.requirement.source
     how = _CHOSEN[source]
-    if source == "default" and study.wording.scales is None:
+    if source == "default" and say.scales is None:
         how = "chosen by carom"
     elif source != "default" and study.case.requirement.kick is None:
         how = f"{how}; the kick is {_CHOSEN['default']}"
-    return Fact("Verdict", f"{required_words(study)} ({how})", "Must survive", values=requirement_document(study))
+    return Fact("Verdict", f"{listed(parts)} ({how})", "Must survive", values=requirement_document(study))
 
 
-def requirement_document(study: Study) -> dict[str, Any]:
+def requirement_document(study: StudyData) -> dict[str, Any]:
     """What must be survived, as plain data for JSON."""
     required, scales = study.required, study.wording.scales
     shock = required.shock
@@ -81,7 +73,7 @@ def requirement_document(study: Study) -> dict[str, Any]:
     return document
 
 
-def _survived(study: Study, name: Kind, found: SmallestLoss) -> Fact:
+def _survived(study: StudyData, name: Kind, found: SmallestLoss) -> Fact:
     size = study.wording.size_of(name)
     parts = [
         f"harmless up to {size(found.harmless)} (proven)" if found.harmless > 0.0 else "no size is proven harmless"
@@ -109,7 +101,7 @@ def _survived(study: Study, name: Kind, found: SmallestLoss) -> Fact:
     )
 
 
-def lost_to(study: Study, name: Kind, found: SmallestLoss) -> str:
+def lost_to(study: StudyData, name: Kind, found: SmallestLoss) -> str:
     """Where the smallest disturbance that is lost ends: ``ends in synchronous rub``; empty if none is."""
     if found.outcome is None:
         return ""
@@ -118,7 +110,7 @@ def lost_to(study: Study, name: Kind, found: SmallestLoss) -> str:
     return ending_words(found.outcome, motions).removeprefix("it ")
 
 
-def survived_document(study: Study, name: Kind, found: SmallestLoss) -> dict[str, Any]:
+def survived_document(study: StudyData, name: Kind, found: SmallestLoss) -> dict[str, Any]:
     """What of a kind is survived, as plain data for JSON."""
     sizes = fields_of(
         found, harmless_up_to="harmless", all_up_to="all_back", smallest_lost="size", searched_up_to="largest"
@@ -130,7 +122,7 @@ def survived_document(study: Study, name: Kind, found: SmallestLoss) -> dict[str
     return document | in_si(sizes, study.wording.scales, **dict.fromkeys(sizes, SIZES[name]))
 
 
-def _shares(study: Study) -> Iterator[Fact]:
+def _shares(study: StudyData) -> Iterator[Fact]:
     """The share of kicks that comes back, and apart from it that of starts elsewhere in the clearance."""
     say, present = study.wording, study.present
     if present is None:
@@ -157,7 +149,7 @@ def _shares(study: Study) -> Iterator[Fact]:
     )
 
 
-def _others(study: Study) -> Iterator[Fact]:
+def _others(study: StudyData) -> Iterator[Fact]:
     """Motions besides levitation that can hold the rotor, whether a disturbance reached them or not."""
     holds, motions = [], []
     if any(rub.status != "virtual" for rub in study.rubs):
@@ -178,7 +170,7 @@ def _others(study: Study) -> Iterator[Fact]:
         )
 
 
-def judged(study: Study) -> tuple[Level, str, str]:
+def judged(study: StudyData) -> tuple[Level, str, str]:
     """The level, the outcome in a few words, and the reason to stand behind it."""
     levitation = study.equilibria[0]
     if levitation.status != "admissible":
@@ -199,7 +191,7 @@ def judged(study: Study) -> tuple[Level, str, str]:
     )
 
 
-def _reservations(study: Study) -> str:
+def _reservations(study: StudyData) -> str:
     """What has to be said where all that must be survived came back."""
     parts = ["no guarantee, as disturbances are samples"]
     if study.bearing_demand is not None and study.bearing_demand.doubtful:
@@ -211,7 +203,7 @@ def _reservations(study: Study) -> str:
     return "; ".join(parts)
 
 
-def required_kinds(study: Study) -> tuple[tuple[Kind, float, int], ...]:
+def required_kinds(study: StudyData) -> tuple[tuple[Kind, float, int], ...]:
     """The kinds that must be survived, with their size and their place among the disturbances followed."""
     required = study.required
     kinds: list[tuple[Kind, float]] = [("kick", required.kick)]
@@ -222,7 +214,7 @@ def required_kinds(study: Study) -> tuple[tuple[Kind, float, int], ...]:
     )  # starts elsewhere are second
 
 
-def lost_kinds(study: Study) -> list[tuple[Kind, Share]]:
+def lost_kinds(study: StudyData) -> list[tuple[Kind, Share]]:
     """The kinds that must be survived and of which some were lost, with the share that came back; empty if all came back."""
     present, found = study.present, study.survives
     if present is None or found is None:
@@ -235,7 +227,7 @@ def lost_kinds(study: Study) -> list[tuple[Kind, Share]]:
     return lost
 
 
-def _lost_words(study: Study, kind: Kind, back: Share) -> str:
+def _lost_words(study: StudyData, kind: Kind, back: Share) -> str:
     """How many of a kind are lost, in words."""
     say, required = study.wording, study.required
     lost = 1.0 - back.fraction

@@ -5,14 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 from carom.arguments import checked
-from carom.closed_forms.thresholds import Gain
-from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, PHYSICAL_PARTNER, Case, Scales
+from carom.models import Span
+from carom.parameters import DIMENSIONLESS_FIELDS, UNITS, Case, Scales
 from carom.parameters.indentation import gives_way
-from carom.parameters.numbers import CONVERSIONS
-from carom.parameters.told import number, told, told_entry
-from carom.studies.ranges import Span
+from carom.parameters.told import number, own_entry, told, told_entry
 
 SIZES = {"kick": "velocity", "shock": "acceleration", "blade_loss": "unbalance"}
 """What the size of a kick, a shock or a loss of a blade is."""
@@ -27,6 +26,11 @@ def counted(count: int, noun: str) -> str:
 def listed(items: list[str]) -> str:
     """Join words: ``a``, ``a and b``, ``a, b and c``."""
     return items[0] if len(items) == 1 else f"{', '.join(items[:-1])} and {items[-1]}"
+
+
+def entry_words(entry: str) -> str:
+    """An entry of the machine file as people say it: ``derivative gain``; a dimensionless number by its symbol."""
+    return DIMENSIONLESS_FIELDS[entry].symbol if entry in DIMENSIONLESS_FIELDS else entry.replace("_", " ")
 
 
 def no_rigid_wall(indentation: float) -> str:
@@ -56,7 +60,7 @@ class Wording:
 
     def length(self, value: float) -> str:
         """A length given in ``c_r``."""
-        return self._quantity(value, "length", "m", "c_r")
+        return self._quantity(value, "length")
 
     def radius(self, value: float) -> str:
         """A radius in both units, for example ``0.955 c_r (0.668 mm)``."""
@@ -65,7 +69,7 @@ class Wording:
 
     def time(self, value: float) -> str:
         """A time given in ``1/Ω``."""
-        return f"{number(value, 3)}/Ω" if self.scales is None else self._quantity(value, "time", "s", "")
+        return self._quantity(value, "time")
 
     def velocity(self, value: float) -> str:
         """A velocity of the rotor centre given in ``c_r Ω``; always in mm/s, so that those of a page compare at a glance."""
@@ -86,25 +90,25 @@ class Wording:
 
     def slip(self, value: float) -> str:
         """The speed of the surface of the rotor on the wall, given in ``c_r Ω``, in m/s."""
-        return self._plain(value, "velocity", "m/s", "c_r Ω")
+        return f"{number(value * self.scales.velocity, 3)} m/s" if self.scales else told(value, "velocity", None)
 
     def force(self, value: float) -> str:
         """A force given in ``m c_r Ω²``; below 100,000 N without prefix, as bearing loads are usually given in N."""
         if self.scales is not None and abs(value) * self.scales.force >= 1e5:
             return _with_prefix(value * self.scales.force, "N", least=1.0)
-        return self._plain(value, "force", "N", "m c_r Ω²")
+        return told(value, "force", self.scales)
 
     def impulse(self, value: float) -> str:
         """An impulse given in ``m c_r Ω``."""
-        return self._plain(value, "impulse", "N s", "m c_r Ω")
+        return told(value, "impulse", self.scales)
 
     def energy(self, value: float) -> str:
         """An energy given in ``m c_r² Ω²``."""
-        return self._quantity(value, "energy", "J", "m c_r² Ω²", least=1.0)
+        return self._quantity(value, "energy", least=1.0)
 
     def power(self, value: float) -> str:
         """A power given in ``m c_r² Ω³``."""
-        return self._quantity(value, "power", "W", "m c_r² Ω³", least=1.0)
+        return self._quantity(value, "power", least=1.0)
 
     def per_second(self, period: float) -> str:
         """Write the frequency of an event with this period, in ``1/Ω``."""
@@ -112,54 +116,41 @@ class Wording:
             return f"{number(2.0 * math.pi / period, 3)} times a turn"
         return f"{number(1.0 / (period * self.scales.time), 3)} times a second"
 
-    def gain(self, gain: Gain, value: float) -> str:
-        """Damping or stiffness given as ``gamma`` or ``omega``, with its unit if the machine is known."""
+    def value(self, name: str, value: float) -> str:
+        """A value of a parameter; of a dimensionless one that of the entry of the machine, with its unit, if it is known."""
+        return told_entry(*own_entry(name, value, self.scales))
+
+    def name(self, name: str) -> str:
+        """Return what people call a parameter: ``damping`` for ``gamma``, or the symbol ``γ`` if the machine is not known."""
+        return entry_words(own_entry(name, 1.0, self.scales)[0])
+
+    def in_si(self, name: str, **values: float) -> dict[str, Any]:
+        """Values of a parameter in SI units, as plain data for JSON; nothing if the machine is not known."""
         if self.scales is None:
-            return number(value)
-        return f"{number(self.gain_in_si(gain, value))} {MACHINE_FIELDS[PHYSICAL_PARTNER[gain]].unit}"
+            return {}
+        own = {f"{key}_si": own_entry(name, value, self.scales)[1] for key, value in values.items()}
+        return {"quantity": self.name(name), **own}
 
-    def gain_in_si(self, gain: Gain, value: float) -> float:
-        """Damping in N s/m or stiffness in N/m; needs scales."""
-        if self.scales is None:
-            return math.nan
-        return float(CONVERSIONS[gain].value(value, self.scales))
-
-    def gain_name(self, gain: Gain) -> str:
-        """Return ``damping`` or ``stiffness``; the symbol, ``γ`` or ``ω``, if the machine is not known."""
-        return DIMENSIONLESS_FIELDS[gain].symbol if self.scales is None else PHYSICAL_PARTNER[gain]
-
-    def where(self, gain: Gain, spans: tuple[Span, ...], searched: Span | None = None) -> str:
-        """Say for which values of a gain something holds: ``below 3,408 N s/m``."""
+    def where(self, name: str, spans: tuple[Span, ...], searched: Span | None = None) -> str:
+        """Say for which values of a parameter something holds: ``below 3,408 N s/m``."""
+        low, high = (self.value(name, edge.value) for edge in searched) if searched else ("", "")
+        whole = f" searched ({low} to {high})" if searched else ""
         if not spans:
-            return f"for no value{self._range_searched(gain, searched)}"
-        low, high = (searched.low.value, searched.high.value) if searched else (0.0, math.inf)
+            return f"for no value{whole}"
+        start, stop = (searched.low.value, searched.high.value) if searched else (0.0, math.inf)
         parts = []
         for span in spans:
-            from_start, to_end = span.low.value <= low, span.high.value >= high
+            from_start, to_end = span.low.value <= start, span.high.value >= stop
+            first, last = (self.value(name, edge.value) for edge in span)
             if from_start and to_end:
-                return f"for every value{self._range_searched(gain, searched)}"
-            if from_start:
-                parts.append(f"below {self.gain(gain, span.high.value)}")
-            elif to_end:
-                parts.append(f"above {self.gain(gain, span.low.value)}")
-            else:
-                parts.append(f"from {self.gain(gain, span.low.value)} to {self.gain(gain, span.high.value)}")
+                return f"for every value{whole}"
+            parts.append(f"below {last}" if from_start else f"above {first}" if to_end else f"from {first} to {last}")
         return " and ".join(parts)
 
-    def _range_searched(self, gain: Gain, searched: Span | None) -> str:
-        if searched is None:
-            return ""
-        return f" searched ({self.gain(gain, searched.low.value)} to {self.gain(gain, searched.high.value)})"
-
-    def _quantity(self, value: float, scale: str, unit: str, own_unit: str, least: float = 0.1) -> str:
+    def _quantity(self, value: float, kind: str, least: float = 0.1) -> str:
         if self.scales is None:
-            return f"{number(value, 3)} {own_unit}"
-        return _with_prefix(value * getattr(self.scales, scale), unit, least)
-
-    def _plain(self, value: float, scale: str, unit: str, own_unit: str) -> str:
-        if self.scales is None:
-            return f"{number(value, 3)} {own_unit}"
-        return f"{number(value * getattr(self.scales, scale), 3)} {unit}"
+            return told(value, kind, None)
+        return _with_prefix(value * getattr(self.scales, kind), UNITS[kind][1], least)
 
 
 def present_values(case: Case) -> str:

@@ -15,12 +15,11 @@ from carom.parameters import Case
 from carom.parameters.told import told
 from carom.progress import Reporter, ShowProgress
 from carom.studies import Wording, study
+from carom.studies.advice_facts import BEYOND, CHANGES
 from carom.studies.facts import about
 
 SIZES, DIRECTIONS = 6, 24
 """Disturbances whose impulses are compared."""
-ADVICE = ("Change", "For all starts", "Beyond the limits")
-"""Labels of the facts that say what to change."""
 
 
 @dataclass(frozen=True)
@@ -92,6 +91,6 @@ def find_hardest(rotor: Jeffcott, plane: Plane, largest: float, progress: ShowPr
 def judge(case: Case, progress: ShowProgress = None) -> Judgement:
     """Verdict and advice of a full study."""
     found = study(case, progress=progress)
-    first = next((fact for fact in about(found.facts, "Recommendation") if fact.label in ADVICE), None)
+    first = next((fact for fact in about(found.facts, "Recommendation") if fact.label in (*CHANGES, BEYOND)), None)
     advice = f"{first.label}: {first.text}." if first else ""
     return Judgement(found.verdict.lead, advice, found.verdict.survived)

@@ -1,0 +1,124 @@
+"""What a study has found of a machine, before it is told in words."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, ClassVar
+
+from carom.attractors import AttractorSet
+from carom.basins import Share
+from carom.bifurcations.boundary import BoundaryEquilibrium
+from carom.closed_forms.equilibria import Equilibrium
+from carom.closed_forms.whirl import rolling
+from carom.models import Jeffcott
+from carom.orbits.orbit import Orbit
+from carom.orbits.single_impact import OrbitSet
+from carom.parameters import Case, Required
+from carom.results import Result
+from carom.studies.actuator import BearingDemand, bearing_demand
+from carom.studies.advice import Recommendation
+from carom.studies.load_checks import WorstLoads
+from carom.studies.ranges import MotionRange, Threshold
+from carom.studies.recovery import Recovery
+from carom.studies.survives import Survives
+from carom.studies.trials import Check
+from carom.studies.wording import Wording
+
+if TYPE_CHECKING:
+    from carom.proofs import Proof
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class StudyData(Result):
+    """Every simple motion of a machine, and the endings of a sample of disturbances.
+
+    Attributes
+    ----------
+    equilibria : tuple of Equilibrium
+        The contact-free one, then the synchronous rubs.
+    orbits : OrbitSet
+        Orbits with one impact a period.
+    boundaries : tuple of BoundaryEquilibrium
+        Values of damping and stiffness at which the contact-free motion meets the wall, and what happens there.
+    attractors : AttractorSet
+        The motions in which simulated disturbances, and starts next to the known motions, end.
+    survives : Survives or None
+        The sizes of kicks, shocks and losses of a blade up to which none is lost; ``None`` where there is no stable levitation.
+    present : Check or None
+        Fresh disturbances of what must be survived, at the machine's own gains; ``None`` where there is no stable levitation.
+    recoveries : tuple of Recovery
+        Along damping and along stiffness: for which values each motion exists, and at which all that must be survived came back.
+    recommendation : Recommendation
+        The least change that leaves only recovery, with its margin and how sure it is.
+    loads : WorstLoads or None
+        The largest loads of the disturbances against the limits of the touchdown bearing, if any are stated.
+    proof : Proof or None
+        Theorems about equilibria and orbits, if they were asked for.
+    """
+
+    rests_on: ClassVar[tuple[str, ...]] = ("mora2014", "iso14839")
+
+    case: Case
+    rotor: Jeffcott
+    equilibria: tuple[Equilibrium, ...]
+    orbits: OrbitSet
+    boundaries: tuple[BoundaryEquilibrium, ...]
+    attractors: AttractorSet
+    survives: Survives | None
+    present: Check | None
+    recoveries: tuple[Recovery, ...]
+    recommendation: Recommendation
+    loads: WorstLoads | None = None
+    proof: Proof | None = None
+
+    @property
+    def rubs(self) -> tuple[Equilibrium, ...]:
+        """The synchronous rubs, virtual ones included."""
+        return self.equilibria[1:]
+
+    @property
+    def levitates(self) -> bool:
+        """Whether the contact-free motion lies inside the wall and is stable."""
+        return self.equilibria[0].status == "admissible" and self.equilibria[0].stable
+
+    @property
+    def zone(self) -> str | None:
+        """Zone of the contact-free amplitude; ``None`` if there is no contact-free motion."""
+        levitation = self.equilibria[0]
+        return None if levitation.status == "virtual" else self.case.zones.zone(min(levitation.radius, 1.0))
+
+    @property
+    def stable_orbits(self) -> tuple[Orbit, ...]:
+        """Orbits on which the machine can stay."""
+        return tuple(orbit for orbit in self.orbits if orbit.admissible and orbit.stable)
+
+    @property
+    def ranges(self) -> tuple[MotionRange, ...]:
+        """For which values of a parameter each motion exists, with the others fixed."""
+        return tuple(entry for recovery in self.recoveries for entry in recovery.motions)
+
+    @property
+    def required(self) -> Required:
+        """What the machine must survive, in units of the equations."""
+        return self.case.requirement.own(self.rotor.scales)
+
+    @property
+    def share(self) -> Share | None:
+        """Share of the kicks up to the required one that come back; ``None`` where there is no stable levitation."""
+        return self.present.returned[0] if self.present else None
+
+    @property
+    def thresholds(self) -> tuple[Threshold, ...]:
+        """Values of a parameter at which a motion appears or vanishes."""
+        return tuple(threshold for entry in self.ranges for threshold in entry.thresholds)
+
+    @property
+    def wording(self) -> Wording:
+        """Formatter of the results of this study as text."""
+        return Wording(self.rotor.scales)
+
+    @cached_property
+    def bearing_demand(self) -> BearingDemand | None:
+        """What the motions ask of the magnetic bearings; ``None`` if the machine has no limits of these."""
+        return bearing_demand(self.case, self.equilibria, self.orbits, rolling(self.rotor), self.attractors)
