@@ -2,7 +2,13 @@
 
 from __future__ import annotations
 
+import tomllib
+from collections.abc import Iterator, Mapping
+from functools import cache
+from pathlib import Path
+from string import Template
 from types import MappingProxyType
+from typing import Any
 
 from carom.parameters import Parameters, Scales
 
@@ -42,3 +48,14 @@ def machine_at(gamma: float, omega: float = 0.76) -> Parameters:
         radius_ratio=GIVEN["rotor_radius"] / GIVEN["clearance"],
         scales=SCALES,
     )
+
+
+def printed_texts(table: str, found: Mapping[str, str]) -> Iterator[dict[str, Any]]:
+    """Entries of a table of ``printed.toml``, what the paper prints and what is said of it, with what was ``found`` in them."""
+    for entry in _printed()[table]:
+        yield {name: Template(text).substitute(found) for name, text in entry.items()}
+
+
+@cache
+def _printed() -> dict[str, list[dict[str, str]]]:
+    return tomllib.loads(Path(__file__).with_name("printed.toml").read_text(encoding="utf-8"))
