@@ -95,9 +95,6 @@ Wanted = Annotated[
 Threads = Annotated[
     int | None, typer.Option(metavar="N", min=1, help="Cores to use; the result does not depend on it.")
 ]
-Out = Annotated[
-    str | None, typer.Option(metavar="DIR", help="Write figures, basins.nc and basins.json to this directory.")
-]
 
 
 @dataclass(frozen=True)

@@ -111,16 +111,22 @@ def _on_orbits(branches: Sequence[OrbitBranch]) -> tuple[list[Interval], list[In
     unstable: list[Interval] = []
     for branch in branches:
         places = np.concatenate([np.arange(len(branch)), [point.place for point in branch.special]])
-        values = np.concatenate([branch.values, [point.value for point in branch.special]])
-        order = np.argsort(places, kind="stable")
-        places, values = places[order], values[order]
-        whole = places == np.floor(places)
-        for i in range(len(places) - 1):
-            orbit = min(int(places[i + 1] if whole[i + 1] else np.floor(places[i])), len(branch) - 1)
-            if branch.admissible[orbit]:
-                group = stable if branch.stable[orbit] else unstable
-                group.append((min(values[i : i + 2]), max(values[i : i + 2])))
+        order, looks = looks_between(branch, places)
+        values = np.concatenate([branch.values, [point.value for point in branch.special]])[order]
+        for look, *ends in zip(looks, values[:-1], values[1:], strict=True):
+            if look != "virtual":
+                (stable if look == "stable" else unstable).append((min(ends), max(ends)))
     return stable, unstable
+
+
+def looks_between(branch: OrbitBranch, places: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return the order of places on a branch, and the look of each interval between neighbours: that of the orbit it touches."""
+    order = np.argsort(places, kind="stable")
+    where = places[order]
+    looks = np.where(branch.admissible, np.where(branch.stable, "stable", "unstable"), "virtual")
+    whole = where == np.floor(where)
+    nearest = np.where(whole[1:], where[1:], np.floor(where[:-1])).astype(int)
+    return order, looks[np.minimum(nearest, len(looks) - 1)]
 
 
 def _joined(intervals: list[Interval]) -> list[Interval]:

@@ -30,7 +30,7 @@ from carom.plots.plane import (
     point,
 )
 from carom.plots.style import LOOKS, ONE_COLUMN, TWO_COLUMNS, Look, styled
-from carom.plots.words import clearance, counted, ending, number, orbit_look, orbit_title, time_in_words, turns
+from carom.plots.words import clearance, counted, number, orbit_look, orbit_title, time_in_words, turns
 
 if TYPE_CHECKING:
     from carom.motions.trajectories import Trajectory
@@ -160,12 +160,12 @@ def motion(
         bands_on_the_circle(drawn, trajectory, frame, since)
         ends = clearance(trajectory.rotor.scales) * trajectory.position(np.array([since, trajectory.time]), frame)
         point(drawn, complex(ends[0]), "start", size=3.5)
-        point(drawn, complex(ends[1]), "end", size=5.5, label=f"end: {ending(trajectory.outcome)}")
+        point(drawn, complex(ends[1]), "end", size=5.5, label=f"end: {trajectory.outcome.words}")
     wall = clearance(trajectory.rotor.scales)
     _levitation(frames[0], complex(trajectory.rotor.system.arrays.offsets[trajectory.plane]), wall)
     if axes is None:
         time = time_in_words(trajectory.time, trajectory.rotor.scales)
-        words = f"{counted(len(trajectory.contacts), 'impact')} in {time} \N{EM DASH} {ending(trajectory.outcome)}"
+        words = f"{counted(len(trajectory.contacts), 'impact')} in {time} \N{EM DASH} {trajectory.outcome.words}"
         figure.suptitle(title or words)
         key(figure, frames, columns=4)
     return figure

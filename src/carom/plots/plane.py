@@ -49,14 +49,12 @@ def clearance_circle(axes: Axes, reach: float = 1.12, wall: float = 1.0) -> None
     """
     _wall(axes, np.linspace(0.0, 2.0 * np.pi, 721), wall)
     reach = reach * wall
-    axes.set_xlim(-reach, reach)
-    axes.set_ylim(-reach, reach)
+    axes.set(xlim=(-reach, reach), ylim=(-reach, reach))
     decade = 10.0 ** np.floor(np.log10(0.5 * reach))
     step = decade * max(nice for nice in (1.0, 2.0, 5.0) if nice * decade <= 0.5 * reach)
     whole = np.floor(reach / step)
     ticks = step * np.arange(-whole, whole + 1.0)
-    axes.set_xticks(ticks)
-    axes.set_yticks(ticks)
+    axes.set(xticks=ticks, yticks=ticks)
 
 
 def _wall(axes: Axes, angle: Floats, wall: float) -> None:
@@ -250,8 +248,7 @@ def magnifier(axes: Axes, shown: Complex, words: str = "enlarged ", wall: float 
         (centre.real - side / 2, centre.imag - side / 2, side, side), transform=axes.transData, gid="magnifier"
     )
     look_closer(inner, middle, half, wall)
-    inner.set_xticks(())
-    inner.set_yticks(())
+    inner.set(xticks=(), yticks=())
     inner.set_title(f"{words}{times_larger(side / (2.0 * half))} times", fontsize=7, pad=2)
     # Otherwise the layout would reserve space for the enlarged piece.
     inner.set_in_layout(False)
@@ -263,8 +260,7 @@ def look_closer(axes: Axes, middle: complex, half: float, wall: float = 1.0) -> 
     """Show the square of half-width `half` around `middle`, with its piece of the clearance circle."""
     # Only the visible arc, so finely resolved that impact points lie on it at any enlargement.
     _wall(axes, np.angle(middle) + np.linspace(-4.0, 4.0, 361) * half / wall, wall)
-    axes.set_xlim(middle.real - half, middle.real + half)
-    axes.set_ylim(middle.imag - half, middle.imag + half)
+    axes.set(xlim=(middle.real - half, middle.real + half), ylim=(middle.imag - half, middle.imag + half))
 
 
 def one_axes(axes: Axes | None, size: tuple[float, float]) -> tuple[Figure, Axes]:

@@ -70,8 +70,7 @@ def _levitation(fixed: Axes, rotating: Axes, radius: Axes, motion: ShownMotion) 
     point(rotating, place, "contact-free", size=5.5)
     radius.plot(times, np.full_like(times, abs(place)), "-", color=look.colour, lw=1.1)
     radius.axhline(1.0, **LOOKS["wall"].stroke)
-    radius.set_xlim(0.0, motion.span)
-    radius.set_ylim(0.0, 1.08)
+    radius.set(xlim=(0.0, motion.span), ylim=(0.0, 1.08))
 
 
 def _orbit(fixed: Axes, rotating: Axes, radius: Axes, motion: ShownMotion, orbit: Orbit) -> None:
