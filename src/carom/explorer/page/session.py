@@ -24,6 +24,7 @@ from carom.models import Jeffcott
 from carom.outcome import CaromError, InputError
 from carom.parameters import Case
 from carom.progress import Progress
+from carom.results import fields_of
 
 COARSE, FINE = 60, 120
 """Cells along each side of the picture while a slider is dragged, and after that."""
@@ -165,7 +166,7 @@ class Session:
             "loss": self._loss,
             "hardest": lambda shown, tell: vars(find_hardest(shown.rotor, shown.plane, self._judged(shown), tell)),
             "diagram": self._diagram,
-            "verdict": lambda shown, tell: messages.verdict_message(judge(shown.case, tell)),
+            "verdict": lambda shown, tell: fields_of(judge(shown.case, tell), "lead", "advice", "survived"),
         }
         self._left = {kind: work for kind, work in self._left.items() if kind in self._wanted}
         self.resume()
