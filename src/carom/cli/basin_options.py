@@ -267,5 +267,5 @@ def _stated_by(case: Case, given: str, entry: str) -> Case:
     if missing:
         allowed = f"{entry} needs {' and '.join(missing)}, which the machine file does not state"
         raise InputError("--plane", given, allowed)
-    exact = {name: Decimal(repr(getattr(machine, name))) for name in needed}
-    return case.replace(**{entry: float(TERMS[entry].entry(exact))})
+    exact = (Decimal(repr(getattr(machine, name))) for name in needed)
+    return case.replace(**{entry: float(TERMS[entry].entry(*exact))})

@@ -130,7 +130,7 @@ def _stated(machine: Machine | None, name: str, value: Decimal) -> _Stated:
         given = machine.given.get(name, {})
     entry = next((entry for entry in given if entry in TERMS), name)
     if machine is not None and entry in TERMS:
-        value = TERMS[entry].entry({name: value} | {need: _needed(machine, need) for need in TERMS[entry].needs})
+        value = TERMS[entry].entry(value, *(_needed(machine, need) for need in TERMS[entry].needs))
     field, written = SETTABLE[entry], given.get(entry)
     unit = (unit_of(field, written) if isinstance(written, str) else "") or field.usual_unit
     if field.letter and unit == field.letter:
