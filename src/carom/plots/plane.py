@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from itertools import pairwise
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
-from matplotlib.collections import LineCollection
-from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 from matplotlib.legend import Legend
 from numpy.typing import NDArray
@@ -33,8 +30,6 @@ MANY_MARKERS = 2_000
 
 Frame = Literal["rotating", "fixed"]
 
-_PIECES = 60
-"""Number of tints of a path that fades."""
 _MARGIN = 1.25
 """Size of an enlarged square, relative to what it shows."""
 _TOP_AXIS = 0.34
@@ -110,24 +105,6 @@ def with_neighbours(part: NDArray[np.bool_]) -> NDArray[np.bool_]:
     wide[1:] |= part[:-1]
     wide[:-1] |= part[1:]
     return wide
-
-
-def faded_path(axes: Axes, position: Complex, look: Look) -> None:
-    """Draw a path whose beginning is pale and whose end has the full colour.
-
-    Opaque tints are used, because transparency would show dots where a path crosses itself.
-    """
-    colour = np.array(to_rgb(look.colour))
-    position = position[: np.flatnonzero(~np.isnan(position)).max(initial=0) + 1]
-    ends = np.unique(np.linspace(0, len(position) - 1, _PIECES + 1).astype(int))
-    points = np.column_stack((position.real, position.imag))
-    segments = [points[first : last + 1] for first, last in pairwise(ends)]
-    strength = np.linspace(0.2, 1.0, len(segments)) ** 1.5
-    tints = [tuple(1.0 - s * (1.0 - colour)) for s in strength]
-    drawn = LineCollection(segments, colors=tints, linewidths=look.width, gid="path")
-    drawn.set_rasterized(len(position) > MANY_POINTS)
-    axes.add_collection(drawn)
-    axes.plot([], [], **look.stroke, label=f"{look.words} (early part pale)")
 
 
 def direction_arrow(axes: Axes, position: Complex, look: Look, fraction: float = 0.4) -> None:
