@@ -37,15 +37,8 @@ _LARGEST = 26.0
 def rows_of(diagram: Diagram) -> list[str]:
     """Return the rows that are not empty."""
     present = {_row_of_sample(sample) for sample in diagram.attractors}
-    equilibria = {branch.kind: branch for branch in diagram.equilibria}
-    exists = {
-        LEVITATION: equilibria["contact-free"].admissible.any(),
-        RUB: (equilibria["stable rub"].admissible & equilibria["stable rub"].stable).any(),
-        BOUNCING: any(branch.admissible.any() for branch in diagram.branches),
-        WITH_RUB: bool(diagram.rubbing),
-        ROLLING: diagram.rolling.holds.any(),
-    }
-    return [row for row in ROWS if exists.get(row, False) or row in present]
+    present |= {row for row, ranges in _ranges(diagram).items() if any(ranges)}
+    return [row for row in ROWS if row in present]
 
 
 def row_of_point(point: Bifurcation) -> str | None:
@@ -61,13 +54,10 @@ def coexistence(axes: Axes, diagram: Diagram, unit: float) -> None:
     rows = rows_of(diagram)
     heights = {row: float(len(rows) - place) for place, row in enumerate(rows)}
     for row, (stable, unstable) in _ranges(diagram).items():
-        if row in heights:
-            look = LOOKS["unstable"]
-            for low, high in _joined(unstable):
-                axes.plot([low / unit, high / unit], [heights[row]] * 2, **look.stroke, zorder=1.5)
-            for low, high in _joined(stable):
-                ends = [low / unit, high / unit]
-                axes.plot(ends, [heights[row]] * 2, color=_COLOURS[row], lw=_THICK, solid_capstyle="butt")
+        bar = {"color": _COLOURS[row], "lw": _THICK, "solid_capstyle": "butt"}
+        for intervals, look in ((unstable, LOOKS["unstable"].stroke | {"zorder": 1.5}), (stable, bar)):
+            for low, high in _joined(intervals):
+                axes.plot([low / unit, high / unit], [heights[row]] * 2, **look)
     for sample in diagram.attractors:
         _dot(axes, sample, heights[_row_of_sample(sample)], unit)
     axes.set_yticks([heights[row] for row in rows], rows)
@@ -81,15 +71,13 @@ def _ranges(diagram: Diagram) -> dict[str, tuple[list[Interval], list[Interval]]
     equilibria = {branch.kind: branch for branch in diagram.equilibria}
     marks = [point.value for point in diagram.points if np.isnan(point.radial_speed)]
     levitation, rub = equilibria["contact-free"], equilibria["stable rub"]
-    found = {
+    return {
         LEVITATION: (_on_grid(levitation.values, levitation.admissible & levitation.stable, marks), []),
         RUB: (_on_grid(rub.values, rub.admissible & rub.stable, marks), []),
         ROLLING: (_on_grid(diagram.rolling.values, diagram.rolling.holds, marks), []),
         BOUNCING: _on_orbits(diagram.branches),
+        WITH_RUB: _on_orbits(diagram.rubbing),
     }
-    if diagram.rubbing:
-        found[WITH_RUB] = _on_orbits(diagram.rubbing)
-    return found
 
 
 def _on_grid(values: np.ndarray, there: np.ndarray, marks: list[float]) -> list[Interval]:
