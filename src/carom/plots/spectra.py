@@ -91,10 +91,7 @@ def _circle(axes: Axes, radius: float, colour: str, width: float, gid: str) -> N
 def _linear_plane(axes: Axes, largest: float) -> None:
     reach = 1.08 * max(1.1, largest)
     ticks = np.arange(-2.0, 2.01, 0.5)
-    axes.set_xticks(ticks)
-    axes.set_yticks(ticks)
-    axes.set_xlim(-reach, reach)
-    axes.set_ylim(-reach, reach)
+    axes.set(xticks=ticks, yticks=ticks, xlim=(-reach, reach), ylim=(-reach, reach))
     axes.set_xlabel(r"real part of the multiplier, Re $\lambda$ (no unit)")
     axes.set_ylabel(r"imaginary part of the multiplier, Im $\lambda$ (no unit)")
 
