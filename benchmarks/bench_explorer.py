@@ -12,8 +12,9 @@ import pytest
 
 import carom
 from carom.explorer.computing.kicked_motion import follow_kick
-from carom.explorer.computing.kicks import largest_kick, map_kicks, rest_of
+from carom.explorer.computing.kicks import map_kicks
 from carom.explorer.computing.motions import table_of
+from carom.explorer.computing.planes import planes_of
 from carom.models import Jeffcott
 
 MACHINE = Path(__file__).parents[1] / "examples" / "keogh-cole.toml"
@@ -99,10 +100,10 @@ def test_first_paint(benchmark, browser, address):
 def test_server(benchmark, what):
     """What the server computes for a step, each time for another machine; the goal of motion and table is 30 ms together."""
     case = carom.load(MACHINE)
-    largest, number = largest_kick(case.parameters.scales), itertools.count(1500)
+    kicks, number = planes_of(case)[0], itertools.count(1500)
     work = {
-        "picture of 60 x 60 kicks": lambda rotor: map_kicks(rotor, 60, largest),
-        "motion": lambda rotor: follow_kick(rotor, rest_of(rotor), 0.6, 0.2),
+        "picture of 60 x 60 kicks": lambda rotor: map_kicks(rotor, kicks, 60, kicks.usual),
+        "motion": lambda rotor: follow_kick(rotor, kicks, 0.6, 0.2),
         "table of orbits": table_of,
     }[what]
 

@@ -6,8 +6,23 @@ import shutil
 import subprocess
 import sys
 from contextlib import contextmanager
+from importlib.util import find_spec
+
+import pytest
+
+try:
+    from playwright.sync_api import expect
+except ModuleNotFoundError:
+    expect = None
 
 BROWSER = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
+IN_A_BROWSER = [
+    pytest.mark.skipif(find_spec("bokeh") is None, reason="needs the extra carom[explore]"),
+    pytest.mark.skipif(expect is None, reason="needs playwright for Python"),
+    pytest.mark.skipif(BROWSER is None, reason="no chromium, chromium-browser or google-chrome on the PATH"),
+    pytest.mark.jit_only,
+]
+"""Marks of all tests of a file in a browser."""
 OPTIONS = (
     "--no-sandbox",
     "--disable-gpu",

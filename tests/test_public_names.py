@@ -6,6 +6,7 @@ import inspect
 import re
 import subprocess
 import sys
+from importlib import import_module
 from pathlib import Path
 
 import pytest
@@ -82,3 +83,15 @@ def test_package_runs_as_a_command():
 
     assert done.returncode == 0, done.stderr
     assert "study" in done.stdout
+
+
+@pytest.mark.parametrize(
+    "script", sorted(Path(__file__).parents[1].glob("benchmarks/*.py")), ids=lambda path: path.stem
+)
+def test_what_a_benchmark_imports_exists(script):
+    """Benchmarks are run by hand, long after a name that they use may have gone."""
+    for statement in ast.walk(ast.parse(script.read_text(encoding="utf-8"))):
+        if isinstance(statement, ast.ImportFrom) and str(statement.module).startswith("carom"):
+            home = import_module(str(statement.module))
+            for one in statement.names:
+                assert hasattr(home, one.name) or import_module(f"{home.__name__}.{one.name}")

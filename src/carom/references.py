@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass, fields
 from html import escape
+from pathlib import Path
 from urllib.parse import quote
 
 
@@ -103,171 +105,16 @@ def _listed(names: list[str]) -> str:
     return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}"
 
 
-_ALL = (
-    Reference(
-        key="mora2014",
-        kind="article",
-        author="Mora, Karin and Budd, Chris and Glendinning, Paul and Keogh, Patrick",
-        title="Non-smooth {Hopf}-type bifurcations arising from impact-friction contact events in rotating machinery",
-        journal="Proceedings of the Royal Society A",
-        volume="470",
-        pages="20130490",
-        year="2014",
-        doi="10.1098/rspa.2013.0490",
-    ),
-    Reference(
-        key="api617",
-        kind="techreport",
-        author="{American Petroleum Institute}",
-        title="{API} Standard 617: Axial and centrifugal compressors and expander-compressors",
-    ),
-    Reference(
-        key="benettin1980",
-        kind="article",
-        author="Benettin, Giancarlo and Galgani, Luigi and Giorgilli, Antonio and Strelcyn, Jean-Marie",
-        title=(
-            "{Lyapunov} characteristic exponents for smooth dynamical systems and for {Hamiltonian} systems; a method for "
-            "computing all of them"
-        ),
-        journal="Meccanica",
-        volume="15",
-        pages="9--30",
-        year="1980",
-        doi="10.1007/BF02128236",
-    ),
-    Reference(
-        key="brent1980",
-        kind="article",
-        author="Brent, Richard P.",
-        title="An improved {Monte Carlo} factorization algorithm",
-        journal="BIT Numerical Mathematics",
-        volume="20",
-        number="2",
-        pages="176--184",
-        year="1980",
-        doi="10.1007/BF01933190",
-    ),
-    Reference(
-        key="clopper1934",
-        kind="article",
-        author="Clopper, C. J. and Pearson, E. S.",
-        title="The use of confidence or fiducial limits illustrated in the case of the binomial",
-        journal="Biometrika",
-        volume="26",
-        number="4",
-        pages="404--413",
-        year="1934",
-        doi="10.1093/biomet/26.4.404",
-    ),
-    Reference(
-        key="das2017",
-        kind="article",
-        author="Das, Suddhasattwa and Saiki, Yoshitaka and Sander, Evelyn and Yorke, James A.",
-        title="Quantitative quasiperiodicity",
-        journal="Nonlinearity",
-        volume="30",
-        pages="4111--4140",
-        year="2017",
-        doi="10.1088/1361-6544/aa84c2",
-    ),
-    Reference(
-        key="daza2016",
-        kind="article",
-        author="Daza, Alvar and Wagemakers, Alexandre and Georgeot, Bertrand and Guéry-Odelin, David and Sanjuán, Miguel A. F.",
-        title="Basin entropy: a new tool to analyze uncertainty in dynamical systems",
-        journal="Scientific Reports",
-        volume="6",
-        pages="31416",
-        year="2016",
-        doi="10.1038/srep31416",
-    ),
-    Reference(
-        key="iso14839",
-        kind="techreport",
-        author="{International Organization for Standardization}",
-        title=(
-            "{ISO} 14839-2:2004, Mechanical vibration – Vibration of rotating machinery equipped with active magnetic "
-            "bearings – Part 2: Evaluation of vibration"
-        ),
-        year="2004",
-    ),
-    Reference(
-        key="johansson2017",
-        kind="article",
-        author="Johansson, Fredrik",
-        title="{Arb}: efficient arbitrary-precision midpoint-radius interval arithmetic",
-        journal="IEEE Transactions on Computers",
-        volume="66",
-        number="8",
-        pages="1281--1292",
-        year="2017",
-        doi="10.1109/TC.2017.2690633",
-    ),
-    Reference(
-        key="keller1977",
-        kind="incollection",
-        author="Keller, Herbert B.",
-        title="Numerical solution of bifurcation and nonlinear eigenvalue problems",
-        booktitle="Applications of Bifurcation Theory",
-        publisher="Academic Press",
-        year="1977",
-    ),
-    Reference(
-        key="krawczyk1969",
-        kind="article",
-        author="Krawczyk, R.",
-        title="{Newton-Algorithmen} zur {Bestimmung} von {Nullstellen} mit {Fehlerschranken}",
-        journal="Computing",
-        volume="4",
-        pages="187--201",
-        year="1969",
-        doi="10.1007/BF02234767",
-    ),
-    Reference(
-        key="lenci2003",
-        kind="article",
-        author="Lenci, Stefano and Rega, Giuseppe",
-        title="Optimal control of nonregular dynamics in a {Duffing} oscillator",
-        journal="Nonlinear Dynamics",
-        volume="33",
-        pages="71--86",
-        year="2003",
-    ),
-    Reference(
-        key="mueller1995",
-        kind="article",
-        author="Müller, Peter C.",
-        title="Calculation of {Lyapunov} exponents for dynamic systems with discontinuities",
-        journal="Chaos, Solitons \\& Fractals",
-        volume="5",
-        pages="1671--1681",
-        year="1995",
-    ),
-    Reference(
-        key="squire1998",
-        kind="article",
-        author="Squire, William and Trapp, George",
-        title="Using complex variables to estimate derivatives of real functions",
-        journal="SIAM Review",
-        volume="40",
-        number="1",
-        pages="110--112",
-        year="1998",
-        doi="10.1137/S003614459631241X",
-    ),
-    Reference(
-        key="thompson1989",
-        kind="article",
-        author="Thompson, J. M. T.",
-        title="Chaotic phenomena triggering the escape from a potential well",
-        journal="Proceedings of the Royal Society A",
-        volume="421",
-        pages="195--225",
-        year="1989",
-    ),
-)
+def _read(text: str) -> dict[str, Reference]:
+    """References by their keys, from BibTeX entries with one field a line."""
+    entries = re.findall(r"^@(\w+)\{(\w+),\n(.*?)^\}", text, re.DOTALL | re.MULTILINE)
+    return {
+        key: Reference(key, kind, **dict(re.findall(r"^  (\w+) = \{(.*)\},$", rows, re.MULTILINE)))
+        for kind, key, rows in entries
+    }
 
-REFERENCES = {reference.key: reference for reference in _ALL}
+
+REFERENCES = _read(Path(__file__).with_name("references.bib").read_text(encoding="utf-8"))
 """All publications by their keys."""
 
 

@@ -14,7 +14,7 @@ from scipy.optimize import minimize_scalar
 from carom.closed_forms import find_equilibria, rolling, speed_response
 from carom.models import Jeffcott
 from carom.outcome import InputError
-from carom.parameters import Machine, Parameters
+from carom.parameters import Machine, Parameters, load
 
 MACHINES = sized(compiled=100, interpreted=20, deep=2000)
 SWEPT = sized(compiled=8, interpreted=3, deep=100)
@@ -138,7 +138,7 @@ def test_flat_responses_have_no_amplification_factor(ratio, peak, factor):
 
 
 def test_without_damping_or_unbalance():
-    machine = Machine.load("examples/keogh-cole.toml")
+    machine = load("examples/keogh-cole.toml").machine
     still = speed_response(machine.replace(eccentricity=0.0))
     assert still.peak == 0.0
     assert still.beyond(1.0) is None

@@ -7,7 +7,7 @@ import re
 from pathlib import Path
 
 import pytest
-from browsing import BROWSER, DESK, SOON, answered, drag, fits, flown, painted, point, said, served
+from browsing import DESK, IN_A_BROWSER, SOON, answered, drag, expect, fits, flown, painted, point, said, served
 
 import carom
 from carom.explorer.computing.kicks import map_kicks
@@ -15,15 +15,7 @@ from carom.explorer.computing.motions import table_of
 from carom.explorer.computing.planes import planes_of
 from carom.models import Jeffcott
 
-pytest.importorskip("bokeh", reason="needs the extra carom[explore]")
-pytest.importorskip("playwright", reason="needs playwright for Python")
-
-from playwright.sync_api import expect
-
-pytestmark = [
-    pytest.mark.skipif(BROWSER is None, reason="no chromium, chromium-browser or google-chrome on the PATH"),
-    pytest.mark.jit_only,
-]
+pytestmark = IN_A_BROWSER
 MACHINE = Path(__file__).parents[2] / "examples" / "keogh-cole.toml"
 
 

@@ -4,19 +4,18 @@ from __future__ import annotations
 
 import base64
 import queue
-import shutil
 import sys
 import time
 
 import numpy as np
 import pytest
+from browsing import BROWSER
 from linear_rotors import tilting
 
 import carom
 from carom.explorer.notebook import encoded
 from carom.outcome import CaromError, InputError
 
-BROWSER = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
 MACHINE = carom.load("examples/keogh-cole.toml")
 SOON = 120
 """Seconds after which the figure is taken to hang; nothing is judged by how long it takes."""

@@ -24,7 +24,7 @@ from tornado.httpclient import AsyncHTTPClient, HTTPRequest
 from tornado.websocket import WebSocketClosedError, websocket_connect
 
 from carom.explorer import server as servers
-from carom.explorer.server import LEFT, Explorer
+from carom.explorer.server import LEFT, Explorer, _compile
 
 MACHINE = str(Path(__file__).parents[2] / "examples" / "keogh-cole.toml")
 
@@ -218,3 +218,20 @@ def test_malformed_sessions_leave_the_page_answering():
             connection.close()
         all_closed(explorer, run)
         connect(explorer, run).close()
+
+
+def test_compiling_is_quiet_only_where_the_program_ends_meanwhile(monkeypatch):
+    """As Python says it of a thread that cannot begin any more; any other error is told."""
+    words = ["cannot schedule new futures after interpreter shutdown", "dictionary changed size during iteration"]
+
+    def fail(rotor):
+        raise RuntimeError(words.pop(0))
+
+    monkeypatch.setattr(servers, "table_of", fail)
+    origin, ready = Origin(MACHINE, (), carom.load(MACHINE)), threading.Event()
+    _compile(origin, ready)
+    assert ready.is_set()
+    ready.clear()
+    with pytest.raises(RuntimeError, match="changed size"):
+        _compile(origin, ready)
+    assert ready.is_set()

@@ -5,17 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from browsing import BROWSER, DESK, answered, fits, flown, point, said
+from browsing import DESK, IN_A_BROWSER, answered, expect, fits, flown, point, said
 
-pytest.importorskip("bokeh", reason="needs the extra carom[explore]")
-pytest.importorskip("playwright", reason="needs playwright for Python")
-
-from playwright.sync_api import expect
-
-pytestmark = [
-    pytest.mark.skipif(BROWSER is None, reason="no chromium, chromium-browser or google-chrome on the PATH"),
-    pytest.mark.jit_only,
-]
+pytestmark = IN_A_BROWSER
 MACHINE = Path(__file__).parents[2] / "examples" / "balanced-rotor.toml"
 
 

@@ -81,6 +81,25 @@ def test_flights_of_a_rotor_of_two_coordinates():
         assert np.allclose(velocity, exact[2:4], rtol=0, atol=1e-12)
 
 
+@pytest.mark.parametrize("pushes", [(0.02, 0.0), (0.02, 0.01j), (0.0, 0.0)])
+def test_a_free_rotor_of_two_coordinates_falls(pushes):
+    """Levitation lost at both: four equal exponents, and the weight in resonance with all of them."""
+    model = LinearRotor.in_fixed_frame(
+        mass=np.diag([1.0, 0.4]),
+        damping=np.zeros((2, 2)),
+        stiffness=np.zeros((2, 2)),
+        forcing=[0.01, 0.02],
+        touchdowns=touchdowns([[1.0, 0.8], [1.0, -0.7]], [0.1, 0.1], [0.5, 0.5], [9.0, 9.0]),
+    )
+    system = Forced(model, (Force(-1j, np.array(pushes)),)).system
+    state = np.array([0.1, -0.05j, 0.02, 0.1j])
+    rest = model.system.rest
+    for time in (0.5, 3.0):
+        fixed = (state[:2] - rest) + (state[2:] + 1j * (state[:2] - rest)) * time + 0.5 * np.array(pushes) * time**2
+        position, _ = system.state(system.fly(system.amplitudes(state[:2], state[2:]), np.array(time)))
+        assert np.allclose((position - rest) * np.exp(1j * time), fixed, rtol=0, atol=1e-12)
+
+
 def test_at_rest_only_the_forces_move_it():
     system = with_forces(planar_system(0.3, 0.76), [Force(-1j, np.array([0.02]))])
     position, velocity = (values[0] for values in system.kicked(0.0))

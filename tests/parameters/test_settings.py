@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from carom.outcome import InputError
-from carom.parameters import Machine, load
+from carom.parameters import load
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 REAL = EXAMPLES / "keogh-cole.toml"
@@ -67,7 +67,7 @@ def test_settings_are_exact_and_the_machine_follows(gamma, omega, rho, radius_ra
 def test_physical_settings_change_what_depends_on_them():
     case = load(REAL, ["speed=1500 rpm", "damping = 2000 N s/m", "friction=0.2", "mass=60"])
 
-    expected = Machine.load(REAL).replace(speed="1500 rpm", damping=2000, friction=0.2, mass=60)
+    expected = load(REAL).machine.replace(speed="1500 rpm", damping=2000, friction=0.2, mass=60)
     assert case.machine == expected
     assert case.parameters == expected.parameters
     assert case.parameters.mu == 0.2

@@ -249,7 +249,7 @@ def test_random_files_are_refused_in_lines_or_are_the_machine_computed_independe
         expected = computed({name: number for name, (_, number) in spelling.items()})
         assert {name: getattr(machine, name) for name in expected} == expected, content
         path.write_text(machine.to_toml(), encoding="utf-8")
-        assert Machine.load(path) == machine
+        assert load(path).machine == machine
         settings_are_the_machine_they_say(rng, path, machine)
     assert accepted > CASES // 3
     assert refused > CASES // 10

@@ -89,7 +89,8 @@ def test_each_axes_is_measured_once(damped, monkeypatch):
     measured, measure = [], Axes.get_tightbbox
     monkeypatch.setattr(Axes, "get_tightbbox", lambda axes, *a, **k: (measured.append(axes), measure(axes, *a, **k))[1])
     figure = plots.orbit(damped.orbits["B1,d"])
-    assert measured == figure.axes
+    assert set(measured) == set(figure.axes)
+    assert len(measured) == len(set(measured))
 
 
 def test_each_formula_is_parsed_once(damped, monkeypatch, tmp_path):

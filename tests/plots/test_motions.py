@@ -143,22 +143,6 @@ def test_transient_longer_than_the_motion(bouncing, since):
         plots.motion(bouncing, since=since)
 
 
-def test_faded_motion_begins_paler_than_it_ends(bouncing, read):
-    figure = plots.motion(bouncing, fade=True)
-    (path,) = [drawn for drawn in figure.axes[0].collections if drawn.get_gid() == "path"]
-    colours = path.get_colors()
-    assert colours[0, :3].sum() > colours[-1, :3].sum() + 0.5
-    assert np.all(np.diff(colours[:, :3].sum(axis=1)) <= 1e-12)
-    assert "path of the rotor centre (early part pale)" in read.legend(figure)
-
-
-def test_fading_ends_with_the_flight_not_with_the_contact_after_it(damped, rubbing):
-    figure = plots.motion(rubbing, fade=True)
-    (path,) = [drawn for drawn in figure.axes[0].collections if drawn.get_gid() == "path"]
-    contact = damped.mm * rubbing.position(np.array([rubbing.lasting_contacts[0].start]))[0]
-    assert np.allclose(path.get_segments()[-1][-1], (contact.real, contact.imag), atol=1e-3)
-
-
 def test_words_say_how_a_motion_ended(bouncing, chattering, read):
     assert "end: time reached" in read.legend(plots.motion(bouncing))
     figure = plots.motion(chattering)
@@ -196,12 +180,11 @@ def test_fast_rolling_keeps_to_the_circle(weak, read):
         assert np.nanmax(np.abs(np.diff(np.hypot(*path.get_data())))) < 0.1
 
 
-@pytest.mark.parametrize("fade", [False, True])
-def test_motion_that_never_leaves_the_wall(damped, read, fade):
+def test_motion_that_never_leaves_the_wall(damped, read):
     rub = next(point for point in damped.equilibria if point.kind == "rub" and point.stable)
     motion = carom.simulate(damped.rotor, carom.State(rub.position), until=10.0)
     assert len(motion.contacts) == 0
-    rotating, fixed = plots.motion(motion, fade=fade).axes
+    rotating, fixed = plots.motion(motion).axes
     for axes in (rotating, fixed):
         assert len(read.lines(axes, "slide")) == 1
     (band,) = read.lines(plots.radius(motion).axes[0], "slide")

@@ -13,7 +13,7 @@ from carom.outcome import InputError
 
 def _draw_everything(damped, bouncing) -> None:
     plots.orbit(damped.orbits["B1,d"])
-    plots.motion(bouncing, fade=True)
+    plots.motion(bouncing)
     plots.radius(bouncing)
     plots.multipliers(damped.orbits)
     plots.equilibria_and_orbits(damped.orbits, damped.equilibria)

@@ -17,7 +17,7 @@ from carom.motions.starts import State
 from carom.motions.trajectories import simulate
 from carom.orbits.single_impact import orbits_within_reach
 from carom.outcome import Outcome
-from carom.parameters import Machine, Parameters
+from carom.parameters import Machine, Parameters, load
 from carom.studies.ranges import MotionRange, motion_ranges
 
 SOURCE = Parameters(gamma=0.1, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7)
@@ -160,7 +160,7 @@ def test_search_ends_are_no_thresholds():
 # ------------------------------------------------------------------------------------------------ orbits
 
 
-README = Machine.load("examples/keogh-cole.toml")
+README = load("examples/keogh-cole.toml").machine
 SPINDLE = Machine(
     mass=3.2, damping=350.0, stiffness=4e5, eccentricity=0.9947e-6, clearance=0.25e-3, rotor_radius=15e-3,
     speed="24000 rpm", unbalance_phase=0.0, friction=0.2, restitution=0.7,

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from carom.cli.output import output_directory, say_where
-from carom.cli.terminal import AsJson, MachineFile, Settings, check_output, console, print_document, progress
+from carom.cli.terminal import AsJson, MachineFile, Out, Settings, check_output, console, print_document, progress
 from carom.outcome import IRREGULAR_BOUNCING
 
 if TYPE_CHECKING:
@@ -25,9 +25,7 @@ def attractors(
     exponents: Annotated[
         bool, typer.Option("--exponents", help="Show all Lyapunov exponents, with their standard errors.")
     ] = False,
-    out: Annotated[
-        str | None, typer.Option(metavar="DIR", help="Write the figure and attractors.json to this directory.")
-    ] = None,
+    out: Out = None,
     as_json: AsJson = False,
 ) -> None:
     """List the motions on which disturbances end: rest, rub, periodic orbits, tori and chaos.

@@ -95,9 +95,6 @@ Wanted = Annotated[
 Threads = Annotated[
     int | None, typer.Option(metavar="N", min=1, help="Cores to use; the result does not depend on it.")
 ]
-Out = Annotated[
-    str | None, typer.Option(metavar="DIR", help="Write figures, basins.nc and basins.json to this directory.")
-]
 
 
 @dataclass(frozen=True)
@@ -270,5 +267,5 @@ def _stated_by(case: Case, given: str, entry: str) -> Case:
     if missing:
         allowed = f"{entry} needs {' and '.join(missing)}, which the machine file does not state"
         raise InputError("--plane", given, allowed)
-    exact = {name: Decimal(repr(getattr(machine, name))) for name in needed}
-    return case.replace(**{entry: float(TERMS[entry].entry(exact))})
+    exact = (Decimal(repr(getattr(machine, name))) for name in needed)
+    return case.replace(**{entry: float(TERMS[entry].entry(*exact))})

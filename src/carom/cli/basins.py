@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from carom.cli import basin_options as options
 from carom.cli.output import output_directory, say_where
-from carom.cli.terminal import AsJson, MachineFile, Settings, check_output, console, print_document, progress
+from carom.cli.terminal import AsJson, MachineFile, Out, Settings, check_output, console, print_document, progress
 
 if TYPE_CHECKING:
     from carom.basins import GainChange, GainMap
@@ -36,7 +36,7 @@ def basins(
     y: options.SecondRange = None,
     wanted: options.Wanted = None,
     threads: options.Threads = None,
-    out: options.Out = None,
+    out: Out = None,
     as_json: AsJson = False,
 ) -> None:
     """Find where disturbances go: what share comes back, the smallest that does not, and the gains that help.

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from carom.cli.output import output_directory, say_where
-from carom.cli.terminal import AsJson, MachineFile, Settings, check_output, console, print_document, progress
+from carom.cli.terminal import AsJson, MachineFile, Out, Settings, check_output, console, print_document, progress
 from carom.outcome import IRREGULAR_BOUNCING, STEADY_WORDS, InputError, Outcome, shown
 
 if TYPE_CHECKING:
@@ -16,9 +16,6 @@ if TYPE_CHECKING:
     from carom.parameters import Parameters
     from carom.proofs import Proof
 
-Out = Annotated[
-    str | None, typer.Option(metavar="DIR", help="Write the figure and the JSON document to this directory.")
-]
 Impacts = Annotated[
     int,
     typer.Option(

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from carom.cli.output import output_directory, say_where
-from carom.cli.terminal import AsJson, MachineFile, Settings, check_output, console, print_document, progress
+from carom.cli.terminal import AsJson, MachineFile, Out, Settings, check_output, console, print_document, progress
 from carom.outcome import STEADY_WORDS, InputError
 
 if TYPE_CHECKING:
@@ -37,9 +37,7 @@ def response(
             help="Lowest and highest operating speed, for the separation margin; by default the present speed.",
         ),
     ] = None,
-    out: Annotated[
-        str | None, typer.Option(metavar="DIR", help="Write the figure and response.json to this directory.")
-    ] = None,
+    out: Out = None,
     as_json: AsJson = False,
 ) -> None:
     """Show the response to the unbalance over speed: amplitude, phase, critical speed, and where the rotor touches.

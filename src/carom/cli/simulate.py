@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from carom.cli.output import output_directory, say_where
-from carom.cli.terminal import AsJson, MachineFile, Settings, check_output, console, print_document, progress
+from carom.cli.terminal import AsJson, MachineFile, Out, Settings, check_output, console, print_document, progress
 from carom.outcome import InputError
 
 if TYPE_CHECKING:
@@ -60,9 +60,7 @@ def simulate(
             help="Follow the motion to this time, in 1/Omega or with a unit; by default until it is known where it ends.",
         ),
     ] = None,
-    out: Annotated[
-        str | None, typer.Option(metavar="DIR", help="Write figures and simulation.json to this directory.")
-    ] = None,
+    out: Out = None,
     csv: Annotated[str | None, typer.Option(metavar="FILE", help="Write the contact log as CSV.")] = None,
     netcdf: Annotated[str | None, typer.Option(metavar="FILE", help="Write the contact log as netCDF.")] = None,
     as_json: AsJson = False,

@@ -249,7 +249,7 @@ def _thresholds(study: Study) -> Table:
 
 def _events(say: Wording, motion: Trajectory) -> Table:
     """Return the table of impacts and lasting contacts in order of time; the middle of a long log is left out."""
-    speed, impulse, slip = (_unit_of(told(1.0)) for told in (say.velocity, say.impulse, say.slip))
+    speed, impulse, slip = (told(1.0).partition(" ")[2] for told in (say.velocity, say.impulse, say.slip))
     time = f"time, {'ms' if say.scales else '1/Ω'}"
     speeds, slips = f"speed towards wall, {speed}", f"slip, {slip}"
     normal, friction = f"normal impulse, {impulse}", f"friction impulse, {impulse}"
@@ -295,10 +295,6 @@ def _event_rows(say: Wording, motion: Trajectory) -> list[tuple[str, ...]]:
 def _number_of(told: str) -> str:
     """The number of a size such as ``60 mm/s``, for a column whose heading has the unit."""
     return told.partition(" ")[0]
-
-
-def _unit_of(told: str) -> str:
-    return told.partition(" ")[2]
 
 
 def _complex(value: complex) -> str:

@@ -24,6 +24,9 @@ Settings = Annotated[
         help="Set a parameter, with units or dimensionless, such as 'damping=2000 N s/m' or gamma=0.1; repeatable.",
     ),
 ]
+Out = Annotated[
+    str | None, typer.Option("--out", metavar="DIR", help="Write figures and numbers (JSON) to this directory.")
+]
 AsJson = Annotated[bool, typer.Option("--json", help="Print one JSON object and nothing else.")]
 
 WIDTH = 80

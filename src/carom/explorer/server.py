@@ -227,7 +227,10 @@ def _compile(origin: Origin, ready: threading.Event) -> None:
         table_of(rotor)
         found = map_kicks(rotor, kicks, 17, opening_range(rotor, kicks))
         follow_kick(rotor, kicks, *telling_pair(found)[0])
-    except (CaromError, RuntimeError):
-        pass  # the page says what is wrong with this machine; and where the program ends meanwhile, no thread can begin
+    except CaromError:
+        pass  # the page says what is wrong with this machine
+    except RuntimeError as problem:
+        if "shutdown" not in str(problem):  # Python says so where the program ends meanwhile, and no thread can begin
+            raise
     finally:
         ready.set()

@@ -89,8 +89,14 @@ class _Modes:
         kept = system.free | (forced != 0.0)
         right = np.concatenate([arrays["rows"], system.shapes])
         left = np.concatenate([arrays["columns"], system.to_modes], axis=1)
-        numbers = arrays["exponents"], arrays["driven"].astype(bool), system.free, forced
-        return cls(*(values[kept] for values in numbers), right[:, kept], left[kept])
+        return cls(
+            exponents=arrays["exponents"][kept],
+            driven=arrays["driven"].astype(bool)[kept],
+            free=system.free[kept],
+            forced=forced[kept],
+            right=right[:, kept],
+            left=left[kept],
+        )
 
     def driven_by(self, exponent: complex, push: np.ndarray) -> _Modes:
         """With one more force, which changes the rates of the amplitudes by ``push``."""
@@ -106,22 +112,38 @@ class _Modes:
                 push = push + np.eye(len(push))[last - 1] * (push[last] * gap / 2.0)
                 return self._as_one(last, gap).driven_by(exponent, push)
             near[last - 1 : last + 1] |= touched
-        chain = np.flatnonzero(near)
         others = np.flatnonzero(self.free & ~near)
         matrix = np.diag(self.exponents) + np.diag(self.driven[1:].astype(complex), -1)
         shares = np.zeros(len(push), complex)
         shares[others] = np.linalg.solve(exponent * np.eye(len(others)) - matrix[np.ix_(others, others)], push[others])
-        if not len(chain):
+        return self._resonant(exponent, push, near, shares)
+
+    def _resonant(self, exponent: complex, push: np.ndarray, near: np.ndarray, shares: np.ndarray) -> _Modes:
+        """With one more force that drives the mode it is in resonance with, if there is one."""
+        firsts = np.flatnonzero(near & ~self.driven)
+        pairs = [
+            first for first in firsts.tolist() if first + 1 < len(near) and near[first + 1] and self.driven[first + 1]
+        ]
+        for first in pairs:
+            shares[first] = -push[first + 1]
+        driven = firsts[np.abs(push[firsts]) > EQUAL * np.abs(push).max(initial=0.0)]
+        if not len(driven):
             return self._added(len(push), exponent, shares, 1.0)
-        first, last = int(chain[0]), int(chain[-1])
-        if len(chain) > 1:
-            apart = np.abs(np.append(self.exponents[chain], exponent) - exponent).max()
-            if len(chain) > 2 or not self.driven[last] or apart > EQUAL * size:
-                raise InputError("force", exponent, "an exponent not so near to two that nearly coincide")
-            shares[first] = -push[last]
-        if abs(push[first]) <= EQUAL * np.abs(push).max():
-            return self._added(len(push), exponent, shares, 1.0)
-        return self._added(first, exponent, shares / push[first], push[first])
+        main = int(driven[np.abs(push[driven]).argmax()])
+        alike = self.exponents[near]
+        if len(driven) + len(pairs) > 1 and np.abs(alike - exponent).max() > EQUAL * (1.0 + abs(exponent)):
+            raise InputError("force", exponent, "an exponent not so near to two that nearly coincide")
+        if len(driven) > 1:
+            if len({first in pairs for first in driven.tolist()}) > 1:
+                raise InputError("force", exponent, "an exponent that is not that of modes of different kinds")
+            other = next(first for first in driven.tolist() if first != main)
+            ratio, right, left = push[other] / push[main], self.right.copy(), self.left.copy()
+            for step in range(2 if main in pairs else 1):
+                right[:, main + step] += ratio * right[:, other + step]
+                left[other + step] -= ratio * left[main + step]
+                push = push - np.eye(len(push))[other + step] * ratio * push[main + step]
+            return replace(self, right=right, left=left)._resonant(exponent, push, near, shares)
+        return self._added(main, exponent, shares / push[main], push[main])
 
     def _parted(self, last: int, gap: complex) -> _Modes:
         """With the pair that ends with a mode as two free-standing ones: their exponents are well apart."""

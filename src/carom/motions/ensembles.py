@@ -370,7 +370,11 @@ def _settle_part(part: _Part, limits: _Limits) -> int:
     until = longest_time(rotor) if limits.until is None else time_until(limits.until, rotor.scales)
     # What has settled may still be ended by a time.
     memory = fresh_memory(rotor, limits.patience if trigger.time == np.inf else 0, absorb=True, trigger=trigger)
-    if not rotor.system.is_planar or trigger.watches_contact or (limits.until is not None and part.motions.time.any()):
+    if (
+        not rotor.system.is_planar
+        or trigger.watches_contact
+        or (limits.until is not None and part.motions["time"].any())
+    ):
         return _follow_singly(part, until, limits, memory)
     task = Task(rotor.system.arrays, rotor.system.table, min(until, trigger.time), limits.max_events)
     # Without the compiler, NumPy warns of divisions in lanes that do not use the result.

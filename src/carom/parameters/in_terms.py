@@ -6,11 +6,11 @@ import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from decimal import ROUND_CEILING, ROUND_FLOOR, ROUND_HALF_EVEN, Decimal, localcontext
-from typing import Any, Literal, NamedTuple
+from typing import Annotated, Any, Literal, NamedTuple
 
-from carom.outcome import InputError, shown
+from carom.arguments import checked, whole
 from carom.parameters.conversions import CONVERSIONS
-from carom.parameters.fields import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, PARAMETERS, PHYSICAL_PARTNER, Field
+from carom.parameters.fields import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, PARAMETERS, PHYSICAL_PARTNER
 from carom.parameters.machine import Machine
 from carom.parameters.machine_file import Case
 from carom.parameters.quantities import read_quantity, unit_factor, unit_of
@@ -23,7 +23,8 @@ _ROUNDING = {"up": ROUND_CEILING, "down": ROUND_FLOOR, "nearest": ROUND_HALF_EVE
 _SECONDARY_DIGITS = 3
 EXACT = 17
 """Significant digits with which a value is told without rounding."""
-_DIGITS = Field("digits", "", "significant digits", "a whole number", "", 1, EXACT, "4", whole=True)
+Digits = Annotated[int, whole(1, EXACT)]
+"""Significant digits."""
 
 
 @dataclass(frozen=True)
@@ -69,7 +70,8 @@ class _Stated(NamedTuple):
         return f"{self.unit} {number}" if self.letter else f"{number} {self.unit}".rstrip()
 
 
-def in_terms_of(case: Case, name: str, value: float, side: Side = "nearest", digits: int = 4) -> InTerms:
+@checked
+def in_terms_of(case: Case, name: str, value: object, side: Side = "nearest", digits: Digits = 4) -> InTerms:
     """Return a value of a parameter in the terms and units of the machine's file, rounded.
 
     Parameters
@@ -98,21 +100,14 @@ def in_terms_of(case: Case, name: str, value: float, side: Side = "nearest", dig
     >>> least.setting, least.beside
     ('derivative_gain=12.35 A s/m', ('damping 1,240 N s/m', 'damping ratio 0.623'))
     """
-    if not isinstance(case, Case):
-        raise InputError("case", shown(case), "must be a Case, as carom.load reads it from a file")
-    if not isinstance(name, str):
-        raise InputError("name", shown(name), f"must be one of: {', '.join(case.parameters.varied)}")
-    if shown(side) not in _ROUNDING:
-        raise InputError("side", shown(side), f"must be one of: {', '.join(_ROUNDING)}")
-    digits = int(read_quantity(_DIGITS, digits))
     if name not in case.parameters.varied:
         raise no_such_parameter(name, value, case.parameters.varied, case.parameters.scales is not None)
-    value = read_quantity(PARAMETERS[name], value)
+    wanted = read_quantity(PARAMETERS[name], value)
     with localcontext(DECIMALS):
-        stated = _stated(case.machine, name, Decimal(repr(value)))
+        stated = _stated(case.machine, name, Decimal(repr(wanted)))
         number = _rounded(stated.exact, digits, _ROUNDING[side])
         after = _changed(case, stated, number)
-        while (side == "up" and _value(after, name) < value) or (side == "down" and _value(after, name) > value):
+        while (side == "up" and _value(after, name) < wanted) or (side == "down" and _value(after, name) > wanted):
             # Rounding of what follows from the entry has put the last bit on the other side.
             number += Decimal(1 if side == "up" else -1).scaleb(_last_digit(number, digits))
             after = _changed(case, stated, number)
@@ -135,7 +130,7 @@ def _stated(machine: Machine | None, name: str, value: Decimal) -> _Stated:
         given = machine.given.get(name, {})
     entry = next((entry for entry in given if entry in TERMS), name)
     if machine is not None and entry in TERMS:
-        value = TERMS[entry].entry({name: value} | {need: _needed(machine, need) for need in TERMS[entry].needs})
+        value = TERMS[entry].entry(value, *(_needed(machine, need) for need in TERMS[entry].needs))
     field, written = SETTABLE[entry], given.get(entry)
     unit = (unit_of(field, written) if isinstance(written, str) else "") or field.usual_unit
     if field.letter and unit == field.letter:

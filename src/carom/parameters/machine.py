@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 import json
-import os
 import re
 import warnings
 from collections.abc import Mapping
-from typing import Any, cast
+from typing import Any
 
 import pydantic
 
 from carom.arguments import checked
-from carom.outcome import CaromWarning, InputError, Problems, shown
+from carom.outcome import CaromWarning, InputError, shown
 from carom.parameters.conversions import CONVERSIONS
 from carom.parameters.fields import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, PHYSICAL_PARTNER
 from carom.parameters.numbers import Parameters
@@ -20,7 +19,6 @@ from carom.parameters.resolution import Resolved, resolve, solved
 from carom.parameters.scaling import Scales
 from carom.parameters.terms import DEFAULTS, ENTRIES, HELPER_FIELDS
 from carom.parameters.told import number, told_entry
-from carom.parameters.toml_reader import read_machine_tables
 from carom.tabular import Tabular
 
 LEAST_RADIUS = 5.0
@@ -158,36 +156,6 @@ class Machine(Tabular, pydantic.BaseModel):
 
     @classmethod
     @checked
-    def load(cls, path: str | os.PathLike[str]) -> Machine:
-        """Read the ``[machine]`` table of a TOML file.
-
-        Parameters
-        ----------
-        path : path
-            The machine file.
-
-        Raises
-        ------
-        InputError
-            If the file cannot be read, is not TOML, holds no ``[machine]`` table, or a value is not allowed.
-
-        Warns
-        -----
-        CaromWarning
-            The rotor radius is less than 5 clearances: a unit was probably forgotten.
-        """
-        problems = Problems()
-        tables = read_machine_tables(path, problems)
-        if tables.kind != "machine":
-            remedy = "must hold a [machine] table; a [dimensionless] one has no mass, clearance and speed"
-            raise InputError("machine file", shown(path), remedy)
-        machine = problems.attempt(cls, **tables.values)
-        problems.raise_all()
-        warn_of_proportions(machine)
-        return cast("Machine", machine)
-
-    @classmethod
-    @checked
     def from_parameters(cls, parameters: Parameters, scales: Scales | None = None) -> Machine:
         """Return the machine that has the given dimensionless parameters.
 
@@ -274,7 +242,7 @@ class Machine(Tabular, pydantic.BaseModel):
         return machine
 
     def to_toml(self) -> str:
-        """Return the text of a machine file that :meth:`load` reads back to an equal machine.
+        """Return the text of a machine file that :func:`carom.load` reads back as an equal machine.
 
         It holds the entries as they were written, if they still give this machine, and otherwise numbers in SI units.
         """

@@ -219,6 +219,7 @@ class Requirement:
         return found or cls()
 
 
+@checked
 def usual_kick(scales: Scales | None) -> float:
     """Return the kick that a rotor must survive where nothing is stated, in ``c_r Ω`` of the fixed frame.
 
@@ -230,8 +231,6 @@ def usual_kick(scales: Scales | None) -> float:
     InputError
         They are neither scales nor None.
     """
-    if not isinstance(scales, Scales | None):
-        raise InputError("scales", shown(scales), "must be carom.parameters.Scales, or None")
     return _fall_speed(scales) / scales.velocity if scales else 1.0
 
 

@@ -132,12 +132,13 @@ class _Work:
             self._take(name, base.values[name], base.given.get(name, {}))
 
     def _derive(self, name: str, way: str, number: Decimal, written: Any) -> None:
-        term, known, given = TERMS[way], {way: number}, {way: written}
+        term, needed, given = TERMS[way], list[Decimal](), {way: written}
         for need in term.needs:
-            known[need], source = self._needed(need, way, written)
+            found, source = self._needed(need, way, written)
+            needed.append(found)
             given |= source
         with localcontext(DECIMALS):
-            value = float(term.value(known))
+            value = float(term.value(number, *needed))
         target = MACHINE_FIELDS[name]
         if not target.contains(value):
             words = f"gives {name} = {term.formula} = {value:.6g} {target.unit}".rstrip()

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -11,27 +10,20 @@ from carom.arguments import checked
 from carom.outcome import InputError, shown
 from carom.parameters.fields import Field
 from carom.parameters.quantities import read_quantity, without_separators
-from carom.parameters.scaling import Scales
+from carom.parameters.scaling import UNITS, Scales
 
 _HUGE = 1e12
 
 
-class _Kind(NamedTuple):
-    words: str
-    unit: str
-    usual: str
-    own: str
-    example: str
-
-
-_KINDS: Mapping[str, _Kind] = {
-    "length": _Kind("a length", "m", "mm", "c_r", "0.3 mm"),
-    "velocity": _Kind("a velocity", "m/s", "mm/s", "c_r Omega", "50 mm/s"),
-    "acceleration": _Kind("an acceleration", "m/s^2", "g", "c_r Omega^2", "20 g"),
-    "unbalance": _Kind("an unbalance", "kg m", "g mm", "m c_r", "5000 g mm"),
-    "time": _Kind("a time", "s", "ms", "1/Omega", "11 ms"),
-    "angle": _Kind("an angle", "rad", "deg", "rad", "30 deg"),
+_KINDS = {
+    "length": ("a length", "mm", "0.3 mm"),
+    "velocity": ("a velocity", "mm/s", "50 mm/s"),
+    "acceleration": ("an acceleration", "g", "20 g"),
+    "unbalance": ("an unbalance", "g mm", "5000 g mm"),
+    "time": ("a time", "ms", "11 ms"),
+    "angle": ("an angle", "deg", "30 deg"),
 }
+"""Kinds of sizes in words, the unit in which people usually say them, and an example."""
 _PLAIN = re.compile(r"\s*[+-]?(?:[0-9.]+(?:[eE][+-]?[0-9]+)?|(?i:nan|inf|infinity))\s*")
 _GRAVITIES = re.compile(r"(.*[0-9.])\s*g\s*", re.DOTALL)
 """Accelerations such as ``20 g``, as engineers write shocks; in tables of units ``g`` is the gram."""
@@ -80,7 +72,7 @@ def read_size(name: str, given: object, kind: str, scales: Scales | None, bare: 
     """
     if kind not in _KINDS:
         raise InputError("kind", kind, f"one of: {', '.join(_KINDS)}")
-    words, unit, usual, own, example = _KINDS[kind]
+    (words, usual, example), (own, unit) = _KINDS[kind], UNITS.get(kind, ("rad", "rad"))
     needs_unit = scales is not None and not bare
     field = Field(name, "", "", words, "", -_HUGE, _HUGE, f"0.5 or '{example}'", bare=own)
     if not isinstance(given, str) or (not needs_unit and _PLAIN.fullmatch(without_separators(given))):

@@ -34,8 +34,6 @@ from carom.parameters.fields import (
     unknown_names,
 )
 
-Decimals = Mapping[str, Decimal]
-
 
 class Term(NamedTuple):
     """A formula by which an entry sets a field of the machine."""
@@ -46,9 +44,9 @@ class Term(NamedTuple):
     """Its value, in words."""
     needs: tuple[str, ...]
     """What the formula needs besides the entry: fields of the machine, and entries that set nothing themselves."""
-    value: Callable[[Decimals], Decimal]
-    """The formula, from decimals in the units of the fields."""
-    entry: Callable[[Decimals], Decimal]
+    value: Callable[..., Decimal]
+    """The formula, from the entry and from what it needs: decimals in the units of the fields."""
+    entry: Callable[..., Decimal]
     """Its inverse: the entry from the field and from what the formula needs.  All are increasing."""
 
 
@@ -144,67 +142,43 @@ BEARING_FIELDS = tuple(name for name in HELPER_FIELDS if name != "rated_speed")
 """Entries about the magnetic bearings, which a machine keeps."""
 
 TERMS: Mapping[str, Term] = {
-    "unbalance": Term(
-        "eccentricity",
-        "unbalance/mass",
-        ("mass",),
-        lambda given: given["unbalance"] / given["mass"],
-        lambda given: given["eccentricity"] * given["mass"],
-    ),
+    "unbalance": Term("eccentricity", "unbalance/mass", ("mass",), lambda U, m: U / m, lambda e, m: e * m),
     "balance_grade": Term(
         "eccentricity",
         "balance_grade/rated_speed",
         ("rated_speed",),
-        lambda given: given["balance_grade"] / 1000 / given["rated_speed"],
-        lambda given: given["eccentricity"] * 1000 * given["rated_speed"],
+        lambda grade, speed: grade / 1000 / speed,
+        lambda eccentricity, speed: eccentricity * 1000 * speed,
     ),
-    "rotor_diameter": Term(
-        "rotor_radius",
-        "rotor_diameter/2",
-        (),
-        lambda given: given["rotor_diameter"] / 2,
-        lambda given: given["rotor_radius"] * 2,
-    ),
-    "diametral_clearance": Term(
-        "clearance",
-        "diametral_clearance/2",
-        (),
-        lambda given: given["diametral_clearance"] / 2,
-        lambda given: given["clearance"] * 2,
-    ),
+    "rotor_diameter": Term("rotor_radius", "rotor_diameter/2", (), lambda two_r: two_r / 2, lambda r: r * 2),
+    "diametral_clearance": Term("clearance", "diametral_clearance/2", (), lambda two_c: two_c / 2, lambda c: c * 2),
     "natural_frequency": Term(
         "stiffness",
         "mass natural_frequency^2",
         ("mass",),
-        lambda given: given["mass"] * given["natural_frequency"] ** 2,
-        lambda given: (given["stiffness"] / given["mass"]).sqrt(),
+        lambda frequency, m: m * frequency**2,
+        lambda k, m: (k / m).sqrt(),
     ),
     "damping_ratio": Term(
         "damping",
         "2 damping_ratio sqrt(stiffness mass)",
         ("mass", "stiffness"),
-        lambda given: 2 * given["damping_ratio"] * (given["stiffness"] * given["mass"]).sqrt(),
-        lambda given: given["damping"] / (2 * (given["stiffness"] * given["mass"]).sqrt()),
+        lambda ratio, m, k: 2 * ratio * (k * m).sqrt(),
+        lambda c, m, k: c / (2 * (k * m).sqrt()),
     ),
     "proportional_gain": Term(
         "stiffness",
         "magnetic_bearings (force_current_factor proportional_gain - negative_stiffness)",
         ("magnetic_bearings", "force_current_factor", "negative_stiffness"),
-        lambda given: (
-            given["magnetic_bearings"]
-            * (given["force_current_factor"] * given["proportional_gain"] - given["negative_stiffness"])
-        ),
-        lambda given: (
-            (given["stiffness"] / given["magnetic_bearings"] + given["negative_stiffness"])
-            / given["force_current_factor"]
-        ),
+        lambda P, n, ki, ks: n * (ki * P - ks),
+        lambda k, n, ki, ks: (k / n + ks) / ki,
     ),
     "derivative_gain": Term(
         "damping",
         "magnetic_bearings force_current_factor derivative_gain",
         ("magnetic_bearings", "force_current_factor"),
-        lambda given: given["magnetic_bearings"] * given["force_current_factor"] * given["derivative_gain"],
-        lambda given: given["damping"] / (given["magnetic_bearings"] * given["force_current_factor"]),
+        lambda D, n, ki: n * ki * D,
+        lambda c, n, ki: c / (n * ki),
     ),
 }
 """The formula of each entry of :data:`TERM_FIELDS`."""

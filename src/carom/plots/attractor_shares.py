@@ -36,9 +36,7 @@ def attractors(found: AttractorSet, title: str | None = None, *, axes: Axes | No
         drawn.annotate(f"{member.count} of {total}", (share, row), (4, 0), textcoords="offset points", va="center")
     drawn.set_yticks(range(len(found)), [look.words for look in by_row])
     drawn.invert_yaxis()
-    drawn.set_xlim(0.0, 115.0)
-    drawn.set_xticks(range(0, 101, 20))
-    drawn.set_xlabel("share of the disturbances (%)")
+    drawn.set(xlim=(0.0, 115.0), xticks=range(0, 101, 20), xlabel="share of the disturbances (%)")
     if title:
         drawn.set_title(title)
     return figure

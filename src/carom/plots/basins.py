@@ -106,30 +106,24 @@ def _stacked(axes: Axes, basin: Basin, motions: Sequence[MotionLook]) -> None:
         share = 100.0 * (index == entry.index).sum(axis=1) / starts
         axes.stairs(below + share, edges, baseline=below, fill=True, **entry.filled, lw=0.0)
         below = below + share
-    axes.set_xlim(edges[0], edges[-1])
-    axes.set_ylim(0.0, 100.0)
-    axes.set_xlabel(label)
-    axes.set_ylabel("share of the directions (%)")
+    axes.set(xlim=(edges[0], edges[-1]), ylim=(0.0, 100.0), xlabel=label, ylabel="share of the directions (%)")
 
 
 def _mark_smallest(axes: Axes, smallest: SmallestLoss, factor: float) -> list[Artist]:
     """Mark the smallest kick or shock found that is lost and the circle of those that cannot reach the wall."""
     ring = np.linspace(0.0, 2.0 * np.pi, 361)
-    wall = LOOKS["wall"]
-    dashes = (0.0, (4.0, 2.0))
-    axes.plot(ring, np.full(ring.shape, factor * smallest.harmless), ls=dashes, lw=0.7, color=wall.colour)
-    handles: list[Artist] = [Line2D([], [], ls=dashes, lw=0.7, color=wall.colour, label="below: proven never to touch")]
+    look: dict[str, Any] = {"ls": (0.0, (4.0, 2.0)), "lw": 0.7, "color": LOOKS["wall"].colour}
+    words = "below: proven never to touch"
+    handles: list[Artist] = [*axes.plot(ring, np.full(ring.shape, factor * smallest.harmless), **look, label=words)]
     if smallest.size is not None:
-        axes.plot([smallest.angle or 0.0], [factor * smallest.size], ls="none", gid="smallest", **_LOST)
-        handles.append(_lost_handle(smallest))
+        handles += _mark_lost(axes, smallest, smallest.angle or 0.0, factor * smallest.size)
     return handles
 
 
-_LOST: dict[str, Any] = {"marker": "o", "ms": 4.0, "mfc": "white", "mec": "#1a1a1a"}
-
-
-def _lost_handle(smallest: SmallestLoss) -> Line2D:
-    return Line2D([], [], ls="none", label=f"smallest {smallest.kind} found that is lost", **_LOST)
+def _mark_lost(axes: Axes, smallest: SmallestLoss, x: float, y: float) -> list[Line2D]:
+    """Mark the smallest disturbance found that is lost; return its legend entry."""
+    look: dict[str, Any] = {"marker": "o", "ms": 4.0, "mfc": "white", "mec": "#1a1a1a"}
+    return axes.plot([x], [y], ls="none", gid="smallest", label=f"smallest {smallest.kind} found that is lost", **look)
 
 
 def _plane(basin: Basin, motions: list[MotionLook], smallest: SmallestLoss | None, title: str | None) -> Figure:
@@ -157,15 +151,13 @@ def _plane(basin: Basin, motions: list[MotionLook], smallest: SmallestLoss | Non
         factor, label = _axis(x, basin.scales)
         across, label_across = _axis(y, basin.scales)
         paint(axes, factor * x.edges(cells[0]), across * y.edges(cells[1]), dataset["motion"].values, motions)
-        axes.set_xlabel(label)
-        axes.set_ylabel(label_across)
+        axes.set(xlabel=label, ylabel=label_across)
         if kind == "kick-plane":
             axes.set_aspect("equal")
             axes.plot([0.0], [0.0], "+", ms=6.0, mew=0.7, color="white")
         if smallest is not None and smallest.size is not None:
             turned = smallest.size * np.exp(1j * (smallest.angle or 0.0)) * np.conj(outward_from(basin.rotor))
-            axes.plot([factor * turned.real], [factor * turned.imag], ls="none", gid="smallest", **_LOST)
-            handles = [_lost_handle(smallest)]
+            handles = [*_mark_lost(axes, smallest, factor * turned.real, factor * turned.imag)]
     return finish(figure, motions, title, handles, columns=2)
 
 

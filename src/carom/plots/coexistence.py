@@ -37,15 +37,8 @@ _LARGEST = 26.0
 def rows_of(diagram: Diagram) -> list[str]:
     """Return the rows that are not empty."""
     present = {_row_of_sample(sample) for sample in diagram.attractors}
-    equilibria = {branch.kind: branch for branch in diagram.equilibria}
-    exists = {
-        LEVITATION: equilibria["contact-free"].admissible.any(),
-        RUB: (equilibria["stable rub"].admissible & equilibria["stable rub"].stable).any(),
-        BOUNCING: any(branch.admissible.any() for branch in diagram.branches),
-        WITH_RUB: bool(diagram.rubbing),
-        ROLLING: diagram.rolling.holds.any(),
-    }
-    return [row for row in ROWS if exists.get(row, False) or row in present]
+    present |= {row for row, ranges in _ranges(diagram).items() if any(ranges)}
+    return [row for row in ROWS if row in present]
 
 
 def row_of_point(point: Bifurcation) -> str | None:
@@ -61,13 +54,10 @@ def coexistence(axes: Axes, diagram: Diagram, unit: float) -> None:
     rows = rows_of(diagram)
     heights = {row: float(len(rows) - place) for place, row in enumerate(rows)}
     for row, (stable, unstable) in _ranges(diagram).items():
-        if row in heights:
-            look = LOOKS["unstable"]
-            for low, high in _joined(unstable):
-                axes.plot([low / unit, high / unit], [heights[row]] * 2, **look.stroke, zorder=1.5)
-            for low, high in _joined(stable):
-                ends = [low / unit, high / unit]
-                axes.plot(ends, [heights[row]] * 2, color=_COLOURS[row], lw=_THICK, solid_capstyle="butt")
+        bar = {"color": _COLOURS[row], "lw": _THICK, "solid_capstyle": "butt"}
+        for intervals, look in ((unstable, LOOKS["unstable"].stroke | {"zorder": 1.5}), (stable, bar)):
+            for low, high in _joined(intervals):
+                axes.plot([low / unit, high / unit], [heights[row]] * 2, **look)
     for sample in diagram.attractors:
         _dot(axes, sample, heights[_row_of_sample(sample)], unit)
     axes.set_yticks([heights[row] for row in rows], rows)
@@ -81,15 +71,13 @@ def _ranges(diagram: Diagram) -> dict[str, tuple[list[Interval], list[Interval]]
     equilibria = {branch.kind: branch for branch in diagram.equilibria}
     marks = [point.value for point in diagram.points if np.isnan(point.radial_speed)]
     levitation, rub = equilibria["contact-free"], equilibria["stable rub"]
-    found = {
+    return {
         LEVITATION: (_on_grid(levitation.values, levitation.admissible & levitation.stable, marks), []),
         RUB: (_on_grid(rub.values, rub.admissible & rub.stable, marks), []),
         ROLLING: (_on_grid(diagram.rolling.values, diagram.rolling.holds, marks), []),
         BOUNCING: _on_orbits(diagram.branches),
+        WITH_RUB: _on_orbits(diagram.rubbing),
     }
-    if diagram.rubbing:
-        found[WITH_RUB] = _on_orbits(diagram.rubbing)
-    return found
 
 
 def _on_grid(values: np.ndarray, there: np.ndarray, marks: list[float]) -> list[Interval]:
@@ -111,16 +99,22 @@ def _on_orbits(branches: Sequence[OrbitBranch]) -> tuple[list[Interval], list[In
     unstable: list[Interval] = []
     for branch in branches:
         places = np.concatenate([np.arange(len(branch)), [point.place for point in branch.special]])
-        values = np.concatenate([branch.values, [point.value for point in branch.special]])
-        order = np.argsort(places, kind="stable")
-        places, values = places[order], values[order]
-        whole = places == np.floor(places)
-        for i in range(len(places) - 1):
-            orbit = min(int(places[i + 1] if whole[i + 1] else np.floor(places[i])), len(branch) - 1)
-            if branch.admissible[orbit]:
-                group = stable if branch.stable[orbit] else unstable
-                group.append((min(values[i : i + 2]), max(values[i : i + 2])))
+        order, looks = looks_between(branch, places)
+        values = np.concatenate([branch.values, [point.value for point in branch.special]])[order]
+        for look, *ends in zip(looks, values[:-1], values[1:], strict=True):
+            if look != "virtual":
+                (stable if look == "stable" else unstable).append((min(ends), max(ends)))
     return stable, unstable
+
+
+def looks_between(branch: OrbitBranch, places: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return the order of places on a branch, and the look of each interval between neighbours: that of the orbit it touches."""
+    order = np.argsort(places, kind="stable")
+    where = places[order]
+    looks = np.where(branch.admissible, np.where(branch.stable, "stable", "unstable"), "virtual")
+    whole = where == np.floor(where)
+    nearest = np.where(whole[1:], where[1:], np.floor(where[:-1])).astype(int)
+    return order, looks[np.minimum(nearest, len(looks) - 1)]
 
 
 def _joined(intervals: list[Interval]) -> list[Interval]:

@@ -58,8 +58,7 @@ def period_condition(orbits: OrbitSet, periods: Reals, values: Reals, *, axes: A
     _limits(drawn, times, factor * orbits.longest_period)
     _bound(drawn, orbits)
     _roots(drawn, orbits)
-    drawn.set_xlabel(axis_label("period $T$", "time", orbits.rotor.scales))
-    drawn.set_ylabel(_ordinate(drawn, condition))
+    drawn.set(xlabel=axis_label("period $T$", "time", orbits.rotor.scales), ylabel=_ordinate(drawn, condition))
     return finish(figure, drawn, axes)
 
 

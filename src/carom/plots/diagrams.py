@@ -16,13 +16,13 @@ from matplotlib.lines import Line2D
 
 from carom.arguments import checked
 from carom.outcome import IRREGULAR_BOUNCING, STEADY_WORDS
-from carom.plots.coexistence import coexistence, row_of_point, rows_of
+from carom.plots.coexistence import coexistence, looks_between, row_of_point, rows_of
 from carom.plots.figure import StyledFigure
 from carom.plots.parameter_axes import label_parameter, told_parameter
 from carom.plots.plane import legend_above
 from carom.plots.proven import proven_line
 from carom.plots.style import LOOKS, OUTCOMES, TWO_COLUMNS, Look, styled
-from carom.plots.words import axis_label, number, parameter_unit, told_in
+from carom.plots.words import axis_label, number, told_in
 
 if TYPE_CHECKING:
     from carom.bifurcations import Bifurcation, Curve, Diagram, EquilibriumBranch, OrbitBranch
@@ -117,7 +117,7 @@ def bifurcation_diagram(diagram: Diagram, proof: Proof | None = None, virtual: b
     strip = 0.18 * rows
     figure = StyledFigure(figsize=(TWO_COLUMNS, 0.72 * TWO_COLUMNS + 0.8 * strip))
     upper, lower, below = figure.subplots(3, 1, sharex=True, height_ratios=(2.4, 1.1, strip))
-    unit = parameter_unit(diagram.axis.field)
+    unit = diagram.axis.field.usual_size
     for branch in diagram.orbits:
         there = [point.radial_speed for point in branch.special]
         _speed_line(upper, diagram, branch, branch.radial_speed, there, virtual)
@@ -168,7 +168,7 @@ def _speed_line(
     virtual: bool,
 ) -> None:
     """Draw speeds along a branch, in the unit in which people are told them."""
-    unit, places = parameter_unit(diagram.axis.field), np.arange(len(branch))
+    unit, places = diagram.axis.field.usual_size, np.arange(len(branch))
     special = np.array([point.value for point in branch.special])
     there = diagram.told_speeds(special, np.array(at_special_points))
     told = diagram.told_speeds(branch.values, speeds)
@@ -180,10 +180,8 @@ def _mark_present(diagram: Diagram, panels: tuple[Axes, ...], unit: float) -> li
     value = float(diagram.axis.value(diagram.model))
     if not diagram.interval[0] <= value <= diagram.interval[1]:
         return []
-    for panel in panels:
-        panel.axvline(value / unit, gid="present", **_PRESENT)
     words = f"present value: {told_parameter(value, diagram.axis.field, diagram.model.scales)}"
-    return [Line2D([], [], label=words, **_PRESENT)]
+    return [panel.axvline(value / unit, gid="present", label=words, **_PRESENT) for panel in panels][:1]
 
 
 def _proven(proof: Proof | None, diagram: Diagram) -> ProvenLine | None:
@@ -247,17 +245,11 @@ def branch_line(
     extra = np.array([point.place for point in special])
     if special_heights is None:
         special_heights = np.interp(extra, places, heights)
-    order = np.argsort(np.concatenate([places, extra]), kind="stable")
-    where = np.concatenate([places, extra])[order]
+    order, stretches = looks_between(branch, np.concatenate([places, extra]))
     x = np.concatenate([values, [point.value / unit for point in special]])[order]
     y = np.concatenate([heights, special_heights])[order]
     if len(x) < 2:  # it only touches the end of the range
         return
-    # An interval has the look of the orbit it touches.
-    looks = np.where(branch.admissible, np.where(branch.stable, "stable", "unstable"), "virtual")
-    whole = where == np.floor(where)
-    nearest = np.where(whole[1:], where[1:], np.floor(where[:-1])).astype(int)
-    stretches = looks[np.minimum(nearest, len(looks) - 1)]
     for first, last, look in _runs(np.append(stretches, stretches[-1:])):
         if look == "virtual" and not virtual:
             continue
@@ -274,7 +266,7 @@ def _runs(looks: np.ndarray) -> list[tuple[int, int, str]]:
 
 
 def _equilibrium_branch(axes: Axes, diagram: Diagram, branch: EquilibriumBranch, virtual: bool) -> None:
-    unit = parameter_unit(diagram.axis.field)
+    unit = diagram.axis.field.usual_size
     look = LOOKS[_EQUILIBRIA[branch.kind]]
     height = _heights(diagram, branch)
     for allowed, alpha in ((branch.admissible, 1.0), (~branch.admissible, 0.35)):

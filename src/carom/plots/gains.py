@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from types import MappingProxyType
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -22,7 +22,7 @@ from carom.parameters.told import shown_in
 from carom.plots.plane import Floats, one_axes
 from carom.plots.style import ONE_COLUMN, TWO_COLUMNS, styled
 from carom.plots.sweeps import blank_cells, cell_edges, colour_bar, shaded_cells
-from carom.plots.words import number, parameter_label, parameter_unit
+from carom.plots.words import number, parameter_label
 
 if TYPE_CHECKING:
     from carom.basins import GainChange, GainMap
@@ -108,18 +108,15 @@ def gain_map(
         words["no-levitation"] = "no levitation (in the middle of the cell)"
     handles: list[Line2D | Patch] = [*blank_cells(drawn, edges, blank, words)]
     handles += _contours(drawn, x, y, np.ma.masked_where(grounded, found.dataset["recovered"].values))
-    drawn.plot(*here, marker="*", ms=9.0, mfc="white", mec="#1a1a1a", mew=0.7, ls="none", gid="present", clip_on=False)
     said = f"present machine: {number(100.0 * found.present_share.fraction, 3)} % come back"
-    handles.append(Line2D([], [], marker="*", ms=9.0, mfc="white", mec="#1a1a1a", mew=0.7, ls="none", label=said))
+    star: dict[str, Any] = {"marker": "*", "ms": 9.0, "mfc": "white", "mec": "#1a1a1a", "mew": 0.7, "ls": "none"}
+    handles += drawn.plot(*here, **star, gid="present", clip_on=False, label=said)
     if change is not None and change.size > 0.0:
         there = told[0].of(change.values[0]), told[1].of(change.values[1])
         parts = zip(told, change.told(found, told_by), strict=True)
         said = ", ".join(f"{each.name} {100.0 * part:+.3g} %".replace("-", "\N{MINUS SIGN}") for each, part in parts)
         handles.append(_arrow(drawn, here, there, f"least change found for {100 * change.wanted:g} %: {said}"))
-    drawn.set_xlabel(told[0].label)
-    drawn.set_ylabel(told[1].label)
-    drawn.set_xlim(x[0], x[-1])
-    drawn.set_ylim(y[0], y[-1])
+    drawn.set(xlabel=told[0].label, ylabel=told[1].label, xlim=(x[0], x[-1]), ylim=(y[0], y[-1]))
     if title:
         drawn.set_title(title)
     wide = max(len(str(handle.get_label())) for handle in handles) > _HALF
@@ -184,7 +181,7 @@ class _Told(NamedTuple):
 
 def _told(axis: Axis, now: float, case: Case | None) -> _Told:
     """Tell a parameter in the terms of a machine's file; stiffness and damping are named as gains of a position controller."""
-    unit, field = parameter_unit(axis.field), axis.field
+    unit, field = axis.field.usual_size, axis.field
     label, name = parameter_label(field), _NAMES.get(axis.name, "")
     if case is None:
         return _Told(f"{name}: {label}" if name else label, name or axis.name, lambda value: value / unit)

@@ -18,7 +18,7 @@ from carom.plots.bands import bands_over_time, drawing_times
 from carom.plots.figure import StyledFigure, narrow
 from carom.plots.plane import MANY_POINTS, Floats, finish, key, marker_size, one_axes, orbit_impacts, orbit_path, point
 from carom.plots.style import LOOKS, ONE_COLUMN, TWO_COLUMNS, ZONE_SHADES, Look, styled
-from carom.plots.words import axis_label, axis_time, clearance, ending, orbit_look, orbit_title, told_in
+from carom.plots.words import axis_label, axis_time, clearance, orbit_look, orbit_title, told_in
 
 if TYPE_CHECKING:
     from carom.motions.trajectories import Trajectory
@@ -95,8 +95,7 @@ def draw_radius(axes: Axes, history: History, zones: Zones | None = None) -> Non
     if history.trajectory is not None:
         bands_over_time(axes, history.trajectory)
     _marks(axes, history)
-    axes.set_xlabel(axis_time(history.scales))
-    axes.set_ylabel(axis_label("radius $r$", "length", history.scales))
+    axes.set(xlabel=axis_time(history.scales), ylabel=axis_label("radius $r$", "length", history.scales))
     if zones is not None:
         _bands(axes, zones, history.wall)
 
@@ -234,7 +233,7 @@ def _marks(axes: Axes, history: History) -> None:
             )
     if history.trajectory is not None and history.trajectory.outcome is not Outcome.TIME_REACHED:
         last = complex(history.times[-1], history.radius[-1])
-        point(axes, last, "end", label=f"end: {ending(history.trajectory.outcome)}", clip=False)
+        point(axes, last, "end", label=f"end: {history.trajectory.outcome.words}", clip=False)
 
 
 def _bands(axes: Axes, zones: Zones, wall: float) -> None:

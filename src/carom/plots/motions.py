@@ -18,7 +18,6 @@ from carom.plots.plane import (
     Frame,
     clearance_circle,
     direction_arrow,
-    faded_path,
     impacts,
     key,
     label_frame,
@@ -30,7 +29,7 @@ from carom.plots.plane import (
     point,
 )
 from carom.plots.style import LOOKS, ONE_COLUMN, TWO_COLUMNS, Look, styled
-from carom.plots.words import clearance, counted, ending, number, orbit_look, orbit_title, time_in_words, turns
+from carom.plots.words import clearance, counted, number, orbit_look, orbit_title, time_in_words, turns
 
 if TYPE_CHECKING:
     from carom.motions.trajectories import Trajectory
@@ -115,7 +114,6 @@ def _pattern_length(period: float) -> int:
 def motion(
     trajectory: Trajectory,
     since: float = 0.0,
-    fade: bool = False,
     title: str | None = None,
     turns: Count = 8,
     *,
@@ -130,8 +128,6 @@ def motion(
     ----------
     since : float
         Draw only what happens from this time on [1/Omega], to leave out a transient.
-    fade : bool
-        Draw the beginning pale, to emphasize the motion that it settles to.
     title : str, optional
         Default: number of impacts and outcome in words.
     turns : int
@@ -156,34 +152,29 @@ def motion(
         if long:
             _before(drawn, trajectory, frame, since, last, _FIRST * turns * math.tau)
         words = f"{LOOKS['path'].words}, last {counted(turns, 'turn')}" if long else LOOKS["path"].words
-        _stretch(drawn, trajectory, frame, (last, trajectory.time), replace(LOOKS["path"], words=words), fade)
+        _stretch(drawn, trajectory, frame, (last, trajectory.time), replace(LOOKS["path"], words=words))
         bands_on_the_circle(drawn, trajectory, frame, since)
         ends = clearance(trajectory.rotor.scales) * trajectory.position(np.array([since, trajectory.time]), frame)
         point(drawn, complex(ends[0]), "start", size=3.5)
-        point(drawn, complex(ends[1]), "end", size=5.5, label=f"end: {ending(trajectory.outcome)}")
+        point(drawn, complex(ends[1]), "end", size=5.5, label=f"end: {trajectory.outcome.words}")
     wall = clearance(trajectory.rotor.scales)
     _levitation(frames[0], complex(trajectory.rotor.system.arrays.offsets[trajectory.plane]), wall)
     if axes is None:
         time = time_in_words(trajectory.time, trajectory.rotor.scales)
-        words = f"{counted(len(trajectory.contacts), 'impact')} in {time} \N{EM DASH} {ending(trajectory.outcome)}"
+        words = f"{counted(len(trajectory.contacts), 'impact')} in {time} \N{EM DASH} {trajectory.outcome.words}"
         figure.suptitle(title or words)
         key(figure, frames, columns=4)
     return figure
 
 
-def _stretch(
-    axes: Axes, trajectory: Trajectory, frame: Frame, ends: tuple[float, float], look: Look, fade: bool = False
-) -> None:
+def _stretch(axes: Axes, trajectory: Trajectory, frame: Frame, ends: tuple[float, float], look: Look) -> None:
     """Draw the path and the impacts of a stretch of a motion."""
     times = drawing_times(trajectory, *ends)
     times = np.append(ends[0], times[times > ends[0]])
     wall = clearance(trajectory.rotor.scales)
     line = wall * trajectory.position(times, frame)
     flight = np.where(flying(trajectory, times), line, complex(np.nan, np.nan))
-    if fade:
-        faded_path(axes, flight, look)
-    else:
-        path(axes, flight, look, wall=wall)
+    path(axes, flight, look, wall=wall)
     direction_arrow(axes, flight, look, fraction=0.9)
     log = trajectory.contacts
     shown = (log.time >= ends[0]) & (log.time <= ends[1])

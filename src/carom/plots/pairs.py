@@ -73,7 +73,7 @@ def basin_pair(panels: Sequence[tuple[str, Basin | Cells | str]], required: floa
     drawn[0].set(xlim=(-reach, reach), ylim=(-reach, reach))  # and so the others
     handles: list[Artist] = [look.named(_words(look, motions)) for look in motions]
     if required is not None:
-        handles.append(_circle([axes for axes in drawn if axes.axison], basins[0], required))
+        handles += _circle([axes for axes in drawn if axes.axison], basins[0], required)[:1]
     figure.legend(handles=handles, loc="outside lower center", ncols=2)
     return figure
 
@@ -138,13 +138,10 @@ def _write(axes: Axes, text: str) -> None:
     axes.text(0.5, 0.5, textwrap.fill(text, _LINE), ha="center", va="center", transform=axes.transAxes)
 
 
-def _circle(drawn: Sequence[Axes], basin: Cells, required: float) -> Artist:
-    """Draw the circle of what must be survived; return its entry of the legend."""
+def _circle(drawn: Sequence[Axes], basin: Cells, required: float) -> list[Line2D]:
+    """Draw the circle of what must be survived; return its lines."""
     factor, unit = basin.plan.model.coordinates[0].shown_in(basin.scales)
     turn = np.linspace(0.0, 2.0 * np.pi, 361)
-    dashes = (0.0, (4.0, 2.0))
-    colour = LOOKS["wall"].colour
-    for axes in drawn:
-        axes.plot(*around(turn, np.array(factor * required)), ls=dashes, lw=0.8, color=colour, gid="required")
-    label = f"must survive: up to {number(factor * required, 3)} {formula(unit)}"
-    return Line2D([], [], ls=dashes, lw=0.8, color=colour, label=label)
+    look: dict[str, Any] = {"ls": (0.0, (4.0, 2.0)), "lw": 0.8, "color": LOOKS["wall"].colour, "gid": "required"}
+    look["label"] = f"must survive: up to {number(factor * required, 3)} {formula(unit)}"
+    return [line for axes in drawn for line in axes.plot(*around(turn, np.array(factor * required)), **look)]

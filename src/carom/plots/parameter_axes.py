@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from carom.parameters.conversions import CONVERSIONS
 from carom.parameters.fields import MACHINE_FIELDS, PHYSICAL_PARTNER, Field
 from carom.parameters.told import number as plain
-from carom.plots.words import number, parameter_label, parameter_unit
+from carom.plots.words import number, parameter_label
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -28,7 +28,7 @@ def label_parameter(axes: Axes, direction: Literal["x", "y"], field: Field, scal
     if partner is None or scales is None:
         axes.set(**{f"{direction}label": label})
         return False
-    conversion, size = CONVERSIONS[field.name], parameter_unit(partner)
+    conversion, size = CONVERSIONS[field.name], partner.usual_size
 
     def to_machine(values: ArrayLike) -> Any:
         return conversion.value(np.asarray(values, float), scales) / size
@@ -60,7 +60,7 @@ def told_parameter(value: float, field: Field, scales: Scales | None) -> str:
     partner = _partner(field, scales)
     if partner is not None and scales is not None:
         value, field = float(CONVERSIONS[field.name].value(value, scales)), partner
-    return f"{number(value / parameter_unit(field))} {field.usual_unit}".rstrip()
+    return f"{number(value / field.usual_size)} {field.usual_unit}".rstrip()
 
 
 def _partner(field: Field, scales: Scales | None) -> Field | None:

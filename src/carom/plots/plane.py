@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from itertools import pairwise
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
-from matplotlib.collections import LineCollection
-from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 from matplotlib.legend import Legend
 from numpy.typing import NDArray
@@ -33,8 +30,6 @@ MANY_MARKERS = 2_000
 
 Frame = Literal["rotating", "fixed"]
 
-_PIECES = 60
-"""Number of tints of a path that fades."""
 _MARGIN = 1.25
 """Size of an enlarged square, relative to what it shows."""
 _TOP_AXIS = 0.34
@@ -49,14 +44,12 @@ def clearance_circle(axes: Axes, reach: float = 1.12, wall: float = 1.0) -> None
     """
     _wall(axes, np.linspace(0.0, 2.0 * np.pi, 721), wall)
     reach = reach * wall
-    axes.set_xlim(-reach, reach)
-    axes.set_ylim(-reach, reach)
+    axes.set(xlim=(-reach, reach), ylim=(-reach, reach))
     decade = 10.0 ** np.floor(np.log10(0.5 * reach))
     step = decade * max(nice for nice in (1.0, 2.0, 5.0) if nice * decade <= 0.5 * reach)
     whole = np.floor(reach / step)
     ticks = step * np.arange(-whole, whole + 1.0)
-    axes.set_xticks(ticks)
-    axes.set_yticks(ticks)
+    axes.set(xticks=ticks, yticks=ticks)
 
 
 def _wall(axes: Axes, angle: Floats, wall: float) -> None:
@@ -112,24 +105,6 @@ def with_neighbours(part: NDArray[np.bool_]) -> NDArray[np.bool_]:
     wide[1:] |= part[:-1]
     wide[:-1] |= part[1:]
     return wide
-
-
-def faded_path(axes: Axes, position: Complex, look: Look) -> None:
-    """Draw a path whose beginning is pale and whose end has the full colour.
-
-    Opaque tints are used, because transparency would show dots where a path crosses itself.
-    """
-    colour = np.array(to_rgb(look.colour))
-    position = position[: np.flatnonzero(~np.isnan(position)).max(initial=0) + 1]
-    ends = np.unique(np.linspace(0, len(position) - 1, _PIECES + 1).astype(int))
-    points = np.column_stack((position.real, position.imag))
-    segments = [points[first : last + 1] for first, last in pairwise(ends)]
-    strength = np.linspace(0.2, 1.0, len(segments)) ** 1.5
-    tints = [tuple(1.0 - s * (1.0 - colour)) for s in strength]
-    drawn = LineCollection(segments, colors=tints, linewidths=look.width, gid="path")
-    drawn.set_rasterized(len(position) > MANY_POINTS)
-    axes.add_collection(drawn)
-    axes.plot([], [], **look.stroke, label=f"{look.words} (early part pale)")
 
 
 def direction_arrow(axes: Axes, position: Complex, look: Look, fraction: float = 0.4) -> None:
@@ -250,8 +225,7 @@ def magnifier(axes: Axes, shown: Complex, words: str = "enlarged ", wall: float 
         (centre.real - side / 2, centre.imag - side / 2, side, side), transform=axes.transData, gid="magnifier"
     )
     look_closer(inner, middle, half, wall)
-    inner.set_xticks(())
-    inner.set_yticks(())
+    inner.set(xticks=(), yticks=())
     inner.set_title(f"{words}{times_larger(side / (2.0 * half))} times", fontsize=7, pad=2)
     # Otherwise the layout would reserve space for the enlarged piece.
     inner.set_in_layout(False)
@@ -263,8 +237,7 @@ def look_closer(axes: Axes, middle: complex, half: float, wall: float = 1.0) -> 
     """Show the square of half-width `half` around `middle`, with its piece of the clearance circle."""
     # Only the visible arc, so finely resolved that impact points lie on it at any enlargement.
     _wall(axes, np.angle(middle) + np.linspace(-4.0, 4.0, 361) * half / wall, wall)
-    axes.set_xlim(middle.real - half, middle.real + half)
-    axes.set_ylim(middle.imag - half, middle.imag + half)
+    axes.set(xlim=(middle.real - half, middle.real + half), ylim=(middle.imag - half, middle.imag + half))
 
 
 def one_axes(axes: Axes | None, size: tuple[float, float]) -> tuple[Figure, Axes]:

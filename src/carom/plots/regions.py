@@ -21,7 +21,7 @@ from carom.plots.parameter_axes import label_parameter
 from carom.plots.plane import Floats, legend_above
 from carom.plots.proven import proven_line
 from carom.plots.style import TWO_COLUMNS, styled
-from carom.plots.words import parameter_unit, with_symbols
+from carom.plots.words import with_symbols
 
 if TYPE_CHECKING:
     from carom.bifurcations import Region, RegionMap
@@ -75,7 +75,7 @@ def _drawn(
     lines = [with_symbols(line) for line in lines]
     figure = StyledFigure(figsize=(TWO_COLUMNS, _HEIGHT * TWO_COLUMNS + _LINE * rows))
     drawn = figure.subplots()
-    units = np.array([parameter_unit(axis.field) for axis in found.axes])
+    units = np.array([axis.field.usual_size for axis in found.axes])
     # Draw the broad line of non-smooth Hopf bifurcations below all others, and what is proven between them.
     for curve in found.curves:
         if curve.kind == "non-smooth-hopf":
@@ -87,8 +87,7 @@ def _drawn(
     scales = found.model.scales
     aside = label_parameter(drawn, "x", found.axes[0].field, scales, own=drawn)
     label_parameter(drawn, "y", found.axes[1].field, scales, own=drawn)
-    drawn.set_xlim(*(np.array(found.plane.first_range) / units[0]))
-    drawn.set_ylim(*(np.array(found.plane.second_range) / units[1]))
+    drawn.set(xlim=np.array(found.plane.first_range) / units[0], ylim=np.array(found.plane.second_range) / units[1])
     legend_above(
         drawn, [*_curve_key(found, virtual), *_mark_points(drawn, found, units, virtual), *key], 3, aside=aside
     )

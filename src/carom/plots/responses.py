@@ -115,8 +115,7 @@ def _amplitudes(axes: Axes, response: UnbalanceResponse, speeds: Floats, width: 
     limit = 1e6 * _limit(response)
     axes.plot(speeds, limit, **_LIMIT.stroke, label=_LIMIT.words, zorder=2)
     _half_power(axes, response, width, top)
-    axes.set_ylim(0.0, width * top)
-    axes.set_ylabel("vibration (µm peak to peak)")
+    axes.set(ylim=(0.0, width * top), ylabel="vibration (µm peak to peak)")
     radius_now = float(response.contact_free.amplitude(np.array(response.present)))
     if radius_now <= 1.0 and response.interval[0] <= response.present <= response.interval[1]:
         dot: dict[str, Any] = {"marker": "o", "ms": 4.5, "color": _FREE.colour, "mec": "#1a1a1a", "mew": 0.8}

@@ -43,8 +43,7 @@ def dial(basin: Basin, motions: list[MotionLook], title: str | None) -> Figure:
     figure, axes = _painted_ring(basin, motions)
     axes.set_aspect("equal")
     axes.set_axis_off()
-    axes.set_xlim(-1.3, 1.3)
-    axes.set_ylim(-1.2, 1.2)
+    axes.set(xlim=(-1.3, 1.3), ylim=(-1.2, 1.2))
     axes.annotate("", (0.75, 0.0), (0.0, 0.0), arrowprops={"arrowstyle": "-|>", "color": "#1a1a1a"})
     for turned in (0, 90, 180, 270):
         place = np.radians(turned)

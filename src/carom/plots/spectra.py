@@ -91,10 +91,7 @@ def _circle(axes: Axes, radius: float, colour: str, width: float, gid: str) -> N
 def _linear_plane(axes: Axes, largest: float) -> None:
     reach = 1.08 * max(1.1, largest)
     ticks = np.arange(-2.0, 2.01, 0.5)
-    axes.set_xticks(ticks)
-    axes.set_yticks(ticks)
-    axes.set_xlim(-reach, reach)
-    axes.set_ylim(-reach, reach)
+    axes.set(xticks=ticks, yticks=ticks, xlim=(-reach, reach), ylim=(-reach, reach))
     axes.set_xlabel(r"real part of the multiplier, Re $\lambda$ (no unit)")
     axes.set_ylabel(r"imaginary part of the multiplier, Im $\lambda$ (no unit)")
 
@@ -113,10 +110,7 @@ def _logarithmic_plane(axes: Axes, largest: float) -> None:
         if power or len(decades) <= 3:
             box = {"boxstyle": "square,pad=0.15", "facecolor": "white", "edgecolor": "none"}
             axes.text(place.real, place.imag, f"{modulus}", fontsize=6, ha="center", va="center", bbox=box, zorder=2)
-    axes.set_xlim(-reach, reach)
-    axes.set_ylim(-reach, reach)
-    axes.set_xticks(())
-    axes.set_yticks(())
+    axes.set(xlim=(-reach, reach), ylim=(-reach, reach), xticks=(), yticks=())
     axes.set_xlabel(
         "direction of Re $\\lambda$ (circles: $|\\lambda|$, no unit; distance from the\n"
         "centre $|\\lambda|$ up to 1, $1+\\log_{10}|\\lambda|$ beyond)"
@@ -174,8 +168,6 @@ def spectrum(full: FullSpectrum, *, axes: Axes | None = None) -> Figure:
     drawn.set_xticks(ticks, [f"{tick:+d}X".replace("-", "\N{MINUS SIGN}") if tick else "0" for tick in ticks])
     drawn.set_xlim(full.orders[0], full.orders[-1])
     drawn.set_ylim(floor, 2.0 * float(sizes.max()))
-    drawn.set_yscale("log")
-    drawn.set_xlabel("multiple of the shaft speed")
-    drawn.set_ylabel(f"amplitude ({unit})")
+    drawn.set(yscale="log", xlabel="multiple of the shaft speed", ylabel=f"amplitude ({unit})")
     drawn.legend(loc="upper left")
     return figure

@@ -26,7 +26,7 @@ from carom.parameters import SETTABLE, Field
 from carom.parameters.told import shown_from_si
 from carom.plots.plane import Floats, legend_above, one_axes
 from carom.plots.style import ONE_COLUMN, TWO_COLUMNS, Look, styled
-from carom.plots.words import parameter_label, parameter_unit
+from carom.plots.words import parameter_label
 
 if TYPE_CHECKING:
     import xarray
@@ -114,7 +114,7 @@ def sweep_map(
     places, sizes = [], []
     for dimension, direction in zip(dimensions, "xy", strict=False):
         varied = _field(data[dimension])
-        sizes.append(parameter_unit(varied))
+        sizes.append(varied.usual_size)
         places.append(data[dimension].values / sizes[-1])
         set_up = {f"{direction}label": parameter_label(varied)}
         if spacings[dimension] == "log":

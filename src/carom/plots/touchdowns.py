@@ -87,8 +87,7 @@ def regimes(trajectory: Trajectory, *, axes: Axes | None = None) -> Figure:
     drawn.set_ylim(-0.1, 2.1)
     drawn.set_yticks([0.475, 1.525], ["whirl", "regime"])
     drawn.tick_params(axis="y", length=0)
-    drawn.set_xlim(0.0, unit * trajectory.time)
-    drawn.set_xlabel(axis_time(scales))
+    drawn.set(xlim=(0.0, unit * trajectory.time), xlabel=axis_time(scales))
     if axes is None:
         key(figure, [drawn], columns=4)
     return figure
@@ -130,8 +129,7 @@ def forces(trajectory: Trajectory, *, axes: Axes | None = None) -> Figure:
         drawn.set_yticks([])
         words = "no lasting contact" if len(trajectory.contacts) else "no contact"
         drawn.text(0.5, 0.94, words, transform=drawn.transAxes, ha="center", va="top", gid="no force")
-    drawn.set_xlabel(axis_time(scales))
-    drawn.set_xlim(0.0, told_in("time", scales)[0] * trajectory.time)
+    drawn.set(xlabel=axis_time(scales), xlim=(0.0, told_in("time", scales)[0] * trajectory.time))
     if len(trajectory.contacts):
         _impulses(drawn, trajectory)
     if axes is None:
@@ -189,8 +187,7 @@ def _impulses(axes: Axes, trajectory: Trajectory) -> None:
         beside.vlines(times, 0.0, heights, color=look.colour, lw=0.5)
     beside.plot(times, heights, "o", ms=1.8, color=look.colour, label="normal impulse (right axis)")
     # Leave room above for the words that say that there is no force.
-    beside.set_ylim(0.0, None if trajectory.lasting_contacts else 1.25 * heights.max())
-    beside.set_ylabel(f"impulse ({name})")
+    beside.set(ylim=(0.0, None if trajectory.lasting_contacts else 1.25 * heights.max()), ylabel=f"impulse ({name})")
     axes.plot([], [], "o", ms=1.8, color=look.colour, label="normal impulse (right axis)")
 
 
@@ -208,9 +205,7 @@ def energies(ledger: EnergyLedger, *, axes: Axes | None = None) -> Figure:
         values = getattr(ledger, name)
         if name != "circulatory" or values.any():
             drawn.plot(times, unit * values, **look.stroke, label=look.words)
-    drawn.set_xlim(0.0, float(times[-1]))
-    drawn.set_xlabel(axis_time(scales))
-    drawn.set_ylabel(f"energy, work since the start ({short})")
+    drawn.set(xlim=(0.0, float(times[-1])), xlabel=axis_time(scales), ylabel=f"energy, work since the start ({short})")
     if axes is None:
         key(figure, [drawn], columns=3)
     return figure

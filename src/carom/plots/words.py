@@ -6,7 +6,6 @@ import math
 import re
 from typing import TYPE_CHECKING
 
-from carom.outcome import Outcome
 from carom.parameters.told import shown_in
 from carom.plots.style import LOOKS
 
@@ -44,11 +43,6 @@ def orbit_words(orbit: Orbit) -> str:
 def orbit_title(orbit: Orbit) -> str:
     """Return the same, with the reason if the orbit is virtual."""
     return orbit_words(orbit) if orbit.admissible or not orbit.reason else f"{orbit_words(orbit)}: {orbit.reason}"
-
-
-def ending(outcome: Outcome) -> str:
-    """Describe how a motion ended, briefly enough for a legend."""
-    return outcome.words
 
 
 def number(value: float, digits: int = 4) -> str:
@@ -109,11 +103,6 @@ def axis_label(words: str, kind: str, scales: Scales | None) -> str:
 def axis_time(scales: Scales | None) -> str:
     """Return the axis label of the time."""
     return axis_label("time $t$", "time", scales)
-
-
-def parameter_unit(field: Field) -> float:
-    """Return the divisor of a parameter in figures, which show it in the unit in which people usually say it."""
-    return field.usual_size
 
 
 def parameter_label(field: Field, unit: str | None = None) -> str:

@@ -7,7 +7,7 @@ import json
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -23,7 +23,7 @@ from carom.sweeps.variables import STATUS
 
 if TYPE_CHECKING:
     from carom.models import Model, Subject
-    from carom.sweeps.variables import Dimension, Variable
+    from carom.sweeps.variables import Variable
 else:
     Model = Subject = object  # imported when a plan is made, and refused there
 
@@ -33,38 +33,8 @@ SECONDS_A_CHUNK = 4.0
 """Estimated computing time of a chunk whose size is not given."""
 
 
-class Task(Protocol):
-    """What is computed at each point of a grid."""
-
-    @property
-    def kind(self) -> str:
-        """Name of its table in the sweep file."""
-
-    @property
-    def variables(self) -> tuple[Variable, ...]:
-        """What is stored for each point."""
-
-    @property
-    def dimensions(self) -> tuple[Dimension, ...]:
-        """Dimensions of the variables besides the axes."""
-
-    @property
-    def starts(self) -> int:
-        """Motions at each point."""
-
-    @property
-    def words(self) -> str:
-        """Say which disturbances are tried at each point."""
-
-    @property
-    def seconds(self) -> float:
-        """Estimated computing time of a point, in seconds."""
-
-    def describe(self) -> dict[str, Any]:
-        """Return what identifies the task, as plain data for JSON."""
-
-    def evaluate(self, case: Case | Model, seed: np.random.SeedSequence) -> dict[str, Any]:
-        """Compute the values of one machine by variable name."""
+Task = StudyTask | BasinsTask
+"""What is computed at each point of a grid."""
 
 
 @dataclass(frozen=True)

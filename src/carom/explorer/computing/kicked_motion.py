@@ -90,7 +90,7 @@ def follow_kick(
     motion = simulate(rotor, start, settle=True, progress=progress)
     # A motion is settled once its end is known, which may be long before it has arrived there.
     shown = simulate(rotor, start, _shown_until(rotor, motion), max_events=MOST_EVENTS)
-    times = _instants(shown)
+    times = shown.sample(max(LEAST_SAMPLES, int(PER_TURN * shown.time / math.tau)))
     position, _ = shown.at_plane(times)
     log = shown.contacts
     _, (name,) = name_motions(rotor, settle(rotor, np.array([start.position]), np.array([start.velocity])))
@@ -109,13 +109,7 @@ def follow_kick(
         whole=shown.time >= motion.time,
         outcome=motion.outcome.label,
         colour=look.colour,
-        words=_words(
-            rotor,
-            motion,
-            begin,
-            hardest,
-            MotionLook(0, name, look, look.colour, 1.0).words,
-        ),
+        words=_words(rotor, motion, begin, hardest, MotionLook(0, name, look, look.colour, 1.0).words),
         hardest=hardest,
     )
 
@@ -130,11 +124,6 @@ def _shown_until(rotor: Jeffcott, motion: Trajectory) -> float:
     if len(events) > MOST_IMPACTS:
         end = min(end, float(events[MOST_IMPACTS]))
     return min(end, LONGEST_BOUNCING if motion.outcome in REPEATING else LONGEST)
-
-
-def _instants(motion: Trajectory) -> np.ndarray:
-    """Evenly spaced times, every event, and the last instant before each."""
-    return motion.sample(max(LEAST_SAMPLES, int(PER_TURN * motion.time / math.tau)))
 
 
 def _span(stretch: LastingContact) -> Span:

@@ -80,22 +80,12 @@ def _moving_line(**look: Any) -> Span:
 
 def _history(parts: dict[str, Any]) -> Any:
     """Radius over time: flight as a line, lasting contact shaded, impacts as marks on the wall."""
-    plot = _plot(
-        "history",
-        _range(parts, "history_x", 0, 1),
-        _range(parts, "history_y", 0, 1.06),
-    )
+    plot = _plot("history", _range(parts, "history_x", 0, 1), _range(parts, "history_y", 0, 1.06))
     plot.add_layout(Span(location=1.0, dimension="width", line_color=LOOKS["wall"].colour, line_width=1.5, name="wall"))
     spans = _source(parts, "spans", "left", "right", "bottom", "top", "colour")
     plot.quad("left", "right", "top", "bottom", source=spans, fill_color="colour", fill_alpha=0.35, line_alpha=0.0)
-    plot.line(
-        "t",
-        "r",
-        source=_source(parts, "history", "t", "r"),
-        line_width=1.4,
-        line_color=LOOKS["path"].colour,
-        name="path",
-    )
+    path = _source(parts, "history", "t", "r")
+    plot.line("t", "r", source=path, line_width=1.4, line_color=LOOKS["path"].colour, name="path")
     struck = _source(parts, "struck", "t", "r", "colour", "marker")
     plot.scatter("t", "r", source=struck, marker="marker", size=6, color="colour", name="struck")
     parts["now"] = _moving_line(line_color=LOOKS["virtual"].colour, line_dash="dashed")
@@ -105,11 +95,7 @@ def _history(parts: dict[str, Any]) -> Any:
 
 def _section(parts: dict[str, Any]) -> Any:
     """Section at the impacts: angle and radial speed just before each."""
-    plot = _plot(
-        "section",
-        _range(parts, "section_x", -180, 180),
-        _range(parts, "section_y", 0, 1),
-    )
+    plot = _plot("section", _range(parts, "section_x", -180, 180), _range(parts, "section_y", 0, 1))
     plot.xaxis.ticker = [-180, -90, 0, 90, 180]
     source = _source(parts, "section", "angle", "speed", "colour", "marker")
     plot.scatter("angle", "speed", source=source, marker="marker", size=7, color="colour", fill_alpha=0.75)

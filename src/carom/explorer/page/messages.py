@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import asdict
+from dataclasses import asdict, fields
 from typing import Any
 
 from carom.basins import Share
 from carom.basins.shares import percent
 from carom.closed_forms import harmless_blade_loss, harmless_kick, harmless_shock
 from carom.explorer.computing.controls import Control
-from carom.explorer.computing.diagrams import Picture
-from carom.explorer.computing.judgement import Judgement, Loss
+from carom.explorer.computing.diagrams import Picture, Point
+from carom.explorer.computing.judgement import Loss
 from carom.explorer.computing.kicked_motion import KickedMotion
 from carom.explorer.computing.kicks import KickMap
 from carom.explorer.computing.motions import MotionTable
@@ -20,6 +19,7 @@ from carom.models import Jeffcott
 from carom.parameters import Scales
 from carom.parameters.told import number, shown_in, told
 from carom.plots.style import LOOKS
+from carom.results import fields_of
 from carom.studies import Wording
 
 Message = dict[str, Any]
@@ -94,9 +94,8 @@ def plane_harmless(found: KickMap, rotor: Jeffcott) -> float:
         return harmless_kick(rotor)
     if found.plane.name == "shock":
         return harmless_shock(rotor, found.plane.lasting(rotor))
-    return max(
-        harmless_blade_loss(rotor) - rotor.parameters.rho, 0.0
-    )  # changes of the present unbalance up to this size
+    # Changes of the present unbalance up to this size.
+    return max(harmless_blade_loss(rotor) - rotor.parameters.rho, 0.0)
 
 
 def _sentence(found: KickMap, share: Share, words: str) -> str:
@@ -111,11 +110,9 @@ def motion_message(motion: KickedMotion, rotor: Jeffcott) -> Message:
     """A motion, with the factors of its axes."""
     say = Wording(rotor.scales)
     return {
-        **{name: getattr(motion, name) for name in ("times", "x", "y")},
-        **{name: getattr(motion, name) for name in ("impact_times", "impact_angles", "impact_speeds", "impulses")},
+        **vars(motion),
         "forward": motion.forward.astype("uint8"),
         "spans": [asdict(span) for span in motion.spans],
-        **{name: getattr(motion, name) for name in ("whole", "outcome", "colour", "words", "hardest")},
         "hardest_words": say.impulse(motion.hardest) if motion.hardest else "no impact",
         **units_message(rotor.scales),
     }
@@ -124,11 +121,6 @@ def motion_message(motion: KickedMotion, rotor: Jeffcott) -> Message:
 def table_message(table: MotionTable) -> Message:
     """Rows of the table, and the argument that they are all."""
     return {"rows": [asdict(row) for row in table.rows], "argument": table.argument}
-
-
-def verdict_message(found: Judgement) -> Message:
-    """The verdict in a sentence, what to change, and what is survived of each kind of disturbance."""
-    return {"lead": found.lead, "advice": found.advice, "survived": list(found.survived)}
 
 
 def loss_message(found: Loss, plane: Plane, scales: Scales | None) -> Message:
@@ -140,19 +132,9 @@ def loss_message(found: Loss, plane: Plane, scales: Scales | None) -> Message:
 def diagram_message(picture: Picture) -> Message:
     """Lines, bars and points of a diagram, by column."""
     return {
-        "name": picture.control.name,
-        "words": picture.control.words,
-        "unit": picture.control.unit,
-        "low": picture.control.low,
-        "high": picture.control.high,
-        "speed_unit": picture.speed_unit,
-        "top": picture.top,
+        **fields_of(picture.control, "name", "words", "unit", "low", "high"),
+        **fields_of(picture, "speed_unit", "top"),
         "lines": [asdict(line) for line in picture.lines],
         "bars": [asdict(bar) for bar in picture.bars],
-        "points": _columns([asdict(point) for point in picture.points]),
+        "points": {one.name: [getattr(point, one.name) for point in picture.points] for one in fields(Point)},
     }
-
-
-def _columns(rows: Sequence[Message]) -> Message:
-    names = ("x", "y", "words", "colour", "admissible")
-    return {name: [row[name] for row in rows] for name in names}

@@ -24,6 +24,7 @@ from carom.models import Jeffcott
 from carom.outcome import CaromError, InputError
 from carom.parameters import Case
 from carom.progress import Progress
+from carom.results import fields_of
 
 COARSE, FINE = 60, 120
 """Cells along each side of the picture while a slider is dragged, and after that."""
@@ -130,11 +131,11 @@ class Session:
         self._reply(number, problem)
         self._long.drop()
         self._left = {}
-        self._ask(self._quick, "basin", self._coarse, "basin", None if held else self._finish)
+        self._ask("basin", self._coarse, None if held else self._finish)
         pause = PAUSE if held else 0.0
         for slot in SLOTS:
-            self._ask_quick(slot, self._motion(slot), pause)
-        self._ask_quick("table", lambda shown, tell: messages.table_message(table_of(shown.rotor)), pause)
+            self._ask(slot, self._motion(slot), pause=pause)
+        self._ask("table", lambda shown, tell: messages.table_message(table_of(shown.rotor)), pause=pause)
 
     def _usable(self, asked: Mapping[str, str]) -> tuple[Mapping[str, str], Case, InputError | None]:
         """Settings with what cannot be used left as it is shown, their machine, and what cannot be used."""
@@ -165,7 +166,7 @@ class Session:
             "loss": self._loss,
             "hardest": lambda shown, tell: vars(find_hardest(shown.rotor, shown.plane, self._judged(shown), tell)),
             "diagram": self._diagram,
-            "verdict": lambda shown, tell: messages.verdict_message(judge(shown.case, tell)),
+            "verdict": lambda shown, tell: fields_of(judge(shown.case, tell), "lead", "advice", "survived"),
         }
         self._left = {kind: work for kind, work in self._left.items() if kind in self._wanted}
         self.resume()
@@ -178,7 +179,7 @@ class Session:
         kicks = list(self._kicks(self._shown))
         kicks[slot] = kick
         self._shown = replace(self._shown, view=replace(self._shown.view, kicks=tuple(kicks), active=slot))
-        self._ask_quick(SLOTS[slot], self._motion(SLOTS[slot]))
+        self._ask(SLOTS[slot], self._motion(SLOTS[slot]))
         if request.get("chosen"):
             self._answer("exports", self._exports())
 
@@ -190,7 +191,7 @@ class Session:
     def resume(self) -> None:
         """Start again what takes long and has not been done for the machine shown."""
         for kind, work in tuple(self._left.items()):
-            self._ask(self._long, kind, work, "basin" if kind == "fine" else kind)
+            self._ask(kind, work)
         if not self._left:
             self._answer("state", {"kind": "idle"})
 
@@ -266,20 +267,9 @@ class Session:
             "python": as_python(shown.case, kick, self.controls[shown.along]),
         }
 
-    def _ask_quick(self, kind: str, work: Work, pause: float = 0.0) -> None:
-        self._ask(self._quick, kind, work, kind, pause=pause)
-
-    def _ask(
-        self,
-        worker: Worker,
-        kind: str,
-        work: Work,
-        name: str,
-        afterwards: Callable[[], None] | None = None,
-        pause: float = 0.0,
-    ) -> None:
+    def _ask(self, kind: str, work: Work, afterwards: Callable[[], None] | None = None, pause: float = 0.0) -> None:
         """Have work done for the machine shown now and its result sent; then, if that is still shown, call `afterwards`."""
-        shown = self._shown
+        shown, name = self._shown, "basin" if kind == "fine" else kind
 
         def run(tell: Callable[[Progress], None]) -> Any:
             self._wait_for_kernels()
@@ -301,7 +291,7 @@ class Session:
             if afterwards is not None and self._shown.number == shown.number:
                 afterwards()
 
-        worker.submit(kind, Job(run, done, pause))
+        (self._long if kind in _LONG else self._quick).submit(kind, Job(run, done, pause))
 
     def _wait_for_kernels(self) -> None:
         if not self._ready.is_set():

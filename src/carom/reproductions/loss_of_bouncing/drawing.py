@@ -44,16 +44,13 @@ def loss_figure(found: LossOfBouncing) -> Figure:
     for axes, limits, samples in ((whole, RANGE, found.samples), (near, CLOSE, found.close)):
         _orbits(axes, found, limits)
         _impacts(axes, samples)
-        axes.set_xlim(*limits)
-        axes.set_ylim(-0.02, 1.06)
-        axes.set_ylabel(r"radial speed $\dot r$ ($c_\mathrm{r}\Omega$)")
+        axes.set(xlim=limits, ylim=(-0.02, 1.06), ylabel=r"radial speed $\dot r$ ($c_\mathrm{r}\Omega$)")
     whole.axvspan(*CLOSE, color="#eef2f6", zorder=0)
     whole.set_xlabel(DAMPING)
     _exponents(exponents, found.close)
     _lives(lives, found.close)
     shown = _destinations(ends, found.close)
-    ends.set_xlabel(DAMPING)
-    ends.set_xlim(*CLOSE)
+    ends.set(xlabel=DAMPING, xlim=CLOSE)
     headings = {
         "a": (whole, "orbits and impacts of motions started beside $B_{1,d}$"),
         "b": (near, "closer: from the period doubling down to the loss of bouncing"),
@@ -138,8 +135,7 @@ def _lives(axes: Axes, samples: tuple[BouncingSample, ...]) -> None:
             axes.plot(
                 [sample.gamma], [survival.interval[0]], ls="none", marker="^", ms=3.0, mfc="none", mec=INK, mew=0.5
             )
-    axes.set_yscale("log")
-    axes.set_ylabel("impacts")
+    axes.set(yscale="log", ylabel="impacts")
 
 
 def _destinations(axes: Axes, samples: tuple[BouncingSample, ...]) -> list[Patch]:
@@ -156,9 +152,7 @@ def _destinations(axes: Axes, samples: tuple[BouncingSample, ...]) -> list[Patch
         axes.stairs(base + shares, edges, baseline=base, fill=True, fc=look.colour, ec="#ffffff", lw=0.0, hatch=pattern)
         shown.append(Patch(fc=look.colour, ec="#ffffff", lw=0.0, hatch=pattern, label=words))
         base += shares
-    axes.set_ylim(0.0, 1.0)
-    axes.set_yticks([0.0, 1.0])
-    axes.set_ylabel("share")
+    axes.set(ylim=(0.0, 1.0), yticks=[0.0, 1.0], ylabel="share")
     return shown
 
 

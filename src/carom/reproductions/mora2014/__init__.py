@@ -18,67 +18,36 @@
 :func:`radius_diagram` (figure 5), :func:`four_curves` and :func:`damping_stiffness_plane` (figure 6b).
 """
 
-from carom.reproductions.mora2014.branches import FirstPair, first_pair
-from carom.reproductions.mora2014.document import markdown, paper_document
-from carom.reproductions.mora2014.extrema import (
-    Extremum,
-    ExtremumLine,
-    RadiusDiagram,
-    extremum_lines,
-    radius_diagram,
-    radius_extrema,
-)
+from carom.reproductions.mora2014.branches import first_pair
+from carom.reproductions.mora2014.document import paper_document
+from carom.reproductions.mora2014.extrema import radius_diagram
 from carom.reproductions.mora2014.misprinted_forms import Misprint, misprints
-from carom.reproductions.mora2014.motions import ShownMotion, shown_motions
-from carom.reproductions.mora2014.periods import (
-    Birth,
-    PeriodFunction,
-    PeriodPair,
-    birth,
-    period_functions,
-    period_pairs,
-)
+from carom.reproductions.mora2014.motions import shown_motions
+from carom.reproductions.mora2014.periods import birth, period_functions, period_pairs
 from carom.reproductions.mora2014.pictures import Picture, figures
-from carom.reproductions.mora2014.plane import DampingStiffnessPlane, NamedRegion, damping_stiffness_plane, four_curves
+from carom.reproductions.mora2014.plane import damping_stiffness_plane, four_curves
 from carom.reproductions.mora2014.printed_numbers import PrintedNumber, numbers
-from carom.reproductions.mora2014.reproduction import Periods, Reproduction, reproduce
+from carom.reproductions.mora2014.reproduction import Reproduction, reproduce
 from carom.reproductions.mora2014.source import machine_at
-from carom.reproductions.mora2014.statements import Claim, claims
 from carom.reproductions.mora2014.writing import write_paper
 
 __all__ = [
-    "Birth",
-    "Claim",
-    "DampingStiffnessPlane",
-    "Extremum",
-    "ExtremumLine",
-    "FirstPair",
     "Misprint",
-    "NamedRegion",
-    "PeriodFunction",
-    "PeriodPair",
-    "Periods",
     "Picture",
     "PrintedNumber",
-    "RadiusDiagram",
     "Reproduction",
-    "ShownMotion",
     "birth",
-    "claims",
     "damping_stiffness_plane",
-    "extremum_lines",
     "figures",
     "first_pair",
     "four_curves",
     "machine_at",
-    "markdown",
     "misprints",
     "numbers",
     "paper_document",
     "period_functions",
     "period_pairs",
     "radius_diagram",
-    "radius_extrema",
     "reproduce",
     "shown_motions",
     "write_paper",

@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING
 
 from carom.reproductions.mora2014.reproduction import Reproduction
+from carom.reproductions.mora2014.source import printed_texts
 from carom.results import Result
 
 if TYPE_CHECKING:
@@ -40,65 +41,35 @@ class Picture(Result):
 
 def figures(results: Reproduction) -> tuple[Picture, ...]:
     """List figures 2 to 6.  Nothing is drawn before :attr:`Picture.draw` is called."""
-    birth = results.pair.hopf.gamma
-    fold = results.pair.special("fold", "d").value
-    grazing = results.pair.special("grazing", "d").value
-    doubling = results.pair.special("period-doubling", "d").value
-    apart = results.pair.special("speed-fold", "c").value
+    pair, birth = results.pair, results.pair.hopf.gamma
+    gammas = {
+        "birth": birth,
+        "fold": pair.special("fold", "d").value,
+        "grazing": pair.special("grazing", "d").value,
+        "doubling": pair.special("period-doubling", "d").value,
+        "apart": pair.special("speed-fold", "c").value,
+    }
     meeting = results.plane.meeting("fold", "boundary-equilibrium").value
-    return (
-        Picture(
-            "figure-2",
-            "abc",
-            "Periodic motions in the fixed frame, in the co-rotating frame, and their radius over time. (a) Contact-free "
-            f"equilibrium, γ = 0.3. (b) Impacting orbit B1,d near grazing, γ = 0.065; it grazes at γ = {grazing:.6f}. "
-            f"(c) Impacting orbit B1,a near the non-smooth Hopf bifurcation at γ = {birth:.6f}, γ = 0.1.",
-            results.motions,
-            partial(_drawn, "figure_2", results.motions),
-        ),
-        Picture(
-            "figure-3",
-            "abc",
-            "(a) The period condition F₁ over the period T for two dampings; its zeros are the periods of orbits with one "
-            "impact. (b) The zeros over the damping: shorter and longer period of each pair, which meet in folds, the first at "
-            f"γ = {fold:.6f}. (c) Birth of the orbits B1,a and B1,b from levitation at γ = {birth:.6f}: "
-            "virtual below, admissible above (computed, where the source has a sketch).",
-            results.periods,
-            partial(_drawn, "figure_3", results.periods, birth),
-        ),
-        Picture(
-            "figure-4",
-            "abcd",
-            "Radial speed (a, b) and angular speed (c, d) just before the impact of the orbits B1,a to B1,d over the damping. "
-            f"B1,a and B1,c meet at γ = {apart:.6f}, a damping that no machine has. (b, d) The small orbits near their birth, with "
-            "the local theory as straight lines.",
-            results.pair,
-            partial(_drawn, "figure_4", results.pair),
-        ),
-        Picture(
-            "figure-5",
-            "ab",
-            "Local extrema of the radius between impacts over the damping, for (a) B1,a and B1,b, with the contact-free "
-            f"equilibrium, and (b) B1,c and B1,d, which grazes at γ = {grazing:.6f}.",
-            results.radii,
-            partial(_drawn, "figure_5", results.pair, results.radii),
-        ),
-        Picture(
-            "figure-6",
-            "ab",
-            f"(a) Largest modulus of the multipliers: only B1,d is ever stable, above γ = {doubling:.6f}. (b) The plane of "
-            "damping and stiffness. Beside the fold and the line where levitation meets the wall, which is a non-smooth Hopf "
-            f"bifurcation left of their meeting at ({meeting[0]:.5f}, {meeting[1]:.5f}), the curves of grazing and of period "
-            "doubling of B1,d and the fold of the rubs. In R3 a stable synchronous rub exists left of the last.",
-            (results.pair, results.plane),
-            partial(_drawn, "figure_6", results.pair, results.plane),
-        ),
+    found = {name: f"{gamma:.6f}" for name, gamma in gammas.items()}
+    found["meeting"] = f"{meeting[0]:.5f}, {meeting[1]:.5f}"
+    # What is shown, and what is drawn: the same, or its parts.
+    shown: dict[str, tuple[object, tuple[object, ...]]] = {
+        "figure-2": (results.motions, (results.motions,)),
+        "figure-3": (results.periods, (results.periods, birth)),
+        "figure-4": (pair, (pair,)),
+        "figure-5": (results.radii, (pair, results.radii)),
+        "figure-6": ((pair, results.plane), (pair, results.plane)),
+    }
+    return tuple(
+        Picture(**row, result=result, draw=partial(_drawn, row["name"], *parts))
+        for row in printed_texts("figures", found)
+        for result, parts in [shown[row["name"]]]
     )
 
 
-def _drawn(name: Literal["figure_2", "figure_3", "figure_4", "figure_5", "figure_6"], *results: object) -> Figure:
+def _drawn(name: str, *results: object) -> Figure:
     # Importing the drawing modules takes longer than computing.
     from carom.reproductions.mora2014 import drawing
 
-    draw: Callable[..., Figure] = getattr(drawing, name)
+    draw: Callable[..., Figure] = getattr(drawing, name.replace("-", "_"))
     return draw(*results)

@@ -2,7 +2,12 @@
 
 from __future__ import annotations
 
+import tomllib
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from string import Template
 from types import MappingProxyType
+from typing import Any
 
 from carom.parameters import Parameters, Scales
 
@@ -11,18 +16,14 @@ CITATION = (
     "contact events in rotating machinery, Proc. R. Soc. A 470, 20130490 (2014), doi:10.1098/rspa.2013.0490"
 )
 
+_PRINTED: dict[str, list[dict[str, str]]] = tomllib.loads(
+    Path(__file__).with_name("printed.toml").read_text(encoding="utf-8")
+)
 GIVEN = MappingProxyType(
     {
-        "mass": 50.0,
-        "damping": 1400.0,
-        "stiffness": 9.8e5,
-        "eccentricity": 0.3e-3,
-        "clearance": 0.7e-3,
-        "rotor_radius": 0.4e-1,
-        "unbalance_phase": 0.21,
-        "speed": 184.2,
-        "friction": 0.15,
-        "restitution": 0.95,
+        row["value"]: float(row["printed"])
+        for row in _PRINTED["numbers"]
+        if (row["place"], row.get("kind")) == ("section 2", "given")
     }
 )
 """Section 2, in SI units (read-only)."""
@@ -42,3 +43,9 @@ def machine_at(gamma: float, omega: float = 0.76) -> Parameters:
         radius_ratio=GIVEN["rotor_radius"] / GIVEN["clearance"],
         scales=SCALES,
     )
+
+
+def printed_texts(table: str, found: Mapping[str, str]) -> Iterator[dict[str, Any]]:
+    """Entries of a table of ``printed.toml``, what the paper prints and what is said of it, with what was ``found`` in them."""
+    for entry in _PRINTED[table]:
+        yield {name: Template(text).substitute(found) for name, text in entry.items()}

@@ -16,7 +16,7 @@ from carom.reproductions.mora2014.branches import FirstPair
 from carom.reproductions.mora2014.periods import period_pair
 from carom.reproductions.mora2014.plane import DampingStiffnessPlane
 from carom.reproductions.mora2014.propositions import fixed_points, simultaneous_folds
-from carom.reproductions.mora2014.source import machine_at
+from carom.reproductions.mora2014.source import machine_at, printed_texts
 
 SAME_FOLD = 1e-9
 """Distance in damping below which two folds count as simultaneous; rounding errors are about 1e-13."""
@@ -46,42 +46,26 @@ class Claim:
 
 def claims(pair: FirstPair, plane: DampingStiffnessPlane) -> tuple[Claim, ...]:
     """Test the statements in the order of the text."""
-    return (*_propositions(pair), _longer_pairs(), _stability(pair), _third_region(plane))
+    results = (*_propositions(pair), _longer_pairs(), _stability(pair), _third_region(plane))
+    rows = zip(printed_texts("claims", {}), results, strict=True)
+    return tuple(Claim(**row, holds=holds, found=found) for row, (holds, found) in rows)
 
 
-def _propositions(branches: FirstPair) -> tuple[Claim, ...]:
+def _propositions(branches: FirstPair) -> tuple[tuple[bool, str], ...]:
+    """Whether each holds, and what was found."""
     many, weak = fixed_points(machine_at(0.1)), fixed_points(machine_at(0.06))
     folds = simultaneous_folds(machine_at(0.1))
-    cycles = branches.hopf.cycles
+    lower, upper = folds.lower.value, folds.upper.value
+    hopf, kinds = branches.hopf, [cycle.criticality for cycle in branches.hopf.cycles]
     return (
-        Claim(
-            "Proposition 4.1",
-            "there are finitely many fixed points, two for each zero of F₁",
-            many.total == 4 * many.pairs,
-            f"at γ = 0.1, {many.words}",
-        ),
-        Claim(
-            "Proposition 4.1",
-            "for γ < γ* half of the fixed points are admissible",
-            2 * weak.admissible == weak.total,
-            f"at γ = 0.06, {weak.words}",
-        ),
-        Claim(
-            "Proposition 4.2",
-            "B1,a meets B1,b where B1,c meets B1,d",
-            folds.distance < SAME_FOLD,
-            f"the folds are at γ = {folds.lower.value:.10f} and {folds.upper.value:.10f}",
-        ),
-        Claim(
-            "Proposition 4.3",
-            "at γ* two orbits shrink into the equilibrium, on the side where it is admissible",
-            len(cycles) == 2 and branches.hopf.subcritical,
-            f"{len(cycles)} orbits at γ* = {branches.hopf.gamma:.10f}: {', '.join(cycle.criticality for cycle in cycles)}",
-        ),
+        (many.total == 4 * many.pairs, f"at γ = 0.1, {many.words}"),
+        (2 * weak.admissible == weak.total, f"at γ = 0.06, {weak.words}"),
+        (folds.distance < SAME_FOLD, f"the folds are at γ = {lower:.10f} and {upper:.10f}"),
+        (len(kinds) == 2 and hopf.subcritical, f"{len(kinds)} orbits at γ* = {hopf.gamma:.10f}: {', '.join(kinds)}"),
     )
 
 
-def _longer_pairs() -> Claim:
+def _longer_pairs() -> tuple[bool, str]:
     """Examine the pairs n > 1 along the damping, up to the fold of the last of them."""
     last = WEAKEST
     while len(periods := PeriodCondition.planar(machine_at(beyond := last * (1.0 + SAME_FOLD))).roots().periods) > 2:
@@ -92,14 +76,12 @@ def _longer_pairs() -> Claim:
         counts.append(len(longer))
         possible += sum(orbit.admissible for orbit in longer)
         nearest = min(nearest, _beyond_wall(longer))
-    return Claim(
-        "section 4, below Proposition 4.3",
-        "fixed points of the pairs n > 1 are virtual",
-        possible == 0,
+    words = (
         f"at {DAMPINGS} dampings from {WEAKEST:g} to the fold of the last such pair, γ = {last:.10f}, where there are {counts[0]} to "
         f"{counts[-1]} of them, admissible: {possible or 'none'}; those that meet the wall from inside pass it in between by at "
-        f"least {nearest:.3f} clearances",
+        f"least {nearest:.3f} clearances"
     )
+    return possible == 0, words
 
 
 def _longer(gamma: float) -> list[Orbit]:
@@ -120,29 +102,19 @@ def _beyond_wall(orbits: list[Orbit]) -> float:
     return float(np.abs(positions).max(axis=0).min()) - 1.0
 
 
-def _stability(branches: FirstPair) -> Claim:
+def _stability(branches: FirstPair) -> tuple[bool, str]:
     stable = {
         name
         for branch in (branches.slow, branches.fast)
         for name, settled in zip(branch.names, branch.stable, strict=True)
         if settled
     }
-    return Claim(
-        "section 4a",
-        "only B1,d is ever stable",
-        stable == {"B1,d"},
-        f"stable somewhere along γ: {', '.join(sorted(stable)) or 'none'}",
-    )
+    return stable == {"B1,d"}, f"stable somewhere along γ: {', '.join(sorted(stable)) or 'none'}"
 
 
-def _third_region(plane: DampingStiffnessPlane) -> Claim:
+def _third_region(plane: DampingStiffnessPlane) -> tuple[bool, str]:
     parts = [region for region in plane.regions if region.source == "R3"]
     rubbing = [region.part for region in parts if region.motions.rub]
-    return Claim(
-        "section 4b, region R3",
-        "levitation is the only motion named; the text leaves out rubs",
-        not rubbing,
-        f"a stable synchronous rub exists in {', '.join(rubbing)}"
-        if rubbing
-        else "no stable synchronous rub exists there",
-    )
+    if not rubbing:
+        return True, "no stable synchronous rub exists there"
+    return False, f"a stable synchronous rub exists in {', '.join(rubbing)}"

@@ -49,12 +49,9 @@ def figure_2(motions: tuple[ShownMotion, ...]) -> Figure:
             title = f"{orbit_symbol(motion.orbit.name)}, {motion.words}"
         radius.set_box_aspect(0.8)
         letter(fixed, motion.panel, rf"{title}, $\gamma$ = {motion.gamma:g}")
-        fixed.set_ylabel(r"Im $Z$ ($c_\mathrm{r}$)")
-        rotating.set_ylabel(r"Im $U$ ($c_\mathrm{r}$)")
-        radius.set_ylabel(r"radius $r$ ($c_\mathrm{r}$)")
-        fixed.set_xlabel(r"fixed frame, Re $Z$ ($c_\mathrm{r}$)")
-        rotating.set_xlabel(r"co-rotating frame, Re $U$ ($c_\mathrm{r}$)")
-        radius.set_xlabel(r"time $t$ ($1/\Omega$)")
+        fixed.set(xlabel=r"fixed frame, Re $Z$ ($c_\mathrm{r}$)", ylabel=r"Im $Z$ ($c_\mathrm{r}$)")
+        rotating.set(xlabel=r"co-rotating frame, Re $U$ ($c_\mathrm{r}$)", ylabel=r"Im $U$ ($c_\mathrm{r}$)")
+        radius.set(xlabel=r"time $t$ ($1/\Omega$)", ylabel=r"radius $r$ ($c_\mathrm{r}$)")
     key(figure, rows.ravel(), columns=3)
     return figure
 
@@ -70,8 +67,7 @@ def _levitation(fixed: Axes, rotating: Axes, radius: Axes, motion: ShownMotion) 
     point(rotating, place, "contact-free", size=5.5)
     radius.plot(times, np.full_like(times, abs(place)), "-", color=look.colour, lw=1.1)
     radius.axhline(1.0, **LOOKS["wall"].stroke)
-    radius.set_xlim(0.0, motion.span)
-    radius.set_ylim(0.0, 1.08)
+    radius.set(xlim=(0.0, motion.span), ylim=(0.0, 1.08))
 
 
 def _orbit(fixed: Axes, rotating: Axes, radius: Axes, motion: ShownMotion, orbit: Orbit) -> None:

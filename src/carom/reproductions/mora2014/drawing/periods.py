@@ -64,9 +64,7 @@ def _condition(axes: Axes, functions: tuple[PeriodFunction, ...]) -> None:
     axes.yaxis.set_major_formatter(lambda value, _: f"{value:g}")
     axes.yaxis.set_minor_locator(NullLocator())
     axes.set_xlim(0.0, LONGEST_DRAWN)
-    axes.set_ylim(-0.25, 60.0)
-    axes.set_xlabel(r"period $T$ ($1/\Omega$)")
-    axes.set_ylabel(r"period condition $F_1$, linear near 0")
+    axes.set(ylim=(-0.25, 60.0), xlabel=r"period $T$ ($1/\Omega$)", ylabel=r"period condition $F_1$, linear near 0")
 
 
 def _zeros(axes: Axes, pairs: tuple[PeriodPair, ...], birth: float) -> None:
@@ -84,10 +82,9 @@ def _zeros(axes: Axes, pairs: tuple[PeriodPair, ...], birth: float) -> None:
         period = float(np.interp(birth, first.gammas[half][order], first.periods[half][order]))
         mark_point(axes, "non-smooth-hopf", birth, period)
     axes.set_xlim(0.0, 0.2)
-    axes.set_xticks([0.0, 0.05, 0.1, 0.15, 0.2])
-    axes.set_ylim(0.0, LONGEST_DRAWN)
-    axes.set_xlabel(DAMPING)
-    axes.set_ylabel(r"period $T$ ($1/\Omega$)")
+    axes.set(
+        xticks=[0.0, 0.05, 0.1, 0.15, 0.2], ylim=(0.0, LONGEST_DRAWN), xlabel=DAMPING, ylabel=r"period $T$ ($1/\Omega$)"
+    )
 
 
 def _birth(axes: Axes, stage: Birth) -> None:
@@ -101,8 +98,7 @@ def _birth(axes: Axes, stage: Birth) -> None:
         _loop(axes, orbit, place)
     axes.set_xlim(-MILLI * 3.0, MILLI * 4.5)
     axes.set_ylim(1.0 - 6.0 * MILLI, 1.0 + 6.0 * MILLI)
-    axes.set_xticks(MILLI * np.arange(-2.0, 5.0, 2.0))
-    axes.set_xlabel(r"angle from the equilibrium, $\theta - \theta^*$ (rad)")
+    axes.set(xticks=MILLI * np.arange(-2.0, 5.0, 2.0), xlabel=r"angle from the equilibrium, $\theta - \theta^*$ (rad)")
     if stage.side == "below":
         axes.set_ylabel(r"radius $r$ ($c_\mathrm{r}$)")
     else:
@@ -122,8 +118,7 @@ def _enlarge(axes: Axes, orbit: Orbit, place: complex, side: str) -> None:
     inner.axhline(1.0, **LOOKS["wall"].stroke)
     _loop(inner, orbit, place)
     inner.margins(0.25)
-    inner.set_xticks(())
-    inner.set_yticks(())
+    inner.set(xticks=(), yticks=())
     width = float(np.ptp(inner.get_xlim()))
     ratio = 0.44 * float(np.ptp(axes.get_xlim())) / width
     words = f"{orbit_symbol(orbit.name)}, {times_larger(ratio)} times"

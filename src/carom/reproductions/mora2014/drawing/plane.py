@@ -63,14 +63,11 @@ def _multipliers(axes: Axes, pair: FirstPair) -> None:
         for point, size in zip(branch.special, at_points, strict=True):
             if point.kind in MARKED:
                 mark_point(axes, point.kind, point.value, size, point.admissible)
-    axes.set_yscale("log")
-    axes.set_ylim(0.72, 16.0)
+    axes.set(yscale="log", ylim=(0.72, 16.0))
     axes.yaxis.set_major_locator(FixedLocator([0.8, 1.0, 1.5, 2.0, 3.0, 5.0, 10.0]))
     axes.yaxis.set_minor_locator(NullLocator())
     axes.yaxis.set_major_formatter(lambda value, _: f"{value:g}")
-    axes.set_xlim(0.02, 0.19)
-    axes.set_xlabel(DAMPING)
-    axes.set_ylabel("largest modulus of the multipliers")
+    axes.set(xlim=(0.02, 0.19), xlabel=DAMPING, ylabel="largest modulus of the multipliers")
     letter(axes, "a", "stability of the orbits")
     for name in (("B1,a", 0.06, 1.45), ("B1,b", 0.1, 4.6), ("B1,c", 0.12, 1.11), ("B1,d", 0.135, 0.81)):
         name_branch(axes, *name)
@@ -97,10 +94,7 @@ def _plane(axes: Axes, plane: DampingStiffnessPlane) -> None:
             va="center",
             gid="region",
         )
-    axes.set_xlim(*plane.plane.first_range)
-    axes.set_ylim(*plane.plane.second_range)
-    axes.set_xlabel(DAMPING)
-    axes.set_ylabel(r"stiffness $\omega$")
+    axes.set(xlim=plane.plane.first_range, ylim=plane.plane.second_range, xlabel=DAMPING, ylabel=r"stiffness $\omega$")
     letter(axes, "b", "plane of damping and stiffness")
 
 

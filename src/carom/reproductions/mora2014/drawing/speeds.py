@@ -68,17 +68,15 @@ def figure_4(pair: FirstPair) -> Figure:
 
 
 def _name_figure_4(grid: np.ndarray) -> None:
-    grid[0, 0].set_ylim(-0.06, 0.85)
-    grid[0, 1].set_ylim(-0.0042, 0.0068)
-    grid[1, 0].set_ylim(-3.6, 0.55)
-    grid[1, 1].set_ylim(-0.0155, 0.0115)
+    limits = (-0.06, 0.85), (-0.0042, 0.0068), (-3.6, 0.55), (-0.0155, 0.0115)
     places = (
         (("B1,a", -0.22, 0.045), ("B1,b", 0.125, 0.055), ("B1,c", -0.22, 0.17), ("B1,d", 0.115, 0.8)),
         (("B1,a", 0.106, 0.0012), ("B1,b", 0.0975, 0.0054)),
         (("B1,a", -0.18, 0.2), ("B1,c", -0.4, -0.2), ("B1,b", 0.125, 0.2), ("B1,d", 0.15, -1.25)),
         (("B1,a", 0.108, 0.0014), ("B1,b", 0.1, -0.0072), ("B1,c", 0.054, -0.0129)),
     )
-    for axes, names in zip(grid.ravel(), places, strict=True):
+    for axes, ends, names in zip(grid.ravel(), limits, places, strict=True):
+        axes.set_ylim(ends)
         for name in names:
             name_branch(axes, *name)
 
@@ -95,8 +93,7 @@ def figure_5(pair: FirstPair, radii: RadiusDiagram) -> Figure:
         _mark_extrema(axes, branch, lines)
         axes.set_xlabel(DAMPING)
         axes.set_ylabel(r"local extrema of the radius $r$ ($c_\mathrm{r}$)")
-        axes.set_xlim(0.02, 0.2)
-        axes.set_xticks([0.05, 0.1, 0.15, 0.2])
+        axes.set(xlim=(0.02, 0.2), xticks=[0.05, 0.1, 0.15, 0.2])
     _levitation(left, radii)
     left.set_ylim(0.962, 1.018)
     right.set_ylim(0.0, 1.15)
