@@ -127,11 +127,7 @@ def rotor_record(
         "masses": np.ones(planes) if masses is None else masses,
     }
     layout = _rotor_layout(modes, planes)
-    # All fields at once: to set one takes as long as to compute it.
-    room = _room(layout)
-    room[0] = tuple(fields[name] for name in layout.names or ())
-    packed: np.record = room[0]
-    return packed
+    return _filled(layout, tuple(fields[name] for name in layout.names or ()))
 
 
 @cache
@@ -285,10 +281,16 @@ def _rub_workspace_layout(modes: int, planes: int) -> np.dtype:
 
 def record(**fields: np.ndarray | np.record) -> np.record:
     """Pack arrays and scalars into one record that kernels take by address."""
-    packed = _blank(_layout(tuple((name, values.dtype, values.shape) for name, values in fields.items())))
-    for name, values in fields.items():
-        packed[name] = values
-    return packed
+    layout = _layout(tuple([(name, values.dtype, values.shape) for name, values in fields.items()]))
+    return _filled(layout, tuple(fields.values()))
+
+
+def _filled(layout: np.dtype, values: tuple[object, ...]) -> np.record:
+    """A record of these values.  All at once: to set one takes as long as to compute it."""
+    room = _room(layout)
+    room[0] = values
+    filled: np.record = room[0]
+    return filled
 
 
 def _blank(layout: np.dtype) -> np.record:
