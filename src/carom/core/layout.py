@@ -254,7 +254,7 @@ def _workspace_layout(modes: int) -> np.dtype:
 
 
 def rub_workspace(modes: int, planes: int = 1) -> np.record:
-    """Scratch arrays of contact: Taylor coefficients of the motion at the contact planes, and impulses of joint impacts."""
+    """Scratch arrays of contact: Taylor coefficients at the contact planes, impulses of joint impacts, states of contact."""
     return _blank(_rub_workspace_layout(modes, planes))
 
 
@@ -275,6 +275,7 @@ def _rub_workspace_layout(modes: int, planes: int) -> np.dtype:
             ),
             *((name, REAL, (planes,)) for name in ("aims", "least")),
             ("joined", np.dtype(np.int8), (planes,)),
+            ("contact", np.dtype(np.int64), (planes,)),
         )
     )
 
