@@ -62,19 +62,23 @@ def test_a_sweep_reports_in_the_same_way(tmp_path):
 
 def test_true_shows_a_bar(monkeypatch):
     shown = []
-    monkeypatch.setattr(carom.progress.threading, "Timer", AtOnce)
+    monkeypatch.setattr(carom.progress, "_WATCH", AtOnce())
     monkeypatch.setattr(rich.progress.Progress, "update", lambda _, task, **state: shown.append(state))
     assert carom.settle(PAPER, [0.1, 0.2j], [0.3, 0.4j], progress=True).outcomes.size == 2
     assert shown[-1] == {"completed": 1.0, "description": "following starts"}
 
 
 class AtOnce:
-    """A timer that does not wait."""
+    """A watch that does not wait, and keeps how long it was to."""
 
-    def __init__(self, patience, act):
-        self.start = act
+    def __init__(self):
+        self.waits = []
 
-    def cancel(self):
+    def begin(self, late, patience):
+        self.waits.append(patience)
+        late.appear()
+
+    def end(self, late):
         pass
 
 
@@ -88,7 +92,7 @@ def terminal(monkeypatch):
     """An error stream that someone watches, and bars that appear at once."""
     monkeypatch.delenv("CAROM_PROGRESS", raising=False)
     monkeypatch.setenv("TERM", "xterm")
-    monkeypatch.setattr(carom.progress.threading, "Timer", AtOnce)
+    monkeypatch.setattr(carom.progress, "_WATCH", AtOnce())
     stream = Terminal()
     # Not the stream itself, which pytest sets anew before the test.
     monkeypatch.setattr(carom.progress, "sys", SimpleNamespace(stderr=stream, modules=sys.modules))
@@ -115,14 +119,10 @@ def test_where_someone_watches_one_bar_appears_by_itself_and_leaves_nothing(term
     assert text.endswith("\x1b[1A\x1b[2K")  # up to the line of the bar, which is erased
 
 
-def test_a_bar_that_was_not_asked_for_waits_longer(monkeypatch, terminal):
-    waited = []
-    monkeypatch.setattr(
-        carom.progress.threading, "Timer", lambda patience, act: (waited.append(patience), AtOnce(0, act))[1]
-    )
+def test_a_bar_that_was_not_asked_for_waits_longer(terminal):
     outer()
     outer(progress=True)
-    assert waited == [2.0, 0.7]
+    assert carom.progress._WATCH.waits == [2.0, 0.7]
 
 
 def test_a_bar_ends_where_its_function_fails(terminal):
@@ -191,6 +191,31 @@ def test_a_bar_appears_after_a_moment_and_shows_words_as_they_are(monkeypatch):
         tell(0.5, "drawing [bold]")
         assert drawn.wait(60)
     assert "drawing [bold]" in screen.file.getvalue()
+
+
+def test_short_functions_start_no_threads_of_their_own(monkeypatch, terminal):
+    started, start_thread = [], threading.Thread.start
+    monkeypatch.setattr(threading.Thread, "start", lambda thread: (started.append(thread), start_thread(thread)))
+    monkeypatch.setattr(carom.progress, "_WATCH", carom.progress._Watch())
+    for _ in range(5):
+        outer()
+    assert len(started) == 1
+    assert terminal.getvalue() == ""
+
+
+def test_the_watch_ends_when_nobody_waits_and_begins_again(monkeypatch):
+    watch = carom.progress._Watch()
+    monkeypatch.setattr(carom.progress, "_WATCH", watch)
+    monkeypatch.setattr(carom.progress, "_PAUSE", 0.001)
+    monkeypatch.setattr(carom.progress, "PATIENCE", 0.0)
+    for _ in range(2):
+        shown = threading.Event()
+        monkeypatch.setattr(carom.progress._LateBar, "appear", lambda late, shown=shown: shown.set())
+        with bar("loading"):
+            thread = watch._thread
+            assert shown.wait(60)
+        thread.join(60)
+        assert not thread.is_alive()
 
 
 def test_parts_report_shares_of_the_whole():

@@ -1,5 +1,7 @@
 """Run the command line as ``carom`` or as ``python -m carom``."""
 
+import gc
+import os
 import sys
 
 
@@ -8,6 +10,8 @@ def run() -> int:
 
     A Ctrl-C while it is being loaded ends it as quietly as one while it runs.
     """
+    # No matrix here is so large that several threads would help, and each costs time to start.
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     try:
         from carom.cli import main
 
@@ -18,6 +22,8 @@ def run() -> int:
     # After a Ctrl-C during an import that runs generated code, Python exits by that signal, whatever code is returned.
     # Running any other code resets this.
     exec("")
+    # The interpreter looks for garbage once more before it ends, among a few hundred thousand objects that end with it.
+    gc.freeze()
     return code
 
 

@@ -27,7 +27,9 @@ PATIENCE = 0.7
 LONG = 2.0
 """Seconds before one appears that was not."""
 _PAUSE = 0.1
-"""Seconds between two changes of a bar in a notebook."""
+"""Seconds between two changes of a bar in a notebook, and between two looks at the clock."""
+_IDLE = 20
+"""Looks in a row after which nobody waits for a bar any more."""
 _CLOCK = len("0:00:00")
 _SETTLED = 1.0
 """Seconds after which a rate means something."""
@@ -120,16 +122,18 @@ def shows_progress(function: Callable[Arguments, Value]) -> Callable[Arguments, 
 
 def _watched() -> bool:
     """Whether someone sees a bar that was not asked for: nobody does in other threads and processes, and where output is piped."""
-    if _inside.get() or os.environ.get("CAROM_PROGRESS") == "0":
+    # Asked before each call of a function that takes long at most: what is quickly told comes first.
+    if _inside.get() or not (_in_notebook() or (sys.stderr is not None and sys.stderr.isatty())):
         return False
-    if current_process().name != "MainProcess" or threading.current_thread() is not threading.main_thread():
+    if os.environ.get("CAROM_PROGRESS") == "0":
         return False
-    return _in_notebook() or (sys.stderr is not None and sys.stderr.isatty())
+    return current_process().name == "MainProcess" and threading.current_thread() is threading.main_thread()
 
 
 def _in_notebook() -> bool:
     """Whether this is the kernel of a notebook."""
-    shell = getattr(sys.modules.get("IPython"), "get_ipython", lambda: None)()
+    library = sys.modules.get("IPython")
+    shell = None if library is None else library.get_ipython()
     return getattr(shell, "kernel", None) is not None
 
 
@@ -140,15 +144,13 @@ def bar(step: str, console: Console | None = None, patience: float | None = None
     `step` is the first step, in words.  By default the console is the error stream, or the notebook.
     """
     late = _LateBar(step, console)
-    timer = threading.Timer(PATIENCE if patience is None else patience, late.appear)
-    timer.daemon = True
     before = _inside.set(True)
-    timer.start()
+    _WATCH.begin(late, PATIENCE if patience is None else patience)
     try:
         yield Reporter(late.tell)
     finally:
         _inside.reset(before)
-        timer.cancel()
+        _WATCH.end(late)
         late.end()
 
 
@@ -178,6 +180,50 @@ class _LateBar:
             self._ended = True
             if self._shown is not None:
                 self._shown.close()
+
+
+class _Watch:
+    """The thread in which bars appear: one for all, since to start one takes as long as to follow a short motion.
+
+    It looks at the clock while bars wait, and ends once none has waited for a while.
+    """
+
+    def __init__(self) -> None:
+        self._waiting: dict[_LateBar, float] = {}
+        self._lock = threading.Lock()
+        self._thread: threading.Thread | None = None
+
+    def begin(self, late: _LateBar, patience: float) -> None:
+        """Let a bar appear after this many seconds."""
+        with self._lock:
+            self._waiting[late] = time.monotonic() + patience
+            # A thread does not live on in a process that was forked.
+            if self._thread is None or not self._thread.is_alive():
+                self._thread = threading.Thread(target=self._run, name="carom progress", daemon=True)
+                self._thread.start()
+
+    def end(self, late: _LateBar) -> None:
+        """Let a bar appear no more."""
+        with self._lock:
+            self._waiting.pop(late, None)
+
+    def _run(self) -> None:
+        idle = 0
+        while idle < _IDLE:
+            now = time.monotonic()
+            with self._lock:
+                due = [late for late, when in self._waiting.items() if when <= now]
+                for late in due:
+                    del self._waiting[late]
+                idle = 0 if self._waiting else idle + 1
+                if idle == _IDLE:
+                    self._thread = None
+            for late in due:
+                late.appear()
+            time.sleep(_PAUSE)
+
+
+_WATCH = _Watch()
 
 
 class _Terminal:

@@ -58,7 +58,7 @@ LEAST_LOSS = 1e-3
 
 
 @shared
-def advance(rotor, table, amplitudes, until, contact, log, memory, work, rub):
+def advance(rotor, table, amplitudes, until, contacts, log, memory, work, rub):
     """Follow a motion until a given time, until the log is full, or until it settles.
 
     Impacts at several planes in one instant are resolved together (:mod:`carom.core.joint`) and are one event, of one of these planes.
@@ -70,7 +70,7 @@ def advance(rotor, table, amplitudes, until, contact, log, memory, work, rub):
         State at time zero; on return the state at the returned time.
     until : float
         Duration to follow.
-    contact : int array, shape (P,)
+    contacts : int array, shape (P,)
         State of contact of each plane at the start; on return that at the returned time.  It is a
         :class:`~carom.outcome.Phase` on the wall (``FLIGHT``: about to leave or to strike), otherwise ``AWAY``.
     log : EventLog
@@ -86,8 +86,9 @@ def advance(rotor, table, amplitudes, until, contact, log, memory, work, rub):
     time : float
     events : int
     """
-    state = work.current
+    state, contact = work.current, rub.contact
     copy(amplitudes, state)
+    copy(contacts, contact)
     time = 0.0
     events, most_stalled = 0, STALLED_TOGETHER
     if rotor.rows.shape[0] == 1:
@@ -125,6 +126,7 @@ def advance(rotor, table, amplitudes, until, contact, log, memory, work, rub):
             if memory.watches > 0 and triggers(memory, slides, duration):
                 outcome = TRIGGERED
     copy(state, amplitudes)
+    copy(contact, contacts)
     return (EVENT_LIMIT if outcome == CONTACT else outcome), time, events
 
 
@@ -368,6 +370,14 @@ def _slide(rotor, contact, horizon, memory, work, rub):
     return outcome, duration, plane
 
 
+@part
+def flies(position, speed, force, off, height):
+    """Whether a state on the wall is sure to leave it faster than ``off``, to more than a ``height``; of one motion, or in lanes."""
+    local = position.conjugate() * speed
+    push = (position.conjugate() * force).real + local.imag * local.imag
+    return (local.real < -off) & ((push <= 0.0) | (local.real * local.real > push * (4.0 * height)))
+
+
 @passage
 def _wall_reaction(rotor, contact, plane, amplitudes, lifting, rub):
     """What a state on the wall does next, and whether it is at rest there.
@@ -377,10 +387,16 @@ def _wall_reaction(rotor, contact, plane, amplitudes, lifting, rub):
     before the normal force ``N`` can vanish.  Otherwise it flies (CLEAR); so does a state at rest whose contact has
     just lost its normal force (``lifting``).
     """
-    normal = unit(displacement(rotor, plane, amplitudes))
-    local = normal.conjugate() * velocity(rotor, plane, amplitudes)
-    departure = -local.real
     rest = RESTING * speed_rounding(rotor, plane, amplitudes)
+    position, speed = displacement(rotor, plane, amplitudes), velocity(rotor, plane, amplitudes)
+    # Nearly all states just fly: for them this saves a root, a division and the rest.
+    if rotor.rows.shape[0] == 1 and flies(
+        position, speed, acceleration(rotor, plane, amplitudes), 2.0 * rest, CHATTER_HEIGHT
+    ):
+        return CLEAR, False
+    normal = unit(position)
+    local = normal.conjugate() * speed
+    departure = -local.real
     if departure < -rest:
         return CONTACT, False
     beside = False

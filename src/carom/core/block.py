@@ -59,14 +59,15 @@ def _chain_amplitudes(rotor, plane, amplitudes, last, out):
 @part
 def load_polynomial(table, depth, level, work):
     """Write the Bernstein coefficients of ``f`` on a block of this depth; return their error bound at its end."""
-    for j in range(DEGREE):
-        work.polynomial[j] = level
     remainder = 0.0
     for i in range(table.errors.shape[1]):
-        factor = work.products[i]
-        remainder += abs(factor) * table.errors[depth, i]
-        for j in range(DEGREE):
-            work.polynomial[j] += factor * table.coefficients[depth, i, j]
+        remainder += abs(work.products[i]) * table.errors[depth, i]
+    # One coefficient after the other: stored once each.
+    for j in range(DEGREE):
+        value = level
+        for i in range(table.errors.shape[1]):
+            value += work.products[i] * table.coefficients[depth, i, j]
+        work.polynomial[j] = value
     return remainder
 
 
@@ -98,13 +99,14 @@ def rough_root(polynomial, level, after):
     In a flight that starts on the wall, a root in the first half may lie close to the root at the start.  The latter is
     divided out: ``b_j n/j`` are the coefficients of ``f/t``.
     """
-    before, there, degree, first = level, polynomial[after], DEGREE, after
+    before, there, first, degree = level, polynomial[after], float(after), float(DEGREE)
     if after > 0:
         before = polynomial[after - 1]
-        if level == 0.0 and after <= DEGREE // 2:
-            before, there, degree, first = before * (after + 1.0), there * after, DEGREE - 1, after - 1
+    if level == 0.0 and 0 < after <= DEGREE // 2:
+        before, there, first, degree = before * (after + 1.0), there * after, after - 1.0, DEGREE - 1.0
     rise = there - before
-    return (first + min(1.0, -before / rise)) / degree if rise > 0.0 else (first + 0.5) / degree
+    # One division, since all that follows waits for it.
+    return (first * rise + min(rise, -before)) / (rise * degree) if rise > 0.0 else (first + 0.5) / degree
 
 
 @part

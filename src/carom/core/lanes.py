@@ -14,14 +14,14 @@ from __future__ import annotations
 import numpy as np
 
 from carom.compiling.decorators import kernel, part
-from carom.core.advance import CHATTER_HEIGHT
+from carom.core.advance import CHATTER_HEIGHT, flies
 from carom.core.events import MARGIN
 from carom.core.flow import acceleration, displacement, squared_modulus, velocity
 from carom.core.friction import arrival
 from carom.core.lane_search import departure, examine, halley_ratio, look_up, travel
 from carom.core.layout import DEGREE, LANES, LEVELS, WIDTH, record
 from carom.core.vector import align_stack, fma, join, lanes_of, load, store, where
-from carom.core.wall import wall_of
+from carom.core.wall import rigid_wall
 
 CLEARED, STRUCK, NOTED, LATE, OPEN = 0.0, 1.0, 2.0, 3.0, 4.0
 """What happened to a lane.
@@ -131,7 +131,8 @@ def _move_on(rotor, until, first, lanes, start, depth, free, strikes, end, lower
     speed = fma(upper, rotor.exponents[1], lower)
     # Put the displacement exactly on the wall; the velocity stays.
     upper = upper - position * where(strikes, 0.5 * beyond, 0.0)
-    after = lower + position * arrival(position.conjugate() * speed, wall_of(rotor, 0))
+    wall = rigid_wall(rotor.friction[0], rotor.restitution[0], rotor.surface_speed[0])
+    after = lower + position * arrival(position.conjugate() * speed, wall)
     quiet = load(lanes.quiet, first)
     noted = struck & (_near_reference(lower, upper, first, lanes) | (quiet + 1.0 >= load(lanes.due, first)))
     plain = struck & ~noted
@@ -159,7 +160,9 @@ def _leaves(rotor, start):
     # Half of the bound of f'' bounds the acceleration towards the wall.
     leaves = (start.level < 0.0) | ((inward > CLEARLY_OFF) & (inward * inward > start.curvature * (0.5 * LOWEST)))
     if lanes_of(~leaves) != 0:
-        leaves = leaves | _flies(start.position, speed, fma(speed, fast, start.lower * slow))
+        leaves = leaves | flies(
+            start.position, speed, fma(speed, fast, start.lower * slow), CLEARLY_OFF, CHATTER_HEIGHT
+        )
     return leaves
 
 
@@ -208,15 +211,7 @@ def _near_reference(lower, upper, first, lanes):
 
 
 @part
-def _flies(position, velocity, force):
-    outward, turning = (position.conjugate() * velocity).real, (position.conjugate() * velocity).imag
-    push = (position.conjugate() * force).real + turning * turning
-    return (outward < -CLEARLY_OFF) & ((push <= 0.0) | (outward * outward > push * LOWEST))
-
-
-@part
 def surely_flies(rotor, amplitudes):
     """Whether a state on the wall leaves it for a flight that is high enough for lanes."""
-    return _flies(
-        displacement(rotor, 0, amplitudes), velocity(rotor, 0, amplitudes), acceleration(rotor, 0, amplitudes)
-    )
+    position, speed = displacement(rotor, 0, amplitudes), velocity(rotor, 0, amplitudes)
+    return flies(position, speed, acceleration(rotor, 0, amplitudes), CLEARLY_OFF, CHATTER_HEIGHT)

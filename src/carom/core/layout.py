@@ -137,11 +137,7 @@ def rotor_record(
         "free": np.ones(modes) if free is None else free,
     }
     layout = _rotor_layout(modes, planes)
-    # All fields at once: to set one takes as long as to compute it.
-    room = _room(layout)
-    room[0] = tuple(fields[name] for name in layout.names or ())
-    packed: np.record = room[0]
-    return packed
+    return _filled(layout, tuple(fields[name] for name in layout.names or ()))
 
 
 @cache
@@ -269,7 +265,7 @@ def _workspace_layout(modes: int) -> np.dtype:
 
 
 def rub_workspace(modes: int, planes: int = 1) -> np.record:
-    """Scratch arrays of contact: Taylor coefficients of the motion at the contact planes, and impulses of joint impacts."""
+    """Scratch arrays of contact: Taylor coefficients at the contact planes, impulses of joint impacts, states of contact."""
     return _blank(_rub_workspace_layout(modes, planes))
 
 
@@ -290,16 +286,23 @@ def _rub_workspace_layout(modes: int, planes: int) -> np.dtype:
             ),
             *((name, REAL, (planes,)) for name in ("aims", "least")),
             ("joined", np.dtype(np.int8), (planes,)),
+            ("contact", np.dtype(np.int64), (planes,)),
         )
     )
 
 
 def record(**fields: np.ndarray | np.record) -> np.record:
     """Pack arrays and scalars into one record that kernels take by address."""
-    packed = _blank(_layout(tuple((name, values.dtype, values.shape) for name, values in fields.items())))
-    for name, values in fields.items():
-        packed[name] = values
-    return packed
+    layout = _layout(tuple([(name, values.dtype, values.shape) for name, values in fields.items()]))
+    return _filled(layout, tuple(fields.values()))
+
+
+def _filled(layout: np.dtype, values: tuple[object, ...]) -> np.record:
+    """A record of these values.  All at once: to set one takes as long as to compute it."""
+    room = _room(layout)
+    room[0] = values
+    filled: np.record = room[0]
+    return filled
 
 
 def _blank(layout: np.dtype) -> np.record:

@@ -287,7 +287,7 @@ class System(Result):
             arrays["columns"].tolist() == [[1.0], [0.0]]
             and arrays["rows"].tolist() == [[0.0, 1.0]]
             and bool(arrays["driven"][1])
-            and not arrays["law"].any()
+            and arrays["law"].tolist() == [0]
         )
 
     def at_planes(self, amplitudes: np.ndarray, planes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -323,7 +323,7 @@ def _table(exponents: bytes, driven: bytes) -> np.record:
 
 def walls_as_arrays(walls: Sequence[Wall]) -> dict[str, np.ndarray]:
     """The fields of :func:`~carom.core.layout.rotor_record` for the walls at its planes."""
-    return {name: np.array(values) for name, values in zip(Wall._fields, zip(*walls, strict=True), strict=True)}
+    return dict(zip(Wall._fields, np.array(walls, float).T, strict=True))
 
 
 def modal_system(

@@ -122,14 +122,15 @@ def amplitudes_of(rotor: Model, state: State, time: float = 0.0) -> tuple[np.nda
     coordinates = () if len(system.rest) == 1 else system.rest.shape
     for name in ("position", "velocity"):
         given = getattr(state, name)
-        if np.shape(given) != coordinates:
+        values = np.asarray(given)
+        if values.shape != coordinates:
             raise InputError(f"start {name}", given, f"{len(system.rest)} coordinate(s)")
-        if not (np.asarray(given).dtype.kind in "iufc" and np.isfinite(given).all()):
+        if not (values.dtype.kind in "iufc" and np.isfinite(values).all()):
             raise InputError(f"start {name}", given, "finite numbers")
-    if np.max(np.abs(state.velocity)) > LARGEST_SPEED:
+    if np.abs(state.velocity).max() > LARGEST_SPEED:
         raise InputError("start velocity", state.velocity, f"a speed up to {LARGEST_SPEED:g}")
     amplitudes = system.amplitudes(state.position, state.velocity, time)
-    contact = np.full(len(system.arrays.rows), AWAY)
+    contact = np.full(len(system.arrays["rows"]), AWAY)
     for plane in range(len(contact)):
         # The given position of the planar rotor is used, free of the rounding of the amplitudes.
         radius = abs(state.position if system.is_planar else system.at_plane(amplitudes, plane)[0])

@@ -196,7 +196,7 @@ class Search:
     def __init__(self, rotor: Model, impacts: int, known: Sequence[Orbit] = ()) -> None:
         self.rotor, self.impacts = rotor, impacts
         self.found: list[Orbit] = []
-        self.solutions: dict[Word, list[np.ndarray]] = {}
+        self.solutions: dict[Word, np.ndarray] = {}
         self.motions = self.guesses = self.repeats = self.failures = self.last_new = 0
         for orbit in known:
             self._add(orbit)
@@ -321,10 +321,11 @@ class Search:
 
     def _is_known(self, word: Word, solution: Start, within: float) -> bool:
         """Whether a solution is a known one, to within a relative distance."""
-        unknowns = pack(solution)
-        known = self.solutions.get(word, ())
+        known = self.solutions.get(word)
+        if known is None:
+            return False
         # Entry by entry: a solution with one huge duration is not near to everything.
-        return any((np.abs(unknowns - other) < within * (1.0 + np.abs(other))).all() for other in known)
+        return bool((np.abs(pack(solution) - known) < within * (1.0 + np.abs(known))).all(axis=1).any())
 
     def _add(self, orbit: Orbit) -> bool:
         """Keep an orbit; whether it is new and has no more impacts than are searched."""
@@ -337,5 +338,7 @@ class Search:
             for times in range(1, most + 1):
                 several = Start(np.tile(turned.nodes, (times, 1)), np.tile(turned.durations, times))
                 word = orbit.word.turned(place).repeated(times)
-                self.solutions.setdefault(word, []).append(pack(several))
+                solution = pack(several)[None]
+                known = self.solutions.get(word, solution[:0])
+                self.solutions[word] = np.concatenate([known, solution])
         return True

@@ -151,7 +151,7 @@ class Word(Sequence[Segment]):
     @cached_property
     def flies(self) -> bool:
         """Whether all segments are impacts with the flight after them."""
-        return bool(np.isin(self.kinds, IMPACTS).all())
+        return all(segment.kind.is_impact for segment in self)
 
     @property
     def least(self) -> int:
@@ -198,7 +198,7 @@ class Word(Sequence[Segment]):
     @cached_property
     def timed_flights(self) -> np.ndarray:
         """Which of these are flights, bool, shape (m,)."""
-        flights: np.ndarray = self.timed & np.isin(self.kinds, (*IMPACTS, Kind.LIFT))
+        flights: np.ndarray = self.timed & [segment.kind.flies for segment in self]
         return flights
 
     @cached_property
