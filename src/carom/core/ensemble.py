@@ -44,7 +44,7 @@ NEARBY = 1.5 * NEAR
 
 
 class Task(NamedTuple):
-    """The rotor (:func:`~carom.models.system.second_order_system`), its table, and the limits of time and events."""
+    """The rotor (:func:`~carom.models.from_modes.second_order_system`), its table, and the limits of time and events."""
 
     rotor: np.record
     table: np.record

@@ -85,7 +85,7 @@ def lanes_record() -> np.record:
 def fly_lanes(rotor, table, until, lanes):
     """Advance every lane by a block of flight or an impact; return the lanes that must be examined afterwards, as bits.
 
-    The rotor is one of :func:`~carom.models.system.second_order_system`.
+    The rotor is one of :func:`~carom.models.from_modes.second_order_system`.
     """
     align_stack()
     looks = 0

@@ -112,7 +112,7 @@ def section_jacobian(rotor, orbit, durations, jacobian):
 
     Parameters
     ----------
-    rotor : record of :func:`~carom.models.system.second_order_system`
+    rotor : record of :func:`~carom.models.from_modes.second_order_system`
     orbit : complex array, shape (P + 1, 2)
         Amplitudes just before each impact, and just before the one that follows.
     durations : array, shape (P,)

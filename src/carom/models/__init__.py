@@ -5,6 +5,7 @@
 ``spans``                 :class:`Span`: an interval of a parameter, with what happens at its ends
 ``model``                 :class:`Model`: what every description of a rotor offers
 ``system``                :class:`System`: modes and contact planes of any linear rotor
+``from_modes``            systems from their modes
 ``jeffcott``              :class:`Jeffcott`: the planar rigid rotor, by its parameters
 ``linear``                :class:`LinearRotor`: any linear isotropic rotor, by its matrices
 ``linear_parameters``     its named parameters
@@ -18,13 +19,14 @@
 
 from carom.models.axes import Axis, axis
 from carom.models.forcing import Force
+from carom.models.from_modes import second_order_system
 from carom.models.jeffcott import Jeffcott
 from carom.models.linear import LinearRotor
 from carom.models.model import Matrices, Model, Rates
 from carom.models.spans import Edge, Span
 from carom.models.stages import Forced, Stage, Staged, Trigger, stages_of
 from carom.models.subjects import Subject, case_of, jeffcott_of, model_from, model_of
-from carom.models.system import System, second_order_system
+from carom.models.system import System
 from carom.models.touchdown import FallingRestitution, Rigid, Touchdown
 
 __all__ = [

@@ -18,7 +18,8 @@ from typing import NamedTuple
 import numpy as np
 
 from carom.core.wall import Wall
-from carom.models.system import System, modal_system
+from carom.models.from_modes import modal_system
+from carom.models.system import System
 from carom.outcome import InputError
 
 RESONANT = 1e-3

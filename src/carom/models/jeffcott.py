@@ -13,8 +13,9 @@ import numpy as np
 from carom.arguments import checked
 from carom.core.planar import planar_exponents
 from carom.core.wall import Wall
+from carom.models.from_modes import second_order_system
 from carom.models.model import Matrices, Rates
-from carom.models.system import System, second_order_system
+from carom.models.system import System
 from carom.outcome import InputError, shown
 from carom.parameters import Field, Numbers, Parameters, Scales
 

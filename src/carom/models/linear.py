@@ -14,9 +14,10 @@ import numpy as np
 from carom.arguments import checked
 from carom.models import linear_parameters
 from carom.models.forcing import Force, with_forces
+from carom.models.from_modes import modal_system, second_order_system, walls_as_arrays
 from carom.models.model import Matrices, Rates
 from carom.models.modes import modes_of
-from carom.models.system import System, modal_system, second_order_system, walls_as_arrays
+from carom.models.system import System
 from carom.models.touchdown import Touchdown
 from carom.outcome import InputError, shown
 from carom.parameters import Field, Scales

@@ -1,0 +1,99 @@
+"""Systems from their modes: of any linear rotor, and of one with a single coordinate."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from carom.arguments import checked
+from carom.core.layout import rotor_record
+from carom.core.wall import Wall
+from carom.models.system import System
+
+SMALLEST = 2
+"""Least number of modes in the arrays; larger numbers are powers of two."""
+
+
+def walls_as_arrays(walls: Sequence[Wall]) -> dict[str, np.ndarray]:
+    """The fields of :func:`~carom.core.layout.rotor_record` for the walls at its planes."""
+    return dict(zip(Wall._fields, np.array(walls, float).T, strict=True))
+
+
+def modal_system(
+    *,
+    exponents: np.ndarray,
+    driven: np.ndarray,
+    rest: np.ndarray,
+    shapes: np.ndarray,
+    inverse: np.ndarray,
+    rows: np.ndarray,
+    columns: np.ndarray,
+    free: np.ndarray | None = None,
+    forced: np.ndarray | None = None,
+    translation: np.ndarray | None = None,
+    **planes: np.ndarray,
+) -> System:
+    """System of these modes, in arrays of one of few sizes: each size of the kernels takes seconds to compile.
+
+    Parameters
+    ----------
+    exponents, driven, free, rows, columns, **planes
+        See :func:`~carom.core.layout.rotor_record`.
+    rest, shapes, inverse, forced, translation
+        See :class:`System`.
+    """
+    modes = len(exponents)
+    size = max(SMALLEST, 1 << (modes - 1).bit_length())
+
+    def filled(values: np.ndarray, axis: int = 0, filler: complex = 0.0) -> np.ndarray:
+        room = [(0, 0)] * values.ndim
+        room[axis] = (0, size - modes)
+        return np.pad(values, room, constant_values=filler)
+
+    arrays = rotor_record(
+        exponents=filled(exponents, filler=exponents[-1]),
+        driven=filled(driven),
+        free=filled(np.ones(modes, bool) if free is None else free),
+        rows=filled(rows, 1),
+        columns=filled(columns),
+        **planes,
+    )
+    moved = None if forced is None else filled(forced)
+    return System(arrays, rest, filled(shapes, 1), filled(inverse), translation, moved)
+
+
+@checked
+def second_order_system(
+    *,
+    exponents: tuple[complex, complex],
+    equilibrium: complex,
+    wall: Wall,
+    mass: float = 1.0,
+) -> System:
+    """System of ``ü + αu̇ + βu = Γ`` with one coordinate ``u``, which is also its displacement at the wall.
+
+    Its two modes are a pair: the driving amplitude ``b = u̇ − λ₊(u − K)``, which decays with ``λ₋``, and the driven
+    ``a = u − K``.  So underdamped, critically damped and overdamped rotors are treated alike.
+
+    Parameters
+    ----------
+    exponents : tuple of complex
+        Roots ``λ₋, λ₊`` of ``λ² + αλ + β``, the one with the smaller real part first.
+    equilibrium : complex
+        ``K = Γ/β``.
+    wall : carom.core.wall.Wall
+    mass : float
+        Effective mass at the wall, in the unit of masses.
+    """
+    offsets, rows = np.array([equilibrium], np.complex128), np.array([[0.0, 1.0]], np.complex128)
+    arrays = rotor_record(
+        exponents=np.array(exponents, np.complex128),
+        driven=np.array([False, True]),
+        offsets=offsets,
+        rows=rows,
+        columns=np.array([[1.0], [0.0]], np.complex128),
+        **walls_as_arrays([wall]),
+        masses=np.array([mass]),
+    )
+    return System(arrays, offsets, rows, np.array([[-exponents[1], 1.0], [1.0, 0.0]], np.complex128))
