@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from carom.motions.trajectories import simulate
+from carom.motions.simulation import simulate
 from carom.outcome import Outcome, Phase
 
 

@@ -15,8 +15,8 @@ from compilation import sized
 from machines import PAPER, random_parameters
 
 from carom.models import Jeffcott
+from carom.motions.simulation import simulate
 from carom.motions.starts import State
-from carom.motions.trajectories import simulate
 from carom.outcome import Outcome
 from carom.parameters import Parameters
 

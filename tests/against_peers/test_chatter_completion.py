@@ -15,8 +15,8 @@ from machines import PAPER
 
 from carom.core.advance import CHATTER_HEIGHT
 from carom.models import Jeffcott
+from carom.motions.simulation import simulate
 from carom.motions.starts import State
-from carom.motions.trajectories import simulate
 from carom.outcome import Phase
 from carom.parameters import Parameters
 

@@ -6,8 +6,9 @@ from compilation import sized
 from machines import PAPER
 
 from carom.models import Jeffcott
+from carom.motions.simulation import simulate
 from carom.motions.starts import State
-from carom.motions.trajectories import Trajectory, simulate
+from carom.motions.trajectories import Trajectory
 from carom.outcome import Phase
 from carom.parameters import Parameters
 

@@ -13,8 +13,8 @@ from carom.basins import map_basins
 from carom.closed_forms.rub_stability import sliding_rates
 from carom.disturbances import Grid, KickPlane
 from carom.motions.ensembles import settle
+from carom.motions.simulation import simulate
 from carom.motions.starts import State, kick
-from carom.motions.trajectories import simulate
 from carom.outcome import Outcome, Phase
 
 pytestmark = pytest.mark.jit_only

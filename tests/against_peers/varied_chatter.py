@@ -12,8 +12,8 @@ import numba
 
 from carom.core import advance
 from carom.models import Jeffcott
+from carom.motions.simulation import simulate
 from carom.motions.starts import State
-from carom.motions.trajectories import simulate
 from carom.parameters import Parameters
 
 

@@ -8,8 +8,8 @@ from carom.attractors import character_of, find_attractors
 from carom.basins import share_of_kicks
 from carom.models import Jeffcott
 from carom.motions.ensembles import settle
+from carom.motions.simulation import simulate
 from carom.motions.starts import State
-from carom.motions.trajectories import simulate
 from carom.outcome import Outcome
 from carom.parameters import Parameters
 from carom.studies.endings import ending_phrase, ending_words

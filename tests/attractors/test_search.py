@@ -11,8 +11,8 @@ from carom.disturbances import BaseShock, Grid, KickPlane, Sample, Starts
 from carom.models import Jeffcott
 from carom.motions import ensembles, trajectories
 from carom.motions.ensembles import Endings
+from carom.motions.simulation import simulate
 from carom.motions.starts import State, kick
-from carom.motions.trajectories import simulate
 from carom.orbits.single_impact import find_orbits, orbits_within_reach
 from carom.outcome import CaromError, InputError, Outcome
 from carom.parameters import Parameters

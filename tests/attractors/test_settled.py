@@ -10,8 +10,8 @@ from carom.attractors.settled import forces_on, known_orbit, same_motion, settle
 from carom.closed_forms.equilibria import find_equilibria
 from carom.closed_forms.whirl import rolling
 from carom.models import Jeffcott
+from carom.motions.simulation import simulate
 from carom.motions.starts import State
-from carom.motions.trajectories import simulate
 from carom.orbits.single_impact import find_orbits
 from carom.outcome import Outcome
 from carom.parameters import Parameters

@@ -8,8 +8,8 @@ from carom.bifurcations.boundary import SMALL_GAP, boundary_equilibria
 from carom.closed_forms.equilibria import find_equilibria
 from carom.closed_forms.periods import PeriodCondition
 from carom.models import Jeffcott
+from carom.motions.simulation import simulate
 from carom.motions.starts import State
-from carom.motions.trajectories import simulate
 from carom.orbits.single_impact import find_orbits
 from carom.outcome import InputError, Outcome
 from carom.parameters import DIMENSIONLESS_FIELDS, Parameters

@@ -15,8 +15,8 @@ from carom.attractors import MotionName
 from carom.bifurcations import sample_attractors
 from carom.bifurcations.samples import _impacts
 from carom.disturbances import Grid, VelocityKick
+from carom.motions.simulation import simulate
 from carom.motions.starts import State
-from carom.motions.trajectories import simulate
 from carom.outcome import InputError, Outcome
 
 RANGE = (0.2, 0.5)

@@ -9,8 +9,8 @@ import xarray
 
 from carom.cli.logs import write_csv, write_netcdf
 from carom.models import Jeffcott
+from carom.motions.simulation import simulate
 from carom.motions.starts import kick
-from carom.motions.trajectories import simulate
 from carom.outcome import InputError, Phase
 from carom.parameters import load
 

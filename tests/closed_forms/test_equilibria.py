@@ -12,8 +12,8 @@ from scipy.integrate import solve_ivp
 from carom import find_equilibria
 from carom.closed_forms import Equilibrium
 from carom.models import Jeffcott
+from carom.motions.simulation import simulate
 from carom.motions.starts import State
-from carom.motions.trajectories import simulate
 from carom.parameters import Parameters
 
 BOUNDARY_DAMPING = math.sqrt(PAPER.rho**2 - (1.0 - PAPER.omega**2) ** 2)

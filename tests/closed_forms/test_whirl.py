@@ -11,8 +11,8 @@ from carom.closed_forms.equilibria import find_equilibria
 from carom.closed_forms.whirl import hastening_speed, rolling, runaway_speed
 from carom.models import Jeffcott
 from carom.motions.ensembles import settle
+from carom.motions.simulation import simulate
 from carom.motions.starts import State
-from carom.motions.trajectories import simulate
 from carom.outcome import Outcome, Phase
 from carom.parameters import Parameters, Scales
 

@@ -17,8 +17,8 @@ from carom.core.layout import rotor_record, rub_workspace, workspace
 from carom.core.phases import AWAY, FLIGHT
 from carom.core.table import flight_table
 from carom.models import Jeffcott
+from carom.motions.simulation import simulate
 from carom.motions.starts import State
-from carom.motions.trajectories import simulate
 from carom.outcome import Outcome
 from carom.parameters import Parameters
 

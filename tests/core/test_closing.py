@@ -15,8 +15,8 @@ from carom.core.fate import memory
 from carom.models import Jeffcott
 from carom.motions.ensembles import settle
 from carom.motions.settling import _tools
+from carom.motions.simulation import simulate
 from carom.motions.starts import State
-from carom.motions.trajectories import simulate
 from carom.orbits.single_impact import find_orbits
 from carom.outcome import Outcome
 from carom.parameters import Parameters

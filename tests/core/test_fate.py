@@ -23,8 +23,8 @@ from carom.core.fate import (
 )
 from carom.core.layout import NEAR, rotor_record, workspace
 from carom.models import Jeffcott
+from carom.motions.simulation import simulate
 from carom.motions.starts import State
-from carom.motions.trajectories import simulate
 from carom.outcome import Outcome, Phase
 from carom.parameters import Parameters
 

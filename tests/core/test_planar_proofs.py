@@ -8,8 +8,8 @@ from machines import PAPER
 from carom.core.planar_proofs import _farthest, stays_inside
 from carom.models import Jeffcott
 from carom.motions.ensembles import settle
+from carom.motions.simulation import simulate
 from carom.motions.starts import State
-from carom.motions.trajectories import simulate
 from carom.outcome import Outcome
 
 

@@ -15,8 +15,9 @@ from limiting_motions import EPSILON, angular_momentum, on_wall, starts
 from machines import PAPER
 
 from carom.models import Jeffcott
+from carom.motions.simulation import simulate
 from carom.motions.starts import State
-from carom.motions.trajectories import Trajectory, simulate
+from carom.motions.trajectories import Trajectory
 from carom.outcome import Outcome, Phase
 from carom.parameters import Parameters
 

@@ -26,8 +26,8 @@ from limiting_motions import (
 from machines import PAPER
 
 from carom.models import Jeffcott
+from carom.motions.simulation import simulate
 from carom.motions.starts import State
-from carom.motions.trajectories import simulate
 
 # ------------------------------------------------------------------------------------------------ d → 1: elastic
 

@@ -14,7 +14,7 @@ from limiting_motions import START, on_wall, starts
 from machines import PAPER
 
 from carom.models import Jeffcott
-from carom.motions.trajectories import simulate
+from carom.motions.simulation import simulate
 from carom.outcome import Phase
 
 

@@ -17,8 +17,9 @@ import pytest
 from compilation import sized
 
 from carom.models import Jeffcott
+from carom.motions.simulation import simulate
 from carom.motions.starts import State
-from carom.motions.trajectories import Trajectory, simulate
+from carom.motions.trajectories import Trajectory
 from carom.outcome import Outcome, Phase
 from carom.parameters import Parameters
 

@@ -10,8 +10,8 @@ from compilation import sized
 from drawn_motions import EVENTS
 
 from carom.models import Jeffcott
+from carom.motions.simulation import simulate
 from carom.motions.starts import State
-from carom.motions.trajectories import simulate
 from carom.outcome import Outcome
 from carom.parameters import Parameters
 

@@ -18,7 +18,7 @@ from scipy.special import ellipj, ellipk
 
 from carom.models import Jeffcott
 from carom.motions.ledger import energy_ledger
-from carom.motions.trajectories import simulate
+from carom.motions.simulation import simulate
 from carom.outcome import Outcome, Phase
 
 # ------------------------------------------------------------------------------------------------ μ = 0: smooth wall

@@ -16,8 +16,8 @@ from machines import PAPER
 from scipy.integrate import solve_ivp
 
 from carom.models import Jeffcott
+from carom.motions.simulation import simulate
 from carom.motions.starts import State
-from carom.motions.trajectories import simulate
 from carom.parameters import Machine, Scales
 
 EPSILON = 2.0**-52

@@ -14,8 +14,9 @@ from limiting_motions import EPSILON, START, jacobi_integral, on_wall, segment_s
 from machines import PAPER
 
 from carom.models import Jeffcott
+from carom.motions.simulation import simulate
 from carom.motions.starts import State
-from carom.motions.trajectories import Trajectory, simulate
+from carom.motions.trajectories import Trajectory
 from carom.outcome import Outcome, Phase
 
 # ------------------------------------------------------------------------------------------------ γ → 0: undamped

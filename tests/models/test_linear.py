@@ -13,8 +13,8 @@ from scipy.linalg import expm
 from carom.models import Jeffcott, LinearRotor, model_from, model_of
 from carom.models.modes import modes_of
 from carom.motions.ensembles import settle
+from carom.motions.simulation import simulate
 from carom.motions.starts import State, kick
-from carom.motions.trajectories import simulate
 from carom.outcome import InputError
 
 

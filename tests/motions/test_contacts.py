@@ -18,8 +18,9 @@ from carom.closed_forms.equilibria import find_equilibria
 from carom.models import Jeffcott
 from carom.motions.contacts import LastingContact, polar
 from carom.motions.ledger import energy_ledger
+from carom.motions.simulation import simulate
 from carom.motions.starts import State, kick
-from carom.motions.trajectories import Trajectory, simulate
+from carom.motions.trajectories import Trajectory
 from carom.outcome import Phase
 from carom.parameters import Parameters, Scales
 

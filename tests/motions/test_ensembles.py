@@ -8,7 +8,7 @@ from compilation import COMPILED
 from machines import PAPER
 
 import carom
-from carom.motions import ensembles
+from carom.motions import portions
 from carom.motions.ensembles import Endings, settle
 from carom.outcome import InputError, Outcome
 from carom.parameters import Scales
@@ -194,7 +194,7 @@ def test_a_time_may_have_a_unit():
 @pytest.mark.jit_only
 def test_whoever_interrupts_its_progress_ends_the_work(monkeypatch):
     """Within one portion too: irregular bouncing that takes seconds ends at the first report."""
-    taken, real = [], ensembles.follow_each
+    taken, real = [], portions.follow_each
 
     def counted(*task):
         taken.append(int(real(*task)))
@@ -203,7 +203,7 @@ def test_whoever_interrupts_its_progress_ends_the_work(monkeypatch):
     def interrupt(report):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(ensembles, "follow_each", counted)
+    monkeypatch.setattr(portions, "follow_each", counted)
     rotor = PAPER.replace(gamma=0.2, mu=0.0, d=1.0)
     with pytest.raises(KeyboardInterrupt):
         settle(

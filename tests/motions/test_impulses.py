@@ -11,8 +11,9 @@ from carom.closed_forms.equilibria import find_equilibria
 from carom.models import LinearRotor
 from carom.motions.ledger import energy_ledger
 from carom.motions.loads import touchdown_loads
+from carom.motions.simulation import simulate
 from carom.motions.starts import State
-from carom.motions.trajectories import Trajectory, simulate
+from carom.motions.trajectories import Trajectory
 from carom.outcome import Phase
 from carom.parameters import Scales
 

@@ -20,8 +20,8 @@ from carom.models import LinearRotor
 from carom.motions.ensembles import settle
 from carom.motions.recurrence import least_recurrence
 from carom.motions.settling import fresh_memory, settled
+from carom.motions.simulation import simulate
 from carom.motions.starts import State
-from carom.motions.trajectories import simulate
 from carom.outcome import Outcome, Phase
 
 pytestmark = pytest.mark.jit_only
@@ -93,7 +93,7 @@ def settled_both_ways(rotor, count, seed, monkeypatch):
     starts = np.sqrt(rng.uniform(0.0, 1.0, count)) * turns[0], 2.0 * np.sqrt(rng.uniform(0.0, 1.0, count)) * turns[1]
     proven = settle(rotor, *starts)
     monkeypatch.setattr(
-        "carom.motions.ensembles.fresh_memory", lambda rotor, patience, absorb, trigger: fresh_memory(rotor, patience)
+        "carom.motions.portions.fresh_memory", lambda rotor, patience, absorb, trigger: fresh_memory(rotor, patience)
     )
     followed = settle(rotor, *starts)
     for name in ("outcomes", "impacts", "multiplicities"):

@@ -12,8 +12,8 @@ from linear_rotors import single, tilting
 from machines import PAPER
 
 from carom.models import Jeffcott
+from carom.motions.simulation import simulate
 from carom.motions.starts import Kick, State, kick
-from carom.motions.trajectories import simulate
 from carom.outcome import InputError
 from carom.parameters import Machine, Scales
 

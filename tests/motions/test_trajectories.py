@@ -9,10 +9,10 @@ import pytest
 from machines import PAPER, fly, strike
 
 from carom.models import Jeffcott
-from carom.motions import trajectories
+from carom.motions import simulation
 from carom.motions.ensembles import settle
+from carom.motions.simulation import simulate
 from carom.motions.starts import State
-from carom.motions.trajectories import simulate
 from carom.outcome import InputError, Outcome, Phase
 from carom.parameters import Scales
 
@@ -144,7 +144,7 @@ class TestLimits:
 class TestLongMotions:
     @pytest.mark.parametrize("chunk", [1, 3, 7])
     def test_kernel_calls_leave_no_seam(self, rotor, motion, monkeypatch, chunk):
-        monkeypatch.setattr(trajectories, "CHUNK", chunk)
+        monkeypatch.setattr(simulation, "CHUNK", chunk)
         cut = simulate(rotor, START, 30.0)
         assert cut.outcome is motion.outcome
         assert np.array_equal(cut.segment_amplitudes, motion.segment_amplitudes)
@@ -155,14 +155,14 @@ class TestLongMotions:
 
     @pytest.mark.parametrize("chunk", [1, 5])
     def test_nor_in_lasting_contact(self, rubbing, monkeypatch, chunk):
-        monkeypatch.setattr(trajectories, "CHUNK", chunk)
+        monkeypatch.setattr(simulation, "CHUNK", chunk)
         cut = simulate(Jeffcott(RUBBING), START, 60.0)
         assert np.array_equal(cut.segment_phases, rubbing.segment_phases)
         assert np.allclose(cut.segment_amplitudes, rubbing.segment_amplitudes, rtol=0, atol=1e-12)
         assert cut.final.position == pytest.approx(rubbing.final.position, abs=1e-12)
 
     def test_progress_is_reported_between_kernel_calls(self, rotor, monkeypatch):
-        monkeypatch.setattr(trajectories, "CHUNK", 4)
+        monkeypatch.setattr(simulation, "CHUNK", 4)
         reached = []
         motion = simulate(rotor, START, 30.0, progress=lambda report: reached.append(30.0 * report.share))
         assert len(reached) == math.ceil((len(motion.segment_starts) - 1 + 0.5) / 4)

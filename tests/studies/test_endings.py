@@ -4,7 +4,7 @@ import pytest
 
 from carom.attractors import MotionName, find_attractors
 from carom.models import Jeffcott
-from carom.motions.trajectories import simulate
+from carom.motions.simulation import simulate
 from carom.orbits.names import OrbitName
 from carom.outcome import Outcome
 from carom.parameters import Parameters

@@ -13,8 +13,8 @@ from carom.closed_forms.equilibria import find_equilibria
 from carom.closed_forms.thresholds import ranges_of
 from carom.closed_forms.whirl import rolling
 from carom.models import Edge, Jeffcott, Span, axis
+from carom.motions.simulation import simulate
 from carom.motions.starts import State
-from carom.motions.trajectories import simulate
 from carom.orbits.single_impact import orbits_within_reach
 from carom.outcome import Outcome
 from carom.parameters import Machine, Parameters, load

@@ -14,7 +14,8 @@ from carom.attractors.survival import Survival
 from carom.closed_forms.equilibria import find_equilibria
 from carom.models import Model, Subject, model_of
 from carom.motions.settling import REPEATING
-from carom.motions.trajectories import Trajectory, simulate
+from carom.motions.simulation import simulate
+from carom.motions.trajectories import Trajectory
 from carom.orbits.exponents import LOST, LyapunovExponents, lyapunov_exponents, orbit_exponents
 from carom.orbits.orbit import Orbit, orbit_near
 from carom.orbits.recognising import with_impacts

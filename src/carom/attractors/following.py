@@ -15,7 +15,7 @@ from carom.disturbances import Starts
 from carom.disturbances.following import follow
 from carom.models import Model
 from carom.motions.ensembles import MOST_EVENTS, Endings
-from carom.motions.trajectories import simulate
+from carom.motions.simulation import simulate
 from carom.outcome import Outcome
 from carom.progress import Reporter
 from carom.results import Result

@@ -11,8 +11,9 @@ from carom.attractors.settled import SettledMotion, Whirl, forces_on, seen_in_co
 from carom.attractors.starts import Start
 from carom.attractors.survival import Survival
 from carom.motions.settling import REPEATING
+from carom.motions.simulation import simulate
 from carom.motions.starts import Kick, State
-from carom.motions.trajectories import Trajectory, simulate
+from carom.motions.trajectories import Trajectory
 from carom.orbits.orbit import Orbit
 from carom.outcome import Outcome, Phase
 from carom.parameters import Scales

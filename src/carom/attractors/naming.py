@@ -13,8 +13,8 @@ from carom.closed_forms.known import known_of
 from carom.models import Model
 from carom.motions.ensembles import Endings
 from carom.motions.settling import AT_REST, REPEATING
+from carom.motions.simulation import simulate
 from carom.motions.starts import State
-from carom.motions.trajectories import simulate
 from carom.orbits.orbit import Orbit
 from carom.orbits.single_impact import orbits_within_reach
 from carom.outcome import CaromError, Outcome

@@ -16,8 +16,9 @@ from carom.bifurcations.paths import Path
 from carom.bifurcations.points import Bifurcation
 from carom.models import Model
 from carom.models.axes import axis
+from carom.motions.simulation import simulate
 from carom.motions.starts import State
-from carom.motions.trajectories import Trajectory, simulate
+from carom.motions.trajectories import Trajectory
 from carom.orbits.exponents import CONFIDENT, lyapunov_exponents
 from carom.orbits.orbit import Orbit, orbit_near
 from carom.orbits.shooting import Start

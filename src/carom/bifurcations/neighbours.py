@@ -11,8 +11,8 @@ from carom.core.friction import slip_of, spare_friction
 from carom.core.margins import highest_point
 from carom.core.wall import set_on_wall
 from carom.models import Model
+from carom.motions.simulation import simulate
 from carom.motions.starts import State
-from carom.motions.trajectories import simulate
 from carom.orbits.admissibility import INSTANT, departure
 from carom.orbits.orbit import Orbit, orbit_near
 from carom.orbits.recognising import orbit_of_whirl, segments_of

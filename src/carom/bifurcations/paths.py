@@ -13,7 +13,7 @@ from carom.core.layout import rub_workspace
 from carom.core.phases import AWAY
 from carom.core.rub import fly_or_rub_all
 from carom.models import Model
-from carom.motions.trajectories import follow
+from carom.motions.simulation import follow
 from carom.orbits.admissibility import PHASES, departure
 from carom.orbits.orbit import Orbit
 from carom.orbits.word import Segment

@@ -13,7 +13,7 @@ from carom.disturbances import Plan
 from carom.models import Model, Subject, model_of
 from carom.models.axes import Ends, axis, read_interval
 from carom.motions.settling import REPEATING
-from carom.motions.trajectories import simulate
+from carom.motions.simulation import simulate
 from carom.outcome import IRREGULAR_BOUNCING, Outcome
 from carom.progress import Reporter, ShowProgress
 from carom.results import Result

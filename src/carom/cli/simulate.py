@@ -127,7 +127,7 @@ def _write(out: str, case: Case, motion: Trajectory, echo: Echo, tell: Reporter,
 
 def _shown(motion: Trajectory) -> tuple[Trajectory, str | None]:
     """Return the motion to draw, and its title if that of the motion does not say it."""
-    from carom.motions.trajectories import simulate as follow
+    from carom.motions.simulation import simulate as follow
     from carom.outcome import Outcome
     from carom.plots.words import counted, time_in_words
     from carom.report.figures import until_decayed
@@ -183,8 +183,8 @@ def _rotor(case: Case) -> Model:
 
 
 def _follow(rotor: Model, start: State | Kick, kick: str | None, end: float | None, tell: Reporter) -> Trajectory:
+    from carom.motions.simulation import simulate as follow
     from carom.motions.starts import Kick
-    from carom.motions.trajectories import simulate as follow
 
     radius = rotor.system.rest_radius
     if isinstance(start, Kick) and radius > 1.0:

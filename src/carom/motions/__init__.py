@@ -2,9 +2,11 @@
 
 ==================  =============================================================================
 ``starts``          states, and kicks out of levitation
-``trajectories``    one motion
+``trajectories``    one motion: its course, contacts and forces
+``simulation``      from a start to a motion
 ``storage``         motions as datasets and files
 ``ensembles``       many motions, on all cores; only their endings are kept
+``portions``          the work of an ensemble, shared by threads
 ``settling``        the record by which settling is recognised
 ``recurrence``      whether a motion that has recurred repeats or leaves, for rotors of several modes
 ``blows``           impulses at the planes in each event, also where several are struck in one instant
@@ -20,9 +22,10 @@ from carom.motions.ensembles import Endings, settle
 from carom.motions.ledger import EnergyLedger, energy_ledger
 from carom.motions.loads import TouchdownLoads, touchdown_loads
 from carom.motions.settling import PATIENCE
+from carom.motions.simulation import simulate
 from carom.motions.spectrum import FullSpectrum, full_spectrum
 from carom.motions.starts import Kick, State, kick
-from carom.motions.trajectories import Trajectory, simulate
+from carom.motions.trajectories import Trajectory
 
 __all__ = [
     "PATIENCE",

@@ -2,52 +2,30 @@
 
 from __future__ import annotations
 
-import threading
-from collections.abc import Iterator, Sequence
-from concurrent.futures import FIRST_COMPLETED, ThreadPoolExecutor, wait
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import ClassVar, NamedTuple
+from typing import ClassVar
 
 import numpy as np
 
 from carom.arguments import Count, Whole, checked
-from carom.core.counter import fresh_counter, next_number
-from carom.core.ensemble import MOTION, Task, Tools, follow_each
-from carom.core.event_log import EventLog
-from carom.core.fate import forget
-from carom.core.lanes import lanes_record
-from carom.core.layout import rub_workspace, workspace
-from carom.core.phases import AWAY, FLIGHT
 from carom.core.processors import available_cores
 from carom.models import Model, Stage, Subject, model_of, stages_of
+from carom.motions.portions import Limits, motions_from, parts_of, settle_parts
 from carom.motions.settling import (
     LOW_FOR,
     PATIENCE,
     REPEATING,
-    fresh_memory,
-    longest_time,
     low_interval,
     may_be_low,
-    settled,
 )
-from carom.motions.starts import LARGEST_SPEED, WALL_TOLERANCE, State, Until, amplitudes_of, time_until
-from carom.motions.trajectories import follow
-from carom.outcome import InputError, Outcome, Phase
+from carom.motions.starts import LARGEST_SPEED, WALL_TOLERANCE, Until, time_until
+from carom.outcome import InputError, Outcome
 from carom.progress import Reporter, ShowProgress, shows_progress
 from carom.results import Result
 
 MOST_EVENTS = 1_000_000
 """Default number of impacts and steps of lasting contact after which a motion is given up."""
-PORTION = 16_384
-"""Most starts of one machine in a portion of work that threads share: some milliseconds to a second of work."""
-GLANCE = 0.1
-"""Seconds between two reports of progress."""
-FEW = 256
-"""Number of starts of a portion for which one more thread is used: some for each lane."""
-MODES = 2
-"""Modes of the rotors whose motions are followed side by side."""
-LOGGED = 256
-"""Events per kernel call for motions that are followed one after another."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -121,7 +99,7 @@ def settle(
     threads: Count | None = None,
     progress: ShowProgress = None,
 ) -> Endings:
-    """Follow many starts, each as :func:`~carom.motions.trajectories.simulate` would, and keep how they end.
+    """Follow many starts, each as :func:`~carom.motions.simulation.simulate` would, and keep how they end.
 
     A motion ends early when its outcome is proven: when it slides into an absorbing neighbourhood of the synchronous
     rub (:func:`~carom.closed_forms.absorbing.rub_neighbourhood`), or whirls backward fast enough to run away to rolling
@@ -184,7 +162,7 @@ def settle(
     for rotor in rotors if until is not None or patience == 0 else ():
         time_until(until, rotor.scales)
     positions, velocities = (values.reshape(len(which), *coordinates) for values in (positions, velocities))
-    limits, threads = _Limits(until, patience, max_events), threads or available_cores()
+    limits, threads = Limits(until, patience, max_events), threads or available_cores()
     tell = Reporter.of(progress, "following starts")
     endings = _followed(rotors, which, positions, velocities, limits, threads, tell)
     _note_low_bounces(rotors, which, endings, limits, threads)
@@ -196,7 +174,7 @@ def _followed(
     which: np.ndarray,
     positions: np.ndarray,
     velocities: np.ndarray,
-    limits: _Limits,
+    limits: Limits,
     threads: int,
     tell: Reporter,
 ) -> Endings:
@@ -229,20 +207,17 @@ def _in_stage(
     stages: Sequence[Stage],
     which: np.ndarray,
     starts: tuple[np.ndarray, np.ndarray, np.ndarray],
-    limits: _Limits,
+    limits: Limits,
     threads: int,
     tell: Reporter,
 ) -> Endings:
     """Endings in one stage of each machine, with times that count from its beginning; starts are positions, velocities and times."""
     # The starts of each machine are followed together, in portions; their endings are put back into the order of the starts.
     order = slice(None) if len(stages) == 1 else np.argsort(which, kind="stable")
-    motions = _motions(*(values[order] for values in starts))
-    parts = []
-    for number, portion in _portions(which[order], len(stages)):
-        part = _Part(stages[number], motions[portion], fresh_counter())
-        parts += [part] * min(threads, 1 + len(part.motions) // FEW)
+    motions = motions_from(*(values[order] for values in starts))
+    parts = parts_of(stages, which[order], motions, threads)
     done = 0
-    for finished in _settle_parts(parts, limits, threads):
+    for finished in settle_parts(parts, limits, threads):
         done += finished
         tell(done / len(motions))
     endings = _endings(motions, order)
@@ -252,7 +227,7 @@ def _in_stage(
 
 
 def _note_low_bounces(
-    rotors: Sequence[Model], which: np.ndarray, endings: Endings, limits: _Limits, threads: int
+    rotors: Sequence[Model], which: np.ndarray, endings: Endings, limits: Limits, threads: int
 ) -> None:
     """Note, in place, which motions that do not repeat stay at the wall in low bounces; they are followed further to see that."""
     may = np.array([len(stages_of(rotor)) == 1 and may_be_low(rotor, limits.patience) for rotor in rotors], bool)
@@ -284,12 +259,6 @@ def _read(name: str, given: np.ndarray, coordinates: tuple[int, ...]) -> np.ndar
     return values
 
 
-class _Limits(NamedTuple):
-    until: float | str | None
-    patience: int
-    max_events: int
-
-
 def _machines(machine: Subject | Sequence[Subject], which: np.ndarray | None) -> tuple[Sequence[Model], np.ndarray]:
     """Models of one machine or of several, and the index of the machine of each start."""
     if isinstance(machine, Subject):
@@ -314,112 +283,6 @@ def _check_starts(positions: np.ndarray, velocities: np.ndarray, planar: bool) -
     outside = np.abs(positions) > 1.0 + WALL_TOLERANCE
     if planar and outside.any():
         raise InputError("start position", positions[outside].flat[0], "inside the wall, |U| <= 1")
-
-
-def _motions(positions: np.ndarray, velocities: np.ndarray, times: np.ndarray) -> np.recarray:
-    """Records of motions at their starts, for the kernel to fill."""
-    axes = {"position": positions.shape[1:], "velocity": positions.shape[1:]}
-    kind = np.dtype([(name, MOTION[name], axes.get(name, ())) for name in MOTION.names or ()])
-    motions = np.recarray(positions.shape[:1], kind)
-    motions.position, motions.velocity, motions.time = positions, velocities, times
-    if positions.ndim == 1:
-        motions.contact = np.where(np.abs(positions) >= 1.0 - WALL_TOLERANCE, FLIGHT, AWAY)
-    return motions
-
-
-def _portions(which: np.ndarray, machines: int) -> Iterator[tuple[int, slice]]:
-    """Yield the machine and the slice of starts of each portion of work; starts are sorted by machine."""
-    ends = np.searchsorted(which, np.arange(machines + 1))
-    for machine in range(machines):
-        for first in range(ends[machine], ends[machine + 1], PORTION):
-            yield machine, slice(first, min(first + PORTION, ends[machine + 1]))
-
-
-class _Part(NamedTuple):
-    """Motions of one machine; all threads that hold the same part take motions from it by its shared counter."""
-
-    stage: Stage
-    motions: np.ndarray
-    counter: np.record
-
-
-def _settle_parts(parts: list[_Part], limits: _Limits, threads: int) -> Iterator[int]:
-    """Follow all parts, in this thread if one suffices; yield now and then the number of motions followed since.
-
-    When the caller stops iterating or is interrupted, no thread takes up another motion.
-    """
-    if min(threads, len(parts)) == 1:
-        yield from (_settle_part(part, limits) for part in parts)
-        return
-    with ThreadPoolExecutor(threads) as pool:
-        try:
-            working = {pool.submit(_settle_part, part, limits) for part in parts}
-            while working:
-                finished, working = wait(working, GLANCE, FIRST_COMPLETED)
-                yield sum(one.result() for one in finished)
-        except BaseException:
-            for part in parts:
-                part.counter.numbers[0] = len(part.motions)
-            pool.shutdown(cancel_futures=True)
-            raise
-
-
-def _settle_part(part: _Part, limits: _Limits) -> int:
-    """Follow motions of a part until none is left; return how many this call has followed."""
-    rotor, trigger = part.stage.rotor, part.stage.trigger
-    until = longest_time(rotor) if limits.until is None else time_until(limits.until, rotor.scales)
-    # What has settled may still be ended by a time.
-    memory = fresh_memory(rotor, limits.patience if trigger.time == np.inf else 0, absorb=True, trigger=trigger)
-    if (
-        not rotor.system.is_planar
-        or trigger.watches_contact
-        or (limits.until is not None and part.motions["time"].any())
-    ):
-        return _follow_singly(part, until, limits, memory)
-    task = Task(rotor.system.arrays, rotor.system.table, min(until, trigger.time), limits.max_events)
-    # Without the compiler, NumPy warns of divisions in lanes that do not use the result.
-    with np.errstate(all="ignore"):
-        return int(follow_each(task, part.motions, part.counter, _scratch.tools(memory)))
-
-
-def _follow_singly(part: _Part, until: float, limits: _Limits, memory: np.record) -> int:
-    """Follow the motions that this call takes from the counter, one after another: for any rotor and trigger."""
-    rotor, taken, rubs_known = part.stage.rotor, 0, not memory.resting
-    while (number := int(next_number(part.counter.numbers))) < len(part.motions):
-        motion = part.motions[number]
-        begins = float(motion.time)
-        end = min(until if limits.until is None else until - begins, part.stage.trigger.time)
-        amplitudes, contact = amplitudes_of(rotor, State.of(motion.position, motion.velocity), begins)
-        forget(memory)
-        memory.resting = not rubs_known
-        motion.time, motion.impacts, events, outcome = 0.0, 0, 0, Outcome.EVENT_LIMIT
-        while outcome is Outcome.EVENT_LIMIT and events < limits.max_events:
-            log = EventLog.empty(min(LOGGED, limits.max_events - events), len(amplitudes), len(contact))
-            before = np.where(contact == AWAY, Phase.FLIGHT, contact)
-            outcome, time, count = follow(rotor, amplitudes, end - motion.time, contact, log, memory)
-            motion.time += time
-            motion.impacts += np.count_nonzero(log.first(count).impacts(before))
-            events += count
-            outcome, motion.multiplicity = settled(rotor, amplitudes, contact, outcome, memory)
-        motion.outcome = outcome
-        motion.position, motion.velocity = rotor.system.state(amplitudes)
-        taken += 1
-    return taken
-
-
-class _Scratch(threading.local):
-    """Scratch arrays of a thread, allocated once."""
-
-    def __init__(self) -> None:
-        self.lanes, self.work, self.rub = lanes_record(), workspace(MODES), rub_workspace(MODES)
-        self.log, self.amplitudes = EventLog.empty(1, MODES), np.empty(MODES, complex)
-        self.contact = np.empty(1, np.int64)
-
-    def tools(self, memory: np.record) -> Tools:
-        return Tools(self.lanes, memory, self.log, self.work, self.rub, self.amplitudes, self.contact)
-
-
-_scratch = _Scratch()
 
 
 def _endings(motions: np.recarray, order: np.ndarray | slice) -> Endings:

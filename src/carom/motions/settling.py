@@ -43,7 +43,7 @@ MODES = 2
 def fresh_memory(
     rotor: Model, patience: int, stop_at_chatter: bool = False, *, absorb: bool = False, trigger: Trigger = NEVER
 ) -> np.record:
-    """Memory of a motion at its start, for :func:`~carom.motions.trajectories.follow`.
+    """Memory of a motion at its start, for :func:`~carom.motions.simulation.follow`.
 
     With a ``patience`` of zero the motion never counts as settled.  With ``absorb`` it ends as soon as it is proven to
     go over to the synchronous rub or to rolling, otherwise when it has reached them.

@@ -7,31 +7,19 @@ import os
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
-from typing import TYPE_CHECKING, ClassVar, Literal, NamedTuple
+from typing import TYPE_CHECKING, ClassVar, Literal
 
 import numpy as np
 
 from carom.arguments import Count, Reals, Whole, checked
-from carom.core.advance import advance
 from carom.core.event_log import EventLog, flying
-from carom.core.layout import rub_workspace, workspace
+from carom.core.layout import rub_workspace
 from carom.core.rub import fly_or_rub_all, forces_all
-from carom.models import Model, Subject, Trigger, model_of, stages_of
+from carom.models import Model
 from carom.motions.blows import Blows, blows_of
 from carom.motions.contacts import ContactHistory, ContactLog, LastingContact
-from carom.motions.settling import (
-    LOW_FOR,
-    PATIENCE,
-    REPEATING,
-    fresh_memory,
-    longest_time,
-    low_interval,
-    may_be_low,
-    settled,
-)
-from carom.motions.starts import Kick, State, Until, amplitudes_of, time_until
+from carom.motions.starts import State
 from carom.outcome import InputError, Outcome, Phase
-from carom.progress import Reporter, ShowProgress, shows_progress
 from carom.results import Result
 
 if TYPE_CHECKING:
@@ -39,8 +27,6 @@ if TYPE_CHECKING:
 
 ROUNDING = 1e-12
 """Excess over the range of times, relative to its length, that counts as rounding."""
-CHUNK = 4096
-"""Events per kernel call; between calls progress is reported."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -302,136 +288,3 @@ class Trajectory(Result):
         """Distance of the contact plane from its bearing centre, in its clearances."""
         radius: np.ndarray = np.abs(self.at_plane(times)[0])
         return radius
-
-
-@checked
-@shows_progress
-def simulate(
-    machine: Subject,
-    start: State | Kick,
-    until: Until | None = None,
-    *,
-    settle: bool | None = None,
-    stop_at_chatter: bool = False,
-    patience: Whole = PATIENCE,
-    max_events: Count = 1_000_000,
-    progress: ShowProgress = None,
-) -> Trajectory:
-    """Follow a start through flights, impacts, sliding and rolling.
-
-    Parameters
-    ----------
-    machine : Machine, Case, Parameters or model
-        Of a :class:`carom.models.Staged` the last stage reached is returned, with the ``earlier`` ones.
-    start : State or Kick
-        On the wall (``|U| = 1`` to within 1e-12) or inside it.
-    until : float or str, optional
-        Time to follow it, in ``1/Ω`` or text with a unit, such as ``"2 s"``; by default to where it settles, at most
-        for :func:`~carom.motions.settling.longest_time`.
-    settle : bool
-        End as soon as the final motion is known (criteria in :mod:`carom.core.fate`); by default only without ``until``.
-    stop_at_chatter : bool
-        End with ``CHATTER`` and the exact state when impacts accumulate.
-    patience : int
-        While it may settle: impacts without recurrence after which bouncing counts as aperiodic.
-    max_events : int
-        Impacts and steps of lasting contact after which to give up.
-
-    Raises
-    ------
-    InputError
-        The start lies outside the wall or is too fast, a number is not finite, or a limit is out of range.
-
-    See Also
-    --------
-    carom.settle : many starts at once
-    carom.kick, carom.State : starts
-    carom.motions.energy_ledger, carom.motions.full_spectrum : evaluate a motion
-
-    Examples
-    --------
-    >>> import carom as cm
-    >>> machine = cm.load("examples/keogh-cole.toml")
-    >>> motion = cm.simulate(machine, cm.kick("60 mm/s"))
-    >>> motion.outcome.label, motion.multiplicity
-    ('bouncing', 1)
-    >>> len(motion.contacts)
-    257
-    """
-    model = model_of(machine)
-    state = start.state(model) if isinstance(start, Kick) else start
-    settle = until is None if settle is None else settle
-    end = None if until is None and settle else time_until(until, model.scales)
-    options = _Options(settle, stop_at_chatter, patience, max_events, Reporter.of(progress, "simulating"))
-    parts: list[Trajectory] = []
-    for stage in stages_of(model):
-        begins = parts[-1].begins + parts[-1].time if parts else 0.0
-        longest = longest_time(stage.rotor) if end is None else end - begins
-        parts.append(_follow_stage(stage.rotor, state, begins, longest, stage.trigger, options))
-        if parts[-1].outcome is not Outcome.TRIGGERED:
-            break
-        state = State.of(*stage.carried(parts[-1].final.position, parts[-1].final.velocity))
-    return dataclasses.replace(parts[-1], earlier=tuple(parts[:-1])) if len(parts) > 1 else parts[0]
-
-
-class _Options(NamedTuple):
-    settle: bool
-    stop_at_chatter: bool
-    patience: int
-    max_events: int
-    tell: Reporter
-
-
-def _follow_stage(
-    rotor: Model, start: State, begins: float, longest: float, trigger: Trigger, options: _Options
-) -> Trajectory:
-    """Follow a start at a time through one stage, for so long at most, or until its trigger ends it."""
-    settle, stop_at_chatter, patience, max_events, tell = options
-    # What has settled may still be ended by a time.
-    settle, until = settle and trigger.time == np.inf, min(longest, trigger.time)
-    amplitudes, contact = amplitudes_of(rotor, start, begins)
-    recollection = fresh_memory(rotor, patience if settle else 0, stop_at_chatter, trigger=trigger)
-    first = amplitudes.copy()
-    logs: list[EventLog] = []
-    reached, events, outcome, multiplicity = 0.0, 0, Outcome.EVENT_LIMIT, 0
-    while outcome is Outcome.EVENT_LIMIT and events < max_events:
-        log = EventLog.empty(min(CHUNK, max_events - events), len(amplitudes), len(contact))
-        outcome, time, count = follow(rotor, amplitudes, until - reached, contact, log, recollection)
-        logs.append(log.first(count)._replace(times=reached + log.times[:count]))
-        reached, events = reached + time, events + count
-        tell(reached / until)
-        outcome, multiplicity = settled(rotor, amplitudes, contact, outcome, recollection)
-    if outcome in REPEATING and not multiplicity and may_be_low(rotor, patience):
-        struck = np.concatenate([log.times for log in logs])[-LOW_FOR:]
-        if np.ptp(struck) < low_interval(rotor) * (len(struck) - 1):
-            outcome = Outcome.LOW_BOUNCES
-    if outcome is Outcome.TIME_REACHED:
-        reached, outcome = until, Outcome.TRIGGERED if until == trigger.time else outcome
-    position, velocity = rotor.system.state(amplitudes)
-    return Trajectory(
-        rotor=rotor,
-        start=start,
-        outcome=outcome,
-        time=reached,
-        final=State.of(position, velocity),
-        multiplicity=multiplicity,
-        segment_starts=np.concatenate([np.zeros(1), *(log.times for log in logs)]),
-        segment_phases=np.concatenate([np.zeros((1, len(contact)), np.int64), *(log.phases for log in logs)]),
-        event_planes=np.concatenate([log.planes for log in logs]),
-        segment_amplitudes=np.concatenate([first[None], *(log.after for log in logs)]),
-        arrivals=np.concatenate([log.before for log in logs]),
-        begins=begins,
-    )
-
-
-def follow(
-    rotor: Model, amplitudes: np.ndarray, until: float, contact: np.ndarray, log: EventLog, recollection: np.record
-) -> tuple[Outcome, float, int]:
-    """Advance amplitudes and contacts in place until the log is full or the motion ends.
-
-    See :func:`carom.core.advance.advance`.
-    """
-    modes, system = len(amplitudes), rotor.system
-    work, rub = workspace(modes), rub_workspace(modes, len(contact))
-    code, *rest = advance(system.arrays, system.table, amplitudes, until, contact, log, recollection, work, rub)
-    return Outcome(code), *rest

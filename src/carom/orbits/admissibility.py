@@ -14,7 +14,7 @@ from carom.core.rub import lift_off, rest_on_wall, wall_push
 from carom.core.rub_step import NOWHERE
 from carom.core.variation import strike
 from carom.models import Jeffcott, Model
-from carom.motions.trajectories import follow
+from carom.motions.simulation import follow
 from carom.orbits.chatter import LONGEST_CHATTER, MOST_BOUNCES
 from carom.orbits.shooting import TOLERANCE, Start
 from carom.orbits.word import Kind, Segment, Word

@@ -12,7 +12,7 @@ from carom.core.rub import wall_push
 from carom.core.segments import carry_through_chatter
 from carom.core.variation import strike
 from carom.models import Model
-from carom.motions.trajectories import follow
+from carom.motions.simulation import follow
 from carom.orbits.landings import NO_RETURN, distance_from_onset, slip_at_landing
 from carom.orbits.word import Segment
 from carom.outcome import Outcome, Phase

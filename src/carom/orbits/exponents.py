@@ -13,8 +13,9 @@ from carom.arguments import Count, checked, whole
 from carom.core.closing import LONGEST
 from carom.core.growth import carry_orthogonal
 from carom.models import Model, Subject, model_of
+from carom.motions.simulation import simulate
 from carom.motions.starts import Kick, State
-from carom.motions.trajectories import Trajectory, simulate
+from carom.motions.trajectories import Trajectory
 from carom.orbits.orbit import Orbit
 from carom.orbits.recognising import segments_of
 from carom.orbits.shooting import Links, links_of

@@ -12,8 +12,9 @@ from carom.core import variation
 from carom.core.event_log import EventLog
 from carom.core.fate import memory
 from carom.models import Subject, jeffcott_of, model_of
+from carom.motions.simulation import follow, simulate
 from carom.motions.starts import LARGEST_SPEED, State
-from carom.motions.trajectories import Trajectory, follow, simulate
+from carom.motions.trajectories import Trajectory
 from carom.outcome import InputError, Outcome, Phase, shown
 from carom.results import Result
 

@@ -13,8 +13,9 @@ from carom.core.closing import ALIKE
 from carom.core.layout import rub_workspace
 from carom.core.margins import contact_margins, least_margins
 from carom.models import Model, Subject, model_of
+from carom.motions.simulation import simulate
 from carom.motions.starts import State
-from carom.motions.trajectories import Trajectory, simulate
+from carom.motions.trajectories import Trajectory
 from carom.orbits.admissibility import departure, why_virtual
 from carom.orbits.maps import Section
 from carom.orbits.names import CountedName, OrbitName

@@ -10,7 +10,8 @@ from carom.arguments import checked
 from carom.core.advance import SHORTEST_LAP
 from carom.core.margins import local_motion
 from carom.models import Model
-from carom.motions.trajectories import Trajectory, simulate
+from carom.motions.simulation import simulate
+from carom.motions.trajectories import Trajectory
 from carom.orbits.chatter import slow_departures
 from carom.orbits.orbit import Orbit, orbit_near
 from carom.orbits.shooting import Start

@@ -20,8 +20,9 @@ from carom.arguments import Count, checked
 from carom.arguments import Kind as ArgumentKind
 from carom.continuation.roots import bracketed_root, sign_change
 from carom.models import Jeffcott, Subject, jeffcott_of
+from carom.motions.simulation import simulate
 from carom.motions.starts import State
-from carom.motions.trajectories import Trajectory, simulate
+from carom.motions.trajectories import Trajectory
 from carom.orbits.names import RubbingName
 from carom.orbits.orbit import Orbit, orbit_near, same_orbit
 from carom.orbits.recognising import segments_of

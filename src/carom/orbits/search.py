@@ -15,8 +15,9 @@ import numpy as np
 from carom.arguments import whole
 from carom.models import Model
 from carom.motions.ensembles import Endings, settle
+from carom.motions.simulation import simulate
 from carom.motions.starts import State
-from carom.motions.trajectories import Trajectory, simulate
+from carom.motions.trajectories import Trajectory
 from carom.orbits.names import CountedName
 from carom.orbits.orbit import Orbit, lasts, orbit_of_links, same_orbit
 from carom.orbits.recognising import lift_offs, orbit_of_motion, segments_of

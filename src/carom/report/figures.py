@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from carom import plots
 from carom.attractors import Ending
 from carom.models import Model
-from carom.motions.trajectories import simulate
+from carom.motions.simulation import simulate
 from carom.orbits.orbit import Orbit
 from carom.orbits.single_impact import OrbitSet, period_condition
 from carom.parameters import Zones

@@ -33,8 +33,9 @@ from carom.closed_forms.equilibria import Equilibrium
 from carom.closed_forms.whirl import Rolling
 from carom.disturbances import Sample
 from carom.models import Jeffcott, jeffcott_of
+from carom.motions.simulation import simulate
 from carom.motions.starts import State
-from carom.motions.trajectories import Trajectory, simulate
+from carom.motions.trajectories import Trajectory
 from carom.orbits.orbit import Orbit
 from carom.outcome import Outcome
 from carom.parameters import Case

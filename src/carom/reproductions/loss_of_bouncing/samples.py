@@ -9,8 +9,9 @@ import numpy as np
 
 from carom.attractors import Lifetimes, measure_lifetimes
 from carom.models import Jeffcott
+from carom.motions.simulation import simulate
 from carom.motions.starts import State
-from carom.motions.trajectories import Trajectory, simulate
+from carom.motions.trajectories import Trajectory
 from carom.orbits import find_orbits, lyapunov_exponents, orbit_exponents, orbit_of_motion
 from carom.orbits.orbit import Orbit
 from carom.outcome import CaromError, Outcome

@@ -1,0 +1,151 @@
+"""Portions of the work of an ensemble: the motions of one machine in one stage, shared by threads."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Iterator, Sequence
+from concurrent.futures import FIRST_COMPLETED, ThreadPoolExecutor, wait
+from typing import NamedTuple
+
+import numpy as np
+
+from carom.core.counter import fresh_counter, next_number
+from carom.core.ensemble import MOTION, Task, Tools, follow_each
+from carom.core.event_log import EventLog
+from carom.core.fate import forget
+from carom.core.lanes import lanes_record
+from carom.core.layout import rub_workspace, workspace
+from carom.core.phases import AWAY, FLIGHT
+from carom.models import Stage
+from carom.motions.settling import fresh_memory, longest_time, settled
+from carom.motions.simulation import follow
+from carom.motions.starts import WALL_TOLERANCE, State, amplitudes_of, time_until
+from carom.outcome import Outcome, Phase
+
+PORTION = 16_384
+"""Most starts of one machine in a portion of work that threads share: some milliseconds to a second of work."""
+GLANCE = 0.1
+"""Seconds between two reports of progress."""
+FEW = 256
+"""Number of starts of a portion for which one more thread is used: some for each lane."""
+MODES = 2
+"""Modes of the rotors whose motions are followed side by side."""
+LOGGED = 256
+"""Events per kernel call for motions that are followed one after another."""
+
+
+class Limits(NamedTuple):
+    """Until when, or after how many impacts and events, motions are given up; see :func:`~carom.motions.ensembles.settle`."""
+
+    until: float | str | None
+    patience: int
+    max_events: int
+
+
+def motions_from(positions: np.ndarray, velocities: np.ndarray, times: np.ndarray) -> np.recarray:
+    """Records of motions at their starts, for the kernel to fill."""
+    axes = {"position": positions.shape[1:], "velocity": positions.shape[1:]}
+    kind = np.dtype([(name, MOTION[name], axes.get(name, ())) for name in MOTION.names or ()])
+    motions = np.recarray(positions.shape[:1], kind)
+    motions.position, motions.velocity, motions.time = positions, velocities, times
+    if positions.ndim == 1:
+        motions.contact = np.where(np.abs(positions) >= 1.0 - WALL_TOLERANCE, FLIGHT, AWAY)
+    return motions
+
+
+class Part(NamedTuple):
+    """Motions of one machine; all threads that hold the same part take motions from it by its shared counter."""
+
+    stage: Stage
+    motions: np.ndarray
+    counter: np.record
+
+
+def parts_of(stages: Sequence[Stage], which: np.ndarray, motions: np.recarray, threads: int) -> list[Part]:
+    """Parts for threads to take up: each as often as threads may follow it; motions are sorted by the number of their stage."""
+    parts: list[Part] = []
+    ends = np.searchsorted(which, np.arange(len(stages) + 1)).tolist()
+    for stage, first, last in zip(stages, ends, ends[1:], strict=False):
+        for begins in range(first, last, PORTION):
+            part = Part(stage, motions[begins : min(begins + PORTION, last)], fresh_counter())
+            parts += [part] * min(threads, 1 + len(part.motions) // FEW)
+    return parts
+
+
+def settle_parts(parts: list[Part], limits: Limits, threads: int) -> Iterator[int]:
+    """Follow all parts, in this thread if one suffices; yield now and then the number of motions followed since.
+
+    When the caller stops iterating or is interrupted, no thread takes up another motion.
+    """
+    if min(threads, len(parts)) == 1:
+        yield from (_settle_part(part, limits) for part in parts)
+        return
+    with ThreadPoolExecutor(threads) as pool:
+        try:
+            working = {pool.submit(_settle_part, part, limits) for part in parts}
+            while working:
+                finished, working = wait(working, GLANCE, FIRST_COMPLETED)
+                yield sum(one.result() for one in finished)
+        except BaseException:
+            for part in parts:
+                part.counter.numbers[0] = len(part.motions)
+            pool.shutdown(cancel_futures=True)
+            raise
+
+
+def _settle_part(part: Part, limits: Limits) -> int:
+    """Follow motions of a part until none is left; return how many this call has followed."""
+    rotor, trigger = part.stage.rotor, part.stage.trigger
+    until = longest_time(rotor) if limits.until is None else time_until(limits.until, rotor.scales)
+    # What has settled may still be ended by a time.
+    memory = fresh_memory(rotor, limits.patience if trigger.time == np.inf else 0, absorb=True, trigger=trigger)
+    if (
+        not rotor.system.is_planar
+        or trigger.watches_contact
+        or (limits.until is not None and part.motions["time"].any())
+    ):
+        return _follow_singly(part, until, limits, memory)
+    task = Task(rotor.system.arrays, rotor.system.table, min(until, trigger.time), limits.max_events)
+    # Without the compiler, NumPy warns of divisions in lanes that do not use the result.
+    with np.errstate(all="ignore"):
+        return int(follow_each(task, part.motions, part.counter, _scratch.tools(memory)))
+
+
+def _follow_singly(part: Part, until: float, limits: Limits, memory: np.record) -> int:
+    """Follow the motions that this call takes from the counter, one after another: for any rotor and trigger."""
+    rotor, taken, rubs_known = part.stage.rotor, 0, not memory.resting
+    while (number := int(next_number(part.counter.numbers))) < len(part.motions):
+        motion = part.motions[number]
+        begins = float(motion.time)
+        end = min(until if limits.until is None else until - begins, part.stage.trigger.time)
+        amplitudes, contact = amplitudes_of(rotor, State.of(motion.position, motion.velocity), begins)
+        forget(memory)
+        memory.resting = not rubs_known
+        motion.time, motion.impacts, events, outcome = 0.0, 0, 0, Outcome.EVENT_LIMIT
+        while outcome is Outcome.EVENT_LIMIT and events < limits.max_events:
+            log = EventLog.empty(min(LOGGED, limits.max_events - events), len(amplitudes), len(contact))
+            before = np.where(contact == AWAY, Phase.FLIGHT, contact)
+            outcome, time, count = follow(rotor, amplitudes, end - motion.time, contact, log, memory)
+            motion.time += time
+            motion.impacts += np.count_nonzero(log.first(count).impacts(before))
+            events += count
+            outcome, motion.multiplicity = settled(rotor, amplitudes, contact, outcome, memory)
+        motion.outcome = outcome
+        motion.position, motion.velocity = rotor.system.state(amplitudes)
+        taken += 1
+    return taken
+
+
+class _Scratch(threading.local):
+    """Scratch arrays of a thread, allocated once."""
+
+    def __init__(self) -> None:
+        self.lanes, self.work, self.rub = lanes_record(), workspace(MODES), rub_workspace(MODES)
+        self.log, self.amplitudes = EventLog.empty(1, MODES), np.empty(MODES, complex)
+        self.contact = np.empty(1, np.int64)
+
+    def tools(self, memory: np.record) -> Tools:
+        return Tools(self.lanes, memory, self.log, self.work, self.rub, self.amplitudes, self.contact)
+
+
+_scratch = _Scratch()
