@@ -7,10 +7,10 @@ import numpy as np
 
 import carom
 from carom.core.advance import advance
-from carom.core.phases import AWAY
 from carom.core.event_log import EventLog
 from carom.core.fate import memory
 from carom.core.layout import rub_workspace, workspace
+from carom.core.phases import AWAY
 
 UNTIL, MOST_IMPACTS = 200.0, 100
 
