@@ -157,3 +157,9 @@ def test_the_command_is_loaded_where_an_interrupt_is_caught():
     project = tomllib.loads((Path(__file__).parents[2] / "pyproject.toml").read_text(encoding="utf-8"))["project"]
 
     assert project["scripts"] == {"carom": "carom.__main__:run"}
+
+
+def test_the_program_ends_without_a_last_look_for_garbage():
+    code = "import gc, sys; from carom.__main__ import run; sys.argv[1:] = ['--version']; run(); print(gc.get_freeze_count())"
+    ended = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert int(ended.stdout.split()[-1]) > 10_000
