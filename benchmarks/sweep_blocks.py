@@ -80,17 +80,17 @@ def work_on_tasks(degree: int, levels: int, counting: bool) -> None:
 
 def count_blocks(levels: int) -> None:
     """Make the search write down which blocks it looks at, and how often it goes on by safe steps."""
-    from carom.compiling.decorators import part
+    from carom.compiling.decorators import inlined
     from carom.core import events
 
     look, step = events.load_polynomial, events._step_safely
 
-    @part
+    @inlined
     def load_polynomial(table, depth, level, work):
         work.counts[depth] += 1.0
         return look(table, depth, level, work)
 
-    @part
+    @inlined
     def step_safely(rotor, table, plane, origin, level, start, spread, block, bounds, work):
         work.counts[levels] += 1.0
         return step(rotor, table, plane, origin, level, start, spread, block, bounds, work)

@@ -14,21 +14,21 @@ from carom.compiling import choice
 from carom.outcome import CaromWarning, InputError
 
 MODULE = """
-from carom.compiling.decorators import formula, kernel, part, passage, shared
+from carom.compiling.decorators import expanded, formula, inlined, kernel, separate
 
 @formula
 def squared(x):
     return x * x
 
-@part
+@inlined
 def halved(x):
     return 0.5 * x
 
-@passage
+@expanded
 def increased(x):
     return x + 1.0
 
-@shared
+@separate
 def combined(x):
     return halved(squared(x))
 

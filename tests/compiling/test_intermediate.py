@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from carom.compiling.cache import KernelCache
-from carom.compiling.decorators import kernel, part
+from carom.compiling.decorators import inlined, kernel
 from carom.core.layout import record
 
 pytestmark = pytest.mark.jit_only
@@ -24,7 +24,7 @@ def caller_and_called(tmp_path):
     def doubled(x):
         return 2.0 * x
 
-    @part
+    @inlined
     def squared(x):
         return x * x
 
@@ -93,10 +93,10 @@ def test_a_kernel_is_linked_although_its_first_caller_never_calls_it(tmp_path):
 
 MODULE = """
 import numpy as np
-from carom.compiling.decorators import kernel, shared
+from carom.compiling.decorators import kernel, separate
 from carom.core.layout import record
 
-@shared
+@separate
 def length(values):
     return np.sqrt((values.numbers**2).sum())
 

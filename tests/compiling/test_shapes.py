@@ -3,13 +3,13 @@
 import numpy as np
 import pytest
 
-from carom.compiling.decorators import kernel, passage
+from carom.compiling.decorators import expanded, kernel
 from carom.core.layout import record
 
 pytestmark = pytest.mark.jit_only
 
 
-@passage
+@expanded
 def _first_of_several(values):
     if values.rows.shape[0] > 1:
         return values.only_with_several[0]

@@ -30,7 +30,7 @@ TURNS = 10.0
 
 @dataclass(frozen=True, eq=False, repr=False)
 class SettledMotion(Result):
-    """A motion at its end, and what it repeats there."""
+    """A motion that has been followed to its end, and the orbit on which it ends."""
 
     motion: Trajectory
     """As seen at the plane that touches."""

@@ -27,12 +27,12 @@ def kernel(function: Kernel) -> Kernel:
     return _compile(function)
 
 
-def shared(function: Kernel) -> Kernel:
+def separate(function: Kernel) -> Kernel:
     """Compile a large kernel, a function of a module, once for Python and for all kernels: these call its machine code."""
     return _compile(function, share=True)
 
 
-def part(function: Kernel) -> Kernel:
+def inlined(function: Kernel) -> Kernel:
     """Compile a small kernel inline into each of its callers: no call, and code a caller does not need is dropped."""
     return _compile(function, forceinline=True)
 
@@ -43,7 +43,7 @@ def formula(function: Kernel) -> Kernel:
     return formula_in_kernels
 
 
-def passage(function: Kernel) -> Kernel:
+def expanded(function: Kernel) -> Kernel:
     """Insert a section of a kernel where it is called, in one place; it is a separate function for readability only."""
     return _compile(function, inline="always")
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from carom.compiling.decorators import kernel, part, passage, shared
+from carom.compiling.decorators import expanded, inlined, kernel, separate
 from carom.core.events import INSIDE, LEAVING, search
 from carom.core.fate import forget_rub, levitates, recurs, triggers, until_triggered
 from carom.core.flow import acceleration, copy, displacement, squared_modulus, velocity
@@ -57,7 +57,7 @@ LEAST_LOSS = 1e-3
 """Smallest loss of speed per bounce used in the test for the end of a chatter; an elastic one would never end."""
 
 
-@shared
+@separate
 def advance(rotor, table, amplitudes, until, contacts, log, memory, work, rub):
     """Follow a motion until a given time, until the log is full, or until it settles.
 
@@ -130,7 +130,7 @@ def advance(rotor, table, amplitudes, until, contacts, log, memory, work, rub):
     return (EVENT_LIMIT if outcome == CONTACT else outcome), time, events
 
 
-@part
+@inlined
 def _slides(rotor, contact, amplitudes):
     """Whether the motion is followed by Taylor series: in lasting contact, or next to a wall beside other planes."""
     if rotor.rows.shape[0] == 1:
@@ -149,7 +149,7 @@ def _rests(rotor, plane, amplitudes):
     return abs(radial) <= RESTING * speed_rounding(rotor, plane, amplitudes)
 
 
-@passage
+@expanded
 def _fly(rotor, table, horizon, contact, memory, work, rub):
     """One flight from ``work.current`` and the impact or landing at its end; ``work.current`` is then the new state.
 
@@ -184,7 +184,7 @@ def _fly(rotor, table, horizon, contact, memory, work, rub):
     return _touch(rotor, contact, plane, reaction, elapsed, memory, work, rub), elapsed, plane
 
 
-@passage
+@expanded
 def _reaction(rotor, contact, memory, work, rub):
     """What the first plane on its wall that does not just fly away does: its reaction, whether it rests, the plane."""
     reaction, resting, place = CLEAR, False, NOWHERE
@@ -197,7 +197,7 @@ def _reaction(rotor, contact, memory, work, rub):
     return reaction, resting, place
 
 
-@passage
+@expanded
 def _touch(rotor, contact, plane, reaction, elapsed, memory, work, rub):
     """Impact or landing of a plane in the state ``work.arrival``; returns the outcome."""
     contact[plane] = FLIGHT
@@ -243,7 +243,7 @@ def _loosen(rotor, contact, struck, amplitudes, rub):
                 contact[plane] = next_phase(rotor, contact, plane, amplitudes, rub)
 
 
-@passage
+@expanded
 def _leap(rotor, table, horizon, contact, resting, work, rub):
     """Fly from ``work.current`` to the next contact or the horizon, or just off the wall from a start at rest on it.
 
@@ -260,7 +260,7 @@ def _leap(rotor, table, horizon, contact, resting, work, rub):
     return _next_contact(rotor, table, horizon, contact, work)
 
 
-@passage
+@expanded
 def _next_contact(rotor, table, horizon, contact, work):
     """Earliest contact over all planes of the flight from ``work.current``; ``work.arrival`` holds the state there."""
     if rotor.rows.shape[0] == 1:
@@ -292,7 +292,7 @@ def _next_contact_of_several(rotor, table, horizon, contact, work):
         copy(work.nearest, work.current)
 
 
-@passage
+@expanded
 def _meet(rotor, contact, plane, elapsed, memory, work, rub):
     """Apply the impact to the arriving state; return CONTACT, or how the motion has settled."""
     normal, speed = displacement(rotor, plane, work.arrival), velocity(rotor, plane, work.arrival)
@@ -324,7 +324,7 @@ def _meet(rotor, contact, plane, elapsed, memory, work, rub):
     return CONTACT
 
 
-@part
+@inlined
 def _time_has_passed(memory, elapsed):
     """Whether time has passed since the last impact that was tested for recurrence; the time elapsed is not yet part of the lap."""
     passed = memory.lap + elapsed > SHORTEST_LAP
@@ -355,7 +355,7 @@ def _land(rotor, contact, plane, amplitudes, rub):
     rest_on_wall(rotor, plane, amplitudes, False)
 
 
-@passage
+@expanded
 def _slide(rotor, contact, horizon, memory, work, rub):
     """One step of lasting contact from ``work.current``, in place; returns outcome, duration and plane as :func:`_fly`."""
     reaction, plane = CLEAR, NOWHERE
@@ -370,7 +370,7 @@ def _slide(rotor, contact, horizon, memory, work, rub):
     return outcome, duration, plane
 
 
-@part
+@inlined
 def flies(position, speed, force, off, height):
     """Whether a state on the wall is sure to leave it faster than ``off``, to more than a ``height``; of one motion, or in lanes."""
     local = position.conjugate() * speed
@@ -378,7 +378,7 @@ def flies(position, speed, force, off, height):
     return (local.real < -off) & ((push <= 0.0) | (local.real * local.real > push * (4.0 * height)))
 
 
-@passage
+@expanded
 def _wall_reaction(rotor, contact, plane, amplitudes, lifting, rub):
     """What a state on the wall does next, and whether it is at rest there.
 

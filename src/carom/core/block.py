@@ -5,12 +5,12 @@ The flight starts from ``work.current``.  What these functions load into the wor
 
 from __future__ import annotations
 
-from carom.compiling.decorators import part
+from carom.compiling.decorators import inlined
 from carom.core.flow import chain_start, squared_modulus
 from carom.core.layout import DEGREE, NODES, TERMS
 
 
-@part
+@inlined
 def load_products(rotor, plane, origin, work):
     """Write the real products of amplitudes in which ``f`` is linear."""
     modes = work.current.shape[0]
@@ -32,7 +32,7 @@ def load_products(rotor, plane, origin, work):
             row += 2
 
 
-@part
+@inlined
 def basis_amplitudes(rotor, plane, amplitudes, out):
     """Write the factors ``α`` of the basis functions of :mod:`carom.core.table` in the motion of a plane."""
     modes = amplitudes.shape[0]
@@ -45,7 +45,7 @@ def basis_amplitudes(rotor, plane, amplitudes, out):
                 _chain_amplitudes(rotor, plane, amplitudes, k, out)
 
 
-@part
+@inlined
 def _chain_amplitudes(rotor, plane, amplitudes, last, out):
     """:func:`basis_amplitudes` of a chain of equal exponents up to a mode: ``tʲ/j! e^{λt}`` appears in the ``j`` last ones."""
     first = chain_start(rotor, last)
@@ -56,7 +56,7 @@ def _chain_amplitudes(rotor, plane, amplitudes, last, out):
         out[first + j - 1 if j > 0 else last] = total
 
 
-@part
+@inlined
 def load_polynomial(table, depth, level, work):
     """Write the Bernstein coefficients of ``f`` on a block of this depth; return their error bound at its end."""
     remainder = 0.0
@@ -71,7 +71,7 @@ def load_polynomial(table, depth, level, work):
     return remainder
 
 
-@part
+@inlined
 def sign_changes(polynomial, level, floor, remainder):
     """Whether ``f`` may cross zero on the block: 0 (no), 1 (perhaps), 2 (undecided); and where it may do so first.
 
@@ -92,7 +92,7 @@ def sign_changes(polynomial, level, floor, remainder):
     return (1 if number > 0 else 0), first
 
 
-@part
+@inlined
 def rough_root(polynomial, level, after):
     """Approximate root of the polynomial in 0 … 1, from the coefficients on both sides of its sign change.
 
@@ -109,13 +109,13 @@ def rough_root(polynomial, level, after):
     return (first * rise + min(rise, -before)) / (rise * degree) if rise > 0.0 else (first + 0.5) / degree
 
 
-@part
+@inlined
 def nearest_node(table, time):
     """Index of the node nearest to a time."""
     return min(max(int(time * table.pace + 0.5), 0), NODES)
 
 
-@part
+@inlined
 def look_at_node(table, node, origin, level, work):
     """``f`` and its first three derivatives at a node."""
     change, speed, force, jerk = 0j, 0j, 0j, 0j
@@ -128,7 +128,7 @@ def look_at_node(table, node, origin, level, work):
     return derivatives(origin, level, change, speed, force, jerk)
 
 
-@part
+@inlined
 def derivatives(origin, level, change, speed, force, jerk):
     """``f`` and its first three derivatives, from the change of ``y`` since the origin and the derivatives of ``y``."""
     value, slope, bend = two_derivatives(origin, level, change, speed, force)
@@ -136,7 +136,7 @@ def derivatives(origin, level, change, speed, force, jerk):
     return value, slope, bend, 2.0 * third
 
 
-@part
+@inlined
 def two_derivatives(origin, level, change, speed, force):
     """``f`` and its first two derivatives, as in :func:`derivatives`."""
     position = origin + change
@@ -146,7 +146,7 @@ def two_derivatives(origin, level, change, speed, force):
     return value, 2.0 * slope, 2.0 * bend
 
 
-@part
+@inlined
 def move_to(rotor, table, time, work):
     """Write ``work.arrival`` and ``work.increments``, ``c(time) − c(0)``, by a power series from the nearest node."""
     node = nearest_node(table, time)
@@ -171,7 +171,7 @@ def move_to(rotor, table, time, work):
         work.arrival[k] = work.current[k] + increment
 
 
-@part
+@inlined
 def _from_chain(rotor, table, node, mode, work):
     """What the modes before it in its chain contribute to a mode at a node."""
     first, total = chain_start(rotor, mode), 0j
@@ -180,7 +180,7 @@ def _from_chain(rotor, table, node, mode, work):
     return total
 
 
-@part
+@inlined
 def _from_chain_at_node(rotor, table, mode, rest, work):
     """What the modes before it in its chain, given at a node, contribute to a mode until a little later."""
     first, total = chain_start(rotor, mode), 0j
@@ -189,7 +189,7 @@ def _from_chain_at_node(rotor, table, mode, rest, work):
     return total
 
 
-@part
+@inlined
 def _power_series(series, column, time):
     """Sum TERMS terms of a power series without constant term: odd and even powers in parallel by Horner's scheme."""
     square = time * time

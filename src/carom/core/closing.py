@@ -20,7 +20,7 @@ import math
 
 import numpy as np
 
-from carom.compiling.decorators import kernel, part, shared
+from carom.compiling.decorators import inlined, kernel, separate
 from carom.core.advance import advance
 from carom.core.fate import same_state
 from carom.core.flow import copy, displacement, squared_modulus, velocity
@@ -59,7 +59,7 @@ ALIGNED = 0.1
 """Largest component of a difference across the previous one, relative to it, if both form a geometric series."""
 
 
-@shared
+@separate
 def least_period(rotor, table, state, count, contact, log, memory, work, rub):
     """Number of impacts in the period of the orbit that a motion approaches.
 
@@ -236,7 +236,7 @@ def _follow_impacts(rotor, table, states, durations, contact, log, memory, work,
     return met == count, bounces
 
 
-@part
+@inlined
 def _changed(before, after):
     return before[0] != after[0] or before[1] != after[1]
 

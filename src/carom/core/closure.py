@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from carom.compiling.decorators import kernel, part
+from carom.compiling.decorators import inlined, kernel
 from carom.core.equations import solve
 from carom.core.segments import follow_flights
 
@@ -72,7 +72,7 @@ def shooting_equations(nodes, arrivals, values, slopes):
     return matrix
 
 
-@part
+@inlined
 def _assemble(nodes, arrivals, values, slopes, matrix):
     """Write the equations: each segment ends at the next node, where its condition is fulfilled."""
     m, numbers = nodes.shape

@@ -21,7 +21,7 @@ and the second equation of a plane is ``F_p = −μ N_p sgn v_p`` where it slips
 
 from __future__ import annotations
 
-from carom.compiling.decorators import kernel, part
+from carom.compiling.decorators import inlined, kernel
 from carom.core.equations import solve
 from carom.core.friction import friction_ratio, rolling_force
 from carom.core.layout import ORDER
@@ -57,7 +57,7 @@ def rub_series(rotor, contact, amplitudes, work):
                 work.series[k + 1, m] = rate / (k + 1)
 
 
-@part
+@inlined
 def _free_motion(rotor, plane, k, work):
     """Coefficients ``k`` of position and speed, and of acceleration, push and slip without contact forces."""
     position, speed, free = 0j, 0j, 0j
@@ -76,7 +76,7 @@ def _free_motion(rotor, plane, k, work):
     work.push[plane, k], work.slip[plane, k] = push, slip
 
 
-@part
+@inlined
 def _push(plane, k, work):
     """Coefficient ``k`` of ``Re(ȳÿ) + |ẏ|²`` for the acceleration in ``work.free``."""
     push = 0.0
@@ -86,7 +86,7 @@ def _push(plane, k, work):
     return push
 
 
-@part
+@inlined
 def _force(rotor, phase, k, work):
     """Coefficient ``k`` of the contact force of a rotor with one plane, and of its part along growing angle."""
     force, grip = 0j, 0.0
@@ -125,7 +125,7 @@ def _coupled_forces(rotor, contact, k, work):
             work.push[p, k] = _push(p, k, work)
 
 
-@part
+@inlined
 def _balance(rotor, contact, p, k, work):
     """The two equations of a plane in contact for its coefficients ``k`` of normal and friction force."""
     last = work.matrix.shape[1] - 1

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from carom.compiling.decorators import kernel, part, passage
+from carom.compiling.decorators import expanded, inlined, kernel
 from carom.core.advance import SHORTEST, STALLED, advance
 from carom.core.block import move_to
 from carom.core.closing import PASSES, least_period
@@ -136,7 +136,7 @@ def follow_each(task, motions, counter, tools):
     return taken
 
 
-@passage
+@expanded
 def _begin(task, start, lanes, memory, work, lane):
     """Start a motion on a lane; return how it continues."""
     _set_state(task.rotor, start.position, start.velocity, work.current)
@@ -154,7 +154,7 @@ def _begin(task, start, lanes, memory, work, lane):
     return GOES_ON
 
 
-@passage
+@expanded
 def _act_on_verdict(task, lanes, memory, work, lane):
     """Act on the verdict on a lane; return how its motion ends or continues.
 
@@ -201,7 +201,7 @@ def _act_on_verdict(task, lanes, memory, work, lane):
     return GOES_ON
 
 
-@passage
+@expanded
 def _follow_by_events(task, tools, lane):
     """Follow the motion of ``work.current`` event by event until it ends, or flies and can return to its lane."""
     lanes, memory, amplitudes, work = tools.lanes, tools.memory, tools.amplitudes, tools.work
@@ -241,7 +241,7 @@ def _follow_by_events(task, tools, lane):
     return GOES_ON
 
 
-@part
+@inlined
 def _put_on_lane(task, lanes, memory, work, lane):
     """Put the motion of ``work.current``, which is in free flight, on a lane."""
     lower, upper = work.current[0], work.current[1]
@@ -254,7 +254,7 @@ def _put_on_lane(task, lanes, memory, work, lane):
     _set_next_look(task, lanes, memory, lane)
 
 
-@part
+@inlined
 def _set_next_look(task, lanes, memory, lane):
     """Set the number of impacts after which a lane must be examined, and whether to examine its free flights too."""
     due = task.most_events - lanes.events[lane]
@@ -263,7 +263,7 @@ def _set_next_look(task, lanes, memory, lane):
     lanes.due[lane], lanes.watched[lane] = float(due), 1.0 if memory.patience > 0 else 0.0
 
 
-@part
+@inlined
 def _count_plain_impacts(lanes, lane):
     """Add the plain impacts of a lane since it was last examined to its counts."""
     quiet = int(lanes.quiet[lane])
@@ -275,7 +275,7 @@ def _count_plain_impacts(lanes, lane):
     lanes.since[lane] += quiet
 
 
-@part
+@inlined
 def _load_memory(lanes, memory, lane):
     """Load the memory of a lane's motion; the state of a rub is not part of it, because it ends with the rub."""
     memory.events, memory.since, memory.renewal = lanes.seen[lane], lanes.since[lane], lanes.renewal[lane]
@@ -285,7 +285,7 @@ def _load_memory(lanes, memory, lane):
     memory.reference[1] = complex(lanes.reference_upper_re[lane], lanes.reference_upper_im[lane])
 
 
-@part
+@inlined
 def _save_memory(lanes, memory, lane):
     """Save the memory of a lane's motion."""
     lanes.seen[lane], lanes.since[lane], lanes.renewal[lane] = memory.events, memory.since, memory.renewal
@@ -317,7 +317,7 @@ def _passes_by_orbit(task, tools, lane):
     return True
 
 
-@passage
+@expanded
 def _note_end(task, tools, motion, lane, outcome):
     """Store the end of a lane's motion, whose state is in ``work.current``."""
     lanes, memory, work = tools.lanes, tools.memory, tools.work
@@ -330,7 +330,7 @@ def _note_end(task, tools, motion, lane, outcome):
     motion.multiplicity = memory.period if outcome in (BOUNCING, MIXED) else 0
 
 
-@part
+@inlined
 def _fill_unused(lanes, lane):
     """Fill an unused lane with a motion that is never examined: at rest and free of contact."""
     lanes.lower_re[lane], lanes.lower_im[lane], lanes.upper_re[lane], lanes.upper_im[lane] = 0.0, 0.0, 0.0, 0.0
@@ -338,24 +338,24 @@ def _fill_unused(lanes, lane):
     lanes.watched[lane] = 0.0
 
 
-@part
+@inlined
 def _copy_state(lanes, lane, amplitudes):
     amplitudes[0] = complex(lanes.lower_re[lane], lanes.lower_im[lane])
     amplitudes[1] = complex(lanes.upper_re[lane], lanes.upper_im[lane])
 
 
-@part
+@inlined
 def _copy_arrival(lanes, lane, amplitudes):
     amplitudes[0] = complex(lanes.arrival_lower_re[lane], lanes.arrival_lower_im[lane])
     amplitudes[1] = complex(lanes.arrival_upper_re[lane], lanes.arrival_upper_im[lane])
 
 
-@part
+@inlined
 def _changed(before, after):
     return before[0] != after[0] or before[1] != after[1]
 
 
-@part
+@inlined
 def _set_state(rotor, position, speed, amplitudes):
     """Write the amplitudes of a displacement and a velocity.
 

@@ -24,7 +24,7 @@ from __future__ import annotations
 
 import math
 
-from carom.compiling.decorators import kernel, part, passage
+from carom.compiling.decorators import expanded, inlined, kernel
 from carom.core.block import (
     basis_amplitudes,
     derivatives,
@@ -92,7 +92,7 @@ def first_crossing(rotor, table, plane, amplitudes, horizon, start, work):
     return search(rotor, table, plane, horizon, start, work)
 
 
-@part
+@inlined
 def search(rotor, table, plane, horizon, start, work):
     """:func:`first_crossing` of the flight from ``work.current``, which is advanced from block to block."""
     elapsed = 0.0
@@ -108,7 +108,7 @@ def search(rotor, table, plane, horizon, start, work):
         start = INSIDE
 
 
-@passage
+@expanded
 def _search_block(rotor, table, plane, horizon, start, work):
     """First crossing on a block from ``work.current``, or a time up to which there is none."""
     origin = displacement(rotor, plane, work.current)
@@ -137,7 +137,7 @@ def _search_block(rotor, table, plane, horizon, start, work):
     return _step_safely(rotor, table, plane, origin, level, start, spread, min(duration, horizon), bounds, work)
 
 
-@part
+@inlined
 def _bounds(table, work):
     """Bounds of ``f''``, ``f'''`` and ``|ẏ|`` while ``|y| ≤ 1`` on the block whose amplitudes are loaded."""
     speed = 0.0
@@ -155,7 +155,7 @@ def _bounds(table, work):
     )
 
 
-@part
+@inlined
 def _measure(rotor, table, plane, origin, level, time, work):
     """Move to ``time``: fill ``work.arrival``, return ``f`` and its first three derivatives."""
     move_to(rotor, table, time, work)
@@ -168,14 +168,14 @@ def _measure(rotor, table, plane, origin, level, time, work):
     return derivatives(origin, level, change, speed, force, jerk)
 
 
-@part
+@inlined
 def householder_step(value, slope, bend, third):
     """Step towards a root, of fourth order."""
     square, skew = slope * slope, value * bend
     return -value * (square - 0.5 * skew) / (slope * (square - skew) + SIXTH * value * value * third)
 
 
-@part
+@inlined
 def _root_on_block(rotor, table, plane, origin, level, guess, curvature, floor, remainder, duration, work):
     """Whether the root close to a guess is certified to be the first on a block of this duration, and the root."""
     doubt = remainder / duration
@@ -184,7 +184,7 @@ def _root_on_block(rotor, table, plane, origin, level, guess, curvature, floor, 
     return certified and time <= duration, time
 
 
-@part
+@inlined
 def _polish(rotor, table, plane, origin, level, time, curvature, floor, doubt, work):
     """Householder steps to a root, from the node nearest to a time; certified by ``|f|`` and ``f'²``.
 
@@ -242,7 +242,7 @@ def _step_safely(rotor, table, plane, origin, level, start, spread, block, bound
     return CLEAR, block
 
 
-@part
+@inlined
 def _safe_step(value, slope, bend, curvature, jerk):
     """Time up to which ``f < 0`` stays negative whatever ``f'' ≤ M₂`` and ``f''' ≤ M₃`` do.
 
@@ -254,7 +254,7 @@ def _safe_step(value, slope, bend, curvature, jerk):
     return max(nearby, _first_root(value, slope, curvature))
 
 
-@part
+@inlined
 def _spread(rotor, plane, amplitudes):
     """Sum of the sizes of the terms of a displacement: its rounding error in units of the spacing of doubles."""
     total = abs(rotor.offsets[plane].real) + abs(rotor.offsets[plane].imag)
@@ -264,7 +264,7 @@ def _spread(rotor, plane, amplitudes):
     return total
 
 
-@part
+@inlined
 def _first_root(value, slope, bend):
     """First positive root of ``value + slope τ + bend τ²/2`` with ``value < 0``; infinite where there is none."""
     square = slope * slope - 2.0 * bend * value
@@ -303,14 +303,14 @@ def _decide(rotor, table, plane, origin, level, time, block, bounds, rounding, w
     return CONTACT, time
 
 
-@part
+@inlined
 def _rising_time(slope, bend, jerk):
     """Time up to which ``f`` rises, if ``f' > 0`` now: root of ``f' + f''τ − M₃τ²/2``, a lower bound of ``f'``."""
     root = math.sqrt(bend * bend + 2.0 * jerk * slope)
     return (root + bend) / jerk if bend > 0.0 else 2.0 * slope / (root - bend)
 
 
-@part
+@inlined
 def _departure(slope, bend, jerk):
     """Time after leaving the wall, ``f' < 0`` or ``f' = 0`` and ``f'' < 0``, before which no return is possible.
 

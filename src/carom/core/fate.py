@@ -23,7 +23,7 @@ import math
 
 import numpy as np
 
-from carom.compiling.decorators import kernel, part
+from carom.compiling.decorators import inlined, kernel
 from carom.core.block import basis_amplitudes
 from carom.core.flow import squared_modulus
 from carom.core.layout import NEAR, record
@@ -185,7 +185,7 @@ def same_state(first, second, tolerance):
     return distance <= tolerance * size
 
 
-@part
+@inlined
 def _size_and_distance(first, second):
     """One plus the size of the second state, and its distance from the first."""
     size = 1.0

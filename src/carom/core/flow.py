@@ -10,18 +10,18 @@ import math
 
 import numpy as np
 
-from carom.compiling.decorators import kernel, part
+from carom.compiling.decorators import inlined, kernel
 
 THIRD = 1.0 / 3.0
 
 
-@part
+@inlined
 def squared_modulus(z):
     """``|z|²``."""
     return z.real * z.real + z.imag * z.imag
 
 
-@part
+@inlined
 def complex_expm1(z):
     """``e^z − 1`` for complex ``z`` without cancellation at small ``|z|``."""
     growth = math.expm1(z.real)
@@ -30,7 +30,7 @@ def complex_expm1(z):
     return complex(growth + cosine_less_one * (1.0 + growth), 2.0 * (1.0 + growth) * sine * math.cos(0.5 * z.imag))
 
 
-@part
+@inlined
 def flight_increments(rotor, starts, time, increments):
     """Write ``c(time) − c(0)`` of flights of equal duration that start with these amplitudes; both of shape (D, N).
 
@@ -57,7 +57,7 @@ def flight_increments(rotor, starts, time, increments):
                 increments[i, k - 1] = starts[i, k - 1] * (growth + lag + growth * lag)
 
 
-@part
+@inlined
 def _chain_increments(rotor, starts, last, growth, time, increments):
     """:func:`flight_increments` of a chain of equal exponents that ends with a mode: ``Σ_j c_{k−j} tʲ/j! e^{λt}``."""
     first = chain_start(rotor, last)
@@ -70,7 +70,7 @@ def _chain_increments(rotor, starts, last, growth, time, increments):
                 increments[i, k] += starts[i, k - j] * ((1.0 + growth) * factor)
 
 
-@part
+@inlined
 def chain_start(rotor, mode):
     """First mode of the chain that a mode belongs to."""
     first = mode
@@ -90,7 +90,7 @@ def fly_all(rotor, amplitudes, times):
     return flown
 
 
-@part
+@inlined
 def nudge(rotor, amplitudes, time):
     """Advance amplitudes in place by a time so short that the fourth power of ``λ·time`` is below rounding."""
     driving, driving_rate, driving_second = 0j, 0j, 0j
@@ -109,14 +109,14 @@ def nudge(rotor, amplitudes, time):
         )
 
 
-@part
+@inlined
 def copy(source, target):
     """Copy amplitudes."""
     for k in range(source.shape[0]):
         target[k] = source[k]
 
 
-@part
+@inlined
 def displacement(rotor, plane, amplitudes):
     """Displacement ``y`` at a plane, in its clearance."""
     total = rotor.offsets[plane]
@@ -125,7 +125,7 @@ def displacement(rotor, plane, amplitudes):
     return total
 
 
-@part
+@inlined
 def velocity(rotor, plane, amplitudes):
     """Velocity ``ẏ`` at a plane."""
     total = 0j
@@ -134,7 +134,7 @@ def velocity(rotor, plane, amplitudes):
     return total
 
 
-@part
+@inlined
 def acceleration(rotor, plane, amplitudes):
     """Acceleration ``ÿ`` at a plane."""
     total = 0j

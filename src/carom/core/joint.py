@@ -22,7 +22,7 @@ from __future__ import annotations
 
 import math
 
-from carom.compiling.decorators import kernel, part
+from carom.compiling.decorators import inlined, kernel
 from carom.core.equations import solve
 from carom.core.flow import displacement, squared_modulus, velocity
 from carom.core.friction import BACKWARD, FORWARD, STOPPED, friction_ratio, rebound, slip_of
@@ -125,7 +125,7 @@ def _set_landing(rotor, contact, plane, share, grip, rub):
     return solve(rub.matrix)
 
 
-@part
+@inlined
 def _write_coupling(matrix, p, q, coupling, radially, along):
     """Write what the impulses at plane ``q`` change at plane ``p``: of ``ṙ`` into the first of its equations, of the slip into the second."""
     if radially:
@@ -134,7 +134,7 @@ def _write_coupling(matrix, p, q, coupling, radially, along):
         matrix[2 * p + 1, 2 * q], matrix[2 * p + 1, 2 * q + 1] = -coupling.imag, coupling.real
 
 
-@part
+@inlined
 def _load(rotor, before, rub):
     """Local velocities ``u⁻`` and the matrix ``A``."""
     for p in range(rotor.rows.shape[0]):
@@ -177,7 +177,7 @@ def _compress_and_expand(rotor, share, rub):
     return compressed and expanded
 
 
-@part
+@inlined
 def _restitution(speed, wall):
     """Coefficient of restitution of an arrival with this speed."""
     return wall.restitution * (impulse_by_restitution(speed, wall) / speed) if speed > 0.0 else wall.restitution
@@ -190,7 +190,7 @@ def _gains(rotor, rub):
     return work > NO_GAIN * terms
 
 
-@part
+@inlined
 def _work(rotor, before, after, impulses, rub):
     """Work of impulses on the contact points, and the sum of the moduli of its terms."""
     work, terms = 0.0, 0.0
@@ -235,7 +235,7 @@ def _resolve(rotor, rub):
     return found
 
 
-@part
+@inlined
 def _set_equations(rotor, way, rub):
     """Write two linear equations of each plane for the impulses if the laws hold in a given way; return whether that can be.
 
@@ -266,7 +266,7 @@ def _set_equations(rotor, way, rub):
     return True
 
 
-@part
+@inlined
 def _violation(rotor, rub):
     """Largest violation of the inequalities by the solution in ``rub.matrix``, relative; infinite if there was none.
 

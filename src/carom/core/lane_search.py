@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from carom.compiling.decorators import part
+from carom.compiling.decorators import inlined
 from carom.core.block import two_derivatives
 from carom.core.events import ROUNDING
 from carom.core.flow import squared_modulus
@@ -58,7 +58,7 @@ class Node(NamedTuple):
     change: object
 
 
-@part
+@inlined
 def departure(rotor, table, lower, upper, level):
     """Start of a flight, with the moduli of its amplitudes and the bounds of :func:`carom.core.events.search`."""
     offset, first, second = rotor.offsets[0], table.bounds[0], table.bounds[1]
@@ -70,7 +70,7 @@ def departure(rotor, table, lower, upper, level):
     return Departure(lower, upper, upper + offset, level, low, high, low_square, high_square, curvature, floor)
 
 
-@part
+@inlined
 def products_of(start):
     """Products of amplitudes in which ``f`` is linear; see :func:`carom.core.block.load_products`."""
     position = start.position.conjugate()
@@ -81,7 +81,7 @@ def products_of(start):
     )  # fmt: skip
 
 
-@part
+@inlined
 def examine(table, depth, start, polynomial, factors):
     """Look for sign changes of ``f``, in each lane on a block of its own; see :func:`carom.core.block.sign_changes`.
 
@@ -113,7 +113,7 @@ def examine(table, depth, start, polynomial, factors):
     )  # fmt: skip
 
 
-@part
+@inlined
 def _load_polynomial(coefficients, depth, start, polynomial):
     """Write the Bernstein coefficients of ``f`` on the block of each lane; most often all blocks are the longest."""
     a, b, c, d, e, f, g, h = products_of(start)
@@ -133,7 +133,7 @@ def _load_polynomial(coefficients, depth, start, polynomial):
             )  # fmt: skip
 
 
-@part
+@inlined
 def _doubt(errors, depth, low, high):
     """Error bound of a block's polynomial, per unit time, by moduli of amplitudes; needs ``|y| ≤ 1`` at the start."""
     of_lower, of_upper = choose(errors[0], depth), choose(errors[1], depth)
@@ -142,7 +142,7 @@ def _doubt(errors, depth, low, high):
     )
 
 
-@part
+@inlined
 def _root(polynomial, factors, degree, level, first, before, after):
     """Approximate root of a Bernstein polynomial on 0 … 1, from the coefficients on both sides of its sign change.
 
@@ -176,7 +176,7 @@ def _root(polynomial, factors, degree, level, first, before, after):
     return where(place < most, place, most)
 
 
-@part
+@inlined
 def _halley(factors, u, degree, divided):
     """Halley step for the polynomial with these factors, or ``divided`` by ``u``; return the new ``u`` as a ratio."""
     value = load(factors[DEGREE], 0)
@@ -192,13 +192,13 @@ def _halley(factors, u, degree, divided):
     return u * below - above, below
 
 
-@part
+@inlined
 def halley_ratio(value, slope, half_bend):
     """Distance by which a third-order (Halley) step goes back to a root, as numerator and denominator."""
     return value * slope, slope * slope - value * half_bend
 
 
-@part
+@inlined
 def look_up(rotor, table, start, guess):
     """The node nearest to a time, and the state there; with ``e^{λ₋τ} = e^{λ₊τ} − (λ₊ − λ₋) φ(τ)``."""
     place = guess * (1.0 / table.lane_spacing) + 0.5
@@ -212,7 +212,7 @@ def look_up(rotor, table, start, guess):
     return Node(place * table.lane_spacing, fma(decay, start.lower, start.lower), start.upper + change, change)
 
 
-@part
+@inlined
 def travel(rotor, table, start, node, rest, terms):
     """State some time after a node.
 
@@ -230,7 +230,7 @@ def travel(rotor, table, start, node, rest, terms):
     return lower, upper, (rate, speed, force), two_derivatives(start.position, start.level, change, speed, force)
 
 
-@part
+@inlined
 def _power_series(series, column, time, terms):
     """Sum of a power series without constant term."""
     total = time * series[terms - 1, column] + series[terms - 2, column]

@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from carom.compiling.decorators import kernel, part
+from carom.compiling.decorators import inlined, kernel
 from carom.core.advance import CHATTER_HEIGHT, flies
 from carom.core.events import MARGIN
 from carom.core.flow import acceleration, displacement, squared_modulus, velocity
@@ -94,7 +94,7 @@ def fly_lanes(rotor, table, until, lanes):
     return looks
 
 
-@part
+@inlined
 def _fly(rotor, table, until, first, lanes):
     """Find and certify the first crossing of WIDTH lanes, and advance them; return the lanes to examine, as bits."""
     lower = _load_complex(lanes.lower_re, lanes.lower_im, first)
@@ -120,7 +120,7 @@ def _fly(rotor, table, until, first, lanes):
     return _move_on(rotor, until, first, lanes, start, depth, free, strikes, end, lower, upper)
 
 
-@part
+@inlined
 def _move_on(rotor, until, first, lanes, start, depth, free, strikes, end, lower, upper):
     """Store the end of a free block or the state after an impact; return the lanes to examine, as bits."""
     decided = free | strikes
@@ -151,7 +151,7 @@ def _move_on(rotor, until, first, lanes, start, depth, free, strikes, end, lower
     return lanes_of(~(plain | (free & moves & ~watched) | (~decided & (depth < LEVELS - 1.0))))
 
 
-@part
+@inlined
 def _leaves(rotor, start):
     """Whether a start on the wall leaves it for a flight that is high enough for lanes; true for a start inside."""
     slow, fast = rotor.exponents[0], rotor.exponents[1]
@@ -166,7 +166,7 @@ def _leaves(rotor, start):
     return leaves
 
 
-@part
+@inlined
 def _first_step(rotor, table, start, search, node, reach):
     """Time from the node after a first step towards the root."""
     rest = search.guess - node.time
@@ -176,24 +176,24 @@ def _first_step(rotor, table, start, search, node, reach):
     return rest + where(~search.free & (abs(rest + step) <= reach), step, 0.0)
 
 
-@part
+@inlined
 def _halley_step(value, slope, bend):
     above, below = halley_ratio(value, slope, 0.5 * bend)
     return -above / below
 
 
-@part
+@inlined
 def _load_complex(real, imag, first):
     return join(load(real, first), load(imag, first))
 
 
-@part
+@inlined
 def _store_complex(real, imag, first, values):
     store(real, first, values.real)
     store(imag, first, values.imag)
 
 
-@part
+@inlined
 def _nudged(time, lower, upper, rates, exponent):
     """Amplitudes a very short time later."""
     rate, speed, force = rates
@@ -201,7 +201,7 @@ def _nudged(time, lower, upper, rates, exponent):
     return lower + (rate + rate * exponent * half) * time, upper + (speed + force * half) * time
 
 
-@part
+@inlined
 def _near_reference(lower, upper, first, lanes):
     """Whether a state may recur (:func:`carom.core.fate.recurs`): a cheap condition that is necessary for it."""
     away = abs(lower.real - load(lanes.reference_lower_re, first)) + abs(
@@ -210,7 +210,7 @@ def _near_reference(lower, upper, first, lanes):
     return away <= load(lanes.reach, first)
 
 
-@part
+@inlined
 def surely_flies(rotor, amplitudes):
     """Whether a state on the wall leaves it for a flight that is high enough for lanes."""
     position, speed = displacement(rotor, 0, amplitudes), velocity(rotor, 0, amplitudes)

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from carom.compiling.decorators import kernel, part
+from carom.compiling.decorators import inlined, kernel
 from carom.core.contact_series import rub_series
 from carom.core.flow import acceleration, copy, displacement, flight_increments, squared_modulus, velocity
 from carom.core.friction import BACKWARD, FORWARD, margin_of_slip, slip_of, spare_friction, spare_grip
@@ -149,7 +149,7 @@ def contact_margins(rotor, kinds, planes, nodes, durations, rub):
     return push, slip, cone
 
 
-@part
+@inlined
 def _least_inside(margin, step):
     """Smallest value of the minima of a polynomial inside a step; infinite without any."""
     least, early, before = np.inf, 0.0, _slope(margin, AT_EDGE)
@@ -174,7 +174,7 @@ def _least_inside(margin, step):
     return least
 
 
-@part
+@inlined
 def _slope(margin, time):
     """Derivative of a polynomial."""
     slope = ORDER * margin[ORDER]
@@ -217,7 +217,7 @@ def highest_point(rotor, plane, start, duration):
     return height, top
 
 
-@part
+@inlined
 def _sample(i, count, duration):
     """Time of a sample of a flight: of ``count`` steps, the first and the last of which are refined towards its ends."""
     step, refined = duration / count, i - FINE - count + 2
@@ -228,7 +228,7 @@ def _sample(i, count, duration):
     return duration - step * 0.5**refined if refined <= FINE else duration
 
 
-@part
+@inlined
 def _radial(rotor, plane, starts, time, increments):
     """``|y|² − 1`` and ``Re(ȳẏ)`` of a flight at a time."""
     flight_increments(rotor, starts, time, increments)

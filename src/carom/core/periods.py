@@ -31,7 +31,7 @@ import math
 
 import numpy as np
 
-from carom.compiling.decorators import kernel, part
+from carom.compiling.decorators import inlined, kernel
 from carom.core.flow import complex_expm1, squared_modulus
 
 # B₂ₖ/(2k)! with the Bernoulli numbers B₂ₖ: g̃(z) = −1/2 − Σ B₂ₖ z^{2k−1}/(2k)!.
@@ -53,13 +53,13 @@ EMPTY, MONOTONE, DOUBTFUL, UNDECIDED = 0, 1, 2, 3
 """What is known of ``F₁`` on an interval: no root, monotone, not to be distinguished from zero, or not enough."""
 
 
-@part
+@inlined
 def _quotient(z, w):
     """``z/w``, infinite where ``w`` is zero: at a pole."""
     return z / w if w != 0.0 else complex(math.inf, 0.0)
 
 
-@part
+@inlined
 def propagator(first, second, time):
     """``e^{λ₊t}``, the divided difference of ``e^{λt}``, and ``e^{λ₋t}`` for ``λ₋, λ₊`` = ``first, second``."""
     gap = second - first
@@ -69,7 +69,7 @@ def propagator(first, second, time):
     return growth, response, growth * (1.0 + lag)
 
 
-@part
+@inlined
 def returns(first, second, period):
     """``a₁₂``, ``a₂₂`` and ``da₂₂/dT`` of a pair with these exponents, as of the planar rotor (source paper (4.1)).
 
@@ -112,7 +112,7 @@ def returns(first, second, period):
     return a12, a22, rate, size
 
 
-@part
+@inlined
 def _regular(z):
     """``g(z)``, ``g̃(z)`` and ``g̃'(z)``."""
     # Neither form has a growing exponential.
@@ -221,7 +221,7 @@ def curvature_bound(modes, factor, middle, half):
     return abs(factor) * min(near, far)
 
 
-@part
+@inlined
 def _decay_bound(modes, factor, period):
     """Bound of ``|q a₂₂|`` that decreases with the period, from ``|g(z)| ≤ 1/(e^{−Re z} − 1)``."""
     total, driving = 0.0, 0.0
@@ -347,7 +347,7 @@ def roots_on(modes, factor, intervals):
     return roots[:found], values, starts_below
 
 
-@part
+@inlined
 def _root(modes, factor, low, high, rising):
     """Root on a bracket by Newton's method, bisecting where it leaves the bracket."""
     root = 0.5 * (low + high)

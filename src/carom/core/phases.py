@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from carom.compiling.decorators import part
+from carom.compiling.decorators import inlined
 from carom.core.friction import BACKWARD, FORWARD, STOPPED
 from carom.outcome import Phase
 
@@ -16,13 +16,13 @@ AWAY = -1
 """State of contact of a plane that is not on its wall; on the wall it is a :class:`~carom.outcome.Phase`."""
 
 
-@part
+@inlined
 def lasts(phase):
     """Whether a plane is in lasting contact."""
     return phase in (FORWARD_SLIP, BACKWARD_SLIP, ROLLING)
 
 
-@part
+@inlined
 def sense_of_phase(phase):
     """Sense of the slip in lasting contact."""
     if phase == ROLLING:
@@ -30,7 +30,7 @@ def sense_of_phase(phase):
     return FORWARD if phase == FORWARD_SLIP else BACKWARD
 
 
-@part
+@inlined
 def phase_of_slip(sense):
     """Phase of lasting contact with this sense of the slip."""
     if sense == STOPPED:

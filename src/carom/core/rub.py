@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from carom.compiling.decorators import kernel, part
+from carom.compiling.decorators import inlined, kernel
 from carom.core.contact_series import rub_series
 from carom.core.flow import acceleration, displacement, flight_increments, squared_modulus, velocity
 from carom.core.friction import BACKWARD, FORWARD, STOPPED, arrival_in_sense, friction_ratio, slip_of, spare_grip
@@ -60,7 +60,7 @@ def forces_all(rotor, amplitudes, phases, work):
     return forces
 
 
-@part
+@inlined
 def _lasts(contact):
     """Whether there is lasting contact at any plane."""
     found = False
@@ -125,13 +125,13 @@ def first_contact(rotor, plane, on_wall, step, work):
     return first_fall(work.first_margin, step, 2.0 * ROUNDING * _spread(rotor, plane, state))
 
 
-@part
+@inlined
 def _rise(plane, work):
     """Rate of ``1 − |y|²`` at the start of a step."""
     return -2.0 * (work.position[plane, 0].conjugate() * work.speed[plane, 0]).real
 
 
-@part
+@inlined
 def _first_return(rotor, plane, step, work):
     """First time within a step at which a plane that starts at rest on its wall is back there, or the step.
 
@@ -196,7 +196,7 @@ def rest_on_wall(rotor, plane, amplitudes, rolling):
         amplitudes[m] += rotor.columns[m, plane] * change
 
 
-@part
+@inlined
 def speed_rounding(rotor, plane, amplitudes):
     """Rounding error of the radial speed and the speed along the wall.
 
@@ -235,7 +235,7 @@ def meets_wall(rotor, plane, amplitudes):
     return gap <= 2.0 * RESTING * ROUNDING * _spread(rotor, plane, amplitudes)
 
 
-@part
+@inlined
 def _spread(rotor, plane, amplitudes):
     """Sum of the sizes of the terms of a displacement of modulus one, on the wall: a measure of their cancellation."""
     spread = _size(rotor.offsets[plane])
@@ -244,7 +244,7 @@ def _spread(rotor, plane, amplitudes):
     return spread
 
 
-@part
+@inlined
 def _size(z):
     """Bound of ``|z|``."""
     return abs(z.real) + abs(z.imag)
@@ -301,7 +301,7 @@ def next_phase(rotor, contact, plane, amplitudes, work):
     return BACKWARD_SLIP if contact[plane] == FORWARD_SLIP else FORWARD_SLIP
 
 
-@part
+@inlined
 def _rolling_forces(rotor, contact, plane, amplitudes, work):
     """Normal force if a plane rolls, and the pull along growing angle that friction then has to balance."""
     before = contact[plane]

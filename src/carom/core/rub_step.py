@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from carom.compiling.decorators import kernel, part
+from carom.compiling.decorators import inlined, kernel
 from carom.core.contact_series import rub_series
 from carom.core.fate import approaches_turn, at_rest, forget_rub, near_rub, never_repeats, same_state
 from carom.core.layout import NEAR
@@ -73,7 +73,7 @@ def rub_step(rotor, contact, amplitudes, horizon, memory, rub):
     return (TIME_REACHED if duration >= horizon else CONTACT), duration, leading if changed == NOWHERE else changed
 
 
-@part
+@inlined
 def _known_end(rotor, slips, position, speed, memory, rub):
     """What lasting contact settles to, if that is known from its state; otherwise CONTACT."""
     if near_rub(memory, position, speed) or (slips and absorbed(memory.proofs, memory.rub_position, position, speed)):
@@ -88,7 +88,7 @@ def _known_end(rotor, slips, position, speed, memory, rub):
     return ROLLS_ON if slips and runs_away(memory.proofs, speed) else CONTACT
 
 
-@part
+@inlined
 def _first_change(rotor, contact, step, rub):
     """First change of contact within a step: its time, plane and following phase, and whether a slip stops."""
     duration, changed, following, slip_stops = step, NOWHERE, FLIGHT, False
@@ -105,7 +105,7 @@ def _first_change(rotor, contact, step, rub):
     return duration, changed, following, slip_stops
 
 
-@part
+@inlined
 def leading_plane(rotor, contact):
     """First plane in lasting contact, whose turns are watched; NOWHERE if there is none."""
     for plane in range(rotor.rows.shape[0]):
@@ -114,7 +114,7 @@ def leading_plane(rotor, contact):
     return NOWHERE
 
 
-@part
+@inlined
 def _change_contact(rotor, contact, plane, following, slip_stops, amplitudes, memory, rub):
     """Change the contact of a plane: it lifts off, slips, rolls, or has come to the wall."""
     if slip_stops:

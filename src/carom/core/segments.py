@@ -18,7 +18,7 @@ import math
 
 import numpy as np
 
-from carom.compiling.decorators import kernel, part
+from carom.compiling.decorators import inlined, kernel
 from carom.core.contact_series import rub_series
 from carom.core.flow import acceleration, displacement, flight_increments, squared_modulus, velocity
 from carom.core.friction import BACKWARD, FORWARD, STOPPED, friction_ratio, rolling_force, slip_of, spare_grip
@@ -113,7 +113,7 @@ def follow_contact(rotor, basis, to_modes, rest, kinds, planes, ends, nodes, dur
         values[i] = _condition(rotor, planes[i], ends[i], moved[last], directions, rate, normal)
 
 
-@part
+@inlined
 def phase_of(kind):
     """Phase of a segment of lasting contact."""
     if kind == ROLL:
@@ -121,9 +121,12 @@ def phase_of(kind):
     return FORWARD_SLIP if kind == SLIDE_FORWARD else BACKWARD_SLIP
 
 
-@part
+@inlined
 def _set_out(to_modes, rest, node, moved):
-    """Write the amplitudes of all changes of the state by one, and below them its own; return those of the changes."""
+    """Write the amplitudes of a unit change of each real and imaginary part of the state, and in the last row those of the state.
+
+    Return the rows of the changes.
+    """
     size = node.shape[0]
     for k in range(to_modes.shape[0]):
         moved[2 * size, k] = 0j
@@ -133,7 +136,7 @@ def _set_out(to_modes, rest, node, moved):
     return moved[: 2 * size]
 
 
-@part
+@inlined
 def _hand_over(basis, rest, moved, rate, arrival, slopes):
     """Write the state from its amplitudes, and the derivatives of its real and imaginary parts."""
     size, modes = basis.shape
@@ -148,19 +151,19 @@ def _hand_over(basis, rest, moved, rate, arrival, slopes):
             arrival[j] += basis[j, k] * moved[2 * size, k]
 
 
-@part
+@inlined
 def strikes(kind):
     """Whether a segment begins with an impact."""
     return kind in (IMPACT_FORWARD, IMPACT_BACKWARD, IMPACT_STOPPED)
 
 
-@part
+@inlined
 def rubs(kind):
     """Whether a segment is lasting contact."""
     return kind in (SLIDE_FORWARD, SLIDE_BACKWARD, ROLL)
 
 
-@part
+@inlined
 def sense_after(kind):
     """Sense of the slip after the impact of a segment that begins with one."""
     if kind == IMPACT_STOPPED:
@@ -181,7 +184,7 @@ def _rest(rotor, plane, state, directions, friction, sense):
     blow(rotor, plane, rigid_wall(friction, 0.0, rotor.surface_speed[plane]), sense, state, directions)
 
 
-@part
+@inlined
 def _flight_rate(rotor, state, rate):
     """Write ``ċ`` of a flight."""
     for k in range(state.shape[0]):
@@ -236,7 +239,7 @@ def _slide(rotor, contact, plane, duration, state, directions, rate, falls, rub)
     return rub.push[plane, 1]
 
 
-@part
+@inlined
 def _varied_series(rotor, phase, plane, rub, series, moved, push):
     """Taylor coefficients of a small change of a motion in lasting contact; those of order zero are given."""
     position, speed, free, force = moved[0], moved[1], moved[2], moved[3]
@@ -282,7 +285,7 @@ def _condition(rotor, plane, end, state, directions, rate, normal):
     return _chosen(end, wall, gap, push, (y.conjugate() * a).imag, slip_of(y.conjugate() * v, wall))
 
 
-@part
+@inlined
 def _chosen(end, wall, gap, push, pull, slip):
     """The condition of this kind, or its derivative."""
     if end == MEETS_WALL:

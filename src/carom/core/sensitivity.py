@@ -15,7 +15,7 @@ import math
 
 import numpy as np
 
-from carom.compiling.decorators import kernel, part
+from carom.compiling.decorators import inlined, kernel
 from carom.core.flow import displacement, squared_modulus
 from carom.core.friction import arrival_by_law
 from carom.core.segments import sense_after
@@ -102,7 +102,7 @@ def sensitivity_of_flights(
     return left
 
 
-@part
+@inlined
 def _coupling(basis, to_modes, rest, accelerations, force):
     """``G``, and ``g`` as last column: what changed accelerations do to the amplitudes, per amplitude and at rest."""
     half, size = accelerations.shape
@@ -118,7 +118,7 @@ def _coupling(basis, to_modes, rest, accelerations, force):
     return coupling
 
 
-@part
+@inlined
 def _respond(rotor, coupling, time, growth, response):
     """Write ``e^{Λt}``, and ``D(t)`` with ``V(t)`` as last column."""
     # The driven modes couple with one.
@@ -139,7 +139,7 @@ def _respond(rotor, coupling, time, growth, response):
         _double(power, driven, growth, response)
 
 
-@part
+@inlined
 def _sum_series(rotor, coupling, step, angle, growth, response, power, driven):
     """Power series of ``e^{Λt}``, ``D`` and ``V`` at a short time with ``|Λ|t`` below an angle; ``power`` and ``driven`` hold their terms."""
     modes = growth.shape[0]
@@ -170,7 +170,7 @@ def _sum_series(rotor, coupling, step, angle, growth, response, power, driven):
         size *= abs(angle) / term
 
 
-@part
+@inlined
 def _rate(rotor, amplitudes, row, column):
     """``Λc`` of one of several amplitudes, each in a column."""
     rate = rotor.exponents[row] * amplitudes[row, column]
@@ -179,7 +179,7 @@ def _rate(rotor, amplitudes, row, column):
     return rate
 
 
-@part
+@inlined
 def _double(power, driven, growth, response):
     """Write what follows from ``e^{Λt}``, ``D`` and ``V`` for twice the time."""
     modes = growth.shape[0]

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from carom.compiling.decorators import kernel, part
+from carom.compiling.decorators import inlined, kernel
 from carom.core.flow import displacement, flight_increments, squared_modulus, velocity
 from carom.core.friction import arrival_change, arrival_in_sense, sense_of
 from carom.core.wall import local_velocity, unit, wall_of
@@ -29,7 +29,7 @@ def carry_through_impact(rotor, plane, before, directions):
     carry_through_blow(rotor, plane, wall, sense_of(local_velocity(rotor, plane, before), wall), before, directions)
 
 
-@part
+@inlined
 def carry_through_blow(rotor, plane, wall, sense, before, directions):
     """:func:`carry_through_impact` for a given sense of the slip; returns the change of the plane's velocity.
 
@@ -55,7 +55,7 @@ def strike(rotor, plane, sense, state, directions):
     blow(rotor, plane, wall_of(rotor, plane), sense, state, directions)
 
 
-@part
+@inlined
 def blow(rotor, plane, wall, sense, state, directions):
     """:func:`strike` at a wall with numbers of its own."""
     change = carry_through_blow(rotor, plane, wall, sense, state, directions)
@@ -138,7 +138,7 @@ def section_jacobian(rotor, orbit, durations, jacobian):
         jacobian[2, i] = swing.imag - turn * local.real
 
 
-@part
+@inlined
 def set_amplitude_change(rotor, position_change, velocity_change, amplitudes):
     """Write the change of the two amplitudes of a planar rotor that gives these changes of position and velocity."""
     amplitudes[0], amplitudes[1] = velocity_change - rotor.exponents[1] * position_change, position_change

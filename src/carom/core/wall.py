@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from carom.compiling.decorators import formula, part
+from carom.compiling.decorators import formula, inlined
 from carom.core.flow import displacement, squared_modulus, velocity
 
 
@@ -49,27 +49,27 @@ def rigid_wall(friction, restitution, surface_speed):
     return Wall(friction, restitution, surface_speed, 0, 0.0)
 
 
-@part
+@inlined
 def unit(z):
     """``z/|z|``."""
     scale = 1.0 / math.sqrt(squared_modulus(z))
     return complex(scale * z.real, scale * z.imag)
 
 
-@part
+@inlined
 def local_velocity(rotor, plane, amplitudes):
     """Velocity ``ṙ + iθ̇`` of a plane in the frame of its contact."""
     return unit(displacement(rotor, plane, amplitudes)).conjugate() * velocity(rotor, plane, amplitudes)
 
 
-@part
+@inlined
 def set_on_wall(rotor, plane, amplitudes):
     """Move a plane to the nearest point of the wall by the smallest change of the amplitudes."""
     position = displacement(rotor, plane, amplitudes)
     move_plane(rotor, plane, unit(position) - position, amplitudes)
 
 
-@part
+@inlined
 def move_plane(rotor, plane, shift, amplitudes):
     """Move a plane by the smallest change of the amplitudes."""
     scale = 1.0 / rotor.weights[plane]

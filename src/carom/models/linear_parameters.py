@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from carom.models.linear import LinearRotor
 
 SAME = {"friction": "mu", "restitution": "d", "unbalance_phase": "phi"}
-"""Physical parameters that are numbers without a scale."""
+"""Entries of a machine file that are dimensionless, and the parameter that each is."""
 _AT_PLANES = {"mu": "friction", "d": "restitution", "radius_ratio": "surface_speed"}
 """Parameters of the planes, and what each changes of a wall."""
 

@@ -1,4 +1,4 @@
-"""How a motion that has recurred goes on, for rotors whose orbits are not closed by a kernel: how often it repeats, or leaves."""
+"""Impacts per period of a motion that has recurred, or that it leaves again, for rotors whose orbits no kernel closes."""
 
 from __future__ import annotations
 
