@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 
 import numpy as np
 import pytest
-from linear_rotors import tilting, touchdowns
+from linear_rotors import FixedFrame, bending, single, tilting, to_fixed, touchdowns
 from scipy.linalg import expm
 
 import carom as cm
@@ -196,3 +197,49 @@ def test_unbalance_in_undamped_resonance_drives_the_mode(damping):
         assert found[0] == pytest.approx(place, abs=1e-10)
         assert found[1] == pytest.approx(speed, abs=1e-10)
     assert abs(motion.at_plane(motion.contacts.time[0])[0]) == pytest.approx(1.0, abs=1e-12)
+
+
+@dataclass(frozen=True, eq=False)
+class Heavy(FixedFrame):
+    """A rotor that weighs something, by its equations in the fixed frame."""
+
+    def free(self, time, position, velocity):
+        return super().free(time, position, velocity) - 0.06j * self.translation
+
+
+NO_SPRINGS = {"damping": np.zeros((2, 2)), "stiffness": np.zeros((2, 2))}
+
+
+@pytest.mark.jit_only
+@pytest.mark.parametrize(
+    "rotor",
+    [
+        single(planes=1),
+        tilting(),
+        bending(),
+        tilting(damping=np.zeros((2, 2)), gyroscopic=np.zeros((2, 2))),
+        tilting(**NO_SPRINGS),
+    ],
+    ids=["one coordinate", "tilting", "bending", "undamped", "falling"],
+)
+def test_impacts_of_a_heavy_rotor_against_a_general_solver(rotor):
+    heavy = Heavy(**vars(rotor))
+    model = Forced(rotor.model, (Force(-1j, -0.06j * rotor.translation),))
+    random, impacts, n = np.random.default_rng(0), 0, len(rotor.mass)
+    for _ in range(2):
+        position, velocity = random.normal(size=(2, n)) + 1j * random.normal(size=(2, n))
+        position *= 0.8 / np.abs(rotor.planes @ position).max()
+        met = heavy.bounces(position, velocity + 1j * position, 20.0, 6)
+        start = (position, velocity) if n > 1 else (complex(position[0]), complex(velocity[0]))
+        motion = cm.simulate(model, cm.State(*start), 20.0)
+        struck = np.flatnonzero(motion.is_impact)
+        assert len(struck) >= len(met)
+        for event, (time, plane, place, speed) in zip(struck.tolist(), met, strict=False):
+            found = motion.segment_starts[1 + event]
+            assert found == pytest.approx(time, abs=1e-9)
+            assert motion.event_planes[event] == plane
+            state = to_fixed(found, *map(np.atleast_1d, model.system.state(motion.arrivals[event])))
+            assert np.allclose(state[0], place, rtol=0, atol=1e-9)
+            assert np.allclose(state[1], speed, rtol=0, atol=1e-9)
+            impacts += 1
+    assert impacts > 1
