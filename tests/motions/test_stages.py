@@ -200,3 +200,13 @@ def test_a_motion_of_several_stages_is_saved_part_by_part(tmp_path):
     motion.parts[0].save(tmp_path / "first.nc")
     again = cm.motions.Trajectory.load(tmp_path / "first.nc")
     assert (again.begins, again.time, again.outcome) == (0.0, 7.0, Outcome.TRIGGERED)
+
+
+@pytest.mark.parametrize("stages", [(), (Stage(HELPED),)], ids=["one stage", "two stages"])
+def test_threads_that_share_a_portion_follow_each_motion_once(stages):
+    """The later thread finds motions that have ended, with times above zero."""
+    rotor = Staged((Stage(ROTOR, Trigger(time=3.0)), *stages)) if stages else ROTOR
+    positions, kicks = starts(20_000)
+    alone, shared = (cm.settle(rotor, positions, kicks, until=100.0, threads=threads) for threads in (1, 2))
+    for name, values in vars(alone).items():
+        assert np.array_equal(getattr(shared, name), values), name

@@ -54,11 +54,15 @@ def motions_from(positions: np.ndarray, velocities: np.ndarray, times: np.ndarra
 
 
 class Part(NamedTuple):
-    """Motions of one machine; all threads that hold the same part take motions from it by its shared counter."""
+    """Motions of one machine; all threads that hold the same part take motions from it by its shared counter.
+
+    ``begun`` says whether earlier stages have taken time.  The times themselves are overwritten by the thread that comes first.
+    """
 
     stage: Stage
     motions: np.ndarray
     counter: np.record
+    begun: bool
 
 
 def parts_of(stages: Sequence[Stage], which: np.ndarray, motions: np.recarray, threads: int) -> list[Part]:
@@ -67,7 +71,8 @@ def parts_of(stages: Sequence[Stage], which: np.ndarray, motions: np.recarray, t
     ends = np.searchsorted(which, np.arange(len(stages) + 1)).tolist()
     for stage, first, last in zip(stages, ends, ends[1:], strict=False):
         for begins in range(first, last, PORTION):
-            part = Part(stage, motions[begins : min(begins + PORTION, last)], fresh_counter())
+            portion = motions[begins : min(begins + PORTION, last)]
+            part = Part(stage, portion, fresh_counter(), bool(portion["time"].any()))
             parts += [part] * min(threads, 1 + len(part.motions) // FEW)
     return parts
 
@@ -102,7 +107,7 @@ def _settle_part(part: Part, limits: Limits) -> int:
     if (
         not rotor.system.is_planar
         or trigger.watches_contact
-        or (limits.until is not None and part.motions["time"].any())
+        or (limits.until is not None and part.begun)
     ):
         return _follow_singly(part, until, limits, memory)
     task = Task(rotor.system.arrays, rotor.system.table, min(until, trigger.time), limits.max_events)
