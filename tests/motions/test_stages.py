@@ -7,6 +7,7 @@ import math
 import numpy as np
 import pytest
 from compilation import sized
+from linear_rotors import tilting
 from machines import PAPER
 
 import carom as cm
@@ -33,12 +34,17 @@ def touching(motion):
 
 
 def persisted(motion, gap, least):
+    """See :func:`persisted_at`."""
+    return persisted_at(touching(motion), gap, least)
+
+
+def persisted_at(touches, gap, least):
     """Time at which contact has lasted for so long, with flights up to ``gap``; infinite if it never has.
 
     While it flies nobody knows whether it will touch again: contact counts as lasting until the gap is over.
     """
     begun, last = math.inf, -math.inf
-    for begins, ends in [*touching(motion), (math.inf, math.inf)]:
+    for begins, ends in [*touches, (math.inf, math.inf)]:
         if begun + least <= min(begins, last + gap):
             return begun + least
         if begins - last > gap:
@@ -210,3 +216,54 @@ def test_threads_that_share_a_portion_follow_each_motion_once(stages):
     alone, shared = (cm.settle(rotor, positions, kicks, until=100.0, threads=threads) for threads in (1, 2))
     for name, values in vars(alone).items():
         assert np.array_equal(getattr(shared, name), values), name
+
+
+@pytest.mark.parametrize(("least", "gap"), [(30.0, 4.0), (100.0, 6.0), (1000.0, 10.0)])
+def test_contact_that_would_settle_triggers_once_it_has_persisted(least, gap):
+    """Periodic bouncing and a rub that attracts are known long before."""
+    for rotor in (ROTOR, ROTOR.replace(gamma=0.2)):
+        staged = Staged((Stage(rotor, Trigger(contact_time=least, contact_gap=gap)), Stage(HELPED)))
+        positions, kicks = starts(12, 1)
+        ends = cm.settle(staged, positions, kicks)
+        for position, kick, outcome in zip(positions, kicks, ends.outcomes, strict=True):
+            motion = cm.simulate(staged, cm.State(position, kick))
+            followed = cm.simulate(staged, cm.State(position, kick), 5000.0, settle=False)
+            assert motion.outcome == outcome
+            assert [part.begins for part in motion.parts] == pytest.approx([part.begins for part in followed.parts])
+            alone = cm.simulate(rotor, cm.State(position, kick))
+            assert len(motion.parts) == (1 if alone.outcome is Outcome.LEVITATED else 2)
+
+
+def test_bounces_with_longer_flights_than_the_gap_still_settle():
+    staged = Staged((Stage(ROTOR, Trigger(contact_time=40.0, contact_gap=0.1)), Stage(HELPED)))
+    for start in zip(*starts(12, 1), strict=True):
+        alone, motion = (cm.simulate(rotor, cm.State(*start)) for rotor in (ROTOR, staged))
+        rubs = alone.outcome is Outcome.FORWARD_RUB
+        assert (motion.outcome, len(motion.parts)) == ((Outcome.LEVITATED, 2) if rubs else (alone.outcome, 1))
+
+
+def test_a_stage_may_begin_when_time_is_up():
+    staged = Staged((Stage(ROTOR, Trigger(time=5.0)), Stage(HELPED)))
+    motion = cm.simulate(staged, KICK, 5.0)
+    assert [(part.outcome, part.time) for part in motion.parts] == [(Outcome.TRIGGERED, 5.0), (Outcome.TIME_REACHED, 0.0)]
+    assert cm.settle(staged, *starts(2), until=5.0).outcomes.tolist() == [Outcome.TIME_REACHED] * 2
+
+
+def test_every_plane_of_a_joint_impact_may_trigger():
+    rotor = tilting(arms=(0.8, -0.8), forcing=np.zeros(2)).model
+    position, velocity = np.linalg.solve(rotor.planes, np.array([[1.0, 0.1], [1.0, 1.0]], complex)).T
+    staged = Staged((Stage(rotor, Trigger(impact_speed=0.5)), Stage(rotor)))
+    first = cm.simulate(staged, cm.State(position, velocity), 20.0).parts[0]
+    assert (first.outcome, first.time) == (Outcome.TRIGGERED, 0.0)
+
+
+def test_a_flight_next_to_the_wall_is_no_contact():
+    """What follows lasting contact of a plane next to others is followed by Taylor series, as if there still were contact."""
+    rotor = tilting().model
+    position = np.array([np.exp(2j), 0.0])
+    staged = Staged((Stage(rotor, Trigger(contact_time=1.0)), Stage(rotor)))
+    whole = cm.simulate(rotor, cm.State(position / np.abs(rotor.planes @ position).max(), np.zeros(2, complex)), 60.0)
+    first = cm.simulate(staged, whole.start, 60.0).parts[0]
+    logs = [whole.seen_at(plane) for plane in (0, 1)]
+    expected = persisted_at(sorted(each for log in logs for each in touching(log)), 0.0, 1.0)
+    assert first.time == pytest.approx(min(expected, 60.0), abs=1e-9)

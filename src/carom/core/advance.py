@@ -6,7 +6,7 @@ import math
 
 from carom.compiling.decorators import expanded, inlined, kernel, separate
 from carom.core.events import INSIDE, LEAVING, search
-from carom.core.fate import forget_rub, levitates, recurs, triggers, until_triggered
+from carom.core.fate import doubt, forget_rub, levitates, persists, recurs, triggers, until_triggered
 from carom.core.flow import acceleration, copy, displacement, squared_modulus, velocity
 from carom.core.friction import arrival, landing
 from carom.core.joint import join, land_together, strike_together
@@ -95,9 +95,10 @@ def advance(rotor, table, amplitudes, until, contacts, log, memory, work, rub):
         memory.stalled, most_stalled = 0, STALLED
     outcome = CONTACT
     while outcome == CONTACT and events < log.times.shape[0]:
-        slides, horizon, left = _slides(rotor, contact, state), until - time, math.inf
+        slides, rubs, horizon, left = _slides(rotor, contact, state), False, until - time, math.inf
         if memory.watches > 0:
-            left = until_triggered(memory, slides)
+            rubs = leading_plane(rotor, contact) != NOWHERE
+            left = until_triggered(memory, rubs)
             horizon = min(horizon, left)
         if slides:
             outcome, duration, plane = _slide(rotor, contact, horizon, memory, work, rub)
@@ -123,7 +124,8 @@ def advance(rotor, table, amplitudes, until, contacts, log, memory, work, rub):
             memory.stood = memory.stood if stands else 0.0
             if memory.stalled >= most_stalled:
                 outcome = GRAZING
-            if memory.watches > 0 and triggers(memory, slides, duration):
+            touches = not slides or duration == 0.0
+            if memory.watches > 0 and triggers(memory, rubs, touches, duration):
                 outcome = TRIGGERED
     copy(state, amplitudes)
     copy(contact, contacts)
@@ -305,23 +307,37 @@ def _meet(rotor, contact, plane, elapsed, memory, work, rub):
     for other in range(rotor.rows.shape[0]):
         if lasts(contact[other]):
             memory.rubbed = 1
+    settle = memory.patience > 0 and memory.struck < memory.impact_speed
     if (
-        memory.patience > 0
+        settle
         and (rotor.rows.shape[0] == 1 or _time_has_passed(memory, elapsed))
         and recurs(memory, work.arrival)
     ):
-        copy(work.arrival, work.current)
-        return MIXED if memory.rubbed > 0 else BOUNCING
-    if memory.patience > 0 and fades_to_rolling(memory.proofs, rotor, work.arrival):
+        if not persists(memory, elapsed):
+            copy(work.arrival, work.current)
+            return MIXED if memory.rubbed > 0 else BOUNCING
+        doubt(memory)
+    if settle and fades_to_rolling(memory.proofs, rotor, work.arrival):
         copy(work.arrival, work.current)
         return ROLLING
     if rotor.rows.shape[0] > 1 and join(rotor, contact, plane, work.arrival, rub):
+        if memory.watches > 0:
+            _note_speeds(rotor, memory, work, rub)
         strike_together(rotor, work.arrival, work.current, rub)
         return CONTACT
     change = normal * arrival(normal.conjugate() * speed, wall_of(rotor, plane))
     for k in range(work.current.shape[0]):
         work.current[k] = work.arrival[k] + rotor.columns[k, plane] * change
     return CONTACT
+
+
+@kernel
+def _note_speeds(rotor, memory, work, rub):
+    """Note the radial speeds of all planes of a joint impact."""
+    for plane in range(rotor.rows.shape[0]):
+        if rub.joined[plane]:
+            normal, speed = unit(displacement(rotor, plane, work.arrival)), velocity(rotor, plane, work.arrival)
+            memory.struck = max(memory.struck, (normal.conjugate() * speed).real)
 
 
 @inlined

@@ -14,6 +14,8 @@
   recurred close to a repelling orbit only passes by it and is followed further (:mod:`carom.core.closing`).
 - *Aperiodic*: ``patience`` impacts have passed without recurrence.
 
+Where contact that persists ends a stage, contact that lasts or recurs for ever is no end: it is followed until it triggers.
+
 Some ends of the planar rotor are proven earlier (:mod:`carom.core.planar_proofs`).
 """
 
@@ -109,6 +111,8 @@ def memory(
         impact_speed=np.asarray(impact_speed),
         struck=np.asarray(0.0),
         touching=np.asarray(NO_CONTACT),
+        flown=np.asarray(0.0),
+        parted=np.asarray(0, np.int64),
     )
 
 
@@ -173,7 +177,7 @@ def impacts_until_noted(memory):
 
 @kernel
 def _renew(memory, amplitudes):
-    memory.since = 0
+    memory.since, memory.parted = 0, 0
     for k in range(amplitudes.shape[0]):
         memory.reference[k] = amplitudes[k]
 
@@ -255,24 +259,37 @@ def forget(memory):
     memory.candidate, memory.period, memory.rubbed, memory.lifting = 0, 0, 0, 0
     memory.turning, memory.turns = NO_TURN, 0
     memory.stalled, memory.stood, memory.lap = 0, 0.0, math.inf
-    memory.struck, memory.touching = 0.0, NO_CONTACT
+    memory.struck, memory.touching, memory.flown, memory.parted = 0.0, NO_CONTACT, 0.0, 0
 
 
 @kernel
-def until_triggered(memory, slides):
+def until_triggered(memory, rubs):
     """Time after which contact that goes on as it does will have persisted long enough to trigger."""
     left = memory.contact_time - max(memory.touching, 0.0)
-    return left if slides or (memory.touching >= 0.0 and left <= memory.contact_gap) else math.inf
+    if rubs:
+        return left
+    return left - memory.flown if memory.touching >= 0.0 and left <= memory.contact_gap else math.inf
 
 
 @kernel
-def triggers(memory, slides, duration):
-    """Note that a flight or a stretch of contact has ended with an event; return whether this triggers."""
-    if slides or (memory.touching >= 0.0 and duration <= memory.contact_gap):
+def triggers(memory, rubs, touches, duration):
+    """Note that a flight or a stretch of contact has ended with an event, which may be no touch; return whether this triggers."""
+    memory.flown = 0.0 if rubs else memory.flown + duration
+    if rubs:
         memory.touching = max(memory.touching, 0.0) + duration
-    else:
-        memory.touching = 0.0
+    elif touches:
+        if memory.touching >= 0.0 and memory.flown <= memory.contact_gap:
+            memory.touching += memory.flown
+        else:
+            memory.touching, memory.parted = 0.0, 1
+        memory.flown = 0.0
     return memory.struck >= memory.impact_speed or memory.touching >= memory.contact_time
+
+
+@kernel
+def persists(memory, duration):
+    """Whether contact that recurs will persist until it triggers: no flight of the period, the last one included, is too long."""
+    return memory.contact_time < math.inf and memory.parted == 0 and memory.flown + duration <= memory.contact_gap
 
 
 @kernel

@@ -40,7 +40,8 @@ def rub_step(rotor, contact, amplitudes, horizon, memory, rub):
         return GRAZING, 0.0, leading
     duration, changed, following, slip_stops = _first_change(rotor, contact, min(step, horizon), rub)
     turned, speed = False, 0.0
-    if memory.patience > 0 and leading != NOWHERE:
+    # Contact that would end a stage when it has persisted for a time is followed until then.
+    if memory.patience > 0 and memory.contact_time == math.inf and leading != NOWHERE:
         position = unit(rub.position[leading, 0])
         speed = (position.conjugate() * rub.speed[leading, 0]).imag
         end = _known_end(rotor, contact[leading] == FORWARD_SLIP, position, speed, memory, rub)

@@ -49,6 +49,8 @@ def fresh_memory(
     go over to the synchronous rub or to rolling, otherwise when it has reached them.
     """
     known = known_of(rotor)
+    # What goes over to lasting contact triggers there.
+    absorb = absorb and trigger.contact_time == np.inf
     rub, around = known.rub if patience > 0 else None, known.around if patience > 0 and absorb else None
     return memory(
         rotor.system.modes,
@@ -103,6 +105,9 @@ def settled(
     if outcome not in REPEATING:
         return outcome, 0
     if not recollection.period and rotor.system.is_planar and _fade(rotor, amplitudes):
+        if recollection.contact_time < np.inf:  # which triggers there
+            doubt(recollection)
+            return Outcome.EVENT_LIMIT, 0
         return Outcome.ROLLING, 0
     recurred = int(recollection.period)
     if rotor.system.is_planar:
