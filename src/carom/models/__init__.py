@@ -24,7 +24,7 @@ from carom.models.jeffcott import Jeffcott
 from carom.models.linear import LinearRotor
 from carom.models.model import Matrices, Model, Rates
 from carom.models.spans import Edge, Span
-from carom.models.stages import Forced, Stage, Staged, Trigger, stages_of
+from carom.models.stages import Forced, Stage, Staged, Trigger
 from carom.models.subjects import Subject, case_of, jeffcott_of, model_from, model_of
 from carom.models.system import System
 from carom.models.touchdown import FallingRestitution, Rigid, Touchdown
@@ -54,5 +54,4 @@ __all__ = [
     "model_from",
     "model_of",
     "second_order_system",
-    "stages_of",
 ]

@@ -10,7 +10,8 @@ import numpy as np
 
 from carom.arguments import Count, Whole, checked
 from carom.core.processors import available_cores
-from carom.models import Model, Stage, Subject, model_of, stages_of
+from carom.models import Model, Stage, Subject, model_of
+from carom.models.stages import stages_of
 from carom.motions.portions import Limits, motions_from, parts_of, settle_parts
 from carom.motions.settling import (
     LOW_FOR,

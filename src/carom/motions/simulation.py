@@ -11,7 +11,8 @@ from carom.arguments import Count, Whole, checked
 from carom.core.advance import advance
 from carom.core.event_log import EventLog
 from carom.core.layout import rub_workspace, workspace
-from carom.models import Model, Subject, Trigger, model_of, stages_of
+from carom.models import Model, Subject, Trigger, model_of
+from carom.models.stages import stages_of
 from carom.motions.settling import (
     LOW_FOR,
     PATIENCE,
