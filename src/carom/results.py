@@ -85,8 +85,16 @@ class Result(Tabular):
         """Scales that convert all attributes to SI units; ``None`` where they are not known."""
         if (own := getattr(self, "scales", None)) is not None:
             return own
-        holders = (getattr(self, name, None) for name in _OF_THE_MACHINE)
+        holders = (_held(self, name) for name in _OF_THE_MACHINE)
         return next((found for holder in holders if (found := getattr(holder, "scales", None)) is not None), None)
+
+
+def _held(result: Any, name: str) -> Any:
+    """An attribute of a result; ``None`` if there is none, or none for this model: only the planar rotor has ``parameters``."""
+    try:
+        return getattr(result, name, None)
+    except InputError:
+        return None
 
 
 class Members(Result, Sequence[Member]):

@@ -243,3 +243,27 @@ def test_impacts_of_a_heavy_rotor_against_a_general_solver(rotor):
             assert np.allclose(state[1], speed, rtol=0, atol=1e-9)
             impacts += 1
     assert impacts > 1
+
+
+@pytest.mark.parametrize("rate", [-1j, -0.24j, 0.3j])
+@pytest.mark.parametrize("stiffness", [0.0, 0.76**2])
+def test_forces_of_one_exponent_add_up(rate, stiffness):
+    """In resonance with a mode too: both drive it."""
+    rotor = LinearRotor.in_fixed_frame(
+        mass=[[1.0]],
+        damping=[[0.0]],
+        stiffness=[[stiffness]],
+        forcing=[0.1],
+        touchdowns=touchdowns([[1.0]], [0.1], [0.5], [9.0]),
+    )
+    halves = Forced(rotor, (Force(rate, np.array([0.01])), Force(rate, np.array([0.02j])))).system
+    whole = Forced(rotor, (Force(rate, np.array([0.01 + 0.02j])),)).system
+    for time in (0.0, 3.0):
+        first, second = (each.state(each.fly(each.amplitudes(0.1, 0.2j), time)) for each in (halves, whole))
+        assert np.allclose(first, second, rtol=0, atol=1e-14)
+
+
+def test_a_force_next_to_a_resonance_that_another_drives_is_refused():
+    system = planar_system(0.0, 0.76)
+    with pytest.raises(InputError, match="another force drives"):
+        with_forces(system, [Force(-0.24j, np.array([0.01])), Force(-0.2401j, np.array([0.01]))])

@@ -11,7 +11,7 @@ from linear_rotors import tilting
 from machines import PAPER
 
 import carom as cm
-from carom.models import Jeffcott, Stage, Staged, Trigger, model_from
+from carom.models import Force, Forced, Jeffcott, Stage, Staged, Trigger, model_from
 from carom.outcome import InputError, Outcome, Phase
 
 pytestmark = pytest.mark.jit_only
@@ -19,6 +19,7 @@ pytestmark = pytest.mark.jit_only
 ROTOR = Jeffcott(PAPER.replace(gamma=0.1))
 HELPED = ROTOR.replace(gamma=0.8)
 KICK = cm.kick(0.7, 0.4)
+WEIGHT = Force(-1j, np.array([-5e-4]))
 
 
 def starts(count, seed=0):
@@ -192,6 +193,19 @@ def test_stages_are_read_again_from_their_attributes():
         ("contact_gap", lambda: Trigger(contact_gap=-1.0)),
         ("carry", lambda: Stage(ROTOR, carry=np.eye(3))),
         ("carry", lambda: Stage(ROTOR, carry=np.full((2, 2), np.nan))),
+        ("carry", lambda: Stage(ROTOR, carry=[[1.0], [2.0, 3.0]])),
+        ("carry", lambda: Stage(ROTOR, carry="none")),
+        ("trigger", lambda: Stage(ROTOR, 5.0)),
+        ("rotor", lambda: Stage(PAPER)),
+        ("rotor", lambda: Stage(Staged((Stage(ROTOR),)))),
+        ("rotor", lambda: Forced(Staged((Stage(ROTOR),)), (WEIGHT,))),
+        ("forces", lambda: Forced(ROTOR, WEIGHT)),
+        ("forces", lambda: Forced(ROTOR, ())),
+        ("exponent", lambda: Forced(ROTOR, (Force(np.nan, [0.1]),))),
+        ("exponent", lambda: Forced(ROTOR, (Force("fast", [0.1]),))),
+        ("accelerations", lambda: Forced(ROTOR, (Force(-1j, 0.1),))),
+        ("accelerations", lambda: Forced(ROTOR, (Force(-1j, [0.1, 0.2]),))),
+        ("accelerations", lambda: Forced(ROTOR, (Force(-1j, [np.inf]),))),
     ],
 )
 def test_bad_stages_are_refused(field, made):
@@ -245,7 +259,10 @@ def test_bounces_with_longer_flights_than_the_gap_still_settle():
 def test_a_stage_may_begin_when_time_is_up():
     staged = Staged((Stage(ROTOR, Trigger(time=5.0)), Stage(HELPED)))
     motion = cm.simulate(staged, KICK, 5.0)
-    assert [(part.outcome, part.time) for part in motion.parts] == [(Outcome.TRIGGERED, 5.0), (Outcome.TIME_REACHED, 0.0)]
+    assert [(part.outcome, part.time) for part in motion.parts] == [
+        (Outcome.TRIGGERED, 5.0),
+        (Outcome.TIME_REACHED, 0.0),
+    ]
     assert cm.settle(staged, *starts(2), until=5.0).outcomes.tolist() == [Outcome.TIME_REACHED] * 2
 
 
@@ -267,3 +284,51 @@ def test_a_flight_next_to_the_wall_is_no_contact():
     logs = [whole.seen_at(plane) for plane in (0, 1)]
     expected = persisted_at(sorted(each for log in logs for each in touching(log)), 0.0, 1.0)
     assert first.time == pytest.approx(min(expected, 60.0), abs=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("carry", "field"), [(3.0 * np.eye(2), "start position"), (np.diag([1.0, 1e200]), "start velocity")]
+)
+def test_what_is_carried_out_of_the_wall_is_refused(carry, field):
+    staged = Staged((Stage(ROTOR, Trigger(time=5.0), carry), Stage(HELPED)))
+    for follow in (lambda: cm.simulate(staged, KICK), lambda: cm.settle(staged, *starts(3))):
+        with pytest.raises(InputError, match=field):
+            follow()
+
+
+def test_a_stage_lasts_as_long_as_its_trigger_says():
+    """Longer than a motion that only may settle is followed."""
+    staged = Staged((Stage(ROTOR, Trigger(time=3e5)), Stage(HELPED)))
+    motion, ends = cm.simulate(staged, cm.kick(0.01)), cm.settle(staged, ROTOR.equilibrium, 0.01)
+    assert [part.outcome for part in motion.parts] == [Outcome.TRIGGERED, Outcome.LEVITATED]
+    assert ends.outcomes == Outcome.LEVITATED
+    assert min(motion.begins, ends.times) >= 3e5
+
+
+def test_a_shock_comes_before_the_stages_of_a_rotor():
+    staged = Staged((Stage(ROTOR, Trigger(time=2.0)), Stage(HELPED)))
+    shock = cm.BaseShock(2.0, 1.3)
+    motion = cm.simulate(*shock.stages(staged, 0.3))
+    assert [part.begins for part in motion.parts] == pytest.approx([0.0, 1.3, 3.3])
+    assert [part.rotor for part in motion.parts[1:]] == [ROTOR, HELPED]
+    after = cm.simulate(staged, shock.release(staged, 0.3))
+    assert after.final.position == pytest.approx(motion.final.position, abs=1e-9)
+
+
+@pytest.mark.parametrize(
+    "disturbance", [cm.BaseShock(2.0, 1.3), cm.disturbances.BladeLoss(0.3), cm.disturbances.UnbalanceStep(0.3)]
+)
+def test_disturbances_of_a_rotor_at_rest_are_refused_where_it_never_is(disturbance):
+    grid = cm.Grid(disturbance, (3,) * len(disturbance.coordinates))
+    with pytest.raises(InputError, match="forces that change with time"):
+        cm.map_basins(Forced(ROTOR, (WEIGHT,)), grid, until=20.0)
+
+
+def test_impact_maps_do_not_know_forces_that_change_with_time():
+    with pytest.raises(InputError, match="forces that change with time"):
+        cm.orbits.impact_map(Forced(ROTOR, (WEIGHT,)), cm.orbits.Section(0.3, 0.5, 0.1))
+
+
+def test_a_map_of_basins_of_stages_is_shown():
+    staged = Staged((Stage(ROTOR, Trigger(time=2.0)), Stage(HELPED)))
+    assert "levitation" in repr(cm.map_basins(staged, cm.Grid(cm.disturbances.VelocityKick(1.0), (2, 3))))

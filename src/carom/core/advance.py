@@ -308,11 +308,7 @@ def _meet(rotor, contact, plane, elapsed, memory, work, rub):
         if lasts(contact[other]):
             memory.rubbed = 1
     settle = memory.patience > 0 and memory.struck < memory.impact_speed
-    if (
-        settle
-        and (rotor.rows.shape[0] == 1 or _time_has_passed(memory, elapsed))
-        and recurs(memory, work.arrival)
-    ):
+    if settle and (rotor.rows.shape[0] == 1 or _time_has_passed(memory, elapsed)) and recurs(memory, work.arrival):
         if not persists(memory, elapsed):
             copy(work.arrival, work.current)
             return MIXED if memory.rubbed > 0 else BOUNCING

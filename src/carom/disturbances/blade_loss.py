@@ -63,6 +63,8 @@ class BladeLoss(Disturbance):
         """Levitation of the machine before the loss, in the frame in which the phase of the unbalance stays the same."""
         (phase,) = values
         levitates = rotor.system.rest_radius < 1.0
+        if levitates:
+            rotor.system.refuse_forces()
         cosine, sine, rest = np.cos(phase), np.sin(phase), rotor.system.rest * levitates
         if len(rest) > 1:
             cosine, sine = cosine[..., None], sine[..., None]

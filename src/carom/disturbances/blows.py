@@ -162,15 +162,21 @@ class BaseShock(Disturbance):
     def starts(self, rotor: Model, *values: np.ndarray) -> Starts:
         """State at the end of the pulse."""
         from carom.disturbances.shocks import states_after_shocks
+        from carom.models import stages_of
 
         peaks, directions = np.broadcast_arrays(*values)
         if rotor.system.rest_radius >= 1.0:
             return displaced(rotor, np.zeros(peaks.shape, complex), np.zeros(peaks.shape), False)
-        positions, velocities, undecided, touched = states_after_shocks(rotor, peaks, self.duration, directions)
+        rotor.system.refuse_forces()
+        positions, velocities, undecided, touched = states_after_shocks(
+            stages_of(rotor)[0].rotor, peaks, self.duration, directions
+        )
         return Starts(positions, velocities, np.ones(peaks.shape, bool), undecided, touched)
 
     def stages(self, machine: Subject, direction: float = 0.0) -> tuple[Staged, State]:
         """Return the machine under the largest shock and then without, and its start at levitation, for :func:`carom.simulate`.
+
+        Stages of the machine begin when the shock is over.
 
         Parameters
         ----------
@@ -179,14 +185,16 @@ class BaseShock(Disturbance):
             Of the acceleration, rad.
         """
         from carom.disturbances.shocks import shaken
-        from carom.models import Stage, Staged, Trigger, model_of
+        from carom.models import Stage, Staged, Trigger, model_of, stages_of
         from carom.motions.starts import State
 
-        rotor = model_of(machine)
+        further = stages_of(model_of(machine))
+        rotor = further[0].rotor
+        rotor.system.refuse_forces()
         size = cmath.rect(self.peak, own_size("direction", direction, "angle", None)) / 2j
         pulse = Stage(shaken(rotor, self.duration, size), Trigger(time=self.duration))
         position = rotor.system.rest if len(rotor.system.rest) > 1 else rotor.system.rest[0]
-        return Staged((pulse, Stage(rotor))), State.of(position, np.zeros_like(position))
+        return Staged((pulse, *further)), State.of(position, np.zeros_like(position))
 
     def release(self, machine: Subject, direction: float = 0.0) -> State:
         """Return the state at the end of one shock of the largest peak, for :func:`carom.simulate`.

@@ -71,6 +71,7 @@ class UnbalanceStep(Disturbance):
     def starts(self, rotor: Model, *values: np.ndarray) -> Starts:
         """Levitation with the old unbalance."""
         eccentricity, phase = values
+        rotor.system.refuse_forces()
         mass, damping, gyroscopic, stiffness, _ = rotor.matrices
         push = cmath.rect(1.0, rotor.unbalance_phase) * rotor.system.translated
         response = np.linalg.solve(stiffness - mass + 1j * damping + gyroscopic, mass @ push)

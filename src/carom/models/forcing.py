@@ -51,11 +51,11 @@ def with_forces(system: System, forces: Sequence[Force]) -> System:
     Raises
     ------
     InputError
-        A force is nearly in resonance with two modes that nearly coincide.
+        A force is nearly in resonance with two modes that nearly coincide, or with a mode that another force drives.
     """
     n, planes = system.shapes.shape[0], len(system.arrays["rows"])
     modes = _Modes.of(system)
-    for force in forces:
+    for force in _merged(forces):
         modes = modes.driven_by(complex(force.exponent), modes.left[:, planes + n :] @ force.accelerations)
     return modal_system(
         exponents=modes.exponents,
@@ -70,6 +70,19 @@ def with_forces(system: System, forces: Sequence[Force]) -> System:
         columns=modes.left[:, :planes],
         **{name: system.arrays[name] for name in ("offsets", "masses", *Wall._fields)},
     )
+
+
+def _merged(forces: Sequence[Force]) -> list[Force]:
+    """The forces, those of one exponent added up."""
+    merged: list[Force] = []
+    for force in forces:
+        for place, other in enumerate(merged):
+            if abs(force.exponent - other.exponent) <= EQUAL * (1.0 + abs(force.exponent)):
+                merged[place] = Force(other.exponent, other.accelerations + force.accelerations)
+                break
+        else:
+            merged.append(force)
+    return merged
 
 
 @dataclass(frozen=True)
@@ -103,6 +116,12 @@ class _Modes:
         """With one more force, which changes the rates of the amplitudes by ``push``."""
         size = 1.0 + abs(exponent)
         near = self.free & (np.abs(self.exponents - exponent) <= RESONANT * size)
+        # Modes that a force drives already, and those after them in their chains.
+        taken = self.driven & self.free
+        for place in np.flatnonzero(taken).tolist():
+            taken[place] = not self.free[place - 1] or taken[place - 1]
+        if (np.abs(push[near & taken]) > EQUAL * np.abs(push).max(initial=0.0)).any():
+            raise InputError("force", exponent, "an exponent not so near to that of a mode that another force drives")
         for last in np.flatnonzero(self.driven & np.insert(self.free[:-1], 0, False)).tolist():
             gap = self.exponents[last] - self.exponents[last - 1]
             touched = near[last] or near[last - 1]

@@ -69,6 +69,14 @@ class Forced(_Around):
     rotor: Model
     forces: tuple[Force, ...]
 
+    def __post_init__(self) -> None:
+        _check_one_stage(self.rotor)
+        given: Any = self.forces
+        listed = tuple(given) if isinstance(given, Sequence) else ()
+        if not listed or not all(isinstance(each, Force) for each in listed):
+            raise InputError("forces", shown(given), "carom.models.Force, one or more")
+        object.__setattr__(self, "forces", tuple(_checked_force(each, self.rotor.system.rest.shape) for each in listed))
+
     @cached_property
     def system(self) -> System:
         """Modes, contact planes and contact law, with a mode for each force."""
@@ -83,6 +91,33 @@ class Forced(_Around):
         forces = [[force.exponent, *force.accelerations] for force in self.forces]
         texts = [[(complex(each).real, complex(each).imag) for each in force] for force in forces]
         return {"forces": json.dumps(texts), "rotor": json.dumps(self.rotor.attributes())}
+
+
+def _check_one_stage(rotor: Any) -> None:
+    """Refuse what is no model of one stage."""
+    if isinstance(rotor, Staged) or not isinstance(rotor, Model):
+        raise InputError(
+            "rotor", shown(rotor), "a model of one stage, such as carom.models.model_of(machine) or Forced"
+        )
+
+
+def _checked_force(force: Force, shape: tuple[int, ...]) -> Force:
+    """The force as complex numbers; refuse those that are none, or not as many as there are coordinates."""
+    exponent, accelerations = _complex_numbers(force.exponent), _complex_numbers(force.accelerations)
+    if exponent is None or exponent.shape:
+        raise InputError("exponent", shown(force.exponent), "a finite number")
+    if accelerations is None or accelerations.shape != shape:
+        raise InputError("accelerations", shown(force.accelerations), f"finite numbers of shape {shape}")
+    return Force(complex(exponent), accelerations)
+
+
+def _complex_numbers(given: Any) -> np.ndarray | None:
+    """Array of finite numbers, a copy; ``None`` if they are no such numbers."""
+    try:
+        values = np.array(given)
+    except (TypeError, ValueError, OverflowError):
+        return None
+    return values.astype(complex) if values.dtype.kind in "iufc" and np.isfinite(values).all() else None
 
 
 @checked
@@ -135,11 +170,14 @@ class Stage:
     carry: np.ndarray | None = None
 
     def __post_init__(self) -> None:
+        _check_one_stage(self.rotor)
+        if not isinstance(self.trigger, Trigger):
+            raise InputError("trigger", shown(self.trigger), "carom.models.Trigger")
         if self.carry is not None:
             size = 2 * len(self.rotor.system.rest)
-            carry = np.array(self.carry, complex)
-            if carry.shape != (size, size) or not np.isfinite(carry).all():
-                raise InputError("carry", carry.tolist(), f"finite numbers of shape {(size, size)}")
+            carry = _complex_numbers(self.carry)
+            if carry is None or carry.shape != (size, size):
+                raise InputError("carry", shown(self.carry), f"finite numbers of shape {(size, size)}")
             object.__setattr__(self, "carry", carry)
 
     def carried(self, position: np.ndarray, velocity: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

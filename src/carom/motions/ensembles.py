@@ -192,6 +192,8 @@ def _followed(
         for machine, stages in enumerate(courses):
             here = which[on] == machine
             carried = stages[number - 1].carried(before.positions[here], before.velocities[here])
+            if here.any() and stages[number - 1].carry is not None:
+                _check_starts(*carried, stages[number].rotor.system.is_planar)
             before.positions[here], before.velocities[here] = carried
         states = before.positions, before.velocities, before.times
         later = _in_stage(

@@ -17,7 +17,7 @@ from carom.core.lanes import lanes_record
 from carom.core.layout import rub_workspace, workspace
 from carom.core.phases import AWAY, FLIGHT
 from carom.models import Stage
-from carom.motions.settling import fresh_memory, longest_time, settled
+from carom.motions.settling import fresh_memory, settled, time_limit
 from carom.motions.simulation import follow
 from carom.motions.starts import WALL_TOLERANCE, State, amplitudes_of, time_until
 from carom.outcome import Outcome, Phase
@@ -101,14 +101,10 @@ def settle_parts(parts: list[Part], limits: Limits, threads: int) -> Iterator[in
 def _settle_part(part: Part, limits: Limits) -> int:
     """Follow motions of a part until none is left; return how many this call has followed."""
     rotor, trigger = part.stage.rotor, part.stage.trigger
-    until = longest_time(rotor) if limits.until is None else time_until(limits.until, rotor.scales)
+    until = time_limit(rotor, trigger) if limits.until is None else time_until(limits.until, rotor.scales)
     # What has settled may still be ended by a time.
     memory = fresh_memory(rotor, limits.patience if trigger.time == np.inf else 0, absorb=True, trigger=trigger)
-    if (
-        not rotor.system.is_planar
-        or trigger.watches_contact
-        or (limits.until is not None and part.begun)
-    ):
+    if not rotor.system.is_planar or trigger.watches_contact or (limits.until is not None and part.begun):
         return _follow_singly(part, until, limits, memory)
     task = Task(rotor.system.arrays, rotor.system.table, min(until, trigger.time), limits.max_events)
     # Without the compiler, NumPy warns of divisions in lanes that do not use the result.

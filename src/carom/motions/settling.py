@@ -154,6 +154,11 @@ def _recheck_time(rotor: Model) -> float:
     return min(1.0 / decay, LONG_FLIGHT) if decay > 0.0 else np.inf
 
 
+def time_limit(rotor: Model, trigger: Trigger) -> float:
+    """Time in ``1/Ω`` after which a stage is given up: :func:`longest_time`, or that of its trigger."""
+    return trigger.time if trigger.time < np.inf else longest_time(rotor)
+
+
 def longest_time(rotor: Model) -> float:
     """Time limit in ``1/Ω`` for a motion to settle: TIME_CONSTANTS time constants of free flight, within bounds."""
     decay = rotor.system.decay

@@ -18,10 +18,10 @@ from carom.motions.settling import (
     PATIENCE,
     REPEATING,
     fresh_memory,
-    longest_time,
     low_interval,
     may_be_low,
     settled,
+    time_limit,
 )
 from carom.motions.starts import Kick, State, Until, amplitudes_of, time_until
 from carom.motions.trajectories import Trajectory
@@ -94,7 +94,7 @@ def simulate(
     parts: list[Trajectory] = []
     for stage in stages_of(model):
         begins = parts[-1].begins + parts[-1].time if parts else 0.0
-        longest = longest_time(stage.rotor) if end is None else end - begins
+        longest = time_limit(stage.rotor, stage.trigger) if end is None else end - begins
         parts.append(_follow_stage(stage.rotor, state, begins, longest, stage.trigger, options))
         if parts[-1].outcome is not Outcome.TRIGGERED:
             break
@@ -127,7 +127,7 @@ def _follow_stage(
         outcome, time, count = follow(rotor, amplitudes, until - reached, contact, log, recollection)
         logs.append(log.first(count)._replace(times=reached + log.times[:count]))
         reached, events = reached + time, events + count
-        tell(reached / until)
+        tell(reached / until if until > 0.0 else 1.0)
         outcome, multiplicity = settled(rotor, amplitudes, contact, outcome, recollection)
     if outcome in REPEATING and not multiplicity and may_be_low(rotor, patience):
         struck = np.concatenate([log.times for log in logs])[-LOW_FOR:]

@@ -108,6 +108,7 @@ def impact_map(machine: Subject, section: Section, longest_flight: Positive = 10
         The rotor does not move toward the wall, or has several coordinates, of which the section is no state.
     """
     rotor = model_of(machine)
+    rotor.system.refuse_forces()
     if len(rotor.system.rest) > 1:
         raise InputError("machine", shown(machine), "a rotor of one coordinate, whose state the section is")
     if not section.radial_speed > 0.0:
