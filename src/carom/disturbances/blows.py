@@ -162,7 +162,7 @@ class BaseShock(Disturbance):
     def starts(self, rotor: Model, *values: np.ndarray) -> Starts:
         """State at the end of the pulse."""
         from carom.disturbances.shocks import states_after_shocks
-        from carom.models import stages_of
+        from carom.models.stages import stages_of
 
         peaks, directions = np.broadcast_arrays(*values)
         if rotor.system.rest_radius >= 1.0:
