@@ -332,3 +332,16 @@ def test_impact_maps_do_not_know_forces_that_change_with_time():
 def test_a_map_of_basins_of_stages_is_shown():
     staged = Staged((Stage(ROTOR, Trigger(time=2.0)), Stage(HELPED)))
     assert "levitation" in repr(cm.map_basins(staged, cm.Grid(cm.disturbances.VelocityKick(1.0), (2, 3))))
+
+
+def test_low_bounces_in_a_later_stage_are_told_from_others():
+    rotor = Jeffcott(PAPER.replace(gamma=0.3, mu=0.0, d=1.0))
+    staged = Staged((Stage(rotor, Trigger(time=0.5)), Stage(rotor)))
+    random = np.random.default_rng(0)
+    positions = 0.999 * np.exp(1j * random.uniform(0.0, 6.3, 12))
+    kicks = random.uniform(0.0, 0.2, 12) * np.exp(1j * random.uniform(0.0, 6.3, 12))
+    for one in (rotor, staged):
+        alone = [
+            cm.simulate(one, cm.State(*start), patience=500).outcome for start in zip(positions, kicks, strict=True)
+        ]
+        assert cm.settle(one, positions, kicks, patience=500).outcomes.tolist() == alone

@@ -166,7 +166,6 @@ def settle(
     limits, threads = Limits(until, patience, max_events), threads or available_cores()
     tell = Reporter.of(progress, "following starts")
     endings = _followed(rotors, which, positions, velocities, limits, threads, tell)
-    _note_low_bounces(rotors, which, endings, limits, threads)
     return endings.reshaped(*shape)
 
 
@@ -182,7 +181,7 @@ def _followed(
     """Endings of starts in one dimension, through all stages."""
     courses = [stages_of(rotor) for rotor in rotors]
     begins = np.zeros(len(which))
-    endings = _in_stage(
+    endings = _noted_in_stage(
         [stages[0] for stages in courses], which, (positions, velocities, begins), limits, threads, tell
     )
     for number in range(1, max(map(len, courses), default=1)):
@@ -196,7 +195,7 @@ def _followed(
                 _check_starts(*carried, stages[number].rotor.system.is_planar)
             before.positions[here], before.velocities[here] = carried
         states = before.positions, before.velocities, before.times
-        later = _in_stage(
+        later = _noted_in_stage(
             [stages[min(number, len(stages) - 1)] for stages in courses], which[on], states, limits, threads, tell
         )
         later.times[:] += before.times
@@ -229,17 +228,33 @@ def _in_stage(
     return endings
 
 
+def _noted_in_stage(
+    stages: Sequence[Stage],
+    which: np.ndarray,
+    starts: tuple[np.ndarray, np.ndarray, np.ndarray],
+    limits: Limits,
+    threads: int,
+    tell: Reporter,
+) -> Endings:
+    """:func:`_in_stage`, with low bounces told from others."""
+    endings = _in_stage(stages, which, starts, limits, threads, tell)
+    _note_low_bounces(stages, which, starts[2], endings, limits, threads)
+    return endings
+
+
 def _note_low_bounces(
-    rotors: Sequence[Model], which: np.ndarray, endings: Endings, limits: Limits, threads: int
+    stages: Sequence[Stage], which: np.ndarray, begins: np.ndarray, endings: Endings, limits: Limits, threads: int
 ) -> None:
     """Note, in place, which motions that do not repeat stay at the wall in low bounces; they are followed further to see that."""
-    may = np.array([len(stages_of(rotor)) == 1 and may_be_low(rotor, limits.patience) for rotor in rotors], bool)
+    rotors = [stage.rotor for stage in stages]
+    may = np.array([may_be_low(rotor, limits.patience) for rotor in rotors], bool)
     doubtful = np.flatnonzero(np.isin(endings.outcomes, REPEATING) & (endings.multiplicities == 0) & may[which])
     if not len(doubtful):
         return
     here, which = endings[doubtful], which[doubtful]
     look = limits._replace(until=None, patience=LOW_FOR)
-    ends = _followed(rotors, which, here.positions, here.velocities, look, threads, Reporter.of(None, ""))
+    starts = here.positions, here.velocities, begins[doubtful] + here.times
+    ends = _in_stage(list(map(Stage, rotors)), which, starts, look, threads, Reporter.of(None, ""))
     intervals = np.array([low_interval(rotor) for rotor in rotors])[which]
     low = np.isin(ends.outcomes, REPEATING) & (ends.multiplicities == 0) & (ends.times < intervals * ends.impacts)
     endings.outcomes[doubtful[low]] = Outcome.LOW_BOUNCES
