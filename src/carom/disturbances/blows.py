@@ -185,7 +185,8 @@ class BaseShock(Disturbance):
             Of the acceleration, rad.
         """
         from carom.disturbances.shocks import shaken
-        from carom.models import Stage, Staged, Trigger, model_of, stages_of
+        from carom.models import Stage, Staged, Trigger, model_of
+        from carom.models.stages import stages_of
         from carom.motions.starts import State
 
         further = stages_of(model_of(machine))
