@@ -26,6 +26,8 @@ class Known:
 
     rubs: bool = False
     """Whether all its synchronous rubs have closed forms."""
+    orbits: bool = False
+    """Whether all its orbits with one impact a period, and rolling, have closed forms."""
     rub: Equilibrium | None = None
     """The synchronous rub that attracts sliding, also for ``d = 1``, where it does not attract bouncing."""
     around: RubNeighbourhood | None = None
@@ -54,6 +56,7 @@ def _of_planar_rotor(model: Jeffcott) -> Known:
     rolls = rolling(model)
     return Known(
         rubs=True,
+        orbits=True,
         rub=rub,
         around=neighbourhood_of(model, rub) if rub else None,
         runaway=whirl.certain * (1.0 + GIVEN_UP) if whirl.reaches_rolling and rolls.holds else np.inf,
