@@ -13,6 +13,7 @@ import numpy as np
 from carom.closed_forms.absorbing import GIVEN_UP, RubNeighbourhood, neighbourhood_of
 from carom.closed_forms.equilibria import Equilibrium, find_equilibria
 from carom.closed_forms.fading import fading_speed
+from carom.closed_forms.thresholds import largest_response
 from carom.closed_forms.whirl import hastening_speed, rolling, runaway_speed
 from carom.models import Jeffcott, Model
 
@@ -40,6 +41,8 @@ class Known:
     """Whirl speed in the fixed frame from which a sliding rotor speeds up without bound; infinite if there is none."""
     rolling_force: float = 0.0
     """Largest normal force over a turn of rolling; 0 without a closed form."""
+    response: float | None = None
+    """Largest deviation from levitation after a kick of speed 1; ``None`` without a closed form."""
 
 
 @singledispatch
@@ -63,4 +66,5 @@ def _of_planar_rotor(model: Jeffcott) -> Known:
         fading=fading_speed(model),
         hastening=hastening_speed(model) * (1.0 + GIVEN_UP),
         rolling_force=rolls.largest_force,
+        response=largest_response(model.parameters.gamma, model.parameters.omega),
     )
