@@ -124,19 +124,35 @@ def harmless_blade_loss(machine: Subject) -> float:
     eccentricity; zero as for :func:`harmless_kick`.
     """
     model = model_of(machine)
-    levitation, present = _levitation(model), model.value("rho")
+    levitation = _levitation(model)
     if levitation is None:
         return 0.0
-    mass, *_, forcing = model.matrices
-    shift, deviation = _after_step(model, levitation, forcing / present if present else mass @ model.system.translated)
+    shift, deviation = _after_step(model, levitation, _push(model))
     return float((levitation.rooms / (shift + deviation)).min())
+
+
+def shift_by_unbalance(model: Model) -> float:
+    """Largest distance by which levitation shifts a contact plane per eccentricity; the unbalance keeps its distribution."""
+    return float(np.abs(model.system.planes @ _shift(model, _push(model))).max())
+
+
+def _push(model: Model) -> np.ndarray:
+    """Force of the unbalance per eccentricity; of a balanced rotor with all masses off centre by the same."""
+    mass, *_, forcing = model.matrices
+    present = model.value("rho")
+    return np.asarray(forcing / present if present else mass @ model.system.translated)
+
+
+def _shift(model: Model, push: np.ndarray) -> np.ndarray:
+    """Displacement of the levitating rotor by a force in the frame that turns."""
+    mass, damping, gyroscopic, stiffness, _ = model.matrices
+    return np.linalg.solve(stiffness - mass + 1j * damping + gyroscopic, push)
 
 
 def _after_step(model: Model, levitation: _Levitation, push: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Shift of levitation at each plane by a change of the unbalance force, and the largest deviation from it after that step."""
-    mass, damping, gyroscopic, stiffness, _ = model.matrices
-    shift = np.linalg.solve(stiffness - mass + 1j * damping + gyroscopic, push)
-    energy = _energy(stiffness, shift) + _energy(mass, shift)
+    shift = _shift(model, push)
+    energy = _energy(model.matrices.stiffness, shift) + _energy(model.matrices.mass, shift)
     return np.abs(model.system.planes @ shift), levitation.yields * math.sqrt(energy)
 
 

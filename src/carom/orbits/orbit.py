@@ -188,6 +188,14 @@ class Orbit(Result):
         return self.section.radial_speed
 
     @property
+    def impulse(self) -> float:
+        """Normal impulse of the first impact in ``m c_r Ω``."""
+        plane = self.word[0].plane
+        place, moving = self.rotor.system.at_plane(self._departures[0], plane)
+        rebound = float((np.conj(place) * moving).real / abs(place))
+        return float(self.rotor.system.arrays.masses[plane]) * (self.radial_speed - rebound)
+
+    @property
     def impact_speeds(self) -> np.ndarray:
         """``ṙ`` just before each impact in ``c_r Ω``, shape (n,)."""
         pairs = zip(self.word, self.sections, strict=True)
