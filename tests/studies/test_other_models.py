@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+from functools import partial
 
 import numpy as np
 import pytest
@@ -11,6 +12,7 @@ from linear_rotors import as_matrices, tilting
 from machines import PAPER
 
 import carom as cm
+from carom.basins import smallest_loss
 from carom.disturbances import Sample, VelocityKick
 from carom.files import as_json
 from carom.models import Jeffcott, LinearRotor
@@ -99,6 +101,11 @@ def test_a_rotor_with_two_planes_in_si_units(monkeypatch):
     monkeypatch.setattr("carom.studies.advice.CHECKED", 30)
     monkeypatch.setattr("carom.studies.recovery.MOST", 3)
     monkeypatch.setattr("carom.basins.losses.DRAWN", 20)
+    monkeypatch.setattr("carom.studies.survives.smallest_loss", partial(smallest_loss, directions=8, sizes=6))
+    monkeypatch.setattr("carom.studies.assembly.find_orbits", partial(cm.find_orbits, guesses=50))
+    for name, count in {"PHASES": 12, "LEVELS": 6, "DRAWN": 10, "ROUND": 12}.items():
+        monkeypatch.setattr(f"carom.basins.blade_losses.{name}", count)
+    monkeypatch.setattr("carom.basins.losses.ROUND", 24)
     rotor: LinearRotor = tilting(damping=0.3 * np.diag([1.0, 0.4])).model.replace(scales=Scales(50.0, 0.7e-3, 184.2))
     found = cm.study(rotor, Sample(VelocityKick(0.3), 4), requirement=Requirement(kick=0.02))
     assert found.levitates
