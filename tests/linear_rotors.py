@@ -231,6 +231,13 @@ def single(planes=2, **changes):
     return FixedFrame(**{**numbers, **changes})
 
 
+def as_matrices(planar):
+    """The planar rotor by its matrices, of one coordinate."""
+    at, matrices = planar.parameters, planar.matrices
+    (plane,) = touchdowns([[1.0]], [at.mu], [at.d], [at.radius_ratio + 1.0])
+    return LinearRotor.in_fixed_frame(**matrices._asdict(), touchdowns=[plane], scales=planar.scales)
+
+
 def random_rotor(seed, *, n=None, planes=None, unbalance=None, damping=None, friction=None):
     """A rotor of one to three coordinates and planes; what is given is fixed, everything else random."""
     random = np.random.default_rng(seed)

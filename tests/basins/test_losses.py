@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 import pytest
+from linear_rotors import as_matrices, tilting
 from machines import PAPER
 
 import carom
@@ -158,3 +159,36 @@ def test_no_levitation():
 def test_unstable_levitation():
     with pytest.raises(InputError, match="gamma"):
         smallest_loss(carom.models.Jeffcott(PAPER.replace(gamma=-0.01, rho=0.1)), VelocityKick())
+
+
+@pytest.mark.parametrize("kind", ["kick", "unbalance-step", "release", "blade-loss"])
+def test_a_rotor_of_matrices_loses_what_the_same_planar_rotor_loses(kind):
+    planar = carom.models.Jeffcott(MACHINE)
+    model = {**models(MACHINE), "blade-loss": carom.disturbances.BladeLoss(0.4)}[kind]
+    own, found = (smallest_loss(rotor, model, directions=24, sizes=24) for rotor in (planar, as_matrices(planar)))
+    assert found.harmless <= own.harmless * (1.0 + 1e-12)
+    assert found.size == pytest.approx(own.size, rel=3e-3)
+    assert found.outcome == own.outcome
+
+
+def test_losses_of_a_rotor_with_two_planes():
+    """Of all kinds, with what is proven by energy alone."""
+    rotor = tilting().model
+    for kind in ("kick", "unbalance-step", "release"):
+        found = smallest_loss(rotor, models(None)[kind], directions=12, sizes=12)
+        assert found.harmless < found.largest
+        assert (found.size is None) or found.recovered <= found.size
+    found = smallest_loss(rotor, VelocityKick(1.0), directions=12, sizes=12)
+    assert 0.0 < found.harmless < found.all_back < found.size
+    size, back = (
+        carom.simulate(rotor, carom.kick(each, found.angle), settle=True) for each in (found.size, found.recovered)
+    )
+    assert size.outcome is found.outcome
+    assert back.outcome is Outcome.LEVITATED
+
+
+def test_levitation_that_grows_has_nothing_to_come_back_to():
+    growing = PAPER.replace(gamma=-0.4, rho=0.1)
+    for rotor in (carom.models.Jeffcott(growing), as_matrices(carom.models.Jeffcott(growing))):
+        with pytest.raises(InputError, match="stable levitation"):
+            smallest_loss(rotor, VelocityKick(1.0))

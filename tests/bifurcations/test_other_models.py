@@ -1,4 +1,4 @@
-"""Diagrams of other models than the planar rotor: what their equilibria and simulated disturbances show."""
+"""Diagrams of other models than the planar rotor: their equilibria, the orbits that a search finds, and where disturbances settle."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from linear_rotors import single, tilting
+from linear_rotors import as_matrices, single, tilting
 
 import carom as cm
 from carom.attractors import MotionName
@@ -49,10 +49,12 @@ def test_radial_speeds_are_those_of_the_plane_where_it_bounces():
 def test_a_diagram_shows_equilibria_and_where_disturbances_settle(monkeypatch):
     monkeypatch.setattr("carom.bifurcations.diagrams.sample_attractors", partial(sample_attractors, values=2))
     monkeypatch.setattr("carom.bifurcations.steady.SAMPLES", 5)
+    monkeypatch.setattr("carom.bifurcations.several.VALUES", 2)
+    monkeypatch.setattr("carom.bifurcations.several.GUESSES", 20)
     rotor = single().model
     diagram = cm.find_bifurcations(rotor, "friction", (0.1, 0.2), attractors=3)
     assert {sample.value for sample in diagram.attractors} >= {0.1, 0.2}
-    assert diagram.orbits == diagram.points == diagram.rubbing == ()
+    assert diagram.rubbing == ()
     assert diagram.rolling.values.size == 0
     for branch in diagram.equilibria:
         for value, force, admissible in zip(branch.values, branch.normal_force, branch.admissible, strict=True):
@@ -67,8 +69,27 @@ def test_a_diagram_shows_equilibria_and_where_disturbances_settle(monkeypatch):
     diagram.plot()
 
 
-def test_closed_forms_alone_refuse_other_models():
-    for options in ({}, {"lasting": True, "attractors": 3}, {"virtual": True, "attractors": 3}):
-        with pytest.raises(InputError, match="the planar rotor") as caught:
-            cm.find_bifurcations(tilting().model, "gamma", RANGE, **options)
-        assert "\n" not in str(caught.value)
+@pytest.mark.jit_only
+def test_a_diagram_of_matrices_has_the_branches_and_points_of_the_same_planar_rotor(monkeypatch):
+    monkeypatch.setattr("carom.bifurcations.several.VALUES", 3)
+    monkeypatch.setattr("carom.bifurcations.several.GUESSES", 150)
+    numbers = {"gamma": 0.1, "omega": 0.76, "rho": 3 / 7, "phi": 0.21, "mu": 0.15, "d": 0.95, "radius_ratio": 400 / 7}
+    planar = cm.models.Jeffcott(cm.parameters.Parameters(**numbers))
+    exact = cm.find_bifurcations(planar, "gamma", (0.08, 0.2))
+    found = cm.find_bifurcations(as_matrices(planar), "gamma", (0.08, 0.2))
+    assert found.search.guesses > 0
+    assert exact.search is None
+    assert {branch.impacts for branch in found.orbits} == {1}
+    # The closed form names one point for two orbits that meet; each branch of a search has it.
+    located = {(point.kind, point.value) for point in exact.points if point.motion == "orbit" and point.admissible}
+    shared = {at for at in located if at[0] in ("fold", "period-doubling", "grazing")}
+    assert {kind for kind, _ in shared} >= {"fold", "period-doubling"}
+    for kind, value in shared:
+        assert min(abs(each.value - value) for each in found.points if each.kind == kind) < 1e-9
+    found.plot()
+
+
+def test_lasting_contact_in_diagrams_of_other_models_is_refused():
+    with pytest.raises(InputError, match="the planar rotor") as caught:
+        cm.find_bifurcations(tilting().model, "gamma", RANGE, lasting=True)
+    assert "\n" not in str(caught.value)

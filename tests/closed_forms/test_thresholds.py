@@ -14,11 +14,9 @@ from scipy.integrate import solve_ivp
 
 from carom.bifurcations.motions import motions_at
 from carom.closed_forms.equilibria import find_equilibria
+from carom.closed_forms.harmless import harmless_kick, harmless_shock, harmless_unbalance_step
 from carom.closed_forms.thresholds import (
     happens_to_rubs,
-    harmless_kick,
-    harmless_shock,
-    harmless_unbalance_step,
     has_stable_rub,
     ranges_of,
     rolling_condition,

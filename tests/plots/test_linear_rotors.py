@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
 from linear_rotors import single, tilting
 
 import carom
 from carom.motions import energy_ledger
+from carom.outcome import InputError
 
 pytestmark = pytest.mark.jit_only
 
@@ -34,3 +36,31 @@ def test_energies_and_motions_of_two_planes_are_drawn():
     motion = carom.simulate(tilting().model, carom.kick(1.5), until=20.0)
     assert motion.seen_at(1).plot().axes
     assert len(energy_ledger(motion).plot().axes[0].lines) == 7
+
+
+def test_orbits_at_several_planes_are_drawn_in_the_circle_that_they_strike():
+    ends = np.array([[1.0, 0.8], [1.0, -0.7]])
+    found = carom.find_orbits(tilting(damping=0.02 * ends.T @ ends).model, impacts=2, guesses=120)
+    (second,) = (orbit for orbit in found if str(orbit.word) == "impact+@1")
+    for drawn in second.plot().axes:
+        (line,) = (line for line in drawn.lines if line.get_gid() == "path")
+        assert np.hypot(*line.get_xydata()[0]) == pytest.approx(1.0, abs=1e-12)
+        assert "plane 1" in drawn.get_title()
+    carom.plots.radius(second)
+    both = carom.plots.equilibria_and_orbits(found, carom.find_equilibria(found.rotor), plane=1)
+    assert "plane 1" in both.axes[0].get_title()
+    with pytest.raises(InputError, match="plane = 2"):
+        carom.plots.equilibria_and_orbits(found, plane=2)
+    with pytest.raises(InputError, match="plane = 2"):
+        second.path(0.0, 2)
+
+
+def test_an_orbit_of_a_tighter_bearing_touches_the_circle():
+    found = carom.find_orbits(single(1).model, impacts=1, guesses=60)
+    stable = next(orbit for orbit in found if orbit.stable)
+    assert abs(stable.path(0.0, 0)) == pytest.approx(1.0, abs=1e-12)
+    assert abs(stable.path(0.0)) == pytest.approx(1.0 / 1.25, abs=1e-12)
+    rotating, _ = stable.plot().axes
+    (line,) = (line for line in rotating.lines if line.get_gid() == "path")
+    assert np.hypot(*line.get_xydata().T).max() == pytest.approx(1.0, abs=1e-12)
+    found.plot()

@@ -12,11 +12,11 @@ import numpy as np
 
 from carom.basins.brackets import MOST_CHECKS, ROUND, TOLERANCE, Bracket, SmallestLoss, lost
 from carom.basins.families import UNBALANCE
-from carom.closed_forms.thresholds import harmless_blade_loss
+from carom.closed_forms.harmless import harmless_blade_loss
 from carom.disturbances import BladeLoss, Starts
 from carom.disturbances.coordinates import TURN
 from carom.disturbances.following import follow
-from carom.models import Jeffcott
+from carom.models import Model
 from carom.outcome import InputError, Outcome
 from carom.progress import Reporter
 
@@ -29,14 +29,14 @@ DRAWN = 300
 
 
 def smallest_blade_loss(
-    rotor: Jeffcott, model: BladeLoss, *, threads: int | None = None, tell: Reporter | None = None
+    rotor: Model, model: BladeLoss, *, threads: int | None = None, tell: Reporter | None = None
 ) -> SmallestLoss:
     """Search for the smallest unbalance, from the present one up to that of the model, that is lost at some phase.
 
     ``size`` is the eccentricity after the loss, ``angle`` its phase relative to the unbalance before.  A model whose
     unbalance is not larger than the present one is refused.
     """
-    present, largest = rotor.parameters.rho, model.eccentricity_after
+    present, largest = rotor.value("rho"), model.eccentricity_after
     if present >= largest:
         allowed = f"more than the present one, {present:.6g}, in clearances: a search of what is survived begins there"
         raise InputError("eccentricity_after", f"{largest:.6g}", allowed)
@@ -72,7 +72,7 @@ def smallest_blade_loss(
 class _Search(Bracket):
     """Unbalances tried so far, and the smallest that was lost."""
 
-    def __init__(self, rotor: Jeffcott, model: BladeLoss, harmless: float, threads: int | None) -> None:
+    def __init__(self, rotor: Model, model: BladeLoss, harmless: float, threads: int | None) -> None:
         sizes = {"quantity": UNBALANCE, "harmless": harmless, "largest": model.eccentricity_after}
         super().__init__(kind=model.kind, **sizes, tolerance=TOLERANCE, scales=rotor.scales)
         self.rotor, self.model, self.threads = rotor, model, threads

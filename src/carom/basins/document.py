@@ -19,7 +19,7 @@ from carom.basins.families import size_coordinate
 from carom.basins.gains import GainMap
 from carom.basins.integrity_measures import integrity
 from carom.basins.shares import Share, starts_enough
-from carom.closed_forms.thresholds import harmless_blade_loss, harmless_shock, harmless_unbalance_step
+from carom.closed_forms.harmless import harmless_blade_loss, harmless_shock, harmless_unbalance_step
 from carom.disturbances import BaseShock, BladeLoss, Sample, UnbalanceStep
 from carom.disturbances.echo import plan_words
 from carom.outcome import InputError

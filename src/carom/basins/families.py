@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from carom.closed_forms.thresholds import harmless_kick, harmless_shock, harmless_unbalance_step
+from carom.closed_forms.harmless import harmless_kick, harmless_shock, harmless_unbalance_step
 from carom.disturbances import (
     BaseShock,
     BladeLoss,
@@ -20,8 +20,8 @@ from carom.disturbances import (
     UnbalanceStep,
     VelocityKick,
 )
-from carom.disturbances.coordinates import TURN
-from carom.models import Jeffcott
+from carom.disturbances.coordinates import TURN, complex_of, displaced
+from carom.models import Model
 from carom.outcome import InputError
 
 UNBALANCE = "unbalance"
@@ -63,12 +63,12 @@ def by_size(model: Disturbance) -> bool:
     return len(axes) == 2 and axes[0].low == 0.0 and axes[1].periodic
 
 
-def family_of(rotor: Jeffcott, model: Disturbance) -> Family:
+def family_of(rotor: Model, model: Disturbance) -> Family:
     """Family of starts through which a disturbance is searched."""
     if type(model) is KickPlane:
         model = VelocityKick(model.fastest)
     if type(model) is UnbalanceStep:
-        step, now = model, rotor.parameters.rho
+        step, now = model, rotor.value("rho")
 
         def changed(sizes: np.ndarray, angles: np.ndarray) -> Starts:
             x, y = now + sizes * np.cos(angles), sizes * np.sin(angles)
@@ -79,11 +79,9 @@ def family_of(rotor: Jeffcott, model: Disturbance) -> Family:
 
         def released(sizes: np.ndarray, places: np.ndarray) -> Starts:
             cosine, sine = np.cos(places), np.sin(places)
-            rate = np.where(np.mod(places, 2.0 * TURN) < TURN, sizes, -sizes) - 1.0
-            positions, velocities = np.empty((2, *np.shape(rate)), complex)
-            positions.real, positions.imag = np.broadcast_arrays(cosine, sine)
-            velocities.real, velocities.imag = -rate * sine, rate * cosine
-            return Starts.of(positions, velocities, True)
+            forward = np.where(np.mod(places, 2.0 * TURN) < TURN, sizes, -sizes)
+            speed = forward / (rotor.system.planes_translated.max() or 1.0)
+            return displaced(rotor, complex_of(cosine, sine), complex_of(-speed * sine, speed * cosine))
 
         return Family(model.kind, size_coordinate(model).scale, WHIRL, 0.0, released, turns=2, by_area=False)
     if not by_size(model):

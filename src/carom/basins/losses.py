@@ -15,7 +15,7 @@ from carom.basins.families import Family, family_of
 from carom.disturbances import BladeLoss, Disturbance, Starts
 from carom.disturbances.coordinates import TURN
 from carom.disturbances.following import follow
-from carom.models import Jeffcott, Model, Subject, jeffcott_of
+from carom.models import Model, Subject, model_of
 from carom.outcome import InputError, Outcome
 from carom.progress import Reporter, ShowProgress, shows_progress
 
@@ -46,7 +46,8 @@ def smallest_loss(
 ) -> SmallestLoss:
     """Search for the smallest disturbance of a kind that does not return to levitation, finer than any grid.
 
-    All directions are scanned at increasing sizes between the proven harmless one and the largest, up to the first at which some
+    All directions are scanned at increasing sizes between the proven harmless one (zero where nothing is proven, see
+    :func:`~carom.closed_forms.harmless_kick`) and the largest, up to the first at which some
     are lost.  In each of these directions the size is refined by bisection.  Then directions ever closer to the best one are scanned and
     bisected below the best size so far, until they are ``tolerance`` rad apart.  Finally fresh starts are drawn below
     the best size; if some are lost, the search continues from the smallest of them.  Basins can be thinner than any
@@ -82,11 +83,12 @@ def smallest_loss(
     >>> print(f"{found.size * machine.parameters.scales.velocity * 1e3:.3f} mm/s, ends in {found.outcome.label}")
     5.466 mm/s, ends in forward-rub
     """
-    rotor = jeffcott_of(machine)
-    if abs(rotor.equilibrium) >= 1.0:
-        raise InputError("disturbance", f"|U*| = {abs(rotor.equilibrium):.6g}", "needs levitation inside the wall")
-    if rotor.parameters.gamma < 0.0:
-        raise InputError("gamma", rotor.parameters.gamma, "at least 0: there is no levitation to come back to")
+    rotor = model_of(machine)
+    if rotor.system.rest_radius >= 1.0:
+        raise InputError("disturbance", f"|U*| = {rotor.system.rest_radius:.6g}", "needs levitation inside the wall")
+    if rotor.system.decay < 0.0:
+        grows = f"whirl that grows at a rate of {-rotor.system.decay:.6g} Ω"
+        raise InputError("machine", grows, "stable levitation to come back to; this takes damping (gamma)")
     if isinstance(model, BladeLoss):
         return smallest_blade_loss(rotor, model, threads=threads, tell=Reporter.of(progress, "trying unbalances"))
     family = family_of(rotor, model)
@@ -123,7 +125,7 @@ def _all_round(family: Family, directions: int) -> np.ndarray:
 class _Search(Bracket):
     """Search among the disturbances of a family."""
 
-    def __init__(self, rotor: Jeffcott, family: Family, tolerance: float, threads: int | None) -> None:
+    def __init__(self, rotor: Model, family: Family, tolerance: float, threads: int | None) -> None:
         sizes = {name: getattr(family, name) for name in ("kind", "quantity", "harmless", "largest")}
         super().__init__(**sizes, tolerance=tolerance, scales=rotor.scales)
         self.rotor, self.family, self.tolerance, self.threads = rotor, family, tolerance, threads

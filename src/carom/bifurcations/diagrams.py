@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from functools import partial
-from typing import ClassVar, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
@@ -14,7 +13,7 @@ from carom.attractors import DisturbanceSet
 from carom.bifurcations.branches import OrbitBranch
 from carom.bifurcations.points import HALVING, Bifurcation
 from carom.bifurcations.samples import AttractorSample, sample_attractors
-from carom.bifurcations.several import lies_on, several_impacts
+from carom.bifurcations.several import lies_on, searched_branches
 from carom.bifurcations.steady import (
     EquilibriumBranch,
     RollingBranch,
@@ -23,6 +22,7 @@ from carom.bifurcations.steady import (
     steady_points,
 )
 from carom.bifurcations.words import continue_orbit, renamed
+from carom.closed_forms.known import known_of
 from carom.models import Jeffcott, Model, Subject, jeffcott_of, model_of
 from carom.models.axes import Axis, Ends, axis, read_interval
 from carom.orbits.names import RubbingName
@@ -49,7 +49,7 @@ LONGEST_PERIOD = 60.0
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Diagram(Result):
-    """All equilibria and single-impact orbits along one parameter.
+    """Equilibria and orbits along one parameter; of the planar rotor all with one impact a period.
 
     Attributes
     ----------
@@ -60,10 +60,11 @@ class Diagram(Result):
     equilibria : tuple of EquilibriumBranch
     rolling : RollingBranch
     orbits : tuple of OrbitBranch
+        Orbits with one impact a period: all of the planar rotor, those that a search finds of other models.
     several : tuple of OrbitBranch
         Orbits with several impacts a period that a search and special points of other branches lead to; empty unless asked for.
     search : Searched or None
-        How much was searched for them.
+        How much was searched for them; of other models than the planar rotor also for those with one.
     rubbing : tuple of OrbitBranch
         Periodic motions with a stretch of lasting contact; empty unless asked for.
     points : tuple of Bifurcation
@@ -163,8 +164,8 @@ def find_bifurcations(
     All single-impact orbits are computed (:func:`~carom.orbits.single_impact.find_orbits`) at 13 evenly spaced values.
     Each orbit that does not lie on a known branch is continued in both directions.
 
-    These orbits, rolling and the special points are those of the planar rotor.  The diagram of another model holds its
-    levitation and rubs, and the motions that disturbances reach; it needs ``attractors``.
+    Of other models than the planar rotor these orbits have no closed form: they are searched at 9 values, as those with
+    several impacts are, and some may be missing.  Rolling, and special points of levitation and rubs, are left out there.
 
     Parameters
     ----------
@@ -190,8 +191,7 @@ def find_bifurcations(
     ------
     InputError
         Empty interval, unknown parameter, values out of the range of the parameter, ``impacts`` that is no whole
-        number from 1 to 64, or another
-        model than the planar rotor without ``attractors``.
+        number from 1 to 64, or ``lasting`` with another model than the planar rotor.
 
     See Also
     --------
@@ -206,17 +206,13 @@ def find_bifurcations(
     >>> [point.kind for point in diagram.points if point.name == "B1,d"]
     ['fold']
     """
-    model = model_of(machine) if attractors and not (virtual or lasting or impacts > 1) else jeffcott_of(machine)
+    model = jeffcott_of(machine) if lasting else model_of(machine)
     along = axis(model, parameter)
     limits = read_interval(along, interval)
     tell = Reporter.of(progress, "following motions")
-    nothing, found, followed = np.empty(0), _Followed(), 0.0
-    rolling = RollingBranch(nothing, nothing, nothing > 0.0)
-    if isinstance(model, Jeffcott):
-        followed = 1.0 if not attractors else FOLLOWING_SHARE
-        follow = partial(_follow, model.parameters, along, limits, tell.part(0.0, followed))
-        found = follow(impacts=impacts, virtual=virtual, lasting=lasting)
-        rolling = rolling_branch(model, along, limits)
+    followed = 1.0 if not attractors else FOLLOWING_SHARE
+    follow = _follow_known if known_of(model).orbits else _follow_searched
+    found = follow(model, along, limits, tell.part(0.0, followed), impacts=impacts, virtual=virtual, lasting=lasting)
     disturbances = DisturbanceSet.of(model, attractors, seed) if attractors else None
     samples: tuple[AttractorSample, ...] = ()
     if disturbances:
@@ -226,7 +222,6 @@ def find_bifurcations(
         axis=along,
         interval=limits,
         equilibria=equilibrium_branches(model, along, limits),
-        rolling=rolling,
         attractors=samples,
         disturbances=disturbances,
         **found._asdict(),
@@ -238,12 +233,13 @@ def special_points(
 ) -> tuple[Bifurcation, ...]:
     """Special points of :func:`find_bifurcations`, in ascending order of the parameter."""
     along = axis(parameters, parameter)
-    return _follow(parameters, along, interval, Reporter(), virtual=virtual, lasting=lasting).points
+    return _follow_known(Jeffcott(parameters), along, interval, Reporter(), virtual=virtual, lasting=lasting).points
 
 
 class _Followed(NamedTuple):
-    """Branches of orbits and of motions with lasting contact, and the special points of all motions."""
+    """Branches of rolling, orbits and motions with lasting contact, and the special points of all motions."""
 
+    rolling: RollingBranch
     orbits: tuple[OrbitBranch, ...] = ()
     several: tuple[OrbitBranch, ...] = ()
     search: Searched | None = None
@@ -251,8 +247,8 @@ class _Followed(NamedTuple):
     points: tuple[Bifurcation, ...] = ()
 
 
-def _follow(
-    parameters: Parameters,
+def _follow_known(
+    model: Any,
     along: Axis,
     limits: tuple[float, float],
     tell: Reporter,
@@ -261,12 +257,12 @@ def _follow(
     virtual: bool,
     lasting: bool,
 ) -> _Followed:
-    """Follow the branches that :func:`find_bifurcations` is asked for."""
+    """Follow the branches that :func:`find_bifurcations` is asked for, of a model whose orbits with one impact have closed forms."""
     branches: list[OrbitBranch] = []
     rubbing: list[OrbitBranch] = []
     single = tell.part(0.0, 1.0 if impacts == 1 else SINGLE_SHARE)
     for done, value in enumerate(np.linspace(*limits, SAMPLES).tolist()):
-        here = parameters.replace(**{along.name: value})
+        here = along.move(model, value)
         for orbit in _orbits(here):
             wanted = virtual or orbit.admissible or orbit.name.pair == 1
             if wanted and not any(lies_on(orbit, value, branch) for branch in branches):
@@ -280,22 +276,49 @@ def _follow(
     search: Searched | None = None
     if impacts > 1:
         rest = tell.part(SINGLE_SHARE, 1.0)
-        several, search = several_impacts(
-            Jeffcott(parameters), along, limits, impacts, branches, virtual=virtual, tell=rest
-        )
+        several, search = searched_branches(model, along, limits, (2, impacts), branches, virtual=virtual, tell=rest)
     points = [
-        *steady_points(parameters, along, limits),
+        *steady_points(model.parameters, along, limits),
         *(point for branch in branches for point in branch.special),
-        # A branch ends by halving its period in a doubling of another: one point.
-        *(point for branch in several for point in branch.special if point.kind != HALVING),
+        *_special(several),
         *(point for branch in rubbing for point in branch.special),
     ]
     points.sort(key=lambda point: point.value)
-    return _Followed(tuple(branches), several, search, tuple(rubbing), tuple(points))
+    rolling = rolling_branch(model, along, limits)
+    return _Followed(rolling, tuple(branches), several, search, tuple(rubbing), tuple(points))
 
 
-def _orbits(parameters: Parameters) -> Iterator[Orbit]:
+def _follow_searched(
+    model: Model,
+    along: Axis,
+    limits: tuple[float, float],
+    tell: Reporter,
+    *,
+    impacts: int,
+    virtual: bool,
+    lasting: bool,
+) -> _Followed:
+    """Follow the branches of orbits that a search finds, of a model without closed forms; it has none with ``lasting``."""
+    found, search = searched_branches(model, along, limits, (1, impacts), (), virtual=virtual, tell=tell)
+    points = sorted(_special(found), key=lambda point: point.value)
+    nothing = np.empty(0)
+    return _Followed(
+        RollingBranch(nothing, nothing, nothing > 0.0),
+        tuple(branch for branch in found if branch.impacts == 1),
+        tuple(branch for branch in found if branch.impacts > 1),
+        search,
+        points=tuple(points),
+    )
+
+
+def _special(several: Sequence[OrbitBranch]) -> list[Bifurcation]:
+    """Special points of branches; where one ends by halving its period, in a doubling of another, it is one point."""
+    return [point for branch in several for point in branch.special if point.kind != HALVING]
+
+
+def _orbits(rotor: Jeffcott) -> Iterator[Orbit]:
     """Orbits with forward slip; none without damping, where there are infinitely many."""
-    if parameters.gamma > 0.0 and parameters.rho > 0.0:
-        longest = LONGEST_PERIOD if parameters.gamma < 0.05 else None
-        yield from (orbit for orbit in find_orbits(Jeffcott(parameters), longest) if orbit.slip > 0)
+    at = rotor.parameters
+    if at.gamma > 0.0 and at.rho > 0.0:
+        longest = LONGEST_PERIOD if at.gamma < 0.05 else None
+        yield from (orbit for orbit in find_orbits(rotor, longest) if orbit.slip > 0)

@@ -1,4 +1,4 @@
-"""Branches of orbits with several impacts a period, for diagrams: from special points of known branches, and from a search at some values."""
+"""Branches of orbits that no closed form gives, for diagrams: from special points of known branches, and from a search at some values."""
 
 from __future__ import annotations
 
@@ -28,17 +28,17 @@ SAME = 1e-6
 """Distance of the nodes, and of the durations, below which two orbits are the same."""
 
 
-def several_impacts(
+def searched_branches(
     model: Model,
     along: Axis,
     limits: tuple[float, float],
-    impacts: int,
+    impacts: tuple[int, int],
     singles: Sequence[OrbitBranch],
     *,
     virtual: bool,
     tell: Reporter,
 ) -> tuple[tuple[OrbitBranch, ...], Searched]:
-    """Branches of orbits with 2 up to a number of impacts a period, and what was searched.
+    """Branches of orbits with a least up to a largest number of impacts a period, and what was searched.
 
     They are born in period doublings of known branches, or meet them where an impact grazes or vanishes, or friction begins to stop
     the slip; or they pass through orbits that a search finds at evenly spaced values, and orbits found at one value are
@@ -46,9 +46,10 @@ def several_impacts(
 
     Parameters
     ----------
-    impacts : int
+    impacts : tuple of int
+        The least and the largest number.
     singles : sequence of OrbitBranch
-        Branches of orbits with one impact a period.
+        Branches of the orbits with one impact a period, if a closed form gives them.
     virtual : bool
         Follow them among virtual orbits to any distance from a motion.
     """
@@ -74,26 +75,28 @@ def several_impacts(
     done: list[Searched] = []
     for place, value in enumerate(np.linspace(*limits, VALUES).tolist()):
         rotor = along.move(model, value)
-        search = Search(rotor, impacts, _known(rotor, value, [*singles, *found]))
+        search = Search(rotor, impacts[1], _known(rotor, value, [*singles, *found]))
         part = tell.part(place / VALUES, (place + 1) / VALUES)
         done.append(search.run(SETTLED, GUESSES, FRESH, [0, place], part))
         for orbit in search.found:
-            if orbit.admissible and orbit.impacts > 1 and not any(lies_on(orbit, value, branch) for branch in found):
+            wanted = orbit.admissible and orbit.impacts >= impacts[0]
+            if wanted and not any(lies_on(orbit, value, branch) for branch in found):
                 add(continue_orbit(orbit, along.name, limits, virtual=virtual))
     return tuple(found), reduce(Searched.and_then, done)
 
 
-def _begins_another(point: Bifurcation, impacts: int, known: Sequence[OrbitBranch]) -> bool:
-    """Whether a branch of orbits with 2 up to a number of impacts begins at a special point, which is not known."""
+def _begins_another(point: Bifurcation, impacts: tuple[int, int], known: Sequence[OrbitBranch]) -> bool:
+    """Whether a branch of orbits with so many impacts begins at a special point, which is not known."""
+    fewest, most = impacts
     if point.kind == "period-doubling":
-        return 2 * point.orbit.impacts <= impacts and not any(_begins_at(branch, point) for branch in known)
+        return 2 * point.orbit.impacts <= most and not any(_begins_at(branch, point) for branch in known)
     if point.kind not in NEIGHBOURS or not point.orbit.word.flies:
         return False
     try:
         word, start = NEIGHBOURS[point.kind](point.orbit)
     except CaromError:
         return False
-    other = orbit_near(point.orbit.rotor, word, start) if 1 < word.impacts <= impacts else None
+    other = orbit_near(point.orbit.rotor, word, start) if fewest <= word.impacts <= most else None
     return other is not None and not any(lies_on(other, point.value, branch) for branch in known)
 
 

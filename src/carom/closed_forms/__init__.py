@@ -1,10 +1,11 @@
-"""Exact results: equilibria of any linear rotor, everything else for the planar rotor.
+"""Exact results: equilibria and harmless disturbances of any linear rotor, everything else for the planar rotor.
 
 ==================  ===================================================
 ``equilibria``      contact-free and rubbing equilibria of any linear rotor
 ``statics``         forces of rubs at rest, at one plane and at several
 ``rub_stability``   whether a rub at rest attracts sliding
-``thresholds``      where motions begin and end, and disturbances that never reach the wall
+``thresholds``      where motions begin and end
+``harmless``        disturbances of any linear rotor that never reach the wall
 ``unbalance``       contact-free response over the speed of the shaft
 ``whirl``           backward whirl: runaway and rolling
 ``fading``          rolling in bounces, and when they certainly fade
@@ -18,15 +19,15 @@
 from carom.closed_forms.absorbing import RubNeighbourhood, rub_neighbourhood
 from carom.closed_forms.equilibria import Equilibrium, EquilibriumSet, find_equilibria
 from carom.closed_forms.fading import fading_speed
-from carom.closed_forms.local import ContactSystem, LocalCycle, NonSmoothHopf, cycle_determinant, non_smooth_hopf
-from carom.closed_forms.periods import PeriodCondition, PeriodRoots
-from carom.closed_forms.thresholds import (
+from carom.closed_forms.harmless import (
     harmless_blade_loss,
     harmless_kick,
     harmless_shock,
     harmless_unbalance_step,
-    rub_limit,
 )
+from carom.closed_forms.local import ContactSystem, LocalCycle, NonSmoothHopf, cycle_determinant, non_smooth_hopf
+from carom.closed_forms.periods import PeriodCondition, PeriodRoots
+from carom.closed_forms.thresholds import rub_limit
 from carom.closed_forms.unbalance import SpeedResponse, speed_response
 from carom.closed_forms.whirl import Rolling, Runaway, rolling, runaway_speed
 

@@ -13,7 +13,8 @@ import numpy as np
 from carom.closed_forms.absorbing import GIVEN_UP, RubNeighbourhood, neighbourhood_of
 from carom.closed_forms.equilibria import Equilibrium, find_equilibria
 from carom.closed_forms.fading import fading_speed
-from carom.closed_forms.whirl import hastening_speed, rolling, runaway_speed
+from carom.closed_forms.thresholds import largest_response
+from carom.closed_forms.whirl import Rolling, Runaway, hastening_speed, rolling, runaway_speed
 from carom.models import Jeffcott, Model
 
 ROTORS = 64
@@ -26,6 +27,8 @@ class Known:
 
     rubs: bool = False
     """Whether all its synchronous rubs have closed forms."""
+    orbits: bool = False
+    """Whether all its orbits with one impact a period, and rolling, have closed forms."""
     rub: Equilibrium | None = None
     """The synchronous rub that attracts sliding, also for ``d = 1``, where it does not attract bouncing."""
     around: RubNeighbourhood | None = None
@@ -36,8 +39,17 @@ class Known:
     """Rebound speed, after an impact that stops the slip, up to which the bounces die out in rolling that lasts; 0 if there is none."""
     hastening: float = np.inf
     """Whirl speed in the fixed frame from which a sliding rotor speeds up without bound; infinite if there is none."""
-    rolling_force: float = 0.0
-    """Largest normal force over a turn of rolling; 0 without a closed form."""
+    rolls: Rolling | None = None
+    """Rolling on the bearing in backward whirl; ``None`` without a closed form."""
+    whirl: Runaway | None = None
+    """Speeds from which backward whirl runs away; ``None`` without a closed form."""
+    response: float | None = None
+    """Largest deviation from levitation after a kick of speed 1; ``None`` without a closed form."""
+
+    @property
+    def rolling_force(self) -> float:
+        """Largest normal force over a turn of rolling; 0 without a closed form."""
+        return self.rolls.largest_force if self.rolls else 0.0
 
 
 @singledispatch
@@ -54,10 +66,13 @@ def _of_planar_rotor(model: Jeffcott) -> Known:
     rolls = rolling(model)
     return Known(
         rubs=True,
+        orbits=True,
         rub=rub,
         around=neighbourhood_of(model, rub) if rub else None,
         runaway=whirl.certain * (1.0 + GIVEN_UP) if whirl.reaches_rolling and rolls.holds else np.inf,
         fading=fading_speed(model),
         hastening=hastening_speed(model) * (1.0 + GIVEN_UP),
-        rolling_force=rolls.largest_force,
+        rolls=rolls,
+        whirl=whirl,
+        response=largest_response(model.parameters.gamma, model.parameters.omega),
     )

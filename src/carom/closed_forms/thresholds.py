@@ -31,8 +31,8 @@ from __future__ import annotations
 import math
 from typing import Literal, get_args
 
-from carom.arguments import Positive, checked
-from carom.models import Edge, Jeffcott, Span, Subject, jeffcott_of
+from carom.arguments import checked
+from carom.models import Edge, Span, Subject, jeffcott_of
 from carom.outcome import InputError
 from carom.parameters import Numbers, Parameters
 
@@ -246,90 +246,13 @@ def ranges_of(motion: Steady, at: Values, gain: Gain) -> tuple[Span, ...]:
     return kinds[motion](at, gain)
 
 
-# ------------------------------------------------------------------------------------------------ harmless disturbances
+def largest_response(gamma: float, omega: float) -> float:
+    """Largest deviation from levitation after a kick of speed 1, in ``c_r``.
 
-
-@checked
-def harmless_kick(machine: Subject) -> float:
-    """Speed up to which a kick out of levitation provably never reaches the wall, in ``c_r Ω``.
-
-    In the fixed frame the deviation from the levitation whirl obeys ``ü + γu̇ + ω²u = 0``, whose coefficients are real:
-    a kick of speed ``v`` moves the rotor along its own direction, by at most ``v g``.  For ``γ < 2ω`` the largest
-    response ``g = e^{−γτ/2}/ω`` is that of the first turning point ``τ = arctan(2w/γ)/w``, ``w = √(ω² − γ²/4)``;
-    above critical damping the hyperbolic form holds.  Contact is impossible while ``v g < 1 − |U*|``.
-
-    Zero where the rotor cannot levitate inside the wall or its levitation is unstable.
-
-    See Also
-    --------
-    carom.basins.smallest_loss : search for the smallest kick that is lost
-
-    Examples
-    --------
-    >>> import carom as cm
-    >>> machine = cm.load("examples/keogh-cole.toml")
-    >>> print(f"{cm.closed_forms.harmless_kick(machine):.6f}")
-    0.039821
+    In the fixed frame the deviation from the levitation whirl obeys ``ü + γu̇ + ω²u = 0``, whose coefficients are real: a kick
+    moves the rotor along its own direction.  For ``γ < 2ω`` the largest deviation ``g = e^{−γτ/2}/ω`` is that of the first
+    turning point ``τ = arctan(2w/γ)/w``, ``w = √(ω² − γ²/4)``; above critical damping the hyperbolic form holds.
     """
-    rotor = jeffcott_of(machine)
-    return _room(rotor) / _largest_response(rotor.parameters.gamma, rotor.parameters.omega)
-
-
-@checked
-def harmless_shock(machine: Subject, duration: Positive) -> float:
-    """Peak acceleration up to which a half-sine shock of the base provably never brings the rotor to the wall.
-
-    The deviation is the convolution of the shock with the response to a kick, which is at most ``g``
-    (:func:`harmless_kick`).  So it is no larger than ``g`` times the change of velocity over the pulse, ``2âT/π``.  This
-    bound, in ``c_r Ω²``, is sharp for short pulses.
-
-    Parameters
-    ----------
-    machine : Machine, Case, Parameters or model
-    duration : float
-        ``T``, in ``1/Ω``.
-    """
-    rotor = jeffcott_of(machine)
-    return harmless_kick(rotor) * math.pi / (2.0 * duration)
-
-
-@checked
-def harmless_unbalance_step(machine: Subject) -> float:
-    """Change of the eccentricity up to which a step of the unbalance provably never brings the rotor to the wall.
-
-    A change ``Δ`` shifts the levitation whirl by ``u₀ = Δ/(ω² − 1 + iγ)`` in the co-rotating frame.  This is the
-    deviation at the step; its velocity in the fixed frame is ``iu₀``.  There the deviation obeys ``ü + γu̇ + ω²u = 0``,
-    whose energy ``|u̇|² + ω²|u|²`` does not grow, so it stays below ``|u₀|√(1 + 1/ω²)``.  This bound is not sharp.  The
-    change is in ``c_r``; zero where the rotor cannot levitate inside the wall or its levitation is unstable.
-    """
-    rotor = jeffcott_of(machine)
-    return (
-        _room(rotor) * math.sqrt(_stiffness_squared(rotor.parameters)) / math.hypot(1.0, 1.0 / rotor.parameters.omega)
-    )
-
-
-@checked
-def harmless_blade_loss(machine: Subject) -> float:
-    """Change of the unbalance up to which the loss of a blade provably never brings the rotor to the wall.
-
-    As in :func:`harmless_unbalance_step` the deviation from the levitation whirl after the loss stays below ``|u₀|√(1 + 1/ω²)``,
-    but that whirl itself is displaced from the one before by ``u₀``.  This bound is not sharp.  The change, in ``c_r``, is the modulus of that
-    of the complex eccentricity; zero where the rotor cannot levitate inside the wall or
-    its levitation is unstable.
-    """
-    at = jeffcott_of(machine).parameters
-    deviation = math.hypot(1.0, 1.0 / at.omega)
-    return harmless_unbalance_step(machine) * deviation / (1.0 + deviation)
-
-
-def _room(rotor: Jeffcott) -> float:
-    """Distance of levitation from the wall, less a margin for rounding; zero if it is outside the wall or unstable."""
-    gap = 1.0 - abs(rotor.equilibrium)
-    return gap * (1.0 - 1e-9) if gap > 0.0 and rotor.parameters.gamma >= 0.0 else 0.0
-
-
-def _largest_response(gamma: float, omega: float) -> float:
-    """Largest deviation after a kick of speed 1."""
     half = gamma / 2.0
     square = (omega - half) * (omega + half)
     if abs(square) <= 1e-12 * omega**2:

@@ -79,6 +79,7 @@ class UnbalanceStep(Disturbance):
         cosine, sine = eccentricity * np.cos(phase), eccentricity * np.sin(phase)
         there = np.hypot(cosine, sine) * reach <= 1.0
         cosine, sine = np.where(there, cosine, 0.0), np.where(there, sine, 0.0)
+        touched = there & (np.hypot(cosine, sine) * reach >= 1.0 - ON_WALL)
         if len(response) > 1:
             cosine, sine = cosine[..., None], sine[..., None]
         else:
@@ -87,9 +88,7 @@ class UnbalanceStep(Disturbance):
             response.real * cosine - response.imag * sine, response.imag * cosine + response.real * sine
         )
         none = np.zeros(there.shape, bool)
-        return Starts(
-            positions, np.zeros_like(positions), there, none, there & (np.hypot(cosine, sine) * reach >= 1.0 - ON_WALL)
-        )
+        return Starts(positions, np.zeros_like(positions), there, none, touched)
 
 
 @checked

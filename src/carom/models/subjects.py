@@ -36,7 +36,7 @@ def model_of(subject: Subject) -> Model:
     if isinstance(subject, Parameters):
         return Jeffcott(subject)
     if isinstance(subject, Machine | Case):
-        return Jeffcott(subject.parameters)
+        return model_of(subject.parameters)
     if isinstance(subject, Model):
         return subject
     raise InputError("machine", shown(subject), _ALLOWED)
@@ -54,6 +54,11 @@ def jeffcott_of(subject: Subject) -> Jeffcott:
     if isinstance(model, Jeffcott):
         return model
     raise InputError("machine", shown(subject), "the planar rotor: this result is not known for other models")
+
+
+def parameters_of(model: Model) -> Parameters | None:
+    """Parameters of the planar rotor; ``None`` of other models, whose numbers are matrices."""
+    return model.parameters if isinstance(model, Jeffcott) else None
 
 
 @checked
@@ -93,6 +98,7 @@ def case_of(subject: Subject) -> Case:
         It is none of these, or another model than the planar rotor.
     """
     if isinstance(subject, Case):
+        jeffcott_of(subject)
         return subject
     machine = subject if isinstance(subject, Machine) else None
     return Case("machine", jeffcott_of(subject).parameters, machine, Zones())

@@ -101,6 +101,11 @@ class CountedName(Name):
         """Make the text from the parts."""
         return super().__new__(cls, f"P{impacts},{number}")
 
+    @property
+    def words(self) -> str:
+        """What people call the motion: ``regular bouncing``, or with how many impacts it repeats."""
+        return REGULAR_BOUNCING if self.impacts == 1 else f"bouncing with {self.impacts} impacts a period"
+
 
 class RubbingName(CountedName):
     """Name of an orbit with lasting contact among those of its search, such as ``"rubbing 1"``."""

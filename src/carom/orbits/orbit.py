@@ -8,7 +8,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from carom.arguments import Reals, checked
+from carom.arguments import Reals, Whole, checked
 from carom.core.closing import ALIKE
 from carom.core.layout import rub_workspace
 from carom.core.margins import contact_margins, least_margins
@@ -189,6 +189,14 @@ class Orbit(Result):
         return self.section.radial_speed
 
     @property
+    def impulse(self) -> float:
+        """Normal impulse of the first impact in ``m c_r Ω``."""
+        plane = self.word[0].plane
+        place, moving = self.rotor.system.at_plane(self._departures[0], plane)
+        rebound = float((np.conj(place) * moving).real / abs(place))
+        return float(self.rotor.system.arrays.masses[plane]) * (self.radial_speed - rebound)
+
+    @property
     def impact_speeds(self) -> np.ndarray:
         """``ṙ`` just before each impact in ``c_r Ω``, shape (n,)."""
         pairs = zip(self.word, self.sections, strict=True)
@@ -230,25 +238,34 @@ class Orbit(Result):
         return simulate(self.rotor, self.departure, periods * self.period)
 
     @checked
-    def path(self, times: Reals) -> np.ndarray:
+    def path(self, times: Reals, plane: Whole | None = None) -> np.ndarray:
         """Position ``U`` at times since the first impact, by the exact flights; for virtual orbits too.
 
         Parameters
         ----------
         times : array_like
             In ``1/Ω``; the orbit repeats after each period.
+        plane : int, optional
+            The displacement at this contact plane, in its clearance, instead of the coordinates.
 
         Raises
         ------
+        InputError
+            No such plane.
         CaromError
             The orbit has lasting contact; follow its :meth:`trajectory`.
         """
         if not self.word.flies:
             raise CaromError("an orbit with lasting contact has no closed path; follow its trajectory()")
+        planes = len(self.rotor.system.contacts)
+        if plane is not None and plane >= planes:
+            raise InputError("plane", plane, f"a contact plane, from 0 to {planes - 1}")
         times = np.mod(times, self.period)
         begins = np.concatenate([[0.0], np.cumsum(self.durations)[:-1]])
         place = np.searchsorted(begins, times, side="right") - 1
-        position, _ = self.rotor.system.state(self.rotor.system.fly(self._departures[place], times - begins[place]))
+        system = self.rotor.system
+        amplitudes = system.fly(self._departures[place], times - begins[place])
+        position, _ = system.state(amplitudes) if plane is None else system.at_plane(amplitudes, plane)
         return position
 
 

@@ -171,12 +171,13 @@ def _needed(machine: Machine, need: str) -> Decimal:
 def _beside(case: Case, entry: str) -> Iterator[str]:
     """What else people say: the damping or stiffness that follows from a term, the damping ratio, the natural frequency."""
     numbers, field = case.parameters, set_by(entry)
-    if numbers.scales and field in ("damping", "stiffness") and entry != field:
+    gamma, omega = (numbers.value(name) for name in ("gamma", "omega"))
+    if field in numbers.varied and field in ("damping", "stiffness") and entry != field:
         yield f"{field} {_short(numbers.value(field))} {MACHINE_FIELDS[field].unit}"
     if field == "damping" and entry != "damping_ratio":
-        yield f"damping ratio {_short(numbers.gamma / (2.0 * numbers.omega))}"
+        yield f"damping ratio {_short(gamma / (2.0 * omega))}"
     if numbers.scales and field == "stiffness" and entry != "natural_frequency":
-        yield f"natural frequency {_short(numbers.omega * numbers.scales.speed / math.tau)} Hz"
+        yield f"natural frequency {_short(omega * numbers.scales.speed / math.tau)} Hz"
 
 
 def _rounded(exact: Decimal, digits: int, rounding: str) -> Decimal:

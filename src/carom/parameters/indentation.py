@@ -25,19 +25,19 @@ LARGEST = 0.1
 """Largest indentation, as a share of the clearance, at which a wall counts as rigid."""
 
 
-def indentation_of_force(parameters: Parameters, force: float) -> float:
-    """Least indentation of the wall, in clearances, under a force in ``m c_r Ω²``; ``nan`` without scales."""
-    scales = parameters.scales
-    if scales is None:
+def indentation_of_force(parameters: Parameters | None, force: float) -> float:
+    """Least indentation of the wall, in clearances, under a force in ``m c_r Ω²``; ``nan`` without scales, or parameters of the planar rotor."""
+    if parameters is None or parameters.scales is None:
         return math.nan
+    scales = parameters.scales
     return force * scales.force / (_stiffness(scales, parameters.radius_ratio) * scales.clearance)
 
 
-def indentation_of_hit(parameters: Parameters, radial_speed: float) -> float:
-    """Least indentation, in clearances, in an impact at a radial speed in ``c_r Ω``; ``nan`` if there are no scales."""
-    scales = parameters.scales
-    if scales is None:
+def indentation_of_hit(parameters: Parameters | None, radial_speed: float) -> float:
+    """Least indentation, in clearances, in an impact at a radial speed in ``c_r Ω``; ``nan`` without these too."""
+    if parameters is None or parameters.scales is None:
         return math.nan
+    scales = parameters.scales
     return radial_speed * scales.speed * math.sqrt(scales.mass / _stiffness(scales, parameters.radius_ratio))
 
 

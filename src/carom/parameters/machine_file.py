@@ -14,6 +14,7 @@ from carom.outcome import InputError, Problems, printable, shown
 from carom.parameters.fields import DIMENSIONLESS_FIELDS, PHYSICAL_PARTNER, name_errors, unknown_names
 from carom.parameters.load_limits import LIMIT_FIELDS, LoadLimits
 from carom.parameters.machine import Machine, warn_of_proportions
+from carom.parameters.named import Named, own_numbers
 from carom.parameters.numbers import Parameters
 from carom.parameters.quantities import read_quantity
 from carom.parameters.requirement import Requirement
@@ -74,9 +75,9 @@ class Case(Tabular):
     ----------
     name : str
         Name of the file without folder and suffix, printable.
-    parameters : Parameters
+    parameters : Parameters or model
         Dimensionless parameters, with scales if the file describes a machine. A dimensionless number that was set is
-        stored here exactly.
+        stored here exactly.  A model that no file describes stands for itself.
     machine : Machine or None
         The machine, as close to `parameters` as doubles allow; None for a dimensionless file.
     zones : Zones
@@ -94,13 +95,16 @@ class Case(Tabular):
     """
 
     name: str
-    parameters: Parameters
+    # Not narrower: what files describe reads the parameters of a planar rotor.
+    parameters: Any
     machine: Machine | None
     zones: Zones
     limits: LoadLimits = field(default_factory=LoadLimits)
     requirement: Requirement = field(default_factory=Requirement)
 
     def __post_init__(self) -> None:
+        if not isinstance(self.parameters, Named):
+            raise InputError("parameters", shown(self.parameters), "must be carom.parameters.Parameters, or a model")
         self.requirement.own(self.parameters.scales)
 
     @property
@@ -111,7 +115,7 @@ class Case(Tabular):
     def rows(self) -> list[tuple[str, str]]:
         """The machine in the units of people, what it must survive, what is stated of its bearing, and the units of the equations."""
         numbers, scales = self.parameters, self.parameters.scales
-        own = [(field.words, number(getattr(numbers, name))) for name, field in DIMENSIONLESS_FIELDS.items()]
+        own = [(numbers.varied[name].words, number(value)) for name, value in own_numbers(numbers).items()]
         zones = ", ".join(f"{zone} up to {number(limit)}" for zone, limit in zip("ABC", self.zones.limits, strict=True))
         limits = [
             f"{field.words} {number(value)} {field.unit}".rstrip()

@@ -26,6 +26,7 @@ from carom.plots.plane import (
     orbit_impacts,
     orbit_path,
     path,
+    plane_note,
     point,
 )
 from carom.plots.style import LOOKS, ONE_COLUMN, TWO_COLUMNS, Look, styled
@@ -49,7 +50,8 @@ def orbit(orbit: Orbit, periods: Count | None = None, *, axes: tuple[Axes, Axes]
     """Draw a periodic orbit in the co-rotating and in the fixed frame.
 
     In the co-rotating frame the orbit closes after one period.  In the fixed frame it is quasi-periodic unless its
-    period is a rational multiple of a turn of the shaft, so several periods are drawn.
+    period is a rational multiple of a turn of the shaft, so several periods are drawn.  Of a rotor with several contact
+    planes the displacement at that of the first impact is drawn, with the impacts there.
 
     Parameters
     ----------
@@ -70,13 +72,16 @@ def orbit(orbit: Orbit, periods: Count | None = None, *, axes: tuple[Axes, Axes]
         clearance_circle(drawn, reach, wall)
     _draw_orbit(left, orbit, "rotating", 1)
     _draw_orbit(right, orbit, "fixed", count)
-    label_frame(left, "rotating", scales, f"period $T$ = {time_in_words(orbit.period, scales)}")
-    label_frame(right, "fixed", scales, f"{counted(count, 'period')} = {turns(count * orbit.period)}")
-    _levitation(left, orbit.rotor.equilibrium, wall)
+    label_frame(left, "rotating", scales, plane_note(orbit, f"period $T$ = {time_in_words(orbit.period, scales)}"))
+    label_frame(
+        right, "fixed", scales, plane_note(orbit, f"{counted(count, 'period')} = {turns(count * orbit.period)}")
+    )
+    equilibrium = complex(orbit.rotor.system.arrays.offsets[orbit.word[0].plane])
+    _levitation(left, equilibrium, wall)
     inner = magnifier(left, once, wall=wall)
     if inner is not None:
         _draw_orbit(inner, orbit, "rotating", 1)
-        _levitation(inner, orbit.rotor.equilibrium, wall)
+        _levitation(inner, equilibrium, wall)
     if axes is None:
         figure.suptitle(orbit_title(orbit))
         key(figure, (left, right), columns=3)
@@ -94,7 +99,7 @@ def _draw_orbit(axes: Axes, orbit: Orbit, frame: Frame, periods: int) -> None:
     direction_arrow(axes, line[times <= orbit.period], look)
     struck, speeds = orbit_impacts(orbit, periods)
     turned = np.exp(1j * struck) if frame == "fixed" else np.ones_like(struck)
-    impacts(axes, wall * orbit.path(struck) * turned, speeds, size=4.5)
+    impacts(axes, wall * orbit.path(struck, orbit.word[0].plane) * turned, speeds, size=4.5)
     point(axes, complex(line[0]), "start", size=4.0, label="start, just after an impact")
 
 

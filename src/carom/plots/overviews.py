@@ -11,7 +11,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
-from carom.arguments import checked
+from carom.arguments import Whole, checked
+from carom.outcome import InputError
 from carom.plots.closeups import Closeup, closeups
 from carom.plots.figure import StyledFigure, narrow
 from carom.plots.placement import spread_angles
@@ -50,10 +51,15 @@ _LABEL_RING = 1.17
 
 @dataclass(frozen=True)
 class _Drawn:
-    """An orbit with its path over one period, complex positions in the co-rotating frame as they are drawn."""
+    """An orbit with its path over one period from its first impact, complex positions in the co-rotating frame as they are drawn."""
 
     orbit: Orbit
     path: Complex
+
+    @property
+    def place(self) -> complex:
+        """Where it is at its first impact."""
+        return complex(self.path[0])
 
     @property
     def meaning(self) -> str:
@@ -68,6 +74,7 @@ def equilibria_and_orbits(
     title: str | None = None,
     *,
     virtual: bool = False,
+    plane: Whole = 0,
     axes: Axes | None = None,
 ) -> Figure:
     """Draw all equilibria and periodic orbits of a machine in the co-rotating frame.
@@ -79,26 +86,36 @@ def equilibria_and_orbits(
     ----------
     virtual : bool
         Draw virtual orbits too, pale.
+    plane : int
+        The contact plane, of a rotor with several.
+
+    Raises
+    ------
+    InputError
+        No such plane.
     """
+    planes = len(orbits.rotor.system.contacts)
+    if plane >= planes:
+        raise InputError("plane", plane, f"a contact plane, from 0 to {planes - 1}")
     wanted = [orbit for orbit in orbits if orbit.admissible or virtual]
     shown = sorted(
-        (_Drawn(orbit, orbit_path(orbit, 1)[1]) for orbit in wanted), key=lambda drawn: _ORDER[drawn.meaning]
+        (_Drawn(orbit, orbit_path(orbit, 1, plane)[1]) for orbit in wanted), key=lambda drawn: _ORDER[drawn.meaning]
     )
     physical = [drawn for drawn in shown if drawn.meaning != "virtual"]
     wall = clearance(orbits.rotor.scales)
-    places = [wall * e.position for e in equilibria]
+    places = [wall * complex(e.places[plane]) for e in equilibria]
     crowded = closeups([drawn.path for drawn in physical], places, wall) if axes is None else []
     figure, whole, panels = _panels(axes, len(crowded))
     hidden = [physical[i] for closeup in crowded for i in closeup.members]
     clearance_circle(whole, 1.36, wall)
-    label_frame(whole, "rotating", orbits.rotor.scales)
+    label_frame(whole, "rotating", orbits.rotor.scales, f"plane {plane}" if planes > 1 else "")
     named = shown if len(shown) - len(physical) <= _MOST_VIRTUAL else physical
-    _draw(whole, equilibria, shown, wall, without_arrow=hidden)
+    _draw(whole, equilibria, shown, wall, plane, without_arrow=hidden)
     tags = [(f"({letter})", closeup.middle) for letter, closeup in zip("bc", crowded, strict=False)]
     _name(whole, [drawn for drawn in named if drawn not in hidden], _LABEL_RING, wall, gap=0.14, tags=tags)
     for (tag, _), closeup, panel in zip(tags, crowded, panels, strict=True):
         _enlarge(whole, panel, closeup, tag, orbits.rotor.scales)
-        _draw(panel, equilibria, shown, wall)
+        _draw(panel, equilibria, shown, wall, plane)
         half = closeup.half / wall
         _name(panel, [physical[i] for i in closeup.members], 1.0 + 0.33 * half, wall, gap=0.24 * half)
     if panels:
@@ -132,12 +149,13 @@ def _draw(
     equilibria: Iterable[Equilibrium],
     shown: Sequence[_Drawn],
     wall: float,
+    plane: int,
     without_arrow: Sequence[_Drawn] = (),
 ) -> None:
     virtual = sum(drawn.meaning == "virtual" for drawn in shown)
     many = virtual > _MOST_VIRTUAL
     for equilibrium in equilibria:
-        _draw_equilibrium(axes, equilibrium, wall * complex(equilibrium.places[0]))
+        _draw_equilibrium(axes, equilibrium, wall * complex(equilibrium.places[plane]))
     for drawn in shown:
         look = LOOKS["outside" if drawn.meaning == "virtual" else drawn.meaning]
         if drawn.meaning != "virtual" or not many:
@@ -145,7 +163,7 @@ def _draw(
         if drawn.meaning != "virtual" and drawn not in without_arrow:
             direction_arrow(axes, drawn.path, look)
         hollow = drawn.meaning != "stable"
-        point(axes, wall * drawn.orbit.position, drawn.meaning, hollow=hollow, size=3.2, label="", layer=5.0)
+        point(axes, drawn.place, drawn.meaning, hollow=hollow, size=3.2, label="", layer=5.0)
     for meaning in dict.fromkeys(drawn.meaning for drawn in reversed(shown)):
         look, line = LOOKS[meaning], LOOKS["outside" if meaning == "virtual" else meaning]
         note = f" ({virtual}, impacts only)" if meaning == "virtual" and many else ""
@@ -232,7 +250,7 @@ def _name(
 
     The radius of the ring is in clearances.
     """
-    labels = [(orbit_symbol(d.orbit.name), wall * d.orbit.position, LOOKS[d.meaning].colour) for d in shown]
+    labels = [(orbit_symbol(d.orbit.name), d.place, LOOKS[d.meaning].colour) for d in shown]
     labels += [(tag, middle, "#1a1a1a") for tag, middle in tags]
     angles = spread_angles([np.angle(anchor) for _, anchor, _ in labels], gap)
     for (text, anchor, colour), angle in zip(labels, angles, strict=True):

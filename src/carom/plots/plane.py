@@ -153,15 +153,29 @@ def impacts(axes: Axes, position: Complex, angular_speed: Floats, size: float | 
             point(axes, position[chosen], which, size=size)
 
 
-def orbit_path(orbit: Orbit, periods: int) -> tuple[Floats, Complex]:
-    """Return evenly spaced times [1/Omega] from an impact over whole periods, and positions as they are drawn."""
+def orbit_path(orbit: Orbit, periods: int, plane: int | None = None) -> tuple[Floats, Complex]:
+    """Return evenly spaced times [1/Omega] from an impact over whole periods, and positions as they are drawn.
+
+    They are those of a contact plane, by default that of the first impact.
+    """
+    seen = orbit.word[0].plane if plane is None else plane
     times = np.linspace(0.0, periods * orbit.period, periods * max(400, int(60.0 * orbit.period)) + 1)
-    return times, orbit.path(times) * complex(clearance(orbit.rotor.scales))
+    return times, orbit.path(times, seen) * complex(clearance(orbit.rotor.scales))
+
+
+def plane_note(orbit: Orbit, note: str = "") -> str:
+    """Return a note on a picture of an orbit, which names the contact plane of its first impact if there are several."""
+    plane = f"plane {orbit.word[0].plane}" if len(orbit.rotor.system.contacts) > 1 else ""
+    return ", ".join(filter(None, (plane, note)))
 
 
 def orbit_impacts(orbit: Orbit, periods: int) -> tuple[Floats, Floats]:
-    """Return the times of the impacts after the first one [1/Omega], over whole periods, and the angular speeds just before each."""
-    kept = [place for place, segment in enumerate(orbit.word) if segment.kind.is_impact]
+    """Return the times of the impacts after the first one [1/Omega], over whole periods, and the angular speeds just before each.
+
+    Of several contact planes they are those at the plane of the first impact.
+    """
+    plane = orbit.word[0].plane
+    kept = [place for place, each in enumerate(orbit.word) if each.kind.is_impact and each.plane == plane]
     kept = [*kept[1:], kept[0]]
     begins = np.concatenate([[orbit.period], np.cumsum(orbit.durations)[:-1]])[kept]
     times = (orbit.period * np.arange(periods)[:, None] + begins).ravel()

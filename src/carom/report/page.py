@@ -20,7 +20,7 @@ from carom.plots.sheet import drawing
 from carom.progress import Reporter, ShowProgress, shows_progress
 from carom.report.basins import drawable
 from carom.report.figures import Picture, pictures
-from carom.studies import NOT_COVERED, Study
+from carom.studies import Study
 from carom.studies.advice_facts import BEYOND, CHANGES
 from carom.studies.facts import Fact, about, paragraphs
 from carom.studies.summaries import (
@@ -32,6 +32,7 @@ from carom.studies.summaries import (
     share_rows,
     survived_rows,
 )
+from carom.studies.verdict import not_covered
 from carom.studies.wording import machine_heading
 
 REPORT = "report.html"
@@ -114,7 +115,7 @@ def report_page(study: Study, figures: list[InlineFigure]) -> str:
         ],
         searched=[entry for entry in study.ranges if entry.motion == "single-impact"],
         figures=figures,
-        not_covered=NOT_COVERED,
+        not_covered=not_covered(study),
         versions=_versions(),
     )
 

@@ -207,7 +207,7 @@ def limits_of(case: Case) -> tuple[BearingLimit, ...]:
 
 
 def bearing_demand(
-    case: Case, equilibria: Iterable[Equilibrium], orbits: Iterable[Orbit], roll: Rolling, found: AttractorSet
+    case: Case, equilibria: Iterable[Equilibrium], orbits: Iterable[Orbit], roll: Rolling | None, found: AttractorSet
 ) -> BearingDemand | None:
     """What the motions of a study ask of the magnetic bearings; ``None`` if these have no limits."""
     limits = limits_of(case)
@@ -224,7 +224,7 @@ def bearing_demand(
             motion = orbit.trajectory()
             reached = zip(limits, largest_along(motion, limits), largest_jumps(motion, limits), strict=True)
             motions += [Demand(MotionName(Outcome.BOUNCING, 1, orbit=orbit.name).words, *each) for each in reached]
-    if roll.holds:
+    if roll is not None and roll.holds:
         whirl = Centre.whirling(1.0, -roll.speed)
         motions += [Demand(ROLLING.words, limit, float(limit.asked(whirl))) for limit in limits]
     tried = found.disturbances

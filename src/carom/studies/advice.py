@@ -14,10 +14,11 @@ from typing import Literal
 
 from carom.basins.changes import WANTED
 from carom.basins.shares import percent
+from carom.closed_forms.known import known_of
 from carom.closed_forms.thresholds import FOLD, ROLLING, WALL
-from carom.closed_forms.whirl import Runaway, rolling, runaway_speed
+from carom.closed_forms.whirl import Runaway
 from carom.disturbances import Sample
-from carom.models import Edge, Jeffcott, Span
+from carom.models import Edge, Span, model_of
 from carom.parameters import Case, InTerms, in_terms_of
 from carom.parameters.conversions import CONVERSIONS
 from carom.results import Result
@@ -89,7 +90,8 @@ class Change:
     radius, zone : float, str
         Radius of levitation at the value, and its zone.
     whirl : Runaway or None
-        Speeds from which backward whirl runs away to rolling at the value; ``None`` if rolling does not sustain itself.
+        Speeds from which backward whirl runs away to rolling at the value; ``None`` if rolling does not sustain itself, or no closed
+        form says.
     demand : float or None
         Largest multiple of a limit of the magnetic bearings that a disturbance asked for; ``None`` if no limit is stated.
     """
@@ -279,7 +281,8 @@ class _Adviser:
     def _change(self, terms: InTerms, check: Check, span: Span | None, forced: tuple[Check, ...]) -> Change:
         value, present = check.value, self.present
         case = with_setting(self.case, terms)
-        rotor = Jeffcott(case.parameters)
+        rotor = model_of(case)
+        known = known_of(rotor)
         margin: Margin | None = None
         far: Edge | None = None
         beyond: tuple[Check, ...] = ()
@@ -292,7 +295,7 @@ class _Adviser:
             beyond = tuple(each for each in self.recovery.clear if low < each.value < high)
             if far is None and beyond:
                 bound = "at least" if present < value else "at most"
-        radius = abs(rotor.equilibrium)
+        radius = rotor.system.rest_radius
         return Change(
             self.name,
             present,
@@ -307,7 +310,7 @@ class _Adviser:
             beyond,
             radius,
             case.zones.zone(min(radius, 1.0)),
-            runaway_speed(rotor) if rolling(rotor).holds else None,
+            known.whirl if known.rolls and known.rolls.holds else None,
             asked_by(case, self.disturbances),
         )
 

@@ -93,7 +93,7 @@ def _change(study: StudyData, change: Change) -> str:
     """The change in the terms of the machine file, what it is in others, and how far beyond it was tried."""
     name, terms = change.parameter, change.terms
     # ω varies with the square root of the stiffness.
-    what = "stiffness" if name == "omega" and study.wording.scales is None else study.wording.name(name)
+    what = "stiffness" if name == "omega" and not study.wording.of_machine else study.wording.name(name)
     times = "there is none now" if math.isinf(change.ratio) else f"{what} × {number(change.ratio, 3)}"
     now = _stated(study, name, change.present)
     bound, tried = ("", "") if change.bound == "about" else (f"{change.bound} ", f", tried {_farthest(study, change)}")

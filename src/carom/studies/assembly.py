@@ -8,18 +8,19 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any, ClassVar
+from typing import Any, ClassVar, get_args
 
 from carom.arguments import checked
 from carom.attractors import DisturbanceSet, find_attractors
 from carom.bifurcations.boundary import boundary_equilibria
 from carom.closed_forms.equilibria import find_equilibria
+from carom.closed_forms.known import known_of
 from carom.closed_forms.thresholds import Gain
 from carom.disturbances import Disturbance, Plan, Sample
-from carom.models import Jeffcott, Subject, case_of
-from carom.orbits.single_impact import orbits_within_reach
+from carom.models import Model, Subject, case_of, model_of
+from carom.orbits.single_impact import find_orbits, orbits_within_reach
 from carom.outcome import InputError
-from carom.parameters import Case, Requirement
+from carom.parameters import Case, Requirement, Zones
 from carom.progress import Reporter, ShowProgress, shows_progress
 from carom.results import in_a_line
 from carom.studies.advice import recommend
@@ -84,6 +85,9 @@ def study(
 ) -> Study:
     """Study a machine: its simple motions, where they exist, and where disturbances end.
 
+    A study of another model than the planar rotor rests on what a search and simulation find: it lacks what only closed forms say, and
+    names it under *Not covered*.
+
     Parameters
     ----------
     machine : Machine, Case, Parameters or model
@@ -116,20 +120,21 @@ def study(
     >>> result.levitates, [orbit.name for orbit in result.stable_orbits]
     (True, ['B1,d'])
     """
-    case = case_of(machine)
+    case = _case_of(machine)
     if requirement is not None:
         case = replace(case, requirement=requirement)
     _refuse_another_machine(case, disturbances)
     tell = Reporter.of(progress, "study")
-    parameters, rotor = case.parameters, Jeffcott(case.parameters)
-    required = case.requirement.own(parameters.scales)
+    rotor = model_of(case)
+    known, required = known_of(rotor).orbits, case.requirement.own(rotor.scales)
     proof = None
     if proofs:
         from carom.proofs import prove  # only here: it needs an extra
 
-        proof, tell = prove(parameters, progress=tell.part(0.0, 0.2)), tell.part(0.2, 1.0)
+        proof, tell = prove(rotor, progress=tell.part(0.0, 0.2)), tell.part(0.2, 1.0)
     tell(0.0, "equilibria and periodic orbits (the kernels are compiled on first use)")
-    steady, orbits = find_equilibria(rotor).members, orbits_within_reach(rotor)
+    steady = find_equilibria(rotor).members
+    orbits = orbits_within_reach(rotor) if known else find_orbits(rotor, impacts=1)
     tell(0.1, "disturbances")
     described = disturbances or DisturbanceSet(fastest=required.kick)
     found = find_attractors(rotor, described, progress=tell.part(0.1, 0.2, "disturbances"))
@@ -138,8 +143,7 @@ def study(
     searching = tell.part(0.45, 0.85)
     tried = required_disturbances(required, TRIED)
     present = _present(rotor, tried) if endured else None
-    # With negative damping nothing comes back at any stiffness.
-    gains: tuple[Gain, ...] = ("gamma", "omega") if parameters.gamma >= 0 else ("gamma",)
+    gains = _gains(rotor, known)
     recoveries = tuple(
         find_recovery(
             rotor,
@@ -151,14 +155,33 @@ def study(
         for place, gain in enumerate(gains)
     )
     tell(0.85, "loss of levitation")
-    boundaries = tuple(boundary for gain in gains for boundary in boundary_equilibria(rotor, gain))
+    boundaries = tuple(boundary for gain in gains if known for boundary in boundary_equilibria(rotor, gain))
     tell(0.9, "the least change")
     advice = recommend(case, tried, recoveries, needed=present is None or not present.recovers)
-    loads = worst_loads(found, case.limits) if case.limits.stated and parameters.scales else None
+    loads = worst_loads(found, case.limits) if case.limits.stated and rotor.scales else None
     return Study(case, rotor, steady, orbits, boundaries, found, endured, present, recoveries, advice, loads, proof)
 
 
-def _present(rotor: Jeffcott, tried: tuple[Sample, ...]) -> Check:
+def _case_of(machine: Subject) -> Case:
+    """What is studied; a model that no file describes stands for itself, with the usual zones."""
+    model = model_of(machine)
+    if isinstance(machine, Case):
+        return machine
+    if known_of(model).orbits:
+        return case_of(machine)
+    return Case("rotor", model, None, Zones())
+
+
+def _gains(rotor: Model, known: bool) -> tuple[Gain, ...]:
+    """Parameters along which recovery is searched: none of other models than the planar rotor that is zero, or that nothing can move."""
+    gains: tuple[Gain, ...] = get_args(Gain)
+    if known:
+        # With negative damping nothing comes back at any stiffness.
+        return gains if rotor.value("gamma") >= 0 else gains[:1]
+    return tuple(gain for gain in gains if rotor.value(gain) > 0.0)
+
+
+def _present(rotor: Model, tried: tuple[Sample, ...]) -> Check:
     """Follow fresh disturbances at the machine's own gains; more of them if all came back."""
     first = check_recovery(rotor, in_all(tried, FIRST), seed=SEED)
     return check_recovery(rotor, in_all(tried, FRESH), seed=SEED) if first.recovers else first
@@ -166,7 +189,7 @@ def _present(rotor: Jeffcott, tried: tuple[Sample, ...]) -> Check:
 
 def _refuse_another_machine(case: Case, disturbances: Plan | Disturbance | None) -> None:
     """Refuse disturbances that change the machine."""
-    model, rotor = getattr(disturbances, "model", disturbances), Jeffcott(case.parameters)
+    model, rotor = getattr(disturbances, "model", disturbances), model_of(case)
     if isinstance(model, Disturbance) and model.machine_after(rotor) is not rotor:
         allowed = "one that leaves the machine as it is: study the machine after it, or follow it with map_basins"
         raise InputError("disturbances", model.kind, allowed)

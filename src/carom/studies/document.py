@@ -6,6 +6,7 @@ ends in ``_si``; those keys exist if the machine is known.  Values that are not 
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from importlib.metadata import version
 from typing import Any
@@ -17,8 +18,8 @@ from carom.attractors import Attractor, AttractorSet, Ending, document_of
 from carom.bifurcations.boundary import BoundaryEquilibrium
 from carom.bifurcations.documents import search_document
 from carom.closed_forms.equilibria import Equilibrium
-from carom.closed_forms.whirl import rolling
 from carom.models import Jeffcott, Model, Span
+from carom.models.subjects import parameters_of
 from carom.motions.loads import MEASURED, touchdown_loads
 from carom.motions.starts import State
 from carom.motions.trajectories import Trajectory
@@ -45,13 +46,18 @@ def orbits_document(
     parameters: Parameters, equilibria: tuple[Equilibrium, ...], orbits: OrbitSet, machine: Machine | None = None
 ) -> dict[str, Any]:
     """Return the document of equilibria and periodic orbits."""
-    scales = parameters.scales
+    return _orbits_of(Jeffcott(parameters), equilibria, orbits, machine)
+
+
+def _orbits_of(
+    rotor: Model, equilibria: tuple[Equilibrium, ...], orbits: OrbitSet, machine: Machine | None
+) -> dict[str, Any]:
     return {
-        "parameters": parameters.as_dict(),
+        **_rotor(rotor),
         "machine_si": {name: getattr(machine, name) for name in MACHINE_FIELDS} if machine is not None else None,
         "machine_given": machine.given_texts if machine is not None else None,
-        "equilibria": [_equilibrium(entry, parameters) for entry in equilibria],
-        "orbits": [_orbit(entry, scales) for entry in orbits],
+        "equilibria": [_equilibrium(entry, rotor) for entry in equilibria],
+        "orbits": [_orbit(entry, rotor.scales) for entry in orbits],
         **fields_of(orbits, "complete", "longest_period", "argument"),
     }
 
@@ -123,12 +129,12 @@ def _loads(trajectory: Trajectory) -> dict[str, Any]:
 
 def study_document(study: StudyData, verdict: Verdict, facts: Sequence[Fact]) -> dict[str, Any]:
     """Return the document of a study, with all its results."""
-    case, say = study.case, study.wording
+    case, rotor, say = study.case, study.rotor, study.wording
     return {
         "name": case.name,
         "carom": version("carom"),
-        **orbits_document(case.parameters, study.equilibria, study.orbits, case.machine),
-        "scales_si": _scales(case.parameters.scales) if case.parameters.scales else None,
+        **_orbits_of(rotor, study.equilibria, study.orbits, case.machine),
+        "scales_si": _scales(rotor.scales) if rotor.scales else None,
         "zone": study.zone,
         "zone_limits": list(case.zones.limits),
         "verdict": fields_of(verdict, "level", "outcome", "reason", "headline"),
@@ -147,17 +153,17 @@ def study_document(study: StudyData, verdict: Verdict, facts: Sequence[Fact]) ->
             "kind": study.recommendation.kind,
             "changes": [change_document(study, change) for change in study.recommendation.changes],
         },
-        "attractors": [_attractor(entry, case.parameters) for entry in study.attractors],
-        "rolling": _rolling(study.rotor),
-        "disturbances": _disturbances(study.attractors, case.parameters),
+        "attractors": [_attractor(entry, rotor) for entry in study.attractors],
+        "rolling": _rolling(study),
+        "disturbances": _disturbances(study.attractors, rotor),
         "bearing_demand": study.bearing_demand.document() if study.bearing_demand else None,
         "loads": study.loads.document() if study.loads else None,
         "proof": study.proof.document() if study.proof else None,
     }
 
 
-def _equilibrium(entry: Equilibrium, parameters: Parameters) -> dict[str, Any]:
-    scales = parameters.scales
+def _equilibrium(entry: Equilibrium, rotor: Model) -> dict[str, Any]:
+    scales = rotor.scales
     document = {
         **fields_of(entry, kind="kind", U="position", radius="radius", normal_force="normal_force"),
         **fields_of(entry, "status", "stable"),
@@ -165,7 +171,7 @@ def _equilibrium(entry: Equilibrium, parameters: Parameters) -> dict[str, Any]:
     }
     document |= in_si(document, scales, "radius", "normal_force")
     if scales is not None and entry.kind == "rub":
-        document |= _wall(indentation_of_force(parameters, entry.normal_force))
+        document |= _wall(indentation_of_force(parameters_of(rotor), entry.normal_force))
     return document
 
 
@@ -173,10 +179,9 @@ def _orbit(entry: Orbit, scales: Scales | None) -> dict[str, Any]:
     document = fields_of(entry, "name", "impacts", "period", "radial_speed", "angle", "angular_speed")
     document |= fields_of(entry, multipliers="multipliers.values") | fields_of(entry, "stable", "admissible", "reason")
     if scales is not None:
-        impulse = (1.0 + entry.rotor.parameters.d) * entry.radial_speed
         document |= in_si(document, scales, "period", "radial_speed")
-        document |= {"normal_impulse_si": impulse * scales.impulse}
-        document |= _wall(indentation_of_hit(entry.rotor.parameters, entry.radial_speed))
+        document |= {"normal_impulse_si": entry.impulse * scales.impulse}
+        document |= _wall(indentation_of_hit(parameters_of(entry.rotor), entry.radial_speed))
     return document
 
 
@@ -186,7 +191,8 @@ def _state(state: State) -> dict[str, Any]:
 
 def _rotor(rotor: Model) -> dict[str, Any]:
     """What describes a rotor: the parameters of the planar one, the attributes of any other."""
-    return {"parameters": rotor.parameters.as_dict()} if isinstance(rotor, Jeffcott) else {"rotor": rotor.attributes()}
+    planar = parameters_of(rotor)
+    return {"parameters": planar.as_dict()} if planar else {"rotor": rotor.attributes()}
 
 
 def _scales(scales: Scales) -> dict[str, float]:
@@ -253,21 +259,21 @@ def _check(check: Check) -> dict[str, Any]:
     }
 
 
-def _attractor(entry: Attractor, parameters: Parameters) -> dict[str, Any]:
-    scales = parameters.scales
+def _attractor(entry: Attractor, rotor: Model) -> dict[str, Any]:
+    scales, at = rotor.scales, parameters_of(rotor)
     told = fields_of(entry, name="name", outcome="name.outcome.label", settled="settled")
     told |= fields_of(entry, multiplicity="name.multiplicity", period="period", whirl="whirl", count="count")
     told |= fields_of(entry, "share_of_disturbances", known_starts="known")
     told |= fields_of(entry, "largest_impulse", "largest_force")
     document = told | document_of(entry.survival) | in_si(told, scales, "largest_impulse", "largest_force")
-    if scales is not None:
-        hit = indentation_of_hit(parameters, entry.largest_impulse / (1.0 + parameters.d))
-        document |= _wall(max(hit, indentation_of_force(parameters, entry.largest_force)))
+    if at is not None:
+        hit = indentation_of_hit(at, entry.largest_impulse / (1.0 + at.d))
+        document |= _wall(max(hit, indentation_of_force(at, entry.largest_force)))
     return document
 
 
-def _disturbances(found: AttractorSet, parameters: Parameters) -> dict[str, Any]:
-    scales = parameters.scales
+def _disturbances(found: AttractorSet, rotor: Model) -> dict[str, Any]:
+    scales, at = rotor.scales, parameters_of(rotor)
     touched = touching(found)
     document = {
         "seed": getattr(found.sample, "seed", None),
@@ -285,7 +291,8 @@ def _disturbances(found: AttractorSet, parameters: Parameters) -> dict[str, Any]
     document |= in_si(document, scales, smallest_unrecovered_kick="velocity")
     if scales is not None:
         document["hardest_impulse_si"] = hardest_impulse(found) * scales.impulse
-        document |= _wall(indentation_of_hit(parameters, hardest_impulse(found) / (1.0 + parameters.d)))
+    if at is not None:
+        document |= _wall(indentation_of_hit(at, hardest_impulse(found) / (1.0 + at.d)))
     return document
 
 
@@ -295,15 +302,19 @@ def _ending(entry: Ending) -> dict[str, Any]:
 
 
 def _wall(indentation: float) -> dict[str, Any]:
-    """Return the least indentation of a wall of solid steel, in clearances, and whether the rigid wall is valid."""
+    """Return the least indentation of a wall of solid steel, in clearances, and whether the rigid wall is valid; nothing if unknown."""
+    if math.isnan(indentation):
+        return {}
     return {"indentation": indentation, "rigid_wall": not gives_way(indentation)}
 
 
-def _rolling(rotor: Jeffcott) -> dict[str, Any]:
-    """Return whether rolling backward whirl sustains itself, with its speed and force."""
-    roll, scales = rolling(rotor), rotor.scales
+def _rolling(study: StudyData) -> dict[str, Any] | None:
+    """Return whether rolling backward whirl sustains itself, with its speed and force; ``None`` without a closed form."""
+    roll, scales = study.known.rolls, study.rotor.scales
+    if roll is None:
+        return None
     document = fields_of(roll, "holds", "speed", "largest_force")
     document |= in_si(document, scales, "largest_force")
     if scales is not None:
-        document |= _wall(indentation_of_force(rotor.parameters, roll.largest_force))
+        document |= _wall(indentation_of_force(study.parameters, roll.largest_force))
     return document

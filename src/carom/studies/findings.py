@@ -7,9 +7,10 @@ from collections.abc import Callable, Mapping
 from carom.attractors import AttractorSet
 from carom.attractors.names import LEVITATION
 from carom.closed_forms.equilibria import Equilibrium
-from carom.closed_forms.whirl import Rolling, Runaway, rolling, runaway_speed
+from carom.closed_forms.known import known_of
+from carom.closed_forms.whirl import Rolling, Runaway
 from carom.orbits.orbit import Orbit
-from carom.outcome import STEADY_WORDS
+from carom.outcome import STEADY_WORDS, Outcome
 from carom.parameters import GRAVITY
 from carom.parameters.indentation import gives_way, indentation_of_force, indentation_of_hit
 from carom.parameters.told import number
@@ -90,12 +91,11 @@ def _rub(study: StudyData) -> str:
 
 
 def _rub_load(study: StudyData, rub: Equilibrium) -> str:
-    say, parameters = study.wording, study.case.parameters
-    indentation = indentation_of_force(parameters, rub.normal_force)
+    say, wall = study.wording, study.rotor.system.contacts[rub.plane].wall
+    indentation = indentation_of_force(study.parameters, rub.normal_force)
     if gives_way(indentation):
         return f"one for which there is no model: {steel_words(indentation)}"
-    friction = parameters.mu * rub.normal_force
-    slip = parameters.radius_ratio + 1.0
+    friction, slip = wall.friction * rub.normal_force, wall.surface_speed
     text = _with_weight(study, rub.normal_force)
     if friction > 0:
         text += (
@@ -107,8 +107,8 @@ def _rub_load(study: StudyData, rub: Equilibrium) -> str:
 
 def _of_hit(study: StudyData, impulse: float) -> str:
     """Return a clause on whether the rigid wall is a valid model for the normal impulse of a hit; empty if it is."""
-    parameters = study.case.parameters
-    text = no_rigid_wall(indentation_of_hit(parameters, impulse / (1.0 + parameters.d)))
+    at = study.parameters
+    text = no_rigid_wall(indentation_of_hit(at, impulse / (1.0 + at.d))) if at else ""
     return f"; {text}" if text else ""
 
 
@@ -130,8 +130,11 @@ def _bouncing(study: StudyData) -> str:
             "and so cannot happen."
         )
     if not len(orbits):
-        sentences.append("There is no orbit with one impact a period.")
-    if orbits.complete and orbits.slip_stays_forward:
+        none = "No orbit with one impact a period was found."
+        sentences.append(none if orbits.search else "There is no orbit with one impact a period.")
+    if orbits.search is not None:
+        sentences.append(orbits.argument)
+    elif orbits.complete and orbits.slip_stays_forward:
         sentences.append("The list is complete: bounds exclude any other orbit with one impact a period.")
     elif orbits.complete:
         sentences.append(
@@ -145,8 +148,7 @@ def _bouncing(study: StudyData) -> str:
 
 
 def _stable_orbit(study: StudyData, orbit: Orbit) -> str:
-    say, parameters = study.wording, study.case.parameters
-    impulse = (1.0 + parameters.d) * orbit.radial_speed
+    say, impulse = study.wording, orbit.impulse
     words = orbit.name.words
     whirl = "forward" if orbit.angular_speed > -1.0 else "backward"
     return (
@@ -188,8 +190,11 @@ def _irregular(found: AttractorSet) -> str:
 
 
 def _backward_whirl(study: StudyData) -> str:
-    say, gamma = study.wording, study.case.parameters.gamma
-    roll, runaway = rolling(study.rotor), runaway_speed(study.rotor)
+    say, known = study.wording, known_of(study.rotor)
+    roll, runaway = known.rolls, known.whirl
+    if roll is None or runaway is None:
+        return _simulated_rolling(study)
+    gamma = study.rotor.value("gamma")
     bound = say.value("gamma", roll.damping_bound)
     if roll.damping_bound <= 0.0:
         return "Friction cannot sustain any backward whirl in lasting contact, whatever the damping."
@@ -205,6 +210,16 @@ def _backward_whirl(study: StudyData) -> str:
         f"Dry friction can drive the rotor backward round the bearing. {_no_return(study, runaway)} {_where_it_ends(study, roll)} "
         f"Only {say.name('gamma')} above {bound} rules that out{_interrupted(study, roll)}."
     )
+
+
+def _simulated_rolling(study: StudyData) -> str:
+    """Say what is known of rolling without closed forms."""
+    rolled = [member for member in study.attractors if member.name.outcome is Outcome.ROLLING]
+    if not rolled:
+        return f"No motion that was followed ended in {ROLLING}."
+    count = sum(member.count for member in rolled)
+    met = f"{counted(count, 'disturbance')} ended" if count else "a start in rolling stayed"
+    return f"Dry friction can drive the rotor backward round the bearing: {met} in {ROLLING}."
 
 
 def _no_return(study: StudyData, runaway: Runaway) -> str:
@@ -263,14 +278,15 @@ def _remedies_along(say: Wording, found: Recovery) -> str:
         parts.append(
             f"{_POSSIBLE['stable-single-impact'].rstrip(',')} were not searched: there are too many orbits to follow"
         )
-    what = name if say.scales is None else f"{name[0].upper()}{name[1:]}"  # A symbol keeps its case: Ω is not ω.
-    return f"{what} (this machine: {own}): {'; '.join(parts)}. {_recovery_words(say, found, name)}"
+    what = name if not say.of_machine else f"{name[0].upper()}{name[1:]}"  # A symbol keeps its case: Ω is not ω.
+    possible = f"{'; '.join(parts)}. " if parts else ""
+    return f"{what} (this machine: {own}): {possible}{_recovery_words(say, found, name)}"
 
 
 def _recovery_words(say: Wording, found: Recovery, name: str) -> str:
     """Say where along a parameter everything tried came back, how much was tried, and what was met beyond."""
     along = found.along.name
-    if not found.range_of("single-impact"):
+    if found.motions and not found.range_of("single-impact"):
         return f"At which {name} all that must be survived comes back was not searched."
     if not found.searched:
         return f"There is no {name} in the range searched without another motion that can hold the rotor."

@@ -41,6 +41,7 @@ EVENTS = {
     "neimark-sacker": "an orbit loses its stability (Neimark-Sacker)",
     "vanishing-period": "the period of an orbit shrinks to zero",
     "rolling-limit": "friction just keeps the rotor rolling at every angle",
+    "simulated": "the rotor can no longer levitate",
 }
 """What happens at the ends of the ranges of motions."""
 DAMPING_STEP, STEP = 0.1, 0.05

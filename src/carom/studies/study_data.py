@@ -10,11 +10,12 @@ from carom.attractors import AttractorSet
 from carom.basins import Share
 from carom.bifurcations.boundary import BoundaryEquilibrium
 from carom.closed_forms.equilibria import Equilibrium
-from carom.closed_forms.whirl import rolling
-from carom.models import Jeffcott
+from carom.closed_forms.known import Known, known_of
+from carom.models import Model
+from carom.models.subjects import parameters_of
 from carom.orbits.orbit import Orbit
 from carom.orbits.single_impact import OrbitSet
-from carom.parameters import Case, Required
+from carom.parameters import Case, Parameters, Required
 from carom.results import Result
 from carom.studies.actuator import BearingDemand, bearing_demand
 from carom.studies.advice import Recommendation
@@ -38,9 +39,9 @@ class StudyData(Result):
     equilibria : tuple of Equilibrium
         The contact-free one, then the synchronous rubs.
     orbits : OrbitSet
-        Orbits with one impact a period.
+        Orbits with one impact a period: all of the planar rotor, those that a search finds of other models.
     boundaries : tuple of BoundaryEquilibrium
-        Values of damping and stiffness at which the contact-free motion meets the wall, and what happens there.
+        Values of damping and stiffness at which the contact-free motion of the planar rotor meets the wall, and what happens there.
     attractors : AttractorSet
         The motions in which simulated disturbances, and starts next to the known motions, end.
     survives : Survives or None
@@ -60,7 +61,7 @@ class StudyData(Result):
     rests_on: ClassVar[tuple[str, ...]] = ("mora2014", "iso14839")
 
     case: Case
-    rotor: Jeffcott
+    rotor: Model
     equilibria: tuple[Equilibrium, ...]
     orbits: OrbitSet
     boundaries: tuple[BoundaryEquilibrium, ...]
@@ -71,6 +72,16 @@ class StudyData(Result):
     recommendation: Recommendation
     loads: WorstLoads | None = None
     proof: Proof | None = None
+
+    @property
+    def parameters(self) -> Parameters | None:
+        """Parameters of the planar rotor; ``None`` for other models."""
+        return parameters_of(self.rotor)
+
+    @property
+    def known(self) -> Known:
+        """Exact results of the model."""
+        return known_of(self.rotor)
 
     @property
     def rubs(self) -> tuple[Equilibrium, ...]:
@@ -116,9 +127,9 @@ class StudyData(Result):
     @property
     def wording(self) -> Wording:
         """Formatter of the results of this study as text."""
-        return Wording(self.rotor.scales)
+        return Wording(self.rotor.scales, in_terms="damping" in self.rotor.varied)
 
     @cached_property
     def bearing_demand(self) -> BearingDemand | None:
         """What the motions ask of the magnetic bearings; ``None`` if the machine has no limits of these."""
-        return bearing_demand(self.case, self.equilibria, self.orbits, rolling(self.rotor), self.attractors)
+        return bearing_demand(self.case, self.equilibria, self.orbits, self.known.rolls, self.attractors)

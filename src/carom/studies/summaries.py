@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 from itertools import zip_longest
 from typing import Literal
@@ -11,11 +12,13 @@ from carom.attractors.names import LEVITATION, SYNCHRONOUS_RUB
 from carom.basins import Share
 from carom.basins.shares import percent
 from carom.closed_forms.equilibria import Equilibrium
+from carom.models.subjects import parameters_of
 from carom.orbits.orbit import Orbit
 from carom.orbits.single_impact import OrbitSet
 from carom.outcome import STEADY_WORDS, shown
 from carom.parameters import DIMENSIONLESS_FIELDS, ENTRIES, HELPER_FIELDS, MACHINE_FIELDS, Case, Machine, Parameters
 from carom.parameters.indentation import indentation_of_force, indentation_of_hit
+from carom.parameters.named import own_numbers
 from carom.parameters.terms import set_by
 from carom.parameters.told import told_entry
 from carom.studies.advice_facts import check_words
@@ -167,8 +170,8 @@ def given_words(machine: Machine, name: str) -> str:
 def dimensionless_rows(case: Case) -> list[ValueRow]:
     """Return the rows of the dimensionless parameters."""
     return [
-        ValueRow(field.symbol, field.words, f"{getattr(case.parameters, name):.6g}")
-        for name, field in DIMENSIONLESS_FIELDS.items()
+        ValueRow(case.parameters.varied[name].symbol, case.parameters.varied[name].words, f"{value:.6g}")
+        for name, value in own_numbers(case.parameters).items()
     ]
 
 
@@ -182,7 +185,7 @@ def motion_rows(study: StudyData) -> list[MotionRow]:
     ]
     simple = {LEVITATION, SYNCHRONOUS_RUB, *(orbit.name for orbit in study.orbits)}
     others = [member for member in study.attractors if member.name not in simple]
-    return rows + [_seen(study.wording, member, study.attractors, study.rotor.parameters) for member in others]
+    return rows + [_seen(study.wording, member, study.attractors, study.parameters) for member in others]
 
 
 def simple_motion_rows(
@@ -199,7 +202,7 @@ def simple_motion_rows(
     rows = []
     for entry in equilibria:
         name = LEVITATION if entry.kind == "contact-free" else SYNCHRONOUS_RUB if entry.stable else ""
-        rows.append(_steady(entry, say, _share(found, name), orbits.rotor.parameters))
+        rows.append(_steady(entry, say, _share(found, name), parameters_of(orbits.rotor)))
     virtual = [orbit for orbit in orbits if not orbit.admissible]
     shown = [orbit for orbit in orbits if orbit.admissible or len(virtual) <= most_virtual]
     return rows + [_bounce(orbit, say, _share(found, orbit.name)) for orbit in shown]
@@ -211,7 +214,7 @@ def _share(found: AttractorSet | None, name: str) -> str:
     return f"{found[name].count} of {len(found.disturbances)}"
 
 
-def _steady(entry: Equilibrium, say: Wording, share: str, parameters: Parameters) -> MotionRow:
+def _steady(entry: Equilibrium, say: Wording, share: str, parameters: Parameters | None) -> MotionRow:
     contact_free = entry.kind == "contact-free"
     name = MOTIONS[entry.kind]
     size = f"r = {say.radius(entry.radius)}" if contact_free else ""
@@ -239,7 +242,7 @@ def _bounce(orbit: Orbit, say: Wording, share: str) -> MotionRow:
     name, period, size = f"orbit {orbit.name}", say.time(orbit.period), say.velocity(orbit.radial_speed)
     if not orbit.admissible:
         return MotionRow(name, "not possible", period, size, remark=orbit.reason)
-    impulse = (1.0 + orbit.rotor.parameters.d) * orbit.radial_speed
+    impulse, at = orbit.impulse, parameters_of(orbit.rotor)
     grows = "" if orbit.stable else f"disturbances grow {orbit.multipliers.instability}"
     return MotionRow(
         name,
@@ -249,16 +252,15 @@ def _bounce(orbit: Orbit, say: Wording, share: str) -> MotionRow:
         say.impulse(impulse),
         f"{say.force(impulse / orbit.period)} mean",
         share,
-        "; ".join(filter(None, (grows, no_rigid_wall(indentation_of_hit(orbit.rotor.parameters, orbit.radial_speed))))),
+        "; ".join(filter(None, (grows, no_rigid_wall(indentation_of_hit(at, orbit.radial_speed))))),
     )
 
 
-def _seen(say: Wording, member: Attractor, found: AttractorSet, parameters: Parameters) -> MotionRow:
+def _seen(say: Wording, member: Attractor, found: AttractorSet, at: Parameters | None) -> MotionRow:
     impulse, force = member.largest_impulse, member.largest_force
     lasts = member.survival.words if member.survival else ""
-    indentation = max(
-        indentation_of_force(parameters, force), indentation_of_hit(parameters, impulse / (1.0 + parameters.d))
-    )
+    hit = indentation_of_hit(at, impulse / (1.0 + at.d)) if at else math.nan
+    indentation = max(indentation_of_force(at, force), hit)
     known = "" if member.count else "from a start next to it"
     return MotionRow(
         member.name.words,
@@ -293,7 +295,9 @@ def range_rows(study: StudyData) -> list[tuple[str, ...]]:
     changes = {change.parameter: change for change in study.recommendation.changes}
     rows = [(name, *(_where(say, entry.range_of(motion)) for entry in found)) for motion, name in MOTIONS.items()]
     back = [
-        say.where(entry.along.name, entry.spans) if entry.range_of("single-impact") else "not searched"
+        say.where(entry.along.name, entry.spans)
+        if entry.searched or entry.range_of("single-impact")
+        else "not searched"
         for entry in found
     ]
     advised = [

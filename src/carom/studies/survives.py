@@ -13,9 +13,10 @@ from typing import Literal
 
 from carom.attractors.starts import KICKS_SHARE
 from carom.basins import SmallestLoss, smallest_loss
+from carom.closed_forms.harmless import shift_by_unbalance
 from carom.disturbances import AnyState, BaseShock, BladeLoss, Disturbance, Sample, VelocityKick
 from carom.disturbances.blows import LONGEST_SHOCK
-from carom.models import Jeffcott
+from carom.models import Model
 from carom.parameters import DIMENSIONLESS_FIELDS, SHOCK_DURATION, Required, Scales
 from carom.progress import Reporter
 from carom.results import Result
@@ -63,10 +64,9 @@ class Survives(Result):
         return tuple((name, entry) for name, entry in found.items() if entry is not None)
 
 
-def survives(rotor: Jeffcott, required: Required, tell: Reporter) -> Survives | None:
+def survives(rotor: Model, required: Required, tell: Reporter) -> Survives | None:
     """Search for the smallest disturbance of each kind that is lost; ``None`` where there is no levitation to come back to."""
-    parameters = rotor.parameters
-    if abs(rotor.equilibrium) >= 1.0 or parameters.gamma <= 0.0:
+    if rotor.system.rest_radius >= 1.0 or rotor.system.decay <= 0.0:
         return None
     tell(0.0, "the smallest kick that is lost")
     kick = _reaching(rotor, VelocityKick(required.kick))
@@ -77,21 +77,22 @@ def survives(rotor: Jeffcott, required: Required, tell: Reporter) -> Survives | 
         shock = _reaching(rotor, BaseShock(peak, duration))
     tell(0.9, "the smallest loss of a blade that is lost")
     blade_loss = None
-    if largest_levitating(rotor) > parameters.rho:
+    if largest_levitating(rotor) > rotor.value("rho"):
         blade_loss = smallest_loss(rotor, BladeLoss(largest_levitating(rotor)))
     return Survives(kick, shock, duration, blade_loss)
 
 
-def largest_levitating(rotor: Jeffcott) -> float:
+def largest_levitating(rotor: Model) -> float:
     """Largest eccentricity, in ``c_r``, of the losses of a blade that are searched: just below that which fills the clearance.
 
-    There levitation lies on the wall, and motions do not settle.
+    There levitation lies on the wall, and motions do not settle.  Zero for a model whose unbalance cannot be varied.
     """
-    fills = math.hypot(rotor.parameters.omega**2 - 1.0, rotor.parameters.gamma)
-    return min(BELOW * fills, DIMENSIONLESS_FIELDS["rho"].highest)
+    if rotor.rates("rho") is None:
+        return 0.0
+    return min(BELOW / shift_by_unbalance(rotor), DIMENSIONLESS_FIELDS["rho"].highest)
 
 
-def _duration(rotor: Jeffcott, required: Required) -> float:
+def _duration(rotor: Model, required: Required) -> float:
     """Duration of the shocks: that required, otherwise the usual one where times are known; else 0."""
     if required.shock:
         return required.shock.duration
@@ -99,7 +100,7 @@ def _duration(rotor: Jeffcott, required: Required) -> float:
     return usual if usual <= LONGEST_SHOCK else 0.0
 
 
-def _reaching(rotor: Jeffcott, model: VelocityKick | BaseShock) -> SmallestLoss:
+def _reaching(rotor: Model, model: VelocityKick | BaseShock) -> SmallestLoss:
     """Search up to a multiple of a disturbance, and farther where that is proven to be harmless."""
     found = smallest_loss(rotor, _times(model, REACH))
     times = found.harmless / found.largest

@@ -27,6 +27,14 @@ NOT_COVERED = (
     "Changes of speed, gravity, a rotor that bends or tilts, and controllers that do more than a spring and a damper.",
 )
 """What a study does not cover."""
+NOT_COVERED_OF_MATRICES = (
+    "Changes of speed, gravity, and controllers that add states of their own.",
+    (
+        "What is known in closed form for the planar rotor alone: whether rolling lasts and from which speed whirl runs away to it, for "
+        "which damping and stiffness each motion exists, how levitation ends, and that no orbit is missing."
+    ),
+)
+"""What a study of any other model does not cover, in place of the last of these."""
 
 
 @dataclass(frozen=True)
@@ -75,8 +83,13 @@ def facts_of(study: StudyData) -> Iterator[Fact]:
     if study.loads is not None:
         for text in study.loads.words.split("\n"):
             yield Fact("Touchdown loads", text)
-    for text in NOT_COVERED:
+    for text in not_covered(study):
         yield Fact("Not covered", text)
+
+
+def not_covered(study: StudyData) -> tuple[str, ...]:
+    """What the study does not cover; of other models than the planar rotor also what only its closed forms say."""
+    return NOT_COVERED if study.known.orbits else (*NOT_COVERED[:-1], *NOT_COVERED_OF_MATRICES)
 
 
 def verdict(study: StudyData, found: Sequence[Fact]) -> Verdict:

@@ -6,11 +6,10 @@ from collections.abc import Iterator
 from typing import Any, Literal
 
 from carom.basins import Share, SmallestLoss
-from carom.closed_forms.whirl import rolling
 from carom.outcome import REGULAR_BOUNCING, STEADY_WORDS, Outcome
 from carom.results import fields_of, in_si
 from carom.studies.endings import ending_words
-from carom.studies.facts import Fact
+from carom.studies.facts import Evidence, Fact
 from carom.studies.findings import stable_rub
 from carom.studies.study_data import StudyData
 from carom.studies.survives import Kind, meets
@@ -159,15 +158,15 @@ def _others(study: StudyData) -> Iterator[Fact]:
         kinds = [orbit.name.words for orbit in study.stable_orbits]
         holds.append(kinds[0] if len(kinds) == 1 else f"{len(kinds)} kinds of {REGULAR_BOUNCING}")
         motions += [orbit.name for orbit in study.stable_orbits]
-    if rolling(study.rotor).holds:
+    rolls = study.known.rolls
+    if rolls.holds if rolls else any(each.name.outcome is Outcome.ROLLING for each in study.attractors):
         holds.append(Outcome.ROLLING.words)
         motions.append(Outcome.ROLLING.label)
     if holds:
         there = "besides levitation there" if study.levitates else "there"
         text = f"{there} {'are' if len(holds) > 1 else 'is'} {listed(holds)}"
-        yield Fact(
-            "Verdict", text, "Coexisting", "searched" if study.stable_orbits else "closed form", motions=tuple(motions)
-        )
+        closed: Evidence = "closed form" if rolls else "sampled"
+        yield Fact("Verdict", text, "Coexisting", "searched" if study.stable_orbits else closed, motions=tuple(motions))
 
 
 def judged(study: StudyData) -> tuple[Level, str, str]:

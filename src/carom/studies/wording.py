@@ -11,10 +11,13 @@ from carom.arguments import checked
 from carom.models import Span
 from carom.parameters import DIMENSIONLESS_FIELDS, UNITS, Case, Scales
 from carom.parameters.indentation import gives_way
+from carom.parameters.named import own_numbers
 from carom.parameters.told import number, own_entry, told, told_entry
 
 SIZES = {"kick": "velocity", "shock": "acceleration", "blade_loss": "unbalance"}
 """What the size of a kick, a shock or a loss of a blade is."""
+_UNTOLD = ("phi", "radius_ratio")
+"""Numbers that a line of present values leaves out."""
 _PREFIXES = ((1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "µ"), (1e-9, "n"))
 
 
@@ -54,9 +57,17 @@ class Wording:
     ----------
     scales : Scales or None
         Without them results keep the units of the equations: ``c_r``, ``1/Ω``, ``m c_r Ω²``.
+    in_terms : bool
+        Whether damping and stiffness of the machine stand for the dimensionless numbers, where scales are known.
     """
 
     scales: Scales | None
+    in_terms: bool = True
+
+    @property
+    def of_machine(self) -> Scales | None:
+        """Scales by which parameters are told in the terms of the machine; ``None`` where dimensionless numbers are."""
+        return self.scales if self.in_terms else None
 
     def length(self, value: float) -> str:
         """A length given in ``c_r``."""
@@ -118,15 +129,15 @@ class Wording:
 
     def value(self, name: str, value: float) -> str:
         """A value of a parameter; of a dimensionless one that of the entry of the machine, with its unit, if it is known."""
-        return told_entry(*own_entry(name, value, self.scales))
+        return told_entry(*own_entry(name, value, self.of_machine))
 
     def name(self, name: str) -> str:
         """Return what people call a parameter: ``damping`` for ``gamma``, or the symbol ``γ`` if the machine is not known."""
-        return entry_words(own_entry(name, 1.0, self.scales)[0])
+        return entry_words(own_entry(name, 1.0, self.of_machine)[0])
 
     def in_si(self, name: str, **values: float) -> dict[str, Any]:
         """Values of a parameter in SI units, as plain data for JSON; nothing if the machine is not known."""
-        if self.scales is None:
+        if self.of_machine is None:
             return {}
         own = {f"{key}_si": own_entry(name, value, self.scales)[1] for key, value in values.items()}
         return {"quantity": self.name(name), **own}
@@ -156,9 +167,9 @@ class Wording:
 def present_values(case: Case) -> str:
     """Return the present values of a machine in a line: ``damping 1,400 N s/m, stiffness 980,000 N/m, speed 1,759 rpm``."""
     if case.machine is None:
-        names = ("gamma", "omega", "rho", "mu", "d")
-        fields = [(DIMENSIONLESS_FIELDS[name].symbol, getattr(case.parameters, name)) for name in names]
-        return ", ".join(f"{symbol} = {number(value)}" for symbol, value in fields)
+        own = own_numbers(case.parameters).items()
+        shown = [(case.parameters.varied[name].symbol, value) for name, value in own if not name.startswith(_UNTOLD)]
+        return ", ".join(f"{symbol} = {number(value)}" for symbol, value in shown)
     return ", ".join(
         f"{name} {told_entry(name, getattr(case.machine, name))}" for name in ("damping", "stiffness", "speed")
     )

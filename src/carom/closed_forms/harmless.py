@@ -1,0 +1,161 @@
+"""Sizes of disturbances up to which contact is impossible, for any linear rotor whose springs and dampers only store and take energy.
+
+In the fixed frame the deviation ``u`` from the levitation whirl obeys ``M ü + (D − iG) u̇ + K u = 0``.  With Hermitian ``M`` and
+``K`` above zero and ``D`` not below it, its energy ``u̇ᴴMu̇ + uᴴKu = E`` does not grow, as gyroscopic forces do no work.  So the
+displacement ``w u`` of a contact plane is never above ``√(E w K⁻¹ wᴴ)``, and contact is impossible while it is below the distance
+of levitation from the wall there.  After a kick of speed ``v`` along the translation ``t`` the energy is ``v² tᴴMt``.
+
+Of the planar rotor the largest deviation after a kick is known (:func:`~carom.closed_forms.thresholds.largest_response`).
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from carom.arguments import Positive, checked
+from carom.closed_forms.known import known_of
+from carom.models import Model, Subject, model_of, stages_of
+
+MARGIN = 1e-9
+"""Share of the distance from the wall that is left for rounding."""
+ROUNDING = 1e-12
+"""Size of numbers that count as zero, relative to the terms that they are a difference of."""
+
+
+class _Levitation(NamedTuple):
+    """Levitation next to which energy does not grow."""
+
+    rooms: np.ndarray
+    """Distance of each contact plane from its wall, less the margin, shape (P,)."""
+    yields: np.ndarray
+    """``√(w K⁻¹ wᴴ)`` of each plane: its largest displacement per root of the energy, shape (P,)."""
+
+
+def _levitation(model: Model) -> _Levitation | None:
+    """Levitation of a model; ``None`` where it lies outside a wall, can grow, or is not at rest in the frame that turns."""
+    if len(stages_of(model)) > 1 or model.system.forced is not None or model.system.rest_radius >= 1.0:
+        return None
+    mass, damping, _, stiffness, _ = model.matrices
+    for matrix, zero in ((mass, False), (damping, True), (stiffness, False)):
+        size, least = np.linalg.norm(matrix), np.linalg.eigvalsh(matrix)[0]
+        if (
+            np.linalg.norm(matrix - matrix.conj().T) > ROUNDING * size
+            or least < (-ROUNDING if zero else ROUNDING) * size
+        ):
+            return None
+    rooms = np.array([1.0 - abs(place) for place in model.system.arrays["offsets"].tolist()]) * (1.0 - MARGIN)
+    planes = model.system.planes
+    yields = np.einsum("pn,np->p", planes, np.linalg.solve(stiffness, planes.conj().T)).real
+    return _Levitation(rooms, np.sqrt(yields))
+
+
+@checked
+def harmless_kick(machine: Subject) -> float:
+    """Speed up to which a kick out of levitation provably never reaches the wall, in ``c_r Ω``.
+
+    For the planar rotor this is the largest such speed; for other models it follows from a bound by energy, and is smaller.  Zero
+    where the rotor cannot levitate inside the wall, its levitation is unstable, or no energy is known that does not grow.
+
+    See Also
+    --------
+    carom.basins.smallest_loss : search for the smallest kick that is lost
+
+    Examples
+    --------
+    >>> import carom as cm
+    >>> machine = cm.load("examples/keogh-cole.toml")
+    >>> print(f"{cm.closed_forms.harmless_kick(machine):.6f}")
+    0.039821
+    """
+    model = model_of(machine)
+    levitation, known = _levitation(model), known_of(model).response
+    if levitation is None:
+        return 0.0
+    by_energy = levitation.yields * math.sqrt(_energy(model.matrices.mass, model.system.translated))
+    return float((levitation.rooms / (by_energy if known is None else known)).min())
+
+
+@checked
+def harmless_shock(machine: Subject, duration: Positive) -> float:
+    """Peak acceleration up to which a half-sine shock of the base provably never brings the rotor to the wall.
+
+    The deviation is the convolution of the shock with the response to a kick.  So it is no larger than the largest deviation after a
+    kick (:func:`harmless_kick`) by the change of velocity over the pulse, ``2âT/π``.  For the planar rotor this bound, in ``c_r Ω²``,
+    is sharp for short pulses.
+
+    Parameters
+    ----------
+    machine : Machine, Case, Parameters or model
+    duration : float
+        ``T``, in ``1/Ω``.
+    """
+    return harmless_kick(machine) * math.pi / (2.0 * duration)
+
+
+@checked
+def harmless_unbalance_step(machine: Subject) -> float:
+    """Change of the eccentricity up to which a step of the unbalance provably never brings the rotor to the wall.
+
+    A change ``Δ`` shifts the levitation whirl by ``u₀ = Δ/(ω² − 1 + iγ)`` in the co-rotating frame, or by what the matrices give.
+    This is the deviation at the step; its velocity in the fixed frame is ``iu₀``.  So the deviation of the planar rotor stays below
+    ``|u₀|√(1 + 1/ω²)``.  This bound is not sharp.  The change is in ``c_r``; zero as for :func:`harmless_kick`, and where the unbalance
+    of the rotor is not that of all masses off centre by one eccentricity, as it is before such a step.
+    """
+    model = model_of(machine)
+    levitation = _levitation(model)
+    push = model.matrices.mass @ model.system.translated
+    own = cmath.rect(model.value("rho"), model.unbalance_phase) * push
+    forcing = model.matrices.forcing
+    if levitation is None or np.linalg.norm(forcing - own) > ROUNDING * np.linalg.norm(forcing):
+        return 0.0
+    return float((levitation.rooms / _after_step(model, levitation, push)[1]).min())
+
+
+@checked
+def harmless_blade_loss(machine: Subject) -> float:
+    """Change of the unbalance up to which the loss of a blade provably never brings the rotor to the wall.
+
+    As in :func:`harmless_unbalance_step` the deviation from the levitation whirl after the loss is bounded, but that whirl itself is
+    displaced from the one before by ``u₀``.  This bound is not sharp.  The change, in ``c_r``, is the modulus of that of the complex
+    eccentricity; zero as for :func:`harmless_kick`.
+    """
+    model = model_of(machine)
+    levitation = _levitation(model)
+    if levitation is None:
+        return 0.0
+    shift, deviation = _after_step(model, levitation, _push(model))
+    return float((levitation.rooms / (shift + deviation)).min())
+
+
+def shift_by_unbalance(model: Model) -> float:
+    """Largest distance by which levitation shifts a contact plane per eccentricity; the unbalance keeps its distribution."""
+    return float(np.abs(model.system.planes @ _shift(model, _push(model))).max())
+
+
+def _push(model: Model) -> np.ndarray:
+    """Force of the unbalance per eccentricity; of a balanced rotor with all masses off centre by the same."""
+    mass, *_, forcing = model.matrices
+    present = model.value("rho")
+    return np.asarray(forcing / present if present else mass @ model.system.translated)
+
+
+def _shift(model: Model, push: np.ndarray) -> np.ndarray:
+    """Displacement of the levitating rotor by a force in the frame that turns."""
+    mass, damping, gyroscopic, stiffness, _ = model.matrices
+    return np.linalg.solve(stiffness - mass + 1j * damping + gyroscopic, push)
+
+
+def _after_step(model: Model, levitation: _Levitation, push: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Shift of levitation at each plane by a change of the unbalance force, and the largest deviation from it after that step."""
+    shift = _shift(model, push)
+    energy = _energy(model.matrices.stiffness, shift) + _energy(model.matrices.mass, shift)
+    return np.abs(model.system.planes @ shift), levitation.yields * math.sqrt(energy)
+
+
+def _energy(matrix: np.ndarray, state: np.ndarray) -> float:
+    """Twice the energy of a state."""
+    return float(np.einsum("i,ij,j->", np.conj(state), matrix, state).real)

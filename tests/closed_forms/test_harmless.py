@@ -1,0 +1,87 @@
+"""Sizes of disturbances that never bring a linear rotor to the wall: against its exact flight, and where nothing is known."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from linear_rotors import as_matrices, bending, single, tilting
+from machines import PAPER
+
+import carom as cm
+from carom.closed_forms import harmless_blade_loss, harmless_kick, harmless_shock, harmless_unbalance_step
+from carom.disturbances import BaseShock, BladeLoss, UnbalanceStep, VelocityKick
+
+TIMES = np.linspace(0.0, 150.0, 6001)
+ANGLES = np.linspace(0.0, 2.0 * np.pi, 24, endpoint=False)
+KINDS = "kick", "shock", "blade-loss"
+ROTORS = {"tilting": tilting, "bending": bending, "two bearings": single}
+
+
+def farthest(rotor, starts):
+    """Largest distance of any plane from its centre in flight after the starts."""
+    system, count = rotor.system, len(starts.positions)
+    states = np.concatenate([starts.positions.reshape(count, -1), starts.velocities.reshape(count, -1)], axis=1)
+    flown = system.fly(system.amplitudes_of(states)[:, None], np.tile(TIMES, (count, 1)))
+    return max(np.abs(system.at_plane(flown, plane)[0]).max() for plane in range(len(system.contacts)))
+
+
+def of_size(rotor, kind, factor):
+    """Disturbances of a kind that are that many times the harmless ones, and the rotor after them."""
+    if kind == "kick":
+        return rotor, VelocityKick().starts(rotor, np.full(ANGLES.shape, factor * harmless_kick(rotor)), ANGLES)
+    if kind == "shock":
+        sizes = np.full(ANGLES.shape, factor * harmless_shock(rotor, 0.4))
+        return rotor, BaseShock(float(sizes[0]), 0.4).starts(rotor, sizes, ANGLES)
+    present = rotor.value("rho")
+    loss = BladeLoss(present + factor * harmless_blade_loss(rotor))
+    return loss.machine_after(rotor), loss.starts(rotor, np.zeros(1))
+
+
+@pytest.mark.jit_only
+@pytest.mark.parametrize(
+    ("name", "kind"), [(name, kind) for name in ROTORS for kind in KINDS if (name, kind) != ("bending", "shock")]
+)
+def test_no_plane_touches_after_a_harmless_disturbance_of_any_rotor(name, kind):
+    rotor = ROTORS[name]().model
+    levitation = rotor.system.rest_radius
+    assert levitation < farthest(*of_size(rotor, kind, 1.0)) <= 1.0
+    assert farthest(*of_size(rotor, kind, 4.0)) > 1.0
+
+
+def test_matrices_of_the_planar_rotor_give_its_bounds():
+    planar = cm.models.Jeffcott(PAPER.replace(gamma=0.15, rho=0.3))
+    rotor = as_matrices(planar)
+    for bound in (harmless_blade_loss, harmless_unbalance_step):
+        assert bound(rotor) == pytest.approx(bound(planar), rel=1e-12)
+    # By its energy, which damping takes away: sqrt(g^2 w^2) of the sharp bound is below one.
+    assert harmless_kick(planar) * 0.8 < harmless_kick(rotor) < harmless_kick(planar)
+
+
+def test_an_unbalance_step_of_a_rotor_that_tilts_is_bounded_only_from_a_like_unbalance():
+    rotor = tilting().model
+    assert harmless_unbalance_step(rotor) == 0.0
+    like = rotor.replace(forcing=0.25 * np.exp(0.2j) * rotor.mass @ rotor.translation)
+    change = harmless_unbalance_step(like)
+    before = like.value("rho") + change * np.exp(1j * ANGLES)
+    starts = UnbalanceStep(1.0).starts(like, np.abs(before), np.angle(before))
+    assert like.system.rest_radius < farthest(like, starts) <= 1.0
+
+
+def test_nothing_is_said_where_no_energy_is_known_that_does_not_grow():
+    rotor = tilting().model
+    mass, damping, gyroscopic, stiffness, forcing = rotor.matrices
+    given = {"mass": mass, "damping": damping, "gyroscopic": gyroscopic, "stiffness": stiffness, "forcing": forcing}
+    others = {"touchdowns": rotor.touchdowns, "translation": rotor.translation}
+
+    def made(**changes):
+        return cm.models.LinearRotor.in_fixed_frame(**{**given, **others, **changes})
+
+    assert harmless_kick(made()) == pytest.approx(harmless_kick(rotor), rel=1e-12)
+    circulatory = stiffness + 0.01j * np.eye(2)
+    for changes in ({"stiffness": circulatory}, {"damping": -damping}, {"forcing": 4.0 * forcing}):
+        other = made(**changes)
+        assert harmless_kick(other) == harmless_shock(other, 1.0) == harmless_blade_loss(other) == 0.0
+    staged = cm.models.Staged(
+        (cm.models.Stage(rotor, cm.models.Trigger(time=1.0)), cm.models.Stage(made(forcing=0.1 * forcing)))
+    )
+    assert harmless_kick(staged) == 0.0

@@ -1,0 +1,128 @@
+"""Studies of rotors given by their matrices: what a search and simulation find, told by the words of every study."""
+
+from __future__ import annotations
+
+import json
+import math
+from functools import partial
+
+import numpy as np
+import pytest
+from linear_rotors import as_matrices, tilting
+from machines import PAPER
+
+import carom as cm
+from carom.basins import smallest_loss
+from carom.disturbances import Sample, VelocityKick
+from carom.files import as_json
+from carom.models import Jeffcott, LinearRotor
+from carom.outcome import InputError
+from carom.parameters import Case, Requirement, Scales, Zones
+from carom.studies.facts import about
+from carom.studies.summaries import dimensionless_rows, motion_rows, range_rows, survived_rows, threshold_rows
+
+pytestmark = pytest.mark.jit_only
+
+PLANAR = Jeffcott(PAPER.replace(gamma=0.15, rho=0.3))
+
+
+@pytest.fixture(scope="module")
+def planar():
+    return cm.study(PLANAR)
+
+
+@pytest.fixture(scope="module")
+def matrices():
+    return cm.study(as_matrices(PLANAR))
+
+
+def fact(study, label):
+    return next(each for each in about(study.facts, "Verdict") if each.label == label)
+
+
+def test_the_same_rotor_has_the_same_verdict(planar, matrices):
+    own, found = planar.verdict, matrices.verdict
+    assert (found.level, found.outcome, found.reason) == (own.level, own.outcome, own.reason)
+    assert matrices.share == planar.share
+    assert fact(matrices, "Share").text == fact(planar, "Share").text
+    assert fact(matrices, "Coexisting").text == fact(planar, "Coexisting").text
+    assert {each.name.outcome for each in matrices.attractors} == {each.name.outcome for each in planar.attractors}
+    assert matrices.zone == planar.zone
+    assert [orbit.period for orbit in matrices.stable_orbits] == pytest.approx(
+        [orbit.period for orbit in planar.stable_orbits], rel=1e-9
+    )
+
+
+def test_the_same_changes_help(planar, matrices):
+    for own, found in zip(planar.recommendation.changes, matrices.recommendation.changes, strict=True):
+        assert found.parameter == own.parameter
+        assert found.value == pytest.approx(own.value, rel=5e-3)  # its end is bisected, not known in closed form
+        assert found.check.recovers
+        assert found.whirl is None
+
+
+def test_sizes_that_are_survived_are_found_beyond_a_bound_by_energy(planar, matrices):
+    own, found = planar.survives, matrices.survives
+    assert 0.0 < found.kick.harmless < own.kick.harmless
+    assert found.kick.size == pytest.approx(own.kick.size, rel=3e-3)
+    assert found.blade_loss.size == pytest.approx(own.blade_loss.size, rel=1e-12)
+
+
+def test_what_only_closed_forms_say_is_left_out_and_named(matrices):
+    (named,) = (each.text for each in about(matrices.facts, "Not covered") if "planar rotor" in each.text)
+    assert "closed form" in named
+    assert matrices.ranges == matrices.boundaries == matrices.thresholds == ()
+    assert matrices.orbits.search is not None
+    assert "does not prove that these are all" in "".join(each.text for each in about(matrices.facts, "Bouncing"))
+    assert not any(each.evidence == "proven" for each in matrices.facts)
+    assert not any("bends or tilts" in each.text for each in matrices.facts)
+
+
+def test_tables_figure_and_document(matrices):
+    document = json.loads(as_json(matrices.to_dict()))
+    assert document["rolling"] is None
+    assert "parameters" not in document
+    assert "linear_rotor" in document["rotor"]
+    assert len(document["equilibria"]) == len(matrices.equilibria)
+    assert [row.value for row in dimensionless_rows(matrices.case)] == [
+        row.value for row in dimensionless_rows(cm.models.case_of(PLANAR))
+    ]
+    assert {row.state for row in motion_rows(matrices)} >= {"stable", "unstable", "seen"}
+    assert survived_rows(matrices)[0].kind == "Kick"
+    assert threshold_rows(matrices) == []
+    assert "not searched" not in range_rows(matrices)[-2]
+    assert matrices.plot().axes
+
+
+def test_a_rotor_with_two_planes_in_si_units(monkeypatch):
+    """Its numbers are those of the rotor as a whole: no entries of a machine stand for them."""
+    for name, count in {"TRIED": 30, "FIRST": 30, "FRESH": 30}.items():
+        monkeypatch.setattr(f"carom.studies.assembly.{name}", count)
+    monkeypatch.setattr("carom.studies.advice.CHECKED", 30)
+    monkeypatch.setattr("carom.studies.recovery.MOST", 3)
+    monkeypatch.setattr("carom.basins.losses.DRAWN", 20)
+    monkeypatch.setattr("carom.studies.survives.smallest_loss", partial(smallest_loss, directions=8, sizes=6))
+    monkeypatch.setattr("carom.studies.assembly.find_orbits", partial(cm.find_orbits, guesses=50))
+    for name, count in {"PHASES": 12, "LEVELS": 6, "DRAWN": 10, "ROUND": 12}.items():
+        monkeypatch.setattr(f"carom.basins.blade_losses.{name}", count)
+    monkeypatch.setattr("carom.basins.losses.ROUND", 24)
+    rotor: LinearRotor = tilting(damping=0.3 * np.diag([1.0, 0.4])).model.replace(scales=Scales(50.0, 0.7e-3, 184.2))
+    found = cm.study(rotor, Sample(VelocityKick(0.3), 4), requirement=Requirement(kick=0.02))
+    assert found.levitates
+    assert "mm/s" in found.verdict.headline
+    assert found.required.kick == pytest.approx(0.02 / (0.7e-3 * 184.2))
+    told = " ".join(each.text for each in found.facts)
+    assert "N s/m" not in told
+    assert "γ" in told
+    assert all(math.isfinite(each.harmless) for _, each in found.survives.items())
+    json.loads(as_json(found.to_dict()))
+
+
+def test_a_case_of_a_model_is_studied_and_nothing_else():
+    case = Case("rig", tilting().model, None, Zones())
+    assert cm.models.model_of(case) is case.parameters
+    assert dict(case.rows())["scaled damping"] == "0.1"
+    with pytest.raises(InputError, match="the planar rotor"):
+        cm.models.case_of(case)
+    with pytest.raises(InputError, match="parameters"):
+        Case("rig", None, None, Zones())
