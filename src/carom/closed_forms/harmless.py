@@ -18,7 +18,8 @@ import numpy as np
 
 from carom.arguments import Positive, checked
 from carom.closed_forms.known import known_of
-from carom.models import Model, Subject, model_of, stages_of
+from carom.models import Model, Subject, model_of
+from carom.models.stages import stages_of
 
 MARGIN = 1e-9
 """Share of the distance from the wall that is left for rounding."""
