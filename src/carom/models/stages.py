@@ -95,7 +95,8 @@ class Forced(_Around):
 
 def _check_one_stage(rotor: Any) -> None:
     """Refuse what is no model of one stage."""
-    if isinstance(rotor, Staged) or not isinstance(rotor, Model):
+    # Whether an object follows the whole protocol takes longer to find out than a short simulation may.
+    if isinstance(rotor, Staged) or not (hasattr(type(rotor), "system") and hasattr(type(rotor), "rates")):
         raise InputError(
             "rotor", shown(rotor), "a model of one stage, such as carom.models.model_of(machine) or Forced"
         )

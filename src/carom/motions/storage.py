@@ -40,7 +40,7 @@ def trajectory_dataset(motion: Trajectory, times: np.ndarray | None = None) -> x
     ):
         words = f"{what} along {name[-1]}, co-rotating frame"
         dataset[name] = in_units("time", values, quantity, words, motion.rotor.scales)
-    return dataset.assign_coords(time=dataset["time"]).assign_attrs(_provenance(motion))
+    return dataset.assign_coords(time=dataset["time"]).assign_attrs(_provenance(motion), begins=motion.begins)
 
 
 def save_trajectory(motion: Trajectory, path: str | os.PathLike[str]) -> None:

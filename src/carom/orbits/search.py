@@ -117,7 +117,7 @@ class Searched:
         """The same in a few sentences."""
         newest = f"guess {self.last_new} led to the last new orbit" if self.last_new else "none led to a further orbit"
         return (
-            f"Orbits with several impacts or lasting contact were searched, which does not prove that these are all: {self.settled} motions "
+            f"Orbits were searched, which does not prove that these are all: {self.settled} motions "
             f"were followed until they settled; stretches of {self.motions} others gave {self.guesses} guesses for Newton's method, of "
             f"which {self.repeats} led to known orbits and {self.failures} to none; {newest}. Solutions that are not motions: {self.virtual}. "
             f"Of {self.fresh} fresh motions {self.on_listed} ended on an orbit listed here and {self.on_others} on other orbits with no more impacts than were searched."
