@@ -9,7 +9,7 @@ from carom.attractors.survival import Survival
 from carom.closed_forms.equilibria import find_equilibria
 from carom.disturbances import BaseShock, Grid, KickPlane, Sample, Starts
 from carom.models import Jeffcott
-from carom.motions import portions, simulation
+from carom.motions import settling
 from carom.motions.ensembles import Endings
 from carom.motions.simulation import simulate
 from carom.motions.starts import State, kick
@@ -247,8 +247,7 @@ def test_where_orbits_cannot_be_listed_disturbances_are_followed_all_the_same():
 
 
 def test_motion_given_up_is_listed_last_with_its_reason(monkeypatch):
-    for module in (portions, simulation):
-        monkeypatch.setattr(module, "longest_time", lambda rotor: 5.0)
+    monkeypatch.setattr(settling, "longest_time", lambda rotor: 5.0)
     found = find_attractors(Jeffcott(SOURCE), [kick(0.001), kick(0.3), kick(0.4)], known=False)
     last = found.members[-1]
 

@@ -11,6 +11,7 @@
 ``scaling``               :class:`Scales` and their units
 ``conversions``           dimensionless numbers from and to SI units
 ``numbers``               :class:`Parameters`, and :class:`Numbers`: the same plain, unchecked
+``named``                 :class:`Named`: numbers by name that can be varied
 ``resolution``            entries in whatever terms -> numbers of a machine
 ``machine``               :class:`Machine`, conversion to parameters and back
 ``load_limits``           :class:`LoadLimits` of a touchdown bearing
