@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import pytest
-from linear_rotors import FixedFrame, bending, single, tilting, to_fixed, touchdowns
+from linear_rotors import FixedFrame, single, tilting, to_fixed, touchdowns
 from scipy.linalg import expm
 
 import carom as cm
@@ -216,11 +216,10 @@ NO_SPRINGS = {"damping": np.zeros((2, 2)), "stiffness": np.zeros((2, 2))}
     [
         single(planes=1),
         tilting(),
-        bending(),
         tilting(damping=np.zeros((2, 2)), gyroscopic=np.zeros((2, 2))),
         tilting(**NO_SPRINGS),
     ],
-    ids=["one coordinate", "tilting", "bending", "undamped", "falling"],
+    ids=["one coordinate", "tilting", "undamped", "falling"],
 )
 def test_impacts_of_a_heavy_rotor_against_a_general_solver(rotor):
     heavy = Heavy(**vars(rotor))
