@@ -142,8 +142,10 @@ def test_many_starts_end_as_each_alone(trigger):
         assert motion.final.position == pytest.approx(until.positions[place], abs=1e-7)
 
 
-def test_a_mixture_of_machines_with_and_without_stages():
-    staged = Staged((Stage(ROTOR, Trigger(contact_time=4.0, contact_gap=2.0)), Stage(HELPED)))
+@pytest.mark.parametrize("further", [(), (Stage(ROTOR),)], ids=["two stages", "three stages"])
+def test_a_mixture_of_machines_with_and_without_stages(further):
+    second = Stage(HELPED, Trigger(time=2.0)) if further else Stage(HELPED)
+    staged = Staged((Stage(ROTOR, Trigger(contact_time=4.0, contact_gap=2.0)), second, *further))
     positions, kicks = starts(30)
     which = np.arange(30) % 2
     together = cm.settle([staged, ROTOR], positions, kicks, which=which)

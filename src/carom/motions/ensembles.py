@@ -188,12 +188,13 @@ def _followed(
         further = np.array([number < len(stages) for stages in courses])[which]
         on = np.flatnonzero(further & (endings.outcomes == Outcome.TRIGGERED))
         before = endings[on]
-        for machine, stages in enumerate(courses):
+        for machine in np.unique(which[on]).tolist():
             here = which[on] == machine
-            carried = stages[number - 1].carried(before.positions[here], before.velocities[here])
-            if here.any() and stages[number - 1].carry is not None:
-                _check_starts(*carried, stages[number].rotor.system.is_planar)
-            before.positions[here], before.velocities[here] = carried
+            ended, begun = courses[machine][number - 1 : number + 1]
+            places, speeds = ended.carried(before.positions[here], before.velocities[here])
+            if ended.carry is not None:
+                _check_starts(places, speeds, begun.rotor.system.is_planar)
+            before.positions[here], before.velocities[here] = places, speeds
         states = before.positions, before.velocities, before.times
         later = _noted_in_stage(
             [stages[min(number, len(stages) - 1)] for stages in courses], which[on], states, limits, threads, tell
