@@ -63,6 +63,7 @@ Count = Annotated[int, whole(1)]
 Seed = Annotated[int, Kind(lambda number: number >= 0, "a whole number of at least 0")]
 """Seed of a generator of random numbers."""
 Positive = Annotated[float, Kind(lambda number: number > 0.0, "a finite number above 0")]
+NotNegative = Annotated[float, Kind(lambda number: number >= 0.0, "a finite number of at least 0")]
 """A finite number above 0."""
 Infinity = Annotated[Any, Kind(lambda number: isinstance(number, float) and math.isinf(number), "infinity")]
 """Infinity, where a number may also be that: ``float | Infinity``."""

@@ -71,6 +71,8 @@ class Phase(IntEnum):
     FORWARD_SLIP = 1
     BACKWARD_SLIP = 2
     ROLLING = 3
+    SEPARATED = 4
+    """Without force, still inside the place of a wall that comes back more slowly than the rotor leaves it."""
 
     @property
     def label(self) -> str:

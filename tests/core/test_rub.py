@@ -16,13 +16,12 @@ from scipy.integrate import solve_ivp
 from carom.core.contact_series import rub_series
 from carom.core.flow import acceleration, displacement, fly_all, velocity
 from carom.core.layout import ORDER, rotor_record, rub_workspace
+from carom.core.rounding import push_rounding, speed_rounding
 from carom.core.rub import (
     first_transition,
     lift_off,
     next_phase,
-    push_rounding,
     rest_on_wall,
-    speed_rounding,
     turn_ahead,
     wall_push,
 )

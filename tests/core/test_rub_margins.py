@@ -14,10 +14,11 @@ from machines import PAPER
 from carom.core import contact_series, rub, taylor
 from carom.core.flow import displacement, fly_all, velocity
 from carom.core.layout import ORDER, record, rotor_record, rub_workspace
+from carom.core.rounding import push_rounding, speed_rounding
 from carom.models import Jeffcott
 from carom.outcome import Phase
 
-FLIGHT, FORWARD, BACKWARD, ROLLING = (int(phase) for phase in Phase)
+FLIGHT, FORWARD, BACKWARD, ROLLING, SEPARATED = (int(phase) for phase in Phase)
 FRICTION = 0.25
 ARRAYS = Jeffcott(PAPER.replace(mu=FRICTION)).system.arrays
 
@@ -83,13 +84,13 @@ def test_rolling_ends_with_the_first_of_push_and_the_sides_of_the_cone():
 def test_margins_within_their_rounding_do_not_end_a_phase():
     """The push may fall below zero by its rounding error, the room in the cone by that of both its terms."""
     amplitudes = np.array([0.3 + 0.1j, -0.2j])
-    rounding = rub.push_rounding(ARRAYS, 0, amplitudes)
+    rounding = push_rounding(ARRAYS, 0, amplitudes)
     lasts = np.zeros(ORDER + 1)
     lasts[0] = 1.0
     for share, ends in ((0.9, False), (1.1, True)):
         work = rub_workspace(2)
         work.series[0] = amplitudes
-        work.push[0, 0], slip = 1.0, share * rub.speed_rounding(ARRAYS, 0, amplitudes) * lasts
+        work.push[0, 0], slip = 1.0, share * speed_rounding(ARRAYS, 0, amplitudes) * lasts
         for side, phase in ((-1.0, FORWARD), (1.0, BACKWARD)):
             work.slip[:] = side * slip
             assert rub.first_transition(ARRAYS, 0, phase, 0.5, work) == ((0.0 if ends else 0.5), phase, ends)
@@ -177,7 +178,7 @@ def test_what_goes_on_without_slip_is_decided_by_the_cone_of_friction_and_its_ro
     motion = np.array([1.0, -1j])
     for friction, push, side, share in itertools.product((0.1, 5.0), (0.5, 0.0, None), (1.0, -1.0), (0.9, 1.1)):
         acceleration = complex((push or 0.0) - 1.0, side * friction * (push or 0.0))
-        rounding = rub.push_rounding(pressed_rotor(friction, acceleration), 0, motion)
+        rounding = push_rounding(pressed_rotor(friction, acceleration), 0, motion)
         acceleration += complex(-0.9 * rounding if push is None else 0.0, side * share * rounding)
         slips = FORWARD if side > 0.0 else BACKWARD
         following = rub.next_phase(
@@ -263,13 +264,13 @@ def test_rounding_errors_are_the_sums_of_the_sizes_of_their_terms():
         amplitudes = random.normal(size=2) + 1j * random.normal(size=2)
         spread = sizes(arrays.offsets)[0] + sizes(arrays.rows[0] * amplitudes).sum()
         rates, speed = 1.0 + sizes(arrays.rate_rows[0] * amplitudes).sum(), sizes(arrays.rate_rows[0] @ amplitudes)
-        assert rub.speed_rounding(arrays, 0, amplitudes) == pytest.approx(
+        assert speed_rounding(arrays, 0, amplitudes) == pytest.approx(
             64 * EPSILON * (rates + spread * speed), rel=1e-12, abs=0.0
         )
         row = arrays.acceleration_rows[0]
         lever = sizes(row * arrays.rows[0]).sum() / (np.abs(arrays.rows[0]) ** 2).sum()
         force = sizes(row * amplitudes).sum() + 2 * speed * (rates - 1.0) + spread * (sizes(row @ amplitudes) + lever)
-        assert rub.push_rounding(arrays, 0, amplitudes) == pytest.approx(64 * EPSILON * force, rel=1e-12, abs=0.0)
+        assert push_rounding(arrays, 0, amplitudes) == pytest.approx(64 * EPSILON * force, rel=1e-12, abs=0.0)
 
 
 # ------------------------------------------------------------------------------------------------------- first falls
@@ -364,7 +365,7 @@ def test_a_rotor_leaves_the_wall_where_it_is_pressed_on_by_less_than_the_roundin
             for _ in range(4):
                 amplitudes = np.array(rotor.system.amplitudes(1.0 + 0j, complex(0.0, turning)))
                 push, change = rub.wall_push(rotor.system.arrays, 0, amplitudes)
-                rounding = rub.push_rounding(rotor.system.arrays, 0, amplitudes)
+                rounding = push_rounding(rotor.system.arrays, 0, amplitudes)
                 turning += (share * rounding - push) / (2.0 * (1.0 + turning) + 1e-300)
             if change > -0.1:
                 continue

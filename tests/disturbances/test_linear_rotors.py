@@ -123,7 +123,7 @@ def test_random_rotors_and_shocks():
         if np.abs(model.planes @ model.system.rest).max() >= 1.0:
             model = model.replace(forcing=0.0 * model.forcing)
             fixed = model.matrices
-        if len({each.wall for each in model.touchdowns}) > 1:
+        if len({each.wall(1.0) for each in model.touchdowns}) > 1:
             model = model.replace(restitution=0.6, radius_ratio=8.0)
         rotor = FixedFrame(
             *(part.real for part in (fixed.mass, fixed.damping, fixed.stiffness, fixed.gyroscopic)),

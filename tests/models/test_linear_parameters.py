@@ -90,7 +90,7 @@ def test_planes_together_and_one_by_one():
     given = rotor()
 
     def at_planes(name, **changes):
-        return [getattr(each.wall, name) for each in given.replace(**changes).touchdowns]
+        return [getattr(each.wall(1.0), name) for each in given.replace(**changes).touchdowns]
 
     assert at_planes("friction", friction=0.3) == at_planes("friction", mu=0.3) == [0.3, 0.3]
     assert at_planes("friction", mu_2=0.3) == [0.1, 0.3]

@@ -10,21 +10,12 @@ from carom.core.fate import doubt, forget_rub, levitates, persists, recurs, trig
 from carom.core.flow import acceleration, copy, displacement, squared_modulus, velocity
 from carom.core.friction import arrival, landing
 from carom.core.joint import join, land_together, strike_together
-from carom.core.phases import AWAY, FLIGHT, lasts
+from carom.core.phases import AWAY, FLIGHT, lasts, stays
 from carom.core.planar_proofs import fades_to_rolling, stays_inside
-from carom.core.rub import (
-    RESTING,
-    lift_off,
-    meets_wall,
-    next_phase,
-    press,
-    push_rounding,
-    rest_on_wall,
-    speed_rounding,
-    wall_push,
-)
+from carom.core.rounding import RESTING, push_rounding, speed_rounding
+from carom.core.rub import lift_off, meets_wall, next_phase, press, rest_on_wall, wall_push
 from carom.core.rub_step import NOWHERE, leading_plane, rub_step
-from carom.core.wall import move_plane, set_on_wall, unit, wall_of
+from carom.core.wall import move_plane, set_on_wall, unit, wall_of, yields
 from carom.outcome import Outcome
 
 CLEAR, CONTACT, GRAZING = int(Outcome.CLEAR), int(Outcome.CONTACT), int(Outcome.GRAZING)
@@ -136,9 +127,9 @@ def advance(rotor, table, amplitudes, until, contacts, log, memory, work, rub):
 def _slides(rotor, contact, amplitudes):
     """Whether the motion is followed by Taylor series: in lasting contact, or next to a wall beside other planes."""
     if rotor.rows.shape[0] == 1:
-        return lasts(contact[0])
+        return stays(contact[0])
     for plane in range(rotor.rows.shape[0]):
-        if lasts(contact[plane]) or (contact[plane] == FLIGHT and _rests(rotor, plane, amplitudes)):
+        if stays(contact[plane]) or (contact[plane] == FLIGHT and _rests(rotor, plane, amplitudes)):
             return True
     return False
 
@@ -203,7 +194,9 @@ def _reaction(rotor, contact, memory, work, rub):
 def _touch(rotor, contact, plane, reaction, elapsed, memory, work, rub):
     """Impact or landing of a plane in the state ``work.arrival``; returns the outcome."""
     contact[plane] = FLIGHT
-    if reaction == CONTACT:
+    if yields(rotor, plane):
+        outcome = _enter(rotor, contact, plane, elapsed, memory, work, rub)
+    elif reaction == CONTACT:
         outcome = _meet(rotor, contact, plane, elapsed, memory, work, rub)
         if rotor.rows.shape[0] > 1 and outcome == CONTACT:
             _loosen(rotor, contact, plane, work.current, rub)
@@ -238,7 +231,10 @@ def _loosen(rotor, contact, struck, amplitudes, rub):
     for plane in range(rotor.rows.shape[0]):
         if contact[plane] == AWAY and meets_wall(rotor, plane, amplitudes):
             contact[plane] = FLIGHT
-        if plane != struck and lasts(contact[plane]):
+        if yields(rotor, plane):
+            if lasts(contact[plane]):
+                contact[plane] = next_phase(rotor, contact, plane, amplitudes, rub)
+        elif plane != struck and lasts(contact[plane]):
             if not _rests(rotor, plane, amplitudes):
                 contact[plane] = FLIGHT
             else:
@@ -308,11 +304,9 @@ def _meet(rotor, contact, plane, elapsed, memory, work, rub):
         if lasts(contact[other]):
             memory.rubbed = 1
     settle = memory.patience > 0 and memory.struck < memory.impact_speed
-    if settle and (rotor.rows.shape[0] == 1 or _time_has_passed(memory, elapsed)) and recurs(memory, work.arrival):
-        if not persists(memory, elapsed):
-            copy(work.arrival, work.current)
-            return MIXED if memory.rubbed > 0 else BOUNCING
-        doubt(memory)
+    if settle and _comes_again(rotor, elapsed, memory, work):
+        copy(work.arrival, work.current)
+        return MIXED if memory.rubbed > 0 else BOUNCING
     if settle and fades_to_rolling(memory.proofs, rotor, work.arrival):
         copy(work.arrival, work.current)
         return ROLLING
@@ -325,6 +319,33 @@ def _meet(rotor, contact, plane, elapsed, memory, work, rub):
     for k in range(work.current.shape[0]):
         work.current[k] = work.arrival[k] + rotor.columns[k, plane] * change
     return CONTACT
+
+
+@kernel
+def _enter(rotor, contact, plane, elapsed, memory, work, rub):
+    """Begin contact with a wall that gives way in the arriving state; return CONTACT, or how the motion has settled."""
+    set_on_wall(rotor, plane, work.arrival)
+    normal, speed = unit(displacement(rotor, plane, work.arrival)), velocity(rotor, plane, work.arrival)
+    memory.turns = 0
+    if memory.watches > 0:
+        memory.struck = max(memory.struck, (normal.conjugate() * speed).real)
+    settle = memory.patience > 0 and memory.struck < memory.impact_speed
+    copy(work.arrival, work.current)
+    if settle and _comes_again(rotor, elapsed, memory, work):
+        return MIXED if memory.rubbed > 0 else BOUNCING
+    forget_rub(memory)
+    contact[plane] = next_phase(rotor, contact, plane, work.current, rub)
+    return CONTACT
+
+
+@inlined
+def _comes_again(rotor, elapsed, memory, work):
+    """Whether the arriving state recurs, and contact that persists is not what would end the stage."""
+    if (rotor.rows.shape[0] == 1 or _time_has_passed(memory, elapsed)) and recurs(memory, work.arrival):
+        if not persists(memory, elapsed):
+            return True
+        doubt(memory)
+    return False
 
 
 @kernel

@@ -17,16 +17,19 @@ mobility ``G = WMB``.  Staying on all walls then needs, at each plane ``p`` in c
 
 and the second equation of a plane is ``F_p = −μ N_p sgn v_p`` where it slips and
 ``Im(ȳ_p a_p) + Σ_q Im(ȳ_p G_pq (−N_q + iF_q) y_q) = 0`` where it rolls: linear equations for each coefficient in turn.
+
+A wall that gives way has a normal force of its own, and ``n = y/|y|`` takes the place of ``y`` there (:mod:`carom.core.compliance`).
 """
 
 from __future__ import annotations
 
 from carom.compiling.decorators import inlined, kernel
+from carom.core.compliance import indent, rolling_grip
 from carom.core.equations import solve
 from carom.core.friction import friction_ratio, rolling_force
 from carom.core.layout import ORDER
-from carom.core.phases import ROLLING, lasts, sense_of_phase
-from carom.core.wall import wall_of
+from carom.core.phases import ROLLING, lasts, sense_of_phase, stays
+from carom.core.wall import wall_of, yields
 
 
 @kernel
@@ -35,7 +38,8 @@ def rub_series(rotor, contact, amplitudes, work):
 
     ``work.series`` (ORDER + 1, N) receives those of the amplitudes.  Of each plane, ``work.push`` receives those of the
     normal force, ``work.grip`` those of the friction force along growing angle and ``work.slip`` those of the slip
-    velocity, all of shape (P, ORDER + 1).  Where there is no lasting contact, ``work.push`` is ``Re(ȳÿ) + |ẏ|²``.
+    velocity, all of shape (P, ORDER + 1).  Where there is no lasting contact, ``work.push`` is ``Re(ȳÿ) + |ẏ|²``, or without meaning
+    of a plane that has parted from a wall that gives way.
     """
     modes, planes = rotor.columns.shape[0], rotor.columns.shape[1]
     for m in range(modes):
@@ -43,6 +47,8 @@ def rub_series(rotor, contact, amplitudes, work):
     for k in range(ORDER + 1):
         for plane in range(planes):
             _free_motion(rotor, plane, k, work)
+            if yields(rotor, plane) and stays(contact[plane]):
+                indent(rotor, plane, k, work)
         if planes == 1:
             _force(rotor, contact[0], k, work)
         else:
@@ -90,6 +96,12 @@ def _push(plane, k, work):
 def _force(rotor, phase, k, work):
     """Coefficient ``k`` of the contact force of a rotor with one plane, and of its part along growing angle."""
     force, grip = 0j, 0.0
+    if yields(rotor, 0):
+        if lasts(phase):
+            _force_in_wall(rotor, 0, phase, k, work)
+        else:
+            work.force[0, k], work.grip[0, k] = 0j, 0.0
+        return
     if phase == ROLLING:
         force = rolling_force(work.position[0, k], work.free[0, k], wall_of(rotor, 0))
     elif lasts(phase):
@@ -102,11 +114,27 @@ def _force(rotor, phase, k, work):
     work.grip[0, k] = grip
 
 
+@inlined
+def _force_in_wall(rotor, plane, phase, k, work):
+    """Coefficient ``k`` of the friction and the contact force of a plane in a wall that gives way."""
+    if phase == ROLLING:
+        work.grip[plane, k] = rolling_grip(plane, k, work)
+    else:
+        work.grip[plane, k] = friction_ratio(sense_of_phase(phase), wall_of(rotor, plane)) * work.push[plane, k]
+    force = 0j
+    for j in range(k + 1):
+        force += complex(-work.push[plane, j], work.grip[plane, j]) * work.normal[plane, k - j]
+    work.force[plane, k] = force
+
+
 @kernel
 def _coupled_forces(rotor, contact, k, work):
     """Coefficient ``k`` of the contact forces at all planes; those without lasting contact get their push as well."""
     planes = rotor.rows.shape[0]
     work.matrix[:] = 0.0
+    for p in range(planes):
+        if not yields(rotor, p):
+            work.normal[p, k] = work.position[p, k]
     for p in range(planes):
         work.matrix[2 * p, 2 * p], work.matrix[2 * p + 1, 2 * p + 1] = 1.0, 1.0
         if lasts(contact[p]):
@@ -117,9 +145,9 @@ def _coupled_forces(rotor, contact, k, work):
         if lasts(contact[p]):
             work.push[p, k], work.grip[p, k] = work.matrix[2 * p, 2 * planes], work.matrix[2 * p + 1, 2 * planes]
             for j in range(k + 1):
-                work.force[p, k] += complex(-work.push[p, j], work.grip[p, j]) * work.position[p, k - j]
+                work.force[p, k] += complex(-work.push[p, j], work.grip[p, j]) * work.normal[p, k - j]
     for p in range(planes):
-        if not lasts(contact[p]):
+        if not stays(contact[p]):
             for q in range(planes):
                 work.free[p, k] += rotor.mobility[p, q] * work.force[q, k]
             work.push[p, k] = _push(p, k, work)
@@ -127,11 +155,17 @@ def _coupled_forces(rotor, contact, k, work):
 
 @inlined
 def _balance(rotor, contact, p, k, work):
-    """The two equations of a plane in contact for its coefficients ``k`` of normal and friction force."""
+    """The two equations of a plane in contact for its coefficients ``k`` of normal and friction force.
+
+    Of a wall that gives way the normal force is known.
+    """
     last = work.matrix.shape[1] - 1
     normal, along = work.push[p, k], 0.0
     rolls = contact[p] == ROLLING
-    if rolls:
+    given = yields(rotor, p)
+    if rolls and given:
+        along = rolling_grip(p, k, work)
+    elif rolls:
         for j in range(k + 1):
             along -= (work.position[p, j].conjugate() * work.free[p, k - j]).imag
     else:
@@ -141,14 +175,15 @@ def _balance(rotor, contact, p, k, work):
             continue
         link = 0j
         for j in range(k + 1):
-            link += work.position[p, j].conjugate() * work.position[q, k - j]
+            link += work.normal[p, j].conjugate() * work.normal[q, k - j]
         work.links[p, q, k] = rotor.mobility[p, q] * link
         first = work.links[p, q, 0]
-        work.matrix[2 * p, 2 * q], work.matrix[2 * p, 2 * q + 1] = first.real, first.imag
+        if not given:
+            work.matrix[2 * p, 2 * q], work.matrix[2 * p, 2 * q + 1] = first.real, first.imag
         if rolls:
             work.matrix[2 * p + 1, 2 * q], work.matrix[2 * p + 1, 2 * q + 1] = -first.imag, first.real
         for j in range(1, k + 1):
             share = work.links[p, q, j] * complex(work.push[q, k - j], -work.grip[q, k - j])
-            normal -= share.real
+            normal -= 0.0 if given else share.real
             along += share.imag if rolls else 0.0
     work.matrix[2 * p, last], work.matrix[2 * p + 1, last] = normal, along

@@ -29,7 +29,7 @@ from carom.core.friction import BACKWARD, FORWARD, STOPPED, friction_ratio, rebo
 from carom.core.laws.choice import impulse_by_restitution
 from carom.core.phases import AWAY, ROLLING, lasts, sense_of_phase
 from carom.core.rub import meets_wall
-from carom.core.wall import unit, wall_of
+from carom.core.wall import unit, wall_of, yields
 
 EXACT = 1e-11
 """Error, relative to the largest speeds and impulses, that rounding may leave in the inequalities."""
@@ -51,6 +51,7 @@ def join(rotor, contact, struck, amplitudes, rub):
     for plane in range(rotor.rows.shape[0]):
         near = 1.0 - squared_modulus(displacement(rotor, plane, amplitudes)) <= 2.0 * ONE_INSTANT
         at_wall = plane == struck or contact[plane] != AWAY or near or meets_wall(rotor, plane, amplitudes)
+        at_wall = at_wall and not yields(rotor, plane)
         rub.joined[plane] = at_wall
         others = others or (at_wall and plane != struck)
     return others
@@ -86,7 +87,7 @@ def land_together(rotor, contact, plane, amplitudes, rub):
     _load(rotor, amplitudes, rub)
     slip = slip_of(rub.arrivals[plane], wall_of(rotor, plane))
     for p in range(rotor.rows.shape[0]):
-        rub.joined[p] = p == plane or lasts(contact[p])
+        rub.joined[p] = p == plane or (lasts(contact[p]) and not yields(rotor, p))
     share = math.copysign(rotor.friction[plane], slip)
     if not _set_landing(rotor, contact, plane, share, 0.0, rub):  # planes that always move alike: one of them is enough
         for p in range(rotor.rows.shape[0]):

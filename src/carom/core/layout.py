@@ -57,6 +57,8 @@ def rotor_record(
     surface_speed: np.ndarray,
     law: np.ndarray | None = None,
     law_number: np.ndarray | None = None,
+    stiffness: np.ndarray | None = None,
+    loss: np.ndarray | None = None,
     masses: np.ndarray | None = None,
     free: np.ndarray | None = None,
 ) -> np.record:
@@ -87,6 +89,8 @@ def rotor_record(
         Slip velocity of a rotor at rest in this frame, in clearances per unit time.
     law, law_number : ndarray, shape (P,), optional
         Law of each wall along its normal, and the law's own number (:class:`~carom.core.wall.Wall`).  Rigid by default.
+    stiffness, loss : ndarray, shape (P,), optional
+        Of walls that give way, per effective mass of the plane.  Zero by default.
     masses : ndarray, shape (P,), optional
         Effective mass ``1/(W M⁻¹ Wᴴ)`` of each plane: the impulse that changes its velocity by one.  Ones by default.
     free : ndarray of bool, shape (N,), optional
@@ -133,6 +137,8 @@ def rotor_record(
         "surface_speed": surface_speed,
         "law": np.zeros(planes) if law is None else law,
         "law_number": np.zeros(planes) if law_number is None else law_number,
+        "stiffness": np.zeros(planes) if stiffness is None else stiffness,
+        "loss": np.zeros(planes) if loss is None else loss,
         "masses": np.ones(planes) if masses is None else masses,
         "free": np.ones(modes) if free is None else free,
     }
@@ -157,7 +163,7 @@ def _rotor_layout(modes: int, planes: int) -> np.dtype:
             ("weights", REAL, (planes,)),
             *((name, REAL, (planes,)) for name in ("friction", "restitution", "surface_speed")),
             ("law", np.dtype(np.int64), (planes,)),
-            *((name, REAL, (planes,)) for name in ("law_number", "masses")),
+            *((name, REAL, (planes,)) for name in ("law_number", "stiffness", "loss", "masses")),
             ("free", np.dtype(np.int8), (modes,)),
         )
     )
@@ -275,7 +281,9 @@ def _rub_workspace_layout(modes: int, planes: int) -> np.dtype:
         (
             ("series", COMPLEX, (ORDER + 1, modes)),
             *((name, COMPLEX, (planes, ORDER + 1)) for name in ("position", "speed", "free", "force")),
+            *((name, COMPLEX, (planes, ORDER + 1)) for name in ("normal", "local_speed")),
             *((name, REAL, (planes, ORDER + 1)) for name in ("push", "slip", "grip")),
+            *((name, REAL, (planes, ORDER + 1)) for name in ("depth", "rate", "power", "turning")),
             *((name, REAL, (ORDER + 1,)) for name in ("first_margin", "second_margin")),
             ("links", COMPLEX, (planes, planes, ORDER + 1)),
             ("matrix", REAL, (2 * planes, 2 * planes + 1)),

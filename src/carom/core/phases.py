@@ -6,11 +6,12 @@ from carom.compiling.decorators import inlined
 from carom.core.friction import BACKWARD, FORWARD, STOPPED
 from carom.outcome import Phase
 
-FLIGHT, FORWARD_SLIP, BACKWARD_SLIP, ROLLING = (
+FLIGHT, FORWARD_SLIP, BACKWARD_SLIP, ROLLING, SEPARATED = (
     int(Phase.FLIGHT),
     int(Phase.FORWARD_SLIP),
     int(Phase.BACKWARD_SLIP),
     int(Phase.ROLLING),
+    int(Phase.SEPARATED),
 )
 AWAY = -1
 """State of contact of a plane that is not on its wall; on the wall it is a :class:`~carom.outcome.Phase`."""
@@ -20,6 +21,12 @@ AWAY = -1
 def lasts(phase):
     """Whether a plane is in lasting contact."""
     return phase in (FORWARD_SLIP, BACKWARD_SLIP, ROLLING)
+
+
+@inlined
+def stays(phase):
+    """Whether a plane stays at its wall: in lasting contact, or separated from a wall that has not yet come back."""
+    return lasts(phase) or phase == SEPARATED
 
 
 @inlined

@@ -12,18 +12,26 @@ from __future__ import annotations
 import numpy as np
 
 from carom.compiling.decorators import inlined, kernel
+from carom.core.compliance import first_release, slip_in_wall
 from carom.core.contact_series import rub_series
 from carom.core.flow import acceleration, displacement, flight_increments, squared_modulus, velocity
 from carom.core.friction import BACKWARD, FORWARD, STOPPED, arrival_in_sense, friction_ratio, slip_of, spare_grip
 from carom.core.layout import ORDER
-from carom.core.phases import BACKWARD_SLIP, FLIGHT, FORWARD_SLIP, ROLLING, lasts, phase_of_slip, sense_of_phase
+from carom.core.phases import (
+    BACKWARD_SLIP,
+    FLIGHT,
+    FORWARD_SLIP,
+    ROLLING,
+    SEPARATED,
+    lasts,
+    phase_of_slip,
+    sense_of_phase,
+    stays,
+)
+from carom.core.rounding import RESTING, position_rounding, push_rounding, speed_rounding, yielding_rounding
 from carom.core.taylor import first_fall, series_step, sum_series
-from carom.core.wall import rigid_wall, set_on_wall, unit, wall_of
+from carom.core.wall import rigid_wall, set_on_wall, unit, wall_of, yields
 
-ROUNDING = 64 * 2.220446049250313e-16
-"""Rounding error of a sum over the modes, relative to the moduli of its terms."""
-RESTING = 4.0
-"""Radial speed, in rounding errors, up to which the rotor rests on the wall: so low a flight cannot be resolved."""
 NO_TURN = 1e-15
 """Distance along the wall that counts as zero."""
 
@@ -33,7 +41,7 @@ def fly_or_rub_all(rotor, amplitudes, phases, times, work):
     """Amplitudes (M, N) after given times (M,), each in its own phases (M, P) from its own amplitudes (M, N)."""
     moved = np.empty_like(amplitudes)
     for i in range(times.shape[0]):
-        if _lasts(phases[i]):
+        if _stays(phases[i]):
             rub_series(rotor, phases[i], amplitudes[i], work)
             sum_series(work, times[i], moved[i])
         else:
@@ -48,7 +56,7 @@ def forces_all(rotor, amplitudes, phases, work):
     """Normal and friction force of lasting contact (M, P, 2) of states (M, N) in given phases (M, P); zero in flight."""
     forces = np.zeros((*phases.shape, 2))
     for i in range(amplitudes.shape[0]):
-        if not _lasts(phases[i]):
+        if not _stays(phases[i]):
             continue
         rub_series(rotor, phases[i], amplitudes[i], work)
         for plane in range(phases.shape[1]):
@@ -61,11 +69,11 @@ def forces_all(rotor, amplitudes, phases, work):
 
 
 @inlined
-def _lasts(contact):
-    """Whether there is lasting contact at any plane."""
+def _stays(contact):
+    """Whether any plane stays at its wall."""
     found = False
     for plane in range(contact.shape[0]):
-        found = found or lasts(contact[plane])
+        found = found or stays(contact[plane])
     return found
 
 
@@ -74,20 +82,27 @@ def first_transition(rotor, plane, phase, step, work):
     """First time within a step at which the kind of contact changes, and the phase that follows.
 
     Sliding ends where the normal force vanishes (flight follows) or the slip vanishes; rolling ends where the friction
-    it needs leaves the cone.
+    it needs leaves the cone.  In a wall that gives way the depth may vanish (flight follows) or the force alone (the plane is separated).
 
     Returns
     -------
     time : float
         The step itself if nothing changes.
     phase : int
-        The phase that follows; the same if nothing changes, or if the slip vanishes and :func:`next_phase` must decide.
-    slip_stops : bool
+        The phase that follows; the same if nothing changes, or if :func:`next_phase` must decide.
+    undecided : bool
+        Whether :func:`next_phase` must decide: the slip vanishes, or a separated plane meets its wall again.
     """
     wall, push = wall_of(rotor, plane), work.push[plane]
-    rounding = push_rounding(rotor, plane, work.series[0])
-    first = first_fall(push, step, rounding)
-    following = FLIGHT if first < step else phase
+    if yields(rotor, plane):
+        first, following, met = first_release(rotor, plane, phase, step, work)
+        if phase == SEPARATED:
+            return first, following, met
+        rounding = yielding_rounding(rotor, plane, work.series[0])
+    else:
+        rounding = push_rounding(rotor, plane, work.series[0])
+        first = first_fall(push, step, rounding)
+        following = FLIGHT if first < step else phase
     if phase == ROLLING:
         for k in range(ORDER + 1):
             work.first_margin[k] = spare_grip(push[k], work.grip[plane, k], BACKWARD, wall)
@@ -122,7 +137,7 @@ def first_contact(rotor, plane, on_wall, step, work):
     work.first_margin[0], work.first_margin[1] = gap, rise
     for k in range(ORDER - 1):
         work.first_margin[k + 2] = -2.0 * work.push[plane, k] / ((k + 1) * (k + 2))
-    return first_fall(work.first_margin, step, 2.0 * ROUNDING * _spread(rotor, plane, state))
+    return first_fall(work.first_margin, step, 2.0 * position_rounding(rotor, plane, state))
 
 
 @inlined
@@ -196,58 +211,11 @@ def rest_on_wall(rotor, plane, amplitudes, rolling):
         amplitudes[m] += rotor.columns[m, plane] * change
 
 
-@inlined
-def speed_rounding(rotor, plane, amplitudes):
-    """Rounding error of the radial speed and the speed along the wall.
-
-    It is that of the velocity's terms, and that of the position, which turns the wall's normal against the velocity.
-    """
-    rates, speed = 1.0, 0j
-    for m in range(amplitudes.shape[0]):
-        rate = rotor.rate_rows[plane, m] * amplitudes[m]
-        rates += _size(rate)
-        speed += rate
-    return ROUNDING * (rates + _spread(rotor, plane, amplitudes) * _size(speed))
-
-
-@kernel
-def push_rounding(rotor, plane, amplitudes):
-    """Rounding error of the normal force ``Re(ȳÿ) + |ẏ|²``: of the terms of ``ÿ`` and ``ẏ``, and of the position.
-
-    The position counts twice, by its direction and by the force that it changes; that dominates near the equilibrium.
-    """
-    forces, rates, lever, force, speed = 0.0, 0.0, 0.0, 0j, 0j
-    for m in range(amplitudes.shape[0]):
-        row, rate = rotor.acceleration_rows[plane, m], rotor.rate_rows[plane, m] * amplitudes[m]
-        lever += _size(row * rotor.rows[plane, m]) / rotor.weights[plane]
-        forces += _size(row * amplitudes[m])
-        rates += _size(rate)
-        force += row * amplitudes[m]
-        speed += rate
-    of_position = _spread(rotor, plane, amplitudes) * (_size(force) + lever)
-    return ROUNDING * (forces + 2.0 * _size(speed) * rates + of_position)
-
-
 @kernel
 def meets_wall(rotor, plane, amplitudes):
     """Whether a plane is at its wall, to rounding."""
     gap = 1.0 - squared_modulus(displacement(rotor, plane, amplitudes))
-    return gap <= 2.0 * RESTING * ROUNDING * _spread(rotor, plane, amplitudes)
-
-
-@inlined
-def _spread(rotor, plane, amplitudes):
-    """Sum of the sizes of the terms of a displacement of modulus one, on the wall: a measure of their cancellation."""
-    spread = _size(rotor.offsets[plane])
-    for m in range(amplitudes.shape[0]):
-        spread += _size(rotor.rows[plane, m] * amplitudes[m])
-    return spread
-
-
-@inlined
-def _size(z):
-    """Bound of ``|z|``."""
-    return abs(z.real) + abs(z.imag)
+    return gap <= 2.0 * RESTING * position_rounding(rotor, plane, amplitudes)
 
 
 @kernel
@@ -286,9 +254,12 @@ def next_phase(rotor, contact, plane, amplitudes, work):
     """
     position, wall = unit(displacement(rotor, plane, amplitudes)), wall_of(rotor, plane)
     slip = slip_of(position.conjugate() * velocity(rotor, plane, amplitudes), wall)
+    gives_way = yields(rotor, plane)
+    if gives_way:
+        slip = slip_in_wall(rotor, plane, amplitudes)
     if abs(slip) > speed_rounding(rotor, plane, amplitudes):
         return FORWARD_SLIP if slip > 0.0 else BACKWARD_SLIP
-    if rotor.rows.shape[0] == 1:
+    if rotor.rows.shape[0] == 1 and not gives_way:
         push, _ = wall_push(rotor, plane, amplitudes)
         pull = (position.conjugate() * acceleration(rotor, plane, amplitudes)).imag
     else:

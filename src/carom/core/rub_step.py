@@ -5,14 +5,15 @@ from __future__ import annotations
 import math
 
 from carom.compiling.decorators import inlined, kernel
+from carom.core.compliance import stay_in_wall
 from carom.core.contact_series import rub_series
 from carom.core.fate import approaches_turn, at_rest, forget_rub, near_rub, never_repeats, same_state
 from carom.core.layout import NEAR
-from carom.core.phases import AWAY, FLIGHT, FORWARD_SLIP, ROLLING, lasts
+from carom.core.phases import AWAY, FLIGHT, FORWARD_SLIP, ROLLING, lasts, stays
 from carom.core.planar_proofs import absorbed, hastens, runs_away
 from carom.core.rub import first_contact, first_transition, next_phase, rest_on_wall, turn_ahead
 from carom.core.taylor import series_step, sum_series
-from carom.core.wall import set_on_wall, unit
+from carom.core.wall import set_on_wall, unit, yields
 from carom.outcome import Outcome
 
 CONTACT, GRAZING, TIME_REACHED = int(Outcome.CONTACT), int(Outcome.GRAZING), int(Outcome.TIME_REACHED)
@@ -38,7 +39,7 @@ def rub_step(rotor, contact, amplitudes, horizon, memory, rub):
     step, leading = series_step(rub), leading_plane(rotor, contact)
     if step == 0.0:  # forces at several planes have grown without bound, until there are none (Painlevé)
         return GRAZING, 0.0, leading
-    duration, changed, following, slip_stops = _first_change(rotor, contact, min(step, horizon), rub)
+    duration, changed, following, undecided = _first_change(rotor, contact, min(step, horizon), rub)
     turned, speed = False, 0.0
     # Contact that would end a stage when it has persisted for a time is followed until then.
     if memory.patience > 0 and memory.contact_time == math.inf and leading != NOWHERE:
@@ -53,17 +54,9 @@ def rub_step(rotor, contact, amplitudes, horizon, memory, rub):
                 duration, changed, turned = turn, NOWHERE, True
     sum_series(rub, duration, amplitudes)
     memory.turn_time += duration
-    # What puts one plane to rest on its wall moves the others: several sweeps leave no more than rounding.
-    for sweep in range(1 if rotor.rows.shape[0] == 1 else SWEEPS):
-        for plane in range(rotor.rows.shape[0]):
-            if lasts(contact[plane]):
-                rest_on_wall(rotor, plane, amplitudes, contact[plane] == ROLLING or (plane == changed and slip_stops))
-                if contact[plane] != ROLLING:
-                    memory.turn_slipped = 1
-            elif duration > 0.0 and sweep == 0:
-                contact[plane] = AWAY
+    _remove_rounding(rotor, contact, changed, following, undecided, duration > 0.0, amplitudes, memory)
     if changed != NOWHERE:
-        _change_contact(rotor, contact, changed, following, slip_stops, amplitudes, memory, rub)
+        _change_contact(rotor, contact, changed, following, undecided, amplitudes, memory, rub)
     if turned:
         recurred = same_state(memory.turn_state, amplitudes, NEAR * min(1.0, memory.turn_time))
         if recurred or never_repeats(memory, amplitudes):
@@ -72,6 +65,26 @@ def rub_step(rotor, contact, amplitudes, horizon, memory, rub):
             return (rub_outcome if memory.turn_slipped > 0 else ROLLS_ON), duration, leading
         forget_rub(memory)
     return (TIME_REACHED if duration >= horizon else CONTACT), duration, leading if changed == NOWHERE else changed
+
+
+@inlined
+def _remove_rounding(rotor, contact, changed, following, undecided, moved, amplitudes, memory):
+    """Remove rounding errors across the walls at the end of a step, and from a slip that has stopped."""
+    # What puts one plane to rest on its wall moves the others: several sweeps leave no more than rounding.
+    for sweep in range(1 if rotor.rows.shape[0] == 1 else SWEEPS):
+        for plane in range(rotor.rows.shape[0]):
+            phase = contact[plane]
+            if stays(phase):
+                rolls = phase == ROLLING or (plane == changed and undecided and lasts(phase))
+                if yields(rotor, plane):
+                    leaves = plane == changed and not undecided and following == FLIGHT
+                    stay_in_wall(rotor, plane, rolls, leaves, amplitudes)
+                else:
+                    rest_on_wall(rotor, plane, amplitudes, rolls)
+                if phase != ROLLING:
+                    memory.turn_slipped = 1
+            elif moved and sweep == 0:
+                contact[plane] = AWAY
 
 
 @inlined
@@ -91,40 +104,40 @@ def _known_end(rotor, slips, position, speed, memory, rub):
 
 @inlined
 def _first_change(rotor, contact, step, rub):
-    """First change of contact within a step: its time, plane and following phase, and whether a slip stops."""
-    duration, changed, following, slip_stops = step, NOWHERE, FLIGHT, False
+    """First change of contact within a step: its time, plane and following phase, and whether the phase is undecided."""
+    duration, changed, following, undecided = step, NOWHERE, FLIGHT, False
     for plane in range(rotor.rows.shape[0]):
-        after, stops = FLIGHT, False
-        if lasts(contact[plane]):
-            time, after, stops = first_transition(rotor, plane, contact[plane], duration, rub)
+        after, unsure = FLIGHT, False
+        if stays(contact[plane]):
+            time, after, unsure = first_transition(rotor, plane, contact[plane], duration, rub)
         elif rotor.rows.shape[0] > 1:
             time = first_contact(rotor, plane, contact[plane] == FLIGHT, duration, rub)
         else:
             time = duration
         if time < duration:
-            duration, changed, following, slip_stops = time, plane, after, stops
-    return duration, changed, following, slip_stops
+            duration, changed, following, undecided = time, plane, after, unsure
+    return duration, changed, following, undecided
 
 
 @inlined
 def leading_plane(rotor, contact):
-    """First plane in lasting contact, whose turns are watched; NOWHERE if there is none."""
+    """First plane that stays at its wall, whose turns are watched; NOWHERE if there is none."""
     for plane in range(rotor.rows.shape[0]):
-        if lasts(contact[plane]):
+        if stays(contact[plane]):
             return plane
     return NOWHERE
 
 
 @inlined
-def _change_contact(rotor, contact, plane, following, slip_stops, amplitudes, memory, rub):
+def _change_contact(rotor, contact, plane, following, undecided, amplitudes, memory, rub):
     """Change the contact of a plane: it lifts off, slips, rolls, or has come to the wall."""
-    if slip_stops:
+    if undecided:
         following = next_phase(rotor, contact, plane, amplitudes, rub)
-    lasted = lasts(contact[plane])
-    if not lasted:
+    stayed = stays(contact[plane])
+    if not stayed:
         set_on_wall(rotor, plane, amplitudes)
     elif following == FLIGHT:
         memory.lifting = plane + 1
-    if rotor.rows.shape[0] > 1 and not (lasted and lasts(following)):
+    if rotor.rows.shape[0] > 1 and not (stayed and stays(following)):
         forget_rub(memory)
     contact[plane] = following

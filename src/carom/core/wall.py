@@ -22,6 +22,8 @@ class Wall(NamedTuple):
         Number of the law along the normal (:mod:`carom.core.laws.choice`); 0 is the rigid wall.
     law_number : float
         The law's own number.
+    stiffness, loss : float
+        Of a wall that gives way, per effective mass of the plane; a wall without stiffness does not.
     """
 
     friction: float
@@ -29,6 +31,8 @@ class Wall(NamedTuple):
     surface_speed: float
     law: int = 0
     law_number: float = 0.0
+    stiffness: float = 0.0
+    loss: float = 0.0
 
 
 @formula
@@ -40,13 +44,21 @@ def wall_of(rotor, plane):
         rotor.surface_speed[plane],
         rotor.law[plane],
         rotor.law_number[plane],
+        rotor.stiffness[plane],
+        rotor.loss[plane],
     )
 
 
 @formula
 def rigid_wall(friction, restitution, surface_speed):
     """A rigid wall, for kernels: these take no defaults."""
-    return Wall(friction, restitution, surface_speed, 0, 0.0)
+    return Wall(friction, restitution, surface_speed, 0, 0.0, 0.0, 0.0)
+
+
+@inlined
+def yields(rotor, plane):
+    """Whether the wall at a plane gives way."""
+    return rotor.stiffness[plane] > 0.0
 
 
 @inlined

@@ -27,7 +27,7 @@ from carom.models.spans import Edge, Span
 from carom.models.stages import Forced, Stage, Staged, Trigger
 from carom.models.subjects import Subject, case_of, jeffcott_of, model_from, model_of
 from carom.models.system import System
-from carom.models.touchdown import FallingRestitution, Rigid, Touchdown
+from carom.models.touchdown import FallingRestitution, HuntCrossley, KelvinVoigt, Rigid, Touchdown
 
 __all__ = [
     "Axis",
@@ -35,7 +35,9 @@ __all__ = [
     "FallingRestitution",
     "Force",
     "Forced",
+    "HuntCrossley",
     "Jeffcott",
+    "KelvinVoigt",
     "LinearRotor",
     "Matrices",
     "Model",

@@ -147,7 +147,7 @@ class LinearRotor(Result):
             )
         if n == 1 and self.planes.tolist() == [[1.0]]:
             return self._one_coordinate(found.exponents, complex(rest[0]))
-        inverse = np.linalg.inv(found.basis)
+        inverse, masses = np.linalg.inv(found.basis), 1.0 / mobilities.real
         return modal_system(
             exponents=found.exponents,
             driven=found.driven,
@@ -157,8 +157,8 @@ class LinearRotor(Result):
             offsets=self.planes @ rest,
             rows=self.planes @ found.basis[:n],
             columns=inverse[:, n:] @ (moved / mobilities),
-            **walls_as_arrays([each.wall for each in self.touchdowns]),
-            masses=1.0 / mobilities.real,
+            **walls_as_arrays([each.wall(mass) for each, mass in zip(self.touchdowns, masses, strict=True)]),
+            masses=masses,
             translation=self.translation,
         )
 
@@ -167,7 +167,7 @@ class LinearRotor(Result):
         slow, fast = sorted((complex(value) for value in exponents), key=lambda value: -value.real)
         mass = float(self.mass[0, 0].real)
         system = second_order_system(
-            exponents=(fast, slow), equilibrium=equilibrium, wall=self.touchdowns[0].wall, mass=mass
+            exponents=(fast, slow), equilibrium=equilibrium, wall=self.touchdowns[0].wall(mass), mass=mass
         )
         return dataclasses.replace(system, translation=self.translation)
 

@@ -6,18 +6,16 @@ import json
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
 from functools import cached_property
-from typing import Annotated, Any
+from typing import Any
 
 import numpy as np
 
-from carom.arguments import Infinity, Kind, Positive, checked
+from carom.arguments import Infinity, NotNegative, Positive, checked
 from carom.models.forcing import Force, with_forces
 from carom.models.model import Matrices, Model
 from carom.models.system import System
 from carom.outcome import InputError, shown
 from carom.parameters import Field, Scales
-
-NotNegative = Annotated[float, Kind(lambda number: number >= 0.0, "a finite number of at least 0")]
 
 
 class _Around:

@@ -9,13 +9,13 @@ from typing import Annotated, Any, ClassVar, get_args
 
 import numpy as np
 
-from carom.arguments import Kind, Positive, checked
+from carom.arguments import Kind, NotNegative, Positive, checked
 from carom.core.laws.choice import LAWS
 from carom.core.wall import Wall
 from carom.outcome import InputError, shown
 
 _Share = Annotated[float, Kind(lambda number: 0.0 <= number <= 1.0, "a number from 0 to 1")]
-_NotNegative = Annotated[float, Kind(lambda number: number >= 0.0, "a number of at least 0")]
+_Exponent = Annotated[float, Kind(lambda number: 1.0 <= number <= 2.0, "a number from 1 to 2")]
 _Forward = Annotated[float, Kind(lambda number: number >= 1.0, "a number of at least 1")]
 
 
@@ -33,7 +33,10 @@ class Rigid:
     restitution: _Share
 
     law: ClassVar = "rigid"
-    law_number: ClassVar = 0.0
+
+    def wall(self, friction: float, surface_speed: float, mass: float) -> Wall:
+        """The numbers of a wall for a plane that resists impulses with this mass."""
+        return Wall(friction, self.restitution, surface_speed)
 
 
 @checked
@@ -54,13 +57,65 @@ class FallingRestitution:
 
     law: ClassVar = "falling"
 
-    @property
-    def law_number(self) -> float:
-        """The number that the law's functions take."""
-        return 1.0 / self.speed
+    def wall(self, friction: float, surface_speed: float, mass: float) -> Wall:
+        """The numbers of a wall for a plane that resists impulses with this mass."""
+        return Wall(friction, self.restitution, surface_speed, LAWS.index(self.law), 1.0 / self.speed)
 
 
-Law = Rigid | FallingRestitution
+@checked
+@dataclass(frozen=True)
+class KelvinVoigt:
+    """A wall on a spring and a damper, which cannot pull: the force ``kδ + cδ̇`` at the depth ``δ`` (:mod:`carom.core.laws.kelvin_voigt`).
+
+    Attributes
+    ----------
+    stiffness : float
+        ``k`` in ``m Ω²``, with the unit ``m`` of the rotor's masses.
+    damping : float
+        ``c`` in ``m Ω``.
+    """
+
+    stiffness: Positive
+    damping: NotNegative
+
+    law: ClassVar = "kelvin_voigt"
+    restitution: ClassVar = 0.0
+
+    def wall(self, friction: float, surface_speed: float, mass: float) -> Wall:
+        """The numbers of a wall for a plane that resists impulses with this mass."""
+        own = LAWS.index(self.law), 0.0, self.stiffness / mass, self.damping / mass
+        return Wall(friction, self.restitution, surface_speed, *own)
+
+
+@checked
+@dataclass(frozen=True)
+class HuntCrossley:
+    """A wall whose damping grows with the depth: the force ``k δⁿ (1 + χδ̇)`` at the depth ``δ`` (:mod:`carom.core.laws.hunt_crossley`).
+
+    Attributes
+    ----------
+    stiffness : float
+        ``k`` in ``m Ω² c_r^(1 − n)``, with the unit ``m`` of the rotor's masses.
+    dissipation : float
+        ``χ`` in ``1/(c_r Ω)``.
+    exponent : float
+        ``n``: 1, 10/9 (rollers) or 3/2 (balls), or another one from 1 to 2.
+    """
+
+    stiffness: Positive
+    dissipation: NotNegative
+    exponent: _Exponent = 1.0
+
+    law: ClassVar = "hunt_crossley"
+    restitution: ClassVar = 0.0
+
+    def wall(self, friction: float, surface_speed: float, mass: float) -> Wall:
+        """The numbers of a wall for a plane that resists impulses with this mass."""
+        own = LAWS.index(self.law), self.exponent, self.stiffness / mass, self.dissipation
+        return Wall(friction, self.restitution, surface_speed, *own)
+
+
+Law = Rigid | FallingRestitution | KelvinVoigt | HuntCrossley
 """What a wall does along its normal; ``law`` is the name of its module in :mod:`carom.core.laws`."""
 
 
@@ -74,7 +129,7 @@ class Touchdown:
     plane : sequence of complex, shape (n,)
         Displacement at the plane, in its clearance, per coordinate of the rotor.  A plane resists impulses with the
         effective mass ``1/(W M⁻¹ Wᴴ)`` of this row ``W``.
-    law : Rigid or FallingRestitution
+    law : Rigid, FallingRestitution, KelvinVoigt or HuntCrossley
         What the wall does to a plane that arrives.
     friction : float
         Coulomb friction coefficient ``μ``.
@@ -89,7 +144,7 @@ class Touchdown:
 
     plane: Any
     law: Law
-    friction: _NotNegative
+    friction: NotNegative
     surface_speed: _Forward
 
     def __post_init__(self) -> None:
@@ -124,11 +179,9 @@ class Touchdown:
         plane = [complex(*number) for number in given["plane"]]
         return cls(plane, law(**numbers), given["friction"], given["surface_speed"])
 
-    @property
-    def wall(self) -> Wall:
-        """The numbers of its wall, as the kernels take them."""
-        number = LAWS.index(self.law.law)
-        return Wall(self.friction, self.law.restitution, self.surface_speed, number, self.law.law_number)
+    def wall(self, mass: float) -> Wall:
+        """The numbers of its wall, as the kernels take them, if the plane resists impulses with this mass."""
+        return self.law.wall(self.friction, self.surface_speed, mass)
 
 
 def _are_numbers(values: Any) -> bool:

@@ -10,32 +10,81 @@ from typing import Any
 from carom.compiling.decorators import formula
 from carom.core import laws
 
-_FOUND = [module.name for module in pkgutil.iter_modules(laws.__path__) if module.name not in ("rigid", "choice")]
+_OTHERS = ("rigid", "choice", "yielding")
+_FOUND = [module.name for module in pkgutil.iter_modules(laws.__path__) if module.name not in _OTHERS]
 LAWS = ("rigid", *sorted(_FOUND))
 """Names of the laws; each has its place as its number."""
 
 
-def _chosen(name: str) -> Callable[[Any, Any], Any]:
-    """The function of this name of the law that a wall has."""
-    first, *others = (getattr(import_module(f"{laws.__name__}.{law}"), name) for law in LAWS)
-    function: Callable[[Any, Any], Any] = first
-    for number, other in enumerate(others, 1):
-        function = _one_of(number, other, function)
-    return function
+Function = Callable[..., Any]
 
 
-def _one_of(
-    number: int, mine: Callable[[Any, Any], Any], others: Callable[[Any, Any], Any]
-) -> Callable[[Any, Any], Any]:
+def _chosen(name: str, one_of: Callable[[int, Function, Function], Function]) -> Function:
+    """The function of this name of the law that a wall has, among the laws that have one."""
+    modules = (import_module(f"{laws.__name__}.{law}") for law in LAWS)
+    (_, function), *others = (
+        (number, getattr(module, name)) for number, module in enumerate(modules) if hasattr(module, name)
+    )
+    for number, other in others:
+        function = one_of(number, other, function)
+    chosen: Function = function
+    return chosen
+
+
+def _by_number(number: int, mine: Function, others: Function) -> Function:
+    """A function of a number and the wall."""
+
     @formula
-    def function(speed, wall):
+    def function(of, wall):
         if wall.law == number:
-            return mine(speed, wall)
-        return others(speed, wall)
+            return mine(of, wall)
+        return others(of, wall)
 
     return function
 
 
-impulse, impulse_by_speed, impulse_by_restitution = map(
-    _chosen, ("impulse", "impulse_by_speed", "impulse_by_restitution")
-)
+def _by_two(number: int, mine: Function, others: Function) -> Function:
+    """A function of depth and rate, or of their rounding errors, and the wall."""
+
+    @formula
+    def function(depth, rate, wall):
+        if wall.law == number:
+            return mine(depth, rate, wall)
+        return others(depth, rate, wall)
+
+    return function
+
+
+def _by_series(number: int, mine: Function, others: Function) -> Function:
+    """A function of the Taylor series of depth and rate, and the wall."""
+
+    @formula
+    def function(k, depth, rate, wall):
+        if wall.law == number:
+            return mine(k, depth, rate, wall)
+        return others(k, depth, rate, wall)
+
+    return function
+
+
+def _by_series_with_power(number: int, mine: Function, others: Function) -> Function:
+    """The same with the series of a power of the depth, to be filled."""
+
+    @formula
+    def function(k, depth, rate, power, wall):
+        if wall.law == number:
+            return mine(k, depth, rate, power, wall)
+        return others(k, depth, rate, power, wall)
+
+    return function
+
+
+impulse = _chosen("impulse", _by_number)
+impulse_by_speed = _chosen("impulse_by_speed", _by_number)
+impulse_by_restitution = _chosen("impulse_by_restitution", _by_number)
+stored_energy = _chosen("stored_energy", _by_number)
+force = _chosen("force", _by_two)
+force_rounding = _chosen("force_rounding", _by_two)
+press_rounding = _chosen("press_rounding", _by_two)
+press_coefficient = _chosen("press_coefficient", _by_series)
+force_coefficient = _chosen("force_coefficient", _by_series_with_power)

@@ -1,0 +1,113 @@
+"""Contact with a wall that gives way, as Taylor series, and how long it stays the same.
+
+With the radius ``r = |y|``, the outward normal ``n = y/r`` and the local velocity ``u = n̄ẏ = ṙ + iw``, a plane is ``δ = r − 1`` deep in
+the wall.  The law of the wall gives the normal force ``N`` from ``δ`` and ``δ̇ = ṙ`` (:mod:`carom.core.laws`), and with the friction
+``F`` along growing angle the contact force is ``f = (−N + iF) n``.  The contact point slips with ``v = surface_speed + δ + w``, as it is
+further out by ``δ`` in a frame that turns.  Since ``u̇ = n̄ÿ − iθ̇u``, rolling, ``v̇ = 0``, needs
+
+    F = −ṙ + θ̇ṙ − Im(n̄a)
+
+against the acceleration ``a`` without own force.  All series follow from those of ``y`` and ``ẏ`` by recurrences: of ``r`` from
+``r² = |y|²``, of ``n`` from ``r n = y``.
+"""
+
+from __future__ import annotations
+
+import math
+
+from carom.compiling.decorators import inlined, kernel
+from carom.core.flow import displacement, squared_modulus, velocity
+from carom.core.friction import slip_of
+from carom.core.laws.choice import force_coefficient, press_coefficient, press_rounding
+from carom.core.layout import ORDER
+from carom.core.phases import FLIGHT, SEPARATED
+from carom.core.rounding import position_rounding, speed_rounding
+from carom.core.taylor import first_fall
+from carom.core.wall import set_on_wall, unit, wall_of
+
+
+@inlined
+def indent(rotor, plane, k, work):
+    """Coefficients ``k`` of normal, depth, local velocity, slip and normal force, from those of position and speed up to it."""
+    depth, normal = work.depth[plane], work.normal[plane]
+    square, local = 0.0, 0j
+    for j in range(k + 1):
+        square += (work.position[plane, j].conjugate() * work.position[plane, k - j]).real
+    if k == 0:
+        radius = math.sqrt(square)
+        depth[0] = (square - 1.0) / (radius + 1.0)
+        normal[0] = work.position[plane, 0] / radius
+    else:
+        for j in range(1, k):
+            square -= depth[j] * depth[k - j]
+        radius = 1.0 + depth[0]
+        depth[k] = square / (2.0 * radius)
+        direction = work.position[plane, k]
+        for j in range(1, k + 1):
+            direction -= depth[j] * normal[k - j]
+        normal[k] = direction / radius
+    for j in range(k + 1):
+        local += normal[j].conjugate() * work.speed[plane, k - j]
+    work.local_speed[plane, k], work.rate[plane, k] = local, local.real
+    work.slip[plane, k] = local.imag + depth[k] + (rotor.surface_speed[plane] if k == 0 else 0.0)
+    work.push[plane, k] = force_coefficient(k, depth, work.rate[plane], work.power[plane], wall_of(rotor, plane))
+
+
+@inlined
+def rolling_grip(plane, k, work):
+    """Coefficient ``k`` of the friction that lets a plane roll, against its acceleration in ``work.free``."""
+    turning, grip = work.local_speed[plane, k].imag, -work.rate[plane, k]
+    for j in range(1, k + 1):
+        turning -= work.depth[plane, j] * work.turning[plane, k - j]
+    work.turning[plane, k] = turning / (1.0 + work.depth[plane, 0])
+    for j in range(k + 1):
+        grip += work.turning[plane, j] * work.rate[plane, k - j]
+        grip -= (work.normal[plane, j].conjugate() * work.free[plane, k - j]).imag
+    return grip
+
+
+@kernel
+def first_release(rotor, plane, phase, step, work):
+    """First time within a step at which the plane leaves the wall, parts from it or meets it again, and the phase that follows.
+
+    Returns
+    -------
+    time : float
+        The step itself if nothing of this happens.
+    phase : int
+        ``FLIGHT``, or ``SEPARATED`` where the force vanishes before the depth does.  Of a separated plane that meets the wall again
+        the same, as :func:`carom.core.rub.next_phase` must decide.
+    met : bool
+        Whether a separated plane meets the wall again.
+    """
+    state, wall = work.series[0], wall_of(rotor, plane)
+    of_depth, of_rate = position_rounding(rotor, plane, state), speed_rounding(rotor, plane, state)
+    left = first_fall(work.depth[plane], step, of_depth)
+    sign = -1.0 if phase == SEPARATED else 1.0
+    for k in range(ORDER + 1):
+        work.first_margin[k] = sign * press_coefficient(k, work.depth[plane], work.rate[plane], wall)
+    parted = first_fall(work.first_margin, left, press_rounding(of_depth, of_rate, wall))
+    if parted < left:
+        return parted, SEPARATED, phase == SEPARATED
+    return left, (FLIGHT if left < step else phase), False
+
+
+@kernel
+def stay_in_wall(rotor, plane, rolls, leaves, amplitudes):
+    """Remove the rounding error of the rolling condition, and of ``|y| = 1`` where a plane leaves its wall."""
+    if leaves:
+        set_on_wall(rotor, plane, amplitudes)
+    elif rolls:
+        normal = unit(displacement(rotor, plane, amplitudes))
+        change = normal * complex(0.0, -slip_in_wall(rotor, plane, amplitudes))
+        for m in range(amplitudes.shape[0]):
+            amplitudes[m] += rotor.columns[m, plane] * change
+
+
+@inlined
+def slip_in_wall(rotor, plane, amplitudes):
+    """Slip velocity of a plane in a wall that gives way."""
+    position = displacement(rotor, plane, amplitudes)
+    radius = math.sqrt(squared_modulus(position))
+    local = unit(position).conjugate() * velocity(rotor, plane, amplitudes)
+    return slip_of(local, wall_of(rotor, plane)) + (radius - 1.0)

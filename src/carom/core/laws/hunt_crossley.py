@@ -1,0 +1,62 @@
+"""A Hunt–Crossley wall: the force ``κδⁿ(1 + χδ̇)`` on a plane that is ``δ`` deep in the wall, which vanishes with the depth.
+
+The wall's ``loss`` is ``χ`` and the law's own number is ``n``.
+"""
+
+from __future__ import annotations
+
+from carom.compiling.decorators import formula
+from carom.core.laws.yielding import no_impulse
+
+impulse = impulse_by_speed = impulse_by_restitution = no_impulse
+
+
+@formula
+def force(depth, rate, wall):
+    """Normal force at a depth that grows at a rate."""
+    return wall.stiffness * max(depth, 0.0) ** wall.law_number * (1.0 + wall.loss * rate)
+
+
+@formula
+def force_coefficient(k, depth, rate, power, wall):
+    """Taylor coefficient ``k`` of the force from those of depth and rate up to it.
+
+    ``power`` receives that of ``δⁿ``, by the recurrence that follows from ``δ (δⁿ)˙ = n δ̇ δⁿ``.
+    """
+    if wall.law_number == 1.0:
+        power[k] = depth[k]
+    elif k == 0:
+        power[0] = depth[0] ** wall.law_number
+    else:
+        total = 0.0
+        for j in range(1, k + 1):
+            total += (wall.law_number * j - (k - j)) * depth[j] * power[k - j]
+        power[k] = total / (k * depth[0])
+    force = power[k]
+    for j in range(k + 1):
+        force += wall.loss * power[j] * rate[k - j]
+    return wall.stiffness * force
+
+
+@formula
+def press_coefficient(k, depth, rate, wall):
+    """Taylor coefficient ``k`` of what vanishes with the force, at any depth: ``1 + χδ̇``."""
+    return wall.loss * rate[k] + (1.0 if k == 0 else 0.0)
+
+
+@formula
+def press_rounding(of_depth, of_rate, wall):
+    """Rounding error of :func:`press_coefficient`, from those of depth and rate."""
+    return wall.loss * of_rate
+
+
+@formula
+def force_rounding(of_depth, of_rate, wall):
+    """Bound of the rounding error of the force at depths below one, from those of depth and rate."""
+    return wall.stiffness * (wall.law_number * of_depth + wall.loss * of_rate)
+
+
+@formula
+def stored_energy(depth, wall):
+    """Energy of the wall's spring."""
+    return wall.stiffness * max(depth, 0.0) ** (wall.law_number + 1.0) / (wall.law_number + 1.0)
