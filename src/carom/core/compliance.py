@@ -18,12 +18,15 @@ import math
 from carom.compiling.decorators import inlined, kernel
 from carom.core.flow import displacement, squared_modulus, velocity
 from carom.core.friction import slip_of
-from carom.core.laws.choice import force_coefficient, press_coefficient, press_rounding
+from carom.core.laws.choice import edge, force_coefficient, press_coefficient, press_rounding
 from carom.core.layout import ORDER
 from carom.core.phases import FLIGHT, SEPARATED
 from carom.core.rounding import position_rounding, speed_rounding
 from carom.core.taylor import first_fall
 from carom.core.wall import set_on_wall, unit, wall_of
+
+SHARP = 1e-4
+"""Error of the place where a series takes another form, relative to its depth: there both forms are the same."""
 
 
 @inlined
@@ -90,6 +93,19 @@ def first_release(rotor, plane, phase, step, work):
     if parted < left:
         return parted, SEPARATED, phase == SEPARATED
     return left, (FLIGHT if left < step else phase), False
+
+
+@kernel
+def next_form(rotor, plane, step, work):
+    """First time within a step at which the series of a plane's force takes another form, or the step."""
+    at = edge(work.depth[plane, 0], work.rate[plane, 0], wall_of(rotor, plane))
+    if at == 0.0:
+        return step
+    sign = -1.0 if at > 0.0 else 1.0
+    for k in range(ORDER + 1):
+        work.first_margin[k] = sign * work.depth[plane, k]
+    work.first_margin[0] += at
+    return first_fall(work.first_margin, step, SHARP * abs(at))
 
 
 @kernel

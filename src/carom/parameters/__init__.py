@@ -28,6 +28,7 @@ from carom.parameters.fields import (
     MACHINE_FIELDS,
     PARAMETERS,
     PHYSICAL_PARTNER,
+    WALL_FIELDS,
     Field,
     unknown_name,
 )
@@ -65,6 +66,7 @@ __all__ = [
     "TERMS",
     "TERM_FIELDS",
     "UNITS",
+    "WALL_FIELDS",
     "Case",
     "Field",
     "InTerms",
