@@ -17,10 +17,10 @@ import math
 
 from carom.compiling.decorators import inlined, kernel
 from carom.core.flow import displacement, squared_modulus, velocity
-from carom.core.friction import slip_of
+from carom.core.friction import friction_ratio, slip_of
 from carom.core.laws.choice import edge, force_coefficient, press_coefficient, press_rounding
 from carom.core.layout import ORDER
-from carom.core.phases import FLIGHT, SEPARATED
+from carom.core.phases import FLIGHT, ROLLING, SEPARATED, sense_of_phase
 from carom.core.rounding import position_rounding, speed_rounding
 from carom.core.taylor import first_fall
 from carom.core.wall import set_on_wall, unit, wall_of
@@ -31,35 +31,40 @@ SHARP = 1e-4
 
 @inlined
 def indent(rotor, plane, k, work):
-    """Coefficients ``k`` of normal, depth, local velocity, slip and normal force, from those of position and speed up to it."""
-    depth, normal = work.depth[plane], work.normal[plane]
-    square, local = 0.0, 0j
-    for j in range(k + 1):
-        square += (work.position[plane, j].conjugate() * work.position[plane, k - j]).real
+    """Coefficients ``k`` of normal, depth, slip, normal force and its share of the force, from those of position and speed up to it.
+
+    The depth is known one order ahead, as ``ẏ`` gives ``y`` there; so its rate needs no products.  Sums of one length share a loop:
+    their terms do not wait for one another.
+    """
+    depth, normal, speed = work.depth[plane], work.normal[plane], work.speed[plane]
+    y = work.position[plane]
     if k == 0:
-        radius = math.sqrt(square)
-        depth[0] = (square - 1.0) / (radius + 1.0)
-        normal[0] = work.position[plane, 0] / radius
-    else:
-        for j in range(1, k):
-            square -= depth[j] * depth[k - j]
-        radius = 1.0 + depth[0]
-        depth[k] = square / (2.0 * radius)
-        direction = work.position[plane, k]
-        for j in range(1, k + 1):
-            direction -= depth[j] * normal[k - j]
-        normal[k] = direction / radius
-    for j in range(k + 1):
-        local += normal[j].conjugate() * work.speed[plane, k - j]
-    work.local_speed[plane, k], work.rate[plane, k] = local, local.real
-    work.slip[plane, k] = local.imag + depth[k] + (rotor.surface_speed[plane] if k == 0 else 0.0)
+        radius = math.sqrt(squared_modulus(y[0]))
+        depth[0] = (squared_modulus(y[0]) - 1.0) / (radius + 1.0)
+    radius, ahead = 1.0 + depth[0], speed[k] / (k + 1.0)
+    square, products, direction = 2.0 * (y[0].conjugate() * ahead).real, 0.0, y[k]
+    for j in range(1, k + 1):
+        other = y[k + 1 - j]
+        square += y[j].real * other.real + y[j].imag * other.imag
+        products += depth[j] * depth[k + 1 - j]
+        direction -= depth[j] * normal[k - j]
+    depth[k + 1] = (square - products) / (2.0 * radius)
+    normal[k] = direction / radius
+    work.rate[plane, k] = (k + 1.0) * depth[k + 1]
     work.push[plane, k] = force_coefficient(k, depth, work.rate[plane], work.power[plane], wall_of(rotor, plane))
+    along, pressed = rotor.surface_speed[plane] + depth[0] if k == 0 else depth[k], 0j
+    for j in range(k + 1):
+        along += normal[j].real * speed[k - j].imag - normal[j].imag * speed[k - j].real
+        pressed += work.push[plane, j] * normal[k - j]
+    work.slip[plane, k], work.pressed[plane, k] = along, pressed
 
 
 @inlined
-def rolling_grip(plane, k, work):
+def rolling_grip(rotor, plane, k, work):
     """Coefficient ``k`` of the friction that lets a plane roll, against its acceleration in ``work.free``."""
-    turning, grip = work.local_speed[plane, k].imag, -work.rate[plane, k]
+    turning, grip = work.slip[plane, k] - work.depth[plane, k], -work.rate[plane, k]
+    if k == 0:
+        turning -= rotor.surface_speed[plane]
     for j in range(1, k + 1):
         turning -= work.depth[plane, j] * work.turning[plane, k - j]
     work.turning[plane, k] = turning / (1.0 + work.depth[plane, 0])
@@ -67,6 +72,17 @@ def rolling_grip(plane, k, work):
         grip += work.turning[plane, j] * work.rate[plane, k - j]
         grip -= (work.normal[plane, j].conjugate() * work.free[plane, k - j]).imag
     return grip
+
+
+@inlined
+def force_in_wall(rotor, phase, plane, k, work):
+    """Coefficient ``k`` of the contact force, from those of normal force and friction."""
+    if phase == ROLLING:
+        along = 0j
+        for j in range(k + 1):
+            along += work.grip[plane, j] * work.normal[plane, k - j]
+        return complex(-along.imag, along.real) - work.pressed[plane, k]
+    return complex(-1.0, friction_ratio(sense_of_phase(phase), wall_of(rotor, plane))) * work.pressed[plane, k]
 
 
 @kernel

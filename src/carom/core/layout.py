@@ -281,9 +281,10 @@ def _rub_workspace_layout(modes: int, planes: int) -> np.dtype:
         (
             ("series", COMPLEX, (ORDER + 1, modes)),
             *((name, COMPLEX, (planes, ORDER + 1)) for name in ("position", "speed", "free", "force")),
-            *((name, COMPLEX, (planes, ORDER + 1)) for name in ("normal", "local_speed")),
+            *((name, COMPLEX, (planes, ORDER + 1)) for name in ("normal", "pressed")),
             *((name, REAL, (planes, ORDER + 1)) for name in ("push", "slip", "grip")),
-            *((name, REAL, (planes, ORDER + 1)) for name in ("depth", "rate", "power", "turning")),
+            *((name, REAL, (planes, ORDER + 1)) for name in ("rate", "power", "turning")),
+            ("depth", REAL, (planes, ORDER + 2)),
             *((name, REAL, (ORDER + 1,)) for name in ("first_margin", "second_margin")),
             ("links", COMPLEX, (planes, planes, ORDER + 1)),
             ("matrix", REAL, (2 * planes, 2 * planes + 1)),
