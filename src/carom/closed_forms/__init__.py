@@ -1,4 +1,4 @@
-"""Exact results: equilibria and harmless disturbances of any linear rotor, everything else for the planar rotor.
+"""Exact results: equilibria and harmless disturbances of any linear rotor, impacts of a free mass, the rest for the planar rotor.
 
 ==================  ===================================================
 ``equilibria``      contact-free and rubbing equilibria of any linear rotor
@@ -12,6 +12,7 @@
 ``absorbing``       neighbourhoods of the rub that sliding never leaves
 ``periods``         periods of all orbits with one impact a period
 ``local``           cycles that shrink into a boundary equilibrium
+``free_impact``     impacts of a free mass on walls that give way
 ``known``           what general code may ask of any model
 ==================  ===================================================
 """
@@ -19,6 +20,7 @@
 from carom.closed_forms.absorbing import RubNeighbourhood, rub_neighbourhood
 from carom.closed_forms.equilibria import Equilibrium, EquilibriumSet, find_equilibria
 from carom.closed_forms.fading import fading_speed
+from carom.closed_forms.free_impact import FreeImpact, hunt_crossley_impact, kelvin_voigt_impact
 from carom.closed_forms.harmless import (
     harmless_blade_loss,
     harmless_kick,
@@ -35,6 +37,7 @@ __all__ = [
     "ContactSystem",
     "Equilibrium",
     "EquilibriumSet",
+    "FreeImpact",
     "LocalCycle",
     "NonSmoothHopf",
     "PeriodCondition",
@@ -50,6 +53,8 @@ __all__ = [
     "harmless_kick",
     "harmless_shock",
     "harmless_unbalance_step",
+    "hunt_crossley_impact",
+    "kelvin_voigt_impact",
     "non_smooth_hopf",
     "rolling",
     "rub_limit",
