@@ -71,6 +71,17 @@ def test_friction_takes_its_share_of_the_normal_impulse():
     assert misses[0] / misses[1] == pytest.approx(10.0, rel=0.05)  # an error of the order 1/√k
 
 
+def test_a_rotor_that_nothing_holds_falls_to_the_wall():
+    """0.25 mm at 9.81 m/s² take √(2c/g) = 7.139215615 ms, in whatever frame they are followed."""
+    clearance, speed = 0.25e-3, 1000.0
+    plane = Plane((1.0,), KelvinVoigt(STIFFNESS, 1.0), 0.2, 40.0)
+    rotor = Rotor.planar(0.0, 0.0, 0.0, 0.0, plane, weight=9.81 / (clearance * speed**2))
+    first = follow(rotor, [0.0], [0.0], 10.0).events[0]
+
+    assert first.time / speed == pytest.approx(7.139215615e-3, abs=5e-13)
+    assert first.position[0] * np.exp(1j * first.time) == pytest.approx(-1.0, abs=ERROR)
+
+
 # ------------------------------------------------------------------------------------- polar coordinates, 20 digits
 
 
