@@ -16,6 +16,7 @@
 ``machine``               :class:`Machine`, conversion to parameters and back
 ``load_limits``           :class:`LoadLimits` of a touchdown bearing
 ``indentation``           whether a rigid wall is a valid model under a load
+``restitution``           restitution and what a wall that gives way dissipates
 ``requirement``           :class:`Requirement`: what a machine must survive
 ``machine_file``          :func:`load`: file and settings -> :class:`Case`
 ``told``                  sizes and numbers as people write them: mm/s, g, degrees
