@@ -32,10 +32,9 @@ import math
 from dataclasses import dataclass
 from typing import Annotated
 
-from carom.arguments import Kind, Positive, checked
+from carom.arguments import Kind, NotNegative, Positive, checked
 from carom.continuation.roots import bracketed_root
 from carom.parameters.restitution import (
-    NotNegative,
     half_contact,
     restitution_of_damping,
     restitution_of_dissipation,

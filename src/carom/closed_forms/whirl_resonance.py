@@ -18,9 +18,8 @@ from __future__ import annotations
 
 import math
 
-from carom.arguments import Count, checked
+from carom.arguments import Count, NotNegative, checked
 from carom.outcome import InputError
-from carom.parameters.restitution import NotNegative
 
 
 @checked

@@ -42,10 +42,9 @@ from __future__ import annotations
 import math
 from typing import Annotated
 
-from carom.arguments import Kind, Positive, checked
+from carom.arguments import Kind, NotNegative, Positive, checked
 from carom.continuation.roots import bracketed_root
 
-NotNegative = Annotated[float, Kind(lambda number: number >= 0.0, "a number of at least 0")]
 Restitution = Annotated[float, Kind(lambda number: 0.0 < number <= 1.0, "a number above 0, at most 1")]
 
 SMALL = 2.0
