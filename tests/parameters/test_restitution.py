@@ -76,7 +76,7 @@ def test_damping_at_the_ends():
     assert damping_ratio_of(1e-300) == pytest.approx(5e149, rel=1e-12)
     with pytest.raises(InputError, match=r"restitution = 0\.0: a number above 0, at most 1"):
         damping_ratio_of(0.0)
-    with pytest.raises(InputError, match=r"damping_ratio = -0\.1: a number of at least 0"):
+    with pytest.raises(InputError, match=r"damping_ratio = -0\.1: a finite number of at least 0"):
         restitution_of_damping(-0.1)
 
 
@@ -138,5 +138,5 @@ def test_a_wall_of_no_restitution_and_an_arrival_without_speed_are_refused():
         dissipation_of(1.2, 1.0)
     with pytest.raises(InputError, match=r"speed = 0\.0: a finite number above 0"):
         dissipation_of(0.5, 0.0)
-    with pytest.raises(InputError, match=r"dissipation = -1\.0: a number of at least 0"):
+    with pytest.raises(InputError, match=r"dissipation = -1\.0: a finite number of at least 0"):
         restitution_of_dissipation(-1.0, 1.0)
