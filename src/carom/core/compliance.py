@@ -7,8 +7,15 @@ further out by ``δ`` in a frame that turns.  Since ``u̇ = n̄ÿ − iθ̇u``, 
 
     F = −ṙ + θ̇ṙ − Im(n̄a)
 
-against the acceleration ``a`` without own force.  All series follow from those of ``y`` and ``ẏ`` by recurrences: of ``r`` from
-``r² = |y|²``, of ``n`` from ``r n = y``.
+against the acceleration ``a`` without own force.
+
+The race of a bearing may turn too.  With its radius ``R``, its inertia ``J``, its drag and the mass ``m`` felt at the plane, its surface
+speed ``q`` in the fixed frame, a mode of its own, decays with the exponent ``λ = −drag/J`` and is driven by friction,
+``q̇ = λq − gF`` with ``g = mR²/J``.  The contact point then slips with ``v = surface_speed + δ + w − q``, and rolling needs
+
+    (1 + g) F = −ṙ + θ̇ṙ + λq − Im(n̄a).
+
+All series follow from those of ``y`` and ``ẏ`` by recurrences: of ``r`` from ``r² = |y|²``, of ``n`` from ``r n = y``.
 """
 
 from __future__ import annotations
@@ -53,6 +60,8 @@ def indent(rotor, plane, k, work):
     work.rate[plane, k] = (k + 1.0) * depth[k + 1]
     work.push[plane, k] = force_coefficient(k, depth, work.rate[plane], work.power[plane], wall_of(rotor, plane))
     along, pressed = rotor.surface_speed[plane] + depth[0] if k == 0 else depth[k], 0j
+    if rotor.race[plane] >= 0:
+        along -= work.series[k, rotor.race[plane]].real
     for j in range(k + 1):
         along += normal[j].real * speed[k - j].imag - normal[j].imag * speed[k - j].real
         pressed += work.push[plane, j] * normal[k - j]
@@ -61,8 +70,12 @@ def indent(rotor, plane, k, work):
 
 @inlined
 def rolling_grip(rotor, plane, k, work):
-    """Coefficient ``k`` of the friction that lets a plane roll, against its acceleration in ``work.free``."""
+    """Coefficient ``k`` of the friction that lets a plane roll, times ``1 + race_gain``, against its acceleration in ``work.free``."""
     turning, grip = work.slip[plane, k] - work.depth[plane, k], -work.rate[plane, k]
+    race = rotor.race[plane]
+    if race >= 0:
+        turning += work.series[k, race].real
+        grip += rotor.exponents[race].real * work.series[k, race].real
     if k == 0:
         turning -= rotor.surface_speed[plane]
     for j in range(1, k + 1):
@@ -142,4 +155,7 @@ def slip_in_wall(rotor, plane, amplitudes):
     position = displacement(rotor, plane, amplitudes)
     radius = math.sqrt(squared_modulus(position))
     local = unit(position).conjugate() * velocity(rotor, plane, amplitudes)
-    return slip_of(local, wall_of(rotor, plane)) + (radius - 1.0)
+    slip = slip_of(local, wall_of(rotor, plane)) + (radius - 1.0)
+    if rotor.race[plane] >= 0:
+        slip -= amplitudes[rotor.race[plane]].real
+    return slip

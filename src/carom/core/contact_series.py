@@ -63,6 +63,9 @@ def rub_series(rotor, contact, amplitudes, work):
                 if rotor.driven[m]:
                     rate += work.series[k, m - 1]
                 work.series[k + 1, m] = rate / (k + 1)
+            for plane in range(planes):
+                if rotor.race[plane] >= 0:
+                    work.series[k + 1, rotor.race[plane]] -= rotor.race_gain[plane] * work.grip[plane, k] / (k + 1)
 
 
 @inlined
@@ -104,6 +107,7 @@ def _force(rotor, phase, k, work):
     """Coefficient ``k`` of the contact force of a rotor with one plane, and of its part along growing angle."""
     force, grip = 0j, 0.0
     if yields(rotor, 0):
+        work.grip[0, k] = 0.0
         if lasts(phase):
             work.grip[0, k] = _grip_in_wall(rotor, 0, phase, k, work)
             force = force_in_wall(rotor, phase, 0, k, work)
@@ -125,7 +129,7 @@ def _force(rotor, phase, k, work):
 def _grip_in_wall(rotor, plane, phase, k, work):
     """Coefficient ``k`` of the friction of a plane alone in a wall that gives way."""
     if phase == ROLLING:
-        return rolling_grip(rotor, plane, k, work)
+        return rolling_grip(rotor, plane, k, work) / (1.0 + rotor.race_gain[plane])
     return friction_ratio(sense_of_phase(phase), wall_of(rotor, plane)) * work.push[plane, k]
 
 
@@ -167,6 +171,7 @@ def _balance(rotor, contact, p, k, work):
     given = yields(rotor, p)
     if rolls and given:
         along = rolling_grip(rotor, p, k, work)
+        work.matrix[2 * p + 1, 2 * p + 1] += rotor.race_gain[p]
     elif rolls:
         for j in range(k + 1):
             along -= (work.position[p, j].conjugate() * work.free[p, k - j]).imag

@@ -23,6 +23,7 @@ from carom.models.from_modes import second_order_system
 from carom.models.jeffcott import Jeffcott
 from carom.models.linear import LinearRotor
 from carom.models.model import Matrices, Model, Rates
+from carom.models.race import Race
 from carom.models.spans import Edge, Span
 from carom.models.stages import Forced, Stage, Staged, Trigger
 from carom.models.subjects import Subject, case_of, jeffcott_of, model_from, model_of
@@ -41,6 +42,7 @@ __all__ = [
     "LinearRotor",
     "Matrices",
     "Model",
+    "Race",
     "Rates",
     "Rigid",
     "Span",

@@ -12,6 +12,7 @@ import numpy as np
 from carom.arguments import Kind, NotNegative, Positive, checked
 from carom.core.laws.choice import LAWS
 from carom.core.wall import Wall
+from carom.models.race import Race
 from carom.outcome import InputError, shown
 
 _Share = Annotated[float, Kind(lambda number: 0.0 <= number <= 1.0, "a number from 0 to 1")]
@@ -135,6 +136,8 @@ class HuntCrossley:
         return HuntCrossley(self.stiffness / factor**2, self.dissipation * factor, self.exponent)
 
 
+YIELDING = (KelvinVoigt.law, HuntCrossley.law)
+"""Names of the laws of walls that give way."""
 Law = Rigid | FallingRestitution | KelvinVoigt | HuntCrossley
 """What a wall does along its normal; ``law`` is the name of its module in :mod:`carom.core.laws`."""
 
@@ -155,6 +158,8 @@ class Touchdown:
         Coulomb friction coefficient ``μ``.
     surface_speed : float
         Slip velocity of a rotor at rest in the co-rotating frame: ``s + 1``, with the rotor radius ``s`` at the plane in clearances.
+    race : Race, optional
+        Inner race that turns; by default it stands still.  Its wall has to give way.
 
     Raises
     ------
@@ -166,12 +171,17 @@ class Touchdown:
     law: Law
     friction: NotNegative
     surface_speed: _Forward
+    race: Race | None = None
 
     def __post_init__(self) -> None:
         row = np.array(self.plane, complex) if _are_numbers(self.plane) else np.empty(0)
         if row.ndim != 1 or not row.size or not np.isfinite(row).all():
             raise InputError("plane", shown(self.plane), "finite numbers, one for each coordinate of the rotor")
         object.__setattr__(self, "plane", tuple(row.tolist()))
+        if self.race is not None and self.law.law not in YIELDING:
+            raise InputError(
+                "race", self.race, "None at a rigid wall: a race that turns needs a law of a wall that gives way"
+            )
 
     @property
     def parameters(self) -> dict[str, str]:
@@ -195,13 +205,21 @@ class Touchdown:
 
     def at_speed(self, factor: float) -> Touchdown:
         """Return the same at a speed of the shaft that is larger by a factor: what is in its unit then has another number."""
-        return dataclasses.replace(self, law=self.law.at_speed(factor))
+        race = None if self.race is None else self.race.at_speed(factor)
+        return dataclasses.replace(self, law=self.law.at_speed(factor), race=race)
 
     def attributes(self) -> dict[str, Any]:
         """Return it as numbers and texts, exact to the last bit."""
         plane = [[number.real, number.imag] for number in self.plane]
         law = {"name": self.law.law, **dataclasses.asdict(self.law)}
-        return {"plane": plane, "law": law, "friction": self.friction, "surface_speed": self.surface_speed}
+        race = None if self.race is None else dataclasses.asdict(self.race)
+        return {
+            "plane": plane,
+            "law": law,
+            "friction": self.friction,
+            "surface_speed": self.surface_speed,
+            "race": race,
+        }
 
     @classmethod
     def from_attributes(cls, given: Mapping[str, Any]) -> Touchdown:
@@ -209,7 +227,8 @@ class Touchdown:
         name, numbers = given["law"]["name"], {key: given["law"][key] for key in given["law"] if key != "name"}
         (law,) = (each for each in get_args(Law) if each.law == name)
         plane = [complex(*number) for number in given["plane"]]
-        return cls(plane, law(**numbers), given["friction"], given["surface_speed"])
+        race = Race(**given["race"]) if given["race"] is not None else None
+        return cls(plane, law(**numbers), given["friction"], given["surface_speed"], race)
 
     def wall(self, mass: float) -> Wall:
         """The numbers of its wall, as the kernels take them, if the plane resists impulses with this mass."""

@@ -98,7 +98,8 @@ def simulate(
         parts.append(_follow_stage(stage.rotor, state, begins, longest, stage.trigger, options))
         if parts[-1].outcome is not Outcome.TRIGGERED:
             break
-        state = State.of(*stage.carried(parts[-1].final.position, parts[-1].final.velocity))
+        ended = parts[-1].final
+        state = State.of(*stage.carried(ended.position, ended.velocity), ended.races)
     return dataclasses.replace(parts[-1], earlier=tuple(parts[:-1])) if len(parts) > 1 else parts[0]
 
 
@@ -141,7 +142,7 @@ def _follow_stage(
         start=start,
         outcome=outcome,
         time=reached,
-        final=State.of(position, velocity),
+        final=State.of(position, velocity, rotor.system.race_speeds(amplitudes)),
         multiplicity=multiplicity,
         segment_starts=np.concatenate([np.zeros(1), *(log.times for log in logs)]),
         segment_phases=np.concatenate([np.zeros((1, len(contact)), np.int64), *(log.phases for log in logs)]),
@@ -152,14 +153,26 @@ def _follow_stage(
     )
 
 
+def tools(rotor: Model) -> tuple[np.record, np.record]:
+    """Scratch arrays for :func:`follow`."""
+    modes, planes = rotor.system.arrays["columns"].shape
+    return workspace(modes), rub_workspace(modes, planes)
+
+
 def follow(
-    rotor: Model, amplitudes: np.ndarray, until: float, contact: np.ndarray, log: EventLog, recollection: np.record
+    rotor: Model,
+    amplitudes: np.ndarray,
+    until: float,
+    contact: np.ndarray,
+    log: EventLog,
+    recollection: np.record,
+    scratch: tuple[np.record, np.record] | None = None,
 ) -> tuple[Outcome, float, int]:
     """Advance amplitudes and contacts in place until the log is full or the motion ends.
 
-    See :func:`carom.core.advance.advance`.
+    See :func:`carom.core.advance.advance`; ``scratch`` are :func:`tools`, for many motions.
     """
-    modes, system = len(amplitudes), rotor.system
-    work, rub = workspace(modes), rub_workspace(modes, len(contact))
+    system = rotor.system
+    work, rub = tools(rotor) if scratch is None else scratch
     code, *rest = advance(system.arrays, system.table, amplitudes, until, contact, log, recollection, work, rub)
     return Outcome(code), *rest
