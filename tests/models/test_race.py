@@ -171,4 +171,4 @@ def test_what_cannot_turn_is_refused():
     with pytest.raises(cm.outcome.InputError, match="start races"):
         cm.simulate(rotor_with(SOFT, Race(2.0, 1.5)), cm.State(0.1, 0.0, (1.0, 2.0)), 1.0)
     with pytest.raises(cm.outcome.InputError, match="a race that turns"):
-        cm.find_orbits(rotor_with(SOFT, Race(2.0, 1.5)), impacts=2)
+        rotor_with(SOFT, Race(2.0, 1.5)).system.refuse_forces()
