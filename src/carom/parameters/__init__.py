@@ -15,6 +15,7 @@
 ``resolution``            entries in whatever terms -> numbers of a machine
 ``machine``               :class:`Machine`, conversion to parameters and back
 ``load_limits``           :class:`LoadLimits` of a touchdown bearing
+``gravity``               :class:`Gravity`: where the rotor falls
 ``indentation``           whether a rigid wall is a valid model under a load
 ``requirement``           :class:`Requirement`: what a machine must survive
 ``machine_file``          :func:`load`: file and settings -> :class:`Case`
@@ -31,6 +32,7 @@ from carom.parameters.fields import (
     Field,
     unknown_name,
 )
+from carom.parameters.gravity import GRAVITY_FIELDS, Gravity
 from carom.parameters.in_terms import InTerms, in_terms_of
 from carom.parameters.load_limits import LIMIT_FIELDS, LoadLimits
 from carom.parameters.machine import Machine
@@ -54,6 +56,7 @@ __all__ = [
     "DIMENSIONLESS_FIELDS",
     "ENTRIES",
     "GRAVITY",
+    "GRAVITY_FIELDS",
     "HELPER_FIELDS",
     "LIMIT_FIELDS",
     "MACHINE_FIELDS",
@@ -67,6 +70,7 @@ __all__ = [
     "UNITS",
     "Case",
     "Field",
+    "Gravity",
     "InTerms",
     "LoadLimits",
     "Machine",

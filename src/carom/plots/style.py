@@ -126,6 +126,7 @@ OUTCOMES = MappingProxyType(
         "forward-rub": Look("#a52f74", Outcome.FORWARD_RUB.words, hatch="\\\\\\\\"),
         "backward-whirl": Look("#532a94", Outcome.BACKWARD_WHIRL.words, hatch="xxxx"),
         "rolling": Look("#5c1236", Outcome.ROLLING.words, hatch="////"),
+        "at-rest": Look("#7d6a4f", Outcome.AT_REST.words, hatch="++++"),
         "grazing": Look("#000000", Outcome.GRAZING.words),
         "time-reached": Look("#dcdcdc", Outcome.TIME_REACHED.words),
         "event-limit": Look("#dcdcdc", Outcome.EVENT_LIMIT.words),
