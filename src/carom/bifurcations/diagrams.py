@@ -24,8 +24,8 @@ from carom.bifurcations.steady import (
 from carom.bifurcations.words import continue_orbit, renamed
 from carom.closed_forms.known import known_of
 from carom.models import Jeffcott, Model, Subject, jeffcott_of, model_of
-from carom.models.weight import refuse_forces
 from carom.models.axes import Axis, Ends, axis, read_interval
+from carom.models.weight import refuse_forces
 from carom.orbits.names import RubbingName
 from carom.orbits.orbit import Orbit
 from carom.orbits.rubbing import rubbing_orbits

@@ -76,10 +76,10 @@ def write_netcdf(motion: Trajectory, path: str) -> None:
 
 
 def _dataset(motion: Trajectory) -> xarray.Dataset:
-    from carom.models import jeffcott_of
+    from carom.models.subjects import parameters_of
     from carom.motions.contacts import in_units, phase_flags
 
-    scales = motion.rotor.scales
+    scales, numbers = motion.rotor.scales, parameters_of(motion.rotor)
     dataset = motion.contacts.to_dataset()
     contacts = motion.lasting_contacts
     for name in ("start", "end"):
@@ -95,7 +95,7 @@ def _dataset(motion: Trajectory) -> xarray.Dataset:
         "outcome": motion.outcome.label,
         "comment": motion.outcome.meaning,
         "end_time": motion.time * (scales.time if scales else 1.0),
-        **jeffcott_of(motion.rotor).parameters.as_dict(),
+        **(numbers.as_dict() if numbers else motion.rotor.attributes()),
     }
     return dataset
 

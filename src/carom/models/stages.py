@@ -259,6 +259,13 @@ class Staged(_Around):
         return {"stages": json.dumps(stages)}
 
 
+def forces_of(model: Model) -> tuple[Force, ...]:
+    """Forces on a rotor that change with time in its frame; of a rotor in stages those of the first."""
+    if isinstance(model, Staged):
+        return forces_of(model.rotor)
+    return (*forces_of(model.rotor), *model.forces) if isinstance(model, Forced) else ()
+
+
 def stages_of(model: Model) -> tuple[Stage, ...]:
     """Stages in which a model moves; of most there is one without an end."""
     return model.stages if isinstance(model, Staged) else (Stage(model),)

@@ -12,7 +12,7 @@ from carom.models.forcing import EQUAL, Force
 from carom.models.jeffcott import Jeffcott
 from carom.models.linear import LinearRotor
 from carom.models.model import Model
-from carom.models.stages import Forced, Staged
+from carom.models.stages import Forced, forces_of
 from carom.models.touchdown import Rigid, Touchdown
 from carom.outcome import InputError, shown
 from carom.parameters import Gravity
@@ -42,12 +42,7 @@ def weighted(rotor: Model, gravity: Gravity) -> Forced:
 
 def weight_of(model: Model) -> np.ndarray | None:
     """Accelerations (n,) of the coordinates by forces that are constant in the fixed frame; ``None`` if none acts."""
-    rotor = model.rotor if isinstance(model, Staged) else model
-    steady = [
-        force.accelerations
-        for force in (rotor.forces if isinstance(rotor, Forced) else ())
-        if abs(force.exponent - STEADY) <= EQUAL
-    ]
+    steady = [force.accelerations for force in forces_of(model) if abs(force.exponent - STEADY) <= EQUAL]
     total: np.ndarray = np.sum(steady, axis=0)
     return total if steady and total.any() else None
 
@@ -69,7 +64,9 @@ def levitation_of(model: Model) -> tuple[np.ndarray, np.ndarray]:
     """
     reach = model.system.rest_radius
     if reach >= 1.0:
-        reaches = "none, nothing holds the rotor" if reach == np.inf else f"up to {reach:.4g} clearances from the centre"
+        reaches = (
+            "none, nothing holds the rotor" if reach == np.inf else f"up to {reach:.4g} clearances from the centre"
+        )
         raise InputError("levitation", reaches, "static sag and whirl must stay inside the wall: below 1")
     return model.system.kicked(0.0)
 
