@@ -61,7 +61,9 @@ def jeffcott_of(subject: Subject) -> Jeffcott:
 
 
 def parameters_of(model: Model) -> Parameters | None:
-    """Parameters of the planar rotor; ``None`` of other models, whose numbers are matrices."""
+    """Parameters of the planar rotor, whatever forces act on it; ``None`` of other models, whose numbers are matrices."""
+    if isinstance(model, Forced):
+        return parameters_of(model.rotor)
     return model.parameters if isinstance(model, Jeffcott) else None
 
 
