@@ -13,6 +13,7 @@ from carom.core.event_log import EventLog
 from carom.core.layout import rub_workspace, workspace
 from carom.models import Model, Subject, Trigger, model_of
 from carom.models.stages import stages_of
+from carom.motions.drops import Drop
 from carom.motions.settling import (
     LOW_FOR,
     PATIENCE,
@@ -36,7 +37,7 @@ CHUNK = 4096
 @shows_progress
 def simulate(
     machine: Subject,
-    start: State | Kick,
+    start: State | Kick | Drop,
     until: Until | None = None,
     *,
     settle: bool | None = None,
@@ -51,8 +52,8 @@ def simulate(
     ----------
     machine : Machine, Case, Parameters or model
         Of a :class:`carom.models.Staged` the last stage reached is returned, with the ``earlier`` ones.
-    start : State or Kick
-        On the wall (``|U| = 1`` to within 1e-12) or inside it.
+    start : State, Kick or Drop
+        On the wall (``|U| = 1`` to within 1e-12) or inside it.  After a drop the rotor of the motion is the one that falls.
     until : float or str, optional
         Time to follow it, in ``1/Ω`` or text with a unit, such as ``"2 s"``; by default to where it settles, at most
         for :func:`~carom.motions.settling.longest_time`.
@@ -73,7 +74,7 @@ def simulate(
     See Also
     --------
     carom.settle : many starts at once
-    carom.kick, carom.State : starts
+    carom.kick, carom.drop, carom.State : starts
     carom.motions.energy_ledger, carom.motions.full_spectrum : evaluate a motion
 
     Examples
@@ -87,6 +88,8 @@ def simulate(
     257
     """
     model = model_of(machine)
+    if isinstance(start, Drop):
+        model, start = start.stages(machine)
     state = start.state(model) if isinstance(start, Kick) else start
     settle = until is None if settle is None else settle
     end = None if until is None and settle else time_until(until, model.scales)

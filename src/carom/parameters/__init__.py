@@ -15,6 +15,7 @@
 ``resolution``            entries in whatever terms -> numbers of a machine
 ``machine``               :class:`Machine`, conversion to parameters and back
 ``load_limits``           :class:`LoadLimits` of a touchdown bearing
+``gravity``               :class:`Gravity`: where the rotor falls
 ``indentation``           whether a rigid wall is a valid model under a load
 ``restitution``           restitution and what a wall that gives way dissipates
 ``requirement``           :class:`Requirement`: what a machine must survive
@@ -33,6 +34,7 @@ from carom.parameters.fields import (
     Field,
     unknown_name,
 )
+from carom.parameters.gravity import GRAVITY_FIELDS, Gravity
 from carom.parameters.in_terms import InTerms, in_terms_of
 from carom.parameters.load_limits import LIMIT_FIELDS, LoadLimits
 from carom.parameters.machine import Machine
@@ -56,6 +58,7 @@ __all__ = [
     "DIMENSIONLESS_FIELDS",
     "ENTRIES",
     "GRAVITY",
+    "GRAVITY_FIELDS",
     "HELPER_FIELDS",
     "LIMIT_FIELDS",
     "MACHINE_FIELDS",
@@ -70,6 +73,7 @@ __all__ = [
     "WALL_FIELDS",
     "Case",
     "Field",
+    "Gravity",
     "InTerms",
     "LoadLimits",
     "Machine",
