@@ -64,7 +64,7 @@ def test_levitation_is_a_circle_about_the_static_sag():
 def test_a_rotor_that_sags_to_the_wall_does_not_levitate():
     with pytest.raises(InputError, match=r"^levitation = up to 1.97 clearances from the centre: .* inside the wall"):
         levitation_of(model_of(HEAVY.replace(stiffness="1e5 N/m")))
-    with pytest.raises(InputError, match="^levitation = none, nothing holds the rotor"):
+    with pytest.raises(InputError, match=r"^levitation = none, nothing holds the rotor"):
         levitation_of(without_levitation(ROTOR))
 
 
@@ -111,6 +111,6 @@ def test_what_needs_a_rotor_at_rest_in_its_frame_names_gravity_and_what_works(as
 
 def test_other_forces_are_not_called_gravity():
     shaken = Forced(Jeffcott(PAPER), (Force(0.3j, np.array([0.1])),))
-    with pytest.raises(InputError, match="^machine = a rotor under forces that change with time: "):
+    with pytest.raises(InputError, match=r"^machine = a rotor under forces that change with time: "):
         refuse_forces(shaken)
     assert Parameters(**vars(PAPER)) == cm.models.subjects.parameters_of(shaken)

@@ -128,5 +128,5 @@ def test_rotors_of_several_coordinates_are_dropped_in_stages():
 
 
 def test_a_kick_out_of_levitation_that_is_not_there_is_refused():
-    with pytest.raises(InputError, match="^levitation = up to 1.97 clearances"):
+    with pytest.raises(InputError, match=r"^levitation = up to 1.97 clearances"):
         cm.simulate(HEAVY.replace(stiffness="1e5 N/m"), cm.kick(0.1))

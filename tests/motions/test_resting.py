@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 import carom as cm
-from carom.models import Force, Forced, Jeffcott, model_of
+from carom.models import Force, Forced, Jeffcott
 from carom.motions.resting import lies
 from carom.outcome import Outcome, Phase
 

@@ -26,7 +26,6 @@ _COLOURS = {
     WITH_RUB: OUTCOMES["mixed"].colour,
     IRREGULAR_BOUNCING: OUTCOMES["irregular"].colour,
     Outcome.BACKWARD_WHIRL.words: OUTCOMES["backward-whirl"].colour,
-    Outcome.AT_REST.words: OUTCOMES["at-rest"].colour,
     ROLLING: OUTCOMES["rolling"].colour,
 }
 ROWS = tuple(_COLOURS)
