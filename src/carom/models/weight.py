@@ -88,7 +88,7 @@ def without_levitation(model: Model) -> Model:
         return replace(model, levitates=False)
     if isinstance(model, Jeffcott):
         at = model.parameters
-        touchdowns = (Touchdown((1.0,), Rigid(at.d), at.mu, at.radius_ratio + 1.0),)
+        touchdowns: tuple[Touchdown, ...] = (Touchdown((1.0,), Rigid(at.d), at.mu, at.radius_ratio + 1.0),)
     elif isinstance(model, LinearRotor) and len(model.mass) == 1:
         touchdowns = tuple(model.touchdowns)
     else:
