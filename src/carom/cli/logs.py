@@ -45,8 +45,22 @@ def check_file(option: str, path: str) -> None:
 def write_csv(motion: Trajectory, path: str) -> None:
     """Write impacts and lasting contacts as CSV in order of time, in SI units if the machine is known.
 
-    A lasting contact fills only ``kind``, ``time`` and ``end``.
+    A lasting contact fills only ``kind``, ``time`` and ``end``.  Of a wall that gives way each contact is a row of its own table.
     """
+    from carom.motions.contacts import yields
+
+    table = _touches if yields(motion.rotor.system, motion.plane) else _impacts
+    text = StringIO(newline="")
+    writer = csv.writer(text)
+    header, rows = table(motion)
+    writer.writerow(header)
+    writer.writerows(rows)
+    with _refusals("--csv", path):
+        write_whole(Path(path), text.getvalue().encode())
+
+
+def _impacts(motion: Trajectory) -> tuple[list[str], list[list[object]]]:
+    """Heading and rows of impacts and lasting contacts."""
     log = motion.contacts.to_dataset()
     time_unit = log["time"].attrs["units"]
     rest = [column for name, column in log.items() if name != "time"]
@@ -60,12 +74,16 @@ def write_csv(motion: Trajectory, path: str) -> None:
         start, end = contact.start * scale, contact.end * scale
         rows.append((start, [f"{contact.kind} ({contact.phase.label})", start, end, *[""] * len(rest)]))
 
-    text = StringIO(newline="")
-    writer = csv.writer(text)
-    writer.writerow(header)
-    writer.writerows(row for _, row in sorted(rows, key=lambda entry: entry[0]))
-    with _refusals("--csv", path):
-        write_whole(Path(path), text.getvalue().encode())
+    return header, [row for _, row in sorted(rows, key=lambda entry: entry[0])]
+
+
+def _touches(motion: Trajectory) -> tuple[list[str], list[list[object]]]:
+    """Heading and rows of contacts with a wall that gives way."""
+    table = motion.touches.to_dataset()
+    rest = [column for name, column in table.items() if name != "phase"]
+    header = ["kind", *(f"{column.name} [{column.attrs['units']}]" for column in rest)]
+    kinds = [Phase(phase).label for phase in table["phase"].values.tolist()]
+    return header, [[*row] for row in zip(kinds, *(column.values.tolist() for column in rest), strict=True)]
 
 
 def write_netcdf(motion: Trajectory, path: str) -> None:
@@ -76,11 +94,13 @@ def write_netcdf(motion: Trajectory, path: str) -> None:
 
 
 def _dataset(motion: Trajectory) -> xarray.Dataset:
-    from carom.models import jeffcott_of
-    from carom.motions.contacts import in_units, phase_flags
+    from carom.models.subjects import parameters_of
+    from carom.motions.contacts import in_units, phase_flags, yields
 
-    scales = motion.rotor.scales
+    scales, planar = motion.rotor.scales, parameters_of(motion.rotor)
     dataset = motion.contacts.to_dataset()
+    if yields(motion.rotor.system, motion.plane):
+        dataset = motion.touches.to_dataset()
     contacts = motion.lasting_contacts
     for name in ("start", "end"):
         times = np.array([getattr(contact, name) for contact in contacts], float)
@@ -95,7 +115,7 @@ def _dataset(motion: Trajectory) -> xarray.Dataset:
         "outcome": motion.outcome.label,
         "comment": motion.outcome.meaning,
         "end_time": motion.time * (scales.time if scales else 1.0),
-        **jeffcott_of(motion.rotor).parameters.as_dict(),
+        **(planar.as_dict() if planar else motion.rotor.attributes()),
     }
     return dataset
 

@@ -60,6 +60,11 @@ class EnergyLedger(Table):
         return self.kinetic + self.spring + self.wall
 
     @property
+    def wall_loss(self) -> np.ndarray:
+        """What walls that give way have taken since the start: in their dampers, and where planes part from them; never positive."""
+        return self.wall_damping + self.parting
+
+    @property
     def works(self) -> tuple[np.ndarray, ...]:
         """All works since the start."""
         contact = self.impacts, self.friction, self.drive, self.wall_damping, self.parting
