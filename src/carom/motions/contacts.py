@@ -195,7 +195,8 @@ class ContactHistory(Table):
 
     In flight, and where a plane has parted from its wall, forces, slip and powers are zero.  Phases are those of
     :class:`~carom.outcome.Phase`.  The slip velocity of the contact point is ``v = s + r(1 + θ̇)`` at the radius ``r``, which is one on a
-    rigid wall; the power of friction is ``F v`` and that of the drive ``−F s``.  In a wall that gives way the gap is negative: the depth.
+    rigid wall, less the speed of the race's surface if that turns; the power of friction is ``F v`` and that of the drive ``−F s``.  In a wall
+    that gives way the gap is negative: the depth.
     """
 
     time: np.ndarray = field(metadata=column("time", "time"))
@@ -222,14 +223,14 @@ class ContactHistory(Table):
         plane: int,
         times: np.ndarray,
         phases: np.ndarray,
-        state: tuple[np.ndarray, np.ndarray],
+        amplitudes: np.ndarray,
         forces: tuple[np.ndarray, np.ndarray],
     ) -> ContactHistory:
-        """History at a plane from positions and velocities, and normal and friction forces, each of shape (n,)."""
-        position, velocity = state
+        """History at a plane from amplitudes (n, N), and normal and friction forces, each of shape (n,)."""
+        position, _ = rotor.system.at_plane(amplitudes, plane)
         surface_speed = float(rotor.system.arrays.surface_speed[plane])
         normal, friction = forces
-        slip = np.where(presses(phases), slip_velocity(rotor.system, plane, position, velocity), 0.0)
+        slip = np.where(presses(phases), slip_velocity(rotor.system, plane, amplitudes), 0.0)
         return cls(
             time=times,
             phase=phases,
@@ -261,14 +262,24 @@ def yields(system: System, plane: int) -> bool:
     return system.contacts[plane].wall.stiffness > 0.0
 
 
-def slip_velocity(system: System, plane: int, position: np.ndarray, velocity: np.ndarray) -> np.ndarray:
-    """Slip velocity of the contact point at a plane, ``v = s + r(1 + θ̇)``; on a rigid wall ``r`` is one."""
+def slip_velocity(system: System, plane: int, amplitudes: np.ndarray) -> np.ndarray:
+    """Slip velocity (...) of the contact point at a plane in amplitudes (..., N), ``v = s + r(1 + θ̇) − q``.
+
+    On a rigid wall ``r`` is one.  The surface of a race that turns has the speed ``q``.
+    """
     surface_speed = system.contacts[plane].wall.surface_speed
+    position, velocity = system.at_plane(amplitudes, plane)
     along: np.ndarray = (position.conj() * velocity).imag
     if not yields(system, plane):
         return surface_speed + along
     radius = np.abs(position)
-    return surface_speed + (radius - 1.0) + along / radius
+    return surface_speed + (radius - 1.0) + along / radius - race_speed(system, plane, amplitudes)
+
+
+def race_speed(system: System, plane: int, amplitudes: np.ndarray) -> np.ndarray:
+    """Speed (...) of the surface of the race at a plane in amplitudes (..., N), in the fixed frame; zero of one that does not turn."""
+    mode = int(system.arrays.race[plane])
+    return amplitudes[..., mode].real if mode >= 0 else np.zeros(amplitudes.shape[:-1])
 
 
 def phase_flags(phases: Iterable[Phase]) -> dict[str, Any]:

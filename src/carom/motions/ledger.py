@@ -9,7 +9,8 @@ import numpy as np
 
 from carom.arguments import checked
 from carom.models import Matrices
-from carom.motions.contacts import Table, column, presses, slip_velocity, yields
+from carom.models.stages import forces_of
+from carom.motions.contacts import Table, column, presses, race_speed, slip_velocity, yields
 from carom.motions.quadrature import NODES, WEIGHTS, pieces
 from carom.motions.touches import in_wall, stored
 from carom.motions.trajectories import Trajectory
@@ -40,13 +41,16 @@ class EnergyLedger(Table):
     kinetic: np.ndarray = field(metadata=column("energy", "kinetic energy of all masses"))
     spring: np.ndarray = field(metadata=column("energy", "energy of the springs"))
     wall: np.ndarray = field(metadata=column("energy", "energy of the springs of walls that press on the rotor"))
+    races: np.ndarray = field(metadata=column("energy", "kinetic energy of the races that turn"))
     unbalance: np.ndarray = field(metadata=column("energy", "work of the unbalance since the start"))
     damping: np.ndarray = field(metadata=column("energy", "work of damping since the start"))
     circulatory: np.ndarray = field(metadata=column("energy", "work of circulatory forces since the start"))
+    forces: np.ndarray = field(metadata=column("energy", "work of weight and other outer forces since the start"))
     impacts: np.ndarray = field(metadata=column("energy", "work at the contact point in impacts since the start"))
     friction: np.ndarray = field(metadata=column("energy", "work of friction in lasting contact since the start"))
     drive: np.ndarray = field(metadata=column("energy", "work of the shaft's drive through friction since the start"))
     wall_damping: np.ndarray = field(metadata=column("energy", "work of the dampers of walls since the start"))
+    race_drag: np.ndarray = field(metadata=column("energy", "work of drag on the races that turn since the start"))
     parting: np.ndarray = field(
         metadata=column("energy", "energy of the springs of walls lost where planes part from them, since the start")
     )
@@ -56,8 +60,8 @@ class EnergyLedger(Table):
 
     @property
     def energy(self) -> np.ndarray:
-        """Kinetic energy and that of the springs, of the walls too."""
-        return self.kinetic + self.spring + self.wall
+        """Kinetic energy, that of the springs, and what walls and races hold."""
+        return self.kinetic + self.spring + self.wall + self.races
 
     @property
     def wall_loss(self) -> np.ndarray:
@@ -67,13 +71,14 @@ class EnergyLedger(Table):
     @property
     def works(self) -> tuple[np.ndarray, ...]:
         """All works since the start."""
-        contact = self.impacts, self.friction, self.drive, self.wall_damping, self.parting
-        return self.unbalance, self.damping, self.circulatory, *contact
+        contact = self.impacts, self.friction, self.drive, self.wall_damping, self.parting, self.race_drag
+        return self.unbalance, self.damping, self.circulatory, self.forces, *contact
 
     @property
     def supplied(self) -> np.ndarray:
         """Sum of all works since the start."""
-        return sum(self.works[1:], self.works[0])
+        total: np.ndarray = np.sum(self.works, axis=0)
+        return total
 
     @property
     def imbalance(self) -> float:
@@ -89,15 +94,16 @@ def energy_ledger(trajectory: Trajectory) -> EnergyLedger:
 
     With ``w = U̇ + iU`` (velocities in the fixed frame, seen in the co-rotating one) and ``K = K₀ + K₁``, Hermitian and
     skew-Hermitian, the energy ``(wᴴMw + UᴴK₀U)/2`` changes by the power ``Re(wᴴF)`` of the unbalance, ``−wᴴDw`` of the
-    damping, ``−Re(wᴴK₁U)`` of the circulatory forces and that of the contact forces.  A friction force ``F`` does the
-    work ``F v`` on the contact point, which slips with ``v = s + r(1 + θ̇)``, and the rest ``−F s`` comes from the drive: the centre moves
-    along the wall with ``r(1 + θ̇)``.  The normal force ``N`` of a wall that gives way takes ``Nδ̇`` at the depth ``δ = r − 1``, which goes into its
-    spring and its damper.
+    damping, ``−Re(wᴴK₁U)`` of the circulatory forces, ``Re(wᴴMa(t))`` of forces that accelerate the coordinates by ``a(t)``, such
+    as weight, and that of the contact forces.  A friction force ``F`` does the work ``F v`` on the contact point, which slips with
+    ``v = s + r(1 + θ̇) − q``, and the drive gives ``−F s``: the centre moves along the wall with ``r(1 + θ̇)``, and a race that turns, whose
+    surface moves with ``q``, takes ``−F q``.  The normal force ``N`` of a wall that gives way takes ``Nδ̇`` at the depth ``δ = r − 1``, which
+    goes into its spring and its damper.
 
     Raises
     ------
     InputError
-        The mass matrix is not Hermitian, so there is no kinetic energy; or forces act that change with time.
+        The mass matrix is not Hermitian, so there is no kinetic energy.
 
     See Also
     --------
@@ -112,7 +118,6 @@ def energy_ledger(trajectory: Trajectory) -> EnergyLedger:
     >>> ledger.imbalance < 1e-12
     True
     """
-    trajectory.rotor.system.refuse_forces()
     matrices = trajectory.rotor.matrices
     edges, counts = pieces(trajectory)
     if np.abs(matrices.mass - matrices.mass.conj().T).max() > HERMITIAN * np.abs(matrices.mass).max():
@@ -138,6 +143,7 @@ def energy_ledger(trajectory: Trajectory) -> EnergyLedger:
         skew = np.zeros_like(skew)
     kinetic, spring = _stored(trajectory, matrices)
     wall, parting, dampers = _walls(trajectory, counts, half)
+    races, drag = _races(trajectory, times)
     impact, landing = (trajectory.blows(each).events for each in (trajectory.is_impact, trajectory.is_landing))
     impacts, landings = trajectory.log_of(trajectory.is_impact), trajectory.log_of(trajectory.is_landing)
     return EnergyLedger(
@@ -145,17 +151,29 @@ def energy_ledger(trajectory: Trajectory) -> EnergyLedger:
         kinetic=kinetic,
         spring=spring,
         wall=wall,
+        races=races,
         unbalance=work((fixed.conj() @ matrices.forcing).real),
         damping=work(-_form(fixed, matrices.damping, fixed)),
         circulatory=work(-_form(fixed, skew, position)),
+        forces=work(_power_of_forces(trajectory, times, fixed)),
         impacts=at_events(impact, impacts.contact_work),
         # A landing stands for the last bounces of a chatter; its work is a correction to their friction.
         friction=work(slides) + at_events(landing, landings.contact_work),
         drive=work(drives) + at_events(impact, impacts.drive_work) + at_events(landing, landings.drive_work),
         wall_damping=work(dampers),
+        race_drag=work(drag),
         parting=parting,
         scales=trajectory.rotor.scales,
     )
+
+
+def _power_of_forces(trajectory: Trajectory, times: np.ndarray, velocity: np.ndarray) -> np.ndarray:
+    """Power of the forces that change with time in the frame of the rotor, weight among them; velocities (..., n) in the fixed frame."""
+    power, since = np.zeros(times.shape), trajectory.begins + times
+    for force in forces_of(trajectory.rotor):
+        push = trajectory.rotor.matrices.mass @ force.accelerations
+        power += ((velocity.conj() @ push) * np.exp(force.exponent * since)).real
+    return power
 
 
 def _form(left: np.ndarray, matrix: np.ndarray, right: np.ndarray) -> np.ndarray:
@@ -174,8 +192,9 @@ def _in_fixed_frame(position: np.ndarray, velocity: np.ndarray, coordinates: int
 def contact_power(motion: Trajectory, times: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Powers of friction on the contact point of a plane and of the drive."""
     system = motion.rotor.system
-    slip = slip_velocity(system, motion.plane, *motion.at_plane(times))
-    _, grip = motion.forces(times)
+    amplitudes, phases = motion.amplitudes_at(times)
+    slip = slip_velocity(system, motion.plane, amplitudes)
+    _, grip = motion.forces_of(amplitudes, phases)
     return grip * slip, -(float(system.arrays.surface_speed[motion.plane]) - 1.0) * grip
 
 
@@ -195,6 +214,21 @@ def _walls(trajectory: Trajectory, counts: np.ndarray, half: np.ndarray) -> tupl
         elapsed = half[places, None] * (1.0 + NODES)  # a segment of contact is one piece
         power[places] -= in_wall(motion, np.flatnonzero(pressed), elapsed).lost
     return held, np.cumsum(lost), power
+
+
+def _races(trajectory: Trajectory, times: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Kinetic energy of the races that turn, at the times of the ledger, and the power of their drag."""
+    system = trajectory.rotor.system
+    arrays, kinetic, power = system.arrays, np.zeros(len(trajectory.segment_starts) + 1), np.zeros(times.shape)
+    for plane in np.flatnonzero(arrays.race >= 0).tolist():
+        inertia = arrays.masses[plane] / arrays.race_gain[plane]  # by the square of the radius
+        speeds = race_speed(
+            system, plane, np.concatenate([trajectory.segment_amplitudes, trajectory.segment_ends[-1:]])
+        )
+        kinetic += 0.5 * inertia * speeds**2
+        speed = race_speed(system, plane, trajectory.amplitudes_at(times)[0])
+        power += inertia * arrays.exponents[arrays.race[plane]].real * speed**2
+    return kinetic, power
 
 
 def _stored(trajectory: Trajectory, matrices: Matrices) -> tuple[np.ndarray, np.ndarray]:

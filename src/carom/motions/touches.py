@@ -27,9 +27,9 @@ class TouchLog(Table):
     """Contacts of a plane with a wall that gives way, in chronological order; all arrays have shape (n,).
 
     A contact lasts from entering the wall until leaving it, through sliding, rolling and the times in between in which the plane has
-    parted from a wall that comes back more slowly.  The friction does the work ``F v`` on the contact point, which slips with
-    ``v = s + r + (r θ̇)``, and the rest ``−F s`` comes from the drive.  Along the normal the wall takes the work of its damper, and what its
-    spring holds where plane and wall part.
+    parted from a wall that comes back more slowly.  The friction ``F`` does the work ``F v`` on the contact point, which slips with
+    ``v = s + r(1 + θ̇)``, less the speed of the race's surface if that turns; the drive gives ``−F s``.  Along the normal the wall takes
+    the work of its damper, and what its spring holds where plane and wall part.
     """
 
     plane: np.ndarray = field(metadata=column("1", "contact plane"))
@@ -95,7 +95,7 @@ def in_wall(motion: Trajectory, segments: np.ndarray, elapsed: np.ndarray) -> In
     normal, friction = motion.forces_of(amplitudes, phases)
     radius, held = np.abs(position), presses(phases[..., plane])
     rate = (position.conj() * velocity).real / radius
-    slip = np.where(held, slip_velocity(system, plane, position, velocity), 0.0)
+    slip = np.where(held, slip_velocity(system, plane, amplitudes), 0.0)
 
     def damper(depth: float, rate: float, wall: Wall) -> float:
         return float(force(depth, rate, wall) - force(depth, 0.0, wall))

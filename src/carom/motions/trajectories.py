@@ -197,16 +197,16 @@ class Trajectory(Result):
         InputError
             A time outside the range followed.
         """
-        amplitudes, _ = self._amplitudes_at(np.asarray(times, float))
+        amplitudes, _ = self.amplitudes_at(np.asarray(times, float))
         return self.rotor.system.state(amplitudes)
 
     @checked
     def at_plane(self, times: Reals) -> tuple[np.ndarray, np.ndarray]:
         """Displacement of the contact plane and its rate at given times, in its clearances; see :meth:`at`."""
-        amplitudes, _ = self._amplitudes_at(np.asarray(times, float))
+        amplitudes, _ = self.amplitudes_at(np.asarray(times, float))
         return self.rotor.system.at_plane(amplitudes, self.plane)
 
-    def _amplitudes_at(self, times: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    def amplitudes_at(self, times: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Mode amplitudes and phases at given times."""
         flat = times.ravel()
         slack = ROUNDING * self.time
@@ -248,7 +248,7 @@ class Trajectory(Result):
         normal, friction : ndarray
             The normal force presses the rotor inward; friction is positive along growing angle.
         """
-        return self.forces_of(*self._amplitudes_at(np.asarray(times, float)))
+        return self.forces_of(*self.amplitudes_at(np.asarray(times, float)))
 
     def forces_of(self, amplitudes: np.ndarray, phases: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Normal and friction force at the plane in given amplitudes (..., N) and phases (..., P)."""
@@ -262,9 +262,9 @@ class Trajectory(Result):
     def history(self, times: Reals | None = None) -> ContactHistory:
         """Forces, slip and powers of lasting contact at given times, by default those of :meth:`sample`."""
         times = self.sample() if times is None else np.asarray(times, float)
-        _, phases = self._amplitudes_at(times)
-        state, forces = self.at_plane(times), self.forces(times)
-        return ContactHistory.from_states(self.rotor, self.plane, times, phases[..., self.plane], state, forces)
+        amplitudes, phases = self.amplitudes_at(times)
+        forces = self.forces_of(amplitudes, phases)
+        return ContactHistory.from_states(self.rotor, self.plane, times, phases[..., self.plane], amplitudes, forces)
 
     @checked
     def to_dataset(self, times: Reals | None = None) -> xarray.Dataset:
