@@ -95,9 +95,10 @@ def test_energies_in_joules():
     scales = carom.parameters.Scales(mass=50.0, clearance=0.7e-3, speed=184.2)
     ledger = energy_ledger(carom.simulate(_rotor(0.2), carom.State(0.2 + 0.1j, 0.5 + 0.3j), until=30.0))
     table, plain = replace(ledger, scales=scales).to_dataset(), ledger.to_dataset()
-    assert {name: table[name].attrs["units"] for name in table} == dict.fromkeys(
-        ("kinetic", "spring", "unbalance", "damping", "circulatory", "forces", "impacts", "friction", "drive"), "J"
-    )
+    works = ("unbalance", "damping", "circulatory", "forces", "impacts", "friction", "drive")
+    of_walls = ("wall", "wall_damping", "parting", "races", "race_drag")
+    names = ("kinetic", "spring", *works, *of_walls)
+    assert {name: table[name].attrs["units"] for name in table} == dict.fromkeys(names, "J")
     assert table["times"].attrs["units"] == "s"
     joules = 50.0 * (0.7e-3 * 184.2) ** 2
     assert np.allclose(table["friction"], joules * ledger.friction, rtol=1e-14, atol=0)
