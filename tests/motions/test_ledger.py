@@ -58,6 +58,34 @@ def test_a_missing_account_would_show():
     assert without_drive > 1e-2 * np.abs(ledger.drive).max()
 
 
+@pytest.mark.jit_only
+@pytest.mark.parametrize(
+    "settings", [["damping=1 N s/m"], ["eccentricity=0.1 mm", "restitution=0.9"], ["stiffness=1e5 N/m"]]
+)
+@pytest.mark.parametrize("drops", [False, True])
+def test_energy_under_gravity_closes_with_the_work_of_the_weight(settings, drops):
+    heavy = carom.load("examples/dropped-rotor.toml", settings)
+    start = carom.drop(carom.State(0.4j, 2.0), regained_after="40 ms") if drops else carom.State(0.4j, 2.0)
+    motion = carom.simulate(heavy, start, until=200.0)
+    assert len(motion.parts[0].contacts) > 3
+    for part in motion.parts:
+        ledger = energy_ledger(part)
+        assert ledger.imbalance < 1e-10
+        # The work of the weight is what the height of the centre says, at the ends of all segments.
+        height = part.position(ledger.times, "fixed").imag
+        pull = 9.81 / heavy.parameters.scales.acceleration
+        assert ledger.forces == pytest.approx(pull * (height[0] - height), abs=1e-11)
+
+
+@pytest.mark.jit_only
+def test_energy_of_a_shaken_heavy_rotor_closes():
+    heavy = carom.models.model_of(carom.load("examples/dropped-rotor.toml"))
+    shaken = carom.models.Forced(heavy, (carom.models.Force(0.4j, np.array([0.05 + 0.02j])),))
+    ledger = energy_ledger(carom.simulate(shaken, carom.State(0.4j, 2.0), until=100.0))
+    assert ledger.imbalance < 1e-10
+    assert np.abs(ledger.forces).max() > 0.01
+
+
 def test_a_rotor_at_rest_has_nothing_to_account_for():
     centred = carom.parameters.Parameters(gamma=0.1, omega=0.76, rho=0.0, phi=0.0, mu=0.15, d=0.95, radius_ratio=57.0)
     ledger = energy_ledger(carom.simulate(carom.models.Jeffcott(centred), carom.State(0j, 0j), until=10.0))
@@ -69,13 +97,10 @@ def test_energies_in_joules():
     scales = carom.parameters.Scales(mass=50.0, clearance=0.7e-3, speed=184.2)
     ledger = energy_ledger(carom.simulate(_rotor(0.2), carom.State(0.2 + 0.1j, 0.5 + 0.3j), until=30.0))
     table, plain = replace(ledger, scales=scales).to_dataset(), ledger.to_dataset()
-    assert {name: table[name].attrs["units"] for name in table} == dict.fromkeys(
-        (
-            *("kinetic", "spring", "wall", "races", "unbalance", "damping", "circulatory", "forces", "impacts"),
-            *("friction", "drive", "wall_damping", "race_drag", "parting"),
-        ),
-        "J",
-    )
+    works = ("unbalance", "damping", "circulatory", "forces", "impacts", "friction", "drive")
+    of_walls = ("wall", "wall_damping", "parting", "races", "race_drag")
+    names = ("kinetic", "spring", *works, *of_walls)
+    assert {name: table[name].attrs["units"] for name in table} == dict.fromkeys(names, "J")
     assert table["times"].attrs["units"] == "s"
     joules = 50.0 * (0.7e-3 * 184.2) ** 2
     assert np.allclose(table["friction"], joules * ledger.friction, rtol=1e-14, atol=0)

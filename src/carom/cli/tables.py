@@ -10,6 +10,7 @@ from dataclasses import fields
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import numpy as np
 from rich.console import Console
 from rich.padding import Padding
 from rich.table import Table
@@ -195,9 +196,9 @@ def print_motion(console: Console, case: Case, motion: Trajectory) -> None:
 
 def _final_words(say: Wording, motion: Trajectory) -> str:
     """Where a rotor that weighs something is at the end, and how fast, in the fixed frame."""
-    place, rate = motion.at_plane(motion.time)
+    (seen,), (rate,) = motion.at_plane(np.array([motion.time]))
     turn = cmath.exp(1j * (motion.begins + motion.time))
-    place, speed = complex(place) * turn, complex(rate + 1j * place) * turn
+    place, speed = complex(seen) * turn, complex(rate + 1j * seen) * turn
     return (
         f"At the end, in the fixed frame: {say.radius(abs(place))} from the centre at {told_angle(cmath.phase(place))}, moving with "
         f"{say.velocity(abs(speed))} at {told_angle(cmath.phase(speed))}"

@@ -21,6 +21,7 @@
 from carom.models.axes import Axis, axis
 from carom.models.forcing import Force
 from carom.models.from_modes import second_order_system
+from carom.models.in_bearing import InBearing
 from carom.models.jeffcott import Jeffcott
 from carom.models.linear import LinearRotor
 from carom.models.model import Matrices, Model, Rates
@@ -38,6 +39,7 @@ __all__ = [
     "Force",
     "Forced",
     "HuntCrossley",
+    "InBearing",
     "Jeffcott",
     "KelvinVoigt",
     "LinearRotor",
