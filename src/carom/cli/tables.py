@@ -314,18 +314,20 @@ def _event_rows(say: Wording, motion: Trajectory) -> list[tuple[str, ...]]:
         )
         entries.append((time, row))
     if yields(motion.rotor.system, motion.plane):
-        return _touch_rows(say, motion.touches, moment)
+        return _touch_rows(say, motion.touches, motion.begins, moment)
     for contact in motion.lasting_contacts:
         words = f"{contact.phase.label.replace('-', ' ')} for {say.time(contact.end - contact.start)}"
         entries.append((contact.start, (moment(motion.begins + contact.start), words)))
     return [row for _, row in sorted(entries, key=lambda entry: entry[0])]
 
 
-def _touch_rows(say: Wording, touches: TouchLog, moment: Callable[[float], str]) -> list[tuple[str, ...]]:
+def _touch_rows(
+    say: Wording, touches: TouchLog, begins: float, moment: Callable[[float], str]
+) -> list[tuple[str, ...]]:
     """Rows of contacts with a wall that gives way."""
     return [
         (
-            moment(float(touches.start[place])),
+            moment(float(begins + touches.start[place])),
             f"{Phase(phase).label.replace('-', ' ')} for {say.time(float(touches.duration[place]))}",
             f"{math.degrees(touches.angle[place]):.1f}°",
             _number_of(say.velocity(float(touches.radial_speed[place]))),
