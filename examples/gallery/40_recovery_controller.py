@@ -38,7 +38,8 @@ print(f"without: {share_back([]):.1%}, phases tried in turn: {searched:.1%}")
 # %%
 # What to see: with a phase that is off by up to 20 degrees every kick tried comes back, beyond 30 degrees nearly none, as without compensation.
 # One of the four phases that are tried in turn is near enough.
-figure, axes = plt.subplots(figsize=(5.6, 3.2), layout="constrained")
+figure = plt.figure(figsize=(5.6, 3.2), layout="constrained")
+axes = figure.subplots()
 axes.plot(errors, 100.0 * np.array(shares), "o-", ms=4, color="#1f4e79", label="one phase")
 axes.axhline(100.0 * searched, ls="--", lw=1.2, color="#b35900", label="four phases tried in turn")
 axes.set_xlabel("error of the phase of the compensation, degrees")
