@@ -75,10 +75,10 @@ def forces_all(rotor, amplitudes, phases, work):
 @inlined
 def _same(first, second):
     """Whether two rows are the same to the last bit."""
+    same = True
     for k in range(first.shape[0]):
-        if first[k] != second[k]:
-            return False
-    return True
+        same = same and first[k] == second[k]
+    return same
 
 
 @inlined
