@@ -11,6 +11,7 @@ Nothing here knows units, files or results.  A kernel sees a rotor as the arrays
 ``events``           certified first crossing of the wall
 ``wall``             numbers of a wall, and planes at it
 ``laws``             laws of a wall along its normal
+``force_change``     how the force of a wall that gives way changes
 ``friction``         arrivals and lasting contact with Coulomb friction
 ``phases``           states of contact of a plane
 ``joint``            impacts of several planes in one instant
