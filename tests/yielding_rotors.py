@@ -75,7 +75,67 @@ class Yielding:
         )
         return flown.y[:, -1]
 
+    def motion(self, state, time, longest=0.05):
+        """State after a time that begins in flight, through forward slip in the wall and parting from it; with the events."""
+        kind, gone, events = "", 0.0, []
+        while gone < time:
+            flown = solve_ivp(
+                lambda _, y, kind=kind: self.rates(y, "+" if kind == "contact" else ""),
+                (gone, time),
+                state,
+                "DOP853",
+                rtol=1e-13,
+                atol=1e-14,
+                events=self._ends(kind),
+                max_step=longest if kind == "" else 0.002,
+            )
+            gone, state = flown.t[-1], flown.y[:, -1]
+            if flown.status != 1:
+                break
+            first = next(place for place, times in enumerate(flown.t_events) if len(times))
+            kind = {"": ("contact",), "contact": ("", "free"), "free": ("", "contact")}[kind][first]
+            events.append((gone, kind))
+        return state, events
+
+    def _ends(self, kind):
+        """Events that end flight, contact and the way out of the wall, in the order of :meth:`motion`."""
+
+        def depth(_, y):
+            return np.hypot(y[0], y[1]) - 1.0
+
+        def pressed(_, y):
+            return self.parts(depth(0.0, y), (y[0] * y[2] + y[1] * y[3]) / np.hypot(y[0], y[1]))
+
+        wanted = {
+            "": [(depth, 1.0)],
+            "contact": [(depth, -1.0), (pressed, -1.0)],
+            "free": [(depth, -1.0), (pressed, 1.0)],
+        }
+        ends = []
+        for function, direction in wanted[kind]:
+
+            def end(time, y, function=function):
+                return function(time, y)
+
+            end.terminal, end.direction = True, direction
+            ends.append(end)
+        return ends
+
 
 def packed(position, velocity):
     """State as four numbers."""
     return np.array([position.real, position.imag, velocity.real, velocity.imag])
+
+
+def two_planes(first, second, friction=(0.1, 0.2), damping=0.3, speeds=(40.0, 40.0), unbalance=1.0):
+    """A rotor of two coordinates with two contact planes."""
+    return LinearRotor.in_fixed_frame(
+        mass=np.diag([1.0, 1.4]),
+        damping=damping * np.eye(2),
+        stiffness=[[0.8, -0.1], [-0.1, 0.9]],
+        forcing=[1.1 * unbalance, (1.4 + 0.2j) * unbalance],
+        touchdowns=[
+            Touchdown(plane, law, mu, speed)
+            for plane, law, mu, speed in zip(([1.0, 0.3], [0.4, 1.0]), (first, second), friction, speeds, strict=True)
+        ],
+    )

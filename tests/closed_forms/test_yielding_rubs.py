@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from yielding_rotors import Yielding, packed
+from yielding_rotors import Yielding, packed, two_planes
 
 import carom as cm
 from carom.closed_forms.power_sums import positive_roots
@@ -92,18 +92,6 @@ def test_a_stiff_wall_comes_near_to_the_rigid_one():
     rigid = next(rub for rub in cm.find_equilibria(rigid_model)[1:] if rub.stable)
     assert stiff.position == pytest.approx(rigid.position, abs=1e-7)
     assert alike(rigid.eigenvalues, stiff.eigenvalues, 1e-6)
-
-
-def two_planes(*laws):
-    """A rotor of two coordinates that rubs at both planes."""
-    planes = ([1.0, 0.3], [0.4, 1.0])
-    return LinearRotor.in_fixed_frame(
-        mass=np.diag([1.0, 1.4]),
-        damping=0.3 * np.eye(2),
-        stiffness=[[0.8, -0.1], [-0.1, 0.9]],
-        forcing=[1.1, 1.4 + 0.2j],
-        touchdowns=[Touchdown(plane, law, mu, 40.0) for plane, law, mu in zip(planes, laws, (0.1, 0.2), strict=True)],
-    )
 
 
 def test_rubs_at_two_planes_balance_the_forces_on_the_coordinates():
