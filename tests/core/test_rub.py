@@ -25,7 +25,7 @@ from carom.core.rub import (
     turn_ahead,
     wall_push,
 )
-from carom.core.taylor import first_fall, series_step, sum_series
+from carom.core.taylor import STEP_FRACTION, first_fall, series_step, sum_series
 from carom.models import Jeffcott
 from carom.outcome import Phase
 from carom.parameters import Parameters
@@ -173,7 +173,7 @@ def test_coefficients_up_to_the_order(parameters, angle, rate, phase):
         for k in range(ORDER):
             position.append(1j * sum(rates[j] * position[k - j] for j in range(k + 1)) / (k + 1))
     # The circle round the start on which the terms of the series are of one size.
-    radius = step / 0.135
+    radius = step / STEP_FRACTION
     for k in range(ORDER + 1):
         assert abs(work.position[0, k] - complex(position[k])) * radius**k < 1e-12 * (1.0 + abs(rate))
 

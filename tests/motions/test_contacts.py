@@ -224,7 +224,7 @@ def test_a_history_goes_to_a_file(scales, tmp_path):
     table.to_netcdf(tmp_path / "history.nc", engine="h5netcdf")
     with xarray.open_dataset(tmp_path / "history.nc", engine="h5netcdf", decode_times=False) as read:
         assert read["phase"].attrs["flag_meanings"] == "flight forward_slip backward_slip rolling separated"
-        assert read["phase"].attrs["flag_values"].tolist() == [0, 1, 2, 3]
+        assert read["phase"].attrs["flag_values"].tolist() == [0, 1, 2, 3, 4]
         assert read["normal_force"].attrs["units"] == ("N" if scales else "m c_r Omega^2")
         assert np.array_equal(read["normal_force"].values, table["normal_force"].values)
         assert np.array_equal(read["time"].values, table["time"].values)

@@ -68,7 +68,7 @@ def test_energies_in_joules():
     ledger = energy_ledger(carom.simulate(_rotor(0.2), carom.State(0.2 + 0.1j, 0.5 + 0.3j), until=30.0))
     table, plain = replace(ledger, scales=scales).to_dataset(), ledger.to_dataset()
     assert {name: table[name].attrs["units"] for name in table} == dict.fromkeys(
-        ("kinetic", "spring", "unbalance", "damping", "circulatory", "impacts", "friction", "drive"), "J"
+        ("kinetic", "spring", "unbalance", "damping", "circulatory", "forces", "impacts", "friction", "drive"), "J"
     )
     assert table["times"].attrs["units"] == "s"
     joules = 50.0 * (0.7e-3 * 184.2) ** 2

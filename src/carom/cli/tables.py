@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import cmath
 import dataclasses
 import math
 from collections.abc import Sequence
@@ -17,10 +18,11 @@ from rich.text import Text
 from carom.attractors import MotionName
 from carom.attractors.settled import settled_motion
 from carom.cli.fitting import fitted, plain_table
+from carom.models.weight import weight_of
 from carom.motions import Trajectory, touchdown_loads
 from carom.outcome import Outcome
 from carom.parameters.indentation import indentation_of_hit
-from carom.parameters.told import number
+from carom.parameters.told import number, told_angle
 from carom.studies import Study, Wording, check_loads
 from carom.studies.advice_facts import CHANGES
 from carom.studies.facts import Topic, about, paragraphs
@@ -178,9 +180,23 @@ def print_motion(console: Console, case: Case, motion: Trajectory) -> None:
         console.print(fitted(console, _events(say, motion)))
     final = motion.final
     console.print()
+    if weight_of(motion.rotor) is not None:
+        console.print(_final_words(say, motion))
+        return
     console.print(
         f"At the end: U = {_complex(final.position)} c_r, U' = {_complex(final.velocity)} c_r Ω (co-rotating frame), "
         f"r = {say.radius(abs(final.position))}"
+    )
+
+
+def _final_words(say: Wording, motion: Trajectory) -> str:
+    """Where a rotor that weighs something is at the end, and how fast, in the fixed frame."""
+    place, rate = motion.at_plane(motion.time)
+    turn = cmath.exp(1j * (motion.begins + motion.time))
+    place, speed = complex(place) * turn, complex(rate + 1j * place) * turn
+    return (
+        f"At the end, in the fixed frame: {say.radius(abs(place))} from the centre at {told_angle(cmath.phase(place))}, moving with "
+        f"{say.velocity(abs(speed))} at {told_angle(cmath.phase(speed))}"
     )
 
 
@@ -253,8 +269,9 @@ def _events(say: Wording, motion: Trajectory) -> Table:
     time = f"time, {'ms' if say.scales else '1/Ω'}"
     speeds, slips = f"speed towards wall, {speed}", f"slip, {slip}"
     normal, friction = f"normal impulse, {impulse}", f"friction impulse, {impulse}"
-    numbers = (time, "angle", speeds, normal, friction, slips)
-    headings = (time, "contact", "angle", speeds, "whirl", normal, friction, slips)
+    angle = "angle" if weight_of(motion.rotor) is None else "fixed angle"
+    numbers = (time, angle, speeds, normal, friction, slips)
+    headings = (time, "contact", angle, speeds, "whirl", normal, friction, slips)
     table = plain_table("Contacts", *headings, right=numbers, no_wrap=(*numbers, "whirl"))
     rows = _event_rows(say, motion)
     hidden = len(rows) - FIRST_EVENTS - LAST_EVENTS
@@ -268,6 +285,8 @@ def _events(say: Wording, motion: Trajectory) -> Table:
 
 def _event_rows(say: Wording, motion: Trajectory) -> list[tuple[str, ...]]:
     log = motion.contacts
+    # Weight has a direction in the fixed frame alone.
+    angles = log.angle if weight_of(motion.rotor) is None else log.angle + motion.begins + log.time
     factor = 1.0 if say.scales is None else 1e3 * say.scales.time
 
     def moment(time: float) -> str:
@@ -276,9 +295,9 @@ def _event_rows(say: Wording, motion: Trajectory) -> list[tuple[str, ...]]:
     entries: list[tuple[float, tuple[str, ...]]] = []
     for place, time in enumerate(log.time.tolist()):
         row = (
-            moment(time),
+            moment(motion.begins + time),
             "impact",
-            f"{math.degrees(log.angle[place]):.1f}°",
+            f"{math.degrees(math.remainder(angles[place], 2.0 * math.pi)):.1f}°",
             _number_of(say.velocity(float(log.radial_speed[place]))),
             "forward" if log.angular_speed[place] > -1.0 else "backward",
             _number_of(say.impulse(float(log.normal_impulse[place]))),
@@ -288,7 +307,7 @@ def _event_rows(say: Wording, motion: Trajectory) -> list[tuple[str, ...]]:
         entries.append((time, row))
     for contact in motion.lasting_contacts:
         words = f"{contact.phase.label.replace('-', ' ')} for {say.time(contact.end - contact.start)}"
-        entries.append((contact.start, (moment(contact.start), words)))
+        entries.append((contact.start, (moment(motion.begins + contact.start), words)))
     return [row for _, row in sorted(entries, key=lambda entry: entry[0])]
 
 

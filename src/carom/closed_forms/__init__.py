@@ -1,4 +1,4 @@
-"""Exact results: equilibria and harmless disturbances of any linear rotor, everything else for the planar rotor.
+"""Exact results: equilibria and harmless disturbances of any linear rotor, impacts of a free mass, the rest of the planar rotor.
 
 ==================  ===================================================
 ``equilibria``      contact-free and rubbing equilibria of any linear rotor
@@ -13,6 +13,9 @@
 ``absorbing``       neighbourhoods of the rub that sliding never leaves
 ``periods``         periods of all orbits with one impact a period
 ``local``           cycles that shrink into a boundary equilibrium
+``free_impact``     impacts of a free mass on walls that give way
+``yielding_walls``  rubs and slipping whirl on walls that give way
+``whirl_resonance`` speeds at which the whirls of a disc are in resonance
 ``known``           what general code may ask of any model
 ==================  ===================================================
 """
@@ -20,6 +23,7 @@
 from carom.closed_forms.absorbing import RubNeighbourhood, rub_neighbourhood
 from carom.closed_forms.equilibria import Equilibrium, EquilibriumSet, find_equilibria
 from carom.closed_forms.fading import fading_speed
+from carom.closed_forms.free_impact import FreeImpact, hunt_crossley_impact, kelvin_voigt_impact
 from carom.closed_forms.harmless import (
     harmless_blade_loss,
     harmless_kick,
@@ -31,11 +35,14 @@ from carom.closed_forms.periods import PeriodCondition, PeriodRoots
 from carom.closed_forms.thresholds import rub_limit
 from carom.closed_forms.unbalance import SpeedResponse, speed_response
 from carom.closed_forms.whirl import Rolling, Runaway, rolling, runaway_speed
+from carom.closed_forms.whirl_resonance import internal_resonance
+from carom.closed_forms.yielding_walls import SlippingWhirl, YieldingRub, slipping_whirl, yielding_rubs
 
 __all__ = [
     "ContactSystem",
     "Equilibrium",
     "EquilibriumSet",
+    "FreeImpact",
     "LocalCycle",
     "NonSmoothHopf",
     "PeriodCondition",
@@ -43,7 +50,9 @@ __all__ = [
     "Rolling",
     "RubNeighbourhood",
     "Runaway",
+    "SlippingWhirl",
     "SpeedResponse",
+    "YieldingRub",
     "cycle_determinant",
     "fading_speed",
     "find_equilibria",
@@ -51,10 +60,15 @@ __all__ = [
     "harmless_kick",
     "harmless_shock",
     "harmless_unbalance_step",
+    "hunt_crossley_impact",
+    "internal_resonance",
+    "kelvin_voigt_impact",
     "non_smooth_hopf",
     "rolling",
     "rub_limit",
     "rub_neighbourhood",
     "runaway_speed",
+    "slipping_whirl",
     "speed_response",
+    "yielding_rubs",
 ]

@@ -7,8 +7,15 @@ further out by ``δ`` in a frame that turns.  Since ``u̇ = n̄ÿ − iθ̇u``, 
 
     F = −ṙ + θ̇ṙ − Im(n̄a)
 
-against the acceleration ``a`` without own force.  All series follow from those of ``y`` and ``ẏ`` by recurrences: of ``r`` from
-``r² = |y|²``, of ``n`` from ``r n = y``.
+against the acceleration ``a`` without own force.
+
+The race of a bearing may turn too.  With its radius ``R``, its inertia ``J``, its drag and the mass ``m`` felt at the plane, its surface
+speed ``q`` in the fixed frame, a mode of its own, decays with the exponent ``λ = −drag/J`` and is driven by friction,
+``q̇ = λq − gF`` with ``g = mR²/J``.  The contact point then slips with ``v = surface_speed + δ + w − q``, and rolling needs
+
+    (1 + g) F = −ṙ + θ̇ṙ + λq − Im(n̄a).
+
+All series follow from those of ``y`` and ``ẏ`` by recurrences: of ``r`` from ``r² = |y|²``, of ``n`` from ``r n = y``.
 """
 
 from __future__ import annotations
@@ -17,46 +24,60 @@ import math
 
 from carom.compiling.decorators import inlined, kernel
 from carom.core.flow import displacement, squared_modulus, velocity
-from carom.core.friction import slip_of
-from carom.core.laws.choice import force_coefficient, press_coefficient, press_rounding
+from carom.core.friction import friction_ratio, slip_of
+from carom.core.laws.choice import edge, force_coefficient, press_coefficient, press_rounding
 from carom.core.layout import ORDER
-from carom.core.phases import FLIGHT, SEPARATED
+from carom.core.phases import FLIGHT, ROLLING, SEPARATED, sense_of_phase
 from carom.core.rounding import position_rounding, speed_rounding
 from carom.core.taylor import first_fall
 from carom.core.wall import set_on_wall, unit, wall_of
 
+SHARP = 1e-4
+"""Error of the place where a series takes another form, relative to its depth: there both forms are the same."""
+
 
 @inlined
 def indent(rotor, plane, k, work):
-    """Coefficients ``k`` of normal, depth, local velocity, slip and normal force, from those of position and speed up to it."""
-    depth, normal = work.depth[plane], work.normal[plane]
-    square, local = 0.0, 0j
-    for j in range(k + 1):
-        square += (work.position[plane, j].conjugate() * work.position[plane, k - j]).real
+    """Coefficients ``k`` of normal, depth, slip, normal force and its share of the force, from those of position and speed up to it.
+
+    The depth is known one order ahead, as ``ẏ`` gives ``y`` there; so its rate needs no products.  Sums of one length share a loop:
+    their terms do not wait for one another.
+    """
+    depth, normal, speed = work.depth[plane], work.normal[plane], work.speed[plane]
+    y = work.position[plane]
     if k == 0:
-        radius = math.sqrt(square)
-        depth[0] = (square - 1.0) / (radius + 1.0)
-        normal[0] = work.position[plane, 0] / radius
-    else:
-        for j in range(1, k):
-            square -= depth[j] * depth[k - j]
-        radius = 1.0 + depth[0]
-        depth[k] = square / (2.0 * radius)
-        direction = work.position[plane, k]
-        for j in range(1, k + 1):
-            direction -= depth[j] * normal[k - j]
-        normal[k] = direction / radius
-    for j in range(k + 1):
-        local += normal[j].conjugate() * work.speed[plane, k - j]
-    work.local_speed[plane, k], work.rate[plane, k] = local, local.real
-    work.slip[plane, k] = local.imag + depth[k] + (rotor.surface_speed[plane] if k == 0 else 0.0)
+        radius = math.sqrt(squared_modulus(y[0]))
+        depth[0] = (squared_modulus(y[0]) - 1.0) / (radius + 1.0)
+    radius, ahead = 1.0 + depth[0], speed[k] / (k + 1.0)
+    square, products, direction = 2.0 * (y[0].conjugate() * ahead).real, 0.0, y[k]
+    for j in range(1, k + 1):
+        other = y[k + 1 - j]
+        square += y[j].real * other.real + y[j].imag * other.imag
+        products += depth[j] * depth[k + 1 - j]
+        direction -= depth[j] * normal[k - j]
+    depth[k + 1] = (square - products) / (2.0 * radius)
+    normal[k] = direction / radius
+    work.rate[plane, k] = (k + 1.0) * depth[k + 1]
     work.push[plane, k] = force_coefficient(k, depth, work.rate[plane], work.power[plane], wall_of(rotor, plane))
+    along, pressed = rotor.surface_speed[plane] + depth[0] if k == 0 else depth[k], 0j
+    if rotor.race[plane] >= 0:
+        along -= work.series[k, rotor.race[plane]].real
+    for j in range(k + 1):
+        along += normal[j].real * speed[k - j].imag - normal[j].imag * speed[k - j].real
+        pressed += work.push[plane, j] * normal[k - j]
+    work.slip[plane, k], work.pressed[plane, k] = along, pressed
 
 
 @inlined
-def rolling_grip(plane, k, work):
-    """Coefficient ``k`` of the friction that lets a plane roll, against its acceleration in ``work.free``."""
-    turning, grip = work.local_speed[plane, k].imag, -work.rate[plane, k]
+def rolling_grip(rotor, plane, k, work):
+    """Coefficient ``k`` of the friction that lets a plane roll, times ``1 + race_gain``, against its acceleration in ``work.free``."""
+    turning, grip = work.slip[plane, k] - work.depth[plane, k], -work.rate[plane, k]
+    race = rotor.race[plane]
+    if race >= 0:
+        turning += work.series[k, race].real
+        grip += rotor.exponents[race].real * work.series[k, race].real
+    if k == 0:
+        turning -= rotor.surface_speed[plane]
     for j in range(1, k + 1):
         turning -= work.depth[plane, j] * work.turning[plane, k - j]
     work.turning[plane, k] = turning / (1.0 + work.depth[plane, 0])
@@ -64,6 +85,17 @@ def rolling_grip(plane, k, work):
         grip += work.turning[plane, j] * work.rate[plane, k - j]
         grip -= (work.normal[plane, j].conjugate() * work.free[plane, k - j]).imag
     return grip
+
+
+@inlined
+def force_in_wall(rotor, phase, plane, k, work):
+    """Coefficient ``k`` of the contact force, from those of normal force and friction."""
+    if phase == ROLLING:
+        along = 0j
+        for j in range(k + 1):
+            along += work.grip[plane, j] * work.normal[plane, k - j]
+        return complex(-along.imag, along.real) - work.pressed[plane, k]
+    return complex(-1.0, friction_ratio(sense_of_phase(phase), wall_of(rotor, plane))) * work.pressed[plane, k]
 
 
 @kernel
@@ -93,6 +125,19 @@ def first_release(rotor, plane, phase, step, work):
 
 
 @kernel
+def next_form(rotor, plane, step, work):
+    """First time within a step at which the series of a plane's force takes another form, or the step."""
+    at = edge(work.depth[plane, 0], work.rate[plane, 0], wall_of(rotor, plane))
+    if at == 0.0:
+        return step
+    sign = -1.0 if at > 0.0 else 1.0
+    for k in range(ORDER + 1):
+        work.first_margin[k] = sign * work.depth[plane, k]
+    work.first_margin[0] += at
+    return first_fall(work.first_margin, step, SHARP * abs(at))
+
+
+@kernel
 def stay_in_wall(rotor, plane, rolls, leaves, amplitudes):
     """Remove the rounding error of the rolling condition, and of ``|y| = 1`` where a plane leaves its wall."""
     if leaves:
@@ -110,4 +155,7 @@ def slip_in_wall(rotor, plane, amplitudes):
     position = displacement(rotor, plane, amplitudes)
     radius = math.sqrt(squared_modulus(position))
     local = unit(position).conjugate() * velocity(rotor, plane, amplitudes)
-    return slip_of(local, wall_of(rotor, plane)) + (radius - 1.0)
+    slip = slip_of(local, wall_of(rotor, plane)) + (radius - 1.0)
+    if rotor.race[plane] >= 0:
+        slip -= amplitudes[rotor.race[plane]].real
+    return slip

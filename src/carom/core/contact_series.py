@@ -24,7 +24,7 @@ A wall that gives way has a normal force of its own, and ``n = y/|y|`` takes the
 from __future__ import annotations
 
 from carom.compiling.decorators import inlined, kernel
-from carom.core.compliance import indent, rolling_grip
+from carom.core.compliance import force_in_wall, indent, rolling_grip
 from carom.core.equations import solve
 from carom.core.friction import friction_ratio, rolling_force
 from carom.core.layout import ORDER
@@ -49,6 +49,8 @@ def rub_series(rotor, contact, amplitudes, work):
             _free_motion(rotor, plane, k, work)
             if yields(rotor, plane) and stays(contact[plane]):
                 indent(rotor, plane, k, work)
+            else:
+                _push_and_slip(rotor, plane, k, work)
         if planes == 1:
             _force(rotor, contact[0], k, work)
         else:
@@ -61,11 +63,14 @@ def rub_series(rotor, contact, amplitudes, work):
                 if rotor.driven[m]:
                     rate += work.series[k, m - 1]
                 work.series[k + 1, m] = rate / (k + 1)
+            for plane in range(planes):
+                if rotor.race[plane] >= 0:
+                    work.series[k + 1, rotor.race[plane]] -= rotor.race_gain[plane] * work.grip[plane, k] / (k + 1)
 
 
 @inlined
 def _free_motion(rotor, plane, k, work):
-    """Coefficients ``k`` of position and speed, and of acceleration, push and slip without contact forces."""
+    """Coefficients ``k`` of position and speed, and of acceleration without contact forces."""
     position, speed, free = 0j, 0j, 0j
     for m in range(rotor.rows.shape[1]):
         position += rotor.rows[plane, m] * work.series[k, m]
@@ -74,6 +79,11 @@ def _free_motion(rotor, plane, k, work):
     work.position[plane, k] = position + rotor.offsets[plane] if k == 0 else position
     work.speed[plane, k] = speed
     work.free[plane, k] = free
+
+
+@inlined
+def _push_and_slip(rotor, plane, k, work):
+    """Coefficients ``k`` of push without contact forces, and of slip."""
     push, slip = 0.0, rotor.surface_speed[plane] if k == 0 else 0.0
     for j in range(k + 1):
         y, v = work.position[plane, j], work.speed[plane, j]
@@ -97,10 +107,11 @@ def _force(rotor, phase, k, work):
     """Coefficient ``k`` of the contact force of a rotor with one plane, and of its part along growing angle."""
     force, grip = 0j, 0.0
     if yields(rotor, 0):
+        work.grip[0, k] = 0.0
         if lasts(phase):
-            _force_in_wall(rotor, 0, phase, k, work)
-        else:
-            work.force[0, k], work.grip[0, k] = 0j, 0.0
+            work.grip[0, k] = _grip_in_wall(rotor, 0, phase, k, work)
+            force = force_in_wall(rotor, phase, 0, k, work)
+        work.force[0, k] = force
         return
     if phase == ROLLING:
         force = rolling_force(work.position[0, k], work.free[0, k], wall_of(rotor, 0))
@@ -115,16 +126,11 @@ def _force(rotor, phase, k, work):
 
 
 @inlined
-def _force_in_wall(rotor, plane, phase, k, work):
-    """Coefficient ``k`` of the friction and the contact force of a plane in a wall that gives way."""
+def _grip_in_wall(rotor, plane, phase, k, work):
+    """Coefficient ``k`` of the friction of a plane alone in a wall that gives way."""
     if phase == ROLLING:
-        work.grip[plane, k] = rolling_grip(plane, k, work)
-    else:
-        work.grip[plane, k] = friction_ratio(sense_of_phase(phase), wall_of(rotor, plane)) * work.push[plane, k]
-    force = 0j
-    for j in range(k + 1):
-        force += complex(-work.push[plane, j], work.grip[plane, j]) * work.normal[plane, k - j]
-    work.force[plane, k] = force
+        return rolling_grip(rotor, plane, k, work) / (1.0 + rotor.race_gain[plane])
+    return friction_ratio(sense_of_phase(phase), wall_of(rotor, plane)) * work.push[plane, k]
 
 
 @kernel
@@ -164,7 +170,8 @@ def _balance(rotor, contact, p, k, work):
     rolls = contact[p] == ROLLING
     given = yields(rotor, p)
     if rolls and given:
-        along = rolling_grip(p, k, work)
+        along = rolling_grip(rotor, p, k, work)
+        work.matrix[2 * p + 1, 2 * p + 1] += rotor.race_gain[p]
     elif rolls:
         for j in range(k + 1):
             along -= (work.position[p, j].conjugate() * work.free[p, k - j]).imag

@@ -225,10 +225,13 @@ def near_rub(memory, position, speed):
 
 @kernel
 def at_rest(rotor, work):
-    """Whether the free modes of a motion, given by its Taylor series, are at rest in the frame of the rotor."""
+    """Whether the free modes of a motion, given by its Taylor series, are at rest in the frame of the rotor, and the races steady."""
     size, rate = 1.0, 0.0
     for m in range(work.series.shape[1]):
-        if rotor.free[m]:
+        moves = rotor.free[m] != 0
+        for plane in range(rotor.race.shape[0]):
+            moves = moves or rotor.race[plane] == m
+        if moves:
             size += math.sqrt(squared_modulus(work.series[0, m]))
             rate += math.sqrt(squared_modulus(work.series[1, m]))
     return rate <= NEAR * size

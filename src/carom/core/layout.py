@@ -59,6 +59,8 @@ def rotor_record(
     law_number: np.ndarray | None = None,
     stiffness: np.ndarray | None = None,
     loss: np.ndarray | None = None,
+    race: np.ndarray | None = None,
+    race_gain: np.ndarray | None = None,
     masses: np.ndarray | None = None,
     free: np.ndarray | None = None,
 ) -> np.record:
@@ -91,6 +93,10 @@ def rotor_record(
         Law of each wall along its normal, and the law's own number (:class:`~carom.core.wall.Wall`).  Rigid by default.
     stiffness, loss : ndarray, shape (P,), optional
         Of walls that give way, per effective mass of the plane.  Zero by default.
+    race : ndarray of int, shape (P,), optional
+        Mode whose real amplitude is the surface speed of the race that turns at a plane; −1, the default, without one.
+    race_gain : ndarray, shape (P,), optional
+        Change of that speed by a friction impulse, against it, that changes the velocity of the plane by one.  Zero by default.
     masses : ndarray, shape (P,), optional
         Effective mass ``1/(W M⁻¹ Wᴴ)`` of each plane: the impulse that changes its velocity by one.  Ones by default.
     free : ndarray of bool, shape (N,), optional
@@ -139,6 +145,8 @@ def rotor_record(
         "law_number": np.zeros(planes) if law_number is None else law_number,
         "stiffness": np.zeros(planes) if stiffness is None else stiffness,
         "loss": np.zeros(planes) if loss is None else loss,
+        "race": np.full(planes, -1) if race is None else race,
+        "race_gain": np.zeros(planes) if race_gain is None else race_gain,
         "masses": np.ones(planes) if masses is None else masses,
         "free": np.ones(modes) if free is None else free,
     }
@@ -163,7 +171,8 @@ def _rotor_layout(modes: int, planes: int) -> np.dtype:
             ("weights", REAL, (planes,)),
             *((name, REAL, (planes,)) for name in ("friction", "restitution", "surface_speed")),
             ("law", np.dtype(np.int64), (planes,)),
-            *((name, REAL, (planes,)) for name in ("law_number", "stiffness", "loss", "masses")),
+            *((name, REAL, (planes,)) for name in ("law_number", "stiffness", "loss", "race_gain", "masses")),
+            ("race", np.dtype(np.int64), (planes,)),
             ("free", np.dtype(np.int8), (modes,)),
         )
     )
@@ -281,9 +290,10 @@ def _rub_workspace_layout(modes: int, planes: int) -> np.dtype:
         (
             ("series", COMPLEX, (ORDER + 1, modes)),
             *((name, COMPLEX, (planes, ORDER + 1)) for name in ("position", "speed", "free", "force")),
-            *((name, COMPLEX, (planes, ORDER + 1)) for name in ("normal", "local_speed")),
+            *((name, COMPLEX, (planes, ORDER + 1)) for name in ("normal", "pressed")),
             *((name, REAL, (planes, ORDER + 1)) for name in ("push", "slip", "grip")),
-            *((name, REAL, (planes, ORDER + 1)) for name in ("depth", "rate", "power", "turning")),
+            *((name, REAL, (planes, ORDER + 1)) for name in ("rate", "power", "turning")),
+            ("depth", REAL, (planes, ORDER + 2)),
             *((name, REAL, (ORDER + 1,)) for name in ("first_margin", "second_margin")),
             ("links", COMPLEX, (planes, planes, ORDER + 1)),
             ("matrix", REAL, (2 * planes, 2 * planes + 1)),

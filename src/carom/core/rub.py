@@ -9,6 +9,8 @@ pass a state back and forth.
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from carom.compiling.decorators import inlined, kernel
@@ -16,6 +18,7 @@ from carom.core.compliance import first_release, slip_in_wall
 from carom.core.contact_series import rub_series
 from carom.core.flow import acceleration, displacement, flight_increments, squared_modulus, velocity
 from carom.core.friction import BACKWARD, FORWARD, STOPPED, arrival_in_sense, friction_ratio, slip_of, spare_grip
+from carom.core.laws.choice import force
 from carom.core.layout import ORDER
 from carom.core.phases import (
     BACKWARD_SLIP,
@@ -270,6 +273,16 @@ def next_phase(rotor, contact, plane, amplitudes, work):
     if wall.friction > 0.0:
         return ROLLING
     return BACKWARD_SLIP if contact[plane] == FORWARD_SLIP else FORWARD_SLIP
+
+
+@kernel
+def phase_in_wall(rotor, contact, plane, amplitudes, work):
+    """Phase of a plane that is in a wall that gives way: parted from it where its force would pull."""
+    position = displacement(rotor, plane, amplitudes)
+    rate = (unit(position).conjugate() * velocity(rotor, plane, amplitudes)).real
+    if force(math.sqrt(squared_modulus(position)) - 1.0, rate, wall_of(rotor, plane)) <= 0.0:
+        return SEPARATED
+    return next_phase(rotor, contact, plane, amplitudes, work)
 
 
 @inlined

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from carom.compiling.decorators import inlined, kernel
-from carom.core.compliance import stay_in_wall
+from carom.core.compliance import next_form, stay_in_wall
 from carom.core.contact_series import rub_series
 from carom.core.fate import approaches_turn, at_rest, forget_rub, near_rub, never_repeats, same_state
 from carom.core.layout import NEAR
@@ -109,6 +109,10 @@ def _first_change(rotor, contact, step, rub):
     for plane in range(rotor.rows.shape[0]):
         after, unsure = FLIGHT, False
         if stays(contact[plane]):
+            if yields(rotor, plane):
+                form = next_form(rotor, plane, duration, rub)
+                if form < duration:
+                    duration, changed, following, undecided = form, NOWHERE, FLIGHT, False
             time, after, unsure = first_transition(rotor, plane, contact[plane], duration, rub)
         elif rotor.rows.shape[0] > 1:
             time = first_contact(rotor, plane, contact[plane] == FLIGHT, duration, rub)

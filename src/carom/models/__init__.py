@@ -13,6 +13,7 @@
 ``modes``                 modes of a matrix, in pairs where two nearly coincide
 ``forcing``               :class:`Force`: forces that change with time, as modes of their own
 ``stages``                :class:`Staged`: a rotor that changes when a trigger ends a stage; :class:`Forced`: with further forces
+``weight``                gravity, and a rotor without its levitation
 ``subjects``              :func:`model_of`, :func:`case_of`: any description of a rotor -> its model, its case
 ========================  =================================================================
 """
@@ -23,6 +24,7 @@ from carom.models.from_modes import second_order_system
 from carom.models.jeffcott import Jeffcott
 from carom.models.linear import LinearRotor
 from carom.models.model import Matrices, Model, Rates
+from carom.models.race import Race
 from carom.models.spans import Edge, Span
 from carom.models.stages import Forced, Stage, Staged, Trigger
 from carom.models.subjects import Subject, case_of, jeffcott_of, model_from, model_of
@@ -41,6 +43,7 @@ __all__ = [
     "LinearRotor",
     "Matrices",
     "Model",
+    "Race",
     "Rates",
     "Rigid",
     "Span",

@@ -66,6 +66,7 @@ def with_forces(system: System, forces: Sequence[Force]) -> System:
         shapes=modes.right[planes:],
         inverse=modes.left[:, planes:],
         translation=system.translation,
+        races=system.races,
         rows=modes.right[:planes],
         columns=modes.left[:, :planes],
         **{name: system.arrays[name] for name in ("offsets", "masses", *Wall._fields)},
@@ -101,6 +102,8 @@ class _Modes:
         """Modes of a system without those that only fill its arrays."""
         arrays, forced = system.arrays, system.forced_at(0.0)
         kept = system.free | (forced != 0.0)
+        if system.races is not None:
+            kept[arrays["race"][system.races.planes]] = False
         right = np.concatenate([arrays["rows"], system.shapes])
         left = np.concatenate([arrays["columns"], system.to_modes], axis=1)
         return cls(

@@ -9,6 +9,7 @@ import numpy as np
 from carom.arguments import checked
 from carom.core.layout import rotor_record
 from carom.core.wall import Wall
+from carom.models.race import RaceModes
 from carom.models.system import System
 
 SMALLEST = 2
@@ -32,6 +33,7 @@ def modal_system(
     free: np.ndarray | None = None,
     forced: np.ndarray | None = None,
     translation: np.ndarray | None = None,
+    races: RaceModes | None = None,
     **planes: np.ndarray,
 ) -> System:
     """System of these modes, in arrays of one of few sizes: each size of the kernels takes seconds to compile.
@@ -42,15 +44,24 @@ def modal_system(
         See :func:`~carom.core.layout.rotor_record`.
     rest, shapes, inverse, forced, translation
         See :class:`System`.
+    races : RaceModes, optional
+        Further modes, of races that turn.
     """
-    modes = len(exponents)
-    size = max(SMALLEST, 1 << (modes - 1).bit_length())
+    modes, number = len(exponents), 0 if races is None else len(races.planes)
+    size = max(SMALLEST, 1 << (modes + number - 1).bit_length())
 
     def filled(values: np.ndarray, axis: int = 0, filler: complex = 0.0) -> np.ndarray:
         room = [(0, 0)] * values.ndim
-        room[axis] = (0, size - modes)
+        room[axis] = (0, size - values.shape[axis])
         return np.pad(values, room, constant_values=filler)
 
+    if races is not None:
+        exponents = np.append(exponents, races.exponents)
+        speeds = np.append(np.zeros(modes) if forced is None else forced, races.speeds)
+        forced = speeds if speeds.any() else None
+        place, gain = np.full(len(rows), -1), np.zeros(len(rows))
+        place[races.planes], gain[races.planes] = modes + np.arange(number), races.gains
+        planes |= {"race": place, "race_gain": gain}
     arrays = rotor_record(
         exponents=filled(exponents, filler=exponents[-1]),
         driven=filled(driven),
@@ -60,7 +71,7 @@ def modal_system(
         **planes,
     )
     moved = None if forced is None else filled(forced)
-    return System(arrays, rest, filled(shapes, 1), filled(inverse), translation, moved)
+    return System(arrays, rest, filled(shapes, 1), filled(inverse), translation, moved, races)
 
 
 @checked

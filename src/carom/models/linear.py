@@ -17,6 +17,7 @@ from carom.models.forcing import Force, with_forces
 from carom.models.from_modes import modal_system, second_order_system, walls_as_arrays
 from carom.models.model import Matrices, Rates
 from carom.models.modes import modes_of
+from carom.models.race import RaceModes
 from carom.models.system import System
 from carom.models.touchdown import Touchdown
 from carom.outcome import InputError, shown
@@ -145,7 +146,8 @@ class LinearRotor(Result):
             raise InputError(
                 "mass, planes", mobilities.tolist(), "positive mobilities W M⁻¹ Wᴴ: an impulse must move its plane"
             )
-        if n == 1 and self.planes.tolist() == [[1.0]]:
+        races = [each.race for each in self.touchdowns]
+        if n == 1 and self.planes.tolist() == [[1.0]] and races == [None]:
             return self._one_coordinate(found.exponents, complex(rest[0]))
         inverse, masses = np.linalg.inv(found.basis), 1.0 / mobilities.real
         return modal_system(
@@ -157,6 +159,7 @@ class LinearRotor(Result):
             offsets=self.planes @ rest,
             rows=self.planes @ found.basis[:n],
             columns=inverse[:, n:] @ (moved / mobilities),
+            races=RaceModes.of(races, masses),
             **walls_as_arrays([each.wall(mass) for each, mass in zip(self.touchdowns, masses, strict=True)]),
             masses=masses,
             translation=self.translation,

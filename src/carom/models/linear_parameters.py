@@ -8,7 +8,7 @@ frame (:meth:`~carom.models.LinearRotor.in_fixed_frame`),
 which for one coordinate are the numbers of the planar rotor.  Another value of ``γ``, ``ω`` or ``ρ`` multiplies all of
 ``D``, ``K`` or ``F`` by one factor; ``φ`` turns ``F``.  The friction ``μ``, the restitution ``d`` and the radius ratio (the
 surface speed minus one) are set at all planes, or at one of several by ``mu_1``, ``mu_2`` and so on.  The speed ``Ω`` changes ``D``
-with ``1/Ω`` and ``K`` with ``1/Ω²``; masses, gyroscopic matrix and unbalance do not change in these units.
+with ``1/Ω``, ``K`` with ``1/Ω²`` and the numbers of the walls as they are in these units; masses, gyroscopic matrix and unbalance do not change in these units.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ import numpy as np
 
 from carom.models.model import Rates
 from carom.outcome import InputError, shown
-from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, Field, Numbers, read_quantity
+from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, WALL_FIELDS, Field, Numbers, read_quantity
 from carom.parameters.terms import no_such_parameter
 
 if TYPE_CHECKING:
@@ -30,26 +30,38 @@ if TYPE_CHECKING:
 
 SAME = {"friction": "mu", "restitution": "d", "unbalance_phase": "phi"}
 """Entries of a machine file that are dimensionless, and the parameter that each is."""
-_AT_PLANES = {"mu": "friction", "d": "restitution", "radius_ratio": "surface_speed"}
-"""Parameters of the planes, and what each changes of a wall."""
+_EXACT = {"mu": "friction", "d": "restitution", "radius_ratio": "surface_speed"}
+"""Parameters of the planes by which there are derivatives, and what each changes of a wall."""
 
 
 def fields(rotor: LinearRotor) -> dict[str, Field]:
     """Fields of all parameters by name."""
-    found = {**DIMENSIONLESS_FIELDS, **{name: MACHINE_FIELDS[name] for name in SAME}}
+    own = {**DIMENSIONLESS_FIELDS, **WALL_FIELDS}
+    absent = own.keys() & {"mu", "d", "radius_ratio", *WALL_FIELDS} - set(_at_planes(rotor))
+    found = {name: field for name, field in own.items() if name not in absent}
+    found |= {name: MACHINE_FIELDS[name] for name, same in SAME.items() if same not in absent}
     if rotor.scales is not None:
         found["speed"] = MACHINE_FIELDS["speed"]
-    for own, (name, plane) in _planes(rotor).items():
-        field = DIMENSIONLESS_FIELDS[name]
+    for name, (parameter, plane) in _planes(rotor).items():
+        field = own[parameter]
         words = f"{field.words} at plane {plane + 1}"
-        found[own] = replace(field, name=own, symbol=f"{field.symbol}_{plane + 1}", words=words)
+        found[name] = replace(field, name=name, symbol=f"{field.symbol}_{plane + 1}", words=words)
     return found
+
+
+def _at_planes(rotor: LinearRotor) -> list[str]:
+    """Names of the parameters that all planes have."""
+    return [
+        name for name in rotor.touchdowns[0].parameters if all(name in each.parameters for each in rotor.touchdowns)
+    ]
 
 
 def _planes(rotor: LinearRotor) -> dict[str, tuple[str, int]]:
     """Parameter and plane by name, for several planes."""
-    count = len(rotor.planes)
-    return {f"{name}_{plane + 1}": (name, plane) for name in _AT_PLANES for plane in range(count) if count > 1}
+    if len(rotor.touchdowns) == 1:
+        return {}
+    each = enumerate(rotor.touchdowns)
+    return {f"{name}_{plane + 1}": (name, plane) for plane, one in each for name in one.parameters}
 
 
 def value_of(rotor: LinearRotor, name: str) -> float:
@@ -59,7 +71,7 @@ def value_of(rotor: LinearRotor, name: str) -> float:
     if name == "speed" and rotor.scales is not None:
         return rotor.scales.speed
     own, plane = _planes(rotor).get(name, (SAME.get(name, name), None))
-    if own in _AT_PLANES:
+    if plane is not None or own in _at_planes(rotor):
         values = [each.value(own) for number, each in enumerate(rotor.touchdowns) if plane in (None, number)]
         if len(set(values)) > 1:
             names = ", ".join(f"{own}_{number + 1}" for number in range(len(values)))
@@ -92,7 +104,7 @@ def moved(rotor: LinearRotor, name: str, given: float | str) -> dict[str, Any]:
         raise no_such_parameter(name, given, known, rotor.scales is not None)
     value = read_quantity(known[name], given)
     own, plane = _planes(rotor).get(name, (SAME.get(name, name), None))
-    if own in _AT_PLANES:
+    if plane is not None or own in _at_planes(rotor):
         changed = (each.replace(own, value) if plane in (None, k) else each for k, each in enumerate(rotor.touchdowns))
         return {"touchdowns": tuple(changed)}
     if own == "phi":
@@ -105,6 +117,7 @@ def moved(rotor: LinearRotor, name: str, given: float | str) -> dict[str, Any]:
         return {
             "damping": rotor.damping + more,
             "stiffness": rotor.stiffness + stiffer + 1j * more,
+            "touchdowns": tuple(each.at_speed(1.0 / slower) for each in rotor.touchdowns),
             "scales": replace(rotor.scales, speed=value),
         }
     present = value_of(rotor, own)
@@ -120,12 +133,14 @@ def moved(rotor: LinearRotor, name: str, given: float | str) -> dict[str, Any]:
 
 
 def rates_of(rotor: LinearRotor, name: str) -> Rates | None:
-    """Derivatives of the equations of motion by a parameter: those of :func:`moved`; ``None`` if there is nothing to multiply."""
+    """Derivatives of the equations of motion by a parameter: those of :func:`moved`; ``None`` without, or with nothing to multiply."""
     own, plane = _planes(rotor).get(name, (SAME.get(name, name), None))
-    of_law = {attribute: np.zeros(len(rotor.planes)) for attribute in _AT_PLANES.values()}
+    if own in WALL_FIELDS or (name == "speed" and any(each.at_speed(2.0) != each for each in rotor.touchdowns)):
+        return None
+    of_law = {attribute: np.zeros(len(rotor.planes)) for attribute in _EXACT.values()}
     stiffer, more, pull = np.zeros_like(rotor.stiffness), np.zeros_like(rotor.damping), np.zeros_like(rotor.forcing)
-    if own in _AT_PLANES:
-        of_law[_AT_PLANES[own]][slice(None) if plane is None else plane] = 1.0
+    if own in _EXACT:
+        of_law[_EXACT[own]][slice(None) if plane is None else plane] = 1.0
     elif own == "phi":
         pull = 1j * rotor.forcing
     else:

@@ -14,6 +14,7 @@ from carom.models.jeffcott import Jeffcott
 from carom.models.linear import LinearRotor
 from carom.models.model import Model
 from carom.models.stages import Forced, Stage, Staged, Trigger
+from carom.models.weight import refuse_forces, weighted
 from carom.outcome import InputError, shown
 from carom.parameters import Case, Machine, Parameters, Zones
 
@@ -36,7 +37,8 @@ def model_of(subject: Subject) -> Model:
     if isinstance(subject, Parameters):
         return Jeffcott(subject)
     if isinstance(subject, Machine | Case):
-        return model_of(subject.parameters)
+        model = model_of(subject.parameters)
+        return weighted(model, subject.gravity) if isinstance(subject, Case) and subject.gravity else model
     if isinstance(subject, Model):
         return subject
     raise InputError("machine", shown(subject), _ALLOWED)
@@ -48,16 +50,20 @@ def jeffcott_of(subject: Subject) -> Jeffcott:
     Raises
     ------
     InputError
-        It is none of these, or another model.
+        It is none of these, another model, or has weight.
     """
     model = model_of(subject)
     if isinstance(model, Jeffcott):
         return model
+    if isinstance(model, Forced):
+        refuse_forces(model)
     raise InputError("machine", shown(subject), "the planar rotor: this result is not known for other models")
 
 
 def parameters_of(model: Model) -> Parameters | None:
-    """Parameters of the planar rotor; ``None`` of other models, whose numbers are matrices."""
+    """Parameters of the planar rotor, whatever forces act on it; ``None`` of other models, whose numbers are matrices."""
+    if isinstance(model, Forced):
+        return parameters_of(model.rotor)
     return model.parameters if isinstance(model, Jeffcott) else None
 
 
@@ -95,7 +101,7 @@ def case_of(subject: Subject) -> Case:
     Raises
     ------
     InputError
-        It is none of these, or another model than the planar rotor.
+        It is none of these, another model than the planar rotor, or has weight: no case would keep that.
     """
     if isinstance(subject, Case):
         jeffcott_of(subject)

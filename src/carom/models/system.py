@@ -12,6 +12,7 @@ import numpy as np
 from carom.core.flow import fly_all
 from carom.core.table import flight_table
 from carom.core.wall import Wall
+from carom.models.race import RaceModes
 from carom.outcome import InputError
 from carom.results import Result
 
@@ -65,6 +66,8 @@ class System(Result):
         Change of the coordinates when the rotor as a whole is displaced by one; ones by default.
     forced : ndarray of complex, shape (N,), optional
         Amplitudes of the forcing modes at time zero, zeros elsewhere; all zeros by default.
+    races : RaceModes, optional
+        The modes of races that turn: they are not free, but friction changes them.
     """
 
     arrays: np.record
@@ -73,6 +76,7 @@ class System(Result):
     inverse: np.ndarray | None = None
     translation: np.ndarray | None = None
     forced: np.ndarray | None = None
+    races: RaceModes | None = None
 
     @cached_property
     def table(self) -> np.record:
@@ -117,7 +121,11 @@ class System(Result):
         return np.diag(self.arrays["exponents"]) + np.diag(self.arrays["driven"][1:].astype(complex), -1)
 
     def refuse_forces(self) -> None:
-        """Refuse a rotor on which forces act that change with time in its frame: it never is at rest there."""
+        """Refuse a rotor on which forces act that change with time in its frame, or with a race that turns: it never is at rest there."""
+        if self.races is not None:
+            raise InputError(
+                "machine", "a race that turns", "races that stand still, or carom.simulate and carom.settle"
+            )
         if self.forced is not None:
             raise InputError("machine", "forces that change with time", "a rotor whose forces turn with its frame")
 
@@ -233,6 +241,12 @@ class System(Result):
         moves = self.translation if len(self.rest) > 1 else self.translation[0]
         pushes: np.ndarray = np.dot(velocities, moves.conj()) / np.vdot(moves, moves)
         return pushes
+
+    def race_speeds(self, amplitudes: np.ndarray) -> tuple[float, ...]:
+        """Speeds of the surfaces of the races that turn, in the order of their planes, in ``c_r Ω`` in the fixed frame."""
+        if self.races is None:
+            return ()
+        return tuple(amplitudes[self.arrays["race"][self.races.planes]].real.tolist())
 
     @property
     def translated(self) -> np.ndarray:

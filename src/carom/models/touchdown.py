@@ -12,10 +12,13 @@ import numpy as np
 from carom.arguments import Kind, NotNegative, Positive, checked
 from carom.core.laws.choice import LAWS
 from carom.core.wall import Wall
+from carom.models.race import Race
 from carom.outcome import InputError, shown
 
 _Share = Annotated[float, Kind(lambda number: 0.0 <= number <= 1.0, "a number from 0 to 1")]
 _Exponent = Annotated[float, Kind(lambda number: 1.0 <= number <= 2.0, "a number from 1 to 2")]
+NO_IMPULSE = 0.0
+"""Coefficient of restitution in the numbers of a wall that gives way, which does not use one."""
 _Forward = Annotated[float, Kind(lambda number: number >= 1.0, "a number of at least 1")]
 
 
@@ -33,10 +36,15 @@ class Rigid:
     restitution: _Share
 
     law: ClassVar = "rigid"
+    parameters: ClassVar = {"d": "restitution"}
 
     def wall(self, friction: float, surface_speed: float, mass: float) -> Wall:
         """The numbers of a wall for a plane that resists impulses with this mass."""
         return Wall(friction, self.restitution, surface_speed)
+
+    def at_speed(self, factor: float) -> Rigid:
+        """Return the same at a speed of the shaft that is larger by a factor."""
+        return self
 
 
 @checked
@@ -56,10 +64,15 @@ class FallingRestitution:
     speed: Positive
 
     law: ClassVar = "falling"
+    parameters: ClassVar = {"d": "restitution"}
 
     def wall(self, friction: float, surface_speed: float, mass: float) -> Wall:
         """The numbers of a wall for a plane that resists impulses with this mass."""
         return Wall(friction, self.restitution, surface_speed, LAWS.index(self.law), 1.0 / self.speed)
+
+    def at_speed(self, factor: float) -> FallingRestitution:
+        """Return the same at a speed of the shaft that is larger by a factor."""
+        return FallingRestitution(self.restitution, self.speed / factor)
 
 
 @checked
@@ -79,12 +92,16 @@ class KelvinVoigt:
     damping: NotNegative
 
     law: ClassVar = "kelvin_voigt"
-    restitution: ClassVar = 0.0
+    parameters: ClassVar = {"wall_stiffness": "stiffness", "wall_damping": "damping"}
 
     def wall(self, friction: float, surface_speed: float, mass: float) -> Wall:
         """The numbers of a wall for a plane that resists impulses with this mass."""
         own = LAWS.index(self.law), 0.0, self.stiffness / mass, self.damping / mass
-        return Wall(friction, self.restitution, surface_speed, *own)
+        return Wall(friction, NO_IMPULSE, surface_speed, *own)
+
+    def at_speed(self, factor: float) -> KelvinVoigt:
+        """Return the same at a speed of the shaft that is larger by a factor."""
+        return KelvinVoigt(self.stiffness / factor**2, self.damping / factor)
 
 
 @checked
@@ -107,14 +124,20 @@ class HuntCrossley:
     exponent: _Exponent = 1.0
 
     law: ClassVar = "hunt_crossley"
-    restitution: ClassVar = 0.0
+    parameters: ClassVar = {"wall_stiffness": "stiffness", "wall_dissipation": "dissipation"}
 
     def wall(self, friction: float, surface_speed: float, mass: float) -> Wall:
         """The numbers of a wall for a plane that resists impulses with this mass."""
         own = LAWS.index(self.law), self.exponent, self.stiffness / mass, self.dissipation
-        return Wall(friction, self.restitution, surface_speed, *own)
+        return Wall(friction, NO_IMPULSE, surface_speed, *own)
+
+    def at_speed(self, factor: float) -> HuntCrossley:
+        """Return the same at a speed of the shaft that is larger by a factor."""
+        return HuntCrossley(self.stiffness / factor**2, self.dissipation * factor, self.exponent)
 
 
+YIELDING = (KelvinVoigt.law, HuntCrossley.law)
+"""Names of the laws of walls that give way."""
 Law = Rigid | FallingRestitution | KelvinVoigt | HuntCrossley
 """What a wall does along its normal; ``law`` is the name of its module in :mod:`carom.core.laws`."""
 
@@ -135,6 +158,8 @@ class Touchdown:
         Coulomb friction coefficient ``μ``.
     surface_speed : float
         Slip velocity of a rotor at rest in the co-rotating frame: ``s + 1``, with the rotor radius ``s`` at the plane in clearances.
+    race : Race, optional
+        Inner race that turns; by default it stands still.  Its wall has to give way.
 
     Raises
     ------
@@ -146,30 +171,55 @@ class Touchdown:
     law: Law
     friction: NotNegative
     surface_speed: _Forward
+    race: Race | None = None
 
     def __post_init__(self) -> None:
         row = np.array(self.plane, complex) if _are_numbers(self.plane) else np.empty(0)
         if row.ndim != 1 or not row.size or not np.isfinite(row).all():
             raise InputError("plane", shown(self.plane), "finite numbers, one for each coordinate of the rotor")
         object.__setattr__(self, "plane", tuple(row.tolist()))
+        if self.race is not None and self.law.law not in YIELDING:
+            raise InputError(
+                "race", self.race, "None at a rigid wall: a race that turns needs a law of a wall that gives way"
+            )
+
+    @property
+    def parameters(self) -> dict[str, str]:
+        """Its parameters by name: friction ``"mu"``, ``"radius_ratio"`` (the surface speed minus one), and those of its law."""
+        return {"mu": "friction", "radius_ratio": "surface_speed", **self.law.parameters}
 
     def value(self, name: str) -> float:
-        """Value of its parameter ``"mu"``, ``"d"`` or ``"radius_ratio"``."""
-        return {"mu": self.friction, "d": self.law.restitution, "radius_ratio": self.surface_speed - 1.0}[name]
+        """Value of one of its parameters."""
+        if name in self.law.parameters:
+            return float(getattr(self.law, self.law.parameters[name]))
+        return self.friction if name == "mu" else self.surface_speed - 1.0
 
     def replace(self, name: str, value: float) -> Touchdown:
-        """Return the same with another value of a parameter of :meth:`value`."""
-        if name == "d":
-            return dataclasses.replace(self, law=dataclasses.replace(self.law, restitution=value))
+        """Return the same with another value of one of its parameters."""
+        if name in self.law.parameters:
+            changed: dict[str, Any] = {self.law.parameters[name]: value}
+            return dataclasses.replace(self, law=dataclasses.replace(self.law, **changed))
         if name == "mu":
             return dataclasses.replace(self, friction=value)
         return dataclasses.replace(self, surface_speed=value + 1.0)
+
+    def at_speed(self, factor: float) -> Touchdown:
+        """Return the same at a speed of the shaft that is larger by a factor: what is in its unit then has another number."""
+        race = None if self.race is None else self.race.at_speed(factor)
+        return dataclasses.replace(self, law=self.law.at_speed(factor), race=race)
 
     def attributes(self) -> dict[str, Any]:
         """Return it as numbers and texts, exact to the last bit."""
         plane = [[number.real, number.imag] for number in self.plane]
         law = {"name": self.law.law, **dataclasses.asdict(self.law)}
-        return {"plane": plane, "law": law, "friction": self.friction, "surface_speed": self.surface_speed}
+        race = None if self.race is None else dataclasses.asdict(self.race)
+        return {
+            "plane": plane,
+            "law": law,
+            "friction": self.friction,
+            "surface_speed": self.surface_speed,
+            "race": race,
+        }
 
     @classmethod
     def from_attributes(cls, given: Mapping[str, Any]) -> Touchdown:
@@ -177,7 +227,8 @@ class Touchdown:
         name, numbers = given["law"]["name"], {key: given["law"][key] for key in given["law"] if key != "name"}
         (law,) = (each for each in get_args(Law) if each.law == name)
         plane = [complex(*number) for number in given["plane"]]
-        return cls(plane, law(**numbers), given["friction"], given["surface_speed"])
+        race = Race(**given["race"]) if given["race"] is not None else None
+        return cls(plane, law(**numbers), given["friction"], given["surface_speed"], race)
 
     def wall(self, mass: float) -> Wall:
         """The numbers of its wall, as the kernels take them, if the plane resists impulses with this mass."""

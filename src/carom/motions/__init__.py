@@ -2,6 +2,7 @@
 
 ==================  =============================================================================
 ``starts``          states, and kicks out of levitation
+``drops``             levitation lost
 ``trajectories``    one motion: its course, contacts and forces
 ``simulation``      from a start to a motion
 ``storage``         motions as datasets and files
@@ -9,6 +10,7 @@
 ``portions``          the work of an ensemble, shared by threads
 ``settling``        the record by which settling is recognised
 ``recurrence``      whether a motion that has recurred repeats or leaves, for rotors of several modes
+``resting``             whether a rotor lies on its touchdown bearing
 ``blows``           impulses at the planes in each event, also where several are struck in one instant
 ``contacts``        load on the bearing: the log of impacts, stretches of lasting contact
 ``loads``           loads of a touchdown: forces, impulses, heat
@@ -18,6 +20,7 @@
 """
 
 from carom.motions.contacts import ContactHistory, ContactLog, LastingContact
+from carom.motions.drops import Drop, drop
 from carom.motions.ensembles import Endings, settle
 from carom.motions.ledger import EnergyLedger, energy_ledger
 from carom.motions.loads import TouchdownLoads, touchdown_loads
@@ -31,6 +34,7 @@ __all__ = [
     "PATIENCE",
     "ContactHistory",
     "ContactLog",
+    "Drop",
     "Endings",
     "EnergyLedger",
     "FullSpectrum",
@@ -39,6 +43,7 @@ __all__ = [
     "State",
     "TouchdownLoads",
     "Trajectory",
+    "drop",
     "energy_ledger",
     "full_spectrum",
     "kick",

@@ -185,6 +185,7 @@ def _followed(
         [stages[0] for stages in courses], which, (positions, velocities, begins), limits, threads, tell
     )
     for number in range(1, max(map(len, courses), default=1)):
+        _refuse_races(courses, number)
         further = np.array([number < len(stages) for stages in courses])[which]
         on = np.flatnonzero(further & (endings.outcomes == Outcome.TRIGGERED))
         before = endings[on]
@@ -204,6 +205,15 @@ def _followed(
         for name, values in vars(endings).items():
             values[on] = getattr(later, name)
     return endings
+
+
+def _refuse_races(courses: Sequence[Sequence[Stage]], number: int) -> None:
+    """Refuse races that turn where a stage follows: of many motions their speeds at the end of a stage are not kept."""
+    for stages in courses:
+        if number < len(stages) and any(stage.rotor.system.races is not None for stage in stages):
+            raise InputError(
+                "machine", "a race that turns, in stages", "one motion at a time: carom.simulate keeps its speed"
+            )
 
 
 def _in_stage(

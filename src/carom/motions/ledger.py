@@ -9,6 +9,7 @@ import numpy as np
 
 from carom.arguments import checked
 from carom.models import Matrices
+from carom.models.stages import forces_of
 from carom.motions.contacts import Table, column
 from carom.motions.trajectories import Trajectory
 from carom.outcome import InputError, Phase
@@ -40,6 +41,7 @@ class EnergyLedger(Table):
     unbalance: np.ndarray = field(metadata=column("energy", "work of the unbalance since the start"))
     damping: np.ndarray = field(metadata=column("energy", "work of damping since the start"))
     circulatory: np.ndarray = field(metadata=column("energy", "work of circulatory forces since the start"))
+    forces: np.ndarray = field(metadata=column("energy", "work of weight and other outer forces since the start"))
     impacts: np.ndarray = field(metadata=column("energy", "work at the contact point in impacts since the start"))
     friction: np.ndarray = field(metadata=column("energy", "work of friction in lasting contact since the start"))
     drive: np.ndarray = field(metadata=column("energy", "work of the shaft's drive through friction since the start"))
@@ -53,16 +55,22 @@ class EnergyLedger(Table):
         return self.kinetic + self.spring
 
     @property
+    def works(self) -> tuple[np.ndarray, ...]:
+        """All works since the start."""
+        others = self.circulatory, self.forces, self.impacts, self.friction, self.drive
+        return self.unbalance, self.damping, *others
+
+    @property
     def supplied(self) -> np.ndarray:
         """Sum of all works since the start."""
-        return self.unbalance + self.damping + self.circulatory + self.impacts + self.friction + self.drive
+        total: np.ndarray = np.sum(self.works, axis=0)
+        return total
 
     @property
     def imbalance(self) -> float:
         """Largest error of the balance, relative to the largest energy or work that occurs; 0 at rest."""
         missing = np.abs(self.energy - self.energy[0] - self.supplied).max()
-        works = (self.unbalance, self.damping, self.circulatory, self.impacts, self.friction, self.drive)
-        passed = max(self.energy.max(), *(np.abs(work).max() for work in works))
+        passed = max(self.energy.max(), *(np.abs(work).max() for work in self.works))
         return float(missing / passed) if passed > 0.0 else 0.0
 
 
@@ -72,13 +80,14 @@ def energy_ledger(trajectory: Trajectory) -> EnergyLedger:
 
     With ``w = U̇ + iU`` (velocities in the fixed frame, seen in the co-rotating one) and ``K = K₀ + K₁``, Hermitian and
     skew-Hermitian, the energy ``(wᴴMw + UᴴK₀U)/2`` changes by the power ``Re(wᴴF)`` of the unbalance, ``−wᴴDw`` of the
-    damping, ``−Re(wᴴK₁U)`` of the circulatory forces and that of the contact forces.  A friction force ``F`` does the
+    damping, ``−Re(wᴴK₁U)`` of the circulatory forces, ``Re(wᴴMa(t))`` of forces that accelerate the coordinates by ``a(t)``, such
+    as weight, and that of the contact forces.  A friction force ``F`` does the
     work ``F v`` on the contact point, which slips with ``v = s + 1 + θ̇``, and the rest ``−F s`` comes from the drive.
 
     Raises
     ------
     InputError
-        The mass matrix is not Hermitian, so there is no kinetic energy; or forces act that change with time.
+        The mass matrix is not Hermitian, so there is no kinetic energy.
 
     See Also
     --------
@@ -93,7 +102,6 @@ def energy_ledger(trajectory: Trajectory) -> EnergyLedger:
     >>> ledger.imbalance < 1e-12
     True
     """
-    trajectory.rotor.system.refuse_forces()
     matrices = trajectory.rotor.matrices
     edges, counts = pieces(trajectory)
     if np.abs(matrices.mass - matrices.mass.conj().T).max() > HERMITIAN * np.abs(matrices.mass).max():
@@ -127,12 +135,22 @@ def energy_ledger(trajectory: Trajectory) -> EnergyLedger:
         unbalance=work((fixed.conj() @ matrices.forcing).real),
         damping=work(-_form(fixed, matrices.damping, fixed)),
         circulatory=work(-_form(fixed, skew, position)),
+        forces=work(_power_of_forces(trajectory, times, fixed)),
         impacts=at_events(impact, impacts.contact_work),
         # A landing stands for the last bounces of a chatter; its work is a correction to their friction.
         friction=work(slides) + at_events(landing, landings.contact_work),
         drive=work(drives) + at_events(impact, impacts.drive_work) + at_events(landing, landings.drive_work),
         scales=trajectory.rotor.scales,
     )
+
+
+def _power_of_forces(trajectory: Trajectory, times: np.ndarray, velocity: np.ndarray) -> np.ndarray:
+    """Power of the forces that change with time in the frame of the rotor, weight among them; velocities (..., n) in the fixed frame."""
+    power, since = np.zeros(times.shape), trajectory.begins + times
+    for force in forces_of(trajectory.rotor):
+        push = trajectory.rotor.matrices.mass @ force.accelerations
+        power += ((velocity.conj() @ push) * np.exp(force.exponent * since)).real
+    return power
 
 
 def _form(left: np.ndarray, matrix: np.ndarray, right: np.ndarray) -> np.ndarray:

@@ -18,7 +18,7 @@ from carom.core.layout import rub_workspace, workspace
 from carom.core.phases import AWAY, FLIGHT
 from carom.models import Stage
 from carom.motions.settling import fresh_memory, settled, time_limit
-from carom.motions.simulation import follow
+from carom.motions.simulation import follow, tools
 from carom.motions.starts import WALL_TOLERANCE, State, amplitudes_of, time_until
 from carom.outcome import Outcome, Phase
 
@@ -115,6 +115,7 @@ def _settle_part(part: Part, limits: Limits) -> int:
 def _follow_singly(part: Part, until: float, limits: Limits, memory: np.record) -> int:
     """Follow the motions that this call takes from the counter, one after another: for any rotor and trigger."""
     rotor, taken, rubs_known = part.stage.rotor, 0, not memory.resting
+    scratch, room = tools(rotor), EventLog.empty(LOGGED, rotor.system.modes, len(rotor.system.arrays["rows"]))
     while (number := int(next_number(part.counter.numbers))) < len(part.motions):
         motion = part.motions[number]
         begins = float(motion.time)
@@ -124,9 +125,9 @@ def _follow_singly(part: Part, until: float, limits: Limits, memory: np.record) 
         memory.resting = not rubs_known
         motion.time, motion.impacts, events, outcome = 0.0, 0, 0, Outcome.EVENT_LIMIT
         while outcome is Outcome.EVENT_LIMIT and events < limits.max_events:
-            log = EventLog.empty(min(LOGGED, limits.max_events - events), len(amplitudes), len(contact))
+            log = room.first(min(LOGGED, limits.max_events - events))
             before = np.where(contact == AWAY, Phase.FLIGHT, contact)
-            outcome, time, count = follow(rotor, amplitudes, end - motion.time, contact, log, memory)
+            outcome, time, count = follow(rotor, amplitudes, end - motion.time, contact, log, memory, scratch)
             motion.time += time
             motion.impacts += np.count_nonzero(log.first(count).impacts(before))
             events += count

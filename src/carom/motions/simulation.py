@@ -13,6 +13,7 @@ from carom.core.event_log import EventLog
 from carom.core.layout import rub_workspace, workspace
 from carom.models import Model, Subject, Trigger, model_of
 from carom.models.stages import stages_of
+from carom.motions.drops import Drop
 from carom.motions.settling import (
     LOW_FOR,
     PATIENCE,
@@ -36,7 +37,7 @@ CHUNK = 4096
 @shows_progress
 def simulate(
     machine: Subject,
-    start: State | Kick,
+    start: State | Kick | Drop,
     until: Until | None = None,
     *,
     settle: bool | None = None,
@@ -51,8 +52,8 @@ def simulate(
     ----------
     machine : Machine, Case, Parameters or model
         Of a :class:`carom.models.Staged` the last stage reached is returned, with the ``earlier`` ones.
-    start : State or Kick
-        On the wall (``|U| = 1`` to within 1e-12) or inside it.
+    start : State, Kick or Drop
+        On the wall (``|U| = 1`` to within 1e-12) or inside it.  After a drop the rotor of the motion is the one that falls.
     until : float or str, optional
         Time to follow it, in ``1/Ω`` or text with a unit, such as ``"2 s"``; by default to where it settles, at most
         for :func:`~carom.motions.settling.longest_time`.
@@ -73,7 +74,7 @@ def simulate(
     See Also
     --------
     carom.settle : many starts at once
-    carom.kick, carom.State : starts
+    carom.kick, carom.drop, carom.State : starts
     carom.motions.energy_ledger, carom.motions.full_spectrum : evaluate a motion
 
     Examples
@@ -87,6 +88,8 @@ def simulate(
     257
     """
     model = model_of(machine)
+    if isinstance(start, Drop):
+        model, start = start.stages(machine)
     state = start.state(model) if isinstance(start, Kick) else start
     settle = until is None if settle is None else settle
     end = None if until is None and settle else time_until(until, model.scales)
@@ -98,7 +101,8 @@ def simulate(
         parts.append(_follow_stage(stage.rotor, state, begins, longest, stage.trigger, options))
         if parts[-1].outcome is not Outcome.TRIGGERED:
             break
-        state = State.of(*stage.carried(parts[-1].final.position, parts[-1].final.velocity))
+        ended = parts[-1].final
+        state = State.of(*stage.carried(ended.position, ended.velocity), ended.races)
     return dataclasses.replace(parts[-1], earlier=tuple(parts[:-1])) if len(parts) > 1 else parts[0]
 
 
@@ -141,7 +145,7 @@ def _follow_stage(
         start=start,
         outcome=outcome,
         time=reached,
-        final=State.of(position, velocity),
+        final=State.of(position, velocity, rotor.system.race_speeds(amplitudes)),
         multiplicity=multiplicity,
         segment_starts=np.concatenate([np.zeros(1), *(log.times for log in logs)]),
         segment_phases=np.concatenate([np.zeros((1, len(contact)), np.int64), *(log.phases for log in logs)]),
@@ -152,14 +156,26 @@ def _follow_stage(
     )
 
 
+def tools(rotor: Model) -> tuple[np.record, np.record]:
+    """Scratch arrays for :func:`follow`."""
+    modes, planes = rotor.system.arrays["columns"].shape
+    return workspace(modes), rub_workspace(modes, planes)
+
+
 def follow(
-    rotor: Model, amplitudes: np.ndarray, until: float, contact: np.ndarray, log: EventLog, recollection: np.record
+    rotor: Model,
+    amplitudes: np.ndarray,
+    until: float,
+    contact: np.ndarray,
+    log: EventLog,
+    recollection: np.record,
+    scratch: tuple[np.record, np.record] | None = None,
 ) -> tuple[Outcome, float, int]:
     """Advance amplitudes and contacts in place until the log is full or the motion ends.
 
-    See :func:`carom.core.advance.advance`.
+    See :func:`carom.core.advance.advance`; ``scratch`` are :func:`tools`, for many motions.
     """
-    modes, system = len(amplitudes), rotor.system
-    work, rub = workspace(modes), rub_workspace(modes, len(contact))
+    system = rotor.system
+    work, rub = tools(rotor) if scratch is None else scratch
     code, *rest = advance(system.arrays, system.table, amplitudes, until, contact, log, recollection, work, rub)
     return Outcome(code), *rest

@@ -9,9 +9,12 @@ from typing import Annotated, Any
 import numpy as np
 
 from carom.arguments import Kind, checked
+from carom.core.layout import rub_workspace
 from carom.core.phases import AWAY, FLIGHT
+from carom.core.rub import phase_in_wall
 from carom.core.wall import set_on_wall
-from carom.models import Model
+from carom.models import Model, System
+from carom.models.weight import levitation_of, weight_of
 from carom.outcome import InputError
 from carom.parameters import Scales, own_size
 
@@ -32,6 +35,9 @@ class State:
     ----------
     position, velocity : complex, or ndarray of complex, shape (n,)
         ``U`` in clearances and ``U̇`` in clearances times ``Ω``; arrays for a rotor of ``n > 1`` coordinates.
+    races : tuple of float
+        Speeds of the surfaces of the races that turn, in the order of their planes, in ``c_r Ω`` in the fixed frame; by default
+        those that the rotor begins with.
 
     See Also
     --------
@@ -46,11 +52,14 @@ class State:
 
     position: Any
     velocity: Any = 0j
+    races: tuple[float, ...] = ()
 
     @classmethod
-    def of(cls, position: np.ndarray, velocity: np.ndarray) -> State:
+    def of(cls, position: np.ndarray, velocity: np.ndarray, races: tuple[float, ...] = ()) -> State:
         """State of plain numbers, or of arrays if there are several coordinates."""
-        return cls(position, velocity) if np.ndim(position) else cls(complex(position), complex(velocity))
+        if np.ndim(position):
+            return cls(position, velocity, races)
+        return cls(complex(position), complex(velocity), races)
 
 
 @checked
@@ -76,11 +85,14 @@ class Kick:
         Raises
         ------
         InputError
-            The text is no speed or no angle, or its unit needs scales that the rotor does not have.
+            The text is no speed or no angle, or its unit needs scales that the rotor does not have; or the rotor sags to the wall.
         """
+        if weight_of(rotor) is not None:
+            levitation_of(rotor)
         speed = own_size("kick speed", self.speed, "velocity", rotor.scales)
         push = cmath.rect(speed, own_size("kick angle", self.angle, "angle", rotor.scales))
-        return State.of(*(values if len(values) > 1 else values[0] for values in rotor.system.kicked(push)))
+        position, velocity = (values if len(values) > 1 else values[0] for values in rotor.system.kicked(push))
+        return State.of(position, velocity)
 
 
 @checked
@@ -108,11 +120,11 @@ def kick(speed: float | str, angle: float | str = 0.0) -> Kick:
     return Kick(speed, angle)
 
 
-def time_until(until: float | str | None, scales: Scales | None) -> float:
+def time_until(until: float | str | None, scales: Scales | None, name: str = "until") -> float:
     """Time to follow a motion, in ``1/Ω``, from a number or text with a unit; refuse what is no time above 0."""
-    time = until if until is None else own_size("until", until, "time", scales)
+    time = until if until is None else own_size(name, until, "time", scales)
     if time is None or time <= 0.0:
-        raise InputError("until", until, _TIME)
+        raise InputError(name, until, _TIME)
     return time
 
 
@@ -130,16 +142,30 @@ def amplitudes_of(rotor: Model, state: State, time: float = 0.0) -> tuple[np.nda
     if np.abs(state.velocity).max() > LARGEST_SPEED:
         raise InputError("start velocity", state.velocity, f"a speed up to {LARGEST_SPEED:g}")
     amplitudes = system.amplitudes(state.position, state.velocity, time)
+    if state.races:
+        _set_races(system, state.races, amplitudes)
     contact = np.full(len(system.arrays["rows"]), AWAY)
     for plane in range(len(contact)):
         # The given position of the planar rotor is used, free of the rounding of the amplitudes.
         radius = abs(state.position if system.is_planar else system.at_plane(amplitudes, plane)[0])
-        if radius > 1.0 + WALL_TOLERANCE:
+        if radius > 1.0 + WALL_TOLERANCE and system.arrays["stiffness"][plane] > 0.0:
+            contact[plane] = phase_in_wall(
+                system.arrays, contact, plane, amplitudes, rub_workspace(*system.arrays["columns"].shape)
+            )
+        elif radius > 1.0 + WALL_TOLERANCE:
             where = "" if len(contact) == 1 else f" at plane {plane}"
             raise InputError(
                 "start position", state.position, f"inside the wall, |U| <= 1 (here |U| = {radius:.12g}{where})"
             )
-        if radius >= 1.0 - WALL_TOLERANCE:
+        elif radius >= 1.0 - WALL_TOLERANCE:
             set_on_wall(system.arrays, plane, amplitudes)
             contact[plane] = FLIGHT
     return amplitudes, contact
+
+
+def _set_races(system: System, speeds: tuple[float, ...], amplitudes: np.ndarray) -> None:
+    """Set the speeds of the surfaces of the races that turn."""
+    places = () if system.races is None else system.arrays["race"][system.races.planes]
+    if len(speeds) != len(places) or not np.isfinite(speeds).all():
+        raise InputError("start races", speeds, f"{len(places)} finite number(s), one for each race that turns")
+    amplitudes[np.array(places, int)] = speeds

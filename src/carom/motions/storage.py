@@ -112,10 +112,10 @@ def _parts(values: np.ndarray) -> np.ndarray:
 
 
 def _numbers(state: State) -> list[Any]:
-    return [
-        [np.asarray(part).real.tolist(), np.asarray(part).imag.tolist()] for part in (state.position, state.velocity)
-    ]
+    parts = state.position, state.velocity
+    return [*([np.asarray(part).real.tolist(), np.asarray(part).imag.tolist()] for part in parts), list(state.races)]
 
 
 def _state(numbers: list[Any]) -> State:
-    return State.of(*(np.array(real) + 1j * np.array(imaginary) for real, imaginary in numbers))
+    position, velocity = (np.array(real) + 1j * np.array(imaginary) for real, imaginary in numbers[:2])
+    return State.of(position, velocity, tuple(numbers[2]))

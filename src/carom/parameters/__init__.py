@@ -15,7 +15,9 @@
 ``resolution``            entries in whatever terms -> numbers of a machine
 ``machine``               :class:`Machine`, conversion to parameters and back
 ``load_limits``           :class:`LoadLimits` of a touchdown bearing
+``gravity``               :class:`Gravity`: where the rotor falls
 ``indentation``           whether a rigid wall is a valid model under a load
+``restitution``           restitution and what a wall that gives way dissipates
 ``requirement``           :class:`Requirement`: what a machine must survive
 ``machine_file``          :func:`load`: file and settings -> :class:`Case`
 ``told``                  sizes and numbers as people write them: mm/s, g, degrees
@@ -28,9 +30,11 @@ from carom.parameters.fields import (
     MACHINE_FIELDS,
     PARAMETERS,
     PHYSICAL_PARTNER,
+    WALL_FIELDS,
     Field,
     unknown_name,
 )
+from carom.parameters.gravity import GRAVITY_FIELDS, Gravity
 from carom.parameters.in_terms import InTerms, in_terms_of
 from carom.parameters.load_limits import LIMIT_FIELDS, LoadLimits
 from carom.parameters.machine import Machine
@@ -54,6 +58,7 @@ __all__ = [
     "DIMENSIONLESS_FIELDS",
     "ENTRIES",
     "GRAVITY",
+    "GRAVITY_FIELDS",
     "HELPER_FIELDS",
     "LIMIT_FIELDS",
     "MACHINE_FIELDS",
@@ -65,8 +70,10 @@ __all__ = [
     "TERMS",
     "TERM_FIELDS",
     "UNITS",
+    "WALL_FIELDS",
     "Case",
     "Field",
+    "Gravity",
     "InTerms",
     "LoadLimits",
     "Machine",

@@ -168,6 +168,13 @@ DIMENSIONLESS_FIELDS: Mapping[str, Field] = by_name(
 )
 """Entries of a ``[dimensionless]`` table; (2.12) of the source paper defines the first three."""
 
+WALL_FIELDS: Mapping[str, Field] = by_name(
+    _pure("wall_stiffness", "κ", "stiffness of the wall", 1e-6, 1e12, "1e4", "wall stiffness/(mass speed^2)"),
+    _pure("wall_damping", "c", "damping of the wall", 0.0, 1e9, "3.3", "wall damping/(mass speed)"),
+    _pure("wall_dissipation", "χ", "dissipation of the wall", 0.0, 1e9, "0.05", "dissipation clearance speed"),
+)
+"""Parameters of walls that give way."""
+
 PARAMETERS: Mapping[str, Field] = {**DIMENSIONLESS_FIELDS, **MACHINE_FIELDS}
 """All parameters of the planar rotor."""
 
@@ -215,7 +222,7 @@ _OTHER_WORDS = 0.2
 """Taken off the likeness of names with more or fewer words: a word more mostly says something else."""
 _CONSTANTS = {"stiffness", "damping"}
 _NOT_MODELLED = (
-    (({"gravity", "weight"},), "gravity is not modelled"),
+    (({"gravity", "weight"},), "weight is stated in a table [gravity]"),
     (
         ({"integral", "i"}, {"gain", "action", "time"}),
         "an integral gain is not modelled: the levitation is a spring and a damper",

@@ -12,6 +12,7 @@ from typing import Any, cast
 from carom.arguments import checked
 from carom.outcome import InputError, Problems, printable, shown
 from carom.parameters.fields import DIMENSIONLESS_FIELDS, PHYSICAL_PARTNER, name_errors, unknown_names
+from carom.parameters.gravity import Gravity, refused
 from carom.parameters.load_limits import LIMIT_FIELDS, LoadLimits
 from carom.parameters.machine import Machine, warn_of_proportions
 from carom.parameters.named import Named, own_numbers
@@ -25,6 +26,8 @@ from carom.parameters.toml_reader import MachineTables, read_machine_tables
 from carom.tabular import Tabular
 
 _SETTING = "--set"
+_GRAVITY = "gravity"
+"""The setting of an acceleration of free fall, which is no number of the machine."""
 _UNITS_TOLD = ("length", "time", "velocity", "force", "impulse")
 """Units of the equations that a case shows."""
 
@@ -86,11 +89,13 @@ class Case(Tabular):
         Largest loads that are stated for the touchdown bearing.
     requirement : Requirement
         What the machine must survive, in the SI units of `parameters` if these have scales.
+    gravity : Gravity, optional
+        By default, or with an acceleration of zero, the rotor has no weight.
 
     Raises
     ------
     InputError
-        `parameters` or `requirement` are something else, or the unbalance after the loss of a blade is out of range for the
+        `parameters` or `requirement` are something else, there is gravity without scales, or the unbalance after the loss of a blade is out of range for the
         mass and clearance of the machine.
     """
 
@@ -101,11 +106,16 @@ class Case(Tabular):
     zones: Zones
     limits: LoadLimits = field(default_factory=LoadLimits)
     requirement: Requirement = field(default_factory=Requirement)
+    gravity: Gravity | None = None
 
     def __post_init__(self) -> None:
         if not isinstance(self.parameters, Named):
             raise InputError("parameters", shown(self.parameters), "must be carom.parameters.Parameters, or a model")
         self.requirement.own(self.parameters.scales)
+        if self.gravity is not None and self.gravity.acceleration == 0.0:
+            object.__setattr__(self, "gravity", None)
+        if self.gravity is not None and self.parameters.scales is None:
+            raise refused(self.gravity.words)
 
     @property
     def heading(self) -> str:
@@ -125,6 +135,7 @@ class Case(Tabular):
         units = [f"{shown_in(kind, None)[1]} = {told(1.0, kind, scales)}" for kind in _UNITS_TOLD]
         return [
             *(own if self.machine is None else self.machine.rows()),
+            *([("gravity", self.gravity.words)] if self.gravity else []),
             ("must survive", self._required()),
             ("zones, in clearances", zones),
             *([("limits of the bearing", ", ".join(limits))] if limits else []),
@@ -151,12 +162,17 @@ class Case(Tabular):
         ----------
         **changes
             As for :meth:`carom.parameters.Machine.replace`; for a dimensionless case as for :meth:`carom.parameters.Parameters.replace`.
+            ``gravity`` sets the acceleration of :class:`carom.parameters.Gravity`.
 
         Raises
         ------
         InputError
             If a name is unknown or a value not allowed.
         """
+        if _GRAVITY in changes:
+            if self.parameters.scales is None:
+                raise refused(changes[_GRAVITY])
+            return replace(self, gravity=_pulled(self.gravity, changes.pop(_GRAVITY))).replace(**changes)
         if self.machine is None:
             return replace(self, parameters=self.parameters.replace(**changes))
         machine = self.machine.replace(**changes)
@@ -173,10 +189,11 @@ def load(path: str | os.PathLike[str], settings: Iterable[str] = ()) -> Case:
     Parameters
     ----------
     path : path
-        TOML file with a ``[machine]`` or a ``[dimensionless]`` table, and perhaps ``[zones]``, ``[limits]`` and
-        ``[survive]``.
+        TOML file with a ``[machine]`` or a ``[dimensionless]`` table, and perhaps ``[zones]``, ``[limits]``,
+        ``[survive]`` and ``[gravity]``.
     settings : iterable of str
-        Texts ``"name=value"`` as in ``--set``; the name is a machine field or a dimensionless parameter.
+        Texts ``"name=value"`` as in ``--set``; the name is a machine field, a dimensionless parameter, or ``gravity``
+        for its acceleration.
         Physical values are set first. A dimensionless one set on a machine keeps mass, speed and clearance and
         changes its partner: ``gamma`` the damping, ``omega`` the stiffness, ``rho`` the eccentricity, ``phi`` the
         unbalance phase, ``mu`` the friction, ``d`` the restitution, ``radius_ratio`` the rotor radius.
@@ -210,11 +227,17 @@ def load(path: str | os.PathLike[str], settings: Iterable[str] = ()) -> Case:
     zones = problems.attempt(_read_zones, tables.zones)
     limits = problems.attempt(LoadLimits.of, tables.limits, tables.kind == "machine") or LoadLimits()
     of_machine = tables.kind == "machine"
+    gravity = None if tables.gravity is None else problems.attempt(Gravity.of, tables.gravity, of_machine)
     base: Machine | Parameters | None = (
         problems.attempt(Machine, **tables.values) if of_machine else problems.attempt(_read_dimensionless, tables)
     )
     requirement = problems.attempt(Requirement.of_table, tables.survive, _scales(base, of_machine))
     texts = _split(settings, problems)
+    pull = texts.pop(_GRAVITY, None)
+    if pull is not None and of_machine:
+        gravity = problems.attempt(_pulled, gravity, pull)
+    elif pull is not None:
+        problems.errors.append(refused(pull))
     fields = SETTABLE if of_machine else DIMENSIONLESS_FIELDS
     numbers = {
         name: problems.attempt(read_quantity, fields[name], text) for name, text in texts.items() if name in fields
@@ -224,7 +247,7 @@ def load(path: str | os.PathLike[str], settings: Iterable[str] = ()) -> Case:
         problems.attempt(_refuse_physical, physical)
     problems.raise_all()
     name = printable(Path(path).stem)
-    rest = (zones or Zones(), limits, requirement or Requirement())
+    rest = (zones or Zones(), limits, requirement or Requirement(), gravity)
     if isinstance(base, Machine):
         case = Case(name, base.parameters, base, *rest).replace(**texts)
         warn_of_proportions(case.machine)
@@ -251,8 +274,16 @@ def _split(settings: Iterable[str], problems: Problems) -> dict[str, str]:
         if name in texts:
             problems.errors.append(InputError(name, shown(text), f"is set twice by {_SETTING}; give it once"))
         texts[name] = text
-    problems.attempt(check_names, texts)
+    problems.attempt(check_names, {name: text for name, text in texts.items() if name != _GRAVITY})
     return texts
+
+
+def _pulled(present: Gravity | None, acceleration: Any) -> Gravity:
+    """Gravity with another acceleration, in the same direction."""
+    try:
+        return replace(present or Gravity(), acceleration=acceleration)
+    except InputError as problem:
+        raise InputError(_GRAVITY, shown(acceleration), problem.allowed) from None
 
 
 def _refuse_physical(physical: Mapping[str, str]) -> None:

@@ -1,6 +1,11 @@
 """A Hunt–Crossley wall: the force ``κδⁿ(1 + χδ̇)`` on a plane that is ``δ`` deep in the wall, which vanishes with the depth.
 
 The wall's ``loss`` is ``χ`` and the law's own number is ``n``.
+
+A power ``n`` that is no whole number has a branch point where contact begins, next to which no Taylor series converges.  There, below a
+depth ``ε`` of :data:`ONSET`, a parabola ``ε^n (αδ/ε + βδ²/ε²)`` takes its place that has the same value at ``ε`` and does the same work
+up to it: ``α + β = 1`` and ``α/2 + β/3 = 1/(n + 1)``.  Through a contact entered with the speed ``v`` its impulse is then the same to
+``κε^(n + 2)/v²``, below rounding for any wall of a machine.
 """
 
 from __future__ import annotations
@@ -9,12 +14,30 @@ from carom.compiling.decorators import formula
 from carom.core.laws.yielding import no_impulse
 
 impulse = impulse_by_speed = impulse_by_restitution = no_impulse
+ONSET = 1e-9
+"""Depth in clearances below which a parabola takes the place of the power."""
+
+
+@formula
+def edge(depth, rate, wall):
+    """Depth at which the series of the force takes another form, negative if the plane is deeper; zero if there is none.
+
+    At the edge, to far more than the rounding error of a depth, the plane is on the side to which it moves.
+    """
+    if wall.law_number == 1.0:
+        return 0.0
+    return ONSET if depth < 0.999 * ONSET or (depth < 1.001 * ONSET and rate < 0.0) else -ONSET
 
 
 @formula
 def force(depth, rate, wall):
     """Normal force at a depth that grows at a rate."""
-    return wall.stiffness * max(depth, 0.0) ** wall.law_number * (1.0 + wall.loss * rate)
+    power = max(depth, 0.0) ** wall.law_number
+    if wall.law_number != 1.0 and depth < ONSET:
+        share = 6.0 / (wall.law_number + 1.0) - 2.0
+        part = max(depth, 0.0) / ONSET
+        power = ONSET**wall.law_number * part * (share + (1.0 - share) * part)
+    return wall.stiffness * power * (1.0 + wall.loss * rate)
 
 
 @formula
@@ -25,6 +48,11 @@ def force_coefficient(k, depth, rate, power, wall):
     """
     if wall.law_number == 1.0:
         power[k] = depth[k]
+    elif edge(depth[0], rate[0], wall) > 0.0:
+        share, square = 6.0 / (wall.law_number + 1.0) - 2.0, 0.0
+        for j in range(k + 1):
+            square += depth[j] * depth[k - j]
+        power[k] = ONSET ** (wall.law_number - 1.0) * (share * depth[k] + (1.0 - share) * square / ONSET)
     elif k == 0:
         power[0] = depth[0] ** wall.law_number
     else:

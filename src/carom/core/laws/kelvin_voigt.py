@@ -12,6 +12,12 @@ impulse = impulse_by_speed = impulse_by_restitution = no_impulse
 
 
 @formula
+def edge(depth, rate, wall):
+    """Depth at which the series of the force takes another form; there is none."""
+    return 0.0
+
+
+@formula
 def force(depth, rate, wall):
     """Normal force at a depth that grows at a rate."""
     return wall.stiffness * depth + wall.loss * rate

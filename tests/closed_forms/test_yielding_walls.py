@@ -1,0 +1,149 @@
+"""Steady motions on walls that give way, put into the equations of motion of a reference that shares nothing with them."""
+
+import cmath
+
+import numpy as np
+import pytest
+from compliant_reference import FORWARD, HuntCrossley, KelvinVoigt, Plane, Rotor
+from linear_rotors import tilting
+from machines import PAPER
+
+from carom.closed_forms import find_equilibria, runaway_speed, slipping_whirl, yielding_rubs
+from carom.outcome import InputError
+from carom.parameters import Parameters
+
+EXPONENTS = [1.0, 10 / 9, 1.5]
+
+
+def law_of(stiffness, exponent):
+    """A wall with that force at rest, whatever it dissipates."""
+    return KelvinVoigt(stiffness, 3.0) if exponent == 1.0 else HuntCrossley(stiffness, 0.7, exponent)
+
+
+def reference(at, stiffness, exponent):
+    plane = Plane((1.0,), law_of(stiffness, exponent), at.mu, at.radius_ratio + 1.0)
+    return Rotor.planar(at.gamma, at.omega, at.rho, at.phi, plane)
+
+
+def drawn(random):
+    return Parameters(
+        gamma=10.0 ** random.uniform(-3.0, 0.0),
+        omega=random.uniform(0.1, 1.1),
+        rho=10.0 ** random.uniform(-1.5, 0.5),
+        phi=random.uniform(-3.0, 3.0),
+        mu=random.uniform(0.0, 0.8),
+        d=0.9,
+        radius_ratio=20.0,
+    )
+
+
+# ------------------------------------------------------------------------------------------------ synchronous rubs
+
+
+def excess(at, stiffness, exponent, depths):
+    """What the rotor at each depth misses of the balance: the equation of motion, solved for the unbalance it would need."""
+    needed = (at.omega**2 - 1.0 + 1j * at.gamma) * (1.0 + depths) + (1.0 + 1j * at.mu) * stiffness * depths**exponent
+    return np.abs(needed) - at.rho
+
+
+@pytest.mark.parametrize("exponent", EXPONENTS)
+def test_rubs_are_equilibria_and_all_of_them(exponent):
+    random, several = np.random.default_rng(3), 0
+    depths = np.concatenate([[0.0], np.logspace(-9.0, 3.0, 40_001)])
+    for _ in range(200):
+        at, stiffness = drawn(random), 10.0 ** random.uniform(-1.5, 5.0)
+        rubs, rotor = yielding_rubs(at, stiffness, exponent), reference(at, stiffness, exponent)
+        for rub in rubs:
+            found = rotor.contact(0.0, np.array([rub.place]), np.zeros(1), [FORWARD])
+            # The radius of a thin indentation is known to a rounding error only.
+            rounding = 1e-13 * (1.0 + at.rho) + 1e-15 * stiffness
+            assert abs(found.acceleration[0]) < rounding
+            assert rub.normal_force == pytest.approx(found.push[0], abs=rounding)
+        seen = np.diff(np.sign(excess(at, stiffness, exponent, depths))) != 0.0
+        assert len(rubs) == seen.sum()
+        assert [rub.depth for rub in rubs] == pytest.approx(depths[:-1][seen], rel=1e-3, abs=1e-9)
+        several += len(rubs) > 1
+    assert several > 10
+
+
+@pytest.mark.parametrize("exponent", EXPONENTS)
+def test_rubs_on_a_stiff_wall_are_those_on_a_rigid_one(exponent):
+    at = PAPER.replace(gamma=0.1)
+    rigid = sorted(rub.normal_force for rub in find_equilibria(at).members[1:])
+    misses = []
+    for depth in (1e-4, 1e-6):
+        rubs = yielding_rubs(at, depth**-exponent, exponent)
+        misses.append(np.abs(np.subtract([rub.normal_force for rub in rubs], rigid)).max())
+    assert misses[1] < 1e-6
+    assert misses[0] / misses[1] == pytest.approx(100.0, rel=0.01)  # of the order of the depth
+
+
+def test_rub_of_a_rotor_with_tilt():
+    model = tilting(planes=2, forcing=np.array([0.8 * np.exp(0.2j), 0.3])).model
+    for plane in (0, 1):
+        touchdown = model.touchdowns[plane]
+        wall = Plane(touchdown.plane, KelvinVoigt(300.0, 1.0), touchdown.friction, touchdown.surface_speed)
+        rotor = Rotor(model.mass, model.damping, model.stiffness, model.forcing, [wall])
+        rubs = yielding_rubs(model, 300.0, plane=plane)
+        assert rubs
+        for rub in rubs:
+            # The coordinates that balance the force, by solving for them.
+            row = np.array(wall.row)
+            felt = 1.0 / (row @ np.linalg.solve(model.mass, row.conj())).real
+            push = -felt * rub.normal_force * (1.0 + 1j * wall.friction) * rub.place / abs(rub.place)
+            position = np.linalg.solve(model.stiffness, model.forcing + row.conj() * push)
+            assert row @ position == pytest.approx(rub.place, abs=1e-12)
+            assert np.abs(rotor.contact(0.0, position, np.zeros(2), [FORWARD]).acceleration).max() < 1e-11
+    with pytest.raises(InputError, match="plane = 2: a contact plane of the rotor, from 0 to 1"):
+        yielding_rubs(model, 300.0, plane=2)
+
+
+def test_a_balanced_rotor_rubs_at_no_angle_of_its_own():
+    assert yielding_rubs(PAPER.replace(rho=0.0), 10.0) == ()
+
+
+def test_an_exponent_that_is_hardly_more_than_one_is_like_one():
+    at = PAPER.replace(gamma=0.1)
+    whole, broken = (yielding_rubs(at, 30.0, exponent) for exponent in (1.0, 1.0 + 1e-12))
+
+    assert [rub.depth for rub in broken] == pytest.approx([rub.depth for rub in whole], rel=1e-9)
+
+
+# ------------------------------------------------------------------------------------------------ slipping whirl
+
+
+@pytest.mark.parametrize("exponent", EXPONENTS)
+@pytest.mark.parametrize("stiffness", [2.0, 1e2, 1e6])
+def test_slipping_whirl_is_a_circular_motion(exponent, stiffness):
+    at = PAPER.replace(gamma=0.1, rho=0.0)
+    whirl = slipping_whirl(at, stiffness, exponent)
+    turn = -1j * (1.0 + whirl.speed)  # in the co-rotating frame
+    place = whirl.radius * cmath.exp(0.3j)
+    found = reference(at, stiffness, exponent).contact(0.0, np.array([place]), np.array([turn * place]), [FORWARD])
+
+    # The depth is the radius less one, and its rounding error is multiplied by the stiffness.
+    rounding = 1e-13 * whirl.radius + 1e-15 * stiffness
+    assert found.acceleration[0] == pytest.approx(turn**2 * place, abs=rounding)
+    assert found.push[0] == pytest.approx(whirl.normal_force, abs=rounding)
+    assert whirl.slips == (found.slip[0] > 0.0)
+    assert whirl.speed == runaway_speed(at).average
+
+
+def test_slipping_whirl_on_a_spring_is_at_the_radius_of_a_formula():
+    at, stiffness = PAPER.replace(gamma=0.1), 40.0
+    whirl = slipping_whirl(at, stiffness)
+
+    assert whirl.radius == pytest.approx(1.0 / (1.0 - 0.1 * whirl.speed / (at.mu * stiffness)), rel=1e-15)
+
+
+def test_there_is_no_slipping_whirl_without_friction_or_damping_or_on_a_wall_too_soft():
+    at = PAPER.replace(gamma=0.1)
+    softest = 0.1 * slipping_whirl(at, 1e3).speed / at.mu
+
+    assert slipping_whirl(at.replace(mu=0.0), 1e3) is None
+    assert slipping_whirl(at.replace(gamma=0.0), 1e3) is None
+    assert slipping_whirl(at, softest * (1.0 - 1e-9)) is None
+    assert slipping_whirl(at, softest * 1.001).radius == pytest.approx(1001.0, rel=1e-9)
+    assert not slipping_whirl(at, softest * 1.001).slips
+    assert slipping_whirl(at, softest / 2.0, 1.5).radius > 1.0
+    assert slipping_whirl(at, 1e-6, 1.5) is None  # deeper than any wall

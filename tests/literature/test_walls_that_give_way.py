@@ -1,0 +1,63 @@
+"""Walls that give way: restitution that formulas in use promise, and an overhung rotor in a ring."""
+
+import pytest
+
+from carom.closed_forms import internal_resonance, yielding_rubs
+from carom.models import LinearRotor, Rigid, Touchdown
+from carom.parameters.restitution import damping_ratio_of, dissipation_of, restitution_of_dissipation
+
+SPEED = 0.3
+"""No matter which."""
+
+
+@pytest.mark.parametrize(
+    ("promised", "dissipation", "given_back"),
+    [
+        # Hunt and Crossley 1975: χv = 3(1 − e)/2.
+        (0.76, lambda e: 1.5 * (1.0 - e), 0.80573),
+        # Lankarani and Nikravesh 1990: χv = 3(1 − e²)/4.
+        (0.5, lambda e: 0.75 * (1.0 - e * e), 0.7252),
+    ],
+)
+def test_walls_made_by_approximations_give_back_more_than_promised(promised, dissipation, given_back):
+    digits = len(str(given_back)) - 2
+
+    assert round(restitution_of_dissipation(dissipation(promised) / SPEED, SPEED), digits) == given_back
+    exact = dissipation_of(promised, SPEED)
+    assert restitution_of_dissipation(exact, SPEED) == pytest.approx(promised, rel=1e-14)
+
+
+def test_damping_of_the_source_paper_s_restitution():
+    assert round(damping_ratio_of(0.95), 7) == 0.0164982
+
+
+# Zilli, Williams and Ewins 2015; Shaw et al. 2016: an overhung rotor in a frictionless ring; times in 1/ω₀, lengths in clearances.
+POLAR_INERTIA, DAMPING_RATIO, RING, UNBALANCE = 0.143, 0.01, 10.0, 0.9 * 0.353
+
+
+@pytest.mark.parametrize(("backward", "forward", "speed"), [(2, 1, 3.3208483), (3, 1, 2.1800217), (3, 2, 5.8348738)])
+def test_internal_resonances_of_the_overhung_rotor(backward, forward, speed):
+    assert round(internal_resonance(POLAR_INERTIA, backward, forward), 7) == speed
+
+
+def test_synchronous_rubs_of_the_overhung_rotor():
+    """``|1 − (1 − Jp)Ω² + β(1 − 1/r) + 2iζΩ| r = mεΩ²``."""
+    numbers = []
+    for speed in (0.9, 1.08, 1.5, 2.5, 5.0):
+        rotor = LinearRotor.in_fixed_frame(
+            mass=[[1.0]],
+            damping=[[2.0 * DAMPING_RATIO / speed]],
+            stiffness=[[1.0 / speed**2]],
+            gyroscopic=[[POLAR_INERTIA]],
+            forcing=[UNBALANCE],
+            touchdowns=[Touchdown((1.0,), Rigid(1.0), 0.0, 20.0)],
+        )
+        rubs = yielding_rubs(rotor, RING / speed**2)
+        numbers.append(len(rubs))
+        for rub in rubs:
+            radius = abs(rub.place)
+            spring = 1.0 - (1.0 - POLAR_INERTIA) * speed**2 + RING * (1.0 - 1.0 / radius)
+            left = abs(spring + 2j * DAMPING_RATIO * speed) * radius
+            assert left == pytest.approx(UNBALANCE * speed**2, rel=1e-12)
+    # Levitation alone; past its resonance; beside levitation, up to the resonance with the ring.
+    assert numbers == [0, 1, 2, 2, 0]
