@@ -167,13 +167,14 @@ def test_all_rubs_of_a_curved_wall_are_found():
 
 
 def test_positive_roots_of_sums_of_powers():
-    assert positive_roots({0.0: -2.0, 1.0: 1.0}) == pytest.approx([2.0])
-    assert positive_roots({0.0: 1.0, 0.5: -3.0, 1.0: 2.0}) == pytest.approx([0.25, 1.0])
-    assert positive_roots({0.0: 1.0, 2.0: 1.0}) == []
-    assert positive_roots({1.5: 1.0}) == []
+    assert positive_roots([(0.0, -2.0), (1.0, 1.0)]) == pytest.approx([2.0])
+    assert positive_roots([(0.0, 1.0), (0.5, -3.0), (1.0, 2.0)]) == pytest.approx([0.25, 1.0])
+    assert positive_roots([(0.0, 1.0), (2.0, 1.0)]) == []
+    assert positive_roots([(1.5, 1.0)]) == []
+    assert positive_roots([(1.0, 2.0), (0.0, -2.0), (1.0, -1.0)]) == pytest.approx([2.0])
     roots = [0.3, 0.7, 1.1, 4.0]
-    coefficients = np.poly(roots)
-    assert positive_roots(dict(zip((4.0, 3.0, 2.0, 1.0, 0.0), coefficients, strict=True))) == pytest.approx(roots)
+    powers = zip((4.0, 3.0, 2.0, 1.0, 0.0), np.poly(roots), strict=True)
+    assert positive_roots(powers) == pytest.approx(roots)
 
 
 def test_sliding_rates_of_a_plane_that_is_not_in_contact_are_those_of_flight():

@@ -24,10 +24,11 @@ def series(function):
 
 @pytest.mark.parametrize("number", YIELDING)
 @pytest.mark.parametrize("exponent", [1.0, 10 / 9, 1.5, 2.0])
-def test_against_differences_of_the_series_of_the_force(number, exponent):
+@pytest.mark.parametrize("size", [1.0, 5e-10], ids=["deep", "where contact begins"])
+def test_against_differences_of_the_series_of_the_force(number, exponent, size):
     wall = Wall(0.1, 0.0, 5.0, number, exponent, 50.0, 0.2)
-    depth = series(lambda t: 0.4 + 0.3 * t - 0.2 * t**2)
-    depth_change = series(lambda t: np.cos(t) + t)
+    depth = series(lambda t: size * (0.4 + 0.3 * t - 0.2 * t**2))
+    depth_change = series(lambda t: size * (np.cos(t) + t))
     rate, rate_change = (np.append(np.arange(1, ORDER) * each[1:], 0.0) for each in (depth, depth_change))
 
     def forces(step):

@@ -17,6 +17,8 @@ from carom.outcome import InputError
 pytestmark = pytest.mark.jit_only
 VOIGT = Yielding(KelvinVoigt(1e3, 2.0))
 CROSSLEY = Yielding(HuntCrossley(2e3, 0.05, 1.0))
+CURVED = Yielding(HuntCrossley(2e4, 0.05, 1.5))
+ROTORS = {"voigt": VOIGT, "crossley": CROSSLEY, "curved": CURVED}
 STICKING = Yielding(
     HuntCrossley(3492.889136252971, 0.03685571172443193, 1.0),
     gamma=0.176,
@@ -43,15 +45,20 @@ def crossley():
     return settled(CROSSLEY)
 
 
+@pytest.fixture(scope="module")
+def curved():
+    return settled(CURVED)
+
+
 def from_flight(orbit):
     """State at the beginning of the only flight."""
     (place,) = np.flatnonzero(orbit.word.kinds == Kind.LIFT)
     return packed(*orbit.nodes[place])
 
 
-@pytest.mark.parametrize("name", ["voigt", "crossley"])
+@pytest.mark.parametrize("name", ROTORS)
 def test_a_settled_motion_is_closed_to_rounding(name, request):
-    orbit, rotor = request.getfixturevalue(name), VOIGT if name == "voigt" else CROSSLEY
+    orbit, rotor = request.getfixturevalue(name), ROTORS[name]
     assert str(orbit.word) == ("slide+ free lift" if name == "voigt" else "slide+ lift")
     assert orbit.links.size < 1e-13
     assert orbit.admissible
@@ -66,9 +73,9 @@ def test_a_settled_motion_is_closed_to_rounding(name, request):
     assert end == pytest.approx(middle, abs=1e-10)
 
 
-@pytest.mark.parametrize("name", ["voigt", "crossley"])
+@pytest.mark.parametrize("name", ROTORS)
 def test_multipliers_are_those_of_the_stroboscopic_map(name, request):
-    orbit, rotor = request.getfixturevalue(name), VOIGT if name == "voigt" else CROSSLEY
+    orbit, rotor = request.getfixturevalue(name), ROTORS[name]
     middle = rotor.follow(from_flight(orbit), 0.5 * orbit.durations[-1])
     step, columns = 1e-3, []
     for unit in np.eye(4) * step:

@@ -26,7 +26,6 @@ are not searched.
 
 from __future__ import annotations
 
-from collections import defaultdict
 from itertools import combinations
 
 import numpy as np
@@ -124,25 +123,32 @@ def _one_plane(h: complex, rest: complex) -> list[tuple[np.ndarray, np.ndarray]]
     return pairs
 
 
-def _in_curved_wall(h: complex, rest: complex, wall: Wall) -> list[tuple[np.ndarray, np.ndarray]]:
+def rubs_in_wall(h: complex, rest: complex, stiffness: float, exponent: float) -> list[tuple[float, complex]]:
+    """Depths of all rubs at one plane in a wall with the force ``κδᵉ``, and numbers in the direction of the displacement there.
+
+    A balanced rotor has the balance at every angle or at none; none is given.
+
+    Parameters
+    ----------
+    h : complex
+        Static receptance of the plane, times ``1 + iμ``.
+    rest : complex
+        Contact-free displacement.
+    """
     if rest == 0.0:
         return []
-    lever, exponent = wall.stiffness * h, exponent_of(wall)
-    terms: dict[float, float] = defaultdict(float)
-    for power, factor in (
-        (0.0, (1.0 - abs(rest)) * (1.0 + abs(rest))),
-        (1.0, 2.0),
-        (2.0, 1.0),
-        (exponent, 2.0 * lever.real),
-        (exponent + 1.0, 2.0 * lever.real),
-        (2.0 * exponent, abs(lever) ** 2),
-    ):
-        terms[power] += factor
-    pairs = []
-    for depth in positive_roots(terms):
-        place = rest / (1.0 + depth + lever * depth**exponent)
-        pairs.append((np.array([wall.stiffness * depth**exponent]), np.array([place / abs(place)])))
-    return pairs
+    lever = stiffness * h
+    terms = [(0.0, (1.0 - abs(rest)) * (1.0 + abs(rest))), (1.0, 2.0), (2.0, 1.0)]
+    terms += [(exponent, 2.0 * lever.real), (exponent + 1.0, 2.0 * lever.real), (2.0 * exponent, abs(lever) ** 2)]
+    return [(depth, rest / (1.0 + depth + lever * depth**exponent)) for depth in positive_roots(terms)]
+
+
+def _in_curved_wall(h: complex, rest: complex, wall: Wall) -> list[tuple[np.ndarray, np.ndarray]]:
+    exponent = exponent_of(wall)
+    return [
+        (np.array([wall.stiffness * depth**exponent]), np.array([place / abs(place)]))
+        for depth, place in rubs_in_wall(h, rest, wall.stiffness, exponent)
+    ]
 
 
 def _two_planes(h: np.ndarray, rest: np.ndarray) -> np.ndarray:

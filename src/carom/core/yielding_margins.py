@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from carom.compiling.decorators import inlined, kernel
+from carom.core.compliance import next_form
 from carom.core.contact_series import rub_series
 from carom.core.flow import copy
 from carom.core.friction import BACKWARD, FORWARD, spare_grip
@@ -53,7 +54,7 @@ def margins_in_walls(rotor, kinds, planes, nodes, durations, rub):
             if first and entered:
                 approach = min(approach, rub.rate[plane, 0])
             first = False
-            step = min(series_step(rub), durations[i] - elapsed)
+            step = next_form(rotor, plane, min(series_step(rub), durations[i] - elapsed), rub)
             if not step > 0.0:
                 return np.nan, np.nan, np.nan, np.nan
             if kinds[i] == FREE:

@@ -10,6 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from carom.compiling.decorators import inlined, kernel
+from carom.core.compliance import next_form
 from carom.core.contact_series import rub_series
 from carom.core.flow import flight_increments
 from carom.core.force_change import force_change
@@ -97,7 +98,7 @@ def _march(rotor, contact, plane, duration, state, directions, series, varied, r
         largest, left = series_step(rub), duration - elapsed
         if not largest > 0.0:
             return False
-        step = min(largest, left) if left >= 0.0 else max(-largest, left)
+        step = next_form(rotor, plane, min(largest, left), rub) if left >= 0.0 else max(-largest, left)
         for row in range(directions.shape[0]):
             for k in range(modes):
                 series[0, k] = directions[row, k]
