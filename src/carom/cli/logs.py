@@ -47,8 +47,22 @@ def check_file(option: str, path: str) -> None:
 def write_csv(motion: Trajectory, path: str) -> None:
     """Write impacts and lasting contacts as CSV in order of time, in SI units if the machine is known.
 
-    A lasting contact fills only ``kind``, ``time`` and ``end``.
+    A lasting contact fills only ``kind``, ``time`` and ``end``.  Of a wall that gives way each contact is a row of its own table.
     """
+    from carom.motions.contacts import yields
+
+    table = _touches if yields(motion.rotor.system, motion.plane) else _impacts
+    text = StringIO(newline="")
+    writer = csv.writer(text)
+    header, rows = table(motion)
+    writer.writerow(header)
+    writer.writerows(rows)
+    with _refusals("--csv", path):
+        write_whole(Path(path), text.getvalue().encode())
+
+
+def _impacts(motion: Trajectory) -> tuple[list[str], list[list[object]]]:
+    """Heading and rows of impacts and lasting contacts."""
     log = _log(motion)
     time_unit = log["time"].attrs["units"]
     rest = [column for name, column in log.items() if name != "time"]
@@ -62,12 +76,16 @@ def write_csv(motion: Trajectory, path: str) -> None:
         start, end = contact.start * scale, contact.end * scale
         rows.append((start, [f"{contact.kind} ({contact.phase.label})", start, end, *[""] * len(rest)]))
 
-    text = StringIO(newline="")
-    writer = csv.writer(text)
-    writer.writerow(header)
-    writer.writerows(row for _, row in sorted(rows, key=lambda entry: entry[0]))
-    with _refusals("--csv", path):
-        write_whole(Path(path), text.getvalue().encode())
+    return header, [row for _, row in sorted(rows, key=lambda entry: entry[0])]
+
+
+def _touches(motion: Trajectory) -> tuple[list[str], list[list[object]]]:
+    """Heading and rows of contacts with a wall that gives way."""
+    table = motion.touches.to_dataset()
+    rest = [column for name, column in table.items() if name != "phase"]
+    header = ["kind", *(f"{column.name} [{column.attrs['units']}]" for column in rest)]
+    kinds = [Phase(phase).label for phase in table["phase"].values.tolist()]
+    return header, [[*row] for row in zip(kinds, *(column.values.tolist() for column in rest), strict=True)]
 
 
 def _log(motion: Trajectory) -> xarray.Dataset:

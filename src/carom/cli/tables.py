@@ -5,7 +5,7 @@ from __future__ import annotations
 import cmath
 import dataclasses
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import fields
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -19,8 +19,9 @@ from carom.attractors import MotionName
 from carom.attractors.settled import settled_motion
 from carom.cli.fitting import fitted, plain_table
 from carom.models.weight import weight_of
-from carom.motions import Trajectory, touchdown_loads
-from carom.outcome import Outcome
+from carom.motions import TouchLog, Trajectory, touchdown_loads
+from carom.motions.contacts import yields
+from carom.outcome import Outcome, Phase
 from carom.parameters.indentation import indentation_of_hit
 from carom.parameters.told import number, told_angle
 from carom.studies import Study, Wording, check_loads
@@ -163,13 +164,16 @@ def _print_numbers(console: Console, shown: Sequence[Orbit]) -> None:
 def print_motion(console: Console, case: Case, motion: Trajectory) -> None:
     """Print how a motion ended, and its contacts."""
     say = Wording(case.parameters.scales)
-    log, contacts = motion.contacts, motion.lasting_contacts
+    log, contacts, touches = motion.contacts, motion.lasting_contacts, motion.touches
     console.print(Text(_end_words(motion), style="bold"))
     if motion.multiplicity:
         console.print(f"It repeats after {counted(motion.multiplicity, 'impact')}.")
     turns = number(motion.time / (2.0 * math.pi), 3)
     followed = f"Followed for {say.time(motion.time)} ({turns} turns of the shaft)" if motion.time else "Known at once"
-    console.print(f"{followed}: {counted(len(log), 'impact')}, {counted(len(contacts), 'lasting contact')}.")
+    counts = [(len(log), "impact"), (len(contacts), "lasting contact")]
+    if yields(motion.rotor.system, motion.plane):
+        counts = [(len(touches), "contact")]
+    console.print(f"{followed}: {', '.join(counted(*count) for count in counts)}.")
     if len(log):
         soft = no_rigid_wall(indentation_of_hit(case.parameters, float(log.radial_speed.max())))
         hardest = f"Hardest hit: normal impulse {say.impulse(float(log.normal_impulse.max()))}"
@@ -214,8 +218,11 @@ def _print_loads(console: Console, say: Wording, case: Case, motion: Trajectory)
     """Print the loads on the touchdown bearing, and the limits that are stated for it."""
     loads = touchdown_loads(motion)
     if loads.force > 0.0:
+        contact = "Lasting contact"
+        if loads.depth > 0.0:
+            contact = f"Contact up to {say.length(loads.depth)} deep"
         console.print(
-            f"Lasting contact: normal force up to {say.force(loads.force)}, friction power up to {say.power(loads.power)}."
+            f"{contact}: normal force up to {say.force(loads.force)}, friction power up to {say.power(loads.power)}."
         )
     goes_on = f"; it goes on with {say.power(loads.lasting_power)}" if loads.lasting_power > 0.0 else ""
     console.print(f"Heat of friction: {say.energy(loads.heat)}{goes_on}.")
@@ -305,10 +312,28 @@ def _event_rows(say: Wording, motion: Trajectory) -> list[tuple[str, ...]]:
             "stops" if log.sticks[place] else _number_of(say.slip(float(log.slip_after[place]))),
         )
         entries.append((time, row))
+    if yields(motion.rotor.system, motion.plane):
+        return _touch_rows(say, motion.touches, moment)
     for contact in motion.lasting_contacts:
         words = f"{contact.phase.label.replace('-', ' ')} for {say.time(contact.end - contact.start)}"
         entries.append((contact.start, (moment(motion.begins + contact.start), words)))
     return [row for _, row in sorted(entries, key=lambda entry: entry[0])]
+
+
+def _touch_rows(say: Wording, touches: TouchLog, moment: Callable[[float], str]) -> list[tuple[str, ...]]:
+    """Rows of contacts with a wall that gives way."""
+    return [
+        (
+            moment(float(touches.start[place])),
+            f"{Phase(phase).label.replace('-', ' ')} for {say.time(float(touches.duration[place]))}",
+            f"{math.degrees(touches.angle[place]):.1f}°",
+            _number_of(say.velocity(float(touches.radial_speed[place]))),
+            "forward" if touches.angular_speed[place] > -1.0 else "backward",
+            _number_of(say.impulse(float(touches.normal_impulse[place]))),
+            _number_of(say.impulse(float(touches.friction_impulse[place]))),
+        )
+        for place, phase in enumerate(touches.phase.tolist())
+    ]
 
 
 def _number_of(told: str) -> str:

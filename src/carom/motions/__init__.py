@@ -13,6 +13,8 @@
 ``resting``             whether a rotor lies on its touchdown bearing
 ``blows``           impulses at the planes in each event, also where several are struck in one instant
 ``contacts``        load on the bearing: the log of impacts, stretches of lasting contact
+``quadrature``      integrals and largest values along a motion
+``touches``         contacts with walls that give way: impulses, peaks, depths, works
 ``loads``           loads of a touchdown: forces, impulses, heat
 ``ledger``          energies of a motion
 ``spectrum``        forward and backward whirl at each multiple of the shaft speed
@@ -28,6 +30,7 @@ from carom.motions.settling import PATIENCE
 from carom.motions.simulation import simulate
 from carom.motions.spectrum import FullSpectrum, full_spectrum
 from carom.motions.starts import Kick, State, kick
+from carom.motions.touches import TouchLog
 from carom.motions.trajectories import Trajectory
 
 __all__ = [
@@ -41,6 +44,7 @@ __all__ = [
     "Kick",
     "LastingContact",
     "State",
+    "TouchLog",
     "TouchdownLoads",
     "Trajectory",
     "drop",

@@ -11,6 +11,7 @@ from carom.arguments import Count, Whole, checked
 from carom.core.advance import advance
 from carom.core.event_log import EventLog
 from carom.core.layout import rub_workspace, workspace
+from carom.core.phases import AWAY, FLIGHT
 from carom.models import Model, Subject, Trigger, model_of
 from carom.models.stages import stages_of
 from carom.motions.drops import Drop
@@ -122,6 +123,7 @@ def _follow_stage(
     # What has settled may still be ended by a time.
     settle, until = settle and trigger.time == np.inf, min(longest, trigger.time)
     amplitudes, contact = amplitudes_of(rotor, start, begins)
+    phases = np.where(contact == AWAY, FLIGHT, contact)[None]
     recollection = fresh_memory(rotor, patience if settle else 0, stop_at_chatter, trigger=trigger)
     first = amplitudes.copy()
     logs: list[EventLog] = []
@@ -148,7 +150,7 @@ def _follow_stage(
         final=State.of(position, velocity, rotor.system.race_speeds(amplitudes)),
         multiplicity=multiplicity,
         segment_starts=np.concatenate([np.zeros(1), *(log.times for log in logs)]),
-        segment_phases=np.concatenate([np.zeros((1, len(contact)), np.int64), *(log.phases for log in logs)]),
+        segment_phases=np.concatenate([phases, *(log.phases for log in logs)]),
         event_planes=np.concatenate([log.planes for log in logs]),
         segment_amplitudes=np.concatenate([first[None], *(log.after for log in logs)]),
         arrivals=np.concatenate([log.before for log in logs]),
