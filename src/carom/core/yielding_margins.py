@@ -31,11 +31,11 @@ def margins_in_walls(rotor, kinds, planes, nodes, durations, rub):
     Returns
     -------
     tuple of float
-        Radial speed of arrivals; distance from the limits of friction where rolling begins, while it lasts, and where the slip passes
+        Radial speed of arrivals; normal force where it is least and the same sliding goes on; distance from the limits of friction where rolling begins, while it lasts, and where the slip passes
         through zero; slip at its minima while sliding; and normal force at its minima, or of a plane that has parted from its wall the
         force of the wall's spring at the least depth, and the pull by which it stays off.  Infinite where there is none of the kind.
     """
-    approach, cone, slip, push = np.inf, np.inf, np.inf, np.inf
+    approach, least, cone, slip, push = np.inf, np.inf, np.inf, np.inf, np.inf
     state, contact = np.empty(nodes.shape[1], np.complex128), np.empty(rotor.rows.shape[0], np.int64)
     for i in range(kinds.shape[0]):
         if not in_wall(rotor, kinds[i], planes[i]):
@@ -53,10 +53,12 @@ def margins_in_walls(rotor, kinds, planes, nodes, durations, rub):
             rub_series(rotor, contact, state, rub)
             if first and entered:
                 approach = min(approach, rub.rate[plane, 0])
+            elif first and kinds[i] == kinds[i - 1]:
+                least = min(least, rub.push[plane, 0])
             first = False
             step = next_form(rotor, plane, min(series_step(rub), durations[i] - elapsed), rub)
             if not step > 0.0:
-                return np.nan, np.nan, np.nan, np.nan
+                return np.nan, np.nan, np.nan, np.nan, np.nan
             if kinds[i] == FREE:
                 push = min(push, wall.stiffness * least_inside(rub.depth[plane], step))
                 for k in range(ORDER + 1):
@@ -72,7 +74,7 @@ def margins_in_walls(rotor, kinds, planes, nodes, durations, rub):
                     slip = min(slip, least_inside(rub.first_margin, step))
             sum_series(rub, step, state)
             elapsed = durations[i] if step == durations[i] - elapsed else elapsed + step
-    return approach, cone, slip, push
+    return approach, least, cone, slip, push
 
 
 @inlined

@@ -194,8 +194,15 @@ class Orbit(Result):
 
     @property
     def impulse(self) -> float:
-        """Normal impulse of the first impact in ``m c_r Ω``."""
+        """Normal impulse of the first impact, or of the first contact with a wall that gives way, in ``m c_r Ω``.
+
+        Of such a contact it is ``nan`` where the orbit is no motion.
+        """
         plane = self.word[0].plane
+        if self.rotor.system.arrays["stiffness"][plane]:
+            if not (self.admissible and self.word.arrives[0]):
+                return np.nan
+            return float(self.trajectory().seen_at(plane).touches.normal_impulse[0])
         place, moving = self.rotor.system.at_plane(self._departures[0], plane)
         rebound = float((np.conj(place) * moving).real / abs(place))
         return float(self.rotor.system.arrays.masses[plane]) * (self.radial_speed - rebound)
@@ -300,10 +307,11 @@ def margins_of(links: Links, rotor: Model, word: Word) -> Margins:
     found = Margins(radius, approach, speed, force, min(cone, rolling), sliding, push)
     if not rotor.system.arrays["stiffness"].any():
         return found
-    entry, rolling, slip, push = margins_in_walls(rotor.system.arrays, *at[:-1], rub)
+    entry, least, rolling, slip, push = margins_in_walls(rotor.system.arrays, *at[:-1], rub)
     return replace(
         found,
         approach=min(approach, entry),
+        normal_force=min(force, least),
         cone=min(found.cone, rolling),
         sliding=min(sliding, slip),
         pressing=min(found.pressing, push),

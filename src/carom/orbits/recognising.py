@@ -8,6 +8,7 @@ import numpy as np
 
 from carom.arguments import checked
 from carom.core.advance import SHORTEST_LAP
+from carom.core.event_log import flying
 from carom.core.margins import local_motion
 from carom.models import Model
 from carom.motions.simulation import simulate
@@ -73,8 +74,9 @@ def orbit_of_motion(motion: Trajectory) -> Orbit | None:
 
 def arrives(motion: Trajectory) -> np.ndarray:
     """Which events of a motion are arrivals at a wall: impacts, and beginnings of contact with walls that give way; bool, shape (n,)."""
+    before, after = flying(motion.segment_phases, motion.event_planes)
     yields = motion.rotor.system.arrays["stiffness"][motion.event_planes] > 0.0
-    arrivals: np.ndarray = motion.is_impact | (motion.is_landing & yields)
+    arrivals: np.ndarray = motion.is_impact | (before & ~after & yields)
     return arrivals
 
 
