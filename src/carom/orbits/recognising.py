@@ -248,8 +248,11 @@ def _impact_kinds(motion: Trajectory, first: int, last: int) -> np.ndarray:
 
 
 def with_impacts(motion: Trajectory, first: int, count: int) -> tuple[Word, Start] | None:
-    """Word and start of some impacts in a row, from the impact of given number; ``None`` where the motion does else."""
-    impacts = np.flatnonzero(motion.is_impact)
-    if first + count >= len(impacts) or impacts[first + count] - impacts[first] != count:
+    """Word and start of some arrivals at walls in a row, from that of given number; ``None`` where the motion does else."""
+    impacts = np.flatnonzero(arrives(motion))
+    if first + count >= len(impacts):
+        return None
+    # In a wall that gives way contact has events of its own.
+    if impacts[first + count] - impacts[first] != count and not motion.rotor.system.arrays["stiffness"].any():
         return None
     return segments_of(motion, int(impacts[first]), int(impacts[first + count]))
