@@ -81,7 +81,7 @@ def _impacts(motion: Trajectory) -> tuple[list[str], list[list[object]]]:
 
 def _touches(motion: Trajectory) -> tuple[list[str], list[list[object]]]:
     """Heading and rows of contacts with a wall that gives way."""
-    table = motion.touches.to_dataset()
+    table = _log(motion)
     rest = [column for name, column in table.items() if name != "phase"]
     header = ["kind", *(f"{column.name} [{column.attrs['units']}]" for column in rest)]
     kinds = [Phase(phase).label for phase in table["phase"].values.tolist()]
@@ -89,13 +89,18 @@ def _touches(motion: Trajectory) -> tuple[list[str], list[list[object]]]:
 
 
 def _log(motion: Trajectory) -> xarray.Dataset:
-    """Impacts of all stages of a motion, with times from its start."""
+    """Impacts of all stages of a motion, or contacts with walls that give way, with times from its start."""
     import xarray
 
-    logs = [part.contacts.to_dataset() for part in motion.parts]
+    from carom.motions.contacts import yields
+
+    gives_way = yields(motion.rotor.system, motion.plane)
+    tables = [part.touches if gives_way else part.contacts for part in motion.parts]
+    logs = [table.to_dataset() for table in tables]
     for part, log in zip(motion.parts, logs, strict=True):
-        log["time"].values += part.begins * (part.rotor.scales.time if part.rotor.scales else 1.0)
-    return xarray.concat(logs, motion.contacts.dimension) if len(logs) > 1 else logs[0]
+        for name in ("start", "end", "peak_time") if gives_way else ("time",):
+            log[name].values += part.begins * (part.rotor.scales.time if part.rotor.scales else 1.0)
+    return xarray.concat(logs, tables[0].dimension) if len(logs) > 1 else logs[0]
 
 
 def _lasting(motion: Trajectory) -> list[LastingContact]:

@@ -10,6 +10,7 @@ from dataclasses import fields
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import numpy as np
 from rich.console import Console
 from rich.padding import Padding
 from rich.table import Table
@@ -195,9 +196,9 @@ def print_motion(console: Console, case: Case, motion: Trajectory) -> None:
 
 def _final_words(say: Wording, motion: Trajectory) -> str:
     """Where a rotor that weighs something is at the end, and how fast, in the fixed frame."""
-    place, rate = motion.at_plane(motion.time)
+    (seen,), (rate,) = motion.at_plane(np.array([motion.time]))
     turn = cmath.exp(1j * (motion.begins + motion.time))
-    place, speed = complex(place) * turn, complex(rate + 1j * place) * turn
+    place, speed = complex(seen) * turn, complex(rate + 1j * seen) * turn
     return (
         f"At the end, in the fixed frame: {say.radius(abs(place))} from the centre at {told_angle(cmath.phase(place))}, moving with "
         f"{say.velocity(abs(speed))} at {told_angle(cmath.phase(speed))}"
@@ -313,18 +314,20 @@ def _event_rows(say: Wording, motion: Trajectory) -> list[tuple[str, ...]]:
         )
         entries.append((time, row))
     if yields(motion.rotor.system, motion.plane):
-        return _touch_rows(say, motion.touches, moment)
+        return _touch_rows(say, motion.touches, motion.begins, moment)
     for contact in motion.lasting_contacts:
         words = f"{contact.phase.label.replace('-', ' ')} for {say.time(contact.end - contact.start)}"
         entries.append((contact.start, (moment(motion.begins + contact.start), words)))
     return [row for _, row in sorted(entries, key=lambda entry: entry[0])]
 
 
-def _touch_rows(say: Wording, touches: TouchLog, moment: Callable[[float], str]) -> list[tuple[str, ...]]:
+def _touch_rows(
+    say: Wording, touches: TouchLog, begins: float, moment: Callable[[float], str]
+) -> list[tuple[str, ...]]:
     """Rows of contacts with a wall that gives way."""
     return [
         (
-            moment(float(touches.start[place])),
+            moment(float(begins + touches.start[place])),
             f"{Phase(phase).label.replace('-', ' ')} for {say.time(float(touches.duration[place]))}",
             f"{math.degrees(touches.angle[place]):.1f}°",
             _number_of(say.velocity(float(touches.radial_speed[place]))),

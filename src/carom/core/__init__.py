@@ -3,8 +3,6 @@
 Nothing here knows units, files or results.  A kernel sees a rotor as the arrays of
 :func:`~carom.core.layout.rotor_record` and works for any number of modes and contact planes.
 
-=====================  ===========================================================
-``layout``             the data that kernels work on
 ``flow``               exact flight: sums of exponentials and their derivatives
 ``table``              constants of a block of flight, for the search of crossings
 ``block``              one block of flight: possible roots, state at a time
@@ -42,5 +40,7 @@ Nothing here knows units, files or results.  A kernel sees a rotor as the arrays
 ``variation``          how small changes of a state propagate
 ``growth``             growth of small changes along a motion
 ``processors``         number of available processor cores
-=====================  ===========================================================
+``layout``             the data that kernels work on
+``compliance``         contact with a wall that gives way, as Taylor series
+``rounding``           rounding errors of sums over the modes
 """

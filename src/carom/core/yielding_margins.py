@@ -14,7 +14,7 @@ from carom.core.layout import ORDER
 from carom.core.margins import least_inside
 from carom.core.phases import AWAY, ROLLING, sense_of_phase
 from carom.core.segments import FREE, ROLL, in_wall, phase_of
-from carom.core.taylor import series_step, sum_series
+from carom.core.taylor import margin_step, series_step, sum_series
 from carom.core.wall import wall_of
 
 
@@ -56,7 +56,8 @@ def margins_in_walls(rotor, kinds, planes, nodes, durations, rub):
             elif first and kinds[i] == kinds[i - 1]:
                 least = min(least, rub.push[plane, 0])
             first = False
-            step = next_form(rotor, plane, min(series_step(rub), durations[i] - elapsed), rub)
+            largest = min(series_step(rub), margin_step(rub.depth[plane]))
+            step = next_form(rotor, plane, min(largest, durations[i] - elapsed), rub)
             if not step > 0.0:
                 return np.nan, np.nan, np.nan, np.nan, np.nan
             if kinds[i] == FREE:

@@ -31,7 +31,7 @@ from carom.core.segments import (
     phase_of,
     set_out,
 )
-from carom.core.taylor import series_step, sum_series
+from carom.core.taylor import margin_step, series_step, sum_series
 from carom.core.wall import wall_of
 
 POSITION, SPEED, ACCELERATION, NORMAL, LOCAL, PULL = range(6)
@@ -95,7 +95,7 @@ def _march(rotor, contact, plane, duration, state, directions, series, varied, r
     elapsed, modes = 0.0, state.shape[0]
     for _ in range(MOST_STEPS):
         rub_series(rotor, contact, state, rub)
-        largest, left = series_step(rub), duration - elapsed
+        largest, left = min(series_step(rub), margin_step(rub.depth[plane])), duration - elapsed
         if not largest > 0.0:
             return False
         step = next_form(rotor, plane, min(largest, left), rub) if left >= 0.0 else max(-largest, left)

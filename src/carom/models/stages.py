@@ -18,7 +18,7 @@ from carom.outcome import InputError, shown
 from carom.parameters import Field, Scales
 
 
-class _Around:
+class Around:
     """A model that takes its parameters, scales and matrices from another one, its ``rotor``."""
 
     rotor: Model
@@ -52,7 +52,7 @@ class _Around:
 
 
 @dataclass(frozen=True, eq=False)
-class Forced(_Around):
+class Forced(Around):
     """A rotor with further forces on it that change with time in its frame, for example in a housing that is shaken.
 
     It never is at rest in that frame: what needs an equilibrium there, such as orbits, is not found for it.
@@ -198,7 +198,7 @@ class Stage:
 
 
 @dataclass(frozen=True, eq=False)
-class Staged(_Around):
+class Staged(Around):
     """A rotor that moves in stages: when the trigger of one ends it, the motion goes on in the next.
 
     Its parameters, kicks, equilibria and orbits are those of the rotor of the first stage.

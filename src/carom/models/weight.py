@@ -6,9 +6,12 @@ In the fixed frame weight is a constant force.  In the frame that turns with the
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from carom.models.forcing import EQUAL, Force
+from carom.models.in_bearing import InBearing
 from carom.models.jeffcott import Jeffcott
 from carom.models.linear import LinearRotor
 from carom.models.model import Model
@@ -81,9 +84,11 @@ def without_levitation(model: Model) -> Model:
     """
     if isinstance(model, Forced):
         return Forced(without_levitation(model.rotor), model.forces)
+    if isinstance(model, InBearing):
+        return replace(model, levitates=False)
     if isinstance(model, Jeffcott):
         at = model.parameters
-        touchdowns = (Touchdown((1.0,), Rigid(at.d), at.mu, at.radius_ratio + 1.0),)
+        touchdowns: tuple[Touchdown, ...] = (Touchdown((1.0,), Rigid(at.d), at.mu, at.radius_ratio + 1.0),)
     elif isinstance(model, LinearRotor) and len(model.mass) == 1:
         touchdowns = tuple(model.touchdowns)
     else:

@@ -66,10 +66,8 @@ class Drop:
         """State at the release."""
         if isinstance(self.at, State):
             return self.at
-        position, velocity = levitation_of(rotor)
-        if self.at is not None:
-            return self.at.state(rotor)
-        return State.of(*(values if len(values) > 1 else values[0] for values in (position, velocity)))
+        position, velocity = (values if len(values) > 1 else values[0] for values in levitation_of(rotor))
+        return State.of(position, velocity) if self.at is None else self.at.state(rotor)
 
 
 @checked

@@ -12,7 +12,7 @@ from carom.models import Matrices
 from carom.models.stages import forces_of
 from carom.motions.contacts import Table, column, presses, race_speed, slip_velocity, yields
 from carom.motions.quadrature import NODES, WEIGHTS, pieces
-from carom.motions.touches import in_wall, stored
+from carom.motions.touches import in_wall, lost_on_parting, stored
 from carom.motions.trajectories import Trajectory
 from carom.outcome import InputError
 from carom.parameters import Scales
@@ -206,9 +206,8 @@ def _walls(trajectory: Trajectory, counts: np.ndarray, half: np.ndarray) -> tupl
         if not yields(trajectory.rotor.system, plane):
             continue
         motion = trajectory.seen_at(plane)
-        starts, ends = stored(motion, motion.segment_amplitudes), stored(motion, motion.segment_ends)
-        held += np.append(starts, ends[-1])
-        lost[1:-1] += starts[1:] - ends[:-1]
+        held += np.append(stored(motion, motion.segment_amplitudes), stored(motion, motion.segment_ends)[-1])
+        lost[1:-1] -= lost_on_parting(motion)
         pressed = presses(motion.segment_phases[:, plane])
         places = np.repeat(pressed, counts)
         elapsed = half[places, None] * (1.0 + NODES)  # a segment of contact is one piece

@@ -33,14 +33,15 @@ class TouchLog(Table):
     """
 
     plane: np.ndarray = field(metadata=column("1", "contact plane"))
-    start: np.ndarray = field(metadata=column("time", "time of entering the wall"))
+    start: np.ndarray = field(metadata=column("time", "time of entering the wall, or the beginning of the motion"))
     end: np.ndarray = field(metadata=column("time", "time of leaving the wall, or the end of the motion"))
-    duration: np.ndarray = field(metadata=column("time", "time from entering until leaving"))
+    duration: np.ndarray = field(metadata=column("time", "time from beginning to end"))
+    entered: np.ndarray = field(metadata=column("1", "whether the wall was entered: a motion may begin in it"))
     lasts: np.ndarray = field(metadata=column("1", "whether it lasts beyond the end of the motion"))
     phase: np.ndarray = field(metadata=column("1", "kind of contact that takes most of it"))
-    angle: np.ndarray = field(metadata=column("rad", "angle on entering, in the co-rotating frame"))
-    angular_speed: np.ndarray = field(metadata=column("speed", "angular speed on entering, co-rotating frame"))
-    radial_speed: np.ndarray = field(metadata=column("velocity", "radial speed on entering"))
+    angle: np.ndarray = field(metadata=column("rad", "angle at its beginning, in the co-rotating frame"))
+    angular_speed: np.ndarray = field(metadata=column("speed", "angular speed at its beginning, co-rotating frame"))
+    radial_speed: np.ndarray = field(metadata=column("velocity", "radial speed on entering, or at the beginning"))
     radial_speed_after: np.ndarray = field(metadata=column("velocity", "radial speed on leaving, or at the end"))
     normal_impulse: np.ndarray = field(metadata=column("impulse", "integral of the normal force, inward"))
     friction_impulse: np.ndarray = field(
@@ -61,9 +62,9 @@ class TouchLog(Table):
 
     @property
     def restitution(self) -> np.ndarray:
-        """Radial speed on leaving over that on entering, inward positive; nan of a contact that lasts."""
-        speeds = np.where(self.lasts, np.nan, -self.radial_speed_after)
-        return np.divide(speeds, self.radial_speed, out=np.full(len(self), np.nan), where=self.radial_speed > 0.0)
+        """Radial speed on leaving over that on entering, inward positive; nan of a contact that was not entered, or that lasts."""
+        whole = self.entered & ~self.lasts & (self.radial_speed > 0.0)
+        return np.divide(-self.radial_speed_after, self.radial_speed, out=np.full(len(self), np.nan), where=whole)
 
     def __len__(self) -> int:
         return len(self.start)
@@ -113,6 +114,13 @@ def stored(motion: Trajectory, amplitudes: np.ndarray) -> np.ndarray:
     return energy
 
 
+def lost_on_parting(motion: Trajectory) -> np.ndarray:
+    """Energy of the wall's spring that is lost in each event, (n,): where plane and wall part, less what it holds where they meet again."""
+    parted = motion.segment_phases[:, motion.plane] == Phase.SEPARATED
+    lost = stored(motion, motion.segment_ends)[:-1] - stored(motion, motion.segment_amplitudes)[1:]
+    return np.where(parted[:-1] | parted[1:], lost, 0.0)
+
+
 def _of_law(motion: Trajectory, function: Callable[..., float], *of: np.ndarray) -> np.ndarray:
     """A function of the law of the plane's wall, of depths (and rates), with the effective mass of the plane."""
     system = motion.rotor.system
@@ -139,15 +147,16 @@ def touches_of(motion: Trajectory) -> TouchLog:
     forces, places = largest(at.normal)
     hardest = np.array([begin + forces[begin:end].argmax() for begin, end in pairwise(edges)], int)
     takes = [np.add.reduceat(np.where(phases[segments] == kind, half, 0.0), begins) for kind in PRESSING]
+    parted = np.concatenate([[0.0], np.cumsum(lost_on_parting(motion))])
     angle, radial, angular = polar(*system.at_plane(motion.segment_amplitudes[first], plane))
     _, radial_after, _ = polar(*system.at_plane(motion.segment_ends[after - 1], plane))
-    lasts = after == len(phases)
     return TouchLog(
         plane=np.full(len(first), plane),
         start=bounds[first],
         end=bounds[after],
         duration=bounds[after] - bounds[first],
-        lasts=lasts,
+        entered=first > 0,
+        lasts=after == len(phases),
         phase=np.array(PRESSING)[np.argmax(takes, axis=0)],
         angle=angle,
         angular_speed=angular,
@@ -160,14 +169,7 @@ def touches_of(motion: Trajectory) -> TouchLog:
         deepest=np.maximum.reduceat(largest(at.depth)[0], begins),
         peak_power=np.maximum.reduceat(largest(-at.friction * at.slip)[0], begins),
         heat=-total(at.friction * at.slip),
-        normal_loss=total(at.lost) + _lost_on_parting(motion, first, after),
+        normal_loss=total(at.lost) + parted[np.minimum(after, len(parted) - 1)] - parted[first],
         drive_work=-(system.contacts[plane].wall.surface_speed - 1.0) * total(at.friction),
         scales=motion.rotor.scales,
     )
-
-
-def _lost_on_parting(motion: Trajectory, first: np.ndarray, after: np.ndarray) -> np.ndarray:
-    """Energy of the wall's spring that is lost in each contact, where plane and wall part: less what it holds where they meet again."""
-    before, then = stored(motion, motion.segment_ends), stored(motion, motion.segment_amplitudes)
-    lost = np.concatenate([[0.0], np.cumsum(before - np.append(then[1:], before[-1]))])
-    return lost[after] - lost[first]

@@ -16,6 +16,7 @@
 ``machine``               :class:`Machine`, conversion to parameters and back
 ``load_limits``           :class:`LoadLimits` of a touchdown bearing
 ``gravity``               :class:`Gravity`: where the rotor falls
+``touchdown_bearing``     :class:`TouchdownBearing`: a touchdown bearing that gives way
 ``indentation``           whether a rigid wall is a valid model under a load
 ``restitution``           restitution and what a wall that gives way dissipates
 ``requirement``           :class:`Requirement`: what a machine must survive
@@ -53,6 +54,7 @@ from carom.parameters.requirement import (
 from carom.parameters.scaling import UNITS, Scales
 from carom.parameters.sizes import Size, own_size, read_size
 from carom.parameters.terms import ENTRIES, HELPER_FIELDS, SETTABLE, TERM_FIELDS, TERMS, field_to_set, field_to_vary
+from carom.parameters.touchdown_bearing import TOUCHDOWN_FIELDS, TouchdownBearing
 
 __all__ = [
     "DIMENSIONLESS_FIELDS",
@@ -69,6 +71,7 @@ __all__ = [
     "SURVIVE_ENTRIES",
     "TERMS",
     "TERM_FIELDS",
+    "TOUCHDOWN_FIELDS",
     "UNITS",
     "WALL_FIELDS",
     "Case",
@@ -84,6 +87,7 @@ __all__ = [
     "Scales",
     "Shock",
     "Size",
+    "TouchdownBearing",
     "Zones",
     "field_to_set",
     "field_to_vary",

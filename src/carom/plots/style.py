@@ -114,7 +114,7 @@ REGIMES = (
     Look("#a52f74", "sliding, slip forward"),
     Look("#532a94", "sliding, slip backward", hatch="...."),
     Look("#5c1236", "rolling", hatch="////"),
-    Look("#b8c2cc", "parted from the wall"),
+    Look("#b8c2cc", "parted from the wall", hatch="||||"),
 )
 """Looks of the regimes of a touchdown, in the order of :class:`carom.outcome.Phase`."""
 

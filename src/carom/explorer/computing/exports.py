@@ -108,8 +108,7 @@ def as_toml(case: Case) -> str:
     """A machine file that is read as the machine on the page, bit for bit."""
     zones = f"\n[zones]\nlimits = {list(case.zones.limits)}\n"
     if case.machine is not None:
-        weight = case.gravity.to_toml() if case.gravity else ""
-        return f"{case.machine.to_toml()}{zones}\n{case.limits.to_toml()}\n{case.requirement.to_toml()}{weight}"
+        return f"{case.machine.to_toml()}{zones}\n{case.limits.to_toml()}\n{case.requirement.to_toml()}"
     lines = [
         f"{name} = {getattr(case.parameters, name)!r}  # {field.symbol}: {field.words}"
         for name, field in DIMENSIONLESS_FIELDS.items()
