@@ -9,7 +9,7 @@ import pytest
 from yielding_rotors import Yielding, packed
 
 import carom as cm
-from carom.bifurcations import continue_orbit, examine_border, switch
+from carom.bifurcations import Plane, continue_curve, continue_orbit, examine_border, switch
 from carom.models import HuntCrossley, KelvinVoigt
 from carom.orbits import Kind, orbit_near, orbit_of_motion
 from tests.orbits.test_yielding_orbits import CROSSLEY, VOIGT, settled
@@ -101,6 +101,16 @@ def test_flights_vanish_where_contact_becomes_permanent():
     state = packed(*point.orbit.nodes[0])
     assert np.hypot(*state[:2]) - 1.0 == pytest.approx(0.0, abs=1e-9)
     assert rotor.follow(state, point.orbit.period, "+") == pytest.approx(state, abs=1e-9)
+
+
+@pytest.mark.parametrize("kind", ["period-doubling", "fold", "grazing"])
+def test_curves_of_special_points(special, kind):
+    curve = continue_curve(special[kind], Plane("gamma", "mu", (0.04, 0.2), (0.12, 0.18)))
+    ends = [0, len(curve.first) // 2, -1]
+    for first, second in zip(np.array(curve.first)[ends].tolist(), np.array(curve.second)[ends].tolist(), strict=True):
+        branch = continue_orbit(settled(dataclasses.replace(VOIGT, mu=second, gamma=0.1)), "gamma", (0.04, 0.2))
+        found = [point.value for point in branch.special if point.kind == kind]
+        assert min(abs(value - first) for value in found) < 1e-7
 
 
 @pytest.mark.parametrize("parameter", ["wall_stiffness", "wall_damping", "mu"])

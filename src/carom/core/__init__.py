@@ -3,6 +3,8 @@
 Nothing here knows units, files or results.  A kernel sees a rotor as the arrays of
 :func:`~carom.core.layout.rotor_record` and works for any number of modes and contact planes.
 
+=====================  ===========================================================
+``layout``             the data that kernels work on
 ``flow``               exact flight: sums of exponentials and their derivatives
 ``table``              constants of a block of flight, for the search of crossings
 ``block``              one block of flight: possible roots, state at a time
@@ -14,6 +16,8 @@ Nothing here knows units, files or results.  A kernel sees a rotor as the arrays
 ``phases``             states of contact of a plane
 ``joint``              impacts of several planes in one instant
 ``contact_series``     lasting contact as Taylor series
+``compliance``         contact with a wall that gives way, as Taylor series
+``rounding``           rounding errors of sums over the modes
 ``taylor``             length of a step, sums and zeros of Taylor series
 ``rub``                when lasting contact changes, and what follows
 ``rub_step``           one step of lasting contact
@@ -40,7 +44,5 @@ Nothing here knows units, files or results.  A kernel sees a rotor as the arrays
 ``variation``          how small changes of a state propagate
 ``growth``             growth of small changes along a motion
 ``processors``         number of available processor cores
-``layout``             the data that kernels work on
-``compliance``         contact with a wall that gives way, as Taylor series
-``rounding``           rounding errors of sums over the modes
+=====================  ===========================================================
 """
