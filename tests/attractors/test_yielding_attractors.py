@@ -56,9 +56,7 @@ def test_rolling_in_the_wall_takes_the_time_of_its_turn(found):
 
 
 def test_a_whirl_that_never_leaves_the_wall_is_an_orbit():
-    rotor = Yielding(
-        KelvinVoigt(964.95, 2.0874), gamma=0.0248, omega=0.797, rho=0.7268, mu=0.15, surface_speed=3.0
-    )
+    rotor = Yielding(KelvinVoigt(964.95, 2.0874), gamma=0.0248, omega=0.797, rho=0.7268, mu=0.15, surface_speed=3.0)
     for velocity in (-1.0j, 0.5 - 1.2j, -0.8 - 0.4j, 1.0 - 2.0j):
         motion = cm.simulate(rotor.model, cm.State(0.2 + 0.1j, velocity), settle=True)
         if motion.outcome is Outcome.BACKWARD_WHIRL:

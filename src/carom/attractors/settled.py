@@ -148,8 +148,9 @@ def _last_times(settled: SettledMotion) -> np.ndarray:
 
 
 def forces_on(settled: SettledMotion) -> tuple[float, float]:
-    """Largest normal impulse (``m c_r Ω``), of contacts with walls that give way too, and largest lasting normal force (``m c_r Ω²``)
-    on the attractor, at any plane.
+    """Largest normal impulse (``m c_r Ω``) and largest lasting normal force (``m c_r Ω²``) on the attractor, at any plane.
+
+    A contact with a wall that gives way has both.
     """
     motion = settled.motion
     if settled.outcome is Outcome.LEVITATED:
