@@ -105,9 +105,9 @@ def test_flights_vanish_where_contact_becomes_permanent():
 
 @pytest.mark.parametrize("kind", ["period-doubling", "fold", "grazing"])
 def test_curves_of_special_points(special, kind):
-    curve = continue_curve(special[kind], Plane("gamma", "mu", (0.04, 0.2), (0.12, 0.18)))
+    curve = continue_curve(special[kind], Plane("gamma", "mu", (0.04, 0.2), (0.14, 0.155)))
     for first, second in curve.points[[0, len(curve.points) // 2, -1]].tolist():
-        start = continue_orbit(settled(VOIGT), "mu", (0.11, 0.19)).starts_at(second)[0]
+        start = continue_orbit(settled(VOIGT), "mu", (0.135, 0.16)).starts_at(second)[0]
         orbit = orbit_near(dataclasses.replace(VOIGT, mu=second).model, special[kind].orbit.word, start)
         found = [point.value for point in continue_orbit(orbit, "gamma", (0.04, 0.2)).special if point.kind == kind]
         assert min(abs(value - first) for value in found) < 1e-7
