@@ -36,6 +36,12 @@ def tilting(law, phase=0.2):
     )
 
 
+def changes(motion):
+    """Phases of all planes where one of them changes, and when: where steps end between is a matter of rounding."""
+    changed = np.flatnonzero((np.diff(motion.segment_phases, axis=0) != 0).any(axis=1)) + 1
+    return motion.segment_phases[changed], motion.segment_starts[changed]
+
+
 @pytest.mark.parametrize("law", [KelvinVoigt(1e5, 30.0), HuntCrossley(1e5, 0.2, 1.5)], ids=str)
 @pytest.mark.parametrize("angle", [0.7, math.pi, -2.3])
 def test_a_turned_motion_is_the_motion_turned(law, angle):
@@ -44,8 +50,9 @@ def test_a_turned_motion_is_the_motion_turned(law, angle):
     first = cm.simulate(planar(law), cm.State(position, velocity), 8.0)
     other = cm.simulate(planar(law, 0.21 + angle), cm.State(position * turn, velocity * turn), 8.0)
     assert len(first.lasting_contacts) > 2
-    assert np.array_equal(first.segment_phases, other.segment_phases)
-    np.testing.assert_allclose(first.segment_starts, other.segment_starts, rtol=0.0, atol=1e-11)
+    phases, starts = changes(first)
+    assert np.array_equal(changes(other)[0], phases)
+    np.testing.assert_allclose(changes(other)[1], starts, rtol=0.0, atol=1e-11)
     assert abs(other.final.position - turn * first.final.position) < 1e-11
     assert abs(other.final.velocity - turn * first.final.velocity) < 1e-10
 
@@ -57,7 +64,7 @@ def test_a_turned_motion_of_two_planes(law):
     first = cm.simulate(tilting(law), cm.State(position, velocity), 3.0)
     other = cm.simulate(tilting(law, 0.2 + 2.1), cm.State(position * turn, velocity * turn), 3.0)
     assert min(len(first.seen_at(plane).lasting_contacts) for plane in (0, 1)) > 1
-    assert np.array_equal(first.segment_phases, other.segment_phases)
+    assert np.array_equal(changes(other)[0], changes(first)[0])
     np.testing.assert_allclose(other.final.position, turn * first.final.position, rtol=0.0, atol=1e-11)
     np.testing.assert_allclose(other.final.velocity, turn * first.final.velocity, rtol=0.0, atol=1e-9)
 
