@@ -15,7 +15,7 @@ from carom.core.contact_series import rub_series
 from carom.core.flow import displacement, velocity
 from carom.core.layout import ORDER, rub_workspace
 from carom.core.rub import first_transition, next_phase
-from carom.core.taylor import STEP_FRACTION, series_step, sum_series
+from carom.core.taylor import STEP_FRACTION, margin_step, series_step, sum_series
 from carom.models import HuntCrossley, KelvinVoigt, LinearRotor, Touchdown
 from carom.outcome import Phase
 
@@ -65,7 +65,7 @@ def series_of(law, start, phase):
 
 def step_of(rotor, work):
     """The step that is taken: the series of the motion and of the depth are exact to rounding."""
-    return next_form(rotor, 0, series_step(work), work)
+    return next_form(rotor, 0, min(series_step(work), margin_step(work.depth[0])), work)
 
 
 def push_of(law, depth, rate, power):
