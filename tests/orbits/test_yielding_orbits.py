@@ -10,7 +10,7 @@ from yielding_rotors import Yielding, packed, two_planes
 import carom as cm
 from carom.models import HuntCrossley, KelvinVoigt, LinearRotor
 from carom.models.touchdown import Rigid, Touchdown
-from carom.orbits import Kind, Segment, Word, orbit_near, orbit_of_motion
+from carom.orbits import Kind, Section, Segment, Word, impact_map, orbit_near, orbit_of_motion
 from carom.orbits.shooting import Start
 from carom.outcome import InputError
 
@@ -188,3 +188,8 @@ def test_an_impact_may_lead_to_contact_at_another_plane():
     assert word.arrives.tolist() == [True, True, False]
     with pytest.raises(InputError, match="word"):
         Word.of(Kind.IMPACT_FORWARD, Kind.SLIDE_FORWARD)
+
+
+def test_the_impact_map_refuses_a_wall_without_impacts():
+    with pytest.raises(InputError, match="gives way"):
+        impact_map(VOIGT.model, Section(0.0, 0.5, -1.0))
