@@ -71,7 +71,7 @@ def margins_in_walls(rotor, kinds, planes, nodes, durations, rub):
                     rub.first_margin[k] = sense * rub.slip[plane, k]
                 if kinds[i] == ROLL:
                     cone = min(cone, _least_spare(plane, step, wall, rub))
-                else:
+                elif wall.friction > 0.0:
                     slip = min(slip, least_inside(rub.first_margin, step))
             sum_series(rub, step, state)
             elapsed = durations[i] if step == durations[i] - elapsed else elapsed + step
