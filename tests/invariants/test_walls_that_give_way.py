@@ -61,8 +61,8 @@ def test_a_turned_motion_is_the_motion_turned(law, angle):
 def test_a_turned_motion_of_two_planes(law):
     turn = cmath.exp(2.1j)
     position, velocity = np.array([0.3, 0.2j]), np.array([1.5 + 0.4j, 1.0 - 2.0j])
-    first = cm.simulate(tilting(law), cm.State(position, velocity), 3.0)
-    other = cm.simulate(tilting(law, 0.2 + 2.1), cm.State(position * turn, velocity * turn), 3.0)
+    first = cm.simulate(tilting(law), cm.State(position, velocity), 5.0)
+    other = cm.simulate(tilting(law, 0.2 + 2.1), cm.State(position * turn, velocity * turn), 5.0)
     assert min(len(first.seen_at(plane).lasting_contacts) for plane in (0, 1)) > 1
     assert np.array_equal(changes(other)[0], changes(first)[0])
     np.testing.assert_allclose(other.final.position, turn * first.final.position, rtol=0.0, atol=1e-11)
