@@ -126,6 +126,8 @@ class Case(Tabular):
             object.__setattr__(self, "touchdown", None)
         if self.touchdown is not None and self.parameters.scales is None:
             raise InputError("touchdown", self.touchdown.words, "not allowed beside [dimensionless]: it is in SI units")
+        if self.machine is not None:
+            self.limits.check_fit(self.touchdown)
 
     @property
     def heading(self) -> str:

@@ -10,6 +10,7 @@ from typing import Any
 from carom.arguments import checked
 from carom.attractors import AttractorSet
 from carom.motions import TouchdownLoads, simulate, touchdown_loads
+from carom.outcome import InputError
 from carom.parameters import LIMIT_FIELDS, LoadLimits
 from carom.parameters.told import number
 from carom.results import fields_of
@@ -21,7 +22,7 @@ class LoadCheck:
 
     Attributes
     ----------
-    name : {"impulse", "force", "power", "heat", "impacts"}
+    name : {"impulse", "force", "power", "heat", "depth", "pressure", "impacts"}
     value : float
         Load of the motion, up to where its end was known.
     limit : float
@@ -61,10 +62,17 @@ def check_loads(loads: TouchdownLoads, limits: LoadLimits) -> tuple[LoadCheck, .
     """Compare the loads of a motion with the limits that are stated; nothing without scales.
 
     Heat and impacts of a motion that has settled in contact have no end, so they exceed any limit in time.
+
+    Raises
+    ------
+    InputError
+        There is a limit of the pressure, but the touchdown bearing does not state its balls.
     """
     si = loads.si()
     if si is None:
         return ()
+    if limits.pressure is not None and loads.pressure is None:
+        raise InputError("pressure", limits.pressure, "a limit needs balls in the table [touchdown]")
     values = {**si, "impacts": float(loads.impacts)}
     found = []
     for name, limit in limits.stated.items():
