@@ -23,7 +23,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from scipy.special import elliprd
+from scipy.special import elliprd  # type: ignore[import-untyped]
 
 from carom.arguments import NotNegative, Positive, checked
 from carom.continuation.roots import bracketed_root

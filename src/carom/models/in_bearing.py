@@ -112,7 +112,11 @@ class InBearing(Around):
     def varied(self) -> Mapping[str, Field]:
         """Named parameters that can be varied."""
         own = {name: field for name, field in self.rotor.varied.items() if name not in _LEFT_OUT}
-        bearing = {PREFIX + name: replace(TOUCHDOWN_FIELDS[name], name=PREFIX + name) for name in self.bearing.given if name not in BALL_FIELDS}
+        bearing = {
+            PREFIX + name: replace(TOUCHDOWN_FIELDS[name], name=PREFIX + name)
+            for name in self.bearing.given
+            if name not in BALL_FIELDS
+        }
         return {**own, **bearing}
 
     def value(self, name: str) -> float:

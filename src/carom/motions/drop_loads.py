@@ -221,7 +221,7 @@ class _Contacts:
 
 def _contacts(parts: list[Trajectory], soft: bool) -> _Contacts:
     """Count the contacts of a plane and find the hardest; those that go over from one stage to the next count once."""
-    logs: list[TouchLog] | list[ContactLog] = [part.touches if soft else part.contacts for part in parts]
+    logs: list[TouchLog | ContactLog] = [part.touches if soft else part.contacts for part in parts]
 
     def column(name: str) -> np.ndarray:
         return np.concatenate([getattr(log, name) for log in logs])

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from carom.arguments import checked
 from carom.models import Model, Stage, Staged, Subject, Trigger, model_of
 from carom.models.in_bearing import races_of
-from carom.models.weight import levitation_of, weight_of, without_levitation
+from carom.models.weight import direction_of_fall, levitation_of, weight_of, without_levitation
 from carom.motions.starts import Kick, State, time_until
 from carom.outcome import InputError, shown
 from carom.parameters import own_size
@@ -86,22 +86,32 @@ class Drop:
             or a text is no such size.
         """
         rotor = model_of(machine)
-        weight = weight_of(rotor)
-        if weight is None:
+        if weight_of(rotor) is None:
             allowed = "a drop needs weight: a table [gravity] in the machine file, or --set gravity=9.81 for once"
             raise InputError("gravity", None, allowed)
         if isinstance(rotor, Staged):
             raise InputError("machine", shown(machine), "a machine of one stage: a drop makes stages of its own")
         if self.phase is not None:
-            down = cmath.phase(complex(weight @ rotor.system.translated.conj()))
-            ahead = down + own_size("phase", self.phase, "angle", rotor.scales)
-            rotor = rotor.replace(phi=math.remainder(ahead, 2.0 * math.pi))
+            rotor = rotor.replace(phi=self.unbalance_angle(rotor))
         start = self._start(rotor)
         falling = without_levitation(rotor)
         if self.regained_after is None:
             return falling, start
         time = time_until(self.regained_after, rotor.scales, "regained_after")
         return Staged((Stage(falling, Trigger(time=time)), Stage(rotor))), start
+
+    def unbalance_angle(self, rotor: Model) -> float:
+        """Angle of the unbalance of a rotor that weighs something at the release, in the fixed frame, in rad.
+
+        Raises
+        ------
+        InputError
+            The phase is no angle.
+        """
+        if self.phase is None:
+            return rotor.unbalance_phase
+        ahead = own_size("phase", self.phase, "angle", rotor.scales)
+        return math.remainder(direction_of_fall(rotor) + ahead, 2.0 * math.pi)
 
     def _start(self, rotor: Model) -> State:
         """State at the release."""

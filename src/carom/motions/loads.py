@@ -15,7 +15,7 @@ from carom.motions.contacts import ContactLog, presses, yields
 from carom.motions.ledger import contact_power
 from carom.motions.quadrature import NODES, WEIGHTS, pieces
 from carom.motions.trajectories import Trajectory
-from carom.outcome import Outcome
+from carom.outcome import Outcome, Phase
 from carom.parameters import Scales
 from carom.results import KINDS, Result
 
@@ -180,6 +180,8 @@ def _lasting(trajectory: Trajectory) -> tuple[float, float, float]:
 def _lasting_power(trajectory: Trajectory, times: np.ndarray, works: np.ndarray) -> float:
     """Power of friction with which a settled motion goes on, from the times of impacts and the work lost to friction in each."""
     if not trajectory.outcome.settled or trajectory.outcome is Outcome.LEVITATED:
+        return 0.0
+    if trajectory.segment_phases[-1, trajectory.plane] == Phase.ROLLING:
         return 0.0
     if presses(trajectory.segment_phases[-1, trajectory.plane]):
         return float(-contact_power(trajectory, np.array([trajectory.time]))[0][0])

@@ -8,8 +8,9 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from carom.outcome import InputError, Problems, shown
-from carom.parameters.fields import Field, by_name, length_field, unknown_names
+from carom.parameters.fields import Field, by_name, unknown_names
 from carom.parameters.quantities import read_quantity
+from carom.parameters.told import number
 
 if TYPE_CHECKING:
     from carom.parameters.touchdown_bearing import TouchdownBearing
@@ -19,8 +20,22 @@ LIMIT_FIELDS: Mapping[str, Field] = by_name(
     Field("force", "", "normal force in lasting contact", "a force", "N", 1e-12, 1e15, '"2 kN"', zero=True),
     Field("power", "", "friction power in lasting contact", "a power", "W", 1e-12, 1e15, '"10 kW"', zero=True),
     Field("heat", "", "friction work of a touchdown", "an energy", "J", 1e-12, 1e15, '"500 J"', zero=True),
-    length_field("depth", "", "depth in the bearing", 1e-12, 1.0, '"20 um"', True),
-    Field("pressure", "", "pressure of the balls", "a pressure", "Pa", 1e-3, 1e13, '"4.2 GPa"', zero=True),
+    Field(
+        "depth", "", "depth in the bearing", "a length", "m", 1e-12, 1.0, '"20 um"', True, usual="µm", usual_size=1e-6
+    ),
+    Field(
+        "pressure",
+        "",
+        "pressure of balls",
+        "a pressure",
+        "Pa",
+        1.0,
+        1e13,
+        '"4.2 GPa"',
+        True,
+        usual="GPa",
+        usual_size=1e9,
+    ),
     Field("impacts", "", "impacts of a touchdown", "a whole number", "", 1, 1e9, "20", zero=True, whole=True),
 )
 """Entries of a ``[limits]`` table, in SI units; each may be left out."""
@@ -70,6 +85,12 @@ class LoadLimits:
             if given is not None:
                 object.__setattr__(self, name, problems.attempt(read_quantity, field, given))
         problems.raise_all()
+
+    @staticmethod
+    def told(name: str, value: float, digits: int = 3) -> str:
+        """Write a load that is limited, given in its SI unit, in the unit in which people say it."""
+        field = LIMIT_FIELDS[name]
+        return f"{number(field.in_usual_unit(value), digits)} {field.usual_unit}".rstrip()
 
     @property
     def stated(self) -> dict[str, float]:

@@ -139,7 +139,7 @@ class Case(Tabular):
         scales = self.parameters.scales
         zones = ", ".join(f"{zone} up to {number(limit)}" for zone, limit in zip("ABC", self.zones.limits, strict=True))
         limits = [
-            f"{field.words} {number(value)} {field.unit}".rstrip()
+            f"{field.words} {LoadLimits.told(name, value, 4)}"
             for name, field in LIMIT_FIELDS.items()
             if (value := getattr(self.limits, name)) is not None
         ]

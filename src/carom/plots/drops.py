@@ -5,6 +5,7 @@ from __future__ import annotations
 import cmath
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -12,7 +13,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from carom.arguments import Positive, checked
-from carom.models.weight import weight_of
+from carom.models.weight import direction_of_fall
 from carom.motions.contacts import presses, race_speed, yields
 from carom.motions.drop_loads import drop_loads as evaluated
 from carom.motions.trajectories import Trajectory
@@ -71,7 +72,7 @@ class Course:
 
 def course_of(motion: Trajectory, until: float) -> Course:
     """Sample all stages of a motion up to a time from the release, in ``1/Ω``."""
-    scales, columns = motion.rotor.scales, []
+    scales, columns = motion.rotor.scales, list[tuple[Any, ...]]()
     for part in (each.seen_at(motion.plane) for each in motion.parts):
         end = min(part.time, until - part.begins)
         if end <= 0.0:
@@ -88,18 +89,17 @@ def course_of(motion: Trajectory, until: float) -> Course:
         columns.append((part.begins + times, place, history.normal_force, np.abs(history.slip), race, held))
     times, place, force, slip, race, held = (np.concatenate(each) for each in zip(*columns, strict=True))
     units = {kind: told_in(kind, scales)[0] for kind in ("time", "length", "force")}
+    drawn: NDArray[np.complex128] = place.astype(np.complex128) * units["length"]
     surface = 1.0 if scales is None else scales.velocity
-    weight = weight_of(motion.rotor)
-    system = motion.rotor.system
-    down = -0.5 * math.pi if weight is None else cmath.phase(complex(weight @ system.translated.conj()))
+    turns = motion.rotor.system.arrays.race[motion.plane] >= 0
     return Course(
         units["time"] * times,
-        units["length"] * place,
+        drawn,
         units["force"] * force,
         surface * slip,
-        surface * race if system.arrays.race[motion.plane] >= 0 else None,
+        surface * race if turns else None,
         held,
-        down,
+        direction_of_fall(motion.rotor),
         scales,
     )
 
@@ -280,9 +280,9 @@ def _force(axes: Axes, course: Course, blows: tuple[Floats, Floats, Floats] | No
     if not shown.any():
         return []
     beside = axes.twinx()
-    beside.vlines(times[shown], 0.0, impulses[shown], color=LOOKS["unstable"].colour, lw=0.6)
-    beside.plot(times[shown], impulses[shown], "o", ms=2.2, color=LOOKS["unstable"].colour)
-    axes.plot([], [], "o", ms=2.2, color=LOOKS["unstable"].colour, label="impulse of an impact (right axis)")
+    beside.vlines(times[shown], 0.0, impulses[shown], color=LOOKS["path"].colour, lw=0.6)
+    beside.plot(times[shown], impulses[shown], "o", ms=2.2, color=LOOKS["path"].colour)
+    axes.plot([], [], "o", ms=2.2, color=LOOKS["path"].colour, label="impulse of an impact (right axis)")
     beside.set_ylim(0.0, 1.15 * float(impulses.max()))
     if lasts:
         beside.set_ylabel(axis_label("impulse", "impulse", course.scales))
