@@ -16,14 +16,14 @@
 ``quadrature``      integrals and largest values along a motion
 ``touches``         contacts with walls that give way: impulses, peaks, depths, works
 ``loads``           loads of a touchdown: forces, impulses, heat
-``drop_loads``        the same of a drop, over all stages, with race, whirl and rest
+``bearing_loads``     the same of a drop, over all stages, with race, whirl and rest
 ``ledger``          energies of a motion
 ``spectrum``        forward and backward whirl at each multiple of the shaft speed
 ==================  =============================================================================
 """
 
 from carom.motions.contacts import ContactHistory, ContactLog, LastingContact
-from carom.motions.drop_loads import DropLoads, LastWhirl, PlaneLoads, drop_loads
+from carom.motions.bearing_loads import DropLoads, LastWhirl, PlaneLoads, drop_loads
 from carom.motions.drops import Drop, Whirl, drop
 from carom.motions.ensembles import Endings, settle
 from carom.motions.ledger import EnergyLedger, energy_ledger

@@ -179,11 +179,10 @@ class TouchdownBearing:
             for name in ("mount_mass", "mount_stiffness")
             if mount and name not in mount
         ]
-        errors += [
-            InputError(name, None, "the pressure of balls needs balls, ball_diameter and race_diameter")
-            for name in ("balls", "ball_diameter", "race_diameter")
-            if BALL_FIELDS.keys() & present and name not in present
-        ]
+        needed = ("balls", "ball_diameter", "race_diameter")
+        missing = [name for name in needed if name not in present]
+        if missing and BALL_FIELDS.keys() & present:
+            errors.append(InputError(missing[0], None, f"the pressure of balls needs {', '.join(needed)}"))
         return errors
 
     def _not_of_law(self, name: str, words: str) -> InputError:

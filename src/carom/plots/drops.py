@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from carom.arguments import Positive, checked
 from carom.models.weight import direction_of_fall
 from carom.motions.contacts import presses, race_speed, yields
-from carom.motions.drop_loads import drop_loads as evaluated
+from carom.motions.bearing_loads import drop_loads as evaluated
 from carom.motions.trajectories import Trajectory
 from carom.outcome import InputError
 from carom.parameters import Scales

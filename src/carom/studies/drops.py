@@ -10,7 +10,7 @@ from typing import Any
 from carom.attractors import MotionName
 from carom.disturbances.echo import Echo
 from carom.motions import DropLoads, LastWhirl, PlaneLoads, Trajectory, drop_loads
-from carom.motions.drop_loads import LAST_TURNS
+from carom.motions.bearing_loads import LAST_TURNS
 from carom.outcome import Outcome
 from carom.parameters import MACHINE_FIELDS, Case, Scales
 from carom.parameters.told import number
