@@ -53,6 +53,22 @@ def test_what_it_is_released_from(carom):
     assert found["time"] == motion.begins + motion.time
 
 
+def test_a_bearing_on_a_mount(carom):
+    """Depth is that in the bearing, which the mount makes softer; the start is that of the rotor."""
+    mount = ("touchdown_mount_mass=2 kg", "touchdown_mount_stiffness=2e7 N/m", "touchdown_mount_damping=3000 N s/m")
+    settings = [part for setting in mount for part in ("--set", setting)]
+    _, out, _ = carom(*SHORT, "--json")
+    fixed = json.loads(out)
+    code, out, err = carom(*SHORT, *settings, "--json")
+    mounted = json.loads(out)
+    assert (code, err) == (0, "")
+    assert mounted["disturbance"]["words"] == fixed["disturbance"]["words"]
+    soft, hard = (each["planes"][0]["loads"] for each in (mounted, fixed))
+    assert soft["force_si"] < 0.6 * hard["force_si"]
+    # The peak force is k δ^1.5 but for what the rate adds.
+    assert soft["force_si"] == pytest.approx(2e10 * soft["depth_si"] ** 1.5, rel=1e-2)
+
+
 def test_figures_and_a_page(carom, tmp_path):
     where = tmp_path / "drop"
     code, out, err = carom(*SHORT, "--out", str(where), "--json")

@@ -144,6 +144,9 @@ def test_whirl_that_is_seen_is_not_said_to_go_on():
     times = np.linspace(motion.time - 16.0 * math.pi, motion.time, 1_601)
     turned = np.ptp(np.unwrap(np.angle(motion.position(times, "fixed"))))
     assert plane.whirl.turned == pytest.approx(-turned, rel=1e-9)
+    assert plane.whirl.lasted == pytest.approx(16.0 * math.pi, rel=1e-12)
+    short = drop_loads(cm.simulate(cm.load(BALLS), cm.drop(Whirl("0.2 mm", "-400 Hz", "30 deg")), 5.0)).planes[0]
+    assert short.whirl.lasted == 5.0
     assert plane.whirl.frequency_si == pytest.approx(turned / (16.0 * math.pi) * 150.0, rel=1e-9)
 
 

@@ -7,6 +7,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from carom.disturbances.plans import Grid, Plan
 from carom.parameters import MACHINE_FIELDS, Scales
 from carom.parameters.told import number, told, told_angle
@@ -129,7 +131,9 @@ def echo_of_start(state: State, phase: float, scales: Scales | None) -> Echo:
 
 def _moving(state: State, scales: Scales | None) -> Echo:
     """A state of the planar rotor, its velocity in the fixed frame."""
-    place, speed = complex(state.position), complex(state.velocity + 1j * state.position)
+    # On a mount the rotor is the first of two coordinates.
+    place, rate = (complex(np.ravel(part)[0]) for part in (state.position, state.velocity))
+    speed = rate + 1j * place
     at = f"{told(abs(place), 'length', scales)} from the centre at {told_angle(cmath.phase(place))}"
     moves = f"{told(abs(speed), 'velocity', scales)} at {told_angle(cmath.phase(speed))} in the fixed frame"
     return Echo(

@@ -35,8 +35,11 @@ class LastWhirl(Result):
         Mean over the last turns of the shaft, in ``Ω``; negative for backward whirl.
     turned : float
         Angle over which it went round in these, in rad, with its sign.
+    lasted : float
+        Time over which that was seen, in ``1/Ω``: eight turns, or less of a motion that is shorter.
     since : float
-        Time since which it has not turned back, in ``1/Ω``, to within a step of the motion.
+        Time since which it has not turned back, in ``1/Ω``, to within a step of the motion.  If it does not go on, no earlier time is looked at
+        than these turns.
     goes_on : bool
         Whether the motion has settled to going round in contact; otherwise this is what was seen, and no more.
     scales : Scales or None
@@ -44,6 +47,7 @@ class LastWhirl(Result):
 
     angular_speed: float
     turned: float
+    lasted: float
     since: float
     goes_on: bool
     scales: Scales | None = None
@@ -290,9 +294,11 @@ def _last_whirl(parts: list[Trajectory]) -> LastWhirl | None:
     turned = float(np.subtract(*np.unwrap(angles[shown])[[-1, 0]]))
     other = np.flatnonzero(rates * np.sign(turned) <= 0.0)
     since = times[other[-1] + 1] if len(other) and other[-1] + 1 < len(times) else times[-1] if len(other) else times[0]
+    lasted = float(np.ptp(times[shown]))
     return LastWhirl(
-        angular_speed=turned / (float(np.ptp(times[shown])) or 1.0),
+        angular_speed=turned / lasted if lasted > 0.0 else 0.0,
         turned=turned,
+        lasted=lasted,
         since=last.begins + float(since),
         goes_on=last.outcome in GOING_ROUND,
         scales=last.rotor.scales,

@@ -10,7 +10,6 @@ from typing import Any
 from carom.attractors import MotionName
 from carom.disturbances.echo import Echo
 from carom.motions import DropLoads, LastWhirl, PlaneLoads, Trajectory, drop_loads
-from carom.motions.bearing_loads import LAST_TURNS
 from carom.outcome import Outcome
 from carom.parameters import MACHINE_FIELDS, Case, Scales
 from carom.parameters.told import number
@@ -168,7 +167,7 @@ def _speed(own: float, scales: Scales | None) -> str:
 
 def _whirl_words(whirl: LastWhirl, outcome: Outcome) -> str:
     """Sense and frequency, and whether it goes on."""
-    turns = number(LAST_TURNS, 3)
+    turns = number(whirl.lasted / (2.0 * math.pi), 3)
     if whirl.direction is None:
         return (
             f"none: it turned by {number(abs(math.degrees(whirl.turned)), 2)}° in the last {turns} turns of the shaft"
@@ -183,6 +182,6 @@ def _whirl_words(whirl: LastWhirl, outcome: Outcome) -> str:
 
 
 def _whirl_entry(whirl: LastWhirl) -> dict[str, Any]:
-    entry = fields_of(whirl, "direction", "angular_speed", "turned", "since", "goes_on")
-    entry |= in_si(entry, whirl.scales, angular_speed="speed", since="time")
+    entry = fields_of(whirl, "direction", "angular_speed", "turned", "lasted", "since", "goes_on")
+    entry |= in_si(entry, whirl.scales, angular_speed="speed", lasted="time", since="time")
     return entry | ({} if whirl.frequency_si is None else {"frequency_si": whirl.frequency_si})
