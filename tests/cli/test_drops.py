@@ -3,6 +3,7 @@
 import csv
 import json
 import math
+from pathlib import Path
 
 import pytest
 import xarray
@@ -56,6 +57,30 @@ def test_levitation_regained_is_a_stage_of_its_own(carom, tmp_path):
     with xarray.open_dataset(log) as dataset:
         assert dataset.time.values == pytest.approx([unit * time for time in times])
         assert dataset.attrs["end_time"] == pytest.approx(unit * found["time"])
+
+
+def test_contacts_with_a_bearing_that_gives_way(carom, tmp_path):
+    """Each contact of both stages has its loads in SI, and its times count from the release."""
+    text = Path(MACHINE).read_text(encoding="utf-8")
+    lines = [line for line in text.splitlines() if not line.startswith("restitution")]
+    bearing = ["[touchdown]", 'law = "kelvin-voigt"', 'stiffness = "1e8 N/m"', 'damping = "3000 N s/m"']
+    machine = tmp_path / "machine.toml"
+    machine.write_text("\n".join([*lines, *bearing]), encoding="utf-8")
+    found = document(carom("simulate", str(machine), "--drop", "--regained-after", "5.9 ms", "--json"))
+    scales, (falls, levitates) = found["scales_si"], found["stages"]
+    # Levitation is back in the middle of the first contact.
+    first, second, *_ = found["contacts"]
+    assert not found["impacts"]
+    assert len(found["contacts"]) == len(falls["contacts"]) + len(levitates["contacts"])
+    assert (first["plane"], first["lasts"], second["plane"], second["lasts"]) == (0, True, 0, False)
+    assert first["end"] == second["start"] == levitates["begins"]
+    assert first["start"] < first["peak_time"] <= first["end"] <= second["peak_time"] < second["end"]
+    # Beside the wall's force others hardly count in so short a time.
+    change = (first["radial_speed"] - second["radial_speed_after"]) * scales["velocity"]
+    assert first["impulse_si"] + second["impulse_si"] == pytest.approx(5.0 * change, rel=0.05)
+    deepest = first["radial_speed"] * scales["velocity"] * math.sqrt(5.0 / 1e8)
+    assert 0.8 * deepest < first["deepest_si"] < 1.05 * deepest
+    assert first["peak_force_si"] == pytest.approx(1e8 * first["deepest_si"], rel=0.05)
 
 
 def test_a_drop_in_words_is_seen_from_the_fixed_frame(carom):

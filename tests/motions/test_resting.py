@@ -119,3 +119,15 @@ def test_without_weight_nothing_lies():
     for model in (rotor, Forced(rotor, (Force(0.3j, np.array([0.1])),))):
         amplitudes = model.system.amplitudes(-1j, -1.0)
         assert not lies(model, amplitudes, np.array([Phase.FORWARD_SLIP]))
+
+
+def test_a_rub_that_keeps_in_step_with_the_shaft_is_forward_rub():
+    """An unbalance far above the weight presses the rotor against the wall ahead of it; the weight only rocks it there."""
+    rotor, start = cm.drop(cm.State(0.3 + 0.1j)).stages(HEAVY.replace(eccentricity="0.1 mm"))
+    motion = cm.simulate(rotor, start)
+    assert motion.outcome is Outcome.FORWARD_RUB
+    last = np.linspace(motion.time - 50.0, motion.time, 300)
+    assert np.ptp(np.unwrap(np.angle(motion.position(last)))) < 1.0
+    assert np.ptp(np.unwrap(np.angle(motion.position(last, "fixed")))) > 48.0
+    ending = cm.settle(rotor, np.array([start.position]), np.array([start.velocity]))
+    assert ending.outcomes.tolist() == [Outcome.FORWARD_RUB]

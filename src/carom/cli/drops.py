@@ -73,9 +73,9 @@ def drop_document(case: Case, motion: Trajectory) -> dict[str, Any]:
     if len(documents) == 1:
         return document
     document |= {"start": documents[0]["start"], "time": motion.begins + motion.time}
-    for key, times in (("impacts", ("time",)), ("contacts", ("start", "end"))):
+    for key, times in (("impacts", ("time",)), ("contacts", ("start", "end", "peak_time"))):
         document[key] = [
-            entry | {name: part.begins + entry[name] for name in times}
+            entry | {name: part.begins + entry[name] for name in times if name in entry}
             for part, own in zip(motion.parts, documents, strict=True)
             for entry in own[key]
         ]

@@ -3,6 +3,7 @@
 ==================  ===================================================
 ``equilibria``      contact-free and rubbing equilibria of any linear rotor
 ``statics``         forces of rubs at rest, at one plane and at several
+``power_sums``      all positive roots of a sum of powers
 ``rub_stability``   whether a rub at rest attracts sliding
 ``thresholds``      where motions begin and end
 ``harmless``        disturbances of any linear rotor that never reach the wall

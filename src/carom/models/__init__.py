@@ -9,6 +9,8 @@
 ``jeffcott``              :class:`Jeffcott`: the planar rigid rotor, by its parameters
 ``linear``                :class:`LinearRotor`: any linear isotropic rotor, by its matrices
 ``linear_parameters``     its named parameters
+``in_bearing``            :class:`InBearing`: the planar rotor in a touchdown bearing that gives way
+``race``                  :class:`Race`: the inner race of a touchdown bearing, which turns
 ``touchdown``             :class:`Touchdown`: a contact plane, and the laws of its wall
 ``modes``                 modes of a matrix, in pairs where two nearly coincide
 ``forcing``               :class:`Force`: forces that change with time, as modes of their own

@@ -16,7 +16,7 @@ import numpy as np
 
 from carom.core.advance import advance
 from carom.core.event_log import EventLog
-from carom.core.fate import TURNS, memory
+from carom.core.fate import NO_TURN, TURNS, memory
 from carom.core.layout import rub_workspace, workspace
 from carom.core.phases import lasts
 from carom.models import Model
@@ -30,12 +30,18 @@ LOGGED = 8192
 
 
 def goes_round(rotor: Model, amplitudes: np.ndarray, contact: np.ndarray, recollection: np.record) -> Outcome | None:
-    """Whirl that has lasted for 1,024 turns along the wall without an impact, of a rotor that weighs something; else ``None``."""
-    if recollection.turns < 2 * TURNS or weight_of(rotor) is None:
+    """Whirl of a rotor that weighs something that has lasted for 1,024 turns along the wall, or of the shaft; else ``None``.
+
+    Contact that has not gone round once in the frame of the shaft in so many of its turns keeps in step with it.
+    """
+    in_step = recollection.turning != NO_TURN and recollection.turn_time >= 2 * TURNS * 2.0 * math.pi
+    if not (in_step or recollection.turns >= 2 * TURNS) or weight_of(rotor) is None:
         return None
     plane = next((place for place, each in enumerate(contact.tolist()) if lasts(each)), None)
     if plane is None:
         return None
+    if in_step:
+        return Outcome.FORWARD_RUB
     if contact[plane] == Phase.ROLLING and not recollection.turn_slipped:
         return Outcome.ROLLING
     position, velocity = rotor.system.at_plane(amplitudes, plane)
