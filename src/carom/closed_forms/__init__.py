@@ -16,6 +16,7 @@
 ``free_impact``     impacts of a free mass on walls that give way
 ``yielding_walls``  rubs and slipping whirl on walls that give way
 ``whirl_resonance`` speeds at which the whirls of a disc are in resonance
+``hertz``           pressure between the balls and the race of a touchdown bearing
 ``known``           what general code may ask of any model
 ==================  ===================================================
 """
@@ -30,6 +31,7 @@ from carom.closed_forms.harmless import (
     harmless_shock,
     harmless_unbalance_step,
 )
+from carom.closed_forms.hertz import PointContact, ball_pressure, point_contact
 from carom.closed_forms.local import ContactSystem, LocalCycle, NonSmoothHopf, cycle_determinant, non_smooth_hopf
 from carom.closed_forms.periods import PeriodCondition, PeriodRoots
 from carom.closed_forms.thresholds import rub_limit
@@ -47,12 +49,14 @@ __all__ = [
     "NonSmoothHopf",
     "PeriodCondition",
     "PeriodRoots",
+    "PointContact",
     "Rolling",
     "RubNeighbourhood",
     "Runaway",
     "SlippingWhirl",
     "SpeedResponse",
     "YieldingRub",
+    "ball_pressure",
     "cycle_determinant",
     "fading_speed",
     "find_equilibria",
@@ -64,6 +68,7 @@ __all__ = [
     "internal_resonance",
     "kelvin_voigt_impact",
     "non_smooth_hopf",
+    "point_contact",
     "rolling",
     "rub_limit",
     "rub_neighbourhood",
