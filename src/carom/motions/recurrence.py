@@ -48,14 +48,14 @@ def least_recurrence(system: System, amplitudes: np.ndarray, contact: np.ndarray
 
 def _states_at_impacts(system: System, amplitudes: np.ndarray, contact: np.ndarray, count: int) -> np.ndarray:
     """Amplitudes just before an impact and the ``count`` following ones, fewer if the motion does something else."""
-    arrays, (planes, modes) = system.arrays, system.arrays.rows.shape
+    (arrays, table), (planes, modes) = system.own_records(), system.arrays.rows.shape
     state, touching, recollection = amplitudes.copy(), contact.copy(), memory(modes)
     log = EventLog.empty(LOGGED, modes, planes)
     tools = workspace(modes), rub_workspace(modes, planes)
     found: list[np.ndarray] = []
     passed, last, events, outcome = 0.0, -np.inf, 0, Outcome.EVENT_LIMIT
     while outcome == Outcome.EVENT_LIMIT and len(found) <= count and events < MOST_EVENTS:
-        outcome, time, noted = advance(arrays, system.table, state, FOLLOWED_TIME, touching, log, recollection, *tools)
+        outcome, time, noted = advance(arrays, table, state, FOLLOWED_TIME, touching, log, recollection, *tools)
         new = log.first(noted)
         struck = (new.before != new.after).any(axis=1) & (new.phases[np.arange(noted), new.planes] == FLIGHT)
         for event in np.flatnonzero(struck).tolist():
