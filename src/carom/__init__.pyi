@@ -27,6 +27,7 @@ from carom.closed_forms import find_equilibria as find_equilibria
 from carom.disturbances import BaseShock as BaseShock
 from carom.disturbances import Grid as Grid
 from carom.motions import State as State
+from carom.motions import drop as drop
 from carom.motions import kick as kick
 from carom.motions import settle as settle
 from carom.motions import simulate as simulate

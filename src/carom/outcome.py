@@ -38,6 +38,7 @@ class Outcome(IntEnum):
     FORWARD_RUB = 23
     BACKWARD_WHIRL = 24
     ROLLING = 25
+    AT_REST = 26
 
     @property
     def label(self) -> str:
@@ -95,6 +96,7 @@ _WORDS = {
     Outcome.FORWARD_RUB: "forward rub",
     Outcome.BACKWARD_WHIRL: "sliding backward whirl",
     Outcome.ROLLING: "rolling backward whirl",
+    Outcome.AT_REST: "rest on the touchdown bearing",
 }
 STEADY_WORDS: Mapping[str, str] = MappingProxyType(
     {"contact-free": Outcome.LEVITATED.words, "rub": "synchronous rub", "rolling": Outcome.ROLLING.words}
@@ -127,6 +129,7 @@ _MEANINGS = {
     Outcome.FORWARD_RUB: "The rotor ends in forward rub: it slides along the touchdown bearing in the sense of rotation, or turns with the shaft.",
     Outcome.BACKWARD_WHIRL: "The rotor ends in sliding backward whirl: dry friction, or negative damping, drives it round the touchdown bearing.",
     Outcome.ROLLING: "The rotor ends in rolling backward whirl: it rolls round the touchdown bearing without slip.",
+    Outcome.AT_REST: "The rotor ends in rest on the touchdown bearing: it lies there by its weight, or rocks, and does not go round.",
 }
 
 

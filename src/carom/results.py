@@ -26,7 +26,7 @@ FEW = 4
 DIGITS = 6
 _KINDS = {
     "time": "time times period periods duration contact_time",
-    "length": "position places radius radii gap amplitudes",
+    "length": "position places radius radii gap amplitudes depth",
     "velocity": "velocity radial_speed radial_speeds",
     "speed": "angular_speed",
     "force": "force normal_force normal_forces largest_force",

@@ -207,3 +207,15 @@ def test_a_time_may_have_a_unit(rotor):
     plan = Grid(VelocityKick(1.0), (3, 4))
     in_words = map_basins(rotor, plan, until="20 ms").dataset
     xarray.testing.assert_identical(in_words["time"], map_basins(rotor, plan, until=0.02 / SCALES.time).dataset["time"])
+
+
+def test_basins_of_a_heavy_rotor_tell_bouncing_by_its_impacts_and_are_read_again(tmp_path):
+    """Its bouncing repeats with the turns of the shaft; no orbit is looked for."""
+    heavy = carom.load("examples/dropped-rotor.toml", ["damping=10 N s/m", "restitution=0.9", "friction=0.05"])
+    found = map_basins(heavy, Grid(carom.disturbances.AnyState(2.0), (2, 6, 2, 6)))
+    assert {"levitation", "rolling backward whirl"} <= set(found.fractions)
+    assert any("bouncing" in name for name in found.fractions)
+    found.save(tmp_path / "basin.nc")
+    again = type(found).load(tmp_path / "basin.nc")
+    assert again.parameters == heavy.parameters
+    assert again.rotor.forces[0].accelerations == pytest.approx(found.rotor.forces[0].accelerations, rel=1e-15)

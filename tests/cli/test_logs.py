@@ -6,13 +6,15 @@ import os
 import numpy as np
 import pytest
 import xarray
+from linear_rotors import single
+from yielding_walls import with_walls
 
 from carom.cli.logs import write_csv, write_netcdf
-from carom.models import Jeffcott
+from carom.models import Jeffcott, KelvinVoigt
 from carom.motions.simulation import simulate
-from carom.motions.starts import kick
+from carom.motions.starts import State, kick
 from carom.outcome import InputError, Phase
-from carom.parameters import load
+from carom.parameters import Scales, load
 
 pytestmark = pytest.mark.jit_only
 
@@ -70,6 +72,21 @@ def test_netcdf_holds_the_same_with_units(motion, tmp_path):
         assert read.attrs["outcome"] == motion.outcome.label
         assert read.attrs["gamma"] == motion.rotor.parameters.gamma
         assert read.attrs["end_time"] == motion.time * motion.rotor.scales.time
+
+
+def test_contacts_with_a_wall_that_gives_way(tmp_path):
+    scales = Scales(mass=50.0, clearance=0.7e-3, speed=184.2)
+    motion = simulate(with_walls(single(1), KelvinVoigt(1e4, 3.0), scales), State(0.2, 1.0), 8.0)
+    write_csv(motion, str(tmp_path / "log.csv"))
+    write_netcdf(motion, str(tmp_path / "log.nc"))
+
+    rows, touches = rows_of(tmp_path / "log.csv"), motion.touches
+    assert [row["kind"] for row in rows] == ["forward-slip"] * len(touches)
+    assert [float(row["peak_force [N]"]) for row in rows] == (touches.peak_force * scales.force).tolist()
+    assert [float(row["start [s]"]) for row in rows] == (touches.start * scales.time).tolist()
+    with xarray.open_dataset(tmp_path / "log.nc", engine="h5netcdf", decode_times=False) as read:
+        assert np.array_equal(read["deepest"], touches.deepest * scales.length)
+        assert len(read["contact_phase"]) == len(motion.lasting_contacts)
 
 
 def test_motion_without_contact(machine, tmp_path):

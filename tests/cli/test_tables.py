@@ -4,9 +4,13 @@ from __future__ import annotations
 
 from typing import get_args
 
+from linear_rotors import single
 from rich.console import Console
+from yielding_walls import with_walls
 
-from carom.cli.tables import _motions
+import carom as cm
+from carom.cli.tables import _motions, print_motion
+from carom.models import KelvinVoigt
 from carom.studies.summaries import MotionRow, State
 
 
@@ -18,3 +22,16 @@ def test_every_state_of_a_motion_is_shown():
     lines = shown.get().splitlines()
     for row in rows:
         assert any(row.name in line and row.state in line for line in lines)
+
+
+def test_contacts_with_a_wall_that_gives_way_are_rows():
+    case = cm.load("examples/keogh-cole.toml")
+    rotor = with_walls(single(1), KelvinVoigt(1e4, 3.0), case.parameters.scales)
+    motion = cm.simulate(rotor, cm.State(0.2, 1.0), 8.0)
+    console = Console(width=160)
+    with console.capture() as shown:
+        print_motion(console, case, motion)
+    text = shown.get()
+    assert f": {len(motion.touches)} contacts." in text
+    assert " deep: normal force up to " in text
+    assert text.count("forward slip for ") == len(motion.touches)

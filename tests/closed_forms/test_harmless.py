@@ -85,3 +85,17 @@ def test_nothing_is_said_where_no_energy_is_known_that_does_not_grow():
         (cm.models.Stage(rotor, cm.models.Trigger(time=1.0)), cm.models.Stage(made(forcing=0.1 * forcing)))
     )
     assert harmless_kick(staged) == 0.0
+
+
+@pytest.mark.jit_only
+def test_no_harmless_kick_brings_a_heavy_rotor_to_the_wall():
+    """Levitation is a circle about the sag; kicks in any direction, at any phase of the unbalance."""
+    heavy = cm.load("examples/dropped-rotor.toml", ["unbalance=40 g mm"])
+    harmless, touched = harmless_kick(heavy), {0.99: 0, 1.4: 0}
+    assert 0.0 < harmless < harmless_kick(heavy.replace(gravity=0))
+    for phase in np.linspace(0.0, 6.0, 7):
+        rotor = cm.models.model_of(heavy.replace(unbalance_phase=float(phase)))
+        for size in touched:
+            places, speeds = rotor.system.kicked(size * harmless * np.exp(1j * np.linspace(0.0, 6.2, 60)))
+            touched[size] += np.count_nonzero(cm.settle(rotor, places[:, 0], speeds[:, 0]).impacts)
+    assert touched[0.99] == 0 < touched[1.4]

@@ -12,10 +12,12 @@ from compilation import sized
 from drawn_motions import EVENTS, MANY
 from hypothesis import given
 from hypothesis import strategies as st
+from linear_rotors import single
 from machines import PAPER
+from yielding_walls import with_walls
 
 from carom.closed_forms.equilibria import find_equilibria
-from carom.models import Jeffcott
+from carom.models import HuntCrossley, Jeffcott, KelvinVoigt
 from carom.motions.contacts import LastingContact, polar
 from carom.motions.ledger import energy_ledger
 from carom.motions.simulation import simulate
@@ -321,3 +323,27 @@ def test_the_law_of_contact_holds_at_every_instant(phase, data):
     if phase is not Phase.ROLLING:
         assert first.phase is phase
     check_every_instant(motion)
+
+
+@pytest.mark.jit_only
+@pytest.mark.parametrize("law", [KelvinVoigt(1e3, 60.0), HuntCrossley(1e4, 0.1)])
+def test_history_in_a_wall_that_gives_way(law):
+    """Gap, slip and powers from position and velocity in the fixed frame; nothing where the plane has parted from its wall."""
+    motion = simulate(with_walls(single(1), law), State(0.2 + 0.1j, 1.0 + 0.3j), 8.0)
+    history = motion.history()
+    place, rate = motion.at_plane(history.time)
+    radius, speed = np.abs(place), rate + 1j * place
+    held = np.isin(history.phase, (Phase.FORWARD_SLIP, Phase.BACKWARD_SLIP, Phase.ROLLING))
+    parted = history.phase == Phase.SEPARATED
+    assert np.array_equal(history.gap, 1.0 - radius)
+    assert history.gap[held | parted].max() < 1e-12
+    assert parted.any() == isinstance(law, KelvinVoigt)
+    slip = 20.0 + (place.conj() * speed).imag / radius
+    assert np.allclose(history.slip[held], slip[held], rtol=1e-12, atol=0)
+    assert np.allclose(history.friction_force[held], -0.15 * history.normal_force[held], rtol=1e-12, atol=0)
+    assert np.allclose(history.friction_power, history.friction_force * history.slip, rtol=1e-12, atol=0)
+    assert np.allclose(history.drive_power, -20.0 * history.friction_force, rtol=1e-12, atol=0)
+    for values in (history.normal_force, history.friction_force, history.slip, history.drive_power):
+        assert not values[~held].any()
+    assert not motion.contacts.time.size
+    assert all(contact.phase is not Phase.SEPARATED for contact in motion.lasting_contacts)

@@ -8,8 +8,10 @@ import numpy as np
 import pytest
 from compilation import sized
 from linear_rotors import bending, random_rotor, single, tilting, to_fixed
+from yielding_walls import with_walls
 
 import carom
+from carom.models import HuntCrossley, KelvinVoigt, Race
 from carom.motions.ledger import energy_ledger
 
 
@@ -56,6 +58,34 @@ def test_a_missing_account_would_show():
     assert without_drive > 1e-2 * np.abs(ledger.drive).max()
 
 
+@pytest.mark.jit_only
+@pytest.mark.parametrize(
+    "settings", [["damping=1 N s/m"], ["eccentricity=0.1 mm", "restitution=0.9"], ["stiffness=1e5 N/m"]]
+)
+@pytest.mark.parametrize("drops", [False, True])
+def test_energy_under_gravity_closes_with_the_work_of_the_weight(settings, drops):
+    heavy = carom.load("examples/dropped-rotor.toml", settings)
+    start = carom.drop(carom.State(0.4j, 2.0), regained_after="40 ms") if drops else carom.State(0.4j, 2.0)
+    motion = carom.simulate(heavy, start, until=200.0)
+    assert len(motion.parts[0].contacts) > 3
+    for part in motion.parts:
+        ledger = energy_ledger(part)
+        assert ledger.imbalance < 1e-10
+        # The work of the weight is what the height of the centre says, at the ends of all segments.
+        height = part.position(ledger.times, "fixed").imag
+        pull = 9.81 / heavy.parameters.scales.acceleration
+        assert ledger.forces == pytest.approx(pull * (height[0] - height), abs=1e-11)
+
+
+@pytest.mark.jit_only
+def test_energy_of_a_shaken_heavy_rotor_closes():
+    heavy = carom.models.model_of(carom.load("examples/dropped-rotor.toml"))
+    shaken = carom.models.Forced(heavy, (carom.models.Force(0.4j, np.array([0.05 + 0.02j])),))
+    ledger = energy_ledger(carom.simulate(shaken, carom.State(0.4j, 2.0), until=100.0))
+    assert ledger.imbalance < 1e-10
+    assert np.abs(ledger.forces).max() > 0.01
+
+
 def test_a_rotor_at_rest_has_nothing_to_account_for():
     centred = carom.parameters.Parameters(gamma=0.1, omega=0.76, rho=0.0, phi=0.0, mu=0.15, d=0.95, radius_ratio=57.0)
     ledger = energy_ledger(carom.simulate(carom.models.Jeffcott(centred), carom.State(0j, 0j), until=10.0))
@@ -67,9 +97,10 @@ def test_energies_in_joules():
     scales = carom.parameters.Scales(mass=50.0, clearance=0.7e-3, speed=184.2)
     ledger = energy_ledger(carom.simulate(_rotor(0.2), carom.State(0.2 + 0.1j, 0.5 + 0.3j), until=30.0))
     table, plain = replace(ledger, scales=scales).to_dataset(), ledger.to_dataset()
-    assert {name: table[name].attrs["units"] for name in table} == dict.fromkeys(
-        ("kinetic", "spring", "unbalance", "damping", "circulatory", "impacts", "friction", "drive"), "J"
-    )
+    works = ("unbalance", "damping", "circulatory", "forces", "impacts", "friction", "drive")
+    of_walls = ("wall", "wall_damping", "parting", "races", "race_drag")
+    names = ("kinetic", "spring", *works, *of_walls)
+    assert {name: table[name].attrs["units"] for name in table} == dict.fromkeys(names, "J")
     assert table["times"].attrs["units"] == "s"
     joules = 50.0 * (0.7e-3 * 184.2) ** 2
     assert np.allclose(table["friction"], joules * ledger.friction, rtol=1e-14, atol=0)
@@ -127,6 +158,62 @@ def test_energy_of_random_rotors_closes():
         except carom.outcome.InputError:  # the contact-free equilibrium lies outside
             continue
         assert energy_ledger(motion).imbalance < 1e-9, seed
+
+
+@pytest.mark.jit_only
+@pytest.mark.parametrize(("friction", "ratio"), [(0.15, 20.0), (0.9, 1.5)], ids=["slides", "rolls"])
+@pytest.mark.parametrize("stiffness", [1e2, 1e4, 1e7])
+@pytest.mark.parametrize("law", ["light damper", "strong damper", "linear", "balls", "rollers"])
+def test_energy_closes_in_walls_that_give_way(law, stiffness, friction, ratio):
+    laws = {
+        "light damper": KelvinVoigt(stiffness, 0.03 * stiffness**0.5),
+        "strong damper": KelvinVoigt(stiffness, 3.0 * stiffness**0.5),
+        "linear": HuntCrossley(stiffness, 0.05),
+        "balls": HuntCrossley(stiffness, 0.3, 1.5),
+        "rollers": HuntCrossley(stiffness, 0.3, 10 / 9),
+    }
+    rotor = with_walls(single(1, friction=friction, radius_ratio=ratio), laws[law])
+    motion = carom.simulate(rotor, carom.State(0.2 + 0.1j, 1.0), until=4.0)
+    ledger = energy_ledger(motion)
+    assert ledger.imbalance < 1e-10
+    assert ledger.wall.any()
+    assert max(np.diff(ledger.wall_damping).max(), ledger.wall_loss.max()) <= 0.0
+    assert (carom.outcome.Phase.ROLLING in motion.segment_phases) == (ratio < 2.0)
+    assert ledger.parting.any() == ("damper" in law)
+    assert not ledger.races.any()
+    touches = motion.touches
+    size = np.abs(ledger.friction).max()
+    assert touches.heat.sum() == pytest.approx(-ledger.friction[-1], rel=1e-9)
+    assert touches.drive_work.sum() == pytest.approx(ledger.drive[-1], abs=1e-9 * size)
+    assert touches.normal_loss.sum() == pytest.approx(-ledger.wall_loss[-1], rel=1e-9)
+
+
+@pytest.mark.jit_only
+@pytest.mark.parametrize("law", [KelvinVoigt(1e4, 3.0), KelvinVoigt(1e3, 60.0), HuntCrossley(1e5, 0.1, 1.5)])
+@pytest.mark.parametrize("speed", [0.0, 1.5])
+def test_energy_closes_with_a_race_that_turns(law, speed):
+    """It takes up energy until the contact rolls, and loses it to its drag; without it the balance does not close."""
+    race = Race(inertia=0.2, radius=15.0, drag=0.05, speed=speed)
+    motion = carom.simulate(with_walls(single(1, friction=0.6), law, race=race), carom.State(0.2 + 0.1j, 1.0), 6.0)
+    ledger = energy_ledger(motion)
+    assert ledger.imbalance < 1e-12
+    assert np.ptp(ledger.races) > 1e-3
+    assert np.diff(ledger.race_drag).max() <= 0.0 < -ledger.race_drag[-1]
+    assert ledger.races[0] == pytest.approx(0.5 * race.inertia * speed**2)
+    assert carom.outcome.Phase.ROLLING in motion.segment_phases
+    history = motion.history()
+    rolls = history.phase == carom.outcome.Phase.ROLLING
+    assert np.abs(history.slip[rolls]).max() < 1e-11
+    assert np.all(history.friction_power <= 1e-9 * np.abs(history.friction_power).max())
+
+
+@pytest.mark.jit_only
+@pytest.mark.parametrize("law", [KelvinVoigt(3e2, 1.0), KelvinVoigt(1e3, 200.0), HuntCrossley(1e4, 0.1, 1.5)])
+def test_energy_closes_in_walls_that_give_way_at_two_planes(law):
+    start = carom.State(np.array([0.1, 0.02j]), np.array([0.9 + 0.2j, 0.02]))
+    motion = carom.simulate(with_walls(tilting(), law), start, until=15.0)
+    assert (motion.segment_phases > 0).all(axis=1).any()
+    assert energy_ledger(motion).imbalance < 1e-10
 
 
 def test_without_a_kinetic_energy_there_is_no_ledger():

@@ -8,12 +8,14 @@ import math
 import numpy as np
 import pytest
 from compilation import sized
-from linear_rotors import tilting
+from linear_rotors import single, tilting
 from machines import PAPER
 from scipy.integrate import solve_ivp
+from yielding_walls import with_walls
 
 import carom as cm
 from carom.closed_forms import rolling
+from carom.models import HuntCrossley, KelvinVoigt
 from carom.motions import energy_ledger, touchdown_loads
 from carom.outcome import Outcome
 from carom.parameters import Parameters, Scales
@@ -155,3 +157,41 @@ def test_any_linear_rotor():
     assert loads.impacts == len(motion.contacts)
     assert loads.heat > 0.0
     assert np.isfinite(ledger.friction[-1])
+
+
+@pytest.mark.jit_only
+@pytest.mark.parametrize("law", [KelvinVoigt(1e4, 3.0), HuntCrossley(1e5, 0.05, 1.5)])
+def test_walls_that_give_way(law):
+    """Against the contacts and the ledger; a stiff wall bears nearly the impulses and heat of the rigid one."""
+    motion = cm.simulate(with_walls(single(1), law), cm.State(0.2 + 0.1j, 1.0), 20.0)
+    loads, touches, ledger = touchdown_loads(motion), motion.touches, energy_ledger(motion)
+    assert loads.impacts == len(touches) > 5
+    assert loads.impulse == touches.normal_impulse.max()
+    assert loads.force == pytest.approx(motion.forces(touches.peak_time)[0].max(), rel=1e-9)
+    # Two thousand samples of a contact miss its maxima by less than a millionth.
+    times = np.linspace(touches.start, touches.end, 2_000)
+    assert loads.depth == pytest.approx(motion.radius(times).max() - 1.0, rel=1e-5)
+    assert loads.power == pytest.approx(-motion.history(times.ravel()).friction_power.min(), rel=1e-5)
+    assert loads.heat == pytest.approx(-ledger.friction[-1], rel=1e-10)
+    assert loads.restitution_loss == pytest.approx(-ledger.wall_loss[-1], rel=1e-10)
+    held = sum(contact.end - contact.start for contact in motion.lasting_contacts)
+    assert loads.contact_time == held <= touches.duration.sum() * (1.0 + 1e-12)
+
+
+@pytest.mark.jit_only
+def test_the_rigid_limit():
+    """A wall that is a hundred times as stiff differs ten times less from the rigid one with its restitution."""
+    damped, rotor = 0.0164982, single(1, restitution=0.95)
+    (mass,) = rotor.felt
+    start = cm.State(0.2 + 0.1j, 1.0)
+    rigid = touchdown_loads(cm.simulate(rotor.model, start, 1.2))
+    errors = []
+    for stiffness in (1e6, 1e8):
+        law = KelvinVoigt(stiffness, 2.0 * damped * math.sqrt(stiffness * mass))
+        loads = touchdown_loads(cm.simulate(with_walls(rotor, law), start, 1.2))
+        assert loads.impacts == rigid.impacts == 1
+        errors.append(
+            [abs(getattr(loads, name) / getattr(rigid, name) - 1.0) for name in ("impulse", "heat", "restitution_loss")]
+        )
+    assert np.max(errors[1]) < 1e-3
+    assert np.log10(np.divide(*errors)) == pytest.approx(1.0, abs=0.1)

@@ -381,7 +381,7 @@ def test_unknown_names_suggest_the_nearest(written, meant):
     [
         ("bearing_stiffness", "stiffness and damping are those of the levitation; the touchdown bearing is rigid"),
         ("contact-damping", "stiffness and damping are those of the levitation; the touchdown bearing is rigid"),
-        ("gravity", "gravity is not modelled"),
+        ("gravity", "weight is stated in a table [gravity]"),
         ("integral_gain", "an integral gain is not modelled"),
         ("polar_inertia", "moments of inertia are not modelled"),
         ("bearing_force", "allowed: "),

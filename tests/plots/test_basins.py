@@ -89,7 +89,8 @@ def test_every_settled_outcome_has_a_look_of_its_own():
 
 
 def test_the_worse_an_outcome_the_darker_it_is_in_even_steps():
-    settled = [outcome.label for outcome in Outcome if outcome.settled]
+    # Rest on the bearing, which only weight brings about, is beside this order.
+    settled = [outcome.label for outcome in Outcome if outcome.settled and outcome is not Outcome.AT_REST]
     order = [*settled[:2], "irregular", *settled[2:]]
     assert order[0] == "levitated"
     steps = -np.diff([255.0 * printed(plots.OUTCOMES[label].colour) for label in order])

@@ -115,7 +115,8 @@ def _periodic(
     for kind, place in enumerate(first):
         chosen = np.zeros(endings.outcomes.size, bool)
         chosen[places[kinds == kind]] = True
-        if kind < LOOKED_AT:
+        # Under forces that change with time a state alone does not say how the motion goes on.
+        if kind < LOOKED_AT and rotor.system.forced is None:
             state = State.of(positions[place], velocities[place])
             name = _name_of(settled_motion(simulate(rotor, state, settle=True)), known, orbits)
         else:

@@ -18,6 +18,7 @@ from carom.disturbances import Disturbance, Grid, Plan, Sample, Starts
 from carom.disturbances.following import NO_START
 from carom.files.netcdf import load, save
 from carom.models import Model, jeffcott_of, model_from
+from carom.models.subjects import parameters_of
 from carom.motions.ensembles import Endings
 from carom.outcome import Outcome
 from carom.parameters import Parameters
@@ -52,8 +53,8 @@ class Mapped(Result):
 
     @property
     def parameters(self) -> Parameters:
-        """Parameters of the machine, which must be a planar rotor."""
-        return jeffcott_of(self.rotor).parameters
+        """Parameters of the machine, which must be a planar rotor; weight is none of them."""
+        return parameters_of(self.rotor) or jeffcott_of(self.rotor).parameters
 
     @cached_property
     def plan(self) -> Plan:

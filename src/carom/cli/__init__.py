@@ -14,6 +14,7 @@ A module for each command (``study``, ``simulate``, ``orbits``, ``attractors``, 
 ``basin_tables``   what ``basins`` prints
 ``region_tables``  what ``regions`` prints
 ``starts``         starts, times and ranges from text, with or without units
+``drops``          drops, and motions in several stages
 ``logs``           contact logs as files
 =================  ==========================================================
 

@@ -93,10 +93,10 @@ def bifurcations(
         from carom.bifurcations import find_bifurcations
         from carom.bifurcations.documents import diagram_document
         from carom.cli.starts import read_ends
-        from carom.models import axis
+        from carom.models import axis, case_of
         from carom.parameters import load
 
-        case = load(machine, settings or ())
+        case = case_of(load(machine, settings or ()))
         parameters = case.parameters
         varied = axis(parameters, along.strip())
         interval = read_ends(start, end, varied)
@@ -156,10 +156,10 @@ def regions(
     with progress("loading") as tell:
         from carom.bifurcations import Plane, map_regions
         from carom.bifurcations.documents import regions_document
-        from carom.models import axis
+        from carom.models import axis, case_of
         from carom.parameters import load
 
-        case = load(machine, settings or ())
+        case = case_of(load(machine, settings or ()))
         parameters = case.parameters
         names = [name.strip() for name in plane.split(",")]
         if len(names) != 2:

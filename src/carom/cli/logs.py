@@ -6,6 +6,7 @@ import csv
 import os
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from importlib.metadata import version
 from io import StringIO
 from pathlib import Path
@@ -19,6 +20,7 @@ from carom.outcome import InputError, Phase
 if TYPE_CHECKING:
     import xarray
 
+    from carom.motions.contacts import LastingContact
     from carom.motions.trajectories import Trajectory
 
 
@@ -45,9 +47,23 @@ def check_file(option: str, path: str) -> None:
 def write_csv(motion: Trajectory, path: str) -> None:
     """Write impacts and lasting contacts as CSV in order of time, in SI units if the machine is known.
 
-    A lasting contact fills only ``kind``, ``time`` and ``end``.
+    A lasting contact fills only ``kind``, ``time`` and ``end``.  Of a wall that gives way each contact is a row of its own table.
     """
-    log = motion.contacts.to_dataset()
+    from carom.motions.contacts import yields
+
+    table = _touches if yields(motion.rotor.system, motion.plane) else _impacts
+    text = StringIO(newline="")
+    writer = csv.writer(text)
+    header, rows = table(motion)
+    writer.writerow(header)
+    writer.writerows(rows)
+    with _refusals("--csv", path):
+        write_whole(Path(path), text.getvalue().encode())
+
+
+def _impacts(motion: Trajectory) -> tuple[list[str], list[list[object]]]:
+    """Heading and rows of impacts and lasting contacts."""
+    log = _log(motion)
     time_unit = log["time"].attrs["units"]
     rest = [column for name, column in log.items() if name != "time"]
     header = ["kind", f"time [{time_unit}]", f"end [{time_unit}]"]
@@ -56,16 +72,44 @@ def write_csv(motion: Trajectory, path: str) -> None:
     for time, *values in zip(log["time"].values.tolist(), *(column.values.tolist() for column in rest), strict=True):
         rows.append((time, ["impact", time, "", *values]))
     scale = motion.rotor.scales.time if motion.rotor.scales else 1.0
-    for contact in motion.lasting_contacts:
+    for contact in _lasting(motion):
         start, end = contact.start * scale, contact.end * scale
         rows.append((start, [f"{contact.kind} ({contact.phase.label})", start, end, *[""] * len(rest)]))
 
-    text = StringIO(newline="")
-    writer = csv.writer(text)
-    writer.writerow(header)
-    writer.writerows(row for _, row in sorted(rows, key=lambda entry: entry[0]))
-    with _refusals("--csv", path):
-        write_whole(Path(path), text.getvalue().encode())
+    return header, [row for _, row in sorted(rows, key=lambda entry: entry[0])]
+
+
+def _touches(motion: Trajectory) -> tuple[list[str], list[list[object]]]:
+    """Heading and rows of contacts with a wall that gives way."""
+    table = _log(motion)
+    rest = [column for name, column in table.items() if name != "phase"]
+    header = ["kind", *(f"{column.name} [{column.attrs['units']}]" for column in rest)]
+    kinds = [Phase(phase).label for phase in table["phase"].values.tolist()]
+    return header, [[*row] for row in zip(kinds, *(column.values.tolist() for column in rest), strict=True)]
+
+
+def _log(motion: Trajectory) -> xarray.Dataset:
+    """Impacts of all stages of a motion, or contacts with walls that give way, with times from its start."""
+    import xarray
+
+    from carom.motions.contacts import yields
+
+    gives_way = yields(motion.rotor.system, motion.plane)
+    tables = [part.touches if gives_way else part.contacts for part in motion.parts]
+    logs = [table.to_dataset() for table in tables]
+    for part, log in zip(motion.parts, logs, strict=True):
+        for name in ("start", "end", "peak_time") if gives_way else ("time",):
+            log[name].values += part.begins * (part.rotor.scales.time if part.rotor.scales else 1.0)
+    return xarray.concat(logs, tables[0].dimension) if len(logs) > 1 else logs[0]
+
+
+def _lasting(motion: Trajectory) -> list[LastingContact]:
+    """Lasting contacts of all stages of a motion, with times from its start."""
+    return [
+        replace(contact, start=part.begins + contact.start, end=part.begins + contact.end)
+        for part in motion.parts
+        for contact in part.lasting_contacts
+    ]
 
 
 def write_netcdf(motion: Trajectory, path: str) -> None:
@@ -76,12 +120,11 @@ def write_netcdf(motion: Trajectory, path: str) -> None:
 
 
 def _dataset(motion: Trajectory) -> xarray.Dataset:
-    from carom.models import jeffcott_of
+    from carom.models.subjects import parameters_of
     from carom.motions.contacts import in_units, phase_flags
 
-    scales = motion.rotor.scales
-    dataset = motion.contacts.to_dataset()
-    contacts = motion.lasting_contacts
+    scales, numbers = motion.rotor.scales, parameters_of(motion.rotor)
+    dataset, contacts = _log(motion), _lasting(motion)
     for name in ("start", "end"):
         times = np.array([getattr(contact, name) for contact in contacts], float)
         dataset[f"contact_{name}"] = in_units("contact", times, "time", f"{name} of lasting contact", scales)
@@ -94,8 +137,8 @@ def _dataset(motion: Trajectory) -> xarray.Dataset:
         "source": f"carom {version('carom')}",
         "outcome": motion.outcome.label,
         "comment": motion.outcome.meaning,
-        "end_time": motion.time * (scales.time if scales else 1.0),
-        **jeffcott_of(motion.rotor).parameters.as_dict(),
+        "end_time": (motion.begins + motion.time) * (scales.time if scales else 1.0),
+        **(numbers.as_dict() if numbers else motion.rotor.attributes()),
     }
     return dataset
 

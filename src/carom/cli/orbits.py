@@ -38,9 +38,10 @@ def orbits(
     Lists all orbits with one impact a period, with the argument that there are no more; or, with --impacts N, the
     orbits with at most N impacts that are known or that a search finds, with what it tried.
     """
+    from carom.models import case_of
     from carom.parameters import load
 
-    case = load(machine, settings or ())
+    case = case_of(load(machine, settings or ()))
     if impacts is not None:
         _search(case, impacts, guesses, as_json)
         return

@@ -53,6 +53,20 @@ def simulate(
             "relative to the one before, such as '5000 g mm,30 deg'.",
         ),
     ] = None,
+    drop: Annotated[
+        bool,
+        typer.Option(
+            "--drop",
+            help="Levitation is lost at levitation, or at what --start or --kick gives, and the rotor falls; the machine needs "
+            "[gravity].",
+        ),
+    ] = False,
+    regained_after: Annotated[
+        str | None,
+        typer.Option(
+            metavar="T", help="With --drop: time after which levitation is back, such as '50 ms'; by default never."
+        ),
+    ] = None,
     until: Annotated[
         str | None,
         typer.Option(
@@ -69,6 +83,8 @@ def simulate(
 
     The motion is followed through flights, impacts and lasting contact, exactly to rounding.
     """
+    from carom.cli.drops import print_parts, read_drop
+    from carom.cli.starts import read_time
     from carom.parameters import load
 
     case = load(machine, settings or ())
@@ -79,9 +95,11 @@ def simulate(
 
         check_file(option, path)
     with progress("simulating (the kernels are compiled on first use)") as tell:
-        rotor, given, end, echo = _read(
-            case, {"--start": start, "--kick": kick, "--shock": shock, "--blade-loss": blade_loss}, until
-        )
+        options = {"--start": start, "--kick": kick, "--shock": shock, "--blade-loss": blade_loss}
+        if regained_after is not None and not drop:
+            raise InputError("--regained-after", regained_after, "allowed only with --drop")
+        rotor, given, echo = read_drop(case, options, regained_after) if drop else _read(case, options)
+        end = None if until is None else read_time(until, case.parameters.scales)
         motion = _follow(rotor, given, kick, end, tell if out is None else tell.part(0.0, 0.4))
         for option, path in targets.items():
             from carom.cli.logs import write_csv, write_netcdf
@@ -92,18 +110,18 @@ def simulate(
     if as_json:
         print_document(_document(case, motion, echo))
     else:
-        from carom.cli.tables import print_motion
-
         console().print(f"{echo.words}.")
-        print_motion(console(), case, motion)
+        print_parts(console(), case, motion)
     say_where(out)
 
 
 def _document(case: Case, motion: Trajectory, echo: Echo) -> dict[str, Any]:
     """What was done to the rotor, then its motion."""
+    from carom.cli.drops import drop_document
     from carom.studies import trajectory_document
 
-    return {"disturbance": echo.document(case.parameters.scales)} | trajectory_document(motion, case.limits)
+    done = {"disturbance": echo.document(case.parameters.scales)}
+    return done | (drop_document(case, motion) if case.gravity else trajectory_document(motion, case.limits))
 
 
 def _write(out: str, case: Case, motion: Trajectory, echo: Echo, tell: Reporter, *, decaying: bool) -> None:
@@ -115,13 +133,14 @@ def _write(out: str, case: Case, motion: Trajectory, echo: Echo, tell: Reporter,
     from carom.motions.ledger import energy_ledger
 
     with output_directory(out, case) as output:
-        tell(0.0)
-        shown, title = _shown(motion) if decaying else (motion, None)
-        output.figure("motion", plots.motion(shown, title=title))
-        tell(0.5)
-        touched = len(shown.contacts) or shown.lasting_contacts
-        over_time = plots.touchdown(shown, energy_ledger(shown)) if touched else plots.radius(shown, case.zones)
-        output.figure("touchdown" if touched else "radius", over_time)
+        for place, part in enumerate(motion.parts):
+            tell(place / len(motion.parts))
+            shown, title = _shown(part) if decaying else (part, None)
+            mark = f"-{place + 1}" if place else ""
+            output.figure(f"motion{mark}", plots.motion(shown, title=title))
+            touched = len(shown.contacts) or shown.lasting_contacts
+            over_time = plots.touchdown(shown, energy_ledger(shown)) if touched else plots.radius(shown, case.zones)
+            output.figure(f"touchdown{mark}" if touched else f"radius{mark}", over_time)
         output.document("simulation", _document(case, motion, echo))
 
 
@@ -132,7 +151,7 @@ def _shown(motion: Trajectory) -> tuple[Trajectory, str | None]:
     from carom.plots.words import counted, time_in_words
     from carom.report.figures import until_decayed
 
-    if motion.outcome is not Outcome.LEVITATED:
+    if motion.outcome is not Outcome.LEVITATED or motion.begins:
         return motion, None
     rotor = motion.rotor
     longer = follow(rotor, motion.start, until_decayed(rotor, motion.time))
@@ -140,11 +159,9 @@ def _shown(motion: Trajectory) -> tuple[Trajectory, str | None]:
     return longer, f"{counted(len(longer.contacts), 'impact')} in {time} \N{EM DASH} returns to levitation"
 
 
-def _read(
-    case: Case, options: dict[str, str | None], until: str | None
-) -> tuple[Model, State | Kick, float | None, Echo]:
-    """Read the machine that moves, its start, the end and what was taken; refuse wrong input before kernels are loaded."""
-    from carom.cli.starts import read_blade_loss, read_kick, read_shock, read_start, read_time
+def _read(case: Case, options: dict[str, str | None]) -> tuple[Model, State | Kick, Echo]:
+    """Read the machine that moves, its start and what was taken; refuse wrong input before kernels are loaded."""
+    from carom.cli.starts import read_blade_loss, read_kick, read_shock, read_start
     from carom.disturbances import echo
 
     scales = case.parameters.scales
@@ -152,34 +169,33 @@ def _read(
     if len(chosen) != 1:
         given = " with ".join(f"{option} {text}" for option, text in chosen.items()) or None
         allowed = (
-            "give one of --start RE,IM,VRE,VIM, --kick SPEED[,ANGLE], --shock PEAK[,DURATION[,ANGLE]] and "
-            "--blade-loss AFTER[,PHASE]"
+            "give one of --start RE,IM,VRE,VIM, --kick SPEED[,ANGLE], --shock PEAK[,DURATION[,ANGLE]], "
+            "--blade-loss AFTER[,PHASE] and --drop"
         )
         raise InputError("--start", given, allowed)
-    end = None if until is None else read_time(until, scales)
     ((option, text),) = chosen.items()
     if option == "--blade-loss":
         loss, phase = read_blade_loss(text, scales)
         rotor = _rotor(case)
         said = echo.echo_of_blade_loss(rotor.value("rho"), loss.eccentricity_after, phase, scales)
-        return *loss.release(rotor, phase), end, said
+        return *loss.release(rotor, phase), said
     if option == "--shock":
         pulse, angle = read_shock(text, case)
         rotor = _rotor(case)
         said = echo.echo_of_shock(pulse.peak, pulse.duration, angle, rotor.unbalance_phase, scales)
-        return rotor, pulse.release(rotor, angle), end, said
+        return rotor, pulse.release(rotor, angle), said
     if option == "--kick":
         kick, rotor = read_kick(text, scales), _rotor(case)
         said = echo.echo_of_kick(float(kick.speed), float(kick.angle), rotor.unbalance_phase, scales)
-        return rotor, kick, end, said
+        return rotor, kick, said
     state, rotor = read_start(text, scales), _rotor(case)
-    return rotor, state, end, echo.echo_of_start(state, rotor.unbalance_phase, scales)
+    return rotor, state, echo.echo_of_start(state, rotor.unbalance_phase, scales)
 
 
 def _rotor(case: Case) -> Model:
-    from carom.models import Jeffcott
+    from carom.models import model_of
 
-    return Jeffcott(case.parameters)
+    return model_of(case)
 
 
 def _follow(rotor: Model, start: State | Kick, kick: str | None, end: float | None, tell: Reporter) -> Trajectory:
@@ -187,7 +203,7 @@ def _follow(rotor: Model, start: State | Kick, kick: str | None, end: float | No
     from carom.motions.starts import Kick
 
     radius = rotor.system.rest_radius
-    if isinstance(start, Kick) and radius > 1.0:
+    if isinstance(start, Kick) and radius > 1.0 and rotor.system.forced is None:  # with weight the kick itself says so
         words = f"needs levitation, but |U*| = {radius:.6g} is outside the wall; use --start"
         raise InputError("--kick", kick, words)
     return follow(rotor, start, end, progress=tell)

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import cmath
 import dataclasses
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import fields
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import numpy as np
 from rich.console import Console
 from rich.padding import Padding
 from rich.table import Table
@@ -17,10 +19,12 @@ from rich.text import Text
 from carom.attractors import MotionName
 from carom.attractors.settled import settled_motion
 from carom.cli.fitting import fitted, plain_table
-from carom.motions import Trajectory, touchdown_loads
-from carom.outcome import Outcome
+from carom.models.weight import weight_of
+from carom.motions import TouchLog, Trajectory, touchdown_loads
+from carom.motions.contacts import yields
+from carom.outcome import Outcome, Phase
 from carom.parameters.indentation import indentation_of_hit
-from carom.parameters.told import number
+from carom.parameters.told import number, told_angle
 from carom.studies import Study, Wording, check_loads
 from carom.studies.advice_facts import CHANGES
 from carom.studies.facts import Topic, about, paragraphs
@@ -161,13 +165,16 @@ def _print_numbers(console: Console, shown: Sequence[Orbit]) -> None:
 def print_motion(console: Console, case: Case, motion: Trajectory) -> None:
     """Print how a motion ended, and its contacts."""
     say = Wording(case.parameters.scales)
-    log, contacts = motion.contacts, motion.lasting_contacts
+    log, contacts, touches = motion.contacts, motion.lasting_contacts, motion.touches
     console.print(Text(_end_words(motion), style="bold"))
     if motion.multiplicity:
         console.print(f"It repeats after {counted(motion.multiplicity, 'impact')}.")
     turns = number(motion.time / (2.0 * math.pi), 3)
     followed = f"Followed for {say.time(motion.time)} ({turns} turns of the shaft)" if motion.time else "Known at once"
-    console.print(f"{followed}: {counted(len(log), 'impact')}, {counted(len(contacts), 'lasting contact')}.")
+    counts = [(len(log), "impact"), (len(contacts), "lasting contact")]
+    if yields(motion.rotor.system, motion.plane):
+        counts = [(len(touches), "contact")]
+    console.print(f"{followed}: {', '.join(counted(*count) for count in counts)}.")
     if len(log):
         soft = no_rigid_wall(indentation_of_hit(case.parameters, float(log.radial_speed.max())))
         hardest = f"Hardest hit: normal impulse {say.impulse(float(log.normal_impulse.max()))}"
@@ -178,9 +185,23 @@ def print_motion(console: Console, case: Case, motion: Trajectory) -> None:
         console.print(fitted(console, _events(say, motion)))
     final = motion.final
     console.print()
+    if weight_of(motion.rotor) is not None:
+        console.print(_final_words(say, motion))
+        return
     console.print(
         f"At the end: U = {_complex(final.position)} c_r, U' = {_complex(final.velocity)} c_r Ω (co-rotating frame), "
         f"r = {say.radius(abs(final.position))}"
+    )
+
+
+def _final_words(say: Wording, motion: Trajectory) -> str:
+    """Where a rotor that weighs something is at the end, and how fast, in the fixed frame."""
+    (seen,), (rate,) = motion.at_plane(np.array([motion.time]))
+    turn = cmath.exp(1j * (motion.begins + motion.time))
+    place, speed = complex(seen) * turn, complex(rate + 1j * seen) * turn
+    return (
+        f"At the end, in the fixed frame: {say.radius(abs(place))} from the centre at {told_angle(cmath.phase(place))}, moving with "
+        f"{say.velocity(abs(speed))} at {told_angle(cmath.phase(speed))}"
     )
 
 
@@ -198,8 +219,11 @@ def _print_loads(console: Console, say: Wording, case: Case, motion: Trajectory)
     """Print the loads on the touchdown bearing, and the limits that are stated for it."""
     loads = touchdown_loads(motion)
     if loads.force > 0.0:
+        contact = "Lasting contact"
+        if loads.depth > 0.0:
+            contact = f"Contact up to {say.length(loads.depth)} deep"
         console.print(
-            f"Lasting contact: normal force up to {say.force(loads.force)}, friction power up to {say.power(loads.power)}."
+            f"{contact}: normal force up to {say.force(loads.force)}, friction power up to {say.power(loads.power)}."
         )
     goes_on = f"; it goes on with {say.power(loads.lasting_power)}" if loads.lasting_power > 0.0 else ""
     console.print(f"Heat of friction: {say.energy(loads.heat)}{goes_on}.")
@@ -253,8 +277,9 @@ def _events(say: Wording, motion: Trajectory) -> Table:
     time = f"time, {'ms' if say.scales else '1/Ω'}"
     speeds, slips = f"speed towards wall, {speed}", f"slip, {slip}"
     normal, friction = f"normal impulse, {impulse}", f"friction impulse, {impulse}"
-    numbers = (time, "angle", speeds, normal, friction, slips)
-    headings = (time, "contact", "angle", speeds, "whirl", normal, friction, slips)
+    angle = "angle" if weight_of(motion.rotor) is None else "fixed angle"
+    numbers = (time, angle, speeds, normal, friction, slips)
+    headings = (time, "contact", angle, speeds, "whirl", normal, friction, slips)
     table = plain_table("Contacts", *headings, right=numbers, no_wrap=(*numbers, "whirl"))
     rows = _event_rows(say, motion)
     hidden = len(rows) - FIRST_EVENTS - LAST_EVENTS
@@ -268,6 +293,8 @@ def _events(say: Wording, motion: Trajectory) -> Table:
 
 def _event_rows(say: Wording, motion: Trajectory) -> list[tuple[str, ...]]:
     log = motion.contacts
+    # Weight has a direction in the fixed frame alone.
+    angles = log.angle if weight_of(motion.rotor) is None else log.angle + motion.begins + log.time
     factor = 1.0 if say.scales is None else 1e3 * say.scales.time
 
     def moment(time: float) -> str:
@@ -276,9 +303,9 @@ def _event_rows(say: Wording, motion: Trajectory) -> list[tuple[str, ...]]:
     entries: list[tuple[float, tuple[str, ...]]] = []
     for place, time in enumerate(log.time.tolist()):
         row = (
-            moment(time),
+            moment(motion.begins + time),
             "impact",
-            f"{math.degrees(log.angle[place]):.1f}°",
+            f"{math.degrees(math.remainder(angles[place], 2.0 * math.pi)):.1f}°",
             _number_of(say.velocity(float(log.radial_speed[place]))),
             "forward" if log.angular_speed[place] > -1.0 else "backward",
             _number_of(say.impulse(float(log.normal_impulse[place]))),
@@ -286,10 +313,30 @@ def _event_rows(say: Wording, motion: Trajectory) -> list[tuple[str, ...]]:
             "stops" if log.sticks[place] else _number_of(say.slip(float(log.slip_after[place]))),
         )
         entries.append((time, row))
+    if yields(motion.rotor.system, motion.plane):
+        return _touch_rows(say, motion.touches, motion.begins, moment)
     for contact in motion.lasting_contacts:
         words = f"{contact.phase.label.replace('-', ' ')} for {say.time(contact.end - contact.start)}"
-        entries.append((contact.start, (moment(contact.start), words)))
+        entries.append((contact.start, (moment(motion.begins + contact.start), words)))
     return [row for _, row in sorted(entries, key=lambda entry: entry[0])]
+
+
+def _touch_rows(
+    say: Wording, touches: TouchLog, begins: float, moment: Callable[[float], str]
+) -> list[tuple[str, ...]]:
+    """Rows of contacts with a wall that gives way."""
+    return [
+        (
+            moment(float(begins + touches.start[place])),
+            f"{Phase(phase).label.replace('-', ' ')} for {say.time(float(touches.duration[place]))}",
+            f"{math.degrees(touches.angle[place]):.1f}°",
+            _number_of(say.velocity(float(touches.radial_speed[place]))),
+            "forward" if touches.angular_speed[place] > -1.0 else "backward",
+            _number_of(say.impulse(float(touches.normal_impulse[place]))),
+            _number_of(say.impulse(float(touches.friction_impulse[place]))),
+        )
+        for place, phase in enumerate(touches.phase.tolist())
+    ]
 
 
 def _number_of(told: str) -> str:

@@ -12,6 +12,7 @@ from carom.arguments import checked
 from carom.closed_forms.rub_stability import sliding_rates
 from carom.closed_forms.statics import COUNTED, rub_forces, static_state
 from carom.models import Jeffcott, Model, Subject, model_of
+from carom.models.weight import refuse_forces
 from carom.outcome import Phase
 from carom.parameters import Scales
 from carom.results import Members, Result, in_a_line
@@ -159,7 +160,7 @@ def find_equilibria(machine: Subject) -> EquilibriumSet:
     """
     model = model_of(machine)
     system = model.system
-    system.refuse_forces()
+    refuse_forces(model)
     rubs = [_rub(model, *balance) for balance in rub_forces(system)]
     found = (_contact_free(model), *sorted(rubs, key=lambda rub: (not rub.stable, rub.status)))
     return EquilibriumSet(model, found, complete=len(system.arrays["rows"]) <= COUNTED)

@@ -18,8 +18,9 @@ import numpy as np
 
 from carom.arguments import Positive, checked
 from carom.closed_forms.known import known_of
-from carom.models import Model, Subject, model_of
+from carom.models import Forced, Model, Subject, model_of
 from carom.models.stages import stages_of
+from carom.models.weight import STEADY
 
 MARGIN = 1e-9
 """Share of the distance from the wall that is left for rounding."""
@@ -37,8 +38,8 @@ class _Levitation(NamedTuple):
 
 
 def _levitation(model: Model) -> _Levitation | None:
-    """Levitation of a model; ``None`` where it lies outside a wall, can grow, or is not at rest in the frame that turns."""
-    if len(stages_of(model)) > 1 or model.system.forced is not None or model.system.rest_radius >= 1.0:
+    """Levitation of a model; ``None`` where it lies outside a wall or can grow.  Under weight it is a circle about the sag."""
+    if len(stages_of(model)) > 1 or model.system.rest_radius >= 1.0 or _is_shaken(model):
         return None
     mass, damping, _, stiffness, _ = model.matrices
     for matrix, zero in ((mass, False), (damping, True), (stiffness, False)):
@@ -48,10 +49,18 @@ def _levitation(model: Model) -> _Levitation | None:
             or least < (-ROUNDING if zero else ROUNDING) * size
         ):
             return None
-    rooms = np.array([1.0 - abs(place) for place in model.system.arrays["offsets"].tolist()]) * (1.0 - MARGIN)
+    sags = np.abs(model.system.arrays["rows"] * model.system.forced_at(0.0)).sum(axis=1).tolist()
+    places = model.system.arrays["offsets"].tolist()
+    rooms = np.array([1.0 - abs(place) - sag for place, sag in zip(places, sags, strict=True)]) * (1.0 - MARGIN)
     planes = model.system.planes
     yields = np.einsum("pn,np->p", planes, np.linalg.solve(stiffness, planes.conj().T)).real
     return _Levitation(rooms, np.sqrt(yields))
+
+
+def _is_shaken(model: Model) -> bool:
+    """Whether forces act that are not constant in the fixed frame: they may go on growing."""
+    constant = np.abs(model.system.arrays["exponents"] - STEADY) <= ROUNDING
+    return bool((model.system.forced_at(0.0)[~constant] != 0.0).any())
 
 
 @checked
@@ -73,7 +82,7 @@ def harmless_kick(machine: Subject) -> float:
     0.039821
     """
     model = model_of(machine)
-    levitation, known = _levitation(model), known_of(model).response
+    levitation, known = _levitation(model), known_of(model.rotor if isinstance(model, Forced) else model).response
     if levitation is None:
         return 0.0
     by_energy = levitation.yields * math.sqrt(_energy(model.matrices.mass, model.system.translated))

@@ -15,6 +15,8 @@ Nothing here knows units, files or results.  A kernel sees a rotor as the arrays
 ``phases``           states of contact of a plane
 ``joint``            impacts of several planes in one instant
 ``contact_series``   lasting contact as Taylor series
+``compliance``       contact with a wall that gives way, as Taylor series
+``rounding``         rounding errors of sums over the modes
 ``taylor``           length of a step, sums and zeros of Taylor series
 ``rub``              when lasting contact changes, and what follows
 ``rub_step``         one step of lasting contact

@@ -46,7 +46,8 @@ def fly_or_rub_all(rotor, amplitudes, phases, times, work):
     moved = np.empty_like(amplitudes)
     for i in range(times.shape[0]):
         if _stays(phases[i]):
-            rub_series(rotor, phases[i], amplitudes[i], work)
+            if i == 0 or not (_same(phases[i], phases[i - 1]) and _same(amplitudes[i], amplitudes[i - 1])):
+                rub_series(rotor, phases[i], amplitudes[i], work)
             sum_series(work, times[i], moved[i])
         else:
             fly(rotor, amplitudes[i : i + 1], times[i], moved[i : i + 1])
@@ -68,6 +69,15 @@ def forces_all(rotor, amplitudes, phases, work):
                     grip = friction_ratio(sense_of_phase(phases[i, plane]), wall_of(rotor, plane)) * push
                 forces[i, plane, 0], forces[i, plane, 1] = push, grip
     return forces
+
+
+@inlined
+def _same(first, second):
+    """Whether two rows are the same to the last bit."""
+    same = True
+    for k in range(first.shape[0]):
+        same = same and first[k] == second[k]
+    return same
 
 
 @inlined

@@ -12,7 +12,7 @@ from carom.core.layout import NEAR
 from carom.core.phases import AWAY, FLIGHT, FORWARD_SLIP, ROLLING, lasts, stays
 from carom.core.planar_proofs import absorbed, hastens, runs_away
 from carom.core.rub import first_contact, first_transition, next_phase, rest_on_wall, turn_ahead
-from carom.core.taylor import series_step, sum_series
+from carom.core.taylor import margin_step, series_step, sum_series
 from carom.core.wall import set_on_wall, unit, yields
 from carom.outcome import Outcome
 
@@ -37,6 +37,10 @@ def rub_step(rotor, contact, amplitudes, horizon, memory, rub):
     """
     rub_series(rotor, contact, amplitudes, rub)
     step, leading = series_step(rub), leading_plane(rotor, contact)
+    for plane in range(rotor.rows.shape[0]):
+        if yields(rotor, plane) and stays(contact[plane]):
+            # The distance from the centre is a root: its series may reach less far than those of the amplitudes.
+            step = min(step, margin_step(rub.depth[plane]))
     if step == 0.0:  # forces at several planes have grown without bound, until there are none (Painlevé)
         return GRAZING, 0.0, leading
     duration, changed, following, undecided = _first_change(rotor, contact, min(step, horizon), rub)

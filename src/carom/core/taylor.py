@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 
-from carom.compiling.decorators import kernel
+from carom.compiling.decorators import inlined, kernel
 from carom.core.layout import ORDER
 
 STEP_FRACTION = 0.16
@@ -28,7 +28,18 @@ def series_step(work):
         before = max(before, abs(work.series[ORDER - 1, m]))
     if not total < math.inf:
         return 0.0
-    scale = max(start, 1.0)
+    return _step(max(start, 1.0), last, before)
+
+
+@kernel
+def margin_step(margin):
+    """The same for a margin of size one or less."""
+    return _step(1.0, abs(margin[ORDER]), abs(margin[ORDER - 1]))
+
+
+@inlined
+def _step(scale, last, before):
+    """Step from the size of what moves and of its last two coefficients."""
     radius = math.inf
     if last > 0.0:
         radius = (scale / last) ** (1.0 / ORDER)

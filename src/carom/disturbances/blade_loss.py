@@ -61,10 +61,12 @@ class BladeLoss(Disturbance):
 
     def starts(self, rotor: Model, *values: np.ndarray) -> Starts:
         """Levitation of the machine before the loss, in the frame in which the phase of the unbalance stays the same."""
+        from carom.models.weight import refuse_forces
+
         (phase,) = values
         levitates = rotor.system.rest_radius < 1.0
         if levitates:
-            rotor.system.refuse_forces()
+            refuse_forces(rotor)
         cosine, sine, rest = np.cos(phase), np.sin(phase), rotor.system.rest * levitates
         if len(rest) > 1:
             cosine, sine = cosine[..., None], sine[..., None]

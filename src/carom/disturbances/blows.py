@@ -163,11 +163,12 @@ class BaseShock(Disturbance):
         """State at the end of the pulse."""
         from carom.disturbances.shocks import states_after_shocks
         from carom.models.stages import stages_of
+        from carom.models.weight import refuse_forces
 
         peaks, directions = np.broadcast_arrays(*values)
         if rotor.system.rest_radius >= 1.0:
             return displaced(rotor, np.zeros(peaks.shape, complex), np.zeros(peaks.shape), False)
-        rotor.system.refuse_forces()
+        refuse_forces(rotor)
         positions, velocities, undecided, touched = states_after_shocks(
             stages_of(rotor)[0].rotor, peaks, self.duration, directions
         )
@@ -187,11 +188,12 @@ class BaseShock(Disturbance):
         from carom.disturbances.shocks import shaken
         from carom.models import Stage, Staged, Trigger, model_of
         from carom.models.stages import stages_of
+        from carom.models.weight import refuse_forces
         from carom.motions.starts import State
 
         further = stages_of(model_of(machine))
         rotor = further[0].rotor
-        rotor.system.refuse_forces()
+        refuse_forces(rotor)
         size = cmath.rect(self.peak, own_size("direction", direction, "angle", None)) / 2j
         pulse = Stage(shaken(rotor, self.duration, size), Trigger(time=self.duration))
         position = rotor.system.rest if len(rotor.system.rest) > 1 else rotor.system.rest[0]

@@ -14,6 +14,7 @@ from carom.results import in_si
 
 if TYPE_CHECKING:
     from carom.motions.starts import State
+    from carom.parameters import Gravity
 
 _NAMES = {
     "kick": "velocity kicks out of levitation",
@@ -33,7 +34,7 @@ class Echo:
 
     Attributes
     ----------
-    kind : {"kick", "shock", "blade-loss", "start", "unbalance"}
+    kind : {"kick", "shock", "blade-loss", "start", "drop", "unbalance"}
     words : str
         Such as ``"Kick: 60 mm/s at 30°"``, and from where its angles count.
     sizes : mapping of str to (float, str)
@@ -94,15 +95,33 @@ def echo_of_unbalance(eccentricity: float, interval: tuple[float, float], scales
     return Echo("unbalance", words, {**sizes, **{name: (speed / scales.speed, "speed") for name, speed in ends}})
 
 
+def echo_of_drop(state: State, phase: float, regained: float | None, gravity: Gravity, scales: Scales) -> Echo:
+    """Levitation lost at a state of the planar rotor, with the phase of the unbalance at the release."""
+    begun = _moving(state, scales)
+    back = f"; levitation is back after {told(regained, 'time', scales)}" if regained is not None else ""
+    words = (
+        f"Levitation is lost {begun.words}, under {gravity.words}; angles are those of the fixed frame, in the sense of "
+        f"rotation (at the release the unbalance lies at {told_angle(phase)}){back}"
+    )
+    sizes = {**begun.sizes, "unbalance_angle": (phase, "")}
+    return Echo("drop", words, sizes if regained is None else {**sizes, "regained_after": (regained, "time")})
+
+
 def echo_of_start(state: State, phase: float, scales: Scales | None) -> Echo:
     """A start of the planar rotor at any state."""
+    begun = _moving(state, scales)
+    words = f"Start: {begun.words}; {angles_words(phase, ', as it lies at the start')}"
+    return Echo("start", words, begun.sizes)
+
+
+def _moving(state: State, scales: Scales | None) -> Echo:
+    """A state of the planar rotor, its velocity in the fixed frame."""
     place, speed = complex(state.position), complex(state.velocity + 1j * state.position)
     at = f"{told(abs(place), 'length', scales)} from the centre at {told_angle(cmath.phase(place))}"
     moves = f"{told(abs(speed), 'velocity', scales)} at {told_angle(cmath.phase(speed))} in the fixed frame"
-    words = f"Start: {at}, {moves}; {angles_words(phase, ', as it lies at the start')}"
     return Echo(
         "start",
-        words,
+        f"{at}, {moves}",
         {
             "radius": (abs(place), "length"),
             "angle": (cmath.phase(place), ""),

@@ -65,6 +65,8 @@ def require_start(rotor: Model, starts: Starts) -> None:
     if not starts.exists.any():
         raise InputError(
             "disturbance",
-            f"|U*| = {rotor.system.rest_radius:.6g}",
-            "one that is possible: out of levitation inside the wall (|U*| < 1), or a start inside the wall",
+            f"levitation up to {rotor.system.rest_radius:.6g} clearances from the centre"
+            if rotor.system.forced is not None
+            else f"|U*| = {rotor.system.rest_radius:.6g}",
+            "one that is possible: out of levitation inside the wall (|U*| < 1, with the static sag), or a start inside the wall",
         )

@@ -70,8 +70,10 @@ class UnbalanceStep(Disturbance):
 
     def starts(self, rotor: Model, *values: np.ndarray) -> Starts:
         """Levitation with the old unbalance."""
+        from carom.models.weight import refuse_forces
+
         eccentricity, phase = values
-        rotor.system.refuse_forces()
+        refuse_forces(rotor)
         mass, damping, gyroscopic, stiffness, _ = rotor.matrices
         push = cmath.rect(1.0, rotor.unbalance_phase) * rotor.system.translated
         response = np.linalg.solve(stiffness - mass + 1j * damping + gyroscopic, mass @ push)

@@ -9,12 +9,15 @@
 ``jeffcott``              :class:`Jeffcott`: the planar rigid rotor, by its parameters
 ``linear``                :class:`LinearRotor`: any linear isotropic rotor, by its matrices
 ``linear_parameters``     its named parameters
+``in_bearing``            :class:`InBearing`: the planar rotor in a touchdown bearing that gives way
+``race``                  :class:`Race`: the inner race of a touchdown bearing, which turns
 ``touchdown``             :class:`Touchdown`: a contact plane, and the laws of its wall
 ``race``                  :class:`Race`: a race that turns
 ``shaft``                 :class:`Shaft`: a shaft whose speed changes
 ``modes``                 modes of a matrix, in pairs where two nearly coincide
 ``forcing``               :class:`Force`: forces that change with time, as modes of their own
 ``stages``                :class:`Staged`: a rotor that changes when a trigger ends a stage; :class:`Forced`: with further forces
+``weight``                gravity, and a rotor without its levitation
 ``subjects``              :func:`model_of`, :func:`case_of`: any description of a rotor -> its model, its case
 ========================  =================================================================
 """
@@ -22,6 +25,7 @@
 from carom.models.axes import Axis, axis
 from carom.models.forcing import Force
 from carom.models.from_modes import second_order_system
+from carom.models.in_bearing import InBearing
 from carom.models.jeffcott import Jeffcott
 from carom.models.linear import LinearRotor
 from carom.models.model import Matrices, Model, Rates
@@ -40,6 +44,7 @@ __all__ = [
     "Force",
     "Forced",
     "HuntCrossley",
+    "InBearing",
     "Jeffcott",
     "KelvinVoigt",
     "LinearRotor",

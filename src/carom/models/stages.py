@@ -18,7 +18,7 @@ from carom.outcome import InputError, shown
 from carom.parameters import Field, Scales
 
 
-class _Around:
+class Around:
     """A model that takes its parameters, scales and matrices from another one, its ``rotor``."""
 
     rotor: Model
@@ -52,7 +52,7 @@ class _Around:
 
 
 @dataclass(frozen=True, eq=False)
-class Forced(_Around):
+class Forced(Around):
     """A rotor with further forces on it that change with time in its frame, for example in a housing that is shaken.
 
     It never is at rest in that frame: what needs an equilibrium there, such as orbits, is not found for it.
@@ -81,14 +81,23 @@ class Forced(_Around):
         return with_forces(self.rotor.system, self.forces)
 
     def replace(self, **changes: Any) -> Forced:
-        """Return the rotor with other values of its parameters, and the same forces."""
-        return Forced(self.rotor.replace(**changes), self.forces)
+        """Return the rotor with other values of its parameters, and the same forces: in SI units, if its scales are known."""
+        rotor = self.rotor.replace(**changes)
+        return Forced(rotor, tuple(_in_scales(force, self.scales, rotor.scales) for force in self.forces))
 
     def attributes(self) -> dict[str, Any]:
         """Return the rotor and the forces as attributes of a dataset, exact to the last bit."""
         forces = [[force.exponent, *force.accelerations] for force in self.forces]
         texts = [[(complex(each).real, complex(each).imag) for each in force] for force in forces]
         return {"forces": json.dumps(texts), "rotor": json.dumps(self.rotor.attributes())}
+
+
+def _in_scales(force: Force, before: Scales | None, after: Scales | None) -> Force:
+    """The same force, seen from the fixed frame, in other units of the equations."""
+    if before is None or after is None or before == after:
+        return force
+    exponent = (force.exponent + 1j) * (before.speed / after.speed) - 1j
+    return Force(exponent, force.accelerations * (before.acceleration / after.acceleration))
 
 
 def _check_one_stage(rotor: Any) -> None:
@@ -189,7 +198,7 @@ class Stage:
 
 
 @dataclass(frozen=True, eq=False)
-class Staged(_Around):
+class Staged(Around):
     """A rotor that moves in stages: when the trigger of one ends it, the motion goes on in the next.
 
     Its parameters, kicks, equilibria and orbits are those of the rotor of the first stage.
@@ -246,6 +255,13 @@ class Staged(_Around):
             for each in self.stages
         ]
         return {"stages": json.dumps(stages)}
+
+
+def forces_of(model: Model) -> tuple[Force, ...]:
+    """Forces on a rotor that change with time in its frame; of a rotor in stages those of the first."""
+    if isinstance(model, Staged):
+        return forces_of(model.rotor)
+    return (*forces_of(model.rotor), *model.forces) if isinstance(model, Forced) else ()
 
 
 def stages_of(model: Model) -> tuple[Stage, ...]:

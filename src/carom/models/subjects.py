@@ -10,12 +10,14 @@ import numpy as np
 
 from carom.arguments import checked
 from carom.models.forcing import Force
+from carom.models.in_bearing import InBearing
 from carom.models.jeffcott import Jeffcott
 from carom.models.linear import LinearRotor
 from carom.models.model import Model
 from carom.models.stages import Forced, Stage, Staged, Trigger
+from carom.models.weight import refuse_forces, weighted
 from carom.outcome import InputError, shown
-from carom.parameters import Case, Machine, Parameters, Zones
+from carom.parameters import Case, Machine, Parameters, TouchdownBearing, Zones
 
 Subject = Machine | Case | Parameters | Model
 """Any description of a rotor."""
@@ -36,7 +38,10 @@ def model_of(subject: Subject) -> Model:
     if isinstance(subject, Parameters):
         return Jeffcott(subject)
     if isinstance(subject, Machine | Case):
-        return model_of(subject.parameters)
+        model = model_of(subject.parameters)
+        if isinstance(subject, Case) and subject.touchdown and isinstance(model, Jeffcott):
+            model = InBearing(model, subject.touchdown)
+        return weighted(model, subject.gravity) if isinstance(subject, Case) and subject.gravity else model
     if isinstance(subject, Model):
         return subject
     raise InputError("machine", shown(subject), _ALLOWED)
@@ -48,17 +53,24 @@ def jeffcott_of(subject: Subject) -> Jeffcott:
     Raises
     ------
     InputError
-        It is none of these, or another model.
+        It is none of these, another model, or has weight.
     """
     model = model_of(subject)
     if isinstance(model, Jeffcott):
         return model
+    if isinstance(model, Forced):
+        refuse_forces(model)
+    if isinstance(model, InBearing):
+        allowed = "a rigid wall: this result is not known for walls that give way; carom.simulate, carom.settle and others work"
+        raise InputError("touchdown", model.bearing.words, allowed)
     raise InputError("machine", shown(subject), "the planar rotor: this result is not known for other models")
 
 
 def parameters_of(model: Model) -> Parameters | None:
-    """Parameters of the planar rotor; ``None`` of other models, whose numbers are matrices."""
-    return model.parameters if isinstance(model, Jeffcott) else None
+    """Parameters of the planar rotor, whatever forces act on it; ``None`` of other models, whose numbers are matrices."""
+    if isinstance(model, Forced):
+        return parameters_of(model.rotor)
+    return model.parameters if isinstance(model, Jeffcott | InBearing) else None
 
 
 @checked
@@ -78,6 +90,11 @@ def model_from(attributes: Mapping[str, Any]) -> Model:
         numbers = [[complex(*each) for each in force] for force in json.loads(attributes["forces"])]
         forces = tuple(Force(exponent, np.array(accelerations)) for exponent, *accelerations in numbers)
         return Forced(model_from(json.loads(attributes["rotor"])), forces)
+    if "touchdown_bearing" in attributes:
+        bearing = json.loads(attributes["touchdown_bearing"])
+        levitates = bearing.pop("levitates")
+        rotor = jeffcott_of(model_from(json.loads(attributes["rotor"])))
+        return InBearing(rotor, TouchdownBearing(**bearing), levitates)
     if "stages" in attributes:
         return Staged(tuple(map(_stage_from, json.loads(attributes["stages"]))))
     return Jeffcott(Parameters.from_attributes(attributes))
@@ -95,7 +112,7 @@ def case_of(subject: Subject) -> Case:
     Raises
     ------
     InputError
-        It is none of these, or another model than the planar rotor.
+        It is none of these, another model than the planar rotor, or has weight: no case would keep that.
     """
     if isinstance(subject, Case):
         jeffcott_of(subject)

@@ -2,6 +2,7 @@
 
 ==================  =============================================================================
 ``starts``          states, and kicks out of levitation
+``drops``             levitation lost
 ``trajectories``    one motion: its course, contacts and forces
 ``simulation``      from a start to a motion
 ``storage``         motions as datasets and files
@@ -9,8 +10,11 @@
 ``portions``          the work of an ensemble, shared by threads
 ``settling``        the record by which settling is recognised
 ``recurrence``      whether a motion that has recurred repeats or leaves, for rotors of several modes
+``resting``             whether a rotor lies on its touchdown bearing
 ``blows``           impulses at the planes in each event, also where several are struck in one instant
 ``contacts``        load on the bearing: the log of impacts, stretches of lasting contact
+``quadrature``      integrals and largest values along a motion
+``touches``         contacts with walls that give way: impulses, peaks, depths, works
 ``loads``           loads of a touchdown: forces, impulses, heat
 ``ledger``          energies of a motion
 ``spectrum``        forward and backward whirl at each multiple of the shaft speed
@@ -18,6 +22,7 @@
 """
 
 from carom.motions.contacts import ContactHistory, ContactLog, LastingContact
+from carom.motions.drops import Drop, drop
 from carom.motions.ensembles import Endings, settle
 from carom.motions.ledger import EnergyLedger, energy_ledger
 from carom.motions.loads import TouchdownLoads, touchdown_loads
@@ -25,20 +30,24 @@ from carom.motions.settling import PATIENCE
 from carom.motions.simulation import simulate
 from carom.motions.spectrum import FullSpectrum, full_spectrum
 from carom.motions.starts import Kick, State, kick
+from carom.motions.touches import TouchLog
 from carom.motions.trajectories import Trajectory
 
 __all__ = [
     "PATIENCE",
     "ContactHistory",
     "ContactLog",
+    "Drop",
     "Endings",
     "EnergyLedger",
     "FullSpectrum",
     "Kick",
     "LastingContact",
     "State",
+    "TouchLog",
     "TouchdownLoads",
     "Trajectory",
+    "drop",
     "energy_ledger",
     "full_spectrum",
     "kick",

@@ -65,7 +65,7 @@ def blows_of(
         np.stack([radial + 1j * along for _, radial, along in (polar(*at) for at in each)], axis=-1) for each in states
     ]
     changes = speeds[1] - speeds[0]
-    at_wall = lasting | (np.abs(position) >= 1.0 - AT_WALL)
+    at_wall = (lasting | (np.abs(position) >= 1.0 - AT_WALL)) & (arrays.stiffness == 0.0)
     at_wall[places, planes] = True
     impulses = np.where(at_wall, changes, 0.0)
     for event in np.flatnonzero(at_wall.sum(axis=1) > 1):

@@ -17,13 +17,17 @@ from carom.results import Result, flags
 if TYPE_CHECKING:
     import xarray
 
-    from carom.models import Model
+    from carom.models import Model, System
     from carom.motions.blows import Blows
     from carom.parameters import Scales
 
 UNLIKE = 1e-9
 """Difference of radial speeds, relative to one plus the speed, above which an impact was not by Newton's restitution; impulses
 below that are too small to tell."""
+
+
+PRESSING = (Phase.FORWARD_SLIP, Phase.BACKWARD_SLIP, Phase.ROLLING)
+"""Phases in which a wall presses on the rotor."""
 
 
 @dataclass(frozen=True)
@@ -189,8 +193,10 @@ class ContactLog(Table):
 class ContactHistory(Table):
     """Forces and slip of lasting contact at chosen times; all arrays have shape (n,).
 
-    In flight forces, slip and powers are zero.  Phases are those of :class:`~carom.outcome.Phase`.  The slip velocity of
-    the contact point is ``v = s + 1 + θ̇``, the power of friction ``F v`` and that of the drive ``−F s``.
+    In flight, and where a plane has parted from its wall, forces, slip and powers are zero.  Phases are those of
+    :class:`~carom.outcome.Phase`.  The slip velocity of the contact point is ``v = s + r(1 + θ̇)`` at the radius ``r``, which is one on a
+    rigid wall, less the speed of the race's surface if that turns; the power of friction is ``F v`` and that of the drive ``−F s``.  In a wall
+    that gives way the gap is negative: the depth.
     """
 
     time: np.ndarray = field(metadata=column("time", "time"))
@@ -217,14 +223,14 @@ class ContactHistory(Table):
         plane: int,
         times: np.ndarray,
         phases: np.ndarray,
-        state: tuple[np.ndarray, np.ndarray],
+        amplitudes: np.ndarray,
         forces: tuple[np.ndarray, np.ndarray],
     ) -> ContactHistory:
-        """History at a plane from positions and velocities, and normal and friction forces, each of shape (n,)."""
-        position, velocity = state
+        """History at a plane from amplitudes (n, N), and normal and friction forces, each of shape (n,)."""
+        position, _ = rotor.system.at_plane(amplitudes, plane)
         surface_speed = float(rotor.system.arrays.surface_speed[plane])
         normal, friction = forces
-        slip = np.where(phases == Phase.FLIGHT, 0.0, surface_speed + (position.conj() * velocity).imag)
+        slip = np.where(presses(phases), slip_velocity(rotor.system, plane, amplitudes), 0.0)
         return cls(
             time=times,
             phase=phases,
@@ -244,6 +250,36 @@ class ContactHistory(Table):
         del dataset["phase"].attrs["units"]
         dataset["phase"].attrs |= phase_flags(Phase)
         return dataset
+
+
+def presses(phases: np.ndarray) -> np.ndarray:
+    """Whether a wall presses on the rotor in each phase."""
+    return np.isin(phases, PRESSING)
+
+
+def yields(system: System, plane: int) -> bool:
+    """Whether the wall at a plane gives way."""
+    return system.contacts[plane].wall.stiffness > 0.0
+
+
+def slip_velocity(system: System, plane: int, amplitudes: np.ndarray) -> np.ndarray:
+    """Slip velocity (...) of the contact point at a plane in amplitudes (..., N), ``v = s + r(1 + θ̇) − q``.
+
+    On a rigid wall ``r`` is one.  The surface of a race that turns has the speed ``q``.
+    """
+    surface_speed = system.contacts[plane].wall.surface_speed
+    position, velocity = system.at_plane(amplitudes, plane)
+    along: np.ndarray = (position.conj() * velocity).imag
+    if not yields(system, plane):
+        return surface_speed + along
+    radius = np.abs(position)
+    return surface_speed + (radius - 1.0) + along / radius - race_speed(system, plane, amplitudes)
+
+
+def race_speed(system: System, plane: int, amplitudes: np.ndarray) -> np.ndarray:
+    """Speed (...) of the surface of the race at a plane in amplitudes (..., N), in the fixed frame; zero of one that does not turn."""
+    mode = int(system.arrays.race[plane])
+    return amplitudes[..., mode].real if mode >= 0 else np.zeros(amplitudes.shape[:-1])
 
 
 def phase_flags(phases: Iterable[Phase]) -> dict[str, Any]:

@@ -9,15 +9,14 @@ import numpy as np
 
 from carom.arguments import checked
 from carom.models import Matrices
-from carom.motions.contacts import Table, column
+from carom.models.stages import forces_of
+from carom.motions.contacts import Table, column, presses, race_speed, slip_velocity, yields
+from carom.motions.quadrature import NODES, WEIGHTS, pieces
+from carom.motions.touches import in_wall, lost_on_parting, stored
 from carom.motions.trajectories import Trajectory
-from carom.outcome import InputError, Phase
+from carom.outcome import InputError
 from carom.parameters import Scales
 
-NODES, WEIGHTS = np.polynomial.legendre.leggauss(16)
-"""Gauss rule for a piece, on −1 … 1."""
-LONGEST_PIECE = 1.5
-"""Longest stretch, in ``1/max|λ|``, over which one Gauss rule is used; its error is below rounding."""
 HERMITIAN = 1e-12
 """Largest skew part of a matrix, relative to its largest element, that counts as rounding."""
 
@@ -30,6 +29,10 @@ class EnergyLedger(Table):
     are cumulative from the start; a positive work supplies energy to the rotor.  Gyroscopic forces do no work.  The
     energy of all masses is ``ŻᴴMŻ/2``, that of the springs ``ZᴴKZ/2`` with the Hermitian part of ``K``; the rest of
     ``K``, such as cross-coupled stiffness, does the circulatory work.  Contact works at all planes.
+
+    A wall that gives way stores the energy of its spring while it presses on the rotor.  Where plane and wall part at some depth, as the
+    wall comes back more slowly, the rotor does not get that energy any more: it counts as lost at this moment.  Where they meet again
+    before the plane has left the wall, the spring is as deep as the plane, and what it then holds, which is less, is taken back.
     """
 
     figure: ClassVar[str] = "energies"
@@ -37,32 +40,51 @@ class EnergyLedger(Table):
     times: np.ndarray = field(metadata=column("time", "time"))
     kinetic: np.ndarray = field(metadata=column("energy", "kinetic energy of all masses"))
     spring: np.ndarray = field(metadata=column("energy", "energy of the springs"))
+    wall: np.ndarray = field(metadata=column("energy", "energy of the springs of walls that press on the rotor"))
+    races: np.ndarray = field(metadata=column("energy", "kinetic energy of the races that turn"))
     unbalance: np.ndarray = field(metadata=column("energy", "work of the unbalance since the start"))
     damping: np.ndarray = field(metadata=column("energy", "work of damping since the start"))
     circulatory: np.ndarray = field(metadata=column("energy", "work of circulatory forces since the start"))
+    forces: np.ndarray = field(metadata=column("energy", "work of weight and other outer forces since the start"))
     impacts: np.ndarray = field(metadata=column("energy", "work at the contact point in impacts since the start"))
     friction: np.ndarray = field(metadata=column("energy", "work of friction in lasting contact since the start"))
     drive: np.ndarray = field(metadata=column("energy", "work of the shaft's drive through friction since the start"))
+    wall_damping: np.ndarray = field(metadata=column("energy", "work of the dampers of walls since the start"))
+    race_drag: np.ndarray = field(metadata=column("energy", "work of drag on the races that turn since the start"))
+    parting: np.ndarray = field(
+        metadata=column("energy", "energy of the springs of walls lost where planes part from them, since the start")
+    )
     scales: Scales | None = None
 
     dimension: ClassVar[str] = "times"
 
     @property
     def energy(self) -> np.ndarray:
-        """Kinetic and spring energy."""
-        return self.kinetic + self.spring
+        """Kinetic energy, that of the springs, and what walls and races hold."""
+        return self.kinetic + self.spring + self.wall + self.races
+
+    @property
+    def wall_loss(self) -> np.ndarray:
+        """What walls that give way have taken since the start: in their dampers, and where planes part from them; never positive."""
+        return self.wall_damping + self.parting
+
+    @property
+    def works(self) -> tuple[np.ndarray, ...]:
+        """All works since the start."""
+        contact = self.impacts, self.friction, self.drive, self.wall_damping, self.parting, self.race_drag
+        return self.unbalance, self.damping, self.circulatory, self.forces, *contact
 
     @property
     def supplied(self) -> np.ndarray:
         """Sum of all works since the start."""
-        return self.unbalance + self.damping + self.circulatory + self.impacts + self.friction + self.drive
+        total: np.ndarray = np.sum(self.works, axis=0)
+        return total
 
     @property
     def imbalance(self) -> float:
         """Largest error of the balance, relative to the largest energy or work that occurs; 0 at rest."""
         missing = np.abs(self.energy - self.energy[0] - self.supplied).max()
-        works = (self.unbalance, self.damping, self.circulatory, self.impacts, self.friction, self.drive)
-        passed = max(self.energy.max(), *(np.abs(work).max() for work in works))
+        passed = max(self.energy.max(), *(np.abs(work).max() for work in self.works))
         return float(missing / passed) if passed > 0.0 else 0.0
 
 
@@ -72,13 +94,16 @@ def energy_ledger(trajectory: Trajectory) -> EnergyLedger:
 
     With ``w = U̇ + iU`` (velocities in the fixed frame, seen in the co-rotating one) and ``K = K₀ + K₁``, Hermitian and
     skew-Hermitian, the energy ``(wᴴMw + UᴴK₀U)/2`` changes by the power ``Re(wᴴF)`` of the unbalance, ``−wᴴDw`` of the
-    damping, ``−Re(wᴴK₁U)`` of the circulatory forces and that of the contact forces.  A friction force ``F`` does the
-    work ``F v`` on the contact point, which slips with ``v = s + 1 + θ̇``, and the rest ``−F s`` comes from the drive.
+    damping, ``−Re(wᴴK₁U)`` of the circulatory forces, ``Re(wᴴMa(t))`` of forces that accelerate the coordinates by ``a(t)``, such
+    as weight, and that of the contact forces.  A friction force ``F`` does the work ``F v`` on the contact point, which slips with
+    ``v = s + r(1 + θ̇) − q``, and the drive gives ``−F s``: the centre moves along the wall with ``r(1 + θ̇)``, and a race that turns, whose
+    surface moves with ``q``, takes ``−F q``.  The normal force ``N`` of a wall that gives way takes ``Nδ̇`` at the depth ``δ = r − 1``, which
+    goes into its spring and its damper.
 
     Raises
     ------
     InputError
-        The mass matrix is not Hermitian, so there is no kinetic energy; or forces act that change with time.
+        The mass matrix is not Hermitian, so there is no kinetic energy.
 
     See Also
     --------
@@ -93,7 +118,6 @@ def energy_ledger(trajectory: Trajectory) -> EnergyLedger:
     >>> ledger.imbalance < 1e-12
     True
     """
-    trajectory.rotor.system.refuse_forces()
     matrices = trajectory.rotor.matrices
     edges, counts = pieces(trajectory)
     if np.abs(matrices.mass - matrices.mass.conj().T).max() > HERMITIAN * np.abs(matrices.mass).max():
@@ -118,21 +142,38 @@ def energy_ledger(trajectory: Trajectory) -> EnergyLedger:
     if np.abs(skew).max() <= HERMITIAN * np.abs(matrices.stiffness).max():
         skew = np.zeros_like(skew)
     kinetic, spring = _stored(trajectory, matrices)
+    wall, parting, dampers = _walls(trajectory, counts, half)
+    races, drag = _races(trajectory, times)
     impact, landing = (trajectory.blows(each).events for each in (trajectory.is_impact, trajectory.is_landing))
     impacts, landings = trajectory.log_of(trajectory.is_impact), trajectory.log_of(trajectory.is_landing)
     return EnergyLedger(
         times=edges[ends],
         kinetic=kinetic,
         spring=spring,
+        wall=wall,
+        races=races,
         unbalance=work((fixed.conj() @ matrices.forcing).real),
         damping=work(-_form(fixed, matrices.damping, fixed)),
         circulatory=work(-_form(fixed, skew, position)),
+        forces=work(_power_of_forces(trajectory, times, fixed)),
         impacts=at_events(impact, impacts.contact_work),
         # A landing stands for the last bounces of a chatter; its work is a correction to their friction.
         friction=work(slides) + at_events(landing, landings.contact_work),
         drive=work(drives) + at_events(impact, impacts.drive_work) + at_events(landing, landings.drive_work),
+        wall_damping=work(dampers),
+        race_drag=work(drag),
+        parting=parting,
         scales=trajectory.rotor.scales,
     )
+
+
+def _power_of_forces(trajectory: Trajectory, times: np.ndarray, velocity: np.ndarray) -> np.ndarray:
+    """Power of the forces that change with time in the frame of the rotor, weight among them; velocities (..., n) in the fixed frame."""
+    power, since = np.zeros(times.shape), trajectory.begins + times
+    for force in forces_of(trajectory.rotor):
+        push = trajectory.rotor.matrices.mass @ force.accelerations
+        power += ((velocity.conj() @ push) * np.exp(force.exponent * since)).real
+    return power
 
 
 def _form(left: np.ndarray, matrix: np.ndarray, right: np.ndarray) -> np.ndarray:
@@ -150,23 +191,43 @@ def _in_fixed_frame(position: np.ndarray, velocity: np.ndarray, coordinates: int
 
 def contact_power(motion: Trajectory, times: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Powers of friction on the contact point of a plane and of the drive."""
-    position, velocity = motion.at_plane(times)
-    surface_speed = float(motion.rotor.system.arrays.surface_speed[motion.plane])
-    _, grip = motion.forces(times)
-    return grip * (surface_speed + (position.conj() * velocity).imag), -(surface_speed - 1.0) * grip
+    system = motion.rotor.system
+    amplitudes, phases = motion.amplitudes_at(times)
+    slip = slip_velocity(system, motion.plane, amplitudes)
+    _, grip = motion.forces_of(amplitudes, phases)
+    return grip * slip, -(float(system.arrays.surface_speed[motion.plane]) - 1.0) * grip
 
 
-def pieces(trajectory: Trajectory) -> tuple[np.ndarray, np.ndarray]:
-    """Edges of the stretches to integrate, and the number of stretches in each segment."""
-    bounds = np.append(trajectory.segment_starts, trajectory.time)
-    lengths = np.diff(bounds)
-    fastest = np.abs(trajectory.rotor.system.arrays["exponents"]).max()
-    flying = (trajectory.segment_phases == Phase.FLIGHT).all(axis=1)
-    counts = np.where(flying, np.ceil(lengths * fastest / LONGEST_PIECE), 1).astype(int)
-    counts = np.maximum(counts, 1)
-    owner = np.repeat(np.arange(len(counts)), counts)
-    place = np.arange(len(owner)) - np.repeat(np.cumsum(counts) - counts, counts)
-    return np.append(bounds[owner] + lengths[owner] * place / counts[owner], trajectory.time), counts
+def _walls(trajectory: Trajectory, counts: np.ndarray, half: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Walls that give way: energy of their springs, what was lost on parting, both at the times of the ledger, and power of their dampers."""
+    held, lost = np.zeros((2, len(counts) + 1))
+    power = np.zeros((len(half), len(NODES)))
+    for plane in range(trajectory.segment_phases.shape[1]):
+        if not yields(trajectory.rotor.system, plane):
+            continue
+        motion = trajectory.seen_at(plane)
+        held += np.append(stored(motion, motion.segment_amplitudes), stored(motion, motion.segment_ends)[-1])
+        lost[1:-1] -= lost_on_parting(motion)
+        pressed = presses(motion.segment_phases[:, plane])
+        places = np.repeat(pressed, counts)
+        elapsed = half[places, None] * (1.0 + NODES)  # a segment of contact is one piece
+        power[places] -= in_wall(motion, np.flatnonzero(pressed), elapsed).lost
+    return held, np.cumsum(lost), power
+
+
+def _races(trajectory: Trajectory, times: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Kinetic energy of the races that turn, at the times of the ledger, and the power of their drag."""
+    system = trajectory.rotor.system
+    arrays, kinetic, power = system.arrays, np.zeros(len(trajectory.segment_starts) + 1), np.zeros(times.shape)
+    for plane in np.flatnonzero(arrays.race >= 0).tolist():
+        inertia = arrays.masses[plane] / arrays.race_gain[plane]  # by the square of the radius
+        speeds = race_speed(
+            system, plane, np.concatenate([trajectory.segment_amplitudes, trajectory.segment_ends[-1:]])
+        )
+        kinetic += 0.5 * inertia * speeds**2
+        speed = race_speed(system, plane, trajectory.amplitudes_at(times)[0])
+        power += inertia * arrays.exponents[arrays.race[plane]].real * speed**2
+    return kinetic, power
 
 
 def _stored(trajectory: Trajectory, matrices: Matrices) -> tuple[np.ndarray, np.ndarray]:

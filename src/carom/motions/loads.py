@@ -3,27 +3,31 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
 from carom.arguments import checked
 from carom.closed_forms.known import known_of
-from carom.motions.contacts import ContactLog
-from carom.motions.ledger import NODES, WEIGHTS, contact_power, pieces
+from carom.motions.contacts import ContactLog, presses, yields
+from carom.motions.ledger import contact_power
+from carom.motions.quadrature import NODES, WEIGHTS, pieces
 from carom.motions.trajectories import Trajectory
-from carom.outcome import Outcome, Phase
+from carom.outcome import Outcome
 from carom.parameters import Scales
 from carom.results import KINDS, Result
 
 RECENT = 10
 """Impacts at least, over which the power of bouncing is averaged."""
-MEASURED = ("impulse", "force", "power", "heat", "restitution_loss", "contact_time", "lasting_power")
+MEASURED = ("impulse", "force", "depth", "power", "heat", "restitution_loss", "contact_time", "lasting_power")
 """Loads that have a unit."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class TouchdownLoads(Result):
     """Loads of a motion at its contact plane, in units of the equations; ``si`` gives them in SI units.
+
+    On a wall that gives way a contact, from entering the wall until leaving it, counts as an impact too.
 
     Attributes
     ----------
@@ -32,16 +36,18 @@ class TouchdownLoads(Result):
     impacts : int
         Number of impacts.
     impulse : float
-        Largest normal impulse of an impact, ``m c_r Ω``.
+        Largest normal impulse of an impact, ``m c_r Ω``; of a contact that lasts at the end, whose impulse grows on, it is left out.
     force : float
         Largest normal force in lasting contact, ``m c_r Ω²``.  If the motion goes on rolling, that of the planar rotor over a
         whole turn.
+    depth : float
+        Largest depth in the wall, ``c_r``; 0 if the wall is rigid.
     power : float
         Largest power of friction in lasting contact, ``m c_r² Ω³``.
     heat : float
         Work lost to friction, in impacts and in lasting contact, ``m c_r² Ω²``.
     restitution_loss : float
-        Work lost in impacts along the normal, ``m c_r² Ω²``.
+        Work lost along the normal, in impacts or in a wall that gives way, ``m c_r² Ω²``.
     contact_time : float
         Duration of lasting contact, ``1/Ω``.
     lasting_power : float
@@ -54,6 +60,7 @@ class TouchdownLoads(Result):
     impacts: int
     impulse: float
     force: float
+    depth: float
     power: float
     heat: float
     restitution_loss: float
@@ -83,9 +90,20 @@ def touchdown_loads(trajectory: Trajectory) -> TouchdownLoads:
     """Evaluate the loads of a motion at its contact plane.
 
     Friction does the work ``F v`` on the contact point, which slips with ``v = s + 1 + θ̇``; in an impact the work is that of the
-    impulse on the mean of the slip velocities before and after.  The largest force and power of lasting contact are those
-    at the ends of its steps and at 16 nodes in each.
+    impulse on the mean of the slip velocities before and after.  The largest force and power of lasting contact on a rigid wall are those
+    at the ends of its steps and at 16 nodes in each.  Loads on a wall that gives way are those of :attr:`Trajectory.touches`.
     """
+    loads = _in_wall if yields(trajectory.rotor.system, trajectory.plane) else _on_wall
+    return TouchdownLoads(
+        outcome=trajectory.outcome,
+        **loads(trajectory),
+        contact_time=sum(contact.end - contact.start for contact in trajectory.lasting_contacts),
+        scales=trajectory.rotor.scales,
+    )
+
+
+def _on_wall(trajectory: Trajectory) -> dict[str, Any]:
+    """Loads on a rigid wall."""
     at_plane = trajectory.event_planes == trajectory.plane
     log = trajectory.contacts
     # A landing stands for the last bounces of a chatter.
@@ -93,18 +111,31 @@ def touchdown_loads(trajectory: Trajectory) -> TouchdownLoads:
     heat, force, power = _lasting(trajectory)
     if trajectory.outcome is Outcome.ROLLING:
         force = max(force, known_of(trajectory.rotor).rolling_force)
-    return TouchdownLoads(
-        outcome=trajectory.outcome,
-        impacts=len(log),
-        impulse=float(log.normal_impulse.max(initial=0.0)),
-        force=force,
-        power=power,
-        heat=heat + float(_friction_work(log).sum() + _friction_work(landings).sum()),
-        restitution_loss=float(_normal_work(log).sum() + _normal_work(landings).sum()),
-        contact_time=sum(contact.end - contact.start for contact in trajectory.lasting_contacts),
-        lasting_power=_lasting_power(trajectory, log),
-        scales=trajectory.rotor.scales,
-    )
+    return {
+        "impacts": len(log),
+        "impulse": float(log.normal_impulse.max(initial=0.0)),
+        "force": force,
+        "depth": 0.0,
+        "power": power,
+        "heat": heat + float(_friction_work(log).sum() + _friction_work(landings).sum()),
+        "restitution_loss": float(_normal_work(log).sum() + _normal_work(landings).sum()),
+        "lasting_power": _lasting_power(trajectory, log.time, _friction_work(log)),
+    }
+
+
+def _in_wall(trajectory: Trajectory) -> dict[str, Any]:
+    """Loads on a wall that gives way."""
+    touches = trajectory.touches
+    return {
+        "impacts": len(touches),
+        "impulse": float(touches.normal_impulse[~touches.lasts].max(initial=0.0)),
+        "force": float(touches.peak_force.max(initial=0.0)),
+        "depth": float(touches.deepest.max(initial=0.0)),
+        "power": float(touches.peak_power.max(initial=0.0)),
+        "heat": float(touches.heat.sum()),
+        "restitution_loss": float(touches.normal_loss.sum()),
+        "lasting_power": _lasting_power(trajectory, touches.start, touches.heat),
+    }
 
 
 def _friction_work(log: ContactLog) -> np.ndarray:
@@ -122,7 +153,7 @@ def _normal_work(log: ContactLog) -> np.ndarray:
 def _lasting(trajectory: Trajectory) -> tuple[float, float, float]:
     """Work of friction in lasting contact, and the largest force and power there."""
     edges, counts = pieces(trajectory)
-    rubs = np.repeat(trajectory.segment_phases[:, trajectory.plane] != Phase.FLIGHT, counts)
+    rubs = np.repeat(presses(trajectory.segment_phases[:, trajectory.plane]), counts)
     starts, half = edges[:-1][rubs], 0.5 * np.diff(edges)[rubs]
     if not len(starts):
         return 0.0, 0.0, 0.0
@@ -134,14 +165,14 @@ def _lasting(trajectory: Trajectory) -> tuple[float, float, float]:
     return float((half * (lost @ WEIGHTS)).sum()), float(normal.max()), largest
 
 
-def _lasting_power(trajectory: Trajectory, log: ContactLog) -> float:
-    """Power of friction with which a settled motion goes on."""
+def _lasting_power(trajectory: Trajectory, times: np.ndarray, works: np.ndarray) -> float:
+    """Power of friction with which a settled motion goes on, from the times of impacts and the work lost to friction in each."""
     if not trajectory.outcome.settled or trajectory.outcome is Outcome.LEVITATED:
         return 0.0
-    if trajectory.segment_phases[-1, trajectory.plane] != Phase.FLIGHT:
+    if presses(trajectory.segment_phases[-1, trajectory.plane]):
         return float(-contact_power(trajectory, np.array([trajectory.time]))[0][0])
-    if len(log) < 2:
+    if len(times) < 2:
         return 0.0
     recent = slice(-max(RECENT, 2 * trajectory.multiplicity) - 1, None)
-    times, works = log.time[recent], _friction_work(log)[recent]
+    times, works = times[recent], works[recent]
     return float(works[1:].sum() / (times[-1] - times[0]))

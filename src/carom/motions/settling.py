@@ -16,6 +16,7 @@ from carom.core.planar_proofs import fades_to_rolling, planar_proofs
 from carom.models import Model
 from carom.models.stages import NEVER, Trigger
 from carom.motions.recurrence import least_recurrence
+from carom.motions.resting import goes_round, lies
 from carom.outcome import Outcome
 
 PATIENCE = 20_000
@@ -35,6 +36,7 @@ LOW, LOW_FOR = 0.5, 200
 no rotor returns to a wall that does not keep pulling it."""
 AT_REST = 1e-6
 """Largest velocity of a rub that counts as synchronous, far above the rate at which it was recognised."""
+WHIRLING = (Outcome.FORWARD_RUB, Outcome.BACKWARD_WHIRL)
 REPEATING = (Outcome.BOUNCING, Outcome.MIXED)
 MODES = 2
 """Modes of the rotors whose orbits are closed here."""
@@ -102,6 +104,10 @@ def settled(
             return outcome, 0
         recollection.resting = -1
         return Outcome.EVENT_LIMIT, 0
+    if outcome is Outcome.EVENT_LIMIT:
+        outcome = goes_round(rotor, amplitudes, contact, recollection) or outcome
+    if outcome in WHIRLING and lies(rotor, amplitudes, contact):
+        return Outcome.AT_REST, 0
     if outcome not in REPEATING:
         return outcome, 0
     if not recollection.period and rotor.system.is_planar and _fade(rotor, amplitudes):

@@ -11,8 +11,10 @@ from carom.arguments import Count, Whole, checked
 from carom.core.advance import advance
 from carom.core.event_log import EventLog
 from carom.core.layout import rub_workspace, workspace
+from carom.core.phases import AWAY, FLIGHT
 from carom.models import Model, Subject, Trigger, model_of
 from carom.models.stages import stages_of
+from carom.motions.drops import Drop
 from carom.motions.settling import (
     LOW_FOR,
     PATIENCE,
@@ -36,7 +38,7 @@ CHUNK = 4096
 @shows_progress
 def simulate(
     machine: Subject,
-    start: State | Kick,
+    start: State | Kick | Drop,
     until: Until | None = None,
     *,
     settle: bool | None = None,
@@ -51,8 +53,8 @@ def simulate(
     ----------
     machine : Machine, Case, Parameters or model
         Of a :class:`carom.models.Staged` the last stage reached is returned, with the ``earlier`` ones.
-    start : State or Kick
-        On the wall (``|U| = 1`` to within 1e-12) or inside it.
+    start : State, Kick or Drop
+        On the wall (``|U| = 1`` to within 1e-12) or inside it.  After a drop the rotor of the motion is the one that falls.
     until : float or str, optional
         Time to follow it, in ``1/Ω`` or text with a unit, such as ``"2 s"``; by default to where it settles, at most
         for :func:`~carom.motions.settling.longest_time`.
@@ -73,7 +75,7 @@ def simulate(
     See Also
     --------
     carom.settle : many starts at once
-    carom.kick, carom.State : starts
+    carom.kick, carom.drop, carom.State : starts
     carom.motions.energy_ledger, carom.motions.full_spectrum : evaluate a motion
 
     Examples
@@ -87,6 +89,8 @@ def simulate(
     257
     """
     model = model_of(machine)
+    if isinstance(start, Drop):
+        model, start = start.stages(machine)
     state = start.state(model) if isinstance(start, Kick) else start
     settle = until is None if settle is None else settle
     end = None if until is None and settle else time_until(until, model.scales)
@@ -119,6 +123,7 @@ def _follow_stage(
     # What has settled may still be ended by a time.
     settle, until = settle and trigger.time == np.inf, min(longest, trigger.time)
     amplitudes, contact = amplitudes_of(rotor, start, begins)
+    phases = np.where(contact == AWAY, FLIGHT, contact)[None]
     recollection = fresh_memory(rotor, patience if settle else 0, stop_at_chatter, trigger=trigger)
     first = amplitudes.copy()
     logs: list[EventLog] = []
@@ -145,7 +150,7 @@ def _follow_stage(
         final=State.of(position, velocity, rotor.system.race_speeds(amplitudes), rotor.system.shaft_turn(amplitudes)),
         multiplicity=multiplicity,
         segment_starts=np.concatenate([np.zeros(1), *(log.times for log in logs)]),
-        segment_phases=np.concatenate([np.zeros((1, len(contact)), np.int64), *(log.phases for log in logs)]),
+        segment_phases=np.concatenate([phases, *(log.phases for log in logs)]),
         event_planes=np.concatenate([log.planes for log in logs]),
         segment_amplitudes=np.concatenate([first[None], *(log.after for log in logs)]),
         arrivals=np.concatenate([log.before for log in logs]),

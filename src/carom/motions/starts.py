@@ -14,6 +14,7 @@ from carom.core.phases import AWAY, FLIGHT
 from carom.core.rub import phase_in_wall
 from carom.core.wall import set_on_wall
 from carom.models import Model, System
+from carom.models.weight import levitation_of, weight_of
 from carom.outcome import InputError
 from carom.parameters import Scales, own_size
 
@@ -98,8 +99,10 @@ class Kick:
         Raises
         ------
         InputError
-            The text is no speed or no angle, or its unit needs scales that the rotor does not have.
+            The text is no speed or no angle, or its unit needs scales that the rotor does not have; or the rotor sags to the wall.
         """
+        if weight_of(rotor) is not None:
+            levitation_of(rotor)
         speed = own_size("kick speed", self.speed, "velocity", rotor.scales)
         push = cmath.rect(speed, own_size("kick angle", self.angle, "angle", rotor.scales))
         position, velocity = (values if len(values) > 1 else values[0] for values in rotor.system.kicked(push))
@@ -131,11 +134,11 @@ def kick(speed: float | str, angle: float | str = 0.0) -> Kick:
     return Kick(speed, angle)
 
 
-def time_until(until: float | str | None, scales: Scales | None) -> float:
+def time_until(until: float | str | None, scales: Scales | None, name: str = "until") -> float:
     """Time to follow a motion, in ``1/Ω``, from a number or text with a unit; refuse what is no time above 0."""
-    time = until if until is None else own_size("until", until, "time", scales)
+    time = until if until is None else own_size(name, until, "time", scales)
     if time is None or time <= 0.0:
-        raise InputError("until", until, _TIME)
+        raise InputError(name, until, _TIME)
     return time
 
 

@@ -17,13 +17,15 @@ from carom.core.layout import rub_workspace
 from carom.core.rub import fly_or_rub_all, forces_all
 from carom.models import Model
 from carom.motions.blows import Blows, blows_of
-from carom.motions.contacts import ContactHistory, ContactLog, LastingContact
+from carom.motions.contacts import ContactHistory, ContactLog, LastingContact, presses
 from carom.motions.starts import State
 from carom.outcome import InputError, Outcome, Phase
 from carom.results import Result
 
 if TYPE_CHECKING:
     import xarray
+
+    from carom.motions.touches import TouchLog
 
 ROUNDING = 1e-12
 """Excess over the range of times, relative to its length, that counts as rounding."""
@@ -122,12 +124,21 @@ class Trajectory(Result):
     def is_landing(self) -> np.ndarray:
         """Which of the ``n`` events complete a chatter (its remaining impulses in one), bool, shape (n,)."""
         before, after = flying(self.segment_phases, self.event_planes)
-        return before & ~after
+        rigid = self.rotor.system.arrays.stiffness[self.event_planes] == 0.0
+        landing: np.ndarray = before & ~after & rigid
+        return landing
 
     @cached_property
     def contacts(self) -> ContactLog:
-        """Log of the impacts at the contact plane."""
+        """Log of the impacts at the contact plane; a wall that gives way has none, but :attr:`touches`."""
         return self._log(self.blows(self.is_impact).at(self.plane))
+
+    @cached_property
+    def touches(self) -> TouchLog:
+        """Contacts at the contact plane, if the wall there gives way."""
+        from carom.motions.touches import touches_of
+
+        return touches_of(self)
 
     def blows(self, events: np.ndarray) -> Blows:
         """Impulses at all planes in chosen events, bool, shape (n,), in chronological order and that of the planes."""
@@ -158,7 +169,7 @@ class Trajectory(Result):
         return tuple(
             LastingContact(Phase(int(phases[first])), float(ends[first]), float(ends[last]))
             for first, last in self.stretches()
-            if phases[first] != Phase.FLIGHT
+            if presses(phases[first])
         )
 
     def stretches(self) -> list[tuple[int, int]]:
@@ -186,16 +197,16 @@ class Trajectory(Result):
         InputError
             A time outside the range followed.
         """
-        amplitudes, _ = self._amplitudes_at(np.asarray(times, float))
+        amplitudes, _ = self.amplitudes_at(np.asarray(times, float))
         return self.rotor.system.state(amplitudes)
 
     @checked
     def at_plane(self, times: Reals) -> tuple[np.ndarray, np.ndarray]:
         """Displacement of the contact plane and its rate at given times, in its clearances; see :meth:`at`."""
-        amplitudes, _ = self._amplitudes_at(np.asarray(times, float))
+        amplitudes, _ = self.amplitudes_at(np.asarray(times, float))
         return self.rotor.system.at_plane(amplitudes, self.plane)
 
-    def _amplitudes_at(self, times: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    def amplitudes_at(self, times: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Mode amplitudes and phases at given times."""
         flat = times.ravel()
         slack = ROUNDING * self.time
@@ -203,15 +214,27 @@ class Trajectory(Result):
         if outside.size:
             raise InputError("times", f"{outside[0]:.10g}", f"times from 0 to {self.time:.10g}, the range followed")
         segment = np.clip(np.searchsorted(self.segment_starts, flat, side="right") - 1, 0, None)
-        phases = self.segment_phases[segment]
+        moved, phases = self.amplitudes_in(segment, flat - self.segment_starts[segment])
+        return moved.reshape(*times.shape, moved.shape[1]), phases.reshape(*times.shape, phases.shape[1])
+
+    def amplitudes_in(self, segments: np.ndarray, elapsed: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Mode amplitudes (..., N) and phases (..., P) in segments (...), at times (...) after the start of each."""
+        at, phases = segments.ravel(), self.segment_phases[segments]
         moved = fly_or_rub_all(
             self.rotor.system.arrays,
-            self.segment_amplitudes[segment],
-            phases,
-            flat - self.segment_starts[segment],
+            self.segment_amplitudes[at],
+            self.segment_phases[at],
+            elapsed.ravel(),
             self._workspace(),
         )
-        return moved.reshape(*times.shape, moved.shape[1]), phases.reshape(*times.shape, phases.shape[1])
+        return moved.reshape(*segments.shape, moved.shape[1]), phases
+
+    @cached_property
+    def segment_ends(self) -> np.ndarray:
+        """Mode amplitudes at the end of each segment, complex, shape (n + 1, N)."""
+        last = np.array([len(self.segment_starts) - 1])
+        end, _ = self.amplitudes_in(last, self.time - self.segment_starts[last])
+        return np.concatenate([self.arrivals, end])
 
     def _workspace(self) -> np.record:
         return rub_workspace(self.segment_amplitudes.shape[1], self.segment_phases.shape[1])
@@ -225,7 +248,10 @@ class Trajectory(Result):
         normal, friction : ndarray
             The normal force presses the rotor inward; friction is positive along growing angle.
         """
-        amplitudes, phases = self._amplitudes_at(np.asarray(times, float))
+        return self.forces_of(*self.amplitudes_at(np.asarray(times, float)))
+
+    def forces_of(self, amplitudes: np.ndarray, phases: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Normal and friction force at the plane in given amplitudes (..., N) and phases (..., P)."""
         flat, shape = amplitudes.reshape(-1, amplitudes.shape[-1]), amplitudes.shape[:-1]
         arrays = self.rotor.system.arrays
         found = forces_all(arrays, flat, phases.reshape(len(flat), phases.shape[-1]), self._workspace())[:, self.plane]
@@ -236,9 +262,9 @@ class Trajectory(Result):
     def history(self, times: Reals | None = None) -> ContactHistory:
         """Forces, slip and powers of lasting contact at given times, by default those of :meth:`sample`."""
         times = self.sample() if times is None else np.asarray(times, float)
-        _, phases = self._amplitudes_at(times)
-        state, forces = self.at_plane(times), self.forces(times)
-        return ContactHistory.from_states(self.rotor, self.plane, times, phases[..., self.plane], state, forces)
+        amplitudes, phases = self.amplitudes_at(times)
+        forces = self.forces_of(amplitudes, phases)
+        return ContactHistory.from_states(self.rotor, self.plane, times, phases[..., self.plane], amplitudes, forces)
 
     @checked
     def to_dataset(self, times: Reals | None = None) -> xarray.Dataset:

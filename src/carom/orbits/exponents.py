@@ -13,6 +13,7 @@ from carom.arguments import Count, checked, whole
 from carom.core.closing import LONGEST
 from carom.core.growth import carry_orthogonal
 from carom.models import Model, Subject, model_of
+from carom.models.weight import refuse_forces
 from carom.motions.simulation import simulate
 from carom.motions.starts import Kick, State
 from carom.motions.trajectories import Trajectory
@@ -147,7 +148,7 @@ def lyapunov_exponents(
         planes touch at a time while one of the contacts lasts.
     """
     rotor = model_of(machine)
-    rotor.system.refuse_forces()
+    refuse_forces(rotor)
     state = start.state(rotor) if isinstance(start, Kick) else start
     directions = np.eye(2 * len(rotor.system.exponents))[:, 1:]
     for stretch in _stretches(rotor, state, transient):

@@ -12,6 +12,7 @@ from carom.core import variation
 from carom.core.event_log import EventLog
 from carom.core.fate import memory
 from carom.models import Subject, jeffcott_of, model_of
+from carom.models.weight import refuse_forces
 from carom.motions.simulation import follow, simulate
 from carom.motions.starts import LARGEST_SPEED, State
 from carom.motions.trajectories import Trajectory
@@ -108,7 +109,7 @@ def impact_map(machine: Subject, section: Section, longest_flight: Positive = 10
         The rotor does not move toward the wall, or has several coordinates, of which the section is no state.
     """
     rotor = model_of(machine)
-    rotor.system.refuse_forces()
+    refuse_forces(rotor)
     if len(rotor.system.rest) > 1:
         raise InputError("machine", shown(machine), "a rotor of one coordinate, whose state the section is")
     if not section.radial_speed > 0.0:

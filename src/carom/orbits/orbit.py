@@ -13,6 +13,7 @@ from carom.core.closing import ALIKE
 from carom.core.layout import rub_workspace
 from carom.core.margins import contact_margins, least_margins
 from carom.models import Model, Subject, model_of
+from carom.models.weight import refuse_forces
 from carom.motions.simulation import simulate
 from carom.motions.starts import State
 from carom.motions.trajectories import Trajectory
@@ -319,6 +320,7 @@ def orbit_near(machine: Subject, word: Word, start: Start, name: OrbitName | Cou
         The start does not fit the word and the rotor.
     """
     rotor = model_of(machine)
+    refuse_forces(rotor)
     shape = len(word), 2 * len(rotor.system.rest)
     if start.nodes.shape != shape or start.durations.shape != shape[:1]:
         raise InputError("start", start.nodes.shape, f"nodes of shape {shape} and {shape[0]} durations")

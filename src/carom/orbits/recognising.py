@@ -155,6 +155,8 @@ def _closed(motion: Trajectory, first: int, last: int) -> Orbit | None:
 
 def _near(rotor: Model, word: Word, start: Start) -> Orbit | None:
     """Orbit next to a start, if it is the one that the motion has settled on."""
+    if rotor.system.forced is not None:  # orbits under forces that change with time are not known
+        return None
     orbit, begun = orbit_near(rotor, word, start), start.nodes[0]
     if orbit is None or np.abs(orbit.nodes - begun).max(axis=1).min() > AROUND * (1.0 + np.abs(begun).max()):
         return None

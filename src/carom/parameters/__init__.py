@@ -15,6 +15,8 @@
 ``resolution``            entries in whatever terms -> numbers of a machine
 ``machine``               :class:`Machine`, conversion to parameters and back
 ``load_limits``           :class:`LoadLimits` of a touchdown bearing
+``gravity``               :class:`Gravity`: where the rotor falls
+``touchdown_bearing``     :class:`TouchdownBearing`: a touchdown bearing that gives way
 ``indentation``           whether a rigid wall is a valid model under a load
 ``restitution``           restitution and what a wall that gives way dissipates
 ``requirement``           :class:`Requirement`: what a machine must survive
@@ -33,6 +35,7 @@ from carom.parameters.fields import (
     Field,
     unknown_name,
 )
+from carom.parameters.gravity import GRAVITY_FIELDS, Gravity
 from carom.parameters.in_terms import InTerms, in_terms_of
 from carom.parameters.load_limits import LIMIT_FIELDS, LoadLimits
 from carom.parameters.machine import Machine
@@ -51,11 +54,13 @@ from carom.parameters.requirement import (
 from carom.parameters.scaling import UNITS, Scales
 from carom.parameters.sizes import Size, own_size, read_size
 from carom.parameters.terms import ENTRIES, HELPER_FIELDS, SETTABLE, TERM_FIELDS, TERMS, field_to_set, field_to_vary
+from carom.parameters.touchdown_bearing import TOUCHDOWN_FIELDS, TouchdownBearing
 
 __all__ = [
     "DIMENSIONLESS_FIELDS",
     "ENTRIES",
     "GRAVITY",
+    "GRAVITY_FIELDS",
     "HELPER_FIELDS",
     "LIMIT_FIELDS",
     "MACHINE_FIELDS",
@@ -66,10 +71,12 @@ __all__ = [
     "SURVIVE_ENTRIES",
     "TERMS",
     "TERM_FIELDS",
+    "TOUCHDOWN_FIELDS",
     "UNITS",
     "WALL_FIELDS",
     "Case",
     "Field",
+    "Gravity",
     "InTerms",
     "LoadLimits",
     "Machine",
@@ -80,6 +87,7 @@ __all__ = [
     "Scales",
     "Shock",
     "Size",
+    "TouchdownBearing",
     "Zones",
     "field_to_set",
     "field_to_vary",

@@ -222,7 +222,7 @@ _OTHER_WORDS = 0.2
 """Taken off the likeness of names with more or fewer words: a word more mostly says something else."""
 _CONSTANTS = {"stiffness", "damping"}
 _NOT_MODELLED = (
-    (({"gravity", "weight"},), "gravity is not modelled"),
+    (({"gravity", "weight"},), "weight is stated in a table [gravity]"),
     (
         ({"integral", "i"}, {"gain", "action", "time"}),
         "an integral gain is not modelled: the levitation is a spring and a damper",

@@ -10,8 +10,9 @@ from pathlib import Path
 from typing import Any, cast
 
 from carom.arguments import checked
-from carom.outcome import InputError, Problems, printable, shown
+from carom.outcome import InputError, Problems, printable, shown, together
 from carom.parameters.fields import DIMENSIONLESS_FIELDS, PHYSICAL_PARTNER, name_errors, unknown_names
+from carom.parameters.gravity import Gravity, refused
 from carom.parameters.load_limits import LIMIT_FIELDS, LoadLimits
 from carom.parameters.machine import Machine, warn_of_proportions
 from carom.parameters.named import Named, own_numbers
@@ -19,12 +20,17 @@ from carom.parameters.numbers import Parameters
 from carom.parameters.quantities import read_quantity
 from carom.parameters.requirement import Requirement
 from carom.parameters.scaling import Scales
-from carom.parameters.terms import SETTABLE, check_names, set_by
+from carom.parameters.terms import ENTRIES, SETTABLE, check_names, set_by
 from carom.parameters.told import number, shown_in, told
 from carom.parameters.toml_reader import MachineTables, read_machine_tables
+from carom.parameters.touchdown_bearing import PREFIX, TOUCHDOWN_FIELDS, TouchdownBearing
 from carom.tabular import Tabular
 
 _SETTING = "--set"
+UNUSED = 0.0
+"""Restitution of a machine whose touchdown bearing gives way."""
+_GRAVITY = "gravity"
+"""The setting of an acceleration of free fall, which is no number of the machine."""
 _UNITS_TOLD = ("length", "time", "velocity", "force", "impulse")
 """Units of the equations that a case shows."""
 
@@ -86,11 +92,15 @@ class Case(Tabular):
         Largest loads that are stated for the touchdown bearing.
     requirement : Requirement
         What the machine must survive, in the SI units of `parameters` if these have scales.
+    gravity : Gravity, optional
+        By default, or with an acceleration of zero, the rotor has no weight.
+    touchdown : TouchdownBearing, optional
+        By default, or with the law of a rigid wall, the touchdown bearing is rigid; otherwise the restitution of the machine is not used.
 
     Raises
     ------
     InputError
-        `parameters` or `requirement` are something else, or the unbalance after the loss of a blade is out of range for the
+        `parameters` or `requirement` are something else, there is gravity without scales, or the unbalance after the loss of a blade is out of range for the
         mass and clearance of the machine.
     """
 
@@ -101,11 +111,21 @@ class Case(Tabular):
     zones: Zones
     limits: LoadLimits = field(default_factory=LoadLimits)
     requirement: Requirement = field(default_factory=Requirement)
+    gravity: Gravity | None = None
+    touchdown: TouchdownBearing | None = None
 
     def __post_init__(self) -> None:
         if not isinstance(self.parameters, Named):
             raise InputError("parameters", shown(self.parameters), "must be carom.parameters.Parameters, or a model")
         self.requirement.own(self.parameters.scales)
+        if self.gravity is not None and self.gravity.acceleration == 0.0:
+            object.__setattr__(self, "gravity", None)
+        if self.gravity is not None and self.parameters.scales is None:
+            raise refused(self.gravity.words)
+        if self.touchdown is not None and not self.touchdown.yields:
+            object.__setattr__(self, "touchdown", None)
+        if self.touchdown is not None and self.parameters.scales is None:
+            raise InputError("touchdown", self.touchdown.words, "not allowed beside [dimensionless]: it is in SI units")
 
     @property
     def heading(self) -> str:
@@ -114,8 +134,7 @@ class Case(Tabular):
 
     def rows(self) -> list[tuple[str, str]]:
         """The machine in the units of people, what it must survive, what is stated of its bearing, and the units of the equations."""
-        numbers, scales = self.parameters, self.parameters.scales
-        own = [(numbers.varied[name].words, number(value)) for name, value in own_numbers(numbers).items()]
+        scales = self.parameters.scales
         zones = ", ".join(f"{zone} up to {number(limit)}" for zone, limit in zip("ABC", self.zones.limits, strict=True))
         limits = [
             f"{field.words} {number(value)} {field.unit}".rstrip()
@@ -124,12 +143,22 @@ class Case(Tabular):
         ]
         units = [f"{shown_in(kind, None)[1]} = {told(1.0, kind, scales)}" for kind in _UNITS_TOLD]
         return [
-            *(own if self.machine is None else self.machine.rows()),
+            *self._of_machine(),
+            *([("touchdown bearing", self.touchdown.words)] if self.touchdown else []),
+            *([("gravity", self.gravity.words)] if self.gravity else []),
             ("must survive", self._required()),
             ("zones, in clearances", zones),
             *([("limits of the bearing", ", ".join(limits))] if limits else []),
             *([("units of the equations", ", ".join(units))] if scales else []),
         ]
+
+    def _of_machine(self) -> list[tuple[str, str]]:
+        """The machine, without its restitution if its touchdown bearing gives way."""
+        numbers = self.parameters
+        if self.machine is None:
+            return [(numbers.varied[name].words, number(value)) for name, value in own_numbers(numbers).items()]
+        left_out = ENTRIES["restitution"].words if self.touchdown else None
+        return [row for row in self.machine.rows() if row[0] != left_out]
 
     def _required(self) -> str:
         scales, stated = self.parameters.scales, self.requirement
@@ -151,12 +180,22 @@ class Case(Tabular):
         ----------
         **changes
             As for :meth:`carom.parameters.Machine.replace`; for a dimensionless case as for :meth:`carom.parameters.Parameters.replace`.
+            ``gravity`` sets the acceleration of :class:`carom.parameters.Gravity`, and ``touchdown_stiffness`` and the like the entries
+            of :class:`carom.parameters.TouchdownBearing`.
 
         Raises
         ------
         InputError
             If a name is unknown or a value not allowed.
         """
+        if _GRAVITY in changes:
+            if self.parameters.scales is None:
+                raise refused(changes[_GRAVITY])
+            return replace(self, gravity=_pulled(self.gravity, changes.pop(_GRAVITY))).replace(**changes)
+        if of_bearing := {name: changes.pop(name) for name in list(changes) if name.startswith(PREFIX)}:
+            return replace(self, touchdown=_changed(self.touchdown, of_bearing)).replace(**changes)
+        if self.touchdown is not None and (unused := {"d", "restitution"} & changes.keys()):
+            raise _unused_restitution(changes[min(unused)])
         if self.machine is None:
             return replace(self, parameters=self.parameters.replace(**changes))
         machine = self.machine.replace(**changes)
@@ -173,10 +212,11 @@ def load(path: str | os.PathLike[str], settings: Iterable[str] = ()) -> Case:
     Parameters
     ----------
     path : path
-        TOML file with a ``[machine]`` or a ``[dimensionless]`` table, and perhaps ``[zones]``, ``[limits]`` and
-        ``[survive]``.
+        TOML file with a ``[machine]`` or a ``[dimensionless]`` table, and perhaps ``[zones]``, ``[limits]``,
+        ``[survive]``, ``[gravity]`` and ``[touchdown]``.
     settings : iterable of str
-        Texts ``"name=value"`` as in ``--set``; the name is a machine field or a dimensionless parameter.
+        Texts ``"name=value"`` as in ``--set``; the name is a machine field, a dimensionless parameter, or ``gravity``
+        for its acceleration, or an entry of the touchdown bearing, such as ``touchdown_stiffness``.
         Physical values are set first. A dimensionless one set on a machine keeps mass, speed and clearance and
         changes its partner: ``gamma`` the damping, ``omega`` the stiffness, ``rho`` the eccentricity, ``phi`` the
         unbalance phase, ``mu`` the friction, ``d`` the restitution, ``radius_ratio`` the rotor radius.
@@ -210,11 +250,19 @@ def load(path: str | os.PathLike[str], settings: Iterable[str] = ()) -> Case:
     zones = problems.attempt(_read_zones, tables.zones)
     limits = problems.attempt(LoadLimits.of, tables.limits, tables.kind == "machine") or LoadLimits()
     of_machine = tables.kind == "machine"
+    gravity = None if tables.gravity is None else problems.attempt(Gravity.of, tables.gravity, of_machine)
+    touchdown = problems.attempt(TouchdownBearing.of, tables.touchdown, of_machine) if tables.touchdown else None
+    values = problems.attempt(_with_restitution, tables.values, tables.touchdown) or tables.values
     base: Machine | Parameters | None = (
-        problems.attempt(Machine, **tables.values) if of_machine else problems.attempt(_read_dimensionless, tables)
+        problems.attempt(Machine, **values) if of_machine else problems.attempt(_read_dimensionless, tables)
     )
     requirement = problems.attempt(Requirement.of_table, tables.survive, _scales(base, of_machine))
     texts = _split(settings, problems)
+    pull = texts.pop(_GRAVITY, None)
+    if pull is not None and of_machine:
+        gravity = problems.attempt(_pulled, gravity, pull)
+    elif pull is not None:
+        problems.errors.append(refused(pull))
     fields = SETTABLE if of_machine else DIMENSIONLESS_FIELDS
     numbers = {
         name: problems.attempt(read_quantity, fields[name], text) for name, text in texts.items() if name in fields
@@ -224,7 +272,7 @@ def load(path: str | os.PathLike[str], settings: Iterable[str] = ()) -> Case:
         problems.attempt(_refuse_physical, physical)
     problems.raise_all()
     name = printable(Path(path).stem)
-    rest = (zones or Zones(), limits, requirement or Requirement())
+    rest = (zones or Zones(), limits, requirement or Requirement(), gravity, touchdown)
     if isinstance(base, Machine):
         case = Case(name, base.parameters, base, *rest).replace(**texts)
         warn_of_proportions(case.machine)
@@ -251,8 +299,43 @@ def _split(settings: Iterable[str], problems: Problems) -> dict[str, str]:
         if name in texts:
             problems.errors.append(InputError(name, shown(text), f"is set twice by {_SETTING}; give it once"))
         texts[name] = text
-    problems.attempt(check_names, texts)
+    own = {name: text for name, text in texts.items() if name != _GRAVITY and not name.startswith(PREFIX)}
+    problems.attempt(check_names, own)
     return texts
+
+
+def _pulled(present: Gravity | None, acceleration: Any) -> Gravity:
+    """Gravity with another acceleration, in the same direction."""
+    try:
+        return replace(present or Gravity(), acceleration=acceleration)
+    except InputError as problem:
+        raise InputError(_GRAVITY, shown(acceleration), problem.allowed) from None
+
+
+def _changed(present: TouchdownBearing | None, changes: Mapping[str, Any]) -> TouchdownBearing:
+    """A touchdown bearing with other entries, which have a prefix."""
+    own = {name.removeprefix(PREFIX): value for name, value in changes.items()}
+    unknown = unknown_names(own, {**TOUCHDOWN_FIELDS, "law": TOUCHDOWN_FIELDS["exponent"]}, "[touchdown]")
+    if unknown:
+        raise together(unknown)
+    try:
+        return (present or TouchdownBearing()).replace(**own)
+    except InputError as problem:
+        raise InputError(PREFIX + problem.field, problem.value, problem.allowed) from None
+
+
+def _with_restitution(values: Mapping[str, Any], touchdown: Mapping[str, Any]) -> Mapping[str, Any]:
+    """Entries of a machine, with a restitution that is not used if its touchdown bearing gives way; one that is given is refused."""
+    if touchdown.get("law", "rigid") == "rigid":
+        return values
+    if "restitution" in values:
+        raise _unused_restitution(values["restitution"])
+    return {**values, "restitution": UNUSED}
+
+
+def _unused_restitution(given: Any) -> InputError:
+    allowed = "must be left out: the touchdown bearing gives way, and its law has entries of its own in [touchdown]"
+    return InputError("restitution", shown(given), allowed)
 
 
 def _refuse_physical(physical: Mapping[str, str]) -> None:

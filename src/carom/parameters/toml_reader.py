@@ -14,7 +14,8 @@ from carom.outcome import InputError, Problems, shown, together
 from carom.parameters.fields import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, unknown_name
 
 _WHAT = "machine file"
-_TABLES = {"machine": None, "dimensionless": None, "zones": None, "limits": None, "survive": None}
+_OPTIONAL = ("zones", "limits", "survive", "gravity", "touchdown")
+_TABLES = dict.fromkeys(("machine", "dimensionless", *_OPTIONAL))
 _LARGEST_BYTES = 1_000_000
 _REMEDY = "must hold a [machine] or a [dimensionless] table"
 _MOST_LEVELS = 16
@@ -42,10 +43,14 @@ class MachineTables:
     """Entries of the optional table ``[limits]``."""
     survive: Mapping[str, Any] = field(default_factory=dict)
     """Entries of the optional table ``[survive]``."""
+    gravity: Mapping[str, Any] | None = None
+    """Entries of the optional table ``[gravity]``, of which an empty one means something too."""
+    touchdown: Mapping[str, Any] = field(default_factory=dict)
+    """Entries of the optional table ``[touchdown]``."""
 
 
 def read_machine_tables(path: str | os.PathLike[str], problems: Problems) -> MachineTables:
-    """Read the tables of a machine file: ``[machine]`` or ``[dimensionless]``, and perhaps ``[zones]``, ``[limits]`` and ``[survive]``.
+    """Read the tables of a machine file: ``[machine]`` or ``[dimensionless]``, and perhaps ``[zones]``, ``[limits]``, ``[survive]``, ``[gravity]`` and ``[touchdown]``.
 
     The entries are not checked.  Errors of other entries are added to ``problems``; if the file does not hold exactly one of the
     first two tables, all of them are raised.
@@ -63,10 +68,7 @@ def read_machine_tables(path: str | os.PathLike[str], problems: Problems) -> Mac
         problems.errors.append(InputError(_WHAT, shown(name), f"{_REMEDY}, one of them alone; it {found}"))
     if len(kinds) != 1 or not isinstance(content[kinds[0]], dict):
         problems.raise_all()
-    optional = {
-        name: table if isinstance(table := content.get(name, {}), dict) else {}
-        for name in ("zones", "limits", "survive")
-    }
+    optional = {name: table for name in _OPTIONAL if isinstance(table := content.get(name), dict)}
     return MachineTables(kinds[0], content[kinds[0]], **optional)
 
 

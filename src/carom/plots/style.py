@@ -114,6 +114,7 @@ REGIMES = (
     Look("#a52f74", "sliding, slip forward"),
     Look("#532a94", "sliding, slip backward", hatch="...."),
     Look("#5c1236", "rolling", hatch="////"),
+    Look("#b8c2cc", "parted from the wall", hatch="||||"),
 )
 """Looks of the regimes of a touchdown, in the order of :class:`carom.outcome.Phase`."""
 
@@ -126,6 +127,7 @@ OUTCOMES = MappingProxyType(
         "forward-rub": Look("#a52f74", Outcome.FORWARD_RUB.words, hatch="\\\\\\\\"),
         "backward-whirl": Look("#532a94", Outcome.BACKWARD_WHIRL.words, hatch="xxxx"),
         "rolling": Look("#5c1236", Outcome.ROLLING.words, hatch="////"),
+        "at-rest": Look("#7d6a4f", Outcome.AT_REST.words, hatch="++++"),
         "grazing": Look("#000000", Outcome.GRAZING.words),
         "time-reached": Look("#dcdcdc", Outcome.TIME_REACHED.words),
         "event-limit": Look("#dcdcdc", Outcome.EVENT_LIMIT.words),
@@ -147,6 +149,8 @@ WORKS = MappingProxyType(
         "damping": Look("#0072b2", "work of damping", line=":", width=1.1),
         "circulatory": Look("#56b4e9", "work of circulatory forces", line=(0, (3, 1, 1, 1, 1, 1)), width=0.9),
         "unbalance": Look("#e69f00", "work of unbalance", line=(0, (6, 1, 1, 1)), width=0.9),
+        "wall_loss": Look("#a6761d", "lost in the wall", line=(0, (2, 1)), width=0.9),
+        "forces": Look("#7d6a4f", "work of weight and outer forces", line=(0, (5, 2)), width=0.9),
     }
 )
 """Looks of the entries of an energy ledger."""

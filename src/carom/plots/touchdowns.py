@@ -194,7 +194,7 @@ def _impulses(axes: Axes, trajectory: Trajectory) -> None:
 @checked
 @styled
 def energies(ledger: EnergyLedger, *, axes: Axes | None = None) -> Figure:
-    """Draw the energy of the rotor and the works that change it, circulatory ones where there are any."""
+    """Draw the energy of the rotor and the works that change it; circulatory ones, of weight and in a wall where there are any."""
     figure, drawn = one_axes(axes, (TWO_COLUMNS, 0.4 * TWO_COLUMNS))
     scales = ledger.scales
     largest = max(float(np.abs(getattr(ledger, name)).max()) for name in WORKS)
@@ -203,7 +203,7 @@ def energies(ledger: EnergyLedger, *, axes: Axes | None = None) -> Figure:
     drawn.axhline(0.0, color="#a6a6a6", lw=0.5)
     for name, look in WORKS.items():
         values = getattr(ledger, name)
-        if name != "circulatory" or values.any():
+        if name not in ("circulatory", "forces", "wall_loss") or values.any():
             drawn.plot(times, unit * values, **look.stroke, label=look.words)
     drawn.set(xlim=(0.0, float(times[-1])), xlabel=axis_time(scales), ylabel=f"energy, work since the start ({short})")
     if axes is None:

@@ -175,7 +175,7 @@ def hypotheses_of(
 
 def _from_file(path: str | os.PathLike[str], settings: list[str]) -> Hypotheses:
     problems = Problems()
-    read_machine_tables(path, problems)
+    tables = read_machine_tables(path, problems)
     texts = {}
     for setting in settings:
         name, equals, text = (part.strip() for part in setting.partition("="))
@@ -184,8 +184,11 @@ def _from_file(path: str | os.PathLike[str], settings: list[str]) -> Hypotheses:
                 InputError("--set", shown(setting), "must be name=value, each name once, such as gamma=1/10")
             )
         texts[name] = text
+    pull = texts.pop("gravity", None)
     problems.attempt(check_names, texts)
     problems.raise_all()
+    if tables.gravity is not None or pull is not None:  # what is proven is of rotors without weight
+        jeffcott_of(load(path, () if pull is None else [f"gravity={pull}"]))
     content = tomllib.loads(Path(path).read_text(encoding="utf-8-sig"), parse_float=Decimal)
     table: Literal["machine", "dimensionless"] = "machine" if "machine" in content else "dimensionless"
     if table == "machine":

@@ -20,11 +20,13 @@ from carom.bifurcations.documents import search_document
 from carom.closed_forms.equilibria import Equilibrium
 from carom.models import Jeffcott, Model, Span
 from carom.models.subjects import parameters_of
+from carom.motions.contacts import LastingContact, yields
 from carom.motions.loads import MEASURED, touchdown_loads
 from carom.motions.starts import State
 from carom.motions.trajectories import Trajectory
 from carom.orbits.orbit import Orbit
 from carom.orbits.single_impact import OrbitSet
+from carom.outcome import Phase
 from carom.parameters import MACHINE_FIELDS, LoadLimits, Machine, Parameters, Scales
 from carom.parameters.indentation import gives_way, indentation_of_force, indentation_of_hit
 from carom.results import fields_of, in_si
@@ -105,10 +107,7 @@ def trajectory_document(trajectory: Trajectory, limits: LoadLimits | None = None
         **fields_of(trajectory, outcome="outcome.label", meaning="outcome.meaning"),
         **fields_of(trajectory, "multiplicity", "time"),
         "impacts": [dict(zip(keys, impact, strict=True)) for impact in impacts],
-        "contacts": [
-            {"kind": contact.kind, "phase": contact.phase.label, **fields_of(contact, "start", "end")}
-            for contact in trajectory.lasting_contacts
-        ],
+        "contacts": _lasting_contacts(trajectory),
         "final": _state(trajectory.final),
         "loads": _loads(trajectory),
     }
@@ -118,6 +117,46 @@ def trajectory_document(trajectory: Trajectory, limits: LoadLimits | None = None
     if scales is not None:
         document["scales_si"] = _scales(scales)
     return document
+
+
+def _lasting_contacts(trajectory: Trajectory) -> list[dict[str, Any]]:
+    """Stretches of lasting contact at the plane of a motion; of walls that give way whole contacts, at all planes."""
+    planes = range(trajectory.segment_phases.shape[1])
+    entries = [entry for plane in planes for entry in _touches(trajectory.seen_at(plane))]
+    if not yields(trajectory.rotor.system, trajectory.plane):
+        entries += [_stretch(contact) for contact in trajectory.lasting_contacts]
+    return sorted(entries, key=lambda entry: entry["start"])
+
+
+def _stretch(contact: LastingContact) -> dict[str, Any]:
+    return {"kind": contact.kind, "phase": contact.phase.label, **fields_of(contact, "start", "end")}
+
+
+def _touches(trajectory: Trajectory) -> list[dict[str, Any]]:
+    """Contacts of the plane of a motion with a wall that gives way, by the kind that takes most of each."""
+    touches = trajectory.touches
+    columns = fields_of(
+        touches,
+        *(
+            "plane",
+            "angle",
+            "radial_speed",
+            "radial_speed_after",
+            "peak_force",
+            "peak_time",
+            "deepest",
+            "heat",
+            "lasts",
+        ),
+        impulse="normal_impulse",
+    )
+    kinds = zip(touches.phase.tolist(), touches.start.tolist(), touches.end.tolist(), strict=True)
+    entries = []
+    for (phase, start, end), *values in zip(kinds, *columns.values(), strict=True):
+        entry = _stretch(LastingContact(Phase(phase), start, end)) | dict(zip(columns, values, strict=True))
+        si = in_si(entry, touches.scales, "impulse", "heat", peak_force="force", deepest="length")
+        entries.append(entry | si)
+    return entries
 
 
 def _loads(trajectory: Trajectory) -> dict[str, Any]:

@@ -80,8 +80,11 @@ def press_rounding(of_depth, of_rate, wall):
 
 @formula
 def force_rounding(of_depth, of_rate, wall):
-    """Bound of the rounding error of the force at depths below one, from those of depth and rate."""
-    return wall.stiffness * (wall.law_number * of_depth + wall.loss * of_rate)
+    """Bound of the rounding error of the force at depths below one, from those of depth and rate.
+
+    The rate's is at least the rate times that of the depth, which turns the normal against the velocity.
+    """
+    return wall.stiffness * (wall.law_number * of_depth + (wall.law_number + 1.0) * wall.loss * of_rate)
 
 
 @formula

@@ -1,0 +1,163 @@
+"""The planar rotor in a touchdown bearing that gives way, on a mount or not."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, replace
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from carom.models.jeffcott import Jeffcott
+from carom.models.linear import LinearRotor
+from carom.models.model import Matrices
+from carom.models.race import Race
+from carom.models.stages import Around
+from carom.models.system import System
+from carom.models.touchdown import HuntCrossley, KelvinVoigt, Touchdown
+from carom.outcome import InputError, shown
+from carom.parameters import TOUCHDOWN_FIELDS, Field, Parameters, Scales, TouchdownBearing
+from carom.parameters.restitution import damping_ratio_of, dissipation_of
+from carom.parameters.touchdown_bearing import PREFIX
+
+_LEFT_OUT = ("restitution", "d")
+"""Parameters of the planar rotor in a rigid wall that it does not have here."""
+
+
+@dataclass(frozen=True)
+class InBearing(Around):
+    """Rigid rotor inside a touchdown bearing that gives way.
+
+    Its coordinates are the position of the rotor and, on a mount, that of the mount.
+
+    Attributes
+    ----------
+    rotor : Jeffcott
+        Its own coefficient of restitution means nothing.
+    bearing : TouchdownBearing
+        In SI units.
+    levitates : bool
+        Whether stiffness and damping of the levitation act.
+
+    Raises
+    ------
+    InputError
+        The rotor is no planar rotor with scales, or the bearing is rigid.
+    """
+
+    rotor: Jeffcott
+    bearing: TouchdownBearing
+    levitates: bool = True
+
+    def __post_init__(self) -> None:
+        rotor: Any = self.rotor
+        if not isinstance(rotor, Jeffcott) or rotor.scales is None:
+            raise InputError("rotor", shown(rotor), "a planar rotor with mass, clearance and speed")
+        if not self.bearing.yields:
+            raise InputError("bearing", self.bearing.words, "a bearing that gives way")
+
+    @property
+    def parameters(self) -> Parameters:
+        """Parameters of the rotor."""
+        return self.rotor.parameters
+
+    @cached_property
+    def linear(self) -> LinearRotor:
+        """The same as a linear rotor."""
+        scales: Any = self.rotor.scales
+        mass, damping, _, stiffness, forcing = self.rotor.matrices
+        if not self.levitates:
+            damping, stiffness = np.zeros_like(damping), np.zeros_like(stiffness)
+        plane, matrices = [1.0], {"mass": mass, "damping": damping, "stiffness": stiffness}
+        given = self.bearing
+        if given.mount_mass is not None and given.mount_stiffness is not None:
+            mount = given.mount_mass / scales.mass, (given.mount_damping or 0.0) / scales.damping
+            plane = [1.0, -1.0]
+            held = zip(matrices.items(), (*mount, given.mount_stiffness / scales.stiffness), strict=True)
+            matrices = {name: np.diag([matrix[0, 0], value]) for (name, matrix), value in held}
+            forcing = np.append(forcing, 0.0)
+        at = self.parameters
+        touchdown = Touchdown(
+            plane, law_of(given, scales), at.mu, at.radius_ratio + 1.0, race_of(given, at.radius_ratio, scales)
+        )
+        return LinearRotor.in_fixed_frame(
+            **matrices,
+            forcing=forcing,
+            touchdowns=[touchdown],
+            translation=np.eye(len(plane))[0],
+            scales=scales,
+        )
+
+    @property
+    def system(self) -> System:
+        """Modes, contact plane and contact law."""
+        return self.linear.system
+
+    @property
+    def matrices(self) -> Matrices:
+        """Matrices of the equations of motion in the fixed frame."""
+        return self.linear.matrices
+
+    @property
+    def words(self) -> str:
+        """Its parameters in a line."""
+        own = (
+            f"{name} = {self.rotor.value(name):g}" for name in ("gamma", "omega", "rho", "phi", "mu", "radius_ratio")
+        )
+        return f"{', '.join(own)}; {self.bearing.words}"
+
+    @property
+    def varied(self) -> Mapping[str, Field]:
+        """Named parameters that can be varied."""
+        own = {name: field for name, field in self.rotor.varied.items() if name not in _LEFT_OUT}
+        bearing = {PREFIX + name: replace(TOUCHDOWN_FIELDS[name], name=PREFIX + name) for name in self.bearing.given}
+        return {**own, **bearing}
+
+    def value(self, name: str) -> float:
+        """Value of a named parameter, in the unit of its field."""
+        if name in self.varied and name.startswith(PREFIX):
+            return float(getattr(self.bearing, name.removeprefix(PREFIX)))
+        if name in _LEFT_OUT:
+            raise InputError(name, None, "a touchdown bearing that gives way has no such number for all speeds")
+        return self.rotor.value(name)
+
+    def replace(self, **changes: Any) -> InBearing:
+        """Return the rotor with other values of its parameters; those of the bearing stay what they are in SI units."""
+        for name in _LEFT_OUT:
+            if name in changes:
+                raise InputError(
+                    name, changes[name], "a touchdown bearing that gives way has its own entries in [touchdown]"
+                )
+        of_bearing = {name: changes.pop(name) for name in list(changes) if name.startswith(PREFIX)}
+        bearing = self.bearing.replace(**{name.removeprefix(PREFIX): value for name, value in of_bearing.items()})
+        return InBearing(self.rotor.replace(**changes) if changes else self.rotor, bearing, self.levitates)
+
+    def attributes(self) -> dict[str, Any]:
+        """Return the numbers as attributes of a dataset, exact to the last bit."""
+        bearing = {**asdict(self.bearing), "levitates": self.levitates}
+        return {"touchdown_bearing": json.dumps(bearing), "rotor": json.dumps(self.rotor.attributes())}
+
+
+def law_of(bearing: TouchdownBearing, scales: Scales) -> KelvinVoigt | HuntCrossley:
+    """Law of a bearing in the units of a rotor's equations."""
+    exponent = bearing.exponent
+    stiffness = (bearing.stiffness or 0.0) * scales.length ** (exponent - 1.0) / scales.stiffness
+    if bearing.law == "kelvin-voigt":
+        if bearing.restitution is not None:
+            return KelvinVoigt(stiffness, 2.0 * damping_ratio_of(bearing.restitution) * stiffness**0.5)
+        return KelvinVoigt(stiffness, (bearing.damping or 0.0) / scales.damping)
+    dissipation = bearing.dissipation
+    if dissipation is None:
+        dissipation = dissipation_of(bearing.restitution or 1.0, bearing.restitution_speed or 1.0)
+    return HuntCrossley(stiffness, dissipation * scales.velocity, exponent)
+
+
+def race_of(bearing: TouchdownBearing, radius_ratio: float, scales: Scales) -> Race | None:
+    """Race of a bearing in the units of a rotor's equations; ``None`` if it stands still."""
+    if bearing.race_inertia is None:
+        return None
+    unit = scales.mass * scales.length**2
+    drag = (bearing.race_drag or 0.0) / (unit * scales.speed)
+    return Race(bearing.race_inertia / unit, radius_ratio + 1.0, drag)

@@ -1,0 +1,175 @@
+"""Contacts with walls that give way, each from entering the wall until leaving it: impulses, peaks, depths and works."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from itertools import pairwise
+from typing import TYPE_CHECKING, ClassVar, NamedTuple
+
+import numpy as np
+
+from carom.core.laws.choice import force, stored_energy
+from carom.core.wall import Wall
+from carom.motions.contacts import PRESSING, Table, column, phase_flags, polar, presses, slip_velocity, yields
+from carom.motions.quadrature import NODES, WEIGHTS, largest
+from carom.outcome import Phase
+from carom.parameters import Scales
+
+if TYPE_CHECKING:
+    import xarray
+
+    from carom.motions.trajectories import Trajectory
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class TouchLog(Table):
+    """Contacts of a plane with a wall that gives way, in chronological order; all arrays have shape (n,).
+
+    A contact lasts from entering the wall until leaving it, through sliding, rolling and the times in between in which the plane has
+    parted from a wall that comes back more slowly.  The friction ``F`` does the work ``F v`` on the contact point, which slips with
+    ``v = s + r(1 + θ̇)``, less the speed of the race's surface if that turns; the drive gives ``−F s``.  Along the normal the wall takes
+    the work of its damper, and what its spring holds where plane and wall part.
+    """
+
+    plane: np.ndarray = field(metadata=column("1", "contact plane"))
+    start: np.ndarray = field(metadata=column("time", "time of entering the wall, or the beginning of the motion"))
+    end: np.ndarray = field(metadata=column("time", "time of leaving the wall, or the end of the motion"))
+    duration: np.ndarray = field(metadata=column("time", "time from beginning to end"))
+    entered: np.ndarray = field(metadata=column("1", "whether the wall was entered: a motion may begin in it"))
+    lasts: np.ndarray = field(metadata=column("1", "whether it lasts beyond the end of the motion"))
+    phase: np.ndarray = field(metadata=column("1", "kind of contact that takes most of it"))
+    angle: np.ndarray = field(metadata=column("rad", "angle at its beginning, in the co-rotating frame"))
+    angular_speed: np.ndarray = field(metadata=column("speed", "angular speed at its beginning, co-rotating frame"))
+    radial_speed: np.ndarray = field(metadata=column("velocity", "radial speed on entering, or at the beginning"))
+    radial_speed_after: np.ndarray = field(metadata=column("velocity", "radial speed on leaving, or at the end"))
+    normal_impulse: np.ndarray = field(metadata=column("impulse", "integral of the normal force, inward"))
+    friction_impulse: np.ndarray = field(
+        metadata=column("impulse", "integral of the friction force, along growing angle")
+    )
+    peak_force: np.ndarray = field(metadata=column("force", "largest normal force"))
+    peak_time: np.ndarray = field(metadata=column("time", "time of the largest normal force"))
+    deepest: np.ndarray = field(metadata=column("length", "largest depth in the wall"))
+    peak_power: np.ndarray = field(metadata=column("power", "largest power lost to friction"))
+    heat: np.ndarray = field(metadata=column("energy", "work lost to friction, never negative"))
+    normal_loss: np.ndarray = field(
+        metadata=column("energy", "work lost along the normal: in the wall's damper, and on parting")
+    )
+    drive_work: np.ndarray = field(metadata=column("energy", "work of the shaft's drive through friction"))
+    scales: Scales | None = None
+
+    dimension: ClassVar[str] = "touch"
+
+    @property
+    def restitution(self) -> np.ndarray:
+        """Radial speed on leaving over that on entering, inward positive; nan of a contact that was not entered, or that lasts."""
+        whole = self.entered & ~self.lasts & (self.radial_speed > 0.0)
+        return np.divide(-self.radial_speed_after, self.radial_speed, out=np.full(len(self), np.nan), where=whole)
+
+    def __len__(self) -> int:
+        return len(self.start)
+
+    def to_dataset(self) -> xarray.Dataset:
+        """Table with units and long names as attributes; in SI if the machine is known."""
+        dataset = super().to_dataset()
+        del dataset["phase"].attrs["units"]
+        dataset["phase"].attrs |= phase_flags(Phase)
+        return dataset
+
+
+class InWall(NamedTuple):
+    """A plane in a wall that gives way, at some instants; arrays of one shape."""
+
+    depth: np.ndarray
+    slip: np.ndarray
+    normal: np.ndarray
+    friction: np.ndarray
+    lost: np.ndarray
+    """Power lost in the wall's damper."""
+
+
+def in_wall(motion: Trajectory, segments: np.ndarray, elapsed: np.ndarray) -> InWall:
+    """The plane of a motion in segments (k,) in which it is in its wall, at times (k, m) after the start of each."""
+    system, plane = motion.rotor.system, motion.plane
+    amplitudes, phases = motion.amplitudes_in(np.broadcast_to(segments[:, None], elapsed.shape), elapsed)
+    position, velocity = system.at_plane(amplitudes, plane)
+    normal, friction = motion.forces_of(amplitudes, phases)
+    radius, held = np.abs(position), presses(phases[..., plane])
+    rate = (position.conj() * velocity).real / radius
+    slip = np.where(held, slip_velocity(system, plane, amplitudes), 0.0)
+
+    def damper(depth: float, rate: float, wall: Wall) -> float:
+        return float(force(depth, rate, wall) - force(depth, 0.0, wall))
+
+    lost = np.where(held, _of_law(motion, damper, radius - 1.0, rate) * rate, 0.0)
+    return InWall(radius - 1.0, slip, normal, friction, lost)
+
+
+def stored(motion: Trajectory, amplitudes: np.ndarray) -> np.ndarray:
+    """Energy that the spring of the plane's wall holds in a state of each segment, (n + 1, N); none where there is no contact."""
+    position, _ = motion.rotor.system.at_plane(amplitudes, motion.plane)
+    held = presses(motion.segment_phases[:, motion.plane])
+    energy = np.zeros(len(amplitudes))
+    energy[held] = _of_law(motion, stored_energy, np.abs(position[held]) - 1.0)
+    return energy
+
+
+def lost_on_parting(motion: Trajectory) -> np.ndarray:
+    """Energy of the wall's spring that is lost in each event, (n,): where plane and wall part, less what it holds where they meet again."""
+    parted = motion.segment_phases[:, motion.plane] == Phase.SEPARATED
+    lost = stored(motion, motion.segment_ends)[:-1] - stored(motion, motion.segment_amplitudes)[1:]
+    return np.where(parted[:-1] | parted[1:], lost, 0.0)
+
+
+def _of_law(motion: Trajectory, function: Callable[..., float], *of: np.ndarray) -> np.ndarray:
+    """A function of the law of the plane's wall, of depths (and rates), with the effective mass of the plane."""
+    system = motion.rotor.system
+    wall = system.contacts[motion.plane].wall
+    values: np.ndarray = np.vectorize(lambda *one: function(*one, wall), otypes=[float])(*of)
+    return system.arrays.masses[motion.plane] * values
+
+
+def touches_of(motion: Trajectory) -> TouchLog:
+    """Contacts with the wall at the plane of a motion; none if that is rigid."""
+    system, plane = motion.rotor.system, motion.plane
+    phases = motion.segment_phases[:, plane]
+    inside = (phases != Phase.FLIGHT) & yields(system, plane)
+    first, after = np.flatnonzero(np.diff(np.concatenate([[0], inside, [0]]))).reshape(-1, 2).T
+    bounds, segments = np.append(motion.segment_starts, motion.time), np.flatnonzero(inside)
+    half = 0.5 * np.diff(bounds)[segments]
+    at = in_wall(motion, segments, half[:, None] * (1.0 + NODES))
+    begins = np.searchsorted(segments, first)
+    edges = np.append(begins, len(segments))
+
+    def total(values: np.ndarray) -> np.ndarray:
+        return np.add.reduceat(half * (values @ WEIGHTS), begins)
+
+    forces, places = largest(at.normal)
+    hardest = np.array([begin + forces[begin:end].argmax() for begin, end in pairwise(edges)], int)
+    takes = [np.add.reduceat(np.where(phases[segments] == kind, half, 0.0), begins) for kind in PRESSING]
+    parted = np.concatenate([[0.0], np.cumsum(lost_on_parting(motion))])
+    angle, radial, angular = polar(*system.at_plane(motion.segment_amplitudes[first], plane))
+    _, radial_after, _ = polar(*system.at_plane(motion.segment_ends[after - 1], plane))
+    return TouchLog(
+        plane=np.full(len(first), plane),
+        start=bounds[first],
+        end=bounds[after],
+        duration=bounds[after] - bounds[first],
+        entered=first > 0,
+        lasts=after == len(phases),
+        phase=np.array(PRESSING)[np.argmax(takes, axis=0)],
+        angle=angle,
+        angular_speed=angular,
+        radial_speed=radial,
+        radial_speed_after=radial_after,
+        normal_impulse=total(at.normal),
+        friction_impulse=total(at.friction),
+        peak_force=forces[hardest],
+        peak_time=bounds[segments[hardest]] + half[hardest] * (1.0 + places[hardest]),
+        deepest=np.maximum.reduceat(largest(at.depth)[0], begins),
+        peak_power=np.maximum.reduceat(largest(-at.friction * at.slip)[0], begins),
+        heat=-total(at.friction * at.slip),
+        normal_loss=total(at.lost) + parted[np.minimum(after, len(parted) - 1)] - parted[first],
+        drive_work=-(system.contacts[plane].wall.surface_speed - 1.0) * total(at.friction),
+        scales=motion.rotor.scales,
+    )

@@ -1,0 +1,226 @@
+"""A touchdown bearing that gives way: the table ``[touchdown]`` of a machine file."""
+
+from __future__ import annotations
+
+import dataclasses
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from carom.outcome import InputError, Problems, shown
+from carom.parameters.fields import MACHINE_FIELDS, Field, by_name, unknown_names
+from carom.parameters.quantities import read_quantity
+from carom.parameters.told import number
+
+LAWS = ("rigid", "kelvin-voigt", "hunt-crossley")
+"""Laws of contact that a machine file may name."""
+TOUCHDOWN_FIELDS: Mapping[str, Field] = by_name(
+    Field("stiffness", "k_t", "stiffness of the touchdown bearing", "a stiffness", "N/m", 1e-6, 1e18, '"1e8 N/m"'),
+    Field("damping", "c_t", "damping of the touchdown bearing", "a damping", "N s/m", 1e-12, 1e12, '"500 N s/m"', True),
+    Field("dissipation", "chi", "dissipation of the touchdown bearing", "a dissipation", "s/m", 0.0, 1e6, '"0.3 s/m"'),
+    Field("restitution", "d", "restitution at the touchdown bearing", "a number", "", 1e-6, 1.0, "0.8"),
+    Field("restitution_speed", "", "speed of the impact of that restitution", "a speed", "m/s", 1e-9, 1e4, '"0.1 m/s"'),
+    Field("exponent", "n", "exponent of the force over the depth", "a number", "", 1.0, 2.0, "1.5"),
+    Field("race_inertia", "J_r", "inertia of the race", "a moment of inertia", "kg m^2", 1e-15, 1e9, '"2e-4 kg m^2"'),
+    Field("race_drag", "", "drag torque of the race per speed", "a drag", "N m s", 1e-15, 1e9, '"1e-4 N m s"', True),
+    Field("mount_mass", "", "mass of the mount", "a mass", "kg", 1e-9, 1e9, '"2 kg"'),
+    Field("mount_stiffness", "", "stiffness of the mount", "a stiffness", "N/m", 1e-6, 1e18, '"2e7 N/m"'),
+    Field("mount_damping", "", "damping of the mount", "a damping", "N s/m", 1e-12, 1e12, '"3000 N s/m"', True),
+)
+"""Entries of a ``[touchdown]`` table beside ``law``, in SI units."""
+PREFIX = "touchdown_"
+"""Before the names of these entries where they stand beside those of the machine, as in ``--set touchdown_stiffness=1e8 N/m``."""
+_POWERED = re.compile(r"(?P<number>.*?)\s*N/m(?:\^|\*\*)\(?[0-9./]+\)?")
+"""A stiffness of another exponent than 1: its unit is a newton by that power of a metre."""
+
+_FRACTION = re.compile(r"([0-9]{1,3})\s*/\s*([1-9][0-9]{0,2})")
+
+
+@dataclass(frozen=True)
+class TouchdownBearing:
+    """A touchdown bearing whose force grows with the depth to which the rotor presses into it.
+
+    Every value is a number in the SI unit below, or text with a unit such as ``"1e8 N/m"``.
+
+    Parameters
+    ----------
+    law : str
+        ``"kelvin-voigt"``: the force ``kδ + cδ̇``, which cannot pull; ``"hunt-crossley"``: ``kδⁿ(1 + χδ̇)``; ``"rigid"``: a wall with
+        the restitution of the machine.
+    stiffness : float or str
+        ``k``, N/m, or N/mⁿ.
+    damping : float or str, optional
+        ``c``, N s/m.
+    dissipation : float or str, optional
+        ``χ``, s/m.
+    restitution, restitution_speed : float or str, optional
+        In place of damping or dissipation: radial speed after an impact over that before it, of the rotor alone.  That of
+        Hunt–Crossley changes with the speed of the impact, which has to be stated, m/s.
+    exponent : float or str, optional
+        ``n`` of Hunt–Crossley: 3/2 for balls, 10/9 for rollers, 1 by default.
+    race_inertia, race_drag : float or str, optional
+        Inner race that turns: moment of inertia with what turns with it, kg m², and torque that slows it down per speed, N m s.
+        Without an inertia it stands still.
+    mount_mass, mount_stiffness, mount_damping : float or str, optional
+        Mass on which the bearing sits, kg, and what holds that, N/m and N s/m.  Without these it is fixed.
+
+    Raises
+    ------
+    InputError
+        A value is not of this kind or out of range, one that the law needs is missing, or one is given that it does not have.
+    """
+
+    law: str = "rigid"
+    stiffness: float | None = None
+    damping: float | None = None
+    dissipation: float | None = None
+    restitution: float | None = None
+    restitution_speed: float | None = None
+    exponent: float = 1.0
+    race_inertia: float | None = None
+    race_drag: float | None = None
+    mount_mass: float | None = None
+    mount_stiffness: float | None = None
+    mount_damping: float | None = None
+
+    def __post_init__(self) -> None:
+        if self.law not in LAWS:
+            raise InputError("law", shown(self.law), f"must be one of {', '.join(LAWS)}")
+        problems = Problems()
+        for name, field in TOUCHDOWN_FIELDS.items():
+            given: Any = getattr(self, name)
+            if given is not None:
+                if name == "stiffness" and self._is_curved:
+                    given = _without_power(given)
+                elif name == "exponent":
+                    given = _as_number(given)
+                object.__setattr__(self, name, problems.attempt(read_quantity, field, given))
+        problems.raise_all()
+        for error in self._wrong():
+            problems.errors.append(error)
+        problems.raise_all()
+
+    @property
+    def _is_curved(self) -> bool:
+        return self.exponent not in (1, "1")
+
+    def _wrong(self) -> list[InputError]:
+        """What does not fit together."""
+        present = {name for name in TOUCHDOWN_FIELDS if getattr(self, name) is not None} - {"exponent"}
+        if self.law == "rigid":
+            return [self._not_of_law(name, "the law of a rigid wall has none") for name in sorted(present)]
+        own, other = ("damping", "dissipation") if self.law == "kelvin-voigt" else ("dissipation", "damping")
+        errors = []
+        if self.stiffness is None:
+            errors.append(InputError("stiffness", None, f"the law {self.law} needs it, such as stiffness = '1e8 N/m'"))
+        if other in present:
+            errors.append(self._not_of_law(other, f"the law {self.law} has a {own}"))
+        if {own, "restitution"} <= present:
+            errors.append(self._not_of_law("restitution", f"give {own} or restitution, not both"))
+        elif not {own, "restitution"} & present:
+            errors.append(InputError(own, None, f"the law {self.law} needs it, or a restitution"))
+        if self.law == "kelvin-voigt" and self.exponent != 1.0:
+            errors.append(self._not_of_law("exponent", "the law kelvin-voigt has the exponent 1"))
+        return errors + self._wrong_restitution(present) + self._wrong_parts(present)
+
+    def _wrong_restitution(self, present: set[str]) -> list[InputError]:
+        if "restitution" not in present:
+            return [
+                self._not_of_law("restitution_speed", "it belongs to a restitution")
+                for _ in present & {"restitution_speed"}
+            ]
+        if self.law == "hunt-crossley" and self.restitution_speed is None:
+            words = "the restitution of hunt-crossley changes with the speed of the impact: state that of this one"
+            return [InputError("restitution_speed", None, words)]
+        if self.law == "kelvin-voigt" and self.restitution_speed is not None:
+            return [self._not_of_law("restitution_speed", "the restitution of kelvin-voigt is the same at all speeds")]
+        if present & {"mount_mass", "mount_stiffness"}:
+            words = (
+                "it is that of the rotor on a fixed bearing; on a mount give the damping or dissipation of the bearing"
+            )
+            return [self._not_of_law("restitution", words)]
+        return []
+
+    def _wrong_parts(self, present: set[str]) -> list[InputError]:
+        errors = []
+        if "race_drag" in present and self.race_inertia is None:
+            errors.append(InputError("race_inertia", None, "a race with drag needs it"))
+        mount = {"mount_mass", "mount_stiffness", "mount_damping"} & present
+        errors += [
+            InputError(name, None, "a mount needs mount_mass and mount_stiffness")
+            for name in ("mount_mass", "mount_stiffness")
+            if mount and name not in mount
+        ]
+        return errors
+
+    def _not_of_law(self, name: str, words: str) -> InputError:
+        return InputError(name, getattr(self, name), f"must be left out: {words}")
+
+    @property
+    def yields(self) -> bool:
+        """Whether the bearing gives way."""
+        return self.law != "rigid"
+
+    @property
+    def given(self) -> dict[str, Any]:
+        """The entries that are stated, in SI units."""
+        own = {name: getattr(self, name) for name in TOUCHDOWN_FIELDS}
+        return {
+            name: value for name, value in own.items() if value is not None and (name != "exponent" or value != 1.0)
+        }
+
+    @property
+    def words(self) -> str:
+        """Law and entries in the units of people."""
+        told = (
+            f"{name.replace('_', ' ')} {number(value)} {self.unit(name)}".rstrip() for name, value in self.given.items()
+        )
+        return ", ".join([self.law, *told])
+
+    def unit(self, name: str) -> str:
+        """SI unit of an entry."""
+        if name == "stiffness" and self._is_curved:
+            return f"N/m^{self.exponent:.6g}"
+        return TOUCHDOWN_FIELDS[name].unit
+
+    def replace(self, **changes: Any) -> TouchdownBearing:
+        """Return the bearing with other entries."""
+        return dataclasses.replace(self, **changes)
+
+    def to_toml(self) -> str:
+        """Return the text of a table that is read as this bearing."""
+        lines = [f"{name} = {value!r}  # {self.unit(name)}".rstrip("# ") for name, value in self.given.items()]
+        return "\n".join(["[touchdown]", f'law = "{self.law}"', *lines]) + "\n"
+
+    @classmethod
+    def of(cls, table: Mapping[str, Any], has_scales: bool = True) -> TouchdownBearing:
+        """Read a table; one beside dimensionless parameters has no mass and clearance to be compared with.
+
+        Raises
+        ------
+        InputError
+            An unknown name, a value that is not allowed, or a table without a machine in SI units.
+        """
+        problems = Problems()
+        fields = {"law": MACHINE_FIELDS["friction"], **TOUCHDOWN_FIELDS}
+        problems.errors += unknown_names(table, fields, "[touchdown]")
+        if not has_scales:
+            allowed = "not allowed beside [dimensionless]: it is in SI units, which need a [machine] table"
+            problems.errors.append(InputError("touchdown", shown(dict(table)), allowed))
+        known = {name: value for name, value in table.items() if name in fields}
+        found = problems.attempt(cls, **known)
+        problems.raise_all()
+        return found or cls()
+
+
+def _without_power(given: Any) -> Any:
+    """The number of a stiffness in N/mⁿ, with or without its unit."""
+    powered = _POWERED.fullmatch(given.strip()) if isinstance(given, str) else None
+    return powered["number"] if powered else given
+
+
+def _as_number(given: Any) -> Any:
+    """The number of a fraction such as ``"10/9"``."""
+    fraction = _FRACTION.fullmatch(given.strip()) if isinstance(given, str) else None
+    return int(fraction[1]) / int(fraction[2]) if fraction else given

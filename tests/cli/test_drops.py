@@ -1,0 +1,176 @@
+"""``carom simulate --drop``, and what other commands say of a machine that weighs something."""
+
+import csv
+import json
+import math
+from pathlib import Path
+
+import pytest
+import xarray
+
+import carom as cm
+
+pytestmark = pytest.mark.jit_only
+
+MACHINE = "examples/dropped-rotor.toml"
+DROP = ("simulate", MACHINE, "--drop")
+
+
+def document(answer):
+    code, out, err = answer
+    assert (code, err) == (0, "")
+    return json.loads(out)
+
+
+def test_a_drop_as_a_document(carom):
+    found = document(carom(*DROP, "--json"))
+    case = cm.load(MACHINE)
+    motion = cm.simulate(case, cm.drop())
+    assert found["disturbance"]["kind"] == "drop"
+    assert found["disturbance"]["radius_si"] == pytest.approx(abs(motion.start.position) * 0.25e-3)
+    assert found["gravity"] == {"acceleration_si": 9.81, "direction": -0.5 * math.pi}
+    assert found["parameters"] == case.parameters.as_dict()
+    assert found["outcome"] == "at-rest"
+    assert [impact["time"] for impact in found["impacts"]] == motion.contacts.time.tolist()
+    assert [contact["kind"] for contact in found["contacts"]] == ["slide"]
+    assert {"final", "time", "loads", "scales_si"} <= found.keys()
+    assert "stages" not in found
+
+
+def test_levitation_regained_is_a_stage_of_its_own(carom, tmp_path):
+    table, log = tmp_path / "log.csv", tmp_path / "log.nc"
+    options = ("--regained-after", "5.4 ms", "--csv", str(table), "--netcdf", str(log))
+    found = document(carom(*DROP, *options, "--json"))
+    falls, levitates = found["stages"]
+    assert (falls["outcome"], levitates["outcome"], found["outcome"]) == ("triggered", "levitated", "levitated")
+    assert found["disturbance"]["regained_after_si"] == pytest.approx(5.4e-3)
+    assert found["time"] == falls["time"] + levitates["time"]
+    # It touches after levitation is back: all times count from the release.
+    assert not falls["impacts"]
+    times = [levitates["begins"] + impact["time"] for impact in levitates["impacts"]]
+    assert [impact["time"] for impact in found["impacts"]] == times
+    assert times
+    assert found["start"] == falls["start"]
+    unit = 1.0 / cm.load(MACHINE).machine.speed
+    with table.open(encoding="utf-8") as stream:
+        assert [float(row["time [s]"]) for row in csv.DictReader(stream)] == pytest.approx([unit * t for t in times])
+    with xarray.open_dataset(log) as dataset:
+        assert dataset.time.values == pytest.approx([unit * time for time in times])
+        assert dataset.attrs["end_time"] == pytest.approx(unit * found["time"])
+
+
+def test_contacts_with_a_bearing_that_gives_way(carom, tmp_path):
+    """Each contact of both stages has its loads in SI, and its times count from the release."""
+    text = Path(MACHINE).read_text(encoding="utf-8")
+    lines = [line for line in text.splitlines() if not line.startswith("restitution")]
+    bearing = ["[touchdown]", 'law = "kelvin-voigt"', 'stiffness = "1e8 N/m"', 'damping = "3000 N s/m"']
+    machine = tmp_path / "machine.toml"
+    machine.write_text("\n".join([*lines, *bearing]), encoding="utf-8")
+    found = document(carom("simulate", str(machine), "--drop", "--regained-after", "5.9 ms", "--json"))
+    scales, (falls, levitates) = found["scales_si"], found["stages"]
+    # Levitation is back in the middle of the first contact.
+    first, second, *_ = found["contacts"]
+    assert not found["impacts"]
+    assert len(found["contacts"]) == len(falls["contacts"]) + len(levitates["contacts"])
+    assert (first["plane"], first["lasts"], second["plane"], second["lasts"]) == (0, True, 0, False)
+    assert first["end"] == second["start"] == levitates["begins"]
+    assert first["start"] < first["peak_time"] <= first["end"] <= second["peak_time"] < second["end"]
+    # Beside the wall's force others hardly count in so short a time.
+    change = (first["radial_speed"] - second["radial_speed_after"]) * scales["velocity"]
+    assert first["impulse_si"] + second["impulse_si"] == pytest.approx(5.0 * change, rel=0.05)
+    deepest = first["radial_speed"] * scales["velocity"] * math.sqrt(5.0 / 1e8)
+    assert 0.8 * deepest < first["deepest_si"] < 1.05 * deepest
+    assert first["peak_force_si"] == pytest.approx(1e8 * first["deepest_si"], rel=0.05)
+
+
+def test_a_drop_in_words_is_seen_from_the_fixed_frame(carom):
+    code, out, err = carom(*DROP)
+    words = " ".join(out.split())
+    assert (code, err) == (0, "")
+    assert "Levitation is lost 0.0986 mm from the centre at -91.3°" in words
+    assert "under 9.81 m/s² at -90°; angles are those of the fixed frame" in words
+    assert "The rotor ends in rest on the touchdown bearing" in words
+    assert "At the end, in the fixed frame: 1 c_r (0.25 mm) from the centre at -" in words
+    assert "-89.7°" in words  # the first impact, next to the bottom
+
+
+def test_a_drop_with_a_start_or_a_kick(carom):
+    centre = document(carom(*DROP, "--start", "0,0,0,0", "--set", "eccentricity=0", "--json"))
+    assert centre["impacts"][0]["time"] / cm.load(MACHINE).machine.speed == pytest.approx(7.139215615e-3, abs=5e-13)
+    kicked = document(carom(*DROP, "--kick", "50 mm/s", "--until", "10 ms", "--json"))
+    assert kicked["outcome"] == "time-reached"
+
+
+def test_figures_of_both_stages(carom, tmp_path):
+    code, _, err = carom(*DROP, "--regained-after", "12 ms", "--out", str(tmp_path / "drop"))
+    assert (code, err.strip()) == (0, f"Written to {tmp_path / 'drop'}")
+    names = {path.stem for path in (tmp_path / "drop" / "figures").iterdir()}
+    assert {"motion", "touchdown", "motion-2", "radius-2"} <= names
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (
+            ("simulate", "examples/keogh-cole.toml", "--drop"),
+            "gravity = nothing given: a drop needs weight: a table [gravity]",
+        ),
+        ((*DROP, "--set", "gravity=0"), "gravity = nothing given: a drop needs weight"),
+        (
+            ("simulate", "examples/source-paper.toml", "--drop", "--set", "gravity=9.81"),
+            "gravity = 9.81: not allowed beside",
+        ),
+        ((*DROP, "--shock", "5 g"), "--drop = with --shock 5 g: allowed alone, or with one of --start and --kick"),
+        (
+            (*DROP, "--kick", "5 mm/s", "--start", "0,0,0,0"),
+            "--drop = with --start 0,0,0,0 with --kick 5 mm/s: allowed",
+        ),
+        ((*DROP, "--regained-after", "5"), "--regained-after = 5: must be a time"),
+        (
+            ("simulate", MACHINE, "--kick", "5 mm/s", "--regained-after", "5 ms"),
+            "--regained-after = 5 ms: allowed only with",
+        ),
+        (
+            (*DROP, "--set", "stiffness=1e5 N/m"),
+            "levitation = up to 1.97 clearances from the centre: static sag and whirl",
+        ),
+        (("simulate", MACHINE, "--shock", "5 g"), "machine = a rotor under gravity: needs a rotor without gravity"),
+    ],
+)
+def test_bad_drops_get_one_line(carom, arguments, words):
+    code, out, err = carom(*arguments)
+    assert (code, out) == (2, "")
+    assert err.startswith(f"carom: {words}")
+    assert err.count("\n") == 1
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ("study",),
+        ("orbits",),
+        ("orbits", "--impacts", "2"),
+        ("attractors",),
+        ("prove",),
+        ("bifurcations", "--along", "gamma", "--from", "0.1", "--to", "0.2"),
+        ("regions",),
+        ("response", "--from", "1000 rpm", "--to", "2000 rpm"),
+        ("explore", "--no-browser", "--port", "0"),
+    ],
+)
+def test_other_commands_name_gravity_and_what_works(carom, arguments):
+    command, *options = arguments
+    code, out, err = carom(command, MACHINE, *options)
+    assert (code, out) == (2, "")
+    assert err.startswith("carom: machine = a rotor under gravity: needs a rotor without gravity")
+    assert "carom.map_basins of kicks" in err
+    assert err.count("\n") == 1
+
+
+def test_kicks_of_a_heavy_rotor_are_mapped(carom):
+    found = document(
+        carom("basins", MACHINE, "--grid", "6x8", "--set", "damping=100 N s/m", "--fastest", "500 mm/s", "--json")
+    )
+    assert found["starts"] == 48
+    assert found["fractions"]["levitation"] > 0.2
+    assert 0.0 < found["harmless_kick"] < found["smallest_unrecovered_kick"]

@@ -1,0 +1,116 @@
+"""Weight as a force on a rotor, and what is left of the rotor without its levitation."""
+
+import math
+
+import numpy as np
+import pytest
+from linear_rotors import single, tilting
+from machines import PAPER
+
+import carom as cm
+from carom.models import Force, Forced, Jeffcott, LinearRotor, Stage, Staged, jeffcott_of, model_of
+from carom.models.weight import levitation_of, refuse_forces, weight_of, weighted, without_levitation
+from carom.outcome import InputError
+from carom.parameters import Gravity, Parameters, Scales
+
+HEAVY = cm.load("examples/dropped-rotor.toml")
+ROTOR = model_of(HEAVY)
+PULL = 9.81 / (0.25e-3 * (300.0 * math.pi) ** 2)
+
+
+def test_the_model_of_a_heavy_case_has_its_weight():
+    assert isinstance(ROTOR, Forced)
+    assert ROTOR.rotor == Jeffcott(HEAVY.parameters)
+    assert weight_of(ROTOR) == pytest.approx(-1j * PULL)
+    assert weight_of(Staged((Stage(ROTOR),))) == pytest.approx(-1j * PULL)
+    assert model_of(HEAVY.replace(gravity=0)) == Jeffcott(HEAVY.parameters)
+
+
+def test_no_other_force_is_weight():
+    assert weight_of(Jeffcott(PAPER)) is None
+    assert weight_of(Forced(Jeffcott(PAPER), (Force(0.3j, np.array([0.1])),))) is None
+
+
+@pytest.mark.parametrize("changes", [{"speed": "6000 rpm"}, {"clearance": "0.4 mm"}, {"mass": "9 kg"}, {"gamma": 0.2}])
+def test_weight_keeps_its_acceleration_in_si_whatever_is_varied(changes):
+    varied, again = ROTOR.replace(**changes), model_of(HEAVY.replace(**changes))
+    assert weight_of(varied) == pytest.approx(weight_of(again), rel=1e-15)
+    assert varied.value("omega") == pytest.approx(again.value("omega"), rel=1e-15)
+
+
+def test_a_shaken_housing_keeps_its_frequency_when_the_shaft_turns_faster():
+    shaken = Forced(ROTOR.rotor, (Force(0.5j, np.array([0.1])),)).replace(speed=1.25 * HEAVY.machine.speed)
+    assert shaken.forces[0].exponent == pytest.approx(1j * (1.5 / 1.25 - 1.0))
+    assert shaken.forces[0].accelerations == pytest.approx(0.1 / 1.25**2)
+
+
+def test_all_masses_fall_alike():
+    scales = Scales(5.0, 0.25e-3, 1000.0)
+    rotor = tilting().model.replace(scales=scales)
+    assert weight_of(weighted(rotor, Gravity())) == pytest.approx(Gravity().pull(scales) * rotor.system.translated)
+    with pytest.raises(InputError, match=r"^gravity = 9.81 m/s² at -90°: a rotor with mass, clearance and speed"):
+        weighted(tilting().model, Gravity())
+
+
+def test_levitation_is_a_circle_about_the_static_sag():
+    position, velocity = levitation_of(ROTOR)
+    sag = 5.0 * 9.81 / 5e5 / 0.25e-3
+    whirl = ROTOR.rotor.equilibrium
+    # Damping does not act on what stands still in the fixed frame.
+    assert position[0] == pytest.approx(whirl - 1j * sag, abs=1e-14)
+    assert velocity[0] + 1j * position[0] == pytest.approx(1j * whirl, abs=1e-14)
+
+
+def test_a_rotor_that_sags_to_the_wall_does_not_levitate():
+    with pytest.raises(InputError, match=r"^levitation = up to 1.97 clearances from the centre: .* inside the wall"):
+        levitation_of(model_of(HEAVY.replace(stiffness="1e5 N/m")))
+    with pytest.raises(InputError, match=r"^levitation = none, nothing holds the rotor"):
+        levitation_of(without_levitation(ROTOR))
+
+
+@pytest.mark.parametrize("rotor", [ROTOR.rotor, single(1).model], ids=["by parameters", "by matrices"])
+def test_without_levitation_no_spring_and_no_damper_acts(rotor):
+    free = without_levitation(rotor)
+    assert isinstance(free, LinearRotor)
+    assert not free.matrices.stiffness.any()
+    assert not free.matrices.damping.any()
+    for name in ("mass", "gyroscopic", "forcing"):
+        assert np.array_equal(getattr(free.matrices, name), getattr(rotor.matrices, name))
+    for name in ("friction", "restitution", "surface_speed", "law"):
+        assert np.array_equal(free.system.arrays[name], rotor.system.arrays[name])
+    assert free.scales == rotor.scales
+
+
+def test_levitation_and_shaft_of_a_rotor_of_several_coordinates_are_not_told_apart():
+    with pytest.raises(InputError, match=r"^machine = .*: a rotor of one coordinate; .* carom.models.Staged"):
+        without_levitation(tilting().model)
+
+
+@pytest.mark.parametrize(
+    "asked",
+    [
+        cm.find_equilibria,
+        cm.find_orbits,
+        lambda machine: cm.find_orbits(machine, impacts=2),
+        lambda machine: cm.find_bifurcations(machine, "gamma", (0.1, 0.2)),
+        lambda machine: cm.find_attractors(machine, count=3),
+        lambda machine: cm.map_regions(machine, cm.bifurcations.Plane("gamma", "omega", (0.1, 0.2), (0.3, 0.4))),
+        cm.study,
+        cm.models.case_of,
+        jeffcott_of,
+        lambda machine: cm.BaseShock(0.1, 1.0).stages(machine),
+        lambda machine: refuse_forces(model_of(machine)),
+    ],
+)
+def test_what_needs_a_rotor_at_rest_in_its_frame_names_gravity_and_what_works(asked):
+    with pytest.raises(InputError) as problem:
+        asked(HEAVY)
+    assert str(problem.value).startswith("machine = a rotor under gravity: needs a rotor without gravity")
+    assert "carom.simulate, carom.settle, carom.drop, and carom.map_basins" in str(problem.value)
+
+
+def test_other_forces_are_not_called_gravity():
+    shaken = Forced(Jeffcott(PAPER), (Force(0.3j, np.array([0.1])),))
+    with pytest.raises(InputError, match=r"^machine = a rotor under forces that change with time: "):
+        refuse_forces(shaken)
+    assert Parameters(**vars(PAPER)) == cm.models.subjects.parameters_of(shaken)

@@ -1,0 +1,132 @@
+"""Levitation lost: free fall with the whirl at the release, in closed form, and levitation that is back."""
+
+import cmath
+import math
+
+import numpy as np
+import pytest
+from linear_rotors import tilting
+
+import carom as cm
+from carom.models import Forced, LinearRotor, Stage, Staged, model_of
+from carom.motions import Drop
+from carom.outcome import InputError, Outcome
+
+pytestmark = pytest.mark.jit_only
+
+HEAVY = cm.load("examples/dropped-rotor.toml")
+ROTOR = model_of(HEAVY)
+PULL = 9.81 / (0.25e-3 * (300.0 * math.pi) ** 2)
+
+
+def fallen(times, place, speed, eccentricity, phase, pull=PULL):
+    """Position in the fixed frame of a free rotor, by integrating its two forces by hand."""
+    turned = np.exp(1j * times) - 1.0 - 1j * times
+    return place + speed * times - 0.5j * pull * times**2 - eccentricity * cmath.exp(1j * phase) * turned
+
+
+@pytest.mark.parametrize("phase", [None, 0.7, "-130 deg"])
+def test_it_falls_from_levitation_with_its_whirl(phase):
+    motion = cm.simulate(HEAVY, cm.drop(phase=phase), until=5.0)
+    ahead = {None: 0.5 * math.pi, 0.7: 0.7, "-130 deg": math.radians(-130.0)}[phase]
+    unbalance = -0.5 * math.pi + ahead
+    whirl = ROTOR.rotor.equilibrium * cmath.exp(1j * unbalance)
+    times = np.linspace(0.0, 5.0, 11)
+    expected = fallen(times, whirl - 1j * PULL / HEAVY.parameters.omega**2, 1j * whirl, HEAVY.parameters.rho, unbalance)
+    assert not len(motion.contacts)
+    assert motion.position(times, "fixed") == pytest.approx(expected, abs=1e-13)
+
+
+def test_from_the_centre_it_touches_after_the_time_of_free_fall():
+    motion = cm.simulate(HEAVY.replace(eccentricity=0.0), cm.drop(cm.State(0.0)))
+    first = motion.contacts.time[0] * motion.rotor.scales.time
+    assert first == pytest.approx(7.139215615e-3, abs=5e-13)
+    assert motion.position(motion.contacts.time[0], "fixed") == pytest.approx(-1j, abs=1e-12)
+
+
+def test_a_state_or_a_kick_at_the_release():
+    state = cm.State(0.3 - 0.2j, 0.1j)
+    assert Drop(state).stages(HEAVY)[1] == state
+    _, kicked = cm.drop(cm.kick("50 mm/s", "30 deg")).stages(HEAVY)
+    _, levitates = cm.drop().stages(HEAVY)
+    assert kicked.position == levitates.position
+    push = cmath.rect(0.05 / HEAVY.parameters.scales.velocity, math.radians(30.0))
+    assert kicked.velocity - levitates.velocity == pytest.approx(push, abs=1e-15)
+
+
+def test_the_rotor_that_falls_has_its_weight_and_no_levitation():
+    rotor, _ = cm.drop().stages(HEAVY)
+    assert isinstance(rotor, Forced)
+    assert isinstance(rotor.rotor, LinearRotor)
+    assert rotor.forces == ROTOR.forces
+    assert rotor.value("omega") == rotor.value("gamma") == 0.0
+
+
+def test_one_drop_like_many():
+    starts = [cm.drop(phase=angle).stages(HEAVY) for angle in (0.0, 1.0, 2.0)]
+    for rotor, start in starts:
+        ending = cm.settle(rotor, np.array([start.position]), np.array([start.velocity]))
+        motion = cm.simulate(rotor, start)
+        assert (ending.outcomes[0], ending.impacts[0]) == (motion.outcome, motion.is_impact.sum())
+
+
+def test_levitation_is_back_after_a_time():
+    motion = cm.simulate(HEAVY, cm.drop(regained_after="10 ms"))
+    falls, levitates = motion.parts
+    assert falls.outcome is Outcome.TRIGGERED
+    assert falls.time * HEAVY.parameters.scales.time == pytest.approx(0.01, rel=1e-15)
+    assert len(falls.contacts) == 1
+    assert levitates.rotor.value("omega") == ROTOR.value("omega")
+    assert motion.outcome is Outcome.LEVITATED
+    # A later time than that at which it settles: the fall is followed until then all the same.
+    assert cm.simulate(HEAVY, cm.drop(regained_after="9 s")).parts[0].outcome is Outcome.TRIGGERED
+
+
+def test_turned_by_an_angle_everything_is_turned():
+    """Down, the unbalance and the state at the release."""
+    start, angle = cm.State(0.1 + 0.3j, -0.2 + 0.1j), 0.83
+    turned = HEAVY.replace(unbalance_phase=angle)
+    turned = type(turned)(
+        turned.name,
+        turned.parameters,
+        turned.machine,
+        turned.zones,
+        gravity=cm.parameters.Gravity(9.81, angle - math.pi / 2),
+    )
+    turn = cmath.exp(1j * angle)
+    one = cm.simulate(HEAVY, cm.drop(start), until=60.0)
+    other = cm.simulate(turned, cm.drop(cm.State(start.position * turn, start.velocity * turn)), until=60.0)
+    times = np.linspace(0.0, 60.0, 50)
+    assert len(one.contacts) == len(other.contacts) > 3
+    assert other.position(times) == pytest.approx(one.position(times) * turn, abs=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("machine", "drop", "words"),
+    [
+        (cm.load("examples/keogh-cole.toml"), Drop(), r"^gravity = nothing given: a drop needs weight: .*\[gravity\]"),
+        (HEAVY.machine, Drop(), "^gravity = nothing given"),
+        (Staged((Stage(ROTOR),)), Drop(), "^machine = .*: a machine of one stage"),
+        (HEAVY.replace(stiffness="1e5 N/m"), Drop(), "^levitation = up to 1.97 clearances"),
+        (HEAVY.replace(stiffness="1e5 N/m"), Drop(cm.kick(0.1)), "^levitation = up to 1.97 clearances"),
+        (HEAVY, Drop(phase="3 mm"), "^phase = 3 mm: must be an angle"),
+        (HEAVY, Drop(regained_after="3 mm"), "^regained_after = 3 mm: must be a time"),
+        (HEAVY, Drop(regained_after=-1.0), "^regained_after = -1.0: a finite time above 0"),
+        (HEAVY, Drop(cm.State(2.0)), "^start position = .*: inside the wall"),
+    ],
+)
+def test_what_cannot_be_dropped(machine, drop, words):
+    with pytest.raises(InputError, match=words):
+        cm.simulate(machine, drop)
+
+
+def test_rotors_of_several_coordinates_are_dropped_in_stages():
+    scales = cm.parameters.Scales(5.0, 0.25e-3, 1000.0)
+    heavy = cm.models.weight.weighted(tilting().model.replace(scales=scales), cm.parameters.Gravity(0.1))
+    with pytest.raises(InputError, match=r"carom.models.Staged"):
+        cm.simulate(heavy, cm.drop())
+
+
+def test_a_kick_out_of_levitation_that_is_not_there_is_refused():
+    with pytest.raises(InputError, match=r"^levitation = up to 1.97 clearances"):
+        cm.simulate(HEAVY.replace(stiffness="1e5 N/m"), cm.kick(0.1))

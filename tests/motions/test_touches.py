@@ -1,0 +1,192 @@
+"""Contacts with walls that give way: closed forms of a free mass, and the reference."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from compliant_reference import ROLLING, SEPARATED
+from linear_rotors import single, tilting
+from scipy.optimize import brentq
+from yielding_walls import SUMS, contacts_of, free_mass, with_walls
+
+from carom.models import HuntCrossley, KelvinVoigt
+from carom.motions import State, energy_ledger, simulate, touchdown_loads
+from carom.motions.contacts import presses
+from carom.motions.quadrature import NODES, largest
+from carom.outcome import Phase
+from carom.parameters import Scales
+
+pytestmark = pytest.mark.jit_only
+SPEED = 0.7
+COMPARED = ("start", "end", "radial_speed", "radial_speed_after", "peak_force", "deepest", *SUMS)
+MEETS_AGAIN = (0.1347377930935035 - 0.37505867749253735j, 0.5369589511310852 + 1.3589087556179946j)
+"""A start that does, found by following many."""
+
+
+def hit_of(law):
+    """The one contact of a free mass that flies straight at its wall, at 0.7."""
+    motion = simulate(free_mass(law), State(0j, SPEED + 0j), 2.5)
+    assert len(motion.touches) == 1
+    return motion.touches, motion
+
+
+@pytest.mark.parametrize("stiffness", [1e2, 1e4, 1e7])
+@pytest.mark.parametrize("ratio", [0.0, 0.0164982, 0.3, 0.49, 0.51, 0.9, 2.0])
+def test_free_mass_on_a_kelvin_voigt_wall(stiffness, ratio):
+    """``ẍ + cẋ + κx = 0`` until the force vanishes; then free flight until the wall's place is left, ``c/κ`` later."""
+    damping = 2.0 * ratio * math.sqrt(stiffness)
+    hit, _ = hit_of(KelvinVoigt(stiffness, damping))
+    root, angle = math.sqrt(abs(1.0 - ratio**2)), math.acos(ratio) if ratio < 1.0 else math.acosh(ratio)
+    restitution = math.exp(-2.0 * ratio * angle / root)
+    held = 2.0 * angle / root / math.sqrt(stiffness)
+    depth = SPEED / math.sqrt(stiffness) * math.exp(-ratio * angle / root)
+    sine = math.asin(min(ratio, 1.0))
+    peak = SPEED * damping
+    if ratio < 0.5:
+        peak = SPEED * math.sqrt(stiffness) * math.exp(-math.tan(sine) * (0.5 * math.pi - 3.0 * sine))
+    # A depth is known to the rounding of the radius, 1e-16, beside at least 7e-5.
+    assert hit.restitution[0] == pytest.approx(restitution, rel=1e-10)
+    assert hit.duration[0] == pytest.approx(held + damping / stiffness, rel=1e-9)
+    assert hit.deepest[0] == pytest.approx(depth, rel=1e-10)
+    assert hit.peak_force[0] == pytest.approx(peak, rel=1e-10)
+    assert hit.normal_impulse[0] == pytest.approx(SPEED * (1.0 + restitution), rel=1e-10)
+    assert hit.normal_loss[0] == pytest.approx(0.5 * SPEED**2 * (1.0 - restitution**2), rel=1e-9, abs=1e-13)
+    assert hit.heat[0] == hit.friction_impulse[0] == 0.0
+    assert hit.start[0] == pytest.approx(1.0 / SPEED, rel=1e-12)
+    if 0.0 < ratio < 0.5:
+        time = (0.5 * math.pi - 3.0 * sine) / (math.sqrt(stiffness) * math.cos(sine))
+        # A maximum is flat: its place is known to the root of the rounding of its value.
+        assert hit.peak_time[0] - hit.start[0] == pytest.approx(time, abs=1e-6 * held)
+
+
+@pytest.mark.parametrize("stiffness", [1e2, 1e5, 1e7])
+@pytest.mark.parametrize("dissipation", [0.02, 0.5, 3.0])
+def test_free_mass_on_a_hunt_crossley_wall(stiffness, dissipation):
+    """The restitution is independent of the stiffness; the depth follows from ``u du/(1 + χu) = −κδ dδ``."""
+    hit, motion = hit_of(HuntCrossley(stiffness, dissipation))
+    grown = dissipation * SPEED
+
+    def off(share):
+        return math.log((1.0 + grown) / (1.0 - share * grown)) - grown * (1.0 + share)
+
+    restitution = brentq(off, 1e-6, min(1.0, (1.0 - 1e-12) / grown), xtol=1e-15)
+    depth = math.sqrt(2.0 * (SPEED / dissipation - math.log1p(grown) / dissipation**2) / stiffness)
+    assert hit.restitution[0] == pytest.approx(restitution, rel=1e-9)
+    assert hit.deepest[0] == pytest.approx(depth, rel=1e-9)
+    assert hit.normal_loss[0] == pytest.approx(0.5 * SPEED**2 * (1.0 - restitution**2), rel=1e-9)
+    assert Phase.SEPARATED not in motion.segment_phases
+
+
+def compared(rotor, law, start, until):
+    """A motion and its contacts by the reference, after comparing them."""
+    model = with_walls(rotor, law)
+    others = contacts_of(model, *map(np.atleast_1d, start), until)
+    motion = simulate(model, State(*start), until)
+    for plane in range(len(rotor.planes)):
+        touches, here = motion.seen_at(plane).touches, [touch for touch in others if touch.plane == plane]
+        assert len(here) == len(touches) - touches.lasts.sum()
+        for place, other in enumerate(here):
+            for name in COMPARED:
+                expected = pytest.approx(getattr(other, name), rel=1e-8, abs=1e-9)
+                assert getattr(touches, name)[place] == expected, (name, plane, place)
+    return others, motion
+
+
+def meetings(motion):
+    """How often the plane meets a wall again from which it has parted, before it has left its place."""
+    phases = motion.segment_phases[:, 0]
+    return ((phases[:-1] == Phase.SEPARATED) & presses(phases[1:])).sum()
+
+
+@pytest.mark.parametrize(
+    ("law", "friction", "ratio", "until"),
+    [
+        (KelvinVoigt(1e3, 1.0), 0.15, 20.0, 3.0),
+        (KelvinVoigt(1e4, 250.0), 0.15, 20.0, 8.0),
+        (HuntCrossley(1e4, 0.1), 0.15, 20.0, 3.0),
+        (KelvinVoigt(1e3, 1.0), 0.8, 1.5, 3.0),
+        (HuntCrossley(1e4, 0.1), 0.8, 1.5, 3.0),
+    ],
+)
+def test_one_plane_against_the_reference(law, friction, ratio, until):
+    others, motion = compared(single(1, friction=friction, radius_ratio=ratio), law, (0.2 + 0.1j, 1.0 + 0.3j), until)
+    assert len(others) >= 2
+    phases = {phase for touch in others for phase in touch.phases}
+    assert (ROLLING in phases) == (Phase.ROLLING in motion.segment_phases) == (ratio < 2.0)
+    assert (SEPARATED in phases) == (Phase.SEPARATED in motion.segment_phases) == isinstance(law, KelvinVoigt)
+
+
+def test_a_plane_that_meets_its_wall_again():
+    """Strongly damped walls come back so slowly that the plane parts from them, turns, and meets them at another depth."""
+    rotor = single(1, friction=0.8, radius_ratio=1.5)
+    _, motion = compared(rotor, KelvinVoigt(1e3, 60.0), MEETS_AGAIN, 5.2)
+    assert meetings(motion) == 1
+    assert energy_ledger(motion).imbalance < 1e-12
+
+
+@pytest.mark.parametrize(
+    ("law", "friction", "ratio"), [(KelvinVoigt(3e2, 1.0), 0.15, 20.0), (HuntCrossley(1e3, 0.2), 0.8, 1.5)]
+)
+def test_two_planes_against_the_reference(law, friction, ratio):
+    rotor = tilting(2, friction=friction, radius_ratio=ratio)
+    others, motion = compared(rotor, law, (np.array([0.1, 0.02j]), np.array([0.9 + 0.2j, 0.02])), 5.0)
+    assert {touch.plane for touch in others} == {0, 1}
+    assert (motion.segment_phases != Phase.FLIGHT).all(axis=1).any()
+
+
+def test_a_contact_that_goes_on():
+    """Pressed into the wall by the unbalance until the end: not left, and its impulse is no impact's."""
+    rotor = single(1, friction=0.15, radius_ratio=20.0, forcing=np.array([1.5]))
+    motion = simulate(with_walls(rotor, KelvinVoigt(1e3, 20.0)), State(0.5 + 0j, 0j), 30.0)
+    touches, loads = motion.touches, touchdown_loads(motion)
+    assert touches.lasts[-1]
+    assert not touches.lasts[:-1].any()
+    assert np.isnan(touches.restitution[-1])
+    assert touches.end[-1] == motion.time
+    assert loads.impulse == touches.normal_impulse[:-1].max(initial=0.0) < touches.normal_impulse[-1]
+    assert loads.impacts == len(touches)
+
+
+def test_a_motion_that_begins_in_the_wall():
+    """The ledger closes, and the first contact was not entered."""
+    motion = simulate(with_walls(single(1), KelvinVoigt(1e4, 3.0)), State(0.81, 0.3), 8.0)
+    touches = motion.touches
+    assert touches.entered.tolist() == [False] + [True] * (len(touches) - 1)
+    assert np.isnan(touches.restitution[0])
+    assert touches.start[0] == 0.0
+    assert energy_ledger(motion).imbalance < 1e-12
+
+
+def test_rigid_walls_have_no_such_contacts():
+    motion = simulate(tilting().model, State(np.zeros(2), np.array([0.9, 0.1])), 10.0)
+    assert motion.is_impact.any()
+    assert len(motion.touches) == 0
+    assert motion.touches.restitution.shape == (0,)
+    assert touchdown_loads(motion).depth == 0.0
+
+
+def test_in_si():
+    scales, law = Scales(mass=50.0, clearance=0.7e-3, speed=184.2), KelvinVoigt(1e4, 3.0)
+    motion = simulate(with_walls(single(1), law, scales), State(0.2, 1.0), 8.0)
+    touches, table = motion.touches, motion.touches.to_dataset()
+    assert table["peak_force"].attrs["units"] == "N"
+    assert table["peak_force"].values == pytest.approx(touches.peak_force * 50.0 * 0.7e-3 * 184.2**2)
+    assert table["deepest"].values == pytest.approx(touches.deepest * 0.7e-3)
+    assert table["start"].values == pytest.approx(touches.start / 184.2)
+    assert table["phase"].attrs["flag_meanings"].split()[int(table["phase"][0])] == "forward_slip"
+    assert touchdown_loads(motion).si()["depth"] == pytest.approx(0.7e-3 * touches.deepest.max())
+
+
+def test_largest_values_of_functions_known_at_the_nodes():
+    """Against the maxima of parabolas, sines and lines, within the pieces and at their ends."""
+    places = np.array([-0.93, -0.2, 0.41, 1.7])
+    peaks, found = largest(2.0 - 0.3 * (NODES - places[:, None]) ** 2)
+    assert found == pytest.approx(np.minimum(places, 1.0), abs=1e-8)
+    assert peaks == pytest.approx(2.0 - 0.3 * (np.minimum(places, 1.0) - places) ** 2, rel=1e-14)
+    peaks, found = largest(np.sin(4.0 * NODES[None] + 0.3) + 0.1 * NODES)
+    top = (math.acos(-0.025) - 0.3) / 4.0
+    assert found[0] == pytest.approx(top, abs=1e-7)
+    assert peaks[0] == pytest.approx(math.sin(4.0 * top + 0.3) + 0.1 * top, rel=1e-9)
+    assert largest(-NODES[None])[1] == largest(np.ones((1, 16)))[1] == -1.0

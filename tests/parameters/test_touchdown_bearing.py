@@ -1,0 +1,117 @@
+"""The table ``[touchdown]``: what it says, what it refuses in one line, and settings."""
+
+from __future__ import annotations
+
+import pytest
+
+import carom as cm
+from carom.outcome import InputError
+from carom.parameters import Gravity, TouchdownBearing
+
+MACHINE = """
+[machine]
+mass = "14.5 kg"
+damping = "1400 N s/m"
+stiffness = "9.8e5 N/m"
+eccentricity = "5 um"
+clearance = "0.25 mm"
+rotor_radius = "25 mm"
+speed = "20000 rpm"
+friction = 0.2
+"""
+SOFT = '[touchdown]\nlaw = "kelvin-voigt"\nstiffness = "1e8 N/m"\n'
+
+
+def load(tmp_path, touchdown, settings=(), machine=MACHINE):
+    path = tmp_path / "machine.toml"
+    path.write_text(machine + touchdown)
+    return cm.load(path, settings)
+
+
+def test_a_bearing_of_rollers_with_race_and_mount(tmp_path):
+    case = load(
+        tmp_path,
+        '[touchdown]\nlaw = "hunt-crossley"\nstiffness = "1e9 N/m^(10/9)"\nexponent = "10/9"\ndissipation = "0.3 s/m"\n'
+        'race_inertia = "2 kg cm^2"\nrace_drag = "1e-4 N m s"\nmount_mass = "2 kg"\nmount_stiffness = "20 N/um"\nmount_damping = 3000',
+    )
+    bearing = case.touchdown
+    assert bearing == TouchdownBearing(
+        "hunt-crossley", 1e9, None, 0.3, None, None, 10 / 9, 2e-4, 1e-4, 2.0, 2e7, 3000.0
+    )
+    assert ("touchdown bearing", bearing.words) in case.rows()
+    assert "restitution" not in dict(case.rows())
+    assert "coefficient of restitution" not in dict(case.rows())
+    again = load(tmp_path, bearing.to_toml())
+    assert again.touchdown == bearing
+
+
+def test_a_rigid_bearing_is_the_machine_with_its_restitution(tmp_path):
+    case = load(tmp_path, '[touchdown]\nlaw = "rigid"\n', machine=MACHINE + "restitution = 0.9\n")
+    assert case.touchdown is None
+    assert isinstance(cm.models.model_of(case), cm.models.Jeffcott)
+
+
+def test_settings_and_replace_change_entries(tmp_path):
+    case = load(tmp_path, SOFT + "damping = 500\n", ["touchdown_stiffness=2e8 N/m", "touchdown_damping=300"])
+    assert case.touchdown == TouchdownBearing("kelvin-voigt", 2e8, 300.0)
+    assert case.replace(touchdown_stiffness="3e8 N/m", speed="9000 rpm").touchdown.stiffness == 3e8
+
+
+@pytest.mark.parametrize(
+    ("table", "words"),
+    [
+        ("damping = 500\nrestitution = 0.9", "restitution = 0.9: must be left out: give damping or restitution, not both"),
+        ("", "damping = nothing given"),
+        ("damping = 500\ndissipation = 0.3", "dissipation = 0.3: must be left out: the law kelvin-voigt has a damping"),
+        ("damping = -500", "damping = -500"),
+        ("damping = 500\nexponent = 1.5", "exponent = 1.5: must be left out"),
+        ("damping = 500\nexponent = 0.5", "exponent = 0.5: must be a number, > 0 (1 to 2)"),
+        ("damping = 500\nmount_mass = 2", "mount_stiffness = nothing given: a mount needs mount_mass and mount_stiffness"),
+        ("damping = 500\nmount_damping = 2", "mount_mass = nothing given: a mount needs"),
+        ("damping = 500\nrace_drag = 2", "race_inertia = nothing given: a race with drag needs it"),
+        ("restitution = 0.9\nrestitution_speed = 0.1", "restitution_speed = 0.1: must be left out: the restitution of kelvin-voigt"),
+        ("restitution = 0.0", "restitution = 0.0"),
+        ("restitution = 0.9\nmount_mass = 2\nmount_stiffness = 1e7", "restitution = 0.9: must be left out: it is that of the rotor on a fixed"),
+        ("damping = 500\nstiffnes = 3", "stiffnes = 3"),
+    ],
+)  # fmt: skip
+def test_bad_input_gets_one_line(tmp_path, table, words):
+    with pytest.raises(InputError) as caught:
+        load(tmp_path, SOFT + table)
+    assert words in str(caught.value)
+    assert "\n" not in str(caught.value) or "mount" in table
+
+
+@pytest.mark.parametrize(
+    ("table", "words"),
+    [
+        ('[touchdown]\nlaw = "kelvin-voigt"\nstiffness = -1e8\ndamping = 5', "stiffness = -100000000.0"),
+        ('[touchdown]\nlaw = "lankarani-nikravesh"', "law = lankarani-nikravesh: must be one of rigid, kelvin-voigt, hunt-crossley"),
+        ('[touchdown]\nlaw = "hunt-crossley"\nstiffness = 1e8\nrestitution = 0.8', "restitution_speed = nothing given: the restitution of hunt-crossley changes"),
+        ('[touchdown]\nlaw = "hunt-crossley"\nstiffness = 1e8\ndamping = 8', "damping = 8.0: must be left out: the law hunt-crossley has a dissipation"),
+        ('[touchdown]\nlaw = "rigid"\nstiffness = 1e8', "stiffness = 100000000.0: must be left out: the law of a rigid wall has none"),
+    ],
+)  # fmt: skip
+def test_what_a_law_does_not_have(tmp_path, table, words):
+    with pytest.raises(InputError, match=r".*") as caught:
+        load(tmp_path, table, machine=MACHINE + ("restitution = 0.9\n" if "rigid" in table else ""))
+    assert words in str(caught.value)
+
+
+def test_a_restitution_of_the_machine_beside_the_law_is_refused(tmp_path):
+    with pytest.raises(InputError, match=r"restitution = 0\.9: must be left out: the touchdown bearing gives way"):
+        load(tmp_path, SOFT + "damping = 500\n", machine=MACHINE + "restitution = 0.9\n")
+    with pytest.raises(InputError, match=r"restitution = 0\.9: must be left out"):
+        load(tmp_path, SOFT + "damping = 500\n", ["restitution=0.9"])
+    with pytest.raises(InputError, match="touchdown_stiffness = -1"):
+        load(tmp_path, SOFT + "damping = 500\n", ["touchdown_stiffness=-1"])
+    with pytest.raises(InputError, match="touchdown"):
+        load(tmp_path, SOFT + "damping = 500\n", machine="[dimensionless]\ngamma=0.1\nomega=0.7\nrho=0.4\nphi=0\nmu=0.1\nradius_ratio=50\nd=0.9\n")  # fmt: skip
+
+
+def test_a_machine_with_weight_and_such_a_bearing_falls(tmp_path):
+    case = load(tmp_path, SOFT + "damping = 500\n[gravity]\n", ["eccentricity=0"])
+    assert case.gravity == Gravity()
+    motion = cm.simulate(case, cm.drop(cm.State(0)), "20 ms")
+    first = motion.segment_starts[1] * motion.rotor.scales.time
+    assert first == pytest.approx(7.139215615e-3, rel=1e-9)
