@@ -20,9 +20,10 @@ TOLERANCES = {"method": "DOP853", "rtol": 1e-13, "atol": 1e-14}
 
 
 class Turning:
-    """A :class:`~carom.models.LinearRotor` with a shaft; each plane is in a phase and, in contact, has a sense of slip."""
+    """A :class:`~carom.models.LinearRotor` with a shaft, under a weight per mass; each plane is in a phase and, in contact, has a sense of slip."""
 
-    def __init__(self, rotor):
+    def __init__(self, rotor, weight=0.0):
+        self.weight = weight
         matrices = rotor.matrices
         self.mass, self.damping, self.stiffness = matrices.mass, matrices.damping, matrices.stiffness
         self.forcing, self.shaft, self.touchdowns = rotor.forcing, rotor.shaft, rotor.touchdowns
@@ -95,7 +96,7 @@ class Turning:
         force = self.forcing * (speed**2 - 1j * faster) * np.exp(1j * angle) - self.damping @ v - self.stiffness @ z
         for plane, (push, grip) in forces.items():
             force = force + self.planes[plane].conj() * complex(-push, grip) * self.local(plane, y)[1]
-        return np.linalg.solve(self.mass, force)
+        return np.linalg.solve(self.mass, force) + self.weight
 
     def rate(self, _, y):
         return self.rates(y, self.forces(y))

@@ -21,6 +21,7 @@ from carom.models import (
     Touchdown,
     model_from,
 )
+from carom.models.weight import without_levitation
 
 START = cm.State(0.2 + 0.1j, 1.0)
 SOFT = KelvinVoigt(1e3, 3.3)
@@ -46,14 +47,16 @@ def double(laws, shaft, friction=(0.2, 0.3), surface_speed=(3.0, 2.0), races=(No
     )
 
 
-def assert_same(motion, reference, until, y):
+def assert_same(motion, reference, until, y, rotor=None):
     """Far above the errors found, 1e-12, and far below what any term of the equations contributes."""
     position, velocity, speed, ahead, races = reference.seen_in_the_frame(until, y)
     assert motion.final.position == pytest.approx(position if len(position) > 1 else position[0], abs=1e-11)
     assert motion.final.velocity == pytest.approx(velocity if len(velocity) > 1 else velocity[0], abs=1e-11)
     assert motion.final.shaft[0] == pytest.approx(speed, abs=1e-11)
     assert np.exp(1j * motion.final.shaft[1]) == pytest.approx(np.exp(1j * ahead), abs=1e-11)
-    turning = [race for race, each in zip(races, motion.rotor.touchdowns, strict=True) if each.race is not None]
+    turning = [
+        race for race, each in zip(races, (rotor or motion.rotor).touchdowns, strict=True) if each.race is not None
+    ]
     assert motion.final.races == pytest.approx(turning, abs=1e-11)
 
 
@@ -196,6 +199,25 @@ def test_a_heavy_rotor_stops_when_friction_has_taken_its_momentum():
     half = cm.simulate(rotor, cm.State(place, -1j * place), 0.5 * stop).final
     assert half.shaft[0] == pytest.approx(0.5, abs=1e-12)
     assert half.position == pytest.approx(place * np.exp(-0.5j * stop), abs=1e-11)
+
+
+@pytest.mark.jit_only
+def test_a_drop_against_a_general_integrator():
+    """An unbalanced rotor falls, strikes the bearing and climbs along it, while friction brakes the shaft."""
+    bare = single(KelvinVoigt(2e3, 20.0), Shaft(6.0, 0.01), 0.3, 5.0, damping=[[0.0]], stiffness=[[0.0]], forcing=[0.1])
+    motion = cm.simulate(Forced(bare, (Force(-1j, np.array([-0.02j])),)), cm.State(0.1, -0.05j), 26.0)
+    reference = Turning(bare, weight=-0.02j)
+    y = reference.follow(reference.start(0.1, -0.05j), 26.0)
+    assert reference.contacts == 2
+    assert reference.parts(y)[3] < 0.9
+    assert_same(motion, reference, 26.0, y, bare)
+
+
+def test_levitation_is_lost_with_the_shaft_that_the_rotor_has():
+    held = single(SOFT, Shaft(6.0, 0.01))
+    falling = without_levitation(Forced(held, (Force(-1j, np.array([-0.02j])),)))
+    assert falling.rotor.shaft == held.shaft
+    assert falling.system.shaft is not None
 
 
 def test_without_contact_the_speed_stays_and_the_unbalance_follows_it():
