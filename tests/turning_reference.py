@@ -1,7 +1,7 @@
 """Rotors whose shaft changes its speed, written down a second time in the fixed frame, for a general integrator.
 
 The numbers of a state are coordinates ``Z``, their rates, angle ``ϑ`` and speed ``σ`` of the shaft, and the surface speeds of the races,
-``M Z̈ + D Ż + K Z = F (σ² − iσ̇) e^{iϑ} + Σ Wᴴ(−N + iF)n`` with ``n = y/|y|``, ``Jσ̇ = T + Σ sF`` in contact.  Forces are physical ones; those that
+``M Z̈ + D Ż + K Z = F (σ² − iβ) e^{iϑ} + Σ Wᴴ(−N + iF)n`` with ``n = y/|y|``, ``Jβ = Σ sF`` and ``σ̇ = β + T/J`` in contact.  Forces are physical ones; those that
 a condition fixes (what keeps a plane on a rigid wall, or lets it roll) follow from the residuals of all conditions, which are linear.
 """
 
@@ -78,7 +78,7 @@ class Turning:
     def rates(self, y, forces):
         """Rates of the numbers with a normal force and friction at each plane in contact."""
         _, v, _, speed, races = self.parts(y)
-        torque = self.shaft.torque if forces else 0.0
+        torque = 0.0
         slowed = (
             np.array([0.0 if each.race is None else -each.race.drag / each.race.inertia for each in self.touchdowns])
             * races
@@ -88,8 +88,9 @@ class Turning:
             torque += (each.surface_speed - 1.0) * grip
             slowed[plane] -= 0.0 if each.race is None else each.race.radius**2 / each.race.inertia * grip
         faster = torque / self.shaft.inertia
+        driven = self.shaft.torque / self.shaft.inertia if forces else 0.0
         a = self.accelerations(y, forces, faster)
-        return np.concatenate([v.real, v.imag, a.real, a.imag, [speed, faster], slowed])
+        return np.concatenate([v.real, v.imag, a.real, a.imag, [speed, faster + driven], slowed])
 
     def accelerations(self, y, forces, faster):
         z, v, angle, speed, _ = self.parts(y)

@@ -31,7 +31,7 @@ from carom.core.equations import solve
 from carom.core.friction import friction_ratio, rolling_force
 from carom.core.layout import ORDER
 from carom.core.phases import ROLLING, lasts, sense_of_phase, stays
-from carom.core.shaft import couple_by_shaft, excess_coefficient, spin_up, sweep_unbalance, turn_shaft
+from carom.core.shaft import brake_shaft, couple_by_shaft, excess_coefficient, sweep_unbalance, turn_shaft
 from carom.core.wall import wall_of, yields
 
 
@@ -72,7 +72,7 @@ def rub_series(rotor, contact, amplitudes, work):
                 if rotor.race[plane] >= 0:
                     work.series[k + 1, rotor.race[plane]] -= rotor.race_gain[plane] * work.grip[plane, k] / (k + 1)
             if rotor.shaft.shape[0] > 0:
-                turn_shaft(rotor, k, work)
+                turn_shaft(rotor, contact, k, work)
 
 
 @inlined
@@ -164,7 +164,7 @@ def _coupled_forces(rotor, contact, k, work):
             for j in range(k + 1):
                 work.force[p, k] += complex(-work.push[p, j], work.grip[p, j]) * work.normal[p, k - j]
     if rotor.shaft.shape[0] > 0:
-        spin_up(rotor, contact, k, work)
+        brake_shaft(rotor, contact, k, work)
     for p in range(planes):
         if not stays(contact[p]):
             for q in range(planes):

@@ -321,7 +321,7 @@ def _rub_workspace_layout(modes: int, planes: int) -> np.dtype:
             ("depth", REAL, (planes, ORDER + 2)),
             ("eccentricity", COMPLEX, (planes, ORDER + 1)),
             *((name, COMPLEX, (ORDER + 1,)) for name in ("sweep", "whirl", "euler")),
-            ("spin_up", REAL, (ORDER + 1,)),
+            ("braking", REAL, (ORDER + 1,)),
             *((name, REAL, (ORDER + 1,)) for name in ("first_margin", "second_margin")),
             ("links", COMPLEX, (planes, planes, ORDER + 1)),
             ("matrix", REAL, (2 * planes, 2 * planes + 1)),

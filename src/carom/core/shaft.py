@@ -4,18 +4,20 @@ The frame turns at the nominal speed, which is one.  The shaft has the speed ``�
 two modes that move no plane: ``p = e^{i(ϑ−t)}``, the direction of the unbalance in the frame, and ``σ`` as a real amplitude.  With the
 rates ``u`` of the other amplitudes by the unbalance at the nominal speed,
 
-    ċ = Mc + u(σ² − iσ̇)p + Bf,      ṗ = i(σ − 1)p,      σ̇ = τ + Σ_q h_q F_q,
+    ċ = Mc + u(σ² − iβ)p + Bf,      ṗ = i(σ − 1)p,      σ̇ = τ + β,      β = Σ_q h_q F_q,
 
 where ``F_q`` is the friction along growing angle at plane ``q`` per effective mass ``m`` and ``h = ms/J`` with the rotor's radius ``s``
-and the inertia ``J``.  The rate ``τ`` by the torque of the drive counts in contact only: in flight the speed stays as it is.  The torque
-of the unbalance itself on the shaft is left out; it is to that of friction as the eccentricity is to the radius.
+and the inertia ``J``.  The rate ``τ`` by the torque of the drive counts in contact only: in flight the speed stays as it is.  Its share
+``−iuτp`` of the unbalance's force is left out there and in contact too: otherwise what presses a plane on a rigid wall would depend on
+whether it is in contact.  The torque of the unbalance itself on the shaft is left out; it is to that of friction as the eccentricity is
+to the radius.
 
 *Contact.*  The surface moves by ``s(σ − 1)`` faster than in the frame, and so does the slip.  The acceleration of a plane contains
-``−iσ̇ep`` with ``e = Wu``.  With ``ε = n̄ep`` the normal force that keeps it on a rigid wall therefore gains ``σ̇ Im ε``, and rolling needs
+``−iβep`` with ``e = Wu``.  With ``ε = n̄ep`` the normal force that keeps it on a rigid wall therefore gains ``β Im ε``, and rolling needs
 
-    F + (s − Re ε) σ̇ = …
+    F + (s − Re ε) β + sτ = …
 
-beside what it needs at constant speed: linear equations for the coefficients of all forces, as ``σ̇`` is linear in ``F``.
+beside what it needs at constant speed: linear equations for the coefficients of all forces, as ``β`` is linear in ``F``.
 
 *Flight.*  With ``ν = σ − 1`` the motion is ``c = (c₀ − Sp₀) e^{Mt} + Sp₀ e^{iνt}`` with ``S = (iν − M)⁻¹uσ²``, that is a free flight
 and one more mode that moves the planes by ``WS``.  For the search of contacts a motion's own copy of the rotor is set to that
@@ -69,10 +71,10 @@ def couple_by_shaft(rotor, contact, plane, rolls, given, k, work):
     work.eccentricity[plane, k] = rotor.unbalance_rows[plane] * direction
     first = work.eccentricity[plane, 0]
     torque = rotor.drive[0] if k == 0 else 0.0
-    normal, along = first.imag * torque, (first.real - radius) * torque
+    normal, along = 0.0, -radius * torque
     for j in range(1, k + 1):
-        normal += work.eccentricity[plane, j].imag * work.spin_up[k - j]
-        along += work.eccentricity[plane, j].real * work.spin_up[k - j]
+        normal += work.eccentricity[plane, j].imag * work.braking[k - j]
+        along += work.eccentricity[plane, j].real * work.braking[k - j]
     for q in range(contact.shape[0]):
         if lasts(contact[q]):
             if not given:
@@ -83,28 +85,33 @@ def couple_by_shaft(rotor, contact, plane, rolls, given, k, work):
 
 
 @inlined
-def spin_up(rotor, contact, k, work):
-    """Coefficients ``k`` of ``σ̇`` (``work.spin_up``) from those of friction, and of ``−iσ̇p`` (``work.euler``)."""
-    rate, driven, euler = 0.0, False, 0j
+def brake_shaft(rotor, contact, k, work):
+    """Coefficients ``k`` of ``β`` (``work.braking``) from those of friction, and of ``−iβp`` (``work.euler``)."""
+    rate, euler = 0.0, 0j
     for q in range(contact.shape[0]):
         if lasts(contact[q]):
             rate += rotor.shaft_gain[q] * work.grip[q, k]
-            driven = True
-    work.spin_up[k] = rate + rotor.drive[0] if driven and k == 0 else rate
+    work.braking[k] = rate
     for j in range(k + 1):
-        euler += work.spin_up[j] * work.series[k - j, rotor.shaft[0]]
+        euler += work.braking[j] * work.series[k - j, rotor.shaft[0]]
     work.euler[k] = complex(euler.imag, -euler.real)
 
 
 @inlined
-def turn_shaft(rotor, k, work):
+def turn_shaft(rotor, contact, k, work):
     """Complete the coefficients ``k + 1`` of the amplitudes: of the modes that the unbalance drives, of its direction and the speed."""
     place, push = rotor.shaft[0], work.whirl[k] + work.euler[k]
     for m in range(work.series.shape[1]):
         work.series[k + 1, m] += rotor.unbalance[m] * push / (k + 1)
     ahead = work.sweep[k] - work.series[k, place]
     work.series[k + 1, place] = complex(-ahead.imag, ahead.real) / (k + 1)
-    work.series[k + 1, place + 1] = complex(work.spin_up[k], 0.0) / (k + 1)
+    rate = work.braking[k]
+    if k == 0:
+        touches = False
+        for q in range(contact.shape[0]):
+            touches = touches or lasts(contact[q])
+        rate += rotor.drive[0] if touches else 0.0
+    work.series[k + 1, place + 1] = complex(rate, 0.0) / (k + 1)
 
 
 @inlined
