@@ -15,6 +15,7 @@ from carom.core.planar_proofs import fades_to_rolling, stays_inside
 from carom.core.rounding import RESTING, push_rounding, speed_rounding
 from carom.core.rub import lift_off, meets_wall, next_phase, press, rest_on_wall, wall_push
 from carom.core.rub_step import NOWHERE, leading_plane, rub_step
+from carom.core.shaft import enter_flight, leave_flight
 from carom.core.wall import move_plane, set_on_wall, unit, wall_of, yields
 from carom.outcome import Outcome
 
@@ -57,6 +58,7 @@ def advance(rotor, table, amplitudes, until, contacts, log, memory, work, rub):
     Parameters
     ----------
     rotor, table : records of :mod:`carom.core.layout`
+        Of a shaft whose speed changes they have to be copies of the motion's own: each flight sets entries of them.
     amplitudes : complex array, shape (N,)
         State at time zero; on return the state at the returned time.
     until : float
@@ -159,7 +161,7 @@ def _fly(rotor, table, horizon, contact, memory, work, rub):
         if reaction != CLEAR:
             copy(state, work.arrival)
             break
-        if settle and levitates(rotor, state, work):
+        if settle and _levitates(rotor, table, state, work):
             return LEVITATED, elapsed, plane
         if settle and unproven >= memory.recheck:
             unproven = 0.0
@@ -175,6 +177,17 @@ def _fly(rotor, table, horizon, contact, memory, work, rub):
         if elapsed >= horizon:
             return TIME_REACHED, horizon, plane
     return _touch(rotor, contact, plane, reaction, elapsed, memory, work, rub), elapsed, plane
+
+
+@inlined
+def _levitates(rotor, table, amplitudes, work):
+    """:func:`~carom.core.fate.levitates`, at the speed that the shaft has."""
+    if rotor.shaft.shape[0] > 0:
+        enter_flight(rotor, table, amplitudes)
+    found = levitates(rotor, amplitudes, work)
+    if rotor.shaft.shape[0] > 0:
+        leave_flight(rotor, amplitudes)
+    return found
 
 
 @expanded
@@ -261,6 +274,11 @@ def _leap(rotor, table, horizon, contact, resting, work, rub):
 @expanded
 def _next_contact(rotor, table, horizon, contact, work):
     """Earliest contact over all planes of the flight from ``work.current``; ``work.arrival`` holds the state there."""
+    if rotor.shaft.shape[0] > 0:
+        enter_flight(rotor, table, work.current)
+        found = _next_contact_of_several(rotor, table, horizon, contact, work)
+        leave_flight(rotor, work.arrival)
+        return found
     if rotor.rows.shape[0] == 1:
         outcome, time = search(rotor, table, 0, horizon, LEAVING if contact[0] == FLIGHT else INSIDE, work)
         contact[0] = AWAY
@@ -310,11 +328,13 @@ def _meet(rotor, contact, plane, elapsed, memory, work, rub):
     if settle and fades_to_rolling(memory.proofs, rotor, work.arrival):
         copy(work.arrival, work.current)
         return ROLLING
-    if rotor.rows.shape[0] > 1 and join(rotor, contact, plane, work.arrival, rub):
-        if memory.watches > 0:
-            _note_speeds(rotor, memory, work, rub)
-        strike_together(rotor, work.arrival, work.current, rub)
-        return CONTACT
+    if rotor.rows.shape[0] > 1 or rotor.shaft.shape[0] > 0:
+        others = join(rotor, contact, plane, work.arrival, rub)
+        if others or rotor.shaft.shape[0] > 0:
+            if memory.watches > 0:
+                _note_speeds(rotor, memory, work, rub)
+            strike_together(rotor, work.arrival, work.current, rub)
+            return CONTACT
     change = normal * arrival(normal.conjugate() * speed, wall_of(rotor, plane))
     for k in range(work.current.shape[0]):
         work.current[k] = work.arrival[k] + rotor.columns[k, plane] * change
@@ -382,7 +402,7 @@ def _land(rotor, contact, plane, amplitudes, rub):
     ``4hP/(N(1 − d²))`` where every impact stops the slip against a force ``P`` along the wall.  Both hold to leading
     order in ``v`` for the planar rotor.
     """
-    if rotor.rows.shape[0] > 1:
+    if rotor.rows.shape[0] > 1 or rotor.shaft.shape[0] > 0:
         land_together(rotor, contact, plane, amplitudes, rub)
         return
     normal = unit(displacement(rotor, plane, amplitudes))

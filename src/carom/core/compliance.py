@@ -15,6 +15,8 @@ speed ``q`` in the fixed frame, a mode of its own, decays with the exponent ``λ
 
     (1 + g) F = −ṙ + θ̇ṙ + λq − Im(n̄a).
 
+A shaft whose speed changes adds to the slip and to what rolling needs (:mod:`carom.core.shaft`).
+
 All series follow from those of ``y`` and ``ẏ`` by recurrences: of ``r`` from ``r² = |y|²``, of ``n`` from ``r n = y``.
 """
 
@@ -29,6 +31,7 @@ from carom.core.laws.choice import edge, force_coefficient, press_coefficient, p
 from carom.core.layout import ORDER
 from carom.core.phases import FLIGHT, ROLLING, SEPARATED, sense_of_phase
 from carom.core.rounding import position_rounding, speed_rounding
+from carom.core.shaft import excess_coefficient, surface_excess
 from carom.core.taylor import first_fall
 from carom.core.wall import set_on_wall, unit, wall_of
 
@@ -62,6 +65,8 @@ def indent(rotor, plane, k, work):
     along, pressed = rotor.surface_speed[plane] + depth[0] if k == 0 else depth[k], 0j
     if rotor.race[plane] >= 0:
         along -= work.series[k, rotor.race[plane]].real
+    if rotor.shaft.shape[0] > 0:
+        along += excess_coefficient(rotor, plane, k, work)
     for j in range(k + 1):
         along += normal[j].real * speed[k - j].imag - normal[j].imag * speed[k - j].real
         pressed += work.push[plane, j] * normal[k - j]
@@ -76,6 +81,8 @@ def rolling_grip(rotor, plane, k, work):
     if race >= 0:
         turning += work.series[k, race].real
         grip += rotor.exponents[race].real * work.series[k, race].real
+    if rotor.shaft.shape[0] > 0:
+        turning -= excess_coefficient(rotor, plane, k, work)
     if k == 0:
         turning -= rotor.surface_speed[plane]
     for j in range(1, k + 1):
@@ -158,4 +165,6 @@ def slip_in_wall(rotor, plane, amplitudes):
     slip = slip_of(local, wall_of(rotor, plane)) + (radius - 1.0)
     if rotor.race[plane] >= 0:
         slip -= amplitudes[rotor.race[plane]].real
+    if rotor.shaft.shape[0] > 0:
+        slip += surface_excess(rotor, plane, amplitudes)
     return slip

@@ -18,6 +18,8 @@ mobility ``G = WMB``.  Staying on all walls then needs, at each plane ``p`` in c
 and the second equation of a plane is ``F_p = −μ N_p sgn v_p`` where it slips and
 ``Im(ȳ_p a_p) + Σ_q Im(ȳ_p G_pq (−N_q + iF_q) y_q) = 0`` where it rolls: linear equations for each coefficient in turn.
 
+A shaft whose speed changes adds to these equations (:mod:`carom.core.shaft`).
+
 A wall that gives way has a normal force of its own, and ``n = y/|y|`` takes the place of ``y`` there (:mod:`carom.core.compliance`).
 """
 
@@ -29,6 +31,7 @@ from carom.core.equations import solve
 from carom.core.friction import friction_ratio, rolling_force
 from carom.core.layout import ORDER
 from carom.core.phases import ROLLING, lasts, sense_of_phase, stays
+from carom.core.shaft import brake_shaft, couple_by_shaft, excess_coefficient, sweep_unbalance, turn_shaft
 from carom.core.wall import wall_of, yields
 
 
@@ -45,13 +48,15 @@ def rub_series(rotor, contact, amplitudes, work):
     for m in range(modes):
         work.series[0, m] = amplitudes[m]
     for k in range(ORDER + 1):
+        if rotor.shaft.shape[0] > 0:
+            sweep_unbalance(rotor, k, work)
         for plane in range(planes):
             _free_motion(rotor, plane, k, work)
             if yields(rotor, plane) and stays(contact[plane]):
                 indent(rotor, plane, k, work)
             else:
                 _push_and_slip(rotor, plane, k, work)
-        if planes == 1:
+        if planes == 1 and rotor.shaft.shape[0] == 0:
             _force(rotor, contact[0], k, work)
         else:
             _coupled_forces(rotor, contact, k, work)
@@ -66,6 +71,8 @@ def rub_series(rotor, contact, amplitudes, work):
             for plane in range(planes):
                 if rotor.race[plane] >= 0:
                     work.series[k + 1, rotor.race[plane]] -= rotor.race_gain[plane] * work.grip[plane, k] / (k + 1)
+            if rotor.shaft.shape[0] > 0:
+                turn_shaft(rotor, contact, k, work)
 
 
 @inlined
@@ -76,6 +83,8 @@ def _free_motion(rotor, plane, k, work):
         position += rotor.rows[plane, m] * work.series[k, m]
         speed += rotor.rate_rows[plane, m] * work.series[k, m]
         free += rotor.acceleration_rows[plane, m] * work.series[k, m]
+    if rotor.shaft.shape[0] > 0:
+        free += rotor.unbalance_rows[plane] * work.whirl[k]
     work.position[plane, k] = position + rotor.offsets[plane] if k == 0 else position
     work.speed[plane, k] = speed
     work.free[plane, k] = free
@@ -89,6 +98,8 @@ def _push_and_slip(rotor, plane, k, work):
         y, v = work.position[plane, j], work.speed[plane, j]
         push += (y.conjugate() * work.free[plane, k - j]).real + (v.conjugate() * work.speed[plane, k - j]).real
         slip += (y.conjugate() * work.speed[plane, k - j]).imag
+    if rotor.shaft.shape[0] > 0:
+        slip += excess_coefficient(rotor, plane, k, work)
     work.push[plane, k], work.slip[plane, k] = push, slip
 
 
@@ -152,10 +163,14 @@ def _coupled_forces(rotor, contact, k, work):
             work.push[p, k], work.grip[p, k] = work.matrix[2 * p, 2 * planes], work.matrix[2 * p + 1, 2 * planes]
             for j in range(k + 1):
                 work.force[p, k] += complex(-work.push[p, j], work.grip[p, j]) * work.normal[p, k - j]
+    if rotor.shaft.shape[0] > 0:
+        brake_shaft(rotor, contact, k, work)
     for p in range(planes):
         if not stays(contact[p]):
             for q in range(planes):
                 work.free[p, k] += rotor.mobility[p, q] * work.force[q, k]
+            if rotor.shaft.shape[0] > 0:
+                work.free[p, k] += rotor.unbalance_rows[p] * work.euler[k]
             work.push[p, k] = _push(p, k, work)
 
 
@@ -193,4 +208,7 @@ def _balance(rotor, contact, p, k, work):
             share = work.links[p, q, j] * complex(work.push[q, k - j], -work.grip[q, k - j])
             normal -= 0.0 if given else share.real
             along += share.imag if rolls else 0.0
+    if rotor.shaft.shape[0] > 0:
+        more_normal, more_along = couple_by_shaft(rotor, contact, p, rolls, given, k, work)
+        normal, along = normal + more_normal, along + more_along
     work.matrix[2 * p, last], work.matrix[2 * p + 1, last] = normal, along

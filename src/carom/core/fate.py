@@ -225,12 +225,14 @@ def near_rub(memory, position, speed):
 
 @kernel
 def at_rest(rotor, work):
-    """Whether the free modes of a motion, given by its Taylor series, are at rest in the frame of the rotor, and the races steady."""
+    """Whether the free modes of a motion, given by its Taylor series, are at rest in the frame of the rotor, and races and shaft steady."""
     size, rate = 1.0, 0.0
     for m in range(work.series.shape[1]):
         moves = rotor.free[m] != 0
         for plane in range(rotor.race.shape[0]):
             moves = moves or rotor.race[plane] == m
+        if rotor.shaft.shape[0] > 0:
+            moves = moves or m == rotor.shaft[0] or m == rotor.shaft[0] + 1
         if moves:
             size += math.sqrt(squared_modulus(work.series[0, m]))
             rate += math.sqrt(squared_modulus(work.series[1, m]))

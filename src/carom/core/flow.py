@@ -13,6 +13,8 @@ import numpy as np
 from carom.compiling.decorators import inlined, kernel
 
 THIRD = 1.0 / 3.0
+RESONANT = 1e-9
+"""Distance to which the exponent of the unbalance is kept from that of an undamped mode, whose forced response would be infinite."""
 
 
 @inlined
@@ -84,10 +86,51 @@ def fly_all(rotor, amplitudes, times):
     """Amplitudes (M, N) after flights of given times (M,), each from its own amplitudes (M, N)."""
     flown = np.empty_like(amplitudes)
     for i in range(times.shape[0]):
-        flight_increments(rotor, amplitudes[i : i + 1], times[i], flown[i : i + 1])
-        for k in range(amplitudes.shape[1]):
-            flown[i, k] += amplitudes[i, k]
+        fly(rotor, amplitudes[i : i + 1], times[i], flown[i : i + 1])
     return flown
+
+
+@inlined
+def fly(rotor, starts, time, flown):
+    """Write the amplitudes (1, N) after a flight from others (1, N)."""
+    flight_increments(rotor, starts, time, flown)
+    if rotor.shaft.shape[0] > 0:
+        _unbalance_increments(rotor, starts, time, flown)
+    for k in range(starts.shape[1]):
+        flown[0, k] += starts[0, k]
+
+
+@kernel
+def _unbalance_increments(rotor, starts, time, increments):
+    """Add what the unbalance of a shaft contributes to a flight (:mod:`carom.core.shaft`)."""
+    place, response, own = rotor.shaft[0], np.empty_like(starts), np.empty_like(starts)
+    unbalance_response(rotor, starts[0], response[0])
+    flight_increments(rotor, response, time, own)
+    turn = complex_expm1(complex(0.0, (starts[0, place + 1].real - 1.0) * time))
+    for k in range(starts.shape[1]):
+        increments[0, k] += starts[0, place] * (response[0, k] * turn - own[0, k])
+    increments[0, place] = starts[0, place] * turn
+
+
+@inlined
+def unbalance_response(rotor, amplitudes, response):
+    """Write the forced response ``S = (iν − M)⁻¹uσ²`` to the unbalance at the speed that the shaft has."""
+    speed = amplitudes[rotor.shaft[0] + 1].real
+    for k in range(amplitudes.shape[0]):
+        push = rotor.unbalance[k] * (speed * speed)
+        if k > 0 and rotor.driven[k]:
+            push += response[k - 1]
+        gap = complex(0.0, speed - 1.0) - rotor.exponents[k]
+        if squared_modulus(gap) < RESONANT * RESONANT:
+            gap = complex(RESONANT, 0.0)
+        response[k] = push / gap
+
+
+@inlined
+def unbalance_drive(rotor, amplitudes):
+    """``σ²p``, by which the unbalance of a shaft drives the other modes at constant speed."""
+    speed = amplitudes[rotor.shaft[0] + 1].real
+    return amplitudes[rotor.shaft[0]] * (speed * speed)
 
 
 @inlined
@@ -140,4 +183,6 @@ def acceleration(rotor, plane, amplitudes):
     total = 0j
     for k in range(amplitudes.shape[0]):
         total += rotor.acceleration_rows[plane, k] * amplitudes[k]
+    if rotor.shaft.shape[0] > 0:
+        total += rotor.unbalance_rows[plane] * unbalance_drive(rotor, amplitudes)
     return total

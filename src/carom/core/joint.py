@@ -9,6 +9,9 @@ The laws hold at every plane at once.  *Newton's restitution* for several contac
 and one of the two is an equality.  Friction: ``|F| ≤ μP``; the slip ``v⁺`` vanishes, or ``F = −μP sgn v⁺``.  For a plane alone that is
 the law of :func:`carom.core.wall.rebound`.
 
+Friction changes the speed of a shaft that may change it too: with ``Δσ = Σ_q h_q F_q`` and ``ε = ȳep`` of :mod:`carom.core.shaft` the
+velocities change by ``i(s_p − ε_p)Δσ`` more, where the imaginary part of ``u`` now counts that of the surface.
+
 The impulses do the work ``Σ m (−P(ṙ⁻ + ṙ⁺) + F(v⁻ + v⁺))/2`` on the contact points.  Where Newton's restitution would make that
 positive, *Poisson's* is used: a compression with ``ṙ ≤ 0`` and the impulses ``P_c``, then an expansion with at least ``d P_c``, and
 friction as before in both.  Compression loses energy always.  Where the expansion gains more, which may be with
@@ -29,6 +32,7 @@ from carom.core.friction import BACKWARD, FORWARD, STOPPED, friction_ratio, rebo
 from carom.core.laws.choice import impulse_by_restitution
 from carom.core.phases import AWAY, ROLLING, lasts, sense_of_phase
 from carom.core.rub import meets_wall
+from carom.core.shaft import change_speed, lever_of_shaft, surface_excess
 from carom.core.wall import unit, wall_of, yields
 
 EXACT = 1e-11
@@ -75,6 +79,8 @@ def strike_together(rotor, before, after, rub):
             change = unit(displacement(rotor, p, before)) * rub.impulses[p]
             for k in range(after.shape[0]):
                 after[k] += rotor.columns[k, p] * change
+            if rotor.shaft.shape[0] > 0:
+                change_speed(rotor, p, rub.impulses[p].imag, after)
 
 
 @kernel
@@ -101,6 +107,8 @@ def land_together(rotor, contact, plane, amplitudes, rub):
             change = unit(displacement(rotor, p, amplitudes)) * impulse
             for k in range(amplitudes.shape[0]):
                 amplitudes[k] += rotor.columns[k, p] * change
+            if rotor.shaft.shape[0] > 0:
+                change_speed(rotor, p, impulse.imag, amplitudes)
 
 
 @kernel
@@ -115,7 +123,7 @@ def _set_landing(rotor, contact, plane, share, grip, rub):
         rolls = p != plane and contact[p] == ROLLING
         for q in range(rotor.rows.shape[0]):
             if rub.joined[q]:
-                _write_coupling(rub.matrix, p, q, rub.couplings[p, q], True, rolls)
+                _write_coupling(rotor, p, q, True, rolls, rub)
         rub.matrix[2 * p, last] = rub.arrivals[p].real
         if p == plane:
             rub.matrix[2 * p + 1, 2 * p], rub.matrix[2 * p + 1, last] = share, grip
@@ -127,12 +135,26 @@ def _set_landing(rotor, contact, plane, share, grip, rub):
 
 
 @inlined
-def _write_coupling(matrix, p, q, coupling, radially, along):
+def _write_coupling(rotor, p, q, radially, along, rub):
     """Write what the impulses at plane ``q`` change at plane ``p``: of ``ṙ`` into the first of its equations, of the slip into the second."""
+    matrix, coupling = rub.matrix, rub.couplings[p, q]
     if radially:
         matrix[2 * p, 2 * q], matrix[2 * p, 2 * q + 1] = coupling.real, coupling.imag
     if along:
         matrix[2 * p + 1, 2 * q], matrix[2 * p + 1, 2 * q + 1] = -coupling.imag, coupling.real
+    if rotor.shaft.shape[0] > 0:
+        by_friction = rub.levers[p] * rotor.shaft_gain[q]
+        matrix[2 * p, 2 * q + 1] -= by_friction.real if radially else 0.0
+        matrix[2 * p + 1, 2 * q + 1] += by_friction.imag if along else 0.0
+
+
+@inlined
+def _change(rotor, p, q, impulse, rub):
+    """Change of the local velocity of plane ``p`` by an impulse at plane ``q``, with that of the speed of the shaft."""
+    change = rub.couplings[p, q] * impulse
+    if rotor.shaft.shape[0] > 0:
+        change += rub.levers[p] * (rotor.shaft_gain[q] * impulse.imag)
+    return change
 
 
 @inlined
@@ -141,6 +163,9 @@ def _load(rotor, before, rub):
     for p in range(rotor.rows.shape[0]):
         normal = unit(displacement(rotor, p, before))
         rub.arrivals[p] = normal.conjugate() * velocity(rotor, p, before)
+        if rotor.shaft.shape[0] > 0:
+            rub.arrivals[p] += complex(0.0, surface_excess(rotor, p, before))
+            rub.levers[p] = lever_of_shaft(rotor, p, normal, before)
         for q in range(rotor.rows.shape[0]):
             other = unit(displacement(rotor, q, before))
             rub.couplings[p, q] = normal.conjugate() * rotor.mobility[p, q] * other
@@ -232,7 +257,7 @@ def _resolve(rotor, rub):
                 rub.impulses[p] = rub.tried[p]
     for p in range(planes):
         for q in range(planes):
-            rub.local[p] += rub.couplings[p, q] * rub.impulses[q]
+            rub.local[p] += _change(rotor, p, q, rub.impulses[q], rub)
     return found
 
 
@@ -257,7 +282,7 @@ def _set_equations(rotor, way, rub):
         rub.matrix[2 * p, last] = rub.least[p]
         for q in range(planes):
             if rub.joined[q]:
-                _write_coupling(rub.matrix, p, q, rub.couplings[p, q], pressed, sense == STOPPED)
+                _write_coupling(rotor, p, q, pressed, sense == STOPPED, rub)
         if pressed:
             rub.matrix[2 * p, last] = rub.local[p].real - rub.aims[p]
         if sense == STOPPED:
@@ -283,7 +308,7 @@ def _violation(rotor, rub):
             continue
         after = rub.local[p]
         for q in range(planes):
-            after += rub.couplings[p, q] * rub.tried[q]
+            after += _change(rotor, p, q, rub.tried[q], rub)
         rub.tried_after[p] = after
         push, grip, slip = -rub.tried[p].real, rub.tried[p].imag, slip_of(after, wall_of(rotor, p))
         size = max(size, abs(rub.local[p].real) + abs(push) + abs(grip))

@@ -63,6 +63,10 @@ def rotor_record(
     race_gain: np.ndarray | None = None,
     masses: np.ndarray | None = None,
     free: np.ndarray | None = None,
+    shaft: np.ndarray | None = None,
+    unbalance: np.ndarray | None = None,
+    shaft_gain: np.ndarray | None = None,
+    drive: np.ndarray | None = None,
 ) -> np.record:
     """A linear rotor with ``N`` moving modes and ``P`` contact planes, as the kernels see it.
 
@@ -101,6 +105,14 @@ def rotor_record(
         Effective mass ``1/(W M⁻¹ Wᴴ)`` of each plane: the impulse that changes its velocity by one.  Ones by default.
     free : ndarray of bool, shape (N,), optional
         Which modes a disturbance can change; the others are forcing, or fill the room of a larger rotor.  All by default.
+    shaft : ndarray of int, shape (1,), optional
+        First of the two modes of a shaft whose speed changes (:mod:`carom.core.shaft`).
+    unbalance : ndarray of complex, shape (N,), optional
+        Rates of the amplitudes by the unbalance of that shaft at the nominal speed; then ``offsets`` are those without it.
+    shaft_gain : ndarray, shape (P,), optional
+        Change of its speed by a friction impulse along growing angle that changes the velocity of the plane by one.
+    drive : ndarray, shape (1,), optional
+        Rate of its speed by the torque of its drive, which acts in contact.
 
     Returns
     -------
@@ -109,7 +121,8 @@ def rotor_record(
         ``largest_response`` (bound of their ``|φ|`` over all later time), ``rate_rows``, ``acceleration_rows`` and
         ``jerk_rows`` (first three derivatives of the displacement at the planes per amplitude), ``mobility`` (change of
         velocity at the planes per unit impulse at each, shape (P, P), ones on its diagonal), ``weights``
-        (``Σ_k |rows|²``).  A record is passed by address and its shapes are known at compile time: kernels run six
+        (``Σ_k |rows|²``), and of a shaft ``unbalance_rows`` (acceleration of the planes by its unbalance at the nominal speed).
+        The fields of a shaft have no entries without one: kernels for such rotors are compiled without it.  A record is passed by address and its shapes are known at compile time: kernels run six
         times as fast as with a tuple of arrays.
     """
     modes, planes = len(exponents), len(rows)
@@ -149,14 +162,21 @@ def rotor_record(
         "race_gain": np.zeros(planes) if race_gain is None else race_gain,
         "masses": np.ones(planes) if masses is None else masses,
         "free": np.ones(modes) if free is None else free,
+        "shaft": [] if shaft is None else shaft,
+        "unbalance": [] if unbalance is None else unbalance,
+        "unbalance_rows": [] if unbalance is None else rate_rows.dot(unbalance),
+        "response": [] if unbalance is None else np.zeros(modes),
+        "shaft_gain": [] if shaft_gain is None else shaft_gain,
+        "drive": [] if drive is None else drive,
     }
-    layout = _rotor_layout(modes, planes)
+    layout = _rotor_layout(modes, planes, shaft is not None)
     return _filled(layout, tuple(fields[name] for name in layout.names or ()))
 
 
 @cache
-def _rotor_layout(modes: int, planes: int) -> np.dtype:
+def _rotor_layout(modes: int, planes: int, with_shaft: bool) -> np.dtype:
     of_both = ("rows", "rate_rows", "acceleration_rows", "jerk_rows")
+    shafts = int(with_shaft)
     return _layout(
         (
             ("exponents", COMPLEX, (modes,)),
@@ -174,6 +194,11 @@ def _rotor_layout(modes: int, planes: int) -> np.dtype:
             *((name, REAL, (planes,)) for name in ("law_number", "stiffness", "loss", "race_gain", "masses")),
             ("race", np.dtype(np.int64), (planes,)),
             ("free", np.dtype(np.int8), (modes,)),
+            ("shaft", np.dtype(np.int64), (shafts,)),
+            *((name, COMPLEX, (shafts * modes,)) for name in ("unbalance", "response")),
+            ("unbalance_rows", COMPLEX, (shafts * planes,)),
+            ("shaft_gain", REAL, (shafts * planes,)),
+            ("drive", REAL, (shafts,)),
         )
     )
 
@@ -294,13 +319,16 @@ def _rub_workspace_layout(modes: int, planes: int) -> np.dtype:
             *((name, REAL, (planes, ORDER + 1)) for name in ("push", "slip", "grip")),
             *((name, REAL, (planes, ORDER + 1)) for name in ("rate", "power", "turning")),
             ("depth", REAL, (planes, ORDER + 2)),
+            ("eccentricity", COMPLEX, (planes, ORDER + 1)),
+            *((name, COMPLEX, (ORDER + 1,)) for name in ("sweep", "whirl", "euler")),
+            ("braking", REAL, (ORDER + 1,)),
             *((name, REAL, (ORDER + 1,)) for name in ("first_margin", "second_margin")),
             ("links", COMPLEX, (planes, planes, ORDER + 1)),
             ("matrix", REAL, (2 * planes, 2 * planes + 1)),
             ("couplings", COMPLEX, (planes, planes)),
             *(
                 (name, COMPLEX, (planes,))
-                for name in ("arrivals", "local", "impulses", "compression", "tried", "tried_after")
+                for name in ("arrivals", "local", "impulses", "compression", "tried", "tried_after", "levers")
             ),
             *((name, REAL, (planes,)) for name in ("aims", "least")),
             ("joined", np.dtype(np.int8), (planes,)),
@@ -334,6 +362,14 @@ def _room(layout: np.dtype) -> np.ndarray:
     room = np.zeros(layout.itemsize + CACHE_LINE, np.uint8)
     first = -room.__array_interface__["data"][0] % CACHE_LINE
     return np.ndarray(1, layout, room, first)
+
+
+def copy_of(original: np.record) -> np.record:
+    """A copy of a record, aligned as records are."""
+    room = _room(original.dtype)
+    room[0] = original
+    copied: np.record = room[0]
+    return copied
 
 
 @cache

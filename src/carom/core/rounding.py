@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from carom.compiling.decorators import inlined, kernel
+from carom.core.flow import unbalance_drive
 from carom.core.laws.choice import force_rounding
 from carom.core.wall import wall_of
 
@@ -46,6 +47,10 @@ def push_rounding(rotor, plane, amplitudes):
         rates += _size(rate)
         force += row * amplitudes[m]
         speed += rate
+    if rotor.shaft.shape[0] > 0:
+        turning = rotor.unbalance_rows[plane] * unbalance_drive(rotor, amplitudes)
+        forces += _size(turning)
+        force += turning
     of_position = _spread(rotor, plane, amplitudes) * (_size(force) + lever)
     return ROUNDING * (forces + 2.0 * _size(speed) * rates + of_position)
 

@@ -16,7 +16,7 @@ import numpy as np
 from carom.compiling.decorators import inlined, kernel
 from carom.core.compliance import first_release, slip_in_wall
 from carom.core.contact_series import rub_series
-from carom.core.flow import acceleration, displacement, flight_increments, squared_modulus, velocity
+from carom.core.flow import acceleration, displacement, fly, squared_modulus, unbalance_drive, velocity
 from carom.core.friction import BACKWARD, FORWARD, STOPPED, arrival_in_sense, friction_ratio, slip_of, spare_grip
 from carom.core.laws.choice import force
 from carom.core.layout import ORDER
@@ -32,6 +32,7 @@ from carom.core.phases import (
     stays,
 )
 from carom.core.rounding import RESTING, position_rounding, push_rounding, speed_rounding, yielding_rounding
+from carom.core.shaft import surface_excess
 from carom.core.taylor import first_fall, series_step, sum_series
 from carom.core.wall import rigid_wall, set_on_wall, unit, wall_of, yields
 
@@ -49,9 +50,7 @@ def fly_or_rub_all(rotor, amplitudes, phases, times, work):
                 rub_series(rotor, phases[i], amplitudes[i], work)
             sum_series(work, times[i], moved[i])
         else:
-            flight_increments(rotor, amplitudes[i : i + 1], times[i], moved[i : i + 1])
-            for m in range(amplitudes.shape[1]):
-                moved[i, m] += amplitudes[i, m]
+            fly(rotor, amplitudes[i : i + 1], times[i], moved[i : i + 1])
     return moved
 
 
@@ -217,10 +216,10 @@ def rest_on_wall(rotor, plane, amplitudes, rolling):
     """Remove the rounding errors of ``|y| = 1`` and ``Re(ȳẏ) = 0``, and those of the rolling condition if it rolls."""
     set_on_wall(rotor, plane, amplitudes)
     normal = unit(displacement(rotor, plane, amplitudes))
-    local, wall = (
-        normal.conjugate() * velocity(rotor, plane, amplitudes),
-        rigid_wall(0.0, 0.0, rotor.surface_speed[plane]),
-    )
+    local, surface_speed = normal.conjugate() * velocity(rotor, plane, amplitudes), rotor.surface_speed[plane]
+    if rotor.shaft.shape[0] > 0:
+        surface_speed += surface_excess(rotor, plane, amplitudes)
+    wall = rigid_wall(0.0, 0.0, surface_speed)
     change = normal * arrival_in_sense(local, STOPPED if rolling else FORWARD, wall)
     for m in range(amplitudes.shape[0]):
         amplitudes[m] += rotor.columns[m, plane] * change
@@ -245,6 +244,13 @@ def wall_push(rotor, plane, amplitudes):
             rate += amplitudes[m - 1]
         free += rotor.acceleration_rows[plane, m] * amplitudes[m]
         jerk += rotor.acceleration_rows[plane, m] * rate
+    if rotor.shaft.shape[0] > 0:
+        drive = unbalance_drive(rotor, amplitudes)
+        turning = complex(0.0, amplitudes[rotor.shaft[0] + 1].real - 1.0)
+        free += rotor.unbalance_rows[plane] * drive
+        jerk += rotor.unbalance_rows[plane] * (turning * drive)
+        for m in range(amplitudes.shape[0]):
+            jerk += rotor.acceleration_rows[plane, m] * (rotor.unbalance[m] * drive)
     inward = (position.conjugate() * free).real
     turning = (position.conjugate() * speed).imag
     change = (position.conjugate() * jerk).real + 3.0 * (speed.conjugate() * free).real
@@ -274,9 +280,11 @@ def next_phase(rotor, contact, plane, amplitudes, work):
         return FORWARD_SLIP
     if gives_way:
         slip = slip_in_wall(rotor, plane, amplitudes)
+    elif rotor.shaft.shape[0] > 0:
+        slip += surface_excess(rotor, plane, amplitudes)
     if abs(slip) > speed_rounding(rotor, plane, amplitudes):
         return FORWARD_SLIP if slip > 0.0 else BACKWARD_SLIP
-    if rotor.rows.shape[0] == 1 and not gives_way:
+    if rotor.rows.shape[0] == 1 and rotor.shaft.shape[0] == 0 and not gives_way:
         push, _ = wall_push(rotor, plane, amplitudes)
         pull = (position.conjugate() * acceleration(rotor, plane, amplitudes)).imag
     else:

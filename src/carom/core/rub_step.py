@@ -63,7 +63,8 @@ def rub_step(rotor, contact, amplitudes, horizon, memory, rub):
         _change_contact(rotor, contact, changed, following, undecided, amplitudes, memory, rub)
     if turned:
         recurred = same_state(memory.turn_state, amplitudes, NEAR * min(1.0, memory.turn_time))
-        if recurred or never_repeats(memory, amplitudes):
+        # Of a shaft that loses its speed the state changes in each turn until it stands.
+        if recurred or (rotor.shaft.shape[0] == 0 and never_repeats(memory, amplitudes)):
             backward = speed < 0.0 and memory.turn_time < 2.0 * math.pi
             rub_outcome = BACKWARD_WHIRL if backward else FORWARD_RUB
             return (rub_outcome if memory.turn_slipped > 0 else ROLLS_ON), duration, leading

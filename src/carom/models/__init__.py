@@ -12,6 +12,8 @@
 ``in_bearing``            :class:`InBearing`: the planar rotor in a touchdown bearing that gives way
 ``race``                  :class:`Race`: the inner race of a touchdown bearing, which turns
 ``touchdown``             :class:`Touchdown`: a contact plane, and the laws of its wall
+``race``                  :class:`Race`: a race that turns
+``shaft``                 :class:`Shaft`: a shaft whose speed changes
 ``modes``                 modes of a matrix, in pairs where two nearly coincide
 ``forcing``               :class:`Force`: forces that change with time, as modes of their own
 ``stages``                :class:`Staged`: a rotor that changes when a trigger ends a stage; :class:`Forced`: with further forces
@@ -28,6 +30,7 @@ from carom.models.jeffcott import Jeffcott
 from carom.models.linear import LinearRotor
 from carom.models.model import Matrices, Model, Rates
 from carom.models.race import Race
+from carom.models.shaft import Shaft
 from carom.models.spans import Edge, Span
 from carom.models.stages import Forced, Stage, Staged, Trigger
 from carom.models.subjects import Subject, case_of, jeffcott_of, model_from, model_of
@@ -50,6 +53,7 @@ __all__ = [
     "Race",
     "Rates",
     "Rigid",
+    "Shaft",
     "Span",
     "Stage",
     "Staged",

@@ -67,6 +67,7 @@ def with_forces(system: System, forces: Sequence[Force]) -> System:
         inverse=modes.left[:, planes:],
         translation=system.translation,
         races=system.races,
+        shaft=system.shaft,
         rows=modes.right[:planes],
         columns=modes.left[:, :planes],
         **{name: system.arrays[name] for name in ("offsets", "masses", *Wall._fields)},
@@ -104,6 +105,8 @@ class _Modes:
         kept = system.free | (forced != 0.0)
         if system.races is not None:
             kept[arrays["race"][system.races.planes]] = False
+        for place in arrays["shaft"].tolist():
+            kept[place : place + 2] = False
         right = np.concatenate([arrays["rows"], system.shapes])
         left = np.concatenate([arrays["columns"], system.to_modes], axis=1)
         return cls(

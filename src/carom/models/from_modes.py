@@ -10,6 +10,7 @@ from carom.arguments import checked
 from carom.core.layout import rotor_record
 from carom.core.wall import Wall
 from carom.models.race import RaceModes
+from carom.models.shaft import ShaftModes
 from carom.models.system import System
 
 SMALLEST = 2
@@ -34,6 +35,7 @@ def modal_system(
     forced: np.ndarray | None = None,
     translation: np.ndarray | None = None,
     races: RaceModes | None = None,
+    shaft: ShaftModes | None = None,
     **planes: np.ndarray,
 ) -> System:
     """System of these modes, in arrays of one of few sizes: each size of the kernels takes seconds to compile.
@@ -46,9 +48,12 @@ def modal_system(
         See :class:`System`.
     races : RaceModes, optional
         Further modes, of races that turn.
+    shaft : ShaftModes, optional
+        Two more, of a shaft whose speed changes, at the nominal speed at first.
     """
     modes, number = len(exponents), 0 if races is None else len(races.planes)
-    size = max(SMALLEST, 1 << (modes + number - 1).bit_length())
+    more = number if shaft is None else number + 2
+    size = max(SMALLEST, 1 << (modes + more - 1).bit_length())
 
     def filled(values: np.ndarray, axis: int = 0, filler: complex = 0.0) -> np.ndarray:
         room = [(0, 0)] * values.ndim
@@ -62,6 +67,15 @@ def modal_system(
         place, gain = np.full(len(rows), -1), np.zeros(len(rows))
         place[races.planes], gain[races.planes] = modes + np.arange(number), races.gains
         planes |= {"race": place, "race_gain": gain}
+    if shaft is not None:
+        exponents = np.append(exponents, np.zeros(2))
+        forced = np.append(np.zeros(modes + number) if forced is None else forced, np.ones(2))
+        planes |= {
+            "shaft": np.array([modes + number]),
+            "unbalance": filled(inverse[:, len(rest) :] @ shaft.accelerations),
+            "shaft_gain": shaft.gains(planes["masses"], planes["surface_speed"] - 1.0),
+            "drive": np.array([shaft.drive]),
+        }
     arrays = rotor_record(
         exponents=filled(exponents, filler=exponents[-1]),
         driven=filled(driven),
@@ -71,7 +85,7 @@ def modal_system(
         **planes,
     )
     moved = None if forced is None else filled(forced)
-    return System(arrays, rest, filled(shapes, 1), filled(inverse), translation, moved, races)
+    return System(arrays, rest, filled(shapes, 1), filled(inverse), translation, moved, races, shaft)
 
 
 @checked

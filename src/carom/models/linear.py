@@ -18,6 +18,7 @@ from carom.models.from_modes import modal_system, second_order_system, walls_as_
 from carom.models.model import Matrices, Rates
 from carom.models.modes import modes_of
 from carom.models.race import RaceModes
+from carom.models.shaft import Shaft, ShaftModes
 from carom.models.system import System
 from carom.models.touchdown import Touchdown
 from carom.outcome import InputError, shown
@@ -26,6 +27,8 @@ from carom.results import Result
 
 SINGULAR = 1e-14
 """Smallest singular value of a matrix, relative to the size of its terms, up to which it counts as singular."""
+GYROSCOPIC = 1e-12
+"""Size of the gyroscopic matrix, relative to the damping in the co-rotating frame, that is rounding."""
 _NUMBERS = ("mass", "damping", "stiffness", "forcing", "translation")
 
 
@@ -48,6 +51,9 @@ class LinearRotor(Result):
         Coordinates when the rotor as a whole is displaced by one: the direction of kicks.  Ones by default.
     scales : Scales, optional
         Unit of the mass matrix, clearance of the planes, and speed: they convert results to SI units.
+    shaft : Shaft, optional
+        Shaft whose speed changes in contact, from the nominal one on; by default the speed is constant.  Of a rotor without gyroscopic
+        matrix: otherwise the modes would change with the speed.
 
     Raises
     ------
@@ -63,10 +69,13 @@ class LinearRotor(Result):
     touchdowns: Sequence[Touchdown]
     translation: np.ndarray | None = None
     scales: Scales | None = None
+    shaft: Shaft | None = None
 
     def __post_init__(self) -> None:
         if not isinstance(self.scales, Scales | None):
             raise InputError("scales", self.scales, "carom.parameters.Scales, or None")
+        if not isinstance(self.shaft, Shaft | None):
+            raise InputError("shaft", shown(self.shaft), "carom.models.Shaft, or None")
         if self.translation is None:
             object.__setattr__(self, "translation", np.ones(_numbers("forcing", self.forcing).shape))
         for name in _NUMBERS:
@@ -85,6 +94,17 @@ class LinearRotor(Result):
             allowed = f"carom.models.Touchdown, one or more, with planes of {n} coordinates"
             raise InputError("touchdowns", shown(given), allowed)
         object.__setattr__(self, "touchdowns", listed)
+        if self.shaft is not None:
+            self._check_shaft()
+
+    def _check_shaft(self) -> None:
+        """Refuse a shaft whose speed changes where the matrices would change with it, or where it has no response to its unbalance."""
+        if np.abs(self.matrices.gyroscopic).max() > GYROSCOPIC * np.abs(self.damping).max():
+            raise InputError(
+                "shaft", shown(self.shaft), "None for a rotor with a gyroscopic matrix: its modes change with the speed"
+            )
+        if _singular(self.stiffness, self.mass, self.damping, self.stiffness):
+            raise InputError("shaft", shown(self.shaft), "None for a rotor in undamped resonance with its unbalance")
 
     @cached_property
     def planes(self) -> np.ndarray:
@@ -137,7 +157,9 @@ class LinearRotor(Result):
             push = Force(0.0, np.linalg.solve(self.mass, self.forcing))
             return with_forces(dataclasses.replace(self, forcing=np.zeros(n)).system, (push,))
         accelerations = np.linalg.solve(self.mass, np.concatenate([self.stiffness, self.damping], axis=1))
-        rest = np.linalg.solve(self.stiffness, self.forcing) if self.forcing.any() else np.zeros(n, complex)
+        turning = None if self.shaft is None else ShaftModes(self.shaft, np.linalg.solve(self.mass, self.forcing))
+        rests = turning is None and self.forcing.any()
+        rest = np.linalg.solve(self.stiffness, self.forcing) if rests else np.zeros(n, complex)
         moved = np.linalg.solve(self.mass, self.planes.conj().T)
         generator = np.concatenate([np.eye(n, 2 * n, n), -accelerations])
         found = modes_of(generator, self.mass)
@@ -147,7 +169,7 @@ class LinearRotor(Result):
                 "mass, planes", mobilities.tolist(), "positive mobilities W M⁻¹ Wᴴ: an impulse must move its plane"
             )
         races = [each.race for each in self.touchdowns]
-        if n == 1 and self.planes.tolist() == [[1.0]] and races == [None]:
+        if n == 1 and self.planes.tolist() == [[1.0]] and races == [None] and turning is None:
             return self._one_coordinate(found.exponents, complex(rest[0]))
         inverse, masses = np.linalg.inv(found.basis), 1.0 / mobilities.real
         return modal_system(
@@ -160,6 +182,7 @@ class LinearRotor(Result):
             rows=self.planes @ found.basis[:n],
             columns=inverse[:, n:] @ (moved / mobilities),
             races=RaceModes.of(races, masses),
+            shaft=turning,
             **walls_as_arrays([each.wall(mass) for each, mass in zip(self.touchdowns, masses, strict=True)]),
             masses=masses,
             translation=self.translation,
@@ -227,8 +250,8 @@ class LinearRotor(Result):
         """Return the numbers and the scales as attributes of a dataset, exact to the last bit."""
         numbers = {name: [getattr(self, name).real.tolist(), getattr(self, name).imag.tolist()] for name in _NUMBERS}
         numbers["touchdowns"] = [each.attributes() for each in self.touchdowns]
-        scales = dataclasses.asdict(self.scales) if self.scales else None
-        return {"linear_rotor": json.dumps(numbers), "scales": json.dumps(scales)}
+        shaft, scales = (dataclasses.asdict(part) if part else None for part in (self.shaft, self.scales))
+        return {"linear_rotor": json.dumps(numbers | {"shaft": shaft}), "scales": json.dumps(scales)}
 
     @classmethod
     def from_attributes(cls, attributes: Mapping[str, str]) -> LinearRotor:
@@ -246,7 +269,8 @@ class LinearRotor(Result):
             real, imaginary = numbers[name]
             numbers[name] = np.array(real) + 1j * np.array(imaginary)
         numbers["touchdowns"] = tuple(map(Touchdown.from_attributes, numbers["touchdowns"]))
-        return cls(**numbers, scales=Scales(**scales) if scales else None)
+        shaft = numbers.pop("shaft")
+        return cls(**numbers, shaft=Shaft(**shaft) if shaft else None, scales=Scales(**scales) if scales else None)
 
 
 def _singular(matrix: np.ndarray, *terms: np.ndarray) -> bool:

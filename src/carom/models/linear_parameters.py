@@ -118,6 +118,7 @@ def moved(rotor: LinearRotor, name: str, given: float | str) -> dict[str, Any]:
             "damping": rotor.damping + more,
             "stiffness": rotor.stiffness + stiffer + 1j * more,
             "touchdowns": tuple(each.at_speed(1.0 / slower) for each in rotor.touchdowns),
+            "shaft": None if rotor.shaft is None else rotor.shaft.at_speed(1.0 / slower),
             "scales": replace(rotor.scales, speed=value),
         }
     present = value_of(rotor, own)

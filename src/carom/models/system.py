@@ -10,9 +10,11 @@ from typing import NamedTuple
 import numpy as np
 
 from carom.core.flow import fly_all
+from carom.core.layout import copy_of
 from carom.core.table import flight_table
 from carom.core.wall import Wall
 from carom.models.race import RaceModes
+from carom.models.shaft import ShaftModes
 from carom.outcome import InputError
 from carom.results import Result
 
@@ -68,6 +70,8 @@ class System(Result):
         Amplitudes of the forcing modes at time zero, zeros elsewhere; all zeros by default.
     races : RaceModes, optional
         The modes of races that turn: they are not free, but friction changes them.
+    shaft : ShaftModes, optional
+        Those of a shaft whose speed changes.  The frame turns at its nominal speed.
     """
 
     arrays: np.record
@@ -77,6 +81,7 @@ class System(Result):
     translation: np.ndarray | None = None
     forced: np.ndarray | None = None
     races: RaceModes | None = None
+    shaft: ShaftModes | None = None
 
     @cached_property
     def table(self) -> np.record:
@@ -85,6 +90,12 @@ class System(Result):
         Rotors with the same modes, such as all with the same damping and stiffness, share them.
         """
         return _table(self.arrays["exponents"].tobytes(), self.arrays["driven"].tobytes())
+
+    def own_records(self) -> tuple[np.record, np.record]:
+        """The arrays and the table as :func:`carom.core.advance.advance` takes them: copies where it sets entries of them."""
+        if self.shaft is None:
+            return self.arrays, self.table
+        return copy_of(self.arrays), copy_of(self.table)
 
     @cached_property
     def contacts(self) -> tuple[Contact, ...]:
@@ -121,10 +132,14 @@ class System(Result):
         return np.diag(self.arrays["exponents"]) + np.diag(self.arrays["driven"][1:].astype(complex), -1)
 
     def refuse_forces(self) -> None:
-        """Refuse a rotor on which forces act that change with time in its frame, or with a race that turns: it never is at rest there."""
+        """Refuse a rotor that never is at rest in its frame: forces change with time there, a race turns or the speed changes."""
         if self.races is not None:
             raise InputError(
                 "machine", "a race that turns", "races that stand still, or carom.simulate and carom.settle"
+            )
+        if self.shaft is not None:
+            raise InputError(
+                "machine", "a shaft whose speed changes", "one at constant speed, or carom.simulate and carom.settle"
             )
         if self.forced is not None:
             raise InputError("machine", "forces that change with time", "a rotor whose forces turn with its frame")
@@ -229,7 +244,7 @@ class System(Result):
         velocities = np.multiply.outer(push, self.translated)
         if self.forced is None:
             return np.broadcast_to(self.rest, velocities.shape), velocities
-        position, velocity = np.split(self.states_of(self.forced[None])[0], 2)
+        position, velocity = np.split(self.states_of((self.forced + self._unbalanced)[None])[0], 2)
         return np.broadcast_to(position, velocities.shape), velocities + velocity
 
     def translation_velocity(self, velocities: np.ndarray) -> np.ndarray:
@@ -247,6 +262,22 @@ class System(Result):
         if self.races is None:
             return ()
         return tuple(amplitudes[self.arrays["race"][self.races.planes]].real.tolist())
+
+    def shaft_turn(self, amplitudes: np.ndarray) -> tuple[float, ...]:
+        """Speed of a shaft whose speed changes, in ``Ω``, and the angle by which it is ahead of the frame; empty without one."""
+        if self.shaft is None:
+            return ()
+        direction, speed = amplitudes[self.arrays["shaft"][0] :][:2]
+        return float(speed.real), float(np.angle(direction))
+
+    @cached_property
+    def _unbalanced(self) -> np.ndarray:
+        """Amplitudes of the response to the unbalance of such a shaft at the nominal speed, shape (N,); zeros without one."""
+        response = np.zeros(self.modes, complex)
+        if self.shaft is not None:
+            generator = self.generator[np.ix_(self.free, self.free)]
+            response[self.free] = np.linalg.solve(generator, -self.arrays["unbalance"][self.free])
+        return response
 
     @property
     def translated(self) -> np.ndarray:
@@ -270,7 +301,8 @@ class System(Result):
             return float(np.abs(arrays["offsets"]).max())
         if (arrays["driven"][1:] * ~self.free[:-1] * (self.forced[:-1] != 0.0)).any():
             return math.inf
-        return float((np.abs(arrays["offsets"]) + np.abs(arrays["rows"] * self.forced).sum(axis=1)).max())
+        offsets = arrays["offsets"] + arrays["rows"] @ self._unbalanced
+        return float((np.abs(offsets) + np.abs(arrays["rows"] * self.forced).sum(axis=1)).max())
 
     @cached_property
     def planes_translated(self) -> np.ndarray:

@@ -48,7 +48,7 @@ def least_recurrence(system: System, amplitudes: np.ndarray, contact: np.ndarray
 
 def _states_at_impacts(system: System, amplitudes: np.ndarray, contact: np.ndarray, count: int) -> np.ndarray:
     """Amplitudes just before an impact and the ``count`` following ones, fewer if the motion does something else."""
-    arrays, (planes, modes) = system.arrays, system.arrays.rows.shape
+    (arrays, table), (planes, modes) = system.own_records(), system.arrays.rows.shape
     state, touching, recollection = amplitudes.copy(), contact.copy(), memory(modes)
     log = EventLog.empty(LOGGED, modes, planes)
     tools = workspace(modes), rub_workspace(modes, planes)
@@ -56,7 +56,7 @@ def _states_at_impacts(system: System, amplitudes: np.ndarray, contact: np.ndarr
     passed, last, events, outcome = 0.0, -np.inf, 0, Outcome.EVENT_LIMIT
     while outcome == Outcome.EVENT_LIMIT and len(found) <= count and events < MOST_EVENTS:
         begun = np.maximum(touching, FLIGHT)
-        outcome, time, noted = advance(arrays, system.table, state, FOLLOWED_TIME, touching, log, recollection, *tools)
+        outcome, time, noted = advance(arrays, table, state, FOLLOWED_TIME, touching, log, recollection, *tools)
         new = log.first(noted)
         for event in np.flatnonzero(new.arrivals(begun, arrays["stiffness"] > 0.0)).tolist():
             if planes == 1 or passed + new.times[event] - last > SHORTEST_LAP:

@@ -32,8 +32,11 @@ LOGGED = 8192
 def goes_round(rotor: Model, amplitudes: np.ndarray, contact: np.ndarray, recollection: np.record) -> Outcome | None:
     """Whirl of a rotor that weighs something that has lasted for 1,024 turns along the wall, or of the shaft; else ``None``.
 
-    Contact that has not gone round once in the frame of the shaft in so many of its turns keeps in step with it.
+    Contact that has not gone round once in the frame of the shaft in so many of its turns keeps in step with it.  Where the shaft loses
+    its speed, none of this has lasted.
     """
+    if rotor.system.shaft is not None:
+        return None
     in_step = recollection.turning != NO_TURN and recollection.turn_time >= 2 * TURNS * 2.0 * math.pi
     if not (in_step or recollection.turns >= 2 * TURNS) or weight_of(rotor) is None:
         return None
@@ -61,11 +64,11 @@ def lies(rotor: Model, amplitudes: np.ndarray, contact: np.ndarray) -> bool:
     touching = np.array([lasts(int(each)) for each in contact])
     if weight_of(rotor) is None or not touching.any():
         return False
-    arrays, (planes, modes) = rotor.system.arrays, rotor.system.arrays["rows"].shape
+    (arrays, table), (planes, modes) = rotor.system.own_records(), rotor.system.arrays["rows"].shape
     log = EventLog.empty(LOGGED, modes, planes)
     state, until = amplitudes.copy(), 2.0 * math.pi * FOLLOWED_TURNS
     tools = memory(modes), workspace(modes), rub_workspace(modes, planes)
-    outcome, _, count = advance(arrays, rotor.system.table, state, until, contact.copy(), log, *tools)
+    outcome, _, count = advance(arrays, table, state, until, contact.copy(), log, *tools)
     seen = log.first(count)
     if outcome != Outcome.TIME_REACHED or (seen.phases[:, touching] == Phase.FLIGHT).any():
         return False

@@ -103,7 +103,7 @@ def simulate(
         if parts[-1].outcome is not Outcome.TRIGGERED:
             break
         ended = parts[-1].final
-        state = State.of(*stage.carried(ended.position, ended.velocity), ended.races)
+        state = State.of(*stage.carried(ended.position, ended.velocity), ended.races, ended.shaft)
     return dataclasses.replace(parts[-1], earlier=tuple(parts[:-1])) if len(parts) > 1 else parts[0]
 
 
@@ -147,7 +147,7 @@ def _follow_stage(
         start=start,
         outcome=outcome,
         time=reached,
-        final=State.of(position, velocity, rotor.system.race_speeds(amplitudes)),
+        final=State.of(position, velocity, rotor.system.race_speeds(amplitudes), rotor.system.shaft_turn(amplitudes)),
         multiplicity=multiplicity,
         segment_starts=np.concatenate([np.zeros(1), *(log.times for log in logs)]),
         segment_phases=np.concatenate([phases, *(log.phases for log in logs)]),
@@ -158,10 +158,10 @@ def _follow_stage(
     )
 
 
-def tools(rotor: Model) -> tuple[np.record, np.record]:
-    """Scratch arrays for :func:`follow`."""
+def tools(rotor: Model) -> tuple[np.record, ...]:
+    """Rotor, table and scratch arrays for :func:`follow`."""
     modes, planes = rotor.system.arrays["columns"].shape
-    return workspace(modes), rub_workspace(modes, planes)
+    return *rotor.system.own_records(), workspace(modes), rub_workspace(modes, planes)
 
 
 def follow(
@@ -171,13 +171,12 @@ def follow(
     contact: np.ndarray,
     log: EventLog,
     recollection: np.record,
-    scratch: tuple[np.record, np.record] | None = None,
+    scratch: tuple[np.record, ...] | None = None,
 ) -> tuple[Outcome, float, int]:
     """Advance amplitudes and contacts in place until the log is full or the motion ends.
 
     See :func:`carom.core.advance.advance`; ``scratch`` are :func:`tools`, for many motions.
     """
-    system = rotor.system
-    work, rub = tools(rotor) if scratch is None else scratch
-    code, *rest = advance(system.arrays, system.table, amplitudes, until, contact, log, recollection, work, rub)
+    arrays, table, work, rub = tools(rotor) if scratch is None else scratch
+    code, *rest = advance(arrays, table, amplitudes, until, contact, log, recollection, work, rub)
     return Outcome(code), *rest

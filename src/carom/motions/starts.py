@@ -38,6 +38,9 @@ class State:
     races : tuple of float
         Speeds of the surfaces of the races that turn, in the order of their planes, in ``c_r Ω`` in the fixed frame; by default
         those that the rotor begins with.
+    shaft : tuple of float
+        Of a shaft whose speed changes: its speed in ``Ω``, and the angle in rad by which it is ahead of the frame, which turns at the
+        nominal speed.  By default ``(1.0, 0.0)``.
 
     See Also
     --------
@@ -53,13 +56,24 @@ class State:
     position: Any
     velocity: Any = 0j
     races: tuple[float, ...] = ()
+    shaft: tuple[float, ...] = ()
+
+    def __repr__(self) -> str:
+        turning = [f", {name}={getattr(self, name)}" for name in ("races", "shaft") if getattr(self, name)]
+        return f"State(position={self.position}, velocity={self.velocity}{''.join(turning)})"
 
     @classmethod
-    def of(cls, position: np.ndarray, velocity: np.ndarray, races: tuple[float, ...] = ()) -> State:
+    def of(
+        cls,
+        position: np.ndarray,
+        velocity: np.ndarray,
+        races: tuple[float, ...] = (),
+        shaft: tuple[float, ...] = (),
+    ) -> State:
         """State of plain numbers, or of arrays if there are several coordinates."""
         if np.ndim(position):
-            return cls(position, velocity, races)
-        return cls(complex(position), complex(velocity), races)
+            return cls(position, velocity, races, shaft)
+        return cls(complex(position), complex(velocity), races, shaft)
 
 
 @checked
@@ -144,6 +158,8 @@ def amplitudes_of(rotor: Model, state: State, time: float = 0.0) -> tuple[np.nda
     amplitudes = system.amplitudes(state.position, state.velocity, time)
     if state.races:
         _set_races(system, state.races, amplitudes)
+    if state.shaft:
+        _set_shaft(system, state.shaft, amplitudes)
     contact = np.full(len(system.arrays["rows"]), AWAY)
     for plane in range(len(contact)):
         # The given position of the planar rotor is used, free of the rounding of the amplitudes.
@@ -169,3 +185,12 @@ def _set_races(system: System, speeds: tuple[float, ...], amplitudes: np.ndarray
     if len(speeds) != len(places) or not np.isfinite(speeds).all():
         raise InputError("start races", speeds, f"{len(places)} finite number(s), one for each race that turns")
     amplitudes[np.array(places, int)] = speeds
+
+
+def _set_shaft(system: System, turn: tuple[float, ...], amplitudes: np.ndarray) -> None:
+    """Set speed and angle of a shaft whose speed changes."""
+    count = 0 if system.shaft is None else 2
+    if len(turn) != count or not np.isfinite(turn).all():
+        raise InputError("start shaft", turn, f"{count} finite numbers: speed and angle of a shaft whose speed changes")
+    place = system.arrays["shaft"][0]
+    amplitudes[place], amplitudes[place + 1] = cmath.rect(1.0, turn[1]), turn[0]

@@ -113,9 +113,10 @@ def _parts(values: np.ndarray) -> np.ndarray:
 
 def _numbers(state: State) -> list[Any]:
     parts = state.position, state.velocity
-    return [*([np.asarray(part).real.tolist(), np.asarray(part).imag.tolist()] for part in parts), list(state.races)]
+    numbers = ([np.asarray(part).real.tolist(), np.asarray(part).imag.tolist()] for part in parts)
+    return [*numbers, list(state.races), list(state.shaft)]
 
 
 def _state(numbers: list[Any]) -> State:
     position, velocity = (np.array(real) + 1j * np.array(imaginary) for real, imaginary in numbers[:2])
-    return State.of(position, velocity, tuple(numbers[2]))
+    return State.of(position, velocity, *map(tuple, numbers[2:]))

@@ -1,0 +1,294 @@
+"""Shafts whose speed changes: motions against a general integrator, momentum, a heavy rotor that stops, and what is refused."""
+
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+import pytest
+from turning_reference import SLIDES, Turning
+
+import carom as cm
+from carom.models import (
+    Force,
+    Forced,
+    HuntCrossley,
+    KelvinVoigt,
+    LinearRotor,
+    Race,
+    Rigid,
+    Shaft,
+    Touchdown,
+    model_from,
+)
+from carom.models.weight import without_levitation
+
+START = cm.State(0.2 + 0.1j, 1.0)
+SOFT = KelvinVoigt(1e3, 3.3)
+
+
+def single(law, shaft, friction=0.15, surface_speed=57.14, race=None, **changes):
+    """The planar rotor."""
+    numbers = {"mass": [[1.0]], "damping": [[0.1]], "stiffness": [[0.76**2]], "forcing": [3.0 / 7.0 * np.exp(0.21j)]}
+    touchdowns = [Touchdown([1.0], law, friction, surface_speed, race)]
+    return LinearRotor.in_fixed_frame(**(numbers | changes), touchdowns=touchdowns, shaft=shaft)
+
+
+def double(laws, shaft, friction=(0.2, 0.3), surface_speed=(3.0, 2.0), races=(None, None)):
+    """A rotor with two coordinates and two planes."""
+    each = zip([[1.0, 0.8], [1.0, -0.7]], laws, friction, surface_speed, races, strict=True)
+    return LinearRotor.in_fixed_frame(
+        mass=[[1.0, 0.05], [0.05, 0.3]],
+        damping=[[0.1, 0.01], [0.01, 0.04]],
+        stiffness=[[0.6, 0.02], [0.02, 0.2]],
+        forcing=[0.3 + 0.1j, 0.05 - 0.03j],
+        touchdowns=[Touchdown(*numbers) for numbers in each],
+        shaft=shaft,
+    )
+
+
+def assert_same(motion, reference, until, y, rotor=None):
+    """Far above the errors found, 1e-12, and far below what any term of the equations contributes."""
+    position, velocity, speed, ahead, races = reference.seen_in_the_frame(until, y)
+    assert motion.final.position == pytest.approx(position if len(position) > 1 else position[0], abs=1e-11)
+    assert motion.final.velocity == pytest.approx(velocity if len(velocity) > 1 else velocity[0], abs=1e-11)
+    assert motion.final.shaft[0] == pytest.approx(speed, abs=1e-11)
+    assert np.exp(1j * motion.final.shaft[1]) == pytest.approx(np.exp(1j * ahead), abs=1e-11)
+    turning = [
+        race for race, each in zip(races, (rotor or motion.rotor).touchdowns, strict=True) if each.race is not None
+    ]
+    assert motion.final.races == pytest.approx(turning, abs=1e-11)
+
+
+@pytest.mark.jit_only
+@pytest.mark.parametrize(
+    ("rotor", "contacts", "kinds"),
+    [
+        (single(KelvinVoigt(1e4, 3.3), Shaft(9e2)), 5, {(0, 1)}),
+        (single(HuntCrossley(1e4, 0.05), Shaft(0.8, 0.03), 0.6, 1.5), 2, {(0, 1), (0, 0), (0, -1)}),
+        (single(SOFT, Shaft(3.0, 0.1), 0.6, 1.2, Race(0.5, 1.5, 0.02, 0.1)), 6, {(0, 1), (0, 0)}),
+        (
+            double([SOFT, HuntCrossley(1e3, 0.1, 1.5)], Shaft(2.0, 0.1)),
+            4,
+            {(0, 1), (1, 1), (1, -1)},
+        ),
+        (
+            double(
+                [SOFT, KelvinVoigt(2e3, 4.0)],
+                Shaft(0.5, 0.05),
+                (0.6, 0.5),
+                (1.5, 1.3),
+                (Race(0.5, 1.5, 0.02, 0.1), None),
+            ),
+            7,
+            {(0, 1), (0, 0), (0, -1), (1, 1), (1, 0), (1, -1)},
+        ),
+    ],
+)
+def test_contacts_that_give_way_against_a_general_integrator(rotor, contacts, kinds):
+    start = START if len(rotor.forcing) == 1 else cm.State(np.array([0.2 + 0.1j, 0.1]), np.array([1.0, 0.5j]))
+    reference = Turning(rotor)
+    y = reference.follow(reference.start(start.position, start.velocity), 12.0)
+    assert (reference.contacts, {(plane, sense) for plane, _, sense in reference.seen}) == (contacts, kinds)
+    assert abs(reference.parts(y)[3] - 1.0) > 5e-3
+    assert_same(cm.simulate(rotor, start, 12.0), reference, 12.0, y)
+
+
+@pytest.mark.jit_only
+@pytest.mark.parametrize(
+    ("rotor", "impacts"),
+    [
+        (single(Rigid(0.8), Shaft(5.0), 0.2, 4.0), 2),
+        (single(Rigid(0.9), Shaft(1.0), 0.5, 2.0), 2),
+        (double([Rigid(0.8), Rigid(0.7)], Shaft(2.0)), 4),
+        (double([Rigid(0.8), SOFT], Shaft(2.0)), 2),
+    ],
+)
+def test_impacts_against_a_general_integrator(rotor, impacts):
+    start = START if len(rotor.forcing) == 1 else cm.State(np.array([0.2 + 0.1j, 0.1]), np.array([1.0, 0.5j]))
+    reference = Turning(rotor)
+    y = reference.follow(reference.start(start.position, start.velocity), 8.0)
+    assert reference.impacts == impacts
+    assert_same(cm.simulate(rotor, start, 8.0), reference, 8.0, y)
+
+
+@pytest.mark.jit_only
+@pytest.mark.parametrize(
+    ("shaft", "friction", "surface_speed", "push", "rate", "until", "kinds"),
+    [
+        (Shaft(0.5, 0.02), 0.3, 1.5, 1.2 * np.exp(0.2j), 0.2, 1.0, {1}),
+        (Shaft(0.5, 0.02), 0.3, 1.5, 0.5, -1.9, 0.5, {-1}),
+        (Shaft(50.0, 0.02), 0.6, 1.5, 0.5, -1.5, 0.5, {-1, 0, 1}),
+        (Shaft(5.0, 0.2), 0.3, 3.0, 0.5, -3.1, 2.0, {-1, 0}),
+        (Shaft(5.0, 0.2), 0.05, 3.0, 0.5, -3.0, 2.0, {0, 1}),
+    ],
+)
+def test_rubs_on_a_rigid_wall_against_a_general_integrator(shaft, friction, surface_speed, push, rate, until, kinds):
+    rotor = single(Rigid(0.5), shaft, friction, surface_speed, forcing=[push])
+    start = cm.State(np.exp(0.3j), 1j * rate * np.exp(0.3j), shaft=(1.0, 0.0))
+    reference = Turning(rotor)
+    y = reference.start(start.position, start.velocity)
+    reference.phases = [SLIDES]
+    reference.senses = [1 if reference.slip(0, y) > 0.0 else -1]
+    if abs(reference.slip(0, y)) < 1e-12:
+        reference.change_slip(0, y)
+    y = reference.follow(y, until)
+    assert {sense for _, _, sense in reference.seen} == kinds
+    assert_same(cm.simulate(rotor, start, until), reference, until, y)
+
+
+@pytest.mark.parametrize("restitution", [1.0, 0.8, 0.3])
+def test_momentum_that_a_rigid_wall_does_not_change(restitution):
+    """Friction turns the centre about the bearing at the radius one, and the shaft about its axis at the rotor's radius."""
+    rotor = single(Rigid(restitution), Shaft(1.5), 0.2, 3.0, damping=[[0.0]], forcing=[0.0])
+    motion = cm.simulate(rotor, START, 40.0)
+    assert len(motion.contacts) >= 10
+    assert motion.final.shaft[0] < 0.75
+
+    def momentum(position, velocity, speed):
+        return 1.5 * speed - 2.0 * (np.conj(position) * (velocity + 1j * position)).imag
+
+    final = momentum(motion.final.position, motion.final.velocity, motion.final.shaft[0])
+    assert final == pytest.approx(momentum(START.position, START.velocity, 1.0), abs=1e-11)
+
+
+def test_energy_is_lost_to_friction_alone():
+    """A balanced, undamped rotor in an elastic wall: with its shaft it loses what friction takes, and nothing while it rolls."""
+    rotor = single(HuntCrossley(1e3, 0.0), Shaft(1.5), 0.4, 2.0, damping=[[0.0]], forcing=[0.0])
+
+    def energy(amplitudes):
+        position, velocity = rotor.system.state(amplitudes)
+        speed = amplitudes[rotor.system.arrays["shaft"][0] + 1].real
+        depth = max(abs(position) - 1.0, 0.0)
+        return 0.5 * (
+            abs(velocity + 1j * position) ** 2 + 0.76**2 * abs(position) ** 2 + 1.5 * speed**2 + 1e3 * depth**2
+        )
+
+    motion = cm.simulate(rotor, START, 40.0)
+    energies = np.array([energy(amplitudes) for amplitudes in motion.segment_amplitudes])
+    phases = motion.segment_phases[:-1, 0]
+    lost = -np.diff(energies)
+    slips = np.isin(phases, (cm.outcome.Phase.FORWARD_SLIP, cm.outcome.Phase.BACKWARD_SLIP))
+    assert slips.any()
+    assert (phases == cm.outcome.Phase.ROLLING).any()
+    assert (lost[slips] > 0.0).all()
+    assert np.abs(lost[~slips]).max() < 1e-13
+
+
+def test_a_heavy_rotor_stops_when_friction_has_taken_its_momentum():
+    """Where it lies at the angle of friction, the wall presses with ``N = W/√(1 + μ²)``, and it stops after ``JΩ/(μNR)``."""
+    inertia, friction, radius, weight, stiffness = 20.0, 0.2, 4.0, 0.5, 1e3
+    bare = single(
+        KelvinVoigt(stiffness, 30.0),
+        Shaft(inertia),
+        friction,
+        radius + 1.0,
+        damping=[[0.0]],
+        stiffness=[[0.0]],
+        forcing=[0.0],
+    )
+    rotor = Forced(bare, (Force(-1j, np.array([-1j * weight])),))
+    normal = weight / np.hypot(1.0, friction)
+    place = (1.0 + normal / stiffness) * np.exp(-1j * (0.5 * np.pi + np.arctan(friction)))
+    stop = inertia / (friction * normal * radius)
+    motion = cm.simulate(rotor, cm.State(place, -1j * place), 1.1 * stop)
+    first, after = motion.lasting_contacts[:2]
+    assert first.phase is cm.outcome.Phase.FORWARD_SLIP
+    assert first.end == pytest.approx(stop, rel=1e-11)
+    assert after.phase is cm.outcome.Phase.ROLLING
+    half = cm.simulate(rotor, cm.State(place, -1j * place), 0.5 * stop).final
+    assert half.shaft[0] == pytest.approx(0.5, abs=1e-12)
+    assert half.position == pytest.approx(place * np.exp(-0.5j * stop), abs=1e-11)
+
+
+@pytest.mark.jit_only
+def test_a_drop_against_a_general_integrator():
+    """An unbalanced rotor falls, strikes the bearing and climbs along it, while friction brakes the shaft."""
+    bare = single(KelvinVoigt(2e3, 20.0), Shaft(6.0, 0.01), 0.3, 5.0, damping=[[0.0]], stiffness=[[0.0]], forcing=[0.1])
+    motion = cm.simulate(Forced(bare, (Force(-1j, np.array([-0.02j])),)), cm.State(0.1, -0.05j), 26.0)
+    reference = Turning(bare, weight=-0.02j)
+    y = reference.follow(reference.start(0.1, -0.05j), 26.0)
+    assert reference.contacts == 2
+    assert reference.parts(y)[3] < 0.9
+    assert_same(motion, reference, 26.0, y, bare)
+
+
+def test_levitation_is_lost_with_the_shaft_that_the_rotor_has():
+    held = single(SOFT, Shaft(6.0, 0.01))
+    falling = without_levitation(Forced(held, (Force(-1j, np.array([-0.02j])),)))
+    assert falling.rotor.shaft == held.shaft
+    assert falling.system.shaft is not None
+
+
+def test_without_contact_the_speed_stays_and_the_unbalance_follows_it():
+    rotor = single(SOFT, Shaft(3.0), forcing=[0.1])
+    for speed, angle in ((1.0, 0.0), (0.4, 0.7), (-0.3, 2.0)):
+        response = 0.1 * speed**2 / (0.76**2 - speed**2 + 0.1j * speed) * np.exp(1j * angle)
+        end = cm.simulate(rotor, cm.State(response, 1j * (speed - 1.0) * response, shaft=(speed, angle)), 5.0).final
+        assert end.shaft[0] == speed
+        assert end.position == pytest.approx(response * np.exp(5j * (speed - 1.0)), abs=1e-14)
+    at_rest = cm.kick(0.0).state(rotor)
+    assert at_rest.position == pytest.approx(0.1 / (0.76**2 - 1.0 + 0.1j), abs=1e-15)
+    assert rotor.system.rest_radius == pytest.approx(abs(at_rest.position), rel=1e-14)
+
+
+def test_a_motion_goes_on_from_its_end_and_is_seen_between():
+    rotor = single(SOFT, Shaft(3.0), 0.3, 3.0)
+    whole, first = cm.simulate(rotor, START, 9.0), cm.simulate(rotor, START, 4.2)
+    later = cm.simulate(rotor, first.final, 4.8)
+    assert later.final.shaft == pytest.approx(whole.final.shaft, abs=1e-13)
+    assert later.final.position == pytest.approx(whole.final.position, abs=1e-13)
+    for time in np.linspace(0.3, 8.7, 15):
+        assert whole.at(time)[0] == pytest.approx(cm.simulate(rotor, START, time).final.position, abs=1e-13)
+
+
+def test_braked_motions_settle_one_by_one_and_together():
+    rotor = single(SOFT, Shaft(3.0), 0.3, 3.0)
+    kicks = [0.3, 1.0, 4.0]
+    motions = [cm.simulate(rotor, cm.kick(size)) for size in kicks]
+    assert {motion.outcome.label for motion in motions} == {"levitated"}
+    assert all(motion.final.shaft[0] < 0.5 for motion in motions)
+    velocities = np.array([motion.start.velocity for motion in motions])
+    together = cm.settle(rotor, motions[0].start.position, velocities)
+    assert together.times.tolist() == [motion.time for motion in motions]
+
+
+def test_a_driven_shaft_leaves_a_rigid_wall_where_nothing_presses_it_there():
+    """It lifts off where ``N`` vanishes, in contact as in flight; many of these motions do so."""
+    rotor = single(Rigid(0.9), Shaft(500.0, 1.0), 0.15, 57.0)
+    draws = np.random.default_rng(5).uniform(-1.0, 1.0, (40, 4))
+    ends = cm.settle(rotor, 0.5 * (draws[:, 0] + 0.6j * draws[:, 1]), draws[:, 2] + 1j * draws[:, 3])
+    assert set(ends.outcomes.tolist()) <= {cm.outcome.Outcome.LEVITATED, cm.outcome.Outcome.FORWARD_RUB}
+
+
+def test_a_rotor_with_a_shaft_is_written_and_read(tmp_path):
+    rotor = single(SOFT, Shaft(2.0, 0.1), 0.3, 3.0)
+    again = model_from(rotor.attributes())
+    assert again.shaft == rotor.shaft
+    motion = cm.simulate(again, START, 3.0)
+    motion.save(tmp_path / "motion.nc")
+    assert cm.motions.Trajectory.load(tmp_path / "motion.nc").final == cm.simulate(rotor, START, 3.0).final
+
+
+def test_another_nominal_speed_is_another_unit_of_the_torque():
+    assert Shaft(2.0, 0.4).at_speed(2.0) == Shaft(2.0, 0.1)
+    scales = cm.parameters.Scales(mass=1.0, clearance=1e-3, speed=100.0)
+    rotor = dataclasses.replace(single(SOFT, Shaft(2.0, 0.4)), scales=scales)
+    assert rotor.replace(speed=200.0).shaft == Shaft(2.0, 0.1)
+
+
+def test_what_cannot_be_is_refused():
+    with pytest.raises(cm.outcome.InputError, match=r"inertia = 0.0"):
+        Shaft(0.0)
+    with pytest.raises(cm.outcome.InputError, match="shaft = "):
+        single(SOFT, 3.0)
+    with pytest.raises(cm.outcome.InputError, match="gyroscopic"):
+        single(SOFT, Shaft(1.0), gyroscopic=[[0.2]])
+    with pytest.raises(cm.outcome.InputError, match="undamped resonance"):
+        single(SOFT, Shaft(1.0), damping=[[0.0]], stiffness=[[1.0]])
+    with pytest.raises(cm.outcome.InputError, match="start shaft"):
+        cm.simulate(single(SOFT, Shaft(2.0)), cm.State(0.1, 0.0, shaft=(1.0,)), 1.0)
+    with pytest.raises(cm.outcome.InputError, match="start shaft"):
+        cm.simulate(single(SOFT, None), cm.State(0.1, 0.0, shaft=(1.0, 0.0)), 1.0)
+    with pytest.raises(cm.outcome.InputError, match="a shaft whose speed changes"):
+        single(SOFT, Shaft(2.0)).system.refuse_forces()
