@@ -98,8 +98,8 @@ def simulate(
         options = {"--start": start, "--kick": kick, "--shock": shock, "--blade-loss": blade_loss}
         if regained_after is not None and not drop:
             raise InputError("--regained-after", regained_after, "allowed only with --drop")
-        rotor, given, echo = read_drop(case, options, regained_after) if drop else _read(case, options)
         end = None if until is None else read_time(until, case.parameters.scales)
+        rotor, given, echo = read_drop(case, options, regained_after) if drop else _read(case, options)
         motion = _follow(rotor, given, kick, end, tell if out is None else tell.part(0.0, 0.4))
         for option, path in targets.items():
             from carom.cli.logs import write_csv, write_netcdf
