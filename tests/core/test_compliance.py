@@ -15,7 +15,7 @@ from carom.core.contact_series import rub_series
 from carom.core.flow import displacement, velocity
 from carom.core.layout import ORDER, rub_workspace
 from carom.core.rub import first_transition, next_phase
-from carom.core.taylor import STEP_FRACTION, series_step, sum_series
+from carom.core.taylor import STEP_FRACTION, margin_step, series_step, sum_series
 from carom.models import HuntCrossley, KelvinVoigt, LinearRotor, Touchdown
 from carom.outcome import Phase
 
@@ -65,7 +65,7 @@ def series_of(law, start, phase):
 
 def step_of(rotor, work):
     """The step that is taken: the series of the motion and of the depth are exact to rounding."""
-    return next_form(rotor, 0, series_step(work), work)
+    return next_form(rotor, 0, min(series_step(work), margin_step(work.depth[0])), work)
 
 
 def push_of(law, depth, rate, power):
@@ -360,3 +360,14 @@ def test_a_step_ends_at_the_onset_of_a_broken_power_and_only_there():
         assert work.depth[0, : ORDER + 1] @ time ** np.arange(ORDER + 1) == pytest.approx(1e-9, rel=1e-3)
     rotor, _, work = series_of(LAWS[1], start_of(0.5e-9, 0.3, 0.2, 0.1, FORWARD), FORWARD)
     assert next_form(rotor, 0, 1e-8, work) == 1e-8
+
+
+@pytest.mark.parametrize("beyond", [0.0, 3e-5, 7e-5, 2e-4, 8e-4, 2e-3])
+@pytest.mark.parametrize("rate", [-0.3, 0.3])
+def test_a_step_goes_on_from_wherever_the_one_before_has_ended_near_the_onset(rate, beyond):
+    """One that ended by chance just before the onset, on the way out or in, must not stop there for ever."""
+    depth = 1e-9 * (1.0 - math.copysign(beyond, rate))
+    rotor, _, work = series_of(LAWS[3], start_of(depth, rate, 0.2, 0.1, FORWARD), FORWARD)
+    time = next_form(rotor, 0, 1e-8, work)
+    assert time > 0.0
+    assert time == pytest.approx(1e-9 * beyond / 0.3, abs=1e-13 / 0.3) or time > 1e-9

@@ -2,8 +2,9 @@
 
 import pytest
 
+import carom as cm
 from carom.closed_forms import internal_resonance, yielding_rubs
-from carom.models import LinearRotor, Rigid, Touchdown
+from carom.models import KelvinVoigt, LinearRotor, Rigid, Touchdown
 from carom.parameters.restitution import damping_ratio_of, dissipation_of, restitution_of_dissipation
 
 SPEED = 0.3
@@ -61,3 +62,33 @@ def test_synchronous_rubs_of_the_overhung_rotor():
             assert left == pytest.approx(UNBALANCE * speed**2, rel=1e-12)
     # Levitation alone; past its resonance; beside levitation, up to the resonance with the ring.
     assert numbers == [0, 1, 2, 2, 0]
+
+
+@pytest.mark.jit_only
+def test_the_overhung_rotor_bounces_beside_levitation_near_its_internal_resonance():
+    """Shaw et al. 2016: asynchronous partial contact appears at the 2:1 resonance and coexists with levitation above it."""
+    speed = 5.0
+    rotor = LinearRotor.in_fixed_frame(
+        mass=[[1.0]],
+        damping=[[2.0 * DAMPING_RATIO / speed]],
+        gyroscopic=[[POLAR_INERTIA]],
+        stiffness=[[1.0 / speed**2]],
+        forcing=[UNBALANCE],
+        touchdowns=[Touchdown([1.0], KelvinVoigt(RING / speed**2, 0.0), 0.0, 1.0)],
+        scales=cm.parameters.Scales(1.0, 1.0, speed),
+    )
+    (levitation,) = cm.find_equilibria(rotor)
+    assert levitation.kind == "contact-free"
+    assert levitation.stable
+    motion = cm.simulate(rotor, cm.State(0.2, 1.0))
+    orbit = cm.orbits.orbit_of_motion(motion)
+    assert str(orbit.word) == "slide+ lift slide+ lift"
+    assert orbit.stable
+    assert orbit.admissible
+    again = cm.simulate(rotor, motion.final, 10.0 * orbit.period).final
+    assert abs(again.position - motion.final.position) < 1e-8
+    branch = cm.continue_orbit(orbit, "speed", (2.5, 9.0))
+    kinds = [point.kind for point in branch.special]
+    assert {"fold", "period-doubling"} <= set(kinds)
+    fold = branch.special[kinds.index("fold")].value
+    assert 0.95 * 3.3208483 < fold < 3.3208483

@@ -2,15 +2,26 @@
 
 from __future__ import annotations
 
+import dataclasses
+
 import numpy as np
 import pytest
 
 import carom as cm
 from carom.disturbances import KickPlane
-from carom.models import FallingRestitution, Jeffcott, LinearRotor, Rigid, Touchdown, model_from
+from carom.models import (
+    FallingRestitution,
+    HuntCrossley,
+    Jeffcott,
+    KelvinVoigt,
+    LinearRotor,
+    Rigid,
+    Touchdown,
+    model_from,
+)
 from carom.motions.starts import State
 from carom.outcome import InputError, Outcome
-from carom.parameters import Parameters
+from carom.parameters import Parameters, Scales
 
 PAPER = Parameters(gamma=0.1, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=50.0)
 START = State(0.2 + 0.1j, 1.2 - 0.3j)
@@ -89,3 +100,122 @@ def test_bad_values_are_refused(make, named):
 def test_the_outcomes_of_a_wall_that_yields_are_those_of_any_other():
     motion = cm.simulate(paper(FallingRestitution(0.3, 0.5)), cm.kick(1.1))
     assert motion.outcome in (Outcome.LEVITATED, Outcome.FORWARD_RUB, Outcome.BOUNCING)
+
+
+# ------------------------------------------------------------------------------------------------ walls that give way
+
+SPRING, BALLS = KelvinVoigt(3e4, 7.0), HuntCrossley(5e4, 0.3, 1.5)
+IN_SI = Scales(mass=3.0, clearance=0.2e-3, speed=400.0)
+
+
+def with_two_walls(first, second, scales=None) -> LinearRotor:
+    """A rotor that tilts, with a wall at each end."""
+    return LinearRotor.in_fixed_frame(
+        mass=[[1.0, 0.0], [0.0, 0.4]],
+        damping=[[0.1, 0.0], [0.0, 0.05]],
+        stiffness=[[0.6, 0.05], [0.05, 0.3]],
+        gyroscopic=[[0.0, 0.0], [0.0, 0.3]],
+        forcing=[0.3, 0.05j],
+        touchdowns=[Touchdown([1.0, 0.8], first, 0.2, 21.0), Touchdown([1.0, -0.7], second, 0.1, 31.0)],
+        scales=scales,
+    )
+
+
+@pytest.mark.parametrize("law", [SPRING, BALLS, HuntCrossley(7.0, 0.0), HuntCrossley(7.0, 0.0, 10 / 9)], ids=str)
+def test_walls_that_give_way_are_stored_and_read_again_to_the_last_bit(law):
+    rotor = with_two_walls(law, Rigid(0.9))
+    again = model_from(rotor.attributes())
+    assert again.touchdowns == rotor.touchdowns
+    assert [Touchdown.from_attributes(each.attributes()) for each in rotor.touchdowns] == list(rotor.touchdowns)
+
+
+def test_numbers_of_walls_are_per_mass_that_the_plane_feels():
+    touchdown = Touchdown([2.0], SPRING, 0.2, 5.0)
+    wall = touchdown.wall(0.25)
+    assert (wall.stiffness, wall.loss, wall.friction, wall.surface_speed) == (1.2e5, 28.0, 0.2, 5.0)
+    wall = Touchdown([2.0], BALLS, 0.2, 5.0).wall(0.25)
+    assert (wall.stiffness, wall.loss, wall.law_number) == (2e5, 0.3, 1.5)
+
+
+def test_parameters_of_walls_have_names_by_law_and_plane():
+    both = with_two_walls(SPRING, BALLS)
+    walls = {name for name in both.varied if name.startswith("wall")}
+    assert walls == {"wall_stiffness", "wall_stiffness_1", "wall_stiffness_2", "wall_damping_1", "wall_dissipation_2"}
+    assert not {"d", "d_1", "d_2", "restitution"} & set(both.varied)
+    changed = both.replace(wall_stiffness=9e3, wall_damping_1=2.0, wall_dissipation_2=0.1, mu_2=0.3)
+    assert [each.law for each in changed.touchdowns] == [KelvinVoigt(9e3, 2.0), HuntCrossley(9e3, 0.1, 1.5)]
+    assert changed.value("wall_stiffness") == 9e3
+    assert changed.rates("wall_stiffness") is None
+    one = with_two_walls(SPRING, Rigid(0.9))
+    assert {"wall_stiffness_1", "wall_damping_1", "d_2"} <= set(one.varied)
+    assert not {"wall_stiffness", "wall_stiffness_2", "d", "d_1"} & set(one.varied)
+    alone = paper(BALLS)
+    assert {name for name in alone.varied if name.startswith("wall")} == {"wall_stiffness", "wall_dissipation"}
+    assert alone.replace(wall_dissipation=0.5).touchdowns[0].law == HuntCrossley(5e4, 0.5, 1.5)
+
+
+def test_values_that_differ_between_walls_are_no_one_value():
+    with pytest.raises(InputError, match="wall_stiffness = "):
+        with_two_walls(SPRING, BALLS).value("wall_stiffness")
+    with pytest.raises(InputError, match="wall_damping_2"):
+        with_two_walls(SPRING, BALLS).replace(wall_damping_2=1.0)
+    with pytest.raises(InputError, match="wall_stiffness"):
+        paper(Rigid(0.9)).replace(wall_stiffness=1e4)
+
+
+@pytest.mark.parametrize("law", [SPRING, BALLS], ids=str)
+def test_the_same_wall_at_another_speed_gives_the_same_motion_in_si(law):
+    """Without unbalance, which grows with the speed, and in a fixed frame: nothing else then depends on the speed."""
+    rotor = dataclasses.replace(paper(law), forcing=np.zeros(1), scales=IN_SI)
+    factor = 1.7
+    faster = rotor.replace(speed=IN_SI.speed * factor)
+    # The surface is the shaft's: without friction its speed does not matter.
+    rotor, faster = (each.replace(mu=0.0) for each in (rotor, faster))
+    position, velocity, until = 0.3 + 0.2j, 2.0 - 0.4j, 6.0
+    slow = cm.simulate(rotor, State(position, velocity - 1j * position), until)
+    fast = cm.simulate(faster, State(position, velocity / factor - 1j * position), until * factor)
+    assert len(slow.lasting_contacts) == len(fast.lasting_contacts) >= 3
+    ends = [
+        (np.exp(1j * motion.time) * motion.final.position, np.exp(1j * motion.time) * speed * velocity_in_fixed(motion))
+        for motion, speed in ((slow, 1.0), (fast, factor))
+    ]
+    np.testing.assert_allclose(ends[0], ends[1], rtol=0.0, atol=1e-10)
+
+
+def velocity_in_fixed(motion):
+    """Velocity at the end in the fixed frame, turned back."""
+    return motion.final.velocity + 1j * motion.final.position
+
+
+@pytest.mark.parametrize("law", [SPRING, BALLS, FallingRestitution(0.9, 2.0)], ids=str)
+def test_to_another_speed_and_back(law):
+    again = law.at_speed(3.0).at_speed(1.0 / 3.0)
+    assert dataclasses.astuple(again) == pytest.approx(dataclasses.astuple(law), rel=1e-15)
+
+
+@pytest.mark.parametrize(
+    ("make", "named"),
+    [
+        (lambda: KelvinVoigt(-1.0, 0.0), "stiffness = -1.0: "),
+        (lambda: KelvinVoigt(0.0, 0.0), "stiffness = 0.0: "),
+        (lambda: KelvinVoigt(1e4, -0.1), "damping = -0.1: "),
+        (lambda: KelvinVoigt(float("nan"), 0.0), "stiffness = nan: "),
+        (lambda: KelvinVoigt(float("inf"), 0.0), "stiffness = inf: "),
+        (lambda: KelvinVoigt("hard", 0.0), "stiffness = hard: "),
+        (lambda: HuntCrossley(-2.0, 0.0), "stiffness = -2.0: "),
+        (lambda: HuntCrossley(1e4, -0.1), "dissipation = -0.1: "),
+        (lambda: HuntCrossley(1e4, float("nan")), "dissipation = nan: "),
+        (lambda: HuntCrossley(1e4, 0.1, 0.9), "exponent = 0.9: "),
+        (lambda: HuntCrossley(1e4, 0.1, 2.5), "exponent = 2.5: "),
+        (lambda: HuntCrossley(1e4, 0.1, float("nan")), "exponent = nan: "),
+        (lambda: HuntCrossley(1e4, 0.1, "3/2"), "exponent = 3/2: "),
+        (lambda: paper(SPRING).replace(wall_stiffness=-1.0), "wall_stiffness = -1.0: "),
+        (lambda: paper(SPRING).replace(wall_damping="soft"), "wall_damping = soft: "),
+        (lambda: paper(BALLS).replace(wall_dissipation=float("nan")), "wall_dissipation = nan: "),
+        (lambda: paper(BALLS).replace(wall_damping=1.0), "wall_damping = 1.0: "),
+    ],
+)
+def test_bad_values_of_walls_that_give_way_are_refused_in_one_line(make, named):
+    with pytest.raises(InputError, match=named) as refused:
+        make()
+    assert "\n" not in str(refused.value)

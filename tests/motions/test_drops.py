@@ -9,7 +9,7 @@ from linear_rotors import tilting
 
 import carom as cm
 from carom.models import Forced, LinearRotor, Stage, Staged, model_of
-from carom.motions import Drop
+from carom.motions import Drop, Whirl
 from carom.outcome import InputError, Outcome
 
 pytestmark = pytest.mark.jit_only
@@ -101,6 +101,33 @@ def test_turned_by_an_angle_everything_is_turned():
     assert other.position(times) == pytest.approx(one.position(times) * turn, abs=1e-9)
 
 
+def test_it_is_released_from_a_whirl():
+    """At a radius and speed in the fixed frame, without the weight that levitation bears."""
+    motion = cm.simulate(HEAVY, cm.drop(Whirl("0.1 mm", "-75 Hz", "90 deg")), until=2.0)
+    place, speed = 0.4j, -0.5j * 0.4j
+    times = np.linspace(0.0, 2.0, 5)
+    expected = fallen(times, place, speed, HEAVY.parameters.rho, HEAVY.parameters.phi)
+    assert motion.position(times, "fixed") == pytest.approx(expected, abs=1e-13)
+
+
+def test_a_mount_is_at_rest_at_the_release_from_a_whirl():
+    mounted = cm.load("examples/touchdown-balls.toml", ["touchdown_mount_mass=2", "touchdown_mount_stiffness=2e7"])
+    state = Whirl(0.5, 2.0).state(model_of(mounted))
+    assert state.position.tolist() == [0.5, 0.0]
+    assert state.velocity.tolist() == [0.5j, 0.0]
+
+
+@pytest.mark.parametrize("speed", ["3000 rpm", -0.25])
+def test_the_race_turns_at_the_release(speed):
+    """In flight drag slows it down alone: ``J ω' = −c ω``."""
+    case = cm.load("examples/touchdown-balls.toml")
+    motion = cm.simulate(case, cm.drop(race_speed=speed), "5 ms")
+    begins = 1.0 / 3.0 if speed == "3000 rpm" else speed
+    assert not len(motion.touches)
+    assert motion.start.races == pytest.approx((81.0 * begins,), rel=1e-14)
+    assert motion.final.races == pytest.approx((81.0 * begins * math.exp(-1e-5 / 2e-5 * 5e-3),), rel=1e-12)
+
+
 @pytest.mark.parametrize(
     ("machine", "drop", "words"),
     [
@@ -112,6 +139,9 @@ def test_turned_by_an_angle_everything_is_turned():
         (HEAVY, Drop(phase="3 mm"), "^phase = 3 mm: must be an angle"),
         (HEAVY, Drop(regained_after="3 mm"), "^regained_after = 3 mm: must be a time"),
         (HEAVY, Drop(regained_after=-1.0), "^regained_after = -1.0: a finite time above 0"),
+        (HEAVY, Drop(Whirl(1.5, 1.0)), "^whirl radius = 1.5: must be from 0 to the clearance"),
+        (HEAVY, Drop(Whirl("0.1 mm", "3 mm")), "^whirl speed = 3 mm: must be an angular speed"),
+        (HEAVY, Drop(race_speed="500 rpm"), "^race_speed = 500 rpm: a touchdown bearing with a race that turns"),
         (HEAVY, Drop(cm.State(2.0)), "^start position = .*: inside the wall"),
     ],
 )

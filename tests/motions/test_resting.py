@@ -13,6 +13,7 @@ import pytest
 
 import carom as cm
 from carom.models import Force, Forced, Jeffcott
+from carom.motions import touchdown_loads
 from carom.motions.resting import lies
 from carom.outcome import Outcome, Phase
 
@@ -72,6 +73,14 @@ def test_small_rocking_has_the_frequency_of_a_pendulum_on_its_slope():
     expected = math.sqrt(PULL * math.sqrt(1.0 + FRICTION**2))
     # The next term is of the order of the amplitude squared.
     assert 2.0 * math.pi / np.diff(crossings) == pytest.approx(expected, rel=1e-5)
+
+
+def test_a_rotor_on_a_race_that_has_come_up_to_its_speed_rests_too():
+    """It rolls without slip on the surface that turns with it, and does not go round."""
+    motion = cm.simulate(cm.load("examples/touchdown-balls.toml", ["touchdown_dissipation=20 s/m"]), cm.drop())
+    assert motion.segment_phases[-1, 0] == Phase.ROLLING
+    assert motion.outcome is Outcome.AT_REST
+    assert touchdown_loads(motion).lasting_power == 0.0
 
 
 def test_many_drops_end_at_rest_like_one():

@@ -22,7 +22,7 @@ def test_text_and_counts():
 
 
 def test_each_condition_follows_from_the_next_segment():
-    assert RUBBING.conditions.tolist() == [segments.MEETS_WALL, segments.NO_CONDITION, segments.NO_PUSH]
+    assert RUBBING.conditions.tolist() == [segments.MEETS_WALL, segments.NO_CONDITION, segments.LEAVES]
     word = Word.of(Kind.ROLL, Kind.SLIDE_BACKWARD, Kind.SLIDE_FORWARD)
     assert word.conditions.tolist() == [segments.CONE_BACKWARD, segments.NO_SLIP, segments.NO_SLIP]
     assert Word.of(Kind.SLIDE_FORWARD, Kind.ROLL).conditions.tolist() == [segments.NO_SLIP, segments.CONE_FORWARD]

@@ -30,6 +30,30 @@ def test_values_with_units(write):
     assert load(REAL).limits.stated == {}
 
 
+SOFT = "examples/touchdown-balls.toml"
+
+
+def test_depth_and_pressure_are_told_in_the_units_of_people(tmp_path):
+    case = load(SOFT)
+    assert (case.limits.depth, case.limits.pressure) == (50e-6, 4.2e9)
+    assert "depth in the bearing 50 µm, pressure of balls 4.2 GPa" in dict(case.rows())["limits of the bearing"]
+    assert LoadLimits.told("impacts", 3.0) == "3"
+
+
+@pytest.mark.parametrize(
+    ("limits", "words"),
+    [
+        ('[limits]\ndepth = "20 um"', "depth = 2e-05: a limit needs a table [touchdown] of a bearing that gives way"),
+        ("[limits]\npressure = 4e9", "pressure = 4000000000.0: a limit needs balls in the table [touchdown]"),
+        ('[limits]\ndepth = "20 GPa"', "depth = 20 GPa: must be a length in m"),
+    ],
+)
+def test_limits_of_what_the_machine_does_not_have(write, limits, words):
+    with pytest.raises(InputError) as problem:
+        load(write(limits))
+    assert words in str(problem.value)
+
+
 def test_written_limits_are_read_as_the_same(write):
     limits = LoadLimits(force=0.1 + 0.2, impacts=3)
     assert load(write(limits.to_toml())).limits == limits

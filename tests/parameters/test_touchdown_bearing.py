@@ -45,6 +45,17 @@ def test_a_bearing_of_rollers_with_race_and_mount(tmp_path):
     assert again.touchdown == bearing
 
 
+def test_balls_are_no_parameter_of_the_motion(tmp_path):
+    balls = 'damping = 500\nballs = 8\nball_diameter = "6 mm"\nrace_diameter = "40 mm"\nball_modulus = "310 GPa"\n'
+    case = load(tmp_path, SOFT + balls, ["touchdown_balls=10"])
+    assert (case.touchdown.balls, case.touchdown.ball_diameter, case.touchdown.ball_modulus) == (10, 6e-3, 310e9)
+    varied = cm.models.model_of(case).varied
+    assert "touchdown_stiffness" in varied
+    assert not any("ball" in name for name in varied)
+    again = load(tmp_path, case.touchdown.to_toml())
+    assert again.touchdown == case.touchdown
+
+
 def test_a_rigid_bearing_is_the_machine_with_its_restitution(tmp_path):
     case = load(tmp_path, '[touchdown]\nlaw = "rigid"\n', machine=MACHINE + "restitution = 0.9\n")
     assert case.touchdown is None
@@ -73,6 +84,10 @@ def test_settings_and_replace_change_entries(tmp_path):
         ("restitution = 0.0", "restitution = 0.0"),
         ("restitution = 0.9\nmount_mass = 2\nmount_stiffness = 1e7", "restitution = 0.9: must be left out: it is that of the rotor on a fixed"),
         ("damping = 500\nstiffnes = 3", "stiffnes = 3"),
+        ("damping = 500\nballs = 8", "ball_diameter = nothing given: the pressure of balls needs balls, ball_diameter, race_diameter"),
+        ("damping = 500\nconformity = 0.52", "balls = nothing given: the pressure of balls needs"),
+        ("damping = 500\nballs = 8.5", "balls = 8.5: must be a whole number"),
+        ("damping = 500\nconformity = 0.5", "conformity = 0.5: must be a number, > 0 (0.501 to 1)"),
     ],
 )  # fmt: skip
 def test_bad_input_gets_one_line(tmp_path, table, words):

@@ -12,7 +12,7 @@ from studies import study_once
 from carom.parameters import Parameters, load
 from carom.report import report_page, write_report
 from carom.report.figures import pictures
-from carom.report.page import _with_subscripts
+from carom.report.html import with_subscripts
 from carom.studies.facts import about
 from carom.studies.summaries import share_rows, survived_rows
 
@@ -81,7 +81,7 @@ def written(tmp_path_factory):
     ],
 )
 def test_symbols_are_formulas_and_numbers_keep_their_units(text, shown):
-    assert _with_subscripts(text) == shown
+    assert with_subscripts(text) == shown
 
 
 def test_every_symbol_of_a_report_is_a_formula(written):

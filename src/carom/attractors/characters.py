@@ -18,7 +18,7 @@ from carom.motions.simulation import simulate
 from carom.motions.trajectories import Trajectory
 from carom.orbits.exponents import LOST, LyapunovExponents, lyapunov_exponents, orbit_exponents
 from carom.orbits.orbit import Orbit, orbit_near
-from carom.orbits.recognising import with_impacts
+from carom.orbits.recognising import arrives, with_impacts
 from carom.orbits.word import Kind
 from carom.outcome import CaromError, Outcome
 from carom.results import Result
@@ -108,8 +108,10 @@ def _rubbing(rotor: Model, attractor: Attractor) -> Character:
 
 
 def _rolling_exponents(rotor: Model, attractor: Attractor) -> LyapunovExponents | None:
-    """Exponents of rolling that leaves nothing of a disturbance but a delay, as that of the planar rotor does."""
+    """Exponents of rolling that leaves nothing of a disturbance but a delay, as that of the planar rotor on a rigid wall does."""
     directions = 2 * len(rotor.system.exponents) - 1
+    if rotor.system.arrays.stiffness.any():
+        return None
     # On an elastic wall bounces fade at a finite rate.
     if directions > LOST[Kind.ROLL] or attractor.period is None or (rotor.system.arrays.restitution == 1.0).any():
         return None
@@ -139,7 +141,7 @@ def _bouncing(rotor: Model, attractor: Attractor, impacts: int) -> Character:
     except CaromError as reason:
         return _undecided(attractor, f"No exponents: {reason}")
     motion = simulate(rotor, attractor.state, max(exponents.time, 1.0), max_events=10 * impacts)
-    rotation = rotation_of(rotor.system.states_of(motion.arrivals[motion.is_impact]))
+    rotation = rotation_of(rotor.system.states_of(motion.arrivals[arrives(motion)]))
     return _irregular(rotor, attractor, exponents, rotation, motion)
 
 
@@ -200,7 +202,7 @@ def _periodic(attractor: Attractor, orbit: Orbit) -> Character:
 
 def _approached_orbit(motion: Trajectory) -> Orbit | None:
     """Attracting orbit to which a motion comes closer and closer."""
-    states = motion.rotor.system.states_of(motion.arrivals[motion.is_impact])
+    states = motion.rotor.system.states_of(motion.arrivals[arrives(motion)])
     count = len(states)
     if count < 4 * MOST_IMPACTS:
         return None

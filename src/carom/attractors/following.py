@@ -67,14 +67,17 @@ class Ending(Result):
 
     @cached_property
     def hardest_impulse(self) -> float:
-        """Largest normal impulse until then, in ``m c_r Ω``.
+        """Largest normal impulse until then, in ``m c_r Ω``; in a wall that gives way that of a contact.
 
         The motion is simulated again to find it; one that is irregular for long may then take another course.
         """
         if not self.impacts:
             return 0.0
         motion = simulate(self.rotor, self.start.state, self.time)
-        return float(motion.log_of(motion.is_impact).normal_impulse.max(initial=0.0))
+        hardest = float(motion.log_of(motion.is_impact).normal_impulse.max(initial=0.0))
+        for plane in np.flatnonzero(self.rotor.system.arrays["stiffness"] > 0.0).tolist():
+            hardest = max(hardest, float(motion.seen_at(plane).touches.normal_impulse.max(initial=0.0)))
+        return hardest
 
 
 def follow_in_stages(

@@ -15,7 +15,7 @@ from carom.continuation.roots import bracketed_root, sign_change
 from carom.motions.settling import REPEATING
 from carom.motions.trajectories import Trajectory
 from carom.orbits.orbit import Orbit, same_orbit
-from carom.orbits.recognising import first_of_period, orbit_of_motion, orbit_of_whirl
+from carom.orbits.recognising import arrives, first_of_period, orbit_of_motion, orbit_of_whirl
 from carom.outcome import Outcome, Phase
 from carom.results import Result
 
@@ -53,9 +53,10 @@ def settled_motion(motion: Trajectory) -> SettledMotion:
     """
     outcome, motion = motion.outcome, seen_in_contact(motion)
     if outcome is Outcome.ROLLING:
-        return SettledMotion(
-            motion, outcome, period=2.0 * math.pi / float(motion.rotor.system.arrays.surface_speed[motion.plane])
-        )
+        arrays = motion.rotor.system.arrays
+        rigid = not arrays["stiffness"][motion.plane]
+        turn = 2.0 * math.pi / float(arrays.surface_speed[motion.plane]) if rigid else _turn_time(motion)
+        return SettledMotion(motion, outcome, period=turn)
     if outcome not in REPEATING:
         resting = outcome is Outcome.LEVITATED or (
             outcome is Outcome.FORWARD_RUB and np.abs(motion.final.velocity).max() < SAME
@@ -67,7 +68,7 @@ def settled_motion(motion: Trajectory) -> SettledMotion:
     count = motion.multiplicity
     if count == 0:
         return SettledMotion(motion, outcome)
-    span = motion.time - float(motion.segment_starts[1:][motion.is_impact][first_of_period(motion, count)])
+    span = motion.time - float(motion.segment_starts[1:][arrives(motion)][first_of_period(motion, count)])
     orbit = orbit_of_motion(motion)
     if orbit is None:
         return SettledMotion(motion, outcome, count, period=span)
@@ -75,9 +76,9 @@ def settled_motion(motion: Trajectory) -> SettledMotion:
 
 
 def seen_in_contact(motion: Trajectory) -> Trajectory:
-    """The motion seen at the first plane in lasting contact at its end, otherwise at that of the last impact."""
+    """The motion seen at the first plane in lasting contact at its end, otherwise at that of the last arrival at a wall."""
     touching = np.flatnonzero(motion.segment_phases[-1] != Phase.FLIGHT)
-    struck = motion.event_planes[motion.is_impact]
+    struck = motion.event_planes[arrives(motion)]
     return motion.seen_at(int(touching[0]) if len(touching) else int(struck[-1]) if len(struck) else 0)
 
 
@@ -86,6 +87,8 @@ def _turn_time(motion: Trajectory) -> float | None:
     row, final = motion.rotor.system.planes[motion.plane], motion.final
     end = complex(row @ np.atleast_1d(final.position))
     speed = abs((end.conjugate() * complex(row @ np.atleast_1d(final.velocity))).imag)
+    if motion.rotor.system.arrays["stiffness"][motion.plane]:
+        speed /= abs(end) ** 2
     span = 2.0 * math.pi * min(TURNS, 4.0 / speed if speed > 0.0 else TURNS)
     times = np.linspace(max(0.0, motion.time - span), motion.time, SAMPLES)
     angles = np.unwrap(np.angle(motion.at_plane(times)[0] / end))
@@ -122,9 +125,9 @@ def same_motion(first: SettledMotion, second: SettledMotion) -> bool:
 
 
 def _last_states(settled: SettledMotion) -> np.ndarray:
-    """Coordinates and rates just before the impacts of the last period, complex, shape (p, 2n)."""
+    """Coordinates and rates just before the arrivals at walls of the last period, complex, shape (p, 2n)."""
     motion = settled.motion
-    last = np.flatnonzero(motion.is_impact)[first_of_period(motion, settled.multiplicity) :]
+    last = np.flatnonzero(arrives(motion))[first_of_period(motion, settled.multiplicity) :]
     return motion.rotor.system.states_of(motion.arrivals[last[-settled.multiplicity :]])
 
 
@@ -145,24 +148,40 @@ def _last_times(settled: SettledMotion) -> np.ndarray:
 
 
 def forces_on(settled: SettledMotion) -> tuple[float, float]:
-    """Largest normal impulse (``m c_r Ω``) and largest lasting normal force (``m c_r Ω²``) on the attractor, at any plane."""
+    """Largest normal impulse (``m c_r Ω``) and largest lasting normal force (``m c_r Ω²``) on the attractor, at any plane.
+
+    A contact with a wall that gives way has both.
+    """
     motion = settled.motion
     if settled.outcome is Outcome.LEVITATED:
         return 0.0, 0.0
     if settled.outcome is Outcome.ROLLING and (force := known_of(motion.rotor).rolling_force):
         return 0.0, force
-    hits = np.flatnonzero(motion.is_impact)
+    hits = np.flatnonzero(arrives(motion))
     # Of irregular bouncing only the later half is used: the first half may be a transient.
     first = first_of_period(motion, settled.multiplicity) if settled.multiplicity else len(hits) // 2
     late = np.isin(np.arange(len(motion.is_impact)), hits[first:])
-    last = motion.log_of(late).normal_impulse
+    last = motion.log_of(late & motion.is_impact).normal_impulse
     touching = settled.outcome in (Outcome.FORWARD_RUB, Outcome.BACKWARD_WHIRL, Outcome.ROLLING)
     impulse = float(last.max()) if len(last) and not touching else 0.0
     if (motion.segment_phases == Phase.FLIGHT).all():
         return impulse, 0.0
     times = _last_times(settled)
     planes = range(motion.segment_phases.shape[1])
-    return impulse, max(float(motion.seen_at(plane).forces(times)[0].max()) for plane in planes)
+    force = max(float(motion.seen_at(plane).forces(times)[0].max()) for plane in planes)
+    if touching or not len(hits):
+        return impulse, force
+    return _with_touches(motion, float(motion.segment_starts[1:][hits[min(first, len(hits) - 1)]]), impulse, force)
+
+
+def _with_touches(motion: Trajectory, begins: float, impulse: float, force: float) -> tuple[float, float]:
+    """Largest impulse and force, with those of the contacts with walls that give way from a time on; samples miss brief ones."""
+    for plane in np.flatnonzero(motion.rotor.system.arrays["stiffness"] > 0.0).tolist():
+        touches = motion.seen_at(plane).touches
+        late = touches.start >= begins
+        impulse = max(impulse, float(touches.normal_impulse[late].max(initial=0.0)))
+        force = max(force, float(touches.peak_force[late].max(initial=0.0)))
+    return impulse, force
 
 
 def whirl_of(settled: SettledMotion) -> Whirl:

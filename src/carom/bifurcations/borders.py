@@ -11,7 +11,7 @@ from typing import Literal
 import numpy as np
 
 from carom.arguments import checked
-from carom.bifurcations.neighbours import BORDERS, NEIGHBOURS, is_other, read_beside, setting_out
+from carom.bifurcations.neighbours import BORDERS, NEIGHBOURS, gives_way, is_other, read_beside, setting_out
 from carom.bifurcations.paths import Path
 from carom.bifurcations.points import Bifurcation
 from carom.models import Model
@@ -200,7 +200,7 @@ def examine_border(point: Bifurcation) -> Border:
     orbit, sides = point.orbit, _Sides(point)
     contacts = orbit.nodes
     own = sides.own() if point.admissible else {}
-    if point.kind in NEIGHBOURS:
+    if point.kind in NEIGHBOURS and not gives_way(orbit):
         known, start = NEIGHBOURS[point.kind](orbit)
         contacts = np.concatenate([contacts, start.nodes])
         neighbours = sides.near(-1, sides.least, known, start), sides.near(1, sides.least, known, start)

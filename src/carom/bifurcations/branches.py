@@ -150,7 +150,7 @@ class OrbitBranch(Result):
     @property
     def radial_speeds(self) -> np.ndarray:
         """``ṙ`` just before each impact in ``c_r Ω``, shape (m, n)."""
-        return self._at_wall.real[:, [segment.kind.is_impact for segment in self.word]]
+        return self._at_wall.real[:, self.word.arrives]
 
     @property
     def radial_speed(self) -> np.ndarray:

@@ -141,9 +141,11 @@ def _transient(value: float, found: AttractorSet) -> list[AttractorSample]:
 
 
 def _impacts(rotor: Model, attractor: Attractor) -> np.ndarray:
-    """Radial speeds of the impacts on an attractor; for a periodic one those of one period."""
+    """Radial speeds of the impacts on an attractor, or of arrivals at a wall that gives way; for a periodic one those of one period."""
     if attractor.name.outcome not in REPEATING:
         return np.empty(0)
     motion = simulate(rotor, attractor.state, SHOWN_TIME, max_events=50 * SHOWN_IMPACTS)
-    speeds = seen_in_contact(motion).contacts.radial_speed[:SHOWN_IMPACTS]
+    seen = seen_in_contact(motion)
+    yields = bool(rotor.system.arrays["stiffness"][seen.plane])
+    speeds = (seen.touches if yields else seen.contacts).radial_speed[:SHOWN_IMPACTS]
     return speeds[-attractor.name.multiplicity :] if attractor.name.multiplicity <= len(speeds) else speeds

@@ -159,5 +159,5 @@ def _period_and_speed(at: FamilyPoint) -> tuple[float, float]:
     """Period, and radial speed at the first impact; ``nan`` if it begins with a lift-off."""
     system, start = at.rotor.system, at.links.start
     position, velocity = system.at_planes(system.amplitudes_of(start.nodes[:1]), at.word.planes[:1])
-    speed = float((position.conj() * velocity).real[0]) if at.word[0].kind.is_impact else np.nan
+    speed = float((position.conj() * velocity).real[0]) if at.word.arrives[0] else np.nan
     return float(start.durations.sum()), speed

@@ -51,8 +51,12 @@ FAR_FROM_MOTION = "far from a motion"
 FLIGHTS_VANISH, SHORTEST_FLIGHT = "flights vanish", 0.03
 """Where a branch ends because flights between lasting contacts vanish, and their duration there, in ``1/Ω``: their height falls
 with the fourth power of it, so that there is nothing to be computed beyond."""
+SHORTEST_OFF_WALL = 1e-4
+"""The same between contacts with walls that give way, which the rotor leaves at a speed that falls with the duration."""
 CONTACT_VANISHES, BEYOND_VANISHING = "contact vanishes", -0.05
 """Where a branch ends beyond the value at which a stretch of lasting contact shrinks to nothing, and its duration there, in ``1/Ω``."""
+BEYOND_VANISHING_SHARE = 0.5
+"""The same in a wall that gives way, where contacts are as brief as the wall is stiff: relative to the shortest on the branch's first orbit."""
 AT_REST = 1e-9
 """Radial speeds, in ``c_r Ω``, at or below which nodes are no orbit: the equilibrium on the wall solves the equations with any durations."""
 FAST = 3.0
@@ -188,7 +192,9 @@ class Family(Orbits):
         super().__init__(word, partial(along.move, rotor))
         self.rotor, self.along, self.limits = rotor, along, limits
         self.size = max(abs(along.value(rotor)), 0.1 * (limits[1] - limits[0]))
-        self.strikes = np.array([segment.kind.is_impact for segment in word])
+        self.strikes = word.arrives
+        yields = rotor.system.arrays["stiffness"] > 0.0
+        self.yields = yields[word.planes]
         self.struck = word.planes[self.strikes]
 
     def whole(self, u: np.ndarray, p: float) -> np.ndarray:
@@ -319,14 +325,17 @@ class Family(Orbits):
         ends: dict[str, Callable[[np.ndarray, float], float]] = {BOUNDLESS: lambda u, _: fastest - self.fastest(u)}
         if not virtual:
             ends[FAR_FROM_MOTION] = self._nearness
-        touches, lifts = (
-            self.word.timed & np.array([segment.kind.lasts for segment in self.word]),
-            self.word.kinds == Kind.LIFT,
-        )
+        contacts = self.word.timed & np.array([segment.kind.lasts for segment in self.word])
+        touches, lifts = contacts & ~self.yields, (self.word.kinds == Kind.LIFT) & ~self.yields
         if touches.any():
             ends[CONTACT_VANISHES] = beyond(touches, BEYOND_VANISHING)
         if lifts.any():
             ends[FLIGHTS_VANISH] = beyond(lifts, SHORTEST_FLIGHT)
+        if (brief := (self.word.kinds == Kind.LIFT) & self.yields).any():
+            ends[FLIGHTS_VANISH] = beyond(brief, SHORTEST_OFF_WALL)
+        if (inside := contacts & self.yields).any():
+            shortest = float(unpack_free(self.word, start).durations[inside].min())
+            ends[CONTACT_VANISHES] = beyond(inside, -BEYOND_VANISHING_SHARE * shortest)
         if (halves := halving(self.word, start)) is not None:
             ends[HALVING] = lambda u, _: halves(u)
         watches = [Watch(kind, function, at_zero="end") for kind, function in ends.items()]

@@ -15,10 +15,17 @@ import numpy as np
 from carom.arguments import checked
 from carom.bifurcations.branches import OrbitBranch, orbit_at, speeds_at
 from carom.bifurcations.conditions import BOUNDLESS, corrected, with_slip
-from carom.bifurcations.neighbours import BORDERS, NEIGHBOURS, is_other, read_beside
+from carom.bifurcations.neighbours import BORDERS, NEIGHBOURS, gives_way, is_other, read_beside, with_touch
 from carom.bifurcations.points import CONTACT_CHANGES, EXTREMUM, HALVING, HOPF, ONSET, PERMANENT, Bifurcation
 from carom.bifurcations.single_impact import special_orbit
-from carom.bifurcations.word_equations import CONTACT_VANISHES, FAR_FROM_MOTION, FLIGHTS_VANISH, SHORTEST_FLIGHT, Family
+from carom.bifurcations.word_equations import (
+    CONTACT_VANISHES,
+    FAR_FROM_MOTION,
+    FLIGHTS_VANISH,
+    SHORTEST_FLIGHT,
+    SHORTEST_OFF_WALL,
+    Family,
+)
 from carom.continuation import Branch, SpecialPoint, Steps, continue_branch
 from carom.continuation.roots import bracketed_root, sign_change
 from carom.models.axes import Axis, Ends, axis, interval_around
@@ -144,8 +151,8 @@ def switch(point: Bifurcation, interval: Ends | None = None, *, virtual: bool = 
         family = Family(orbit.rotor, along, orbit.word.repeated(2), limits)
         doubled = np.tile(pack_free(orbit.word, orbit.links.start), 2)
         unknowns, present = family.beside(doubled, present, _alternating(orbit.word, orbit.links))
-    elif kind == ONSET or kind in CONTACT_CHANGES:
-        word, start, present = _beyond(orbit, along, limits)
+    elif kind == ONSET or kind in CONTACT_CHANGES or (kind != PERMANENT and gives_way(orbit)):
+        word, start, present = _beyond(kind, orbit, along, limits)
         family, unknowns = Family(orbit.rotor, along, word, limits), pack_free(word, start)
     else:
         alone = orbit.word, orbit.start
@@ -154,17 +161,24 @@ def switch(point: Bifurcation, interval: Ends | None = None, *, virtual: bool = 
     return _follow(family, unknowns, present, None, CountedName(family.word.impacts, 1), virtual=virtual)
 
 
-def _beyond(orbit: Orbit, along: Axis, limits: tuple[float, float]) -> tuple[Word, Start, float]:
+def _beyond(kind: str, orbit: Orbit, along: Axis, limits: tuple[float, float]) -> tuple[Word, Start, float]:
     """Orbit of the word that a simulated period has beside a border, and the parameter there."""
     value = along.value(orbit.rotor)
-    for side in (-1, 1):
-        there = value + side * BESIDE * abs(value)
-        if not limits[0] <= there <= limits[1]:
-            continue
-        rotor = along.move(orbit.rotor, there)
+    places = [value + side * BESIDE * abs(value) for side in (-1, 1)]
+    rotors = {there: along.move(orbit.rotor, there) for there in places if limits[0] <= there <= limits[1]}
+    guesses = with_touch(orbit) if kind == "grazing" else []
+    for there, rotor in rotors.items():
         for word, start in read_beside(orbit, rotor):
             found = orbit_near(rotor, word, start) if is_other(word, orbit.word) else None
             if found is not None and found.admissible:
+                return found.word, found.start, there
+            if is_other(word, orbit.word):
+                guesses.append((word, start) if found is None else (found.word, found.start))
+    # Where both orbits end at the border, that of the other word is a motion where the simulated one is none of it.
+    for there, rotor in rotors.items():
+        for guess in guesses:
+            found = orbit_near(rotor, *guess)
+            if found is not None and found.admissible and len(found.word) == len(guess[0]):
                 return found.word, found.start, there
     raise CaromError("no orbit of another word was found beside the border")
 
@@ -252,7 +266,7 @@ def _special_point(
         point.kind,
         None,
         orbit.period,
-        orbit.radial_speed if orbit.word[0].kind.is_impact else math.nan,
+        orbit.radial_speed if orbit.word.arrives[0] else math.nan,
         name,
         parameter,
         value,
@@ -287,7 +301,8 @@ def _halved(family: Family, unknowns: np.ndarray, value: float) -> tuple[float, 
 
 def _permanent_contact(family: Family, unknowns: np.ndarray, value: float, place: float) -> Bifurcation | None:
     """Where the only flight of a period vanishes: lasting contact that never leaves the wall, whose least normal force vanishes."""
-    start = _without_flight(family.word, unpack(unknowns, len(family.word)))
+    without = _off_no_wall if family.yields.all() else _without_flight
+    start = without(family.word, unpack(unknowns, len(family.word)))
     if start is None:
         return None
     alone = orbit_near(family.along.move(family.rotor, value), *start)
@@ -313,6 +328,16 @@ def _without_flight(word: Word, start: Start) -> tuple[Word, Start] | None:
         return Word(turned[2:]), Start(nodes[:1], durations.sum()[None])
     durations[-1] += durations[:3].sum()
     return Word(turned[3:]), Start(nodes[3:], durations[3:])
+
+
+def _off_no_wall(word: Word, start: Start) -> tuple[Word, Start] | None:
+    """The sliding in a wall that gives way without the only flight of a period, as brief as can be followed."""
+    lifts = np.flatnonzero(word.kinds == Kind.LIFT)
+    if len(word) != 2 or len(lifts) != 1 or start.durations[lifts[0]] > 1.01 * SHORTEST_OFF_WALL:
+        return None
+    nodes, durations = start.turned(int(lifts[0]))
+    slides = word[1 - int(lifts[0])]
+    return (Word((slides,)), Start(nodes[:1], durations.sum()[None])) if slides.kind is not Kind.ROLL else None
 
 
 def _is_special(family: Family, branch: Branch, point: SpecialPoint) -> bool:

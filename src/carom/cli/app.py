@@ -21,6 +21,7 @@ import typer
 from carom.cli.attractors import attractors
 from carom.cli.basins import basins
 from carom.cli.bifurcations import bifurcations, regions
+from carom.cli.drop import drop
 from carom.cli.explore import explore
 from carom.cli.orbits import orbits
 from carom.cli.paper import paper
@@ -48,7 +49,21 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110},
 )
-for each in study, simulate, orbits, attractors, prove, response, bifurcations, regions, basins, sweep, paper, explore:
+for each in (
+    study,
+    simulate,
+    drop,
+    orbits,
+    attractors,
+    prove,
+    response,
+    bifurcations,
+    regions,
+    basins,
+    sweep,
+    paper,
+    explore,
+):
     # The list of commands shows the first line of each whole, not its beginning.
     app.command(each.__name__, help=each.__doc__, short_help=str(each.__doc__).partition("\n")[0])(each)
 

@@ -7,33 +7,58 @@ from typing import TYPE_CHECKING, Any
 from carom.outcome import InputError
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from rich.console import Console
 
     from carom.disturbances.echo import Echo
     from carom.models import Model
-    from carom.motions.starts import State
+    from carom.motions.drops import Whirl
+    from carom.motions.starts import Kick, State
     from carom.motions.trajectories import Trajectory
-    from carom.parameters import Case
+    from carom.parameters import Case, Scales
 
 
-def read_drop(case: Case, options: dict[str, str | None], regained_after: str | None) -> tuple[Model, State, Echo]:
-    """Read the rotor that falls, its start and what was taken; refuse wrong input before kernels are loaded."""
-    from carom.cli.starts import read_kick, read_positive, read_start
+def read_drop(
+    case: Case,
+    options: dict[str, str | None],
+    regained_after: str | None,
+    *,
+    phase: str | None = None,
+    race_speed: str | None = None,
+    called: str = "--drop",
+) -> tuple[Model, State, Echo]:
+    """Read the rotor that falls, its start and what was taken; refuse wrong input before kernels are loaded.
+
+    ``options`` are the ways to say the state at the release, of which one at most may be given; ``called`` is what an error calls them all.
+    """
+    from carom.cli.starts import read_kick, read_phase, read_positive, read_speed, read_start, read_whirl
     from carom.disturbances.echo import echo_of_drop
+    from carom.models import model_of
     from carom.motions.drops import Drop
+    from carom.studies.wording import listed
 
     scales = case.parameters.scales
+    readers: dict[str, Callable[[str, Scales | None], State | Kick | Whirl]] = {
+        "--start": read_start,
+        "--kick": read_kick,
+        "--whirl": read_whirl,
+    }
     chosen = {option: text for option, text in options.items() if text is not None}
-    if len(chosen) > 1 or not {"--start", "--kick"}.issuperset(chosen):
+    known = [option for option in readers if option in options]
+    if len(chosen) > 1 or not set(known).issuperset(chosen):
         given = " with ".join(f"{option} {text}" for option, text in chosen.items())
-        raise InputError("--drop", f"with {given}", "allowed alone, or with one of --start and --kick")
+        raise InputError(called, f"with {given}", f"allowed alone, or with one of {listed(known)}")
     regained = None if regained_after is None else read_positive("--regained-after", regained_after, "time", scales)
-    start, kick = options["--start"], options["--kick"]
-    at = read_start(start, scales) if start is not None else read_kick(kick, scales) if kick is not None else None
-    rotor, state = Drop(at, None, regained).stages(case)
+    turned = None if phase is None else read_phase("--phase", phase, scales)
+    turning = None if race_speed is None else read_speed("--race-speed", race_speed, scales)
+    at = next((readers[option](text, scales) for option, text in chosen.items()), None)
+    drop = Drop(at, turned, regained, turning)
+    rotor, state = drop.stages(case)
     if case.gravity is None or scales is None:  # which stages() has refused
         raise InputError("gravity", None, "a table [gravity] in the machine file")
-    return rotor, state, echo_of_drop(state, case.parameters.phi, regained, case.gravity, scales)
+    angle = drop.unbalance_angle(model_of(case))
+    return rotor, state, echo_of_drop(state, angle, regained, case.gravity, scales, turning)
 
 
 def drop_document(case: Case, motion: Trajectory) -> dict[str, Any]:

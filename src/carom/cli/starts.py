@@ -29,11 +29,13 @@ from carom.parameters.terms import SETTABLE, set_by
 if TYPE_CHECKING:
     from carom.disturbances import BaseShock, BladeLoss
     from carom.models import Axis
+    from carom.motions.drops import Whirl
     from carom.motions.starts import Kick, State
 
 _START = "must be four values RE,IM,VRE,VIM such as 0.5,0,0,0.1 or '0.3 mm,0 mm,5 mm/s,0 m/s'"
 _BLADE_LOSS = "must be AFTER or AFTER,PHASE such as ", "'0.1 mm,30 deg' or '5000 g mm,30 deg'"
 _KICK = "must be SPEED or SPEED,ANGLE such as ", "'50 mm/s,30 deg'"
+_WHIRL = "must be RADIUS,SPEED or RADIUS,SPEED,ANGLE such as '0.1 mm,-80 Hz,30 deg'"
 _OWN = "0.4,0.2"
 """Sizes with an angle of a machine in units of the equations."""
 
@@ -58,6 +60,28 @@ def read_kick(text: str, scales: Scales | None) -> Kick:
     from carom.motions.starts import Kick
 
     return Kick(size, direction)
+
+
+def read_whirl(text: str, scales: Scales | None) -> Whirl:
+    """Read ``RADIUS,SPEED`` or ``RADIUS,SPEED,ANGLE``: a whirl about the centre, in the fixed frame; backward with a negative speed."""
+    radius, speed, *angle = _split("--whirl", text, (2, 3), _WHIRL)
+    place = _angle("--whirl", angle[0], scales) if angle else 0.0
+    sizes = _size("--whirl", radius, "length", scales), _size("--whirl", speed, "speed", scales)
+    if not 0.0 <= sizes[0] <= 1.0:
+        raise InputError("--whirl", text, "must have a radius from 0 to the clearance")
+    from carom.motions.drops import Whirl
+
+    return Whirl(*sizes, place)
+
+
+def read_phase(option: str, text: str, scales: Scales | None) -> float:
+    """Read an angle, in rad."""
+    return _angle(option, text, scales)
+
+
+def read_speed(option: str, text: str, scales: Scales | None) -> float:
+    """Read an angular speed, which may be negative, in ``Ω``."""
+    return _size(option, text, "speed", scales)
 
 
 def read_blade_loss(text: str, scales: Scales | None) -> tuple[BladeLoss, float]:

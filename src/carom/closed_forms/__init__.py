@@ -3,6 +3,7 @@
 ==================  ===================================================
 ``equilibria``      contact-free and rubbing equilibria of any linear rotor
 ``statics``         forces of rubs at rest, at one plane and at several
+``power_sums``      all positive roots of a sum of powers
 ``rub_stability``   whether a rub at rest attracts sliding
 ``thresholds``      where motions begin and end
 ``harmless``        disturbances of any linear rotor that never reach the wall
@@ -15,6 +16,7 @@
 ``free_impact``     impacts of a free mass on walls that give way
 ``yielding_walls``  rubs and slipping whirl on walls that give way
 ``whirl_resonance`` speeds at which the whirls of a disc are in resonance
+``hertz``           pressure between the balls and the race of a touchdown bearing
 ``known``           what general code may ask of any model
 ==================  ===================================================
 """
@@ -29,6 +31,7 @@ from carom.closed_forms.harmless import (
     harmless_shock,
     harmless_unbalance_step,
 )
+from carom.closed_forms.hertz import PointContact, ball_pressure, point_contact
 from carom.closed_forms.local import ContactSystem, LocalCycle, NonSmoothHopf, cycle_determinant, non_smooth_hopf
 from carom.closed_forms.periods import PeriodCondition, PeriodRoots
 from carom.closed_forms.thresholds import rub_limit
@@ -46,12 +49,14 @@ __all__ = [
     "NonSmoothHopf",
     "PeriodCondition",
     "PeriodRoots",
+    "PointContact",
     "Rolling",
     "RubNeighbourhood",
     "Runaway",
     "SlippingWhirl",
     "SpeedResponse",
     "YieldingRub",
+    "ball_pressure",
     "cycle_determinant",
     "fading_speed",
     "find_equilibria",
@@ -63,6 +68,7 @@ __all__ = [
     "internal_resonance",
     "kelvin_voigt_impact",
     "non_smooth_hopf",
+    "point_contact",
     "rolling",
     "rub_limit",
     "rub_neighbourhood",

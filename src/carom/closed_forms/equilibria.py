@@ -10,7 +10,7 @@ import numpy as np
 
 from carom.arguments import checked
 from carom.closed_forms.rub_stability import sliding_rates
-from carom.closed_forms.statics import COUNTED, rub_forces, static_state
+from carom.closed_forms.statics import COUNTED, all_found, depths, exponent_of, rub_forces, static_state
 from carom.models import Jeffcott, Model, Subject, model_of
 from carom.models.weight import refuse_forces
 from carom.outcome import Phase
@@ -122,11 +122,17 @@ class EquilibriumSet(Members[Equilibrium]):
     @cached_property
     def argument(self) -> str:
         """Why there are no more, or what is not claimed."""
+        planes, contacts = len(self.members[0].places), self.rotor.system.contacts
+        curved = any(exponent_of(contact.wall) != 1.0 for contact in contacts)
         found = "A linear rotor has one contact-free equilibrium; rubs at one plane are the two roots of a quadratic"
-        if len(self.members[0].places) > 1:
+        if curved:
+            found += ", in a wall whose force is no multiple of the depth all positive roots of a sum of powers"
+        if planes > 1:
             found += ", those at two planes the real roots of a polynomial of degree eight"
-        if not self.complete:
+        if planes > COUNTED:
             found += "; rubs at more planes were searched by Newton's method from many starts, so there may be others"
+        if planes > 1 and curved:
+            found += "; rubs at several planes, one of them in such a wall, were not searched"
         return f"{found}. Rubs that are possible at every angle, such as those of a balanced rotor, are not listed."
 
 
@@ -139,7 +145,9 @@ def find_equilibria(machine: Subject) -> EquilibriumSet:
 
     Synchronous rub: the contact force ``−N(1 + iμ)e^{iθ}`` (slip is forward, ``s + 1 > 0``) acts through the static
     receptance of the planes (:mod:`carom.closed_forms.statics`).  Rubs at one plane and at two planes at once are all
-    found; at three and more they are searched, and ``complete`` is false.  For the planar rotor
+    found; at three and more they are searched, and ``complete`` is false.  In a wall that gives way the rotor is as deep as
+    the force presses it: ``|y| = 1 + δ`` with the force of the law at rest, and ``normal_force`` pushes where it is above zero.
+    For the planar rotor
     ``ρ sin x + μρ cos x = −γ − μ(1 − ω²)``, ``N = ρ cos x + 1 − ω²`` with ``x = θ − φ``: none or two.
 
     For a balanced rotor (``ρ = 0``) no rub is listed, because no angle is distinguished: if ``γ + μ(1 − ω²) = 0``, as
@@ -163,7 +171,7 @@ def find_equilibria(machine: Subject) -> EquilibriumSet:
     refuse_forces(model)
     rubs = [_rub(model, *balance) for balance in rub_forces(system)]
     found = (_contact_free(model), *sorted(rubs, key=lambda rub: (not rub.stable, rub.status)))
-    return EquilibriumSet(model, found, complete=len(system.arrays["rows"]) <= COUNTED)
+    return EquilibriumSet(model, found, complete=all_found(system))
 
 
 def _contact_free(model: Model) -> Equilibrium:
@@ -196,12 +204,14 @@ def _rub(model: Model, planes: tuple[int, ...], forces: np.ndarray, touching: np
     amplitudes = static_state(system, planes, forces, touching)
     places, pushes = arrays["rows"] @ amplitudes + arrays["offsets"], np.zeros(len(arrays["rows"]))
     # The balance is that of unit effective masses.
+    deep = depths(system, planes, forces)
+    touching = np.where(deep == 0.0, touching, (1.0 + deep) * touching)
     places[chosen], pushes[chosen] = touching, forces * arrays["masses"][chosen]
     contact = np.full(len(places), Phase.FLIGHT)
     contact[chosen] = Phase.FORWARD_SLIP
     eigenvalues = sliding_rates(system, amplitudes, contact)
     position, _ = system.state(amplitudes)
-    # At several planes bounces are not judged.
+    # At several planes bounces are not judged; a wall that gives way has none at rest.
     lands = len(planes) > 1 or bool(arrays["restitution"][planes[0]] < 1.0)
     margin = min(forces.min(), *(1.0 - np.abs(np.delete(places, chosen))), np.inf)
     stable = _dies_out(eigenvalues) and bool(forces.min() > 0.0) and lands

@@ -13,6 +13,15 @@ receptance ``H = −W M⁻¹ B``, so with ``h_pq = H_pq (1 + iμ_q)`` and the co
 the conditions ``|y₁D|² = |y₂D|²`` and ``|y₂D|² = |D|²`` are quadratic in ``N₂`` with coefficients quadratic in ``N₁``; their
 resultant is a polynomial of degree eight in ``N₁``, whose roots are all there are.  *More planes* are searched by Newton's
 method from many starts, which proves nothing about their number; only those with pushing forces are kept.
+
+*Walls that give way* hold a plane at ``y_p = (1 + δ_p) n_p`` with ``|n_p| = 1`` and the force ``N_p = κ_p δ_p^e``.  With a linear spring
+``δ_p = N_p/κ_p``, and all of the above holds for ``n_p`` with ``h_pp + 1/κ_p`` in place of ``h_pp``.  Otherwise, at one plane, with
+``h' = κh``,
+
+    |1 + δ + h'δᵉ|² − |y*|² = (1 − |y*|²) + 2δ + 2 Re(h') δᵉ + δ² + 2 Re(h') δᵉ⁺¹ + |h'|² δ²ᵉ
+
+is a sum of powers, all of whose positive roots are found (:func:`positive_roots`); rubs at several planes, one of them such a wall,
+are not searched.
 """
 
 from __future__ import annotations
@@ -22,6 +31,8 @@ from itertools import combinations
 import numpy as np
 from numpy.polynomial import Polynomial
 
+from carom.closed_forms.power_sums import positive_roots
+from carom.core.wall import Wall
 from carom.models import System
 
 COUNTED = 2
@@ -37,17 +48,24 @@ STARTS = 200
 
 
 def rub_forces(system: System) -> list[tuple[tuple[int, ...], np.ndarray, np.ndarray]]:
-    """Planes in contact, normal forces and displacements there of rubs at rest, wherever the other planes are.
+    """Planes in contact, normal forces and directions ``y/|y|`` there of rubs at rest, wherever the other planes are.
 
     Rubs that are not isolated, such as those of a balanced rotor, are left out.
     """
     receptance = -system.arrays["rows"] @ np.linalg.solve(system.generator, system.arrays["columns"])
     lever = receptance * (1.0 + 1j * system.arrays["friction"])
+    walls = [contact.wall for contact in system.contacts]
+    curved = np.array([exponent_of(wall) for wall in walls]) != 1.0
+    for plane, wall in enumerate(walls):
+        if wall.stiffness and not curved[plane]:
+            lever[plane, plane] += 1.0 / wall.stiffness
     found = []
     for count in range(1, len(lever) + 1):
         for planes in combinations(range(len(lever)), count):
             rest, h = system.arrays["offsets"][list(planes)], lever[np.ix_(planes, planes)]
-            if count == 1:
+            if curved[list(planes)].any():
+                pairs = _in_curved_wall(complex(h[0, 0]), complex(rest[0]), walls[planes[0]]) if count == 1 else []
+            elif count == 1:
                 pairs = _one_plane(complex(h[0, 0]), complex(rest[0]))
             else:
                 # In units of the stiffness of each plane the coefficients are of one size.
@@ -55,12 +73,37 @@ def rub_forces(system: System) -> list[tuple[tuple[int, ...], np.ndarray, np.nda
                 scaled = h * units
                 starts = _two_planes(scaled, rest) if count == COUNTED else _anywhere(count)
                 pairs = [(units * forces, places) for forces, places in _balanced(scaled, rest, starts)]
-            found += [(planes, *pair) for pair in pairs if count <= COUNTED or pair[0].min() > 0.0]
+            found += [
+                (planes, *pair)
+                for pair in pairs
+                if (count <= COUNTED or pair[0].min() > 0.0) and (depths(system, planes, pair[0]) > -1.0).all()
+            ]
     return found
 
 
+def exponent_of(wall: Wall) -> float:
+    """Power of the depth with which the static force of a wall that gives way grows; 1 for others."""
+    return wall.law_number if wall.stiffness and wall.law_number else 1.0
+
+
+def depths(system: System, planes: tuple[int, ...], forces: np.ndarray) -> np.ndarray:
+    """How deep planes are in their walls under normal forces, shape (C,); zero in rigid ones."""
+    walls = [system.contacts[plane].wall for plane in planes]
+    found = [
+        np.copysign(abs(force / wall.stiffness) ** (1.0 / exponent_of(wall)), force) if wall.stiffness else 0.0
+        for force, wall in zip(forces.tolist(), walls, strict=True)
+    ]
+    return np.array(found)
+
+
+def all_found(system: System) -> bool:
+    """Whether :func:`rub_forces` finds all rubs that are isolated."""
+    curved = any(exponent_of(contact.wall) != 1.0 for contact in system.contacts)
+    return len(system.contacts) <= (1 if curved else COUNTED)
+
+
 def static_state(system: System, planes: tuple[int, ...], forces: np.ndarray, places: np.ndarray) -> np.ndarray:
-    """Amplitudes of the rotor at rest under contact forces at some planes, shape (N,)."""
+    """Amplitudes of the rotor at rest under contact forces at some planes in given directions, shape (N,)."""
     chosen = list(planes)
     pushes = (1.0 + 1j * system.arrays["friction"][chosen]) * forces * places
     amplitudes: np.ndarray = np.linalg.solve(system.generator, system.arrays["columns"][:, chosen] @ pushes)
@@ -78,6 +121,34 @@ def _one_plane(h: complex, rest: complex) -> list[tuple[np.ndarray, np.ndarray]]
         place = rest * h.conjugate() / complex(root, -h.imag)
         pairs.append((np.array([float((root - h.real) / abs(h) ** 2)]), np.array([place / abs(place)])))
     return pairs
+
+
+def rubs_in_wall(h: complex, rest: complex, stiffness: float, exponent: float) -> list[tuple[float, complex]]:
+    """Depths of all rubs at one plane in a wall with the force ``κδᵉ``, and numbers in the direction of the displacement there.
+
+    A balanced rotor has the balance at every angle or at none; none is given.
+
+    Parameters
+    ----------
+    h : complex
+        Static receptance of the plane, times ``1 + iμ``.
+    rest : complex
+        Contact-free displacement.
+    """
+    if rest == 0.0:
+        return []
+    lever = stiffness * h
+    terms = [(0.0, (1.0 - abs(rest)) * (1.0 + abs(rest))), (1.0, 2.0), (2.0, 1.0)]
+    terms += [(exponent, 2.0 * lever.real), (exponent + 1.0, 2.0 * lever.real), (2.0 * exponent, abs(lever) ** 2)]
+    return [(depth, rest / (1.0 + depth + lever * depth**exponent)) for depth in positive_roots(terms)]
+
+
+def _in_curved_wall(h: complex, rest: complex, wall: Wall) -> list[tuple[np.ndarray, np.ndarray]]:
+    exponent = exponent_of(wall)
+    return [
+        (np.array([wall.stiffness * depth**exponent]), np.array([place / abs(place)]))
+        for depth, place in rubs_in_wall(h, rest, wall.stiffness, exponent)
+    ]
 
 
 def _two_planes(h: np.ndarray, rest: np.ndarray) -> np.ndarray:

@@ -13,8 +13,7 @@ Squared, that is a sum of real powers of ``δ``,
 
     1 − |y*|² + 2δ + δ² + 2 Re(h)κ(δⁿ + δ^{n+1}) + |h|²κ²δ^{2n} = 0.
 
-All positive roots of such a sum are found, of whatever powers: divided by its lowest power and differentiated it has a term less,
-and between two roots there is one of the derivative (Rolle).  So they lie one by one between the roots of the derivative.
+All its positive roots are found (:mod:`carom.closed_forms.power_sums`), of whatever powers.
 
 For the disc of an overhung rotor in a frictionless ring, with the natural frequency as the unit of time, polar inertia ``J_p``
 per diametral one, damping ``2ζ``, unbalance ``mε`` and the ring's stiffness ``β``, the receptance is
@@ -34,21 +33,17 @@ zero to infinity.  Slip is forward while ``νr < s``; a rotor that would whirl f
 from __future__ import annotations
 
 import cmath
-import math
 from dataclasses import dataclass
-from itertools import pairwise
 
 import numpy as np
 
 from carom.arguments import Positive, Whole, checked
 from carom.closed_forms.free_impact import Exponent
+from carom.closed_forms.power_sums import positive_roots
+from carom.closed_forms.statics import rubs_in_wall
 from carom.closed_forms.thresholds import sustaining_speed
-from carom.continuation.roots import bracketed_root
 from carom.models import Subject, jeffcott_of, model_of
 from carom.outcome import InputError
-
-DEEPEST = 1e6
-"""Indentation, in clearances, up to which rubs are sought: far beyond any wall."""
 
 
 @dataclass(frozen=True)
@@ -136,18 +131,12 @@ def yielding_rubs(
         raise InputError("plane", plane, f"a contact plane of the rotor, from 0 to {len(system.arrays['rows']) - 1}")
     row, column = system.arrays["rows"][plane], system.arrays["columns"][:, plane]
     receptance = complex(-row @ np.linalg.solve(system.generator, column))
-    lever = receptance * complex(1.0, system.arrays["friction"][plane]) * stiffness
-    rest = complex(system.arrays["offsets"][plane])
-    terms = [(0.0, (1.0 - abs(rest)) * (1.0 + abs(rest))), (1.0, 2.0), (2.0, 1.0)]
-    terms += [(exponent, 2.0 * lever.real), (exponent + 1.0, 2.0 * lever.real), (2.0 * exponent, abs(lever) ** 2)]
-    found = []
-    for depth in _positive_roots(_gathered(terms)):
-        turned = rest / (1.0 + depth + lever * depth**exponent) if rest else 0.0
-        # A balanced rotor has the balance at every angle or at none.
-        if turned:
-            place = cmath.rect(1.0 + depth, cmath.phase(turned))
-            found.append(YieldingRub(depth, place, stiffness * depth**exponent))
-    return tuple(found)
+    lever = receptance * complex(1.0, system.arrays["friction"][plane])
+    rubs = rubs_in_wall(lever, complex(system.arrays["offsets"][plane]), stiffness, exponent)
+    return tuple(
+        YieldingRub(depth, cmath.rect(1.0 + depth, cmath.phase(turned)), stiffness * depth**exponent)
+        for depth, turned in rubs
+    )
 
 
 @checked
@@ -192,42 +181,8 @@ def slipping_whirl(machine: Subject, stiffness: Positive, exponent: Exponent = 1
         return None
     speed = sustaining_speed(at)
     pull = at.gamma * speed / at.mu
-    depths = _positive_roots(_gathered([(exponent, stiffness), (1.0, -pull), (0.0, -pull)]))
+    depths = positive_roots([(exponent, stiffness), (1.0, -pull), (0.0, -pull)])
     if not depths:
         return None
     radius = 1.0 + depths[0]
     return SlippingWhirl(speed, radius, pull * radius, slips=speed * radius < at.radius_ratio)
-
-
-def _gathered(terms: list[tuple[float, float]]) -> list[tuple[float, float]]:
-    """Terms ``(power, factor)`` of a sum by growing power, each power once, without zeros."""
-    total: dict[float, float] = {}
-    for power, factor in terms:
-        total[power] = total.get(power, 0.0) + factor
-    return [(power, total[power]) for power in sorted(total) if total[power] != 0.0]
-
-
-def _positive_roots(terms: list[tuple[float, float]]) -> list[float]:
-    """All positive roots of ``Σ c xᵉ``, in ascending order; the powers are distinct and ascend."""
-    if len(terms) < 2:
-        return []
-    lowest = terms[0][0]
-    terms = [(power - lowest, factor) for power, factor in terms]
-
-    def total(x: float) -> float:
-        return math.fsum(factor * x**power for power, factor in terms)
-
-    turns = _positive_roots([(power - 1.0, factor * power) for power, factor in terms[1:]])
-    ends = [0.0, *turns, _beyond(terms)]
-    found = [turn for turn in turns if total(turn) == 0.0]
-    found += [
-        bracketed_root(total, *between) for between in pairwise(ends) if total(between[0]) * total(between[1]) < 0.0
-    ]
-    return sorted(found)
-
-
-def _beyond(terms: list[tuple[float, float]]) -> float:
-    """A number beyond all roots: there the last term exceeds each of the others as many times as there are."""
-    *others, (highest, factor) = terms
-    rooms = (math.log(len(others) * abs(other / factor)) / (highest - power) for power, other in others)
-    return 2.0 * math.exp(min(max(rooms), math.log(DEEPEST)))

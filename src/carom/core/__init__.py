@@ -3,7 +3,6 @@
 Nothing here knows units, files or results.  A kernel sees a rotor as the arrays of
 :func:`~carom.core.layout.rotor_record` and works for any number of modes and contact planes.
 
-===================  ===========================================================
 ``layout``           the data that kernels work on
 ``flow``             exact flight: sums of exponentials and their derivatives
 ``table``            constants of a block of flight, for the search of crossings
@@ -16,6 +15,7 @@ Nothing here knows units, files or results.  A kernel sees a rotor as the arrays
 ``joint``            impacts of several planes in one instant
 ``contact_series``   lasting contact as Taylor series
 ``compliance``       contact with a wall that gives way, as Taylor series
+``shaft``            the speed of the shaft as a state, in contact and from flight to flight
 ``shaft``            the speed of the shaft as a state, in contact and from flight to flight
 ``rounding``         rounding errors of sums over the modes
 ``taylor``           length of a step, sums and zeros of Taylor series
@@ -43,4 +43,47 @@ Nothing here knows units, files or results.  A kernel sees a rotor as the arrays
 ``growth``           growth of small changes along a motion
 ``processors``       number of available processor cores
 ===================  ===========================================================
+=======
+=====================  ===========================================================
+``layout``             the data that kernels work on
+``flow``               exact flight: sums of exponentials and their derivatives
+``table``              constants of a block of flight, for the search of crossings
+``block``              one block of flight: possible roots, state at a time
+``events``             certified first crossing of the wall
+``wall``               numbers of a wall, and planes at it
+``laws``               laws of a wall along its normal
+``force_change``       how the force of a wall that gives way changes
+``friction``           arrivals and lasting contact with Coulomb friction
+``phases``             states of contact of a plane
+``joint``              impacts of several planes in one instant
+``contact_series``     lasting contact as Taylor series
+``compliance``         contact with a wall that gives way, as Taylor series
+``rounding``           rounding errors of sums over the modes
+``taylor``             length of a step, sums and zeros of Taylor series
+``rub``                when lasting contact changes, and what follows
+``rub_step``           one step of lasting contact
+``event_log``          the log of a motion's events
+``in_turn``            many motions one after another, each for the same time
+``advance``            the event loop of one motion
+``fate``               criteria for the end to which a motion settles
+``planar_proofs``      ends that are proven before they are reached
+``ensemble``           many motions in one call, each to its end
+``lanes``              many motions side by side in vector registers
+``lane_search``        the search of crossings for lanes
+``vector``             numbers that stand for many lanes
+``counter``            a counter by which threads share a list of tasks
+``closing``            the orbit that a simulated motion approaches
+``periods``            all periods of single-impact orbits
+``planar``             single-impact orbits in closed form
+``segments``           maps of the segments of an orbit, with derivatives
+``yielding_segments``  the same in walls that give way
+``equations``          linear equations
+``closure``            equations of multiple shooting, and Newton's method
+``sensitivity``        how these equations change with a parameter
+``margins``            how far an orbit is from a change of its word
+``yielding_margins``   the same in walls that give way
+``variation``          how small changes of a state propagate
+``growth``             growth of small changes along a motion
+``processors``         number of available processor cores
+=====================  ===========================================================
 """

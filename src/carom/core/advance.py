@@ -346,11 +346,16 @@ def _enter(rotor, contact, plane, elapsed, memory, work, rub):
     """Begin contact with a wall that gives way in the arriving state; return CONTACT, or how the motion has settled."""
     set_on_wall(rotor, plane, work.arrival)
     normal, speed = unit(displacement(rotor, plane, work.arrival)), velocity(rotor, plane, work.arrival)
+    copy(work.arrival, work.current)
+    rest = RESTING * speed_rounding(rotor, plane, work.arrival)
+    if rotor.rows.shape[0] > 1 and (normal.conjugate() * speed).real < -rest:
+        # Two planes leave their walls in one instant: the second is still at its own where the first has left.
+        _loosen(rotor, contact, plane, work.current, rub)
+        return CONTACT
     memory.turns = 0
     if memory.watches > 0:
         memory.struck = max(memory.struck, (normal.conjugate() * speed).real)
     settle = memory.patience > 0 and memory.struck < memory.impact_speed
-    copy(work.arrival, work.current)
     if settle and _comes_again(rotor, elapsed, memory, work):
         return MIXED if memory.rubbed > 0 else BOUNCING
     forget_rub(memory)

@@ -32,7 +32,7 @@ from carom.core.layout import ORDER
 from carom.core.phases import FLIGHT, ROLLING, SEPARATED, sense_of_phase
 from carom.core.rounding import position_rounding, speed_rounding
 from carom.core.shaft import excess_coefficient, surface_excess
-from carom.core.taylor import STEP_FRACTION, first_fall
+from carom.core.taylor import first_fall
 from carom.core.wall import set_on_wall, unit, wall_of
 
 SHARP = 1e-4
@@ -133,15 +133,7 @@ def first_release(rotor, plane, phase, step, work):
 
 @kernel
 def next_form(rotor, plane, step, work):
-    """First time within a step at which the series of a plane's force takes another form, or the step.
-
-    The depth's own series is exact to rounding over no more than a share of ``|y|/|ẏ|``; without a force, or with little, the
-    motion's says nothing of that.
-    """
-    for k in (ORDER, ORDER + 1):
-        size = abs(work.depth[plane, k])
-        if size > 0.0:
-            step = min(step, STEP_FRACTION * size ** (-1.0 / k))
+    """First time within a step at which the series of a plane's force takes another form, or the step."""
     at = edge(work.depth[plane, 0], work.rate[plane, 0], wall_of(rotor, plane))
     if at == 0.0:
         return step

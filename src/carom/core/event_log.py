@@ -45,6 +45,12 @@ class EventLog(NamedTuple):
         struck: np.ndarray = aloft.all(axis=0) & (self.before != self.after).any(axis=1)
         return struck
 
+    def arrivals(self, phases: np.ndarray, yields: np.ndarray) -> np.ndarray:
+        """Which events are impacts, or begin contact with a wall that gives way (bool for each plane, shape (P,))."""
+        before, after = flying(np.concatenate([phases[None], self.phases]), self.planes)
+        arrived: np.ndarray = self.impacts(phases) | (before & ~after & yields[self.planes])
+        return arrived
+
 
 def flying(phases: np.ndarray, planes: np.ndarray) -> np.ndarray:
     """Whether the plane of each event flies before and after it, bool (2, n), for phases (n + 1, P) and planes (n,)."""

@@ -12,7 +12,7 @@ from carom.core.flow import acceleration, copy, displacement, flight_increments,
 from carom.core.friction import BACKWARD, FORWARD, margin_of_slip, slip_of, spare_friction, spare_grip
 from carom.core.layout import ORDER
 from carom.core.phases import AWAY, sense_of_phase
-from carom.core.segments import LIFT, ROLL, SLIDE_BACKWARD, SLIDE_FORWARD, phase_of, rubs, sense_after, strikes
+from carom.core.segments import LIFT, ROLL, SLIDE_BACKWARD, SLIDE_FORWARD, in_wall, phase_of, rubs, sense_after, strikes
 from carom.core.taylor import series_step, sum_series
 from carom.core.variation import strike
 from carom.core.wall import local_velocity, unit, wall_of
@@ -51,7 +51,7 @@ def local_motion(rotor, planes, states):
 
 @kernel
 def least_margins(rotor, kinds, planes, nodes, durations, landings):
-    """Least distances of a word's segments from a change of the word.
+    """Least distances of a word's segments from a change of the word, but for those in walls that give way.
 
     Parameters
     ----------
@@ -75,6 +75,8 @@ def least_margins(rotor, kinds, planes, nodes, durations, landings):
     radius, approach, slip, push, cone = np.inf, np.inf, np.inf, np.inf, np.inf
     after, still = np.empty(nodes.shape[1], np.complex128), np.empty((0, nodes.shape[1]), np.complex128)
     for i in range(m):
+        if in_wall(rotor, kinds[i], planes[i]):
+            continue
         radial, pressed, pull = local[i, 1], local[i, 3], local[i, 4]
         wall = wall_of(rotor, planes[i])
         if strikes(kinds[i]) and wall.friction > 0.0:
@@ -103,7 +105,7 @@ def least_margins(rotor, kinds, planes, nodes, durations, landings):
 
 @kernel
 def contact_margins(rotor, kinds, planes, nodes, durations, rub):
-    """Least distances of lasting contact from a change of its kind, at the minima inside each segment.
+    """Least distances of lasting contact on rigid walls from a change of its kind, at the minima inside each segment.
 
     Parameters
     ----------
@@ -120,7 +122,7 @@ def contact_margins(rotor, kinds, planes, nodes, durations, rub):
     push, slip, cone = np.inf, np.inf, np.inf
     state, contact = np.empty(nodes.shape[1], np.complex128), np.empty(rotor.rows.shape[0], np.int64)
     for i in range(kinds.shape[0]):
-        if not rubs(kinds[i]):
+        if not rubs(kinds[i]) or in_wall(rotor, kinds[i], planes[i]):
             continue
         plane, rolls, sense = planes[i], kinds[i] == ROLL, sense_of_phase(phase_of(kinds[i]))
         wall = wall_of(rotor, plane)
@@ -133,7 +135,7 @@ def contact_margins(rotor, kinds, planes, nodes, durations, rub):
             step = min(series_step(rub), durations[i] - elapsed)
             if not step > 0.0:
                 return np.nan, np.nan, np.nan
-            push = min(push, _least_inside(rub.push[plane], step))
+            push = min(push, least_inside(rub.push[plane], step))
             for k in range(ORDER + 1):
                 if rolls:
                     rub.first_margin[k] = spare_grip(rub.push[plane, k], rub.grip[plane, k], BACKWARD, wall)
@@ -141,16 +143,16 @@ def contact_margins(rotor, kinds, planes, nodes, durations, rub):
                 else:
                     rub.first_margin[k] = sense * rub.slip[plane, k]
             if rolls:
-                cone = min(cone, _least_inside(rub.first_margin, step), _least_inside(rub.second_margin, step))
+                cone = min(cone, least_inside(rub.first_margin, step), least_inside(rub.second_margin, step))
             else:
-                slip = min(slip, _least_inside(rub.first_margin, step))
+                slip = min(slip, least_inside(rub.first_margin, step))
             sum_series(rub, step, state)
             elapsed = durations[i] if step == durations[i] - elapsed else elapsed + step
     return push, slip, cone
 
 
 @inlined
-def _least_inside(margin, step):
+def least_inside(margin, step):
     """Smallest value of the minima of a polynomial inside a step; infinite without any."""
     least, early, before = np.inf, 0.0, _slope(margin, AT_EDGE)
     for i in range(1, PARTS + 1):

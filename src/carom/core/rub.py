@@ -127,6 +127,8 @@ def first_transition(rotor, plane, phase, step, work):
         if backward < first:
             return backward, BACKWARD_SLIP, False
         return first, following, False
+    if yields(rotor, plane) and wall.friction == 0.0:
+        return first, following, False  # the sense of the slip changes nothing: all of it counts as forward
     sign = -1.0 if phase == BACKWARD_SLIP else 1.0
     for k in range(ORDER + 1):
         work.first_margin[k] = sign * work.slip[plane, k]
@@ -274,6 +276,8 @@ def next_phase(rotor, contact, plane, amplitudes, work):
     position, wall = unit(displacement(rotor, plane, amplitudes)), wall_of(rotor, plane)
     slip = slip_of(position.conjugate() * velocity(rotor, plane, amplitudes), wall)
     gives_way = yields(rotor, plane)
+    if gives_way and wall.friction == 0.0:
+        return FORWARD_SLIP
     if gives_way:
         slip = slip_in_wall(rotor, plane, amplitudes)
     elif rotor.shaft.shape[0] > 0:

@@ -1,7 +1,7 @@
 """Maps of the segments that an orbit consists of, with their exact derivatives, for any linear rotor.
 
 A segment begins with what happens at its node (an impact with a given slip case, a lift-off, the beginning of sliding or
-rolling) and lasts for a given duration.  Its end has to fulfil a condition: the wall is met, the normal force vanishes,
+rolling, or the loss of a force) and lasts for a given duration.  Its end has to fulfil a condition: the wall is met, the normal force vanishes,
 the slip stops, or the limit of the friction cone is reached.  Neither the kind of a segment nor its duration is decided
 here.  So all maps are smooth, even where an impact grazes or the motion is impossible.
 
@@ -23,16 +23,17 @@ from carom.core.contact_series import rub_series
 from carom.core.flow import acceleration, displacement, flight_increments, squared_modulus, velocity
 from carom.core.friction import BACKWARD, FORWARD, STOPPED, friction_ratio, rolling_force, slip_of, spare_grip
 from carom.core.layout import ORDER
-from carom.core.phases import AWAY, BACKWARD_SLIP, FORWARD_SLIP, ROLLING, sense_of_phase
+from carom.core.phases import AWAY, BACKWARD_SLIP, FORWARD_SLIP, ROLLING, SEPARATED, sense_of_phase
 from carom.core.taylor import series_step, sum_series
 from carom.core.variation import blow, carry_through_impact, carry_to_wall, strike
-from carom.core.wall import move_plane, rigid_wall, unit, wall_of
+from carom.core.wall import move_plane, rigid_wall, unit, wall_of, yields
 
-IMPACT_FORWARD, IMPACT_BACKWARD, IMPACT_STOPPED, LIFT, LAND, SLIDE_FORWARD, SLIDE_BACKWARD, ROLL = range(8)
-"""Kinds of segments."""
-NO_CONDITION, MEETS_WALL, NO_PUSH, NO_SLIP, CONE_FORWARD, CONE_BACKWARD, LEAST_PUSH = range(7)
-"""Conditions at the end: two are the limits of the friction cone beyond which forward or backward slip begins; at the last one
-the normal force is least, and the same sliding goes on."""
+IMPACT_FORWARD, IMPACT_BACKWARD, IMPACT_STOPPED, LIFT, LAND, SLIDE_FORWARD, SLIDE_BACKWARD, ROLL, FREE = range(9)
+"""Kinds of segments; of the last, a plane has parted from a wall that gives way, and is still inside its place."""
+NO_CONDITION, MEETS_WALL, LEAVES, NO_SLIP, CONE_FORWARD, CONE_BACKWARD, LEAST_PUSH, PARTS = range(8)
+"""Conditions at the end: the plane leaves its wall where the normal force vanishes, or the depth in a wall that gives way; two are the
+limits of the friction cone beyond which forward or backward slip begins; at ``LEAST_PUSH`` the normal force is least, and the same
+sliding goes on; at ``PARTS`` the force of a wall that gives way vanishes, or is back."""
 
 MOST_STEPS = 2000
 """Taylor steps of one stretch of lasting contact, beyond which it is not followed; a turn of the shaft takes some thirty."""
@@ -70,7 +71,7 @@ def follow_flights(rotor, basis, to_modes, rest, kinds, planes, targets, nodes, 
     for i in range(kinds.shape[0]):
         if not strikes(kinds[i]) and kinds[i] != LIFT:
             continue
-        directions = _set_out(to_modes, rest, nodes[i], moved)
+        directions = set_out(to_modes, rest, nodes[i], moved)
         if strikes(kinds[i]):
             strike(rotor, planes[i], sense_after(kinds[i]), moved[last], directions)
         flight_increments(rotor, moved, durations[i], increments)
@@ -78,7 +79,7 @@ def follow_flights(rotor, basis, to_modes, rest, kinds, planes, targets, nodes, 
             for k in range(modes):
                 moved[row, k] += increments[row, k]
         _flight_rate(rotor, moved[last], rate)
-        _hand_over(basis, rest, moved, rate, arrivals[i], slopes[i])
+        hand_over(basis, rest, moved, rate, arrivals[i], slopes[i])
         y = displacement(rotor, targets[i], moved[last])
         values[i] = 0.5 * (squared_modulus(y) - 1.0)
         for row in range(last + 1):
@@ -90,7 +91,7 @@ def follow_flights(rotor, basis, to_modes, rest, kinds, planes, targets, nodes, 
 
 @kernel
 def follow_contact(rotor, basis, to_modes, rest, kinds, planes, ends, nodes, durations, rub, arrivals, values, slopes):
-    """:func:`follow_flights` for sliding and rolling at one plane; ``ends`` are the conditions at their ends.
+    """:func:`follow_flights` for sliding and rolling on one rigid wall; ``ends`` are the conditions at their ends.
 
     ``rub`` is a record of :func:`~carom.core.layout.rub_workspace`.
     """
@@ -98,15 +99,15 @@ def follow_contact(rotor, basis, to_modes, rest, kinds, planes, ends, nodes, dur
     moved, rate = np.empty((last + 1, modes), np.complex128), np.empty(modes, np.complex128)
     contact = np.empty(rotor.rows.shape[0], np.int64)
     for i in range(kinds.shape[0]):
-        if not rubs(kinds[i]):
+        if not rubs(kinds[i]) or yields(rotor, planes[i]):
             continue
-        directions, phase = _set_out(to_modes, rest, nodes[i], moved), phase_of(kinds[i])
+        directions, phase = set_out(to_modes, rest, nodes[i], moved), phase_of(kinds[i])
         _rest(rotor, planes[i], moved[last], directions, 0.0, sense_of_phase(phase))
         contact[:] = AWAY
         contact[planes[i]] = phase
         normal = slopes[i, last]
         change = _slide(rotor, contact, planes[i], durations[i], moved[last], directions, rate, normal, rub)
-        _hand_over(basis, rest, moved, rate, arrivals[i], slopes[i])
+        hand_over(basis, rest, moved, rate, arrivals[i], slopes[i])
         if ends[i] == LEAST_PUSH:
             values[i] = change
             continue
@@ -115,14 +116,16 @@ def follow_contact(rotor, basis, to_modes, rest, kinds, planes, ends, nodes, dur
 
 @inlined
 def phase_of(kind):
-    """Phase of a segment of lasting contact."""
+    """Phase of a segment that stays at its wall."""
     if kind == ROLL:
         return ROLLING
+    if kind == FREE:
+        return SEPARATED
     return FORWARD_SLIP if kind == SLIDE_FORWARD else BACKWARD_SLIP
 
 
 @inlined
-def _set_out(to_modes, rest, node, moved):
+def set_out(to_modes, rest, node, moved):
     """Write the amplitudes of a unit change of each real and imaginary part of the state, and in the last row those of the state.
 
     Return the rows of the changes.
@@ -137,7 +140,7 @@ def _set_out(to_modes, rest, node, moved):
 
 
 @inlined
-def _hand_over(basis, rest, moved, rate, arrival, slopes):
+def hand_over(basis, rest, moved, rate, arrival, slopes):
     """Write the state from its amplitudes, and the derivatives of its real and imaginary parts."""
     size, modes = basis.shape
     for j in range(size):
@@ -161,6 +164,12 @@ def strikes(kind):
 def rubs(kind):
     """Whether a segment is lasting contact."""
     return kind in (SLIDE_FORWARD, SLIDE_BACKWARD, ROLL)
+
+
+@inlined
+def in_wall(rotor, kind, plane):
+    """Whether a segment lies inside the place of a wall that gives way."""
+    return kind == FREE or (rubs(kind) and yields(rotor, plane))
 
 
 @inlined
@@ -290,7 +299,7 @@ def _chosen(end, wall, gap, push, pull, slip):
     """The condition of this kind, or its derivative."""
     if end == MEETS_WALL:
         return gap
-    if end == NO_PUSH:
+    if end == LEAVES:
         return push
     if end == NO_SLIP:
         return slip

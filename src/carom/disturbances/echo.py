@@ -7,6 +7,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from carom.disturbances.plans import Grid, Plan
 from carom.parameters import MACHINE_FIELDS, Scales
 from carom.parameters.told import number, told, told_angle
@@ -95,16 +97,29 @@ def echo_of_unbalance(eccentricity: float, interval: tuple[float, float], scales
     return Echo("unbalance", words, {**sizes, **{name: (speed / scales.speed, "speed") for name, speed in ends}})
 
 
-def echo_of_drop(state: State, phase: float, regained: float | None, gravity: Gravity, scales: Scales) -> Echo:
-    """Levitation lost at a state of the planar rotor, with the phase of the unbalance at the release."""
+def echo_of_drop(
+    state: State,
+    phase: float,
+    regained: float | None,
+    gravity: Gravity,
+    scales: Scales,
+    race_speed: float | None = None,
+) -> Echo:
+    """Levitation lost at a state of the planar rotor, with the phase of the unbalance and a given speed of the race at the release."""
     begun = _moving(state, scales)
     back = f"; levitation is back after {told(regained, 'time', scales)}" if regained is not None else ""
+    if race_speed is not None:
+        shown = MACHINE_FIELDS["speed"]
+        turning = number(shown.in_usual_unit(race_speed * scales.speed), 6)
+        back = f"; the race turns with {turning} {shown.usual_unit}{back}"
     words = (
         f"Levitation is lost {begun.words}, under {gravity.words}; angles are those of the fixed frame, in the sense of "
         f"rotation (at the release the unbalance lies at {told_angle(phase)}){back}"
     )
     sizes = {**begun.sizes, "unbalance_angle": (phase, "")}
-    return Echo("drop", words, sizes if regained is None else {**sizes, "regained_after": (regained, "time")})
+    given = {"regained_after": (regained, "time"), "race_speed": (race_speed, "speed")}
+    sizes |= {name: (value, kind) for name, (value, kind) in given.items() if value is not None}
+    return Echo("drop", words, sizes)
 
 
 def echo_of_start(state: State, phase: float, scales: Scales | None) -> Echo:
@@ -116,7 +131,9 @@ def echo_of_start(state: State, phase: float, scales: Scales | None) -> Echo:
 
 def _moving(state: State, scales: Scales | None) -> Echo:
     """A state of the planar rotor, its velocity in the fixed frame."""
-    place, speed = complex(state.position), complex(state.velocity + 1j * state.position)
+    # On a mount the rotor is the first of two coordinates.
+    place, rate = (complex(np.ravel(part)[0]) for part in (state.position, state.velocity))
+    speed = rate + 1j * place
     at = f"{told(abs(place), 'length', scales)} from the centre at {told_angle(cmath.phase(place))}"
     moves = f"{told(abs(speed), 'velocity', scales)} at {told_angle(cmath.phase(speed))} in the fixed frame"
     return Echo(

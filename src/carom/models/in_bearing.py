@@ -12,7 +12,7 @@ import numpy as np
 
 from carom.models.jeffcott import Jeffcott
 from carom.models.linear import LinearRotor
-from carom.models.model import Matrices
+from carom.models.model import Matrices, Model
 from carom.models.race import Race
 from carom.models.stages import Around
 from carom.models.system import System
@@ -20,7 +20,7 @@ from carom.models.touchdown import HuntCrossley, KelvinVoigt, Touchdown
 from carom.outcome import InputError, shown
 from carom.parameters import TOUCHDOWN_FIELDS, Field, Parameters, Scales, TouchdownBearing
 from carom.parameters.restitution import damping_ratio_of, dissipation_of
-from carom.parameters.touchdown_bearing import PREFIX
+from carom.parameters.touchdown_bearing import BALL_FIELDS, PREFIX
 
 _LEFT_OUT = ("restitution", "d")
 """Parameters of the planar rotor in a rigid wall that it does not have here."""
@@ -112,7 +112,11 @@ class InBearing(Around):
     def varied(self) -> Mapping[str, Field]:
         """Named parameters that can be varied."""
         own = {name: field for name, field in self.rotor.varied.items() if name not in _LEFT_OUT}
-        bearing = {PREFIX + name: replace(TOUCHDOWN_FIELDS[name], name=PREFIX + name) for name in self.bearing.given}
+        bearing = {
+            PREFIX + name: replace(TOUCHDOWN_FIELDS[name], name=PREFIX + name)
+            for name in self.bearing.given
+            if name not in BALL_FIELDS
+        }
         return {**own, **bearing}
 
     def value(self, name: str) -> float:
@@ -138,6 +142,22 @@ class InBearing(Around):
         """Return the numbers as attributes of a dataset, exact to the last bit."""
         bearing = {**asdict(self.bearing), "levitates": self.levitates}
         return {"touchdown_bearing": json.dumps(bearing), "rotor": json.dumps(self.rotor.attributes())}
+
+
+def bearing_of(model: Model) -> TouchdownBearing | None:
+    """The touchdown bearing that gives way, of a model that is described by its data; else ``None``."""
+    if isinstance(model, InBearing):
+        return model.bearing
+    return bearing_of(model.rotor) if isinstance(model, Around) else None
+
+
+def races_of(model: Model) -> tuple[Race | None, ...]:
+    """The race at each plane; ``None`` where it stands still."""
+    if isinstance(model, InBearing):
+        return races_of(model.linear)
+    if isinstance(model, LinearRotor):
+        return tuple(touchdown.race for touchdown in model.touchdowns)
+    return races_of(model.rotor) if isinstance(model, Around) else (None,) * len(model.system.contacts)
 
 
 def law_of(bearing: TouchdownBearing, scales: Scales) -> KelvinVoigt | HuntCrossley:

@@ -6,6 +6,8 @@ In the fixed frame weight is a constant force.  In the frame that turns with the
 
 from __future__ import annotations
 
+import cmath
+import math
 from dataclasses import replace
 
 import numpy as np
@@ -48,6 +50,12 @@ def weight_of(model: Model) -> np.ndarray | None:
     steady = [force.accelerations for force in forces_of(model) if abs(force.exponent - STEADY) <= EQUAL]
     total: np.ndarray = np.sum(steady, axis=0)
     return total if steady and total.any() else None
+
+
+def direction_of_fall(model: Model) -> float:
+    """Angle of the weight in the fixed frame, in rad; that of the negative y axis if none acts."""
+    weight = weight_of(model)
+    return -0.5 * math.pi if weight is None else cmath.phase(complex(weight @ model.system.translated.conj()))
 
 
 def refuse_forces(model: Model) -> None:

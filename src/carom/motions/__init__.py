@@ -16,13 +16,16 @@
 ``quadrature``      integrals and largest values along a motion
 ``touches``         contacts with walls that give way: impulses, peaks, depths, works
 ``loads``           loads of a touchdown: forces, impulses, heat
+``bearing_loads``     the same of a drop, over all stages, with race, whirl and rest
+``courses``           a drop sampled over all stages, to be drawn
 ``ledger``          energies of a motion
 ``spectrum``        forward and backward whirl at each multiple of the shaft speed
 ==================  =============================================================================
 """
 
+from carom.motions.bearing_loads import DropLoads, LastWhirl, PlaneLoads, drop_loads
 from carom.motions.contacts import ContactHistory, ContactLog, LastingContact
-from carom.motions.drops import Drop, drop
+from carom.motions.drops import Drop, Whirl, drop
 from carom.motions.ensembles import Endings, settle
 from carom.motions.ledger import EnergyLedger, energy_ledger
 from carom.motions.loads import TouchdownLoads, touchdown_loads
@@ -38,16 +41,21 @@ __all__ = [
     "ContactHistory",
     "ContactLog",
     "Drop",
+    "DropLoads",
     "Endings",
     "EnergyLedger",
     "FullSpectrum",
     "Kick",
+    "LastWhirl",
     "LastingContact",
+    "PlaneLoads",
     "State",
     "TouchLog",
     "TouchdownLoads",
     "Trajectory",
+    "Whirl",
     "drop",
+    "drop_loads",
     "energy_ledger",
     "full_spectrum",
     "kick",

@@ -8,10 +8,48 @@ from dataclasses import dataclass
 
 from carom.arguments import checked
 from carom.models import Model, Stage, Staged, Subject, Trigger, model_of
-from carom.models.weight import levitation_of, weight_of, without_levitation
+from carom.models.in_bearing import races_of
+from carom.models.weight import direction_of_fall, levitation_of, weight_of, without_levitation
 from carom.motions.starts import Kick, State, time_until
 from carom.outcome import InputError, shown
 from carom.parameters import own_size
+
+
+@checked
+@dataclass(frozen=True)
+class Whirl:
+    """A whirl about the centre of the bearing, as it is at one instant, when the co-rotating frame coincides with the fixed one.
+
+    Attributes
+    ----------
+    radius : float or str
+        In clearances, or text with a unit, such as ``"0.1 mm"``.
+    speed : float or str
+        In ``Ω``, or text with a unit, such as ``"80 Hz"``; negative for backward whirl.
+    angle : float or str
+        Where the rotor is, in the fixed frame: in rad, or text with a unit.
+    """
+
+    radius: float | str
+    speed: float | str
+    angle: float | str = 0.0
+
+    def state(self, rotor: Model) -> State:
+        """Return the state at that instant; what does not move with the rotor, such as a mount, is at rest.
+
+        Raises
+        ------
+        InputError
+            A text is no such size, or the radius is below zero or beyond the wall.
+        """
+        radius = own_size("whirl radius", self.radius, "length", rotor.scales)
+        if not 0.0 <= radius <= 1.0:
+            raise InputError("whirl radius", self.radius, "must be from 0 to the clearance")
+        place = cmath.rect(radius, own_size("whirl angle", self.angle, "angle", rotor.scales))
+        turning = 1j * (own_size("whirl speed", self.speed, "speed", rotor.scales) - 1.0) * place
+        moved = rotor.system.translated
+        position, velocity = (part * moved if len(moved) > 1 else part * moved[0] for part in (place, turning))
+        return State.of(position, velocity)
 
 
 @checked
@@ -21,18 +59,21 @@ class Drop:
 
     Attributes
     ----------
-    at : State or Kick, optional
+    at : State, Kick or Whirl, optional
         State at the release; by default the rotor levitates, which is its whirl about the static sag.
     phase : float or str, optional
         Angle from the direction of the fall to the unbalance at the release, in the sense of rotation: in rad, or text with a
         unit, such as ``"90 deg"``.  By default the unbalance lies at its phase in the machine.
     regained_after : float or str, optional
         Time after which the bearing holds the rotor as before, in ``1/Ω`` or text with a unit; by default never.
+    race_speed : float or str, optional
+        Speed of the race at the release, in ``Ω`` or text with a unit; by default that of the model, which is 0 for a machine file.
     """
 
-    at: State | Kick | None = None
+    at: State | Kick | Whirl | None = None
     phase: float | str | None = None
     regained_after: float | str | None = None
+    race_speed: float | str | None = None
 
     @checked
     def stages(self, machine: Subject) -> tuple[Model, State]:
@@ -41,20 +82,17 @@ class Drop:
         Raises
         ------
         InputError
-            No weight acts on the rotor, its levitation does not stay inside the wall, it has several coordinates, or a text is no
-            such size.
+            No weight acts on the rotor, its levitation does not stay inside the wall, it has several coordinates, its race does not turn,
+            or a text is no such size.
         """
         rotor = model_of(machine)
-        weight = weight_of(rotor)
-        if weight is None:
+        if weight_of(rotor) is None:
             allowed = "a drop needs weight: a table [gravity] in the machine file, or --set gravity=9.81 for once"
             raise InputError("gravity", None, allowed)
         if isinstance(rotor, Staged):
             raise InputError("machine", shown(machine), "a machine of one stage: a drop makes stages of its own")
         if self.phase is not None:
-            down = cmath.phase(complex(weight @ rotor.system.translated.conj()))
-            ahead = down + own_size("phase", self.phase, "angle", rotor.scales)
-            rotor = rotor.replace(phi=math.remainder(ahead, 2.0 * math.pi))
+            rotor = rotor.replace(phi=self.unbalance_angle(rotor))
         start = self._start(rotor)
         falling = without_levitation(rotor)
         if self.regained_after is None:
@@ -62,8 +100,32 @@ class Drop:
         time = time_until(self.regained_after, rotor.scales, "regained_after")
         return Staged((Stage(falling, Trigger(time=time)), Stage(rotor))), start
 
+    def unbalance_angle(self, rotor: Model) -> float:
+        """Angle of the unbalance of a rotor that weighs something at the release, in the fixed frame, in rad.
+
+        Raises
+        ------
+        InputError
+            The phase is no angle.
+        """
+        if self.phase is None:
+            return rotor.unbalance_phase
+        ahead = own_size("phase", self.phase, "angle", rotor.scales)
+        return math.remainder(direction_of_fall(rotor) + ahead, 2.0 * math.pi)
+
     def _start(self, rotor: Model) -> State:
         """State at the release."""
+        state = self._moving(rotor)
+        if self.race_speed is None:
+            return state
+        radii = [race.radius for race in races_of(rotor) if race is not None]
+        if not radii:
+            raise InputError("race_speed", self.race_speed, "a touchdown bearing with a race that turns: race_inertia")
+        speed = own_size("race_speed", self.race_speed, "speed", rotor.scales)
+        return State(state.position, state.velocity, tuple(radius * speed for radius in radii))
+
+    def _moving(self, rotor: Model) -> State:
+        """State at the release, with the races as the model has them."""
         if isinstance(self.at, State):
             return self.at
         position, velocity = (values if len(values) > 1 else values[0] for values in levitation_of(rotor))
@@ -72,23 +134,30 @@ class Drop:
 
 @checked
 def drop(
-    at: State | Kick | None = None, *, phase: float | str | None = None, regained_after: float | str | None = None
+    at: State | Kick | Whirl | None = None,
+    *,
+    phase: float | str | None = None,
+    regained_after: float | str | None = None,
+    race_speed: float | str | None = None,
 ) -> Drop:
     """Levitation is lost: stiffness and damping of the bearing act no longer, weight and unbalance do.
 
     Parameters
     ----------
-    at : State or Kick, optional
+    at : State, Kick or carom.motions.Whirl, optional
         State at the release; by default the rotor levitates.
     phase : float or str, optional
         Angle from the direction of the fall to the unbalance at the release, in the sense of rotation: in rad, or text with a
         unit, such as ``"90 deg"``; by default that of the machine.
     regained_after : float or str, optional
         Time after which levitation is back, in ``1/Ω`` or text with a unit, such as ``"50 ms"``; by default never.
+    race_speed : float or str, optional
+        Speed of the race of the touchdown bearing at the release, in ``Ω`` or text with a unit, such as ``"500 rpm"``.
 
     See Also
     --------
     carom.simulate : follow it
+    carom.motions.drop_loads : what the touchdown bearing bears
     carom.parameters.Gravity : the weight that it needs
     carom.kick : the rotor is kicked, and goes on levitating
 
@@ -102,4 +171,4 @@ def drop(
     >>> print(f"{motion.contacts.time[0] * motion.rotor.scales.time * 1e3:.6f} ms")
     7.139216 ms
     """
-    return Drop(at, phase, regained_after)
+    return Drop(at, phase, regained_after, race_speed)

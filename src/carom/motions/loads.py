@@ -8,12 +8,14 @@ from typing import Any
 import numpy as np
 
 from carom.arguments import checked
+from carom.closed_forms.hertz import ball_pressure
 from carom.closed_forms.known import known_of
+from carom.models.in_bearing import bearing_of
 from carom.motions.contacts import ContactLog, presses, yields
 from carom.motions.ledger import contact_power
 from carom.motions.quadrature import NODES, WEIGHTS, pieces
 from carom.motions.trajectories import Trajectory
-from carom.outcome import Outcome
+from carom.outcome import Outcome, Phase
 from carom.parameters import Scales
 from carom.results import KINDS, Result
 
@@ -54,6 +56,9 @@ class TouchdownLoads(Result):
         Power of friction with which the motion goes on, ``m c_r² Ω³``: at its end in lasting contact, or averaged over the last
         impacts; 0 if it does not go on in contact.
     scales : Scales or None
+    pressure : float or None
+        Largest pressure of the most loaded ball on the race, in Pa (:func:`carom.closed_forms.ball_pressure`), if the touchdown bearing
+        states its balls.
     """
 
     outcome: Outcome
@@ -67,6 +72,7 @@ class TouchdownLoads(Result):
     contact_time: float
     lasting_power: float
     scales: Scales | None = None
+    pressure: float | None = None
 
     @property
     def goes_on(self) -> bool:
@@ -82,7 +88,8 @@ class TouchdownLoads(Result):
         """Loads in SI units by name; ``None`` without scales."""
         if self.scales is None:
             return None
-        return {name: getattr(self, name) * getattr(self.scales, KINDS[name]) for name in MEASURED}
+        si = {name: getattr(self, name) * getattr(self.scales, KINDS[name]) for name in MEASURED}
+        return si if self.pressure is None else {**si, "pressure": self.pressure}
 
 
 @checked
@@ -93,12 +100,17 @@ def touchdown_loads(trajectory: Trajectory) -> TouchdownLoads:
     impulse on the mean of the slip velocities before and after.  The largest force and power of lasting contact on a rigid wall are those
     at the ends of its steps and at 16 nodes in each.  Loads on a wall that gives way are those of :attr:`Trajectory.touches`.
     """
-    loads = _in_wall if yields(trajectory.rotor.system, trajectory.plane) else _on_wall
+    rotor = trajectory.rotor
+    loads = (_in_wall if yields(rotor.system, trajectory.plane) else _on_wall)(trajectory)
+    bearing, pressure = bearing_of(rotor), None
+    if bearing is not None and rotor.scales is not None:
+        pressure = ball_pressure(bearing, loads["force"] * rotor.scales.force)
     return TouchdownLoads(
         outcome=trajectory.outcome,
-        **loads(trajectory),
+        **loads,
         contact_time=sum(contact.end - contact.start for contact in trajectory.lasting_contacts),
-        scales=trajectory.rotor.scales,
+        scales=rotor.scales,
+        pressure=pressure,
     )
 
 
@@ -168,6 +180,8 @@ def _lasting(trajectory: Trajectory) -> tuple[float, float, float]:
 def _lasting_power(trajectory: Trajectory, times: np.ndarray, works: np.ndarray) -> float:
     """Power of friction with which a settled motion goes on, from the times of impacts and the work lost to friction in each."""
     if not trajectory.outcome.settled or trajectory.outcome is Outcome.LEVITATED:
+        return 0.0
+    if trajectory.segment_phases[-1, trajectory.plane] == Phase.ROLLING:
         return 0.0
     if presses(trajectory.segment_phases[-1, trajectory.plane]):
         return float(-contact_power(trajectory, np.array([trajectory.time]))[0][0])

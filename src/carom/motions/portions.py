@@ -115,6 +115,7 @@ def _settle_part(part: Part, limits: Limits) -> int:
 def _follow_singly(part: Part, until: float, limits: Limits, memory: np.record) -> int:
     """Follow the motions that this call takes from the counter, one after another: for any rotor and trigger."""
     rotor, taken, rubs_known = part.stage.rotor, 0, not memory.resting
+    yields = rotor.system.arrays["stiffness"] > 0.0
     scratch, room = tools(rotor), EventLog.empty(LOGGED, rotor.system.modes, len(rotor.system.arrays["rows"]))
     while (number := int(next_number(part.counter.numbers))) < len(part.motions):
         motion = part.motions[number]
@@ -129,7 +130,7 @@ def _follow_singly(part: Part, until: float, limits: Limits, memory: np.record) 
             before = np.where(contact == AWAY, Phase.FLIGHT, contact)
             outcome, time, count = follow(rotor, amplitudes, end - motion.time, contact, log, memory, scratch)
             motion.time += time
-            motion.impacts += np.count_nonzero(log.first(count).impacts(before))
+            motion.impacts += np.count_nonzero(log.first(count).arrivals(before, yields))
             events += count
             outcome, motion.multiplicity = settled(rotor, amplitudes, contact, outcome, memory)
         motion.outcome = outcome

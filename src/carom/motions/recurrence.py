@@ -55,10 +55,10 @@ def _states_at_impacts(system: System, amplitudes: np.ndarray, contact: np.ndarr
     found: list[np.ndarray] = []
     passed, last, events, outcome = 0.0, -np.inf, 0, Outcome.EVENT_LIMIT
     while outcome == Outcome.EVENT_LIMIT and len(found) <= count and events < MOST_EVENTS:
+        begun = np.maximum(touching, FLIGHT)
         outcome, time, noted = advance(arrays, table, state, FOLLOWED_TIME, touching, log, recollection, *tools)
         new = log.first(noted)
-        struck = (new.before != new.after).any(axis=1) & (new.phases[np.arange(noted), new.planes] == FLIGHT)
-        for event in np.flatnonzero(struck).tolist():
+        for event in np.flatnonzero(new.arrivals(begun, arrays["stiffness"] > 0.0)).tolist():
             if planes == 1 or passed + new.times[event] - last > SHORTEST_LAP:
                 found.append(new.before[event].copy())
                 last = passed + new.times[event]

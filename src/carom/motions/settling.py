@@ -36,7 +36,7 @@ LOW, LOW_FOR = 0.5, 200
 no rotor returns to a wall that does not keep pulling it."""
 AT_REST = 1e-6
 """Largest velocity of a rub that counts as synchronous, far above the rate at which it was recognised."""
-WHIRLING = (Outcome.FORWARD_RUB, Outcome.BACKWARD_WHIRL)
+WHIRLING = (Outcome.FORWARD_RUB, Outcome.BACKWARD_WHIRL, Outcome.ROLLING)
 REPEATING = (Outcome.BOUNCING, Outcome.MIXED)
 MODES = 2
 """Modes of the rotors whose orbits are closed here."""

@@ -11,6 +11,7 @@
 ``rubbing``         periodic motions with lasting contact, from one lift-off to the next
 ``chatter``         a chatter as one segment
 ``landings``        how far a chatter is from the onset of lasting contact
+``contraction``     how fast walls that give way shrink volumes
 ``exponents``       Lyapunov exponents of motions and of orbits
 ``names``           names of orbits
 ``maps``            impact map and stroboscopic map, with their derivatives

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from carom.core.compliance import stay_in_wall
 from carom.core.event_log import EventLog
 from carom.core.events import INSIDE, LEAVING, first_crossing
 from carom.core.fate import memory
@@ -30,6 +31,8 @@ MOST_STEPS = 256
 """Steps of lasting contact in one segment."""
 STOPPED = 1e-10
 """Slip at a landing or at the beginning of lasting contact, in ``c_r Ω``, that counts as none."""
+BY_ROUNDING = Kind.LIFT, Kind.FREE
+"""Segments at whose beginning rounding may leave the contact before for an instant."""
 INSTANT = 1e-9
 """Time within which a rotor that has just lost its normal force may still be in contact, in ``1/Ω``."""
 
@@ -138,8 +141,8 @@ def _first_contact(rotor: Model, left: int, plane: int, start: np.ndarray, horiz
     return outcome, aloft + time
 
 
-PHASES = {Kind.SLIDE_FORWARD: 1, Kind.SLIDE_BACKWARD: 2, Kind.ROLL: 3}
-"""Phase of lasting contact of a segment; all others begin in flight."""
+PHASES = {Kind.SLIDE_FORWARD: 1, Kind.SLIDE_BACKWARD: 2, Kind.ROLL: 3, Kind.FREE: 4}
+"""Phase of a segment that stays at its wall; all others begin in flight."""
 
 
 def _why_no_such_contact(rotor: Model, segment: Segment, target: Segment, node: np.ndarray, duration: float) -> str:
@@ -151,7 +154,8 @@ def _why_no_such_contact(rotor: Model, segment: Segment, target: Segment, node: 
     contact = np.full(planes, AWAY)
     contact[segment.plane] = PHASES.get(segment.kind, Phase.FLIGHT)
     if not segment.kind.is_impact:
-        contact[segment.plane] = _put_on_wall(rotor, segment, amplitudes)
+        put = _put_in_wall if rotor.system.arrays["stiffness"][segment.plane] else _put_on_wall
+        contact[segment.plane] = put(rotor, segment, amplitudes)
     recollection = memory(len(node), stop_at_landing=True)
     recollection.lifting = (
         segment.plane + 1 if contact[segment.plane] == Phase.FLIGHT and segment.kind is Kind.LIFT else 0
@@ -165,8 +169,8 @@ def _why_no_such_contact(rotor: Model, segment: Segment, target: Segment, node: 
         time += elapsed
         if outcome is Outcome.EVENT_LIMIT and log.planes[0] == NOWHERE:
             continue  # a step of the flight next to a wall
-        if segment.kind is Kind.LIFT and time <= INSTANT:
-            continue  # by rounding the rotor may stay on the wall for an instant before it lifts off
+        if segment.kind in BY_ROUNDING and time <= INSTANT:
+            continue  # by rounding the rotor may stay at the wall for an instant before it lifts off, or parts from it
         changes = (np.maximum(contact, 0) != np.maximum(before, 0)).any() or segment.kind.flies
         if outcome is not Outcome.EVENT_LIMIT or (changes and not first):
             break
@@ -176,6 +180,14 @@ def _why_no_such_contact(rotor: Model, segment: Segment, target: Segment, node: 
     if late or wrong:
         return f"{segment} would end at t = {time:.6g} in another way than with {target}"
     return ""
+
+
+def _put_in_wall(rotor: Model, segment: Segment, amplitudes: np.ndarray) -> int:
+    """:func:`_put_on_wall` for a wall that gives way: a segment that begins there begins exactly there."""
+    arrays, plane = rotor.system.arrays, segment.plane
+    depth = abs(rotor.system.at_plane(amplitudes, plane)[0]) - 1.0
+    stay_in_wall(arrays, plane, segment.kind is Kind.ROLL, abs(depth) <= STOPPED, amplitudes)
+    return PHASES.get(segment.kind, int(Phase.FLIGHT))
 
 
 def _put_on_wall(rotor: Model, segment: Segment, amplitudes: np.ndarray) -> int:

@@ -17,8 +17,9 @@ from carom.models.weight import refuse_forces
 from carom.motions.simulation import simulate
 from carom.motions.starts import Kick, State
 from carom.motions.trajectories import Trajectory
+from carom.orbits.contraction import contraction
 from carom.orbits.orbit import Orbit
-from carom.orbits.recognising import segments_of
+from carom.orbits.recognising import arrives, segments_of
 from carom.orbits.shooting import Links, links_of
 from carom.orbits.word import Kind, Word
 from carom.outcome import CaromError, InputError, Outcome
@@ -34,7 +35,7 @@ LOST = {Kind.LAND: 1, Kind.SLIDE_FORWARD: 2, Kind.SLIDE_BACKWARD: 2, Kind.ROLL: 
 """Directions of the section at an impact that a segment takes away.
 
 A chatter leads to states in lasting contact, which have two dimensions fewer; the section at the end of sliding has two
-fewer than that at an impact, and at the end of rolling three.
+fewer than that at an impact, and at the end of rolling three.  On rigid walls: in a wall that gives way only rolling takes one away.
 """
 
 
@@ -56,7 +57,8 @@ class LyapunovExponents(Result):
         The exponent along the motion.  It tends to 0 as one over the time.
     volume : float
         Sum of the exponents by the other route: the trace of the flow and the logarithm of the determinant of each impact,
-        per time.  Minus infinity where directions are lost.
+        per time, and for walls that give way their damping.  Minus infinity where directions are lost; ``nan`` where a slip in such a
+        wall reverses without rolling, and of a virtual orbit.
     impacts : int
         Impacts in the time measured, those of chatter included.
     landings : int
@@ -170,7 +172,8 @@ def lyapunov_exponents(
     values[-1], errors[-1] = rate, abs(rate)
     order = np.argsort(-values, kind="stable")
     struck = np.sum([each.struck for each in stretches], axis=0)
-    volume = _growth_of_volume(rotor, struck, time) if kept == section else -math.inf
+    shrinks = float(np.sum([each.contraction for each in stretches]))
+    volume = _growth_of_volume(rotor, struck, shrinks, time) if kept == section else -math.inf
     landings = sum(each.landings for each in stretches)
     return LyapunovExponents(values[order], errors[order], rate, volume, int(struck.sum()), landings, time)
 
@@ -185,8 +188,11 @@ def orbit_exponents(orbit: Orbit) -> LyapunovExponents:
     landings = int((orbit.word.kinds == Kind.LAND).sum())
     volume = -math.inf
     if kept == len(values) - 1:
-        struck = np.bincount(orbit.word.planes, minlength=len(rotor.system.arrays.rows))
-        volume = _growth_of_volume(rotor, struck, orbit.period)
+        struck, shrinks = np.bincount(orbit.word.planes, minlength=len(rotor.system.arrays.rows)), 0.0
+        if rotor.system.arrays["stiffness"].any():
+            once = orbit.trajectory() if orbit.admissible else None
+            shrinks = np.nan if once is None else contraction(once, 0, len(once.arrivals) + 1)
+        volume = _growth_of_volume(rotor, struck, shrinks, orbit.period)
     errors = np.zeros(len(values))
     return LyapunovExponents(-np.sort(-values), errors, 0.0, volume, orbit.impacts, landings, orbit.period)
 
@@ -200,6 +206,7 @@ class _Stretch(NamedTuple):
     rate: np.ndarray
     struck: np.ndarray
     landings: int
+    contraction: float
     end: State
 
 
@@ -208,7 +215,10 @@ def _stretches(rotor: Model, state: State, impacts: int) -> Iterator[_Stretch]:
     further = 1
     while impacts > 0:
         motion = simulate(rotor, state, LONGEST, max_events=further * min(CHUNK, 2 * impacts))
-        hits = np.flatnonzero(motion.is_impact)
+        hits = np.flatnonzero(arrives(motion))
+        if len(hits) and rotor.system.arrays["stiffness"].any():
+            # A stretch ends as it begins: contact at one plane cannot be followed by that at another.
+            hits = hits[motion.event_planes[hits] == motion.event_planes[hits[0]]]
         if len(hits) < 2:
             further *= 4
             if motion.outcome is not Outcome.EVENT_LIMIT or further > FURTHER:
@@ -222,9 +232,8 @@ def _stretches(rotor: Model, state: State, impacts: int) -> Iterator[_Stretch]:
         struck = np.bincount(motion.event_planes[hits[:count]], minlength=len(rotor.system.arrays.rows))
         landings = int(motion.is_landing[first:last].sum())
         state = State.of(*motion.rotor.system.state(motion.arrivals[last]))
-        yield _Stretch(
-            word, links.start.durations[:-1], links.passages[:-1], links.slopes[-2, :-1, -1], struck, landings, state
-        )
+        at = links.start.durations[:-1], links.passages[:-1], links.slopes[-2, :-1, -1]
+        yield _Stretch(word, *at, struck, landings, contraction(motion, first, last), state)
         impacts -= count
 
 
@@ -269,10 +278,14 @@ def _directions_kept(rotor: Model, words: list[Word]) -> int:
     A stopped slip takes away one, and so does the normal velocity that is lost without restitution.
     """
     restitution, lost = rotor.system.arrays.restitution, 0
+    yields = rotor.system.arrays.stiffness > 0.0
     for word in words:
         for kind, plane in np.unique([word.kinds, word.planes], axis=1).T.tolist():
             taken = LOST.get(Kind(kind), 0)
-            if Kind(kind).is_impact:
+            if yields[plane]:
+                # In the wall all directions are kept but that of a slip that has stopped.
+                taken = int(kind == Kind.ROLL)
+            elif Kind(kind).is_impact:
                 taken = int(kind == Kind.IMPACT_STOPPED) + int(restitution[plane] == 0.0)
             lost = max(lost, taken)
     return 2 * len(rotor.system.exponents) - 1 - lost
@@ -286,11 +299,13 @@ def _means(logarithms: np.ndarray, durations: np.ndarray, batches: int) -> tuple
     return values, np.sqrt(batches / (batches - 1) * (apart**2).sum(axis=0)) / durations.sum()
 
 
-def _growth_of_volume(rotor: Model, struck: np.ndarray, time: float) -> float:
+def _growth_of_volume(rotor: Model, struck: np.ndarray, shrinks: float, time: float) -> float:
     """Rate at which volumes of the state space grow: ``2 Re Σλ`` in flight, and a factor ``d²`` at each impact of a plane.
 
     An impact with slip multiplies the normal velocity by ``−d``; the other velocities change by what depends on it and on
-    the position alone.  The change of the time of impact gives the same factor once more.
+    the position alone.  The change of the time of impact gives the same factor once more.  Walls that give way take their
+    :func:`~carom.orbits.contraction.contraction`.
     """
-    losses = np.log(rotor.system.arrays.restitution)
-    return float(2.0 * rotor.system.exponents.real.sum() + 2.0 * (struck @ losses) / time)
+    arrays = rotor.system.arrays
+    losses = np.log(np.where(arrays.stiffness > 0.0, 1.0, arrays.restitution))
+    return float(2.0 * rotor.system.exponents.real.sum() + (2.0 * (struck @ losses) - shrinks) / time)

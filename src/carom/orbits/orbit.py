@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import compress
 from typing import Any, ClassVar
 
 import numpy as np
@@ -12,6 +13,7 @@ from carom.arguments import Reals, Whole, checked
 from carom.core.closing import ALIKE
 from carom.core.layout import rub_workspace
 from carom.core.margins import contact_margins, least_margins
+from carom.core.yielding_margins import margins_in_walls
 from carom.models import Model, Subject, model_of
 from carom.models.weight import refuse_forces
 from carom.motions.simulation import simulate
@@ -41,7 +43,7 @@ class Margins(Result):
     radius : float
         One minus the square of the largest radius of a maximum between contacts, at any plane; infinite without maxima.
     approach : float
-        Least radial speed before an impact, in ``c_r Ω``.
+        Least radial speed before an impact, or at the beginning of contact with a wall that gives way, in ``c_r Ω``.
     slip : float
         Least slip velocity left after an impact in its direction; where friction stops the slip, what friction could
         still take away.  In ``c_r Ω``; infinite without impacts or friction.
@@ -55,7 +57,8 @@ class Margins(Result):
         Least slip velocity at its minima while sliding, and with which a chatter lands, in ``c_r Ω``; where rolling follows, what friction
         could still take away.
     pressing : float
-        Least normal force at its minima inside lasting contact, in ``m c_r Ω²``.
+        Least normal force at its minima inside lasting contact, in ``m c_r Ω²``.  While a plane has parted from a wall that gives way, the
+        force of the wall's spring at the least depth, and the least pull by which it stays off.
     """
 
     radius: float
@@ -191,17 +194,23 @@ class Orbit(Result):
 
     @property
     def impulse(self) -> float:
-        """Normal impulse of the first impact in ``m c_r Ω``."""
+        """Normal impulse of the first impact, or of the first contact with a wall that gives way, in ``m c_r Ω``.
+
+        Of such a contact it is ``nan`` where the orbit is no motion.
+        """
         plane = self.word[0].plane
+        if self.rotor.system.arrays["stiffness"][plane]:
+            if not (self.admissible and self.word.arrives[0]):
+                return np.nan
+            return float(self.trajectory().seen_at(plane).touches.normal_impulse[0])
         place, moving = self.rotor.system.at_plane(self._departures[0], plane)
         rebound = float((np.conj(place) * moving).real / abs(place))
         return float(self.rotor.system.arrays.masses[plane]) * (self.radial_speed - rebound)
 
     @property
     def impact_speeds(self) -> np.ndarray:
-        """``ṙ`` just before each impact in ``c_r Ω``, shape (n,)."""
-        pairs = zip(self.word, self.sections, strict=True)
-        return np.array([section.radial_speed for segment, section in pairs if segment.kind.is_impact])
+        """``ṙ`` just before each impact, or where contact with a wall that gives way begins, in ``c_r Ω``, shape (n,)."""
+        return np.array([section.radial_speed for section in compress(self.sections, self.word.arrives)])
 
     @property
     def angular_speed(self) -> float:
@@ -292,11 +301,21 @@ def margins_of(links: Links, rotor: Model, word: Word) -> Margins:
     radius, approach, speed, force, cone = least_margins(rotor.system.arrays, *at)
     if word.flies:
         return Margins(radius, approach, speed, force, cone, np.inf, np.inf)
-    push, slip, rolling = contact_margins(
-        rotor.system.arrays, *at[:-1], rub_workspace(nodes.shape[1], len(rotor.system.contacts))
-    )
+    rub = rub_workspace(nodes.shape[1], len(rotor.system.contacts))
+    push, slip, rolling = contact_margins(rotor.system.arrays, *at[:-1], rub)
     sliding = min(slip, float(links.slips.min()))
-    return Margins(radius, approach, speed, force, min(cone, rolling), sliding, push)
+    found = Margins(radius, approach, speed, force, min(cone, rolling), sliding, push)
+    if not rotor.system.arrays["stiffness"].any():
+        return found
+    entry, least, rolling, slip, push = margins_in_walls(rotor.system.arrays, *at[:-1], rub)
+    return replace(
+        found,
+        approach=min(approach, entry),
+        normal_force=min(force, least),
+        cone=min(found.cone, rolling),
+        sliding=min(sliding, slip),
+        pressing=min(found.pressing, push),
+    )
 
 
 @checked
@@ -317,13 +336,14 @@ def orbit_near(machine: Subject, word: Word, start: Start, name: OrbitName | Cou
     Raises
     ------
     InputError
-        The start does not fit the word and the rotor.
+        The start does not fit the word and the rotor, or the word its walls.
     """
     rotor = model_of(machine)
     refuse_forces(rotor)
     shape = len(word), 2 * len(rotor.system.rest)
     if start.nodes.shape != shape or start.durations.shape != shape[:1]:
         raise InputError("start", start.nodes.shape, f"nodes of shape {shape} and {shape[0]} durations")
+    word.refuse_walls(rotor.system)
     links = converged(rotor, word, start)
     if links is None or not lasts(word, links.start):
         return None
@@ -355,8 +375,8 @@ def shortest(word: Word, nodes: np.ndarray) -> int:
 
 
 def beginning(rotor: Model, word: Word, nodes: np.ndarray) -> int:
-    """Segment with which an orbit begins: that of the fastest impact; without impacts, the first flight."""
-    flights = [i for i, segment in enumerate(word) if segment.kind.is_impact]
+    """Segment with which an orbit begins: that of the fastest arrival at a wall; without any, the first flight."""
+    flights = np.flatnonzero(word.arrives).tolist()
     if not flights:
         return next((i for i, segment in enumerate(word) if segment.kind.flies), 0)
     positions, velocities = rotor.system.at_planes(rotor.system.amplitudes_of(nodes[flights]), word.planes[flights])

@@ -8,6 +8,7 @@ import numpy as np
 
 from carom.arguments import checked
 from carom.core.advance import SHORTEST_LAP
+from carom.core.event_log import flying
 from carom.core.margins import local_motion
 from carom.models import Model
 from carom.motions.simulation import simulate
@@ -57,12 +58,13 @@ def orbit_of_motion(motion: Trajectory) -> Orbit | None:
     2.328416080
     """
     count = motion.multiplicity
-    times = motion.segment_starts[1:][motion.is_impact]
+    struck = arrives(motion)
+    times = motion.segment_starts[1:][struck]
     if motion.outcome not in PERIODIC or count == 0 or len(times) < count:
         return None
     begun = first_of_period(motion, count)
-    first = int(np.flatnonzero(motion.is_impact)[begun])
-    if motion.is_landing[first:].any():
+    first = int(np.flatnonzero(struck)[begun])
+    if (motion.is_landing & ~struck)[first:].any():
         # The last period may begin within a chatter: look for one from lift-off to lift-off.
         period = motion.time - float(times[begun])
         later = simulate(motion.rotor, motion.final, (1.0 + MORE) * period)
@@ -70,9 +72,17 @@ def orbit_of_motion(motion: Trajectory) -> Orbit | None:
     return _closed(motion, first, len(motion.arrivals))
 
 
+def arrives(motion: Trajectory) -> np.ndarray:
+    """Which events of a motion are arrivals at a wall: impacts, and beginnings of contact with walls that give way; bool, shape (n,)."""
+    before, after = flying(motion.segment_phases, motion.event_planes)
+    yields = motion.rotor.system.arrays["stiffness"][motion.event_planes] > 0.0
+    arrivals: np.ndarray = motion.is_impact | (before & ~after & yields)
+    return arrivals
+
+
 def first_of_period(motion: Trajectory, count: int) -> int:
     """Number of the impact with which the last period of a motion begins, of ``count`` impacts at different instants."""
-    times = motion.segment_starts[1:][motion.is_impact]
+    times = motion.segment_starts[1:][arrives(motion)]
     if len(motion.rotor.system.arrays.rows) == 1 or not count:
         return len(times) - count
     noted, last = [], -math.inf
@@ -186,7 +196,7 @@ def segments_of(motion: Trajectory, first: int, last: int, *, brief: bool = Fals
         if plane >= 0
     }
     phases = zip(*(motion.segment_phases[places + later, planes].tolist() for later in (0, 1)), strict=True)
-    strikes = motion.is_impact[first:last].tolist()
+    strikes, yields = motion.is_impact[first:last].tolist(), motion.rotor.system.arrays["stiffness"] > 0.0
     for event, strike, struck, plane, (before, after) in zip(
         places.tolist(), strikes, kinds, planes.tolist(), phases, strict=True
     ):
@@ -196,7 +206,7 @@ def segments_of(motion: Trajectory, first: int, last: int, *, brief: bool = Fals
             continue
         if before == after:
             continue  # long contacts are logged in steps, and so is flight next to a wall beside other planes
-        if before == Phase.FLIGHT:
+        if before == Phase.FLIGHT and not yields[plane]:
             bounces = next((k for k, step in enumerate(reversed(steps)) if not _bounces(step[0], plane)), len(steps))
             bounces -= _not_of_chatter(motion, plane, struck_at[len(struck_at) - bounces :][:-1])
             if brief:
@@ -238,8 +248,11 @@ def _impact_kinds(motion: Trajectory, first: int, last: int) -> np.ndarray:
 
 
 def with_impacts(motion: Trajectory, first: int, count: int) -> tuple[Word, Start] | None:
-    """Word and start of some impacts in a row, from the impact of given number; ``None`` where the motion does else."""
-    impacts = np.flatnonzero(motion.is_impact)
-    if first + count >= len(impacts) or impacts[first + count] - impacts[first] != count:
+    """Word and start of some arrivals at walls in a row, from that of given number; ``None`` where the motion does else."""
+    impacts = np.flatnonzero(arrives(motion))
+    if first + count >= len(impacts):
+        return None
+    # In a wall that gives way contact has events of its own.
+    if impacts[first + count] - impacts[first] != count and not motion.rotor.system.arrays["stiffness"].any():
         return None
     return segments_of(motion, int(impacts[first]), int(impacts[first + count]))

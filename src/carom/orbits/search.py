@@ -20,7 +20,7 @@ from carom.motions.starts import State
 from carom.motions.trajectories import Trajectory
 from carom.orbits.names import CountedName
 from carom.orbits.orbit import Orbit, lasts, orbit_of_links, same_orbit
-from carom.orbits.recognising import lift_offs, orbit_of_motion, segments_of
+from carom.orbits.recognising import arrives, lift_offs, orbit_of_motion, segments_of
 from carom.orbits.shooting import Start, closed_flights, converged, links_of, pack
 from carom.orbits.word import Word
 from carom.outcome import InputError, Outcome
@@ -39,6 +39,8 @@ IMPACTS = 4
 """Impacts of these motions, in multiples of the largest number of impacts a period."""
 FOLLOWED = 1000.0
 """Time in ``1/Ω`` for which each is followed."""
+IN_WALL = 16
+"""Events logged of a contact with a wall that gives way, about."""
 LANDING, LANDS = 0.05, 2000
 """Share of the motions that are followed through landings and lift-offs, and their most events."""
 SETTLED, SLOWER = 10_000, 50
@@ -258,7 +260,7 @@ class Search:
 
     def _start(self, random: np.random.Generator) -> State:
         """A random start, or every third time one beside a known orbit."""
-        beside = [orbit for orbit in self.found if orbit.admissible and orbit.word.flies]
+        beside = [orbit for orbit in self.found if orbit.admissible and (orbit.word.flies or orbit.word.arrives[0])]
         if self.motions % 3 or not beside:
             positions, velocities = random_starts(self.rotor, random, 1, on_wall=True)
             return State.of(positions[0], velocities[0])
@@ -269,13 +271,13 @@ class Search:
 
     def _stretches(self, start: State, landing: bool) -> Iterable[tuple[int, Word, Start]]:
         """Stretches of a motion that come back closest, with their number of impacts; through a landing, from lift-off to lift-off."""
-        most = LANDS if landing else IMPACTS * (self.impacts + 1)
+        yields = bool(self.rotor.system.arrays["stiffness"].any())
+        most = LANDS if landing else IMPACTS * (self.impacts + 1) * (IN_WALL if yields else 1)
         motion = simulate(self.rotor, start, FOLLOWED, stop_at_chatter=not landing, max_events=most)
         if landing:
             lifts = lift_offs(motion)
             yield from self._cut(motion, lifts[1:] if len(lifts) > 3 else lifts, range(1, 4), contact=True)
-        impacts = np.flatnonzero(motion.is_impact)
-        yield from self._cut(motion, impacts, range(1, self.impacts + 1), contact=False)
+        yield from self._cut(motion, np.flatnonzero(arrives(motion)), range(1, self.impacts + 1), contact=False)
 
     def _cut(
         self, motion: Trajectory, marks: np.ndarray, counts: Iterable[int], *, contact: bool
@@ -283,6 +285,7 @@ class Search:
         """Stretches from one of the marked events to a later one."""
         if len(marks) < 2:
             return
+        yields = bool(self.rotor.system.arrays["stiffness"].any())
         nodes = motion.segment_amplitudes[marks + 1] if contact else motion.arrivals[marks]
         states, times = self.rotor.system.states_of(nodes), motion.segment_starts[1:][marks]
         for count in counts:
@@ -293,7 +296,7 @@ class Search:
             nearest = np.argsort(apart, kind="stable")[:NEAREST].tolist()
             for first in dict.fromkeys([*range(min(EARLY, len(apart))), *nearest]):
                 begin, end = int(marks[first]), int(marks[first + count])
-                if not contact and end - begin != count:
+                if not contact and end - begin != count and not yields:
                     continue
                 try:
                     word, guess = segments_of(motion, begin, end)

@@ -24,6 +24,7 @@ from carom.core.closure import carry_through_segments, close_flights, shooting_e
 from carom.core.layout import rub_workspace
 from carom.core.segments import follow_contact, follow_flights
 from carom.core.sensitivity import sensitivity_of_flights
+from carom.core.yielding_segments import follow_in_walls
 from carom.models import Model
 from carom.orbits.chatter import follow_chatter
 from carom.orbits.word import Kind, Word
@@ -169,6 +170,8 @@ def links_of(rotor: Model, word: Word, start: Start) -> Links:
                 nodes[after], durations[after], durations[i] = arrivals[i], durations[after] + durations[i] - time, time
         at = word.kinds, word.planes, word.conditions, nodes, durations, rub_workspace(system.modes, len(arrays.rows))
         follow_contact(arrays, *coordinates, *at, arrivals, values, slopes)
+        if arrays["stiffness"].any():
+            follow_in_walls(arrays, *coordinates, *at, arrivals, values, slopes)
     return Links(Start(nodes, durations), arrivals, values, slopes, landings, slips)
 
 

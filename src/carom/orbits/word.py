@@ -12,6 +12,7 @@ import numpy as np
 from carom.arguments import Count, Whole, checked
 from carom.core import segments
 from carom.core.friction import BACKWARD, FORWARD, STOPPED
+from carom.models import System
 from carom.outcome import InputError, Phase
 
 
@@ -26,6 +27,7 @@ class Kind(IntEnum):
     SLIDE_FORWARD = segments.SLIDE_FORWARD
     SLIDE_BACKWARD = segments.SLIDE_BACKWARD
     ROLL = segments.ROLL
+    FREE = segments.FREE
 
     @property
     def is_impact(self) -> bool:
@@ -56,12 +58,13 @@ class Kind(IntEnum):
 
     @classmethod
     def of_phase(cls, phase: int) -> Kind:
-        """Kind of a segment of lasting contact, or of the flight that follows a lift-off."""
+        """Kind of a segment that stays at its wall, or of the flight after it has left."""
         return {
             Phase.FLIGHT: cls.LIFT,
             Phase.FORWARD_SLIP: cls.SLIDE_FORWARD,
             Phase.BACKWARD_SLIP: cls.SLIDE_BACKWARD,
             Phase.ROLLING: cls.ROLL,
+            Phase.SEPARATED: cls.FREE,
         }[Phase(phase)]
 
 
@@ -75,6 +78,7 @@ _LABELS = {
     Kind.SLIDE_FORWARD: "slide+",
     Kind.SLIDE_BACKWARD: "slide-",
     Kind.ROLL: "roll",
+    Kind.FREE: "free",
 }
 
 
@@ -107,6 +111,9 @@ class Word(Sequence[Segment]):
     impact that stays.  ``slide+``, ``slide-`` and ``roll`` are lasting contact at one plane while no other touches, and ``lift`` is the
     flight after it.  Sliding that is followed by the same sliding ends where the normal force is least: ``slide-`` alone never leaves
     the wall.
+
+    A wall that gives way knows no impact: contact begins where a ``lift`` ends, and lasts until the plane is out of the wall.  Where the
+    force vanishes before, ``free`` is the way out, or back into contact.
 
     Attributes
     ----------
@@ -145,8 +152,18 @@ class Word(Sequence[Segment]):
 
     @property
     def impacts(self) -> int:
-        """Number of impacts in a period, without those of a chatter."""
-        return sum(segment.kind.is_impact for segment in self)
+        """Number of arrivals at a wall in a period, without those of a chatter."""
+        return int(self.arrives.sum())
+
+    @cached_property
+    def arrives(self) -> np.ndarray:
+        """Which segments begin with an arrival at a wall, an impact or contact with a wall that gives way; bool, shape (m,)."""
+        return np.array(
+            [
+                segment.kind.is_impact or (segment.kind.lasts and before.kind.flies)
+                for before, segment in zip((self.segments[-1], *self.segments[:-1]), self, strict=True)
+            ]
+        )
 
     @cached_property
     def flies(self) -> bool:
@@ -201,6 +218,28 @@ class Word(Sequence[Segment]):
         flights: np.ndarray = self.timed & [segment.kind.flies for segment in self]
         return flights
 
+    def refuse_walls(self, system: System) -> None:
+        """Refuse the word for a rotor in whose walls its segments cannot be.
+
+        Raises
+        ------
+        InputError
+            An impact, or a chatter, in a wall that gives way; contact that begins without one on a rigid wall, or loses its force there.
+        """
+        stiffness = system.arrays["stiffness"]
+        for segment, arrives in zip(self, self.arrives.tolist(), strict=True):
+            if segment.plane >= len(stiffness):
+                raise InputError("word", segment, f"planes from 0 to {len(stiffness) - 1}")
+            yields, strikes = bool(stiffness[segment.plane]), segment.kind.is_impact or segment.kind is Kind.LAND
+            if yields and strikes:
+                raise InputError(
+                    "word", segment, "no impacts in a wall that gives way: contact there begins where a lift ends"
+                )
+            if not yields and (segment.kind is Kind.FREE or (arrives and not strikes)):
+                raise InputError(
+                    "word", segment, "contact that begins with an impact or a chatter, as the wall is rigid"
+                )
+
     @cached_property
     def planes(self) -> np.ndarray:
         """Contact planes, shape (m,)."""
@@ -225,15 +264,18 @@ def _condition(segment: Segment, following: Segment) -> int:
     """Condition at which a segment ends, from the one that follows."""
     kind, after = segment.kind, following.kind
     touches = after.is_impact or after is Kind.LAND
-    if kind.flies and touches:
+    enters = after.lasts and (kind is Kind.LIFT or segment.plane != following.plane)
+    if kind.flies and (touches or enters):
         return segments.MEETS_WALL
     if segment.plane == following.plane and kind is Kind.LAND and after.lasts:
         return segments.NO_CONDITION
     if segment == following and kind.lasts and kind is not Kind.ROLL:
         return segments.LEAST_PUSH
-    if segment.plane == following.plane and kind.lasts and kind is not after and not touches:
+    if segment.plane == following.plane and (kind.lasts or kind is Kind.FREE) and kind is not after and not touches:
         if after is Kind.LIFT:
-            return segments.NO_PUSH
+            return segments.LEAVES
+        if Kind.FREE in (kind, after):
+            return segments.PARTS
         if kind is not Kind.ROLL:
             return segments.NO_SLIP
         return segments.CONE_FORWARD if after is Kind.SLIDE_FORWARD else segments.CONE_BACKWARD

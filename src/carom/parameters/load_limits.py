@@ -5,17 +5,37 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from carom.outcome import InputError, Problems, shown
 from carom.parameters.fields import Field, by_name, unknown_names
 from carom.parameters.quantities import read_quantity
+from carom.parameters.told import number
+
+if TYPE_CHECKING:
+    from carom.parameters.touchdown_bearing import TouchdownBearing
 
 LIMIT_FIELDS: Mapping[str, Field] = by_name(
     Field("impulse", "", "normal impulse of an impact", "an impulse", "N s", 1e-12, 1e12, '"5 N s"', zero=True),
     Field("force", "", "normal force in lasting contact", "a force", "N", 1e-12, 1e15, '"2 kN"', zero=True),
     Field("power", "", "friction power in lasting contact", "a power", "W", 1e-12, 1e15, '"10 kW"', zero=True),
     Field("heat", "", "friction work of a touchdown", "an energy", "J", 1e-12, 1e15, '"500 J"', zero=True),
+    Field(
+        "depth", "", "depth in the bearing", "a length", "m", 1e-12, 1.0, '"20 um"', True, usual="µm", usual_size=1e-6
+    ),
+    Field(
+        "pressure",
+        "",
+        "pressure of balls",
+        "a pressure",
+        "Pa",
+        1.0,
+        1e13,
+        '"4.2 GPa"',
+        True,
+        usual="GPa",
+        usual_size=1e9,
+    ),
     Field("impacts", "", "impacts of a touchdown", "a whole number", "", 1, 1e9, "20", zero=True, whole=True),
 )
 """Entries of a ``[limits]`` table, in SI units; each may be left out."""
@@ -37,6 +57,10 @@ class LoadLimits:
         Friction power in lasting contact, W.
     heat : float or str, optional
         Friction work of the whole touchdown, J.
+    depth : float or str, optional
+        Depth in a bearing that gives way, m.
+    pressure : float or str, optional
+        Largest pressure between a ball and the inner race, Pa; the bearing has to state its balls.
     impacts : int or str, optional
         Number of impacts of the whole touchdown.
 
@@ -51,6 +75,8 @@ class LoadLimits:
     power: float | None = None
     heat: float | None = None
     impacts: float | None = None
+    depth: float | None = None
+    pressure: float | None = None
 
     def __post_init__(self) -> None:
         problems = Problems()
@@ -60,10 +86,29 @@ class LoadLimits:
                 object.__setattr__(self, name, problems.attempt(read_quantity, field, given))
         problems.raise_all()
 
+    @staticmethod
+    def told(name: str, value: float, digits: int = 3) -> str:
+        """Write a load that is limited, given in its SI unit, in the unit in which people say it."""
+        field = LIMIT_FIELDS[name]
+        return f"{number(field.in_usual_unit(value), digits)} {field.usual_unit}".rstrip()
+
     @property
     def stated(self) -> dict[str, float]:
         """Limits that are stated, in SI units."""
         return {name: value for name, value in dataclasses.asdict(self).items() if value is not None}
+
+    def check_fit(self, bearing: TouchdownBearing | None) -> None:
+        """Refuse limits of what a machine with a touchdown bearing, ``None`` if that is rigid, does not have.
+
+        Raises
+        ------
+        InputError
+            A depth in a rigid wall is limited, or the pressure of balls that are not stated.
+        """
+        if self.depth is not None and bearing is None:
+            raise InputError("depth", self.depth, "a limit needs a table [touchdown] of a bearing that gives way")
+        if self.pressure is not None and (bearing is None or bearing.balls is None):
+            raise InputError("pressure", self.pressure, "a limit needs balls in the table [touchdown]")
 
     def to_toml(self) -> str:
         """Return the text of a table that is read as these limits; nothing if none is stated."""

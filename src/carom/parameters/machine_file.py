@@ -126,6 +126,8 @@ class Case(Tabular):
             object.__setattr__(self, "touchdown", None)
         if self.touchdown is not None and self.parameters.scales is None:
             raise InputError("touchdown", self.touchdown.words, "not allowed beside [dimensionless]: it is in SI units")
+        if self.machine is not None:
+            self.limits.check_fit(self.touchdown)
 
     @property
     def heading(self) -> str:
@@ -137,7 +139,7 @@ class Case(Tabular):
         scales = self.parameters.scales
         zones = ", ".join(f"{zone} up to {number(limit)}" for zone, limit in zip("ABC", self.zones.limits, strict=True))
         limits = [
-            f"{field.words} {number(value)} {field.unit}".rstrip()
+            f"{field.words} {LoadLimits.told(name, value, 4)}"
             for name, field in LIMIT_FIELDS.items()
             if (value := getattr(self.limits, name)) is not None
         ]

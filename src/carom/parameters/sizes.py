@@ -21,6 +21,7 @@ _KINDS = {
     "acceleration": ("an acceleration", "g", "20 g"),
     "unbalance": ("an unbalance", "g mm", "5000 g mm"),
     "time": ("a time", "ms", "11 ms"),
+    "speed": ("an angular speed", "rpm", "9000 rpm"),
     "angle": ("an angle", "deg", "30 deg"),
 }
 """Kinds of sizes in words, the unit in which people usually say them, and an example."""
@@ -59,7 +60,7 @@ def read_size(name: str, given: object, kind: str, scales: Scales | None, bare: 
         Name of the option or entry, for error messages.
     given : object
         A real number, or text; in ``"20 g"`` the unit is the standard gravity.
-    kind : {"length", "velocity", "acceleration", "unbalance", "time", "angle"}
+    kind : {"length", "velocity", "acceleration", "unbalance", "time", "speed", "angle"}
     scales : Scales or None
         Needed for values with units.
     bare : bool

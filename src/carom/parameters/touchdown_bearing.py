@@ -9,12 +9,23 @@ from dataclasses import dataclass
 from typing import Any
 
 from carom.outcome import InputError, Problems, shown
-from carom.parameters.fields import MACHINE_FIELDS, Field, by_name, unknown_names
+from carom.parameters.fields import MACHINE_FIELDS, Field, by_name, length_field, unknown_names
 from carom.parameters.quantities import read_quantity
 from carom.parameters.told import number
 
 LAWS = ("rigid", "kelvin-voigt", "hunt-crossley")
 """Laws of contact that a machine file may name."""
+BALL_FIELDS: Mapping[str, Field] = by_name(
+    Field("balls", "Z", "balls that share the force", "a whole number", "", 3, 1000, "12", whole=True),
+    length_field("ball_diameter", "D", "diameter of a ball", 1e-5, 10.0, '"6.35 mm"'),
+    length_field(
+        "race_diameter", "d_i", "diameter of the inner race at the bottom of its groove", 1e-4, 100.0, '"42 mm"'
+    ),
+    Field("conformity", "f", "radius of the groove over the ball diameter", "a number", "", 0.501, 1.0, "0.52"),
+    Field("ball_modulus", "", "elastic modulus of the balls", "a modulus", "Pa", 1e6, 1e13, '"208 GPa"'),
+    Field("race_modulus", "", "elastic modulus of the inner race", "a modulus", "Pa", 1e6, 1e13, '"208 GPa"'),
+)
+"""Entries of a ``[touchdown]`` table that say how its balls are pressed on; they change no motion."""
 TOUCHDOWN_FIELDS: Mapping[str, Field] = by_name(
     Field("stiffness", "k_t", "stiffness of the touchdown bearing", "a stiffness", "N/m", 1e-6, 1e18, '"1e8 N/m"'),
     Field("damping", "c_t", "damping of the touchdown bearing", "a damping", "N s/m", 1e-12, 1e12, '"500 N s/m"', True),
@@ -27,6 +38,7 @@ TOUCHDOWN_FIELDS: Mapping[str, Field] = by_name(
     Field("mount_mass", "", "mass of the mount", "a mass", "kg", 1e-9, 1e9, '"2 kg"'),
     Field("mount_stiffness", "", "stiffness of the mount", "a stiffness", "N/m", 1e-6, 1e18, '"2e7 N/m"'),
     Field("mount_damping", "", "damping of the mount", "a damping", "N s/m", 1e-12, 1e12, '"3000 N s/m"', True),
+    *BALL_FIELDS.values(),
 )
 """Entries of a ``[touchdown]`` table beside ``law``, in SI units."""
 PREFIX = "touchdown_"
@@ -64,6 +76,15 @@ class TouchdownBearing:
         Without an inertia it stands still.
     mount_mass, mount_stiffness, mount_damping : float or str, optional
         Mass on which the bearing sits, kg, and what holds that, N/m and N s/m.  Without these it is fixed.
+    balls : int or str, optional
+        Number of the balls that share the force, in all rows.  With their data the peak force gives a pressure
+        (:func:`carom.closed_forms.ball_pressure`); no motion depends on them.
+    ball_diameter, race_diameter : float or str, optional
+        Diameter of a ball, and of the inner race at the bottom of its groove, m; ``balls`` needs both.
+    conformity : float or str, optional
+        Radius of the groove of the inner race over the diameter of a ball, 0.52 by default.
+    ball_modulus, race_modulus : float or str, optional
+        Elastic moduli, Pa; 208 GPa, that of steel, by default.
 
     Raises
     ------
@@ -83,6 +104,12 @@ class TouchdownBearing:
     mount_mass: float | None = None
     mount_stiffness: float | None = None
     mount_damping: float | None = None
+    balls: float | None = None
+    ball_diameter: float | None = None
+    race_diameter: float | None = None
+    conformity: float | None = None
+    ball_modulus: float | None = None
+    race_modulus: float | None = None
 
     def __post_init__(self) -> None:
         if self.law not in LAWS:
@@ -152,6 +179,10 @@ class TouchdownBearing:
             for name in ("mount_mass", "mount_stiffness")
             if mount and name not in mount
         ]
+        needed = ("balls", "ball_diameter", "race_diameter")
+        missing = [name for name in needed if name not in present]
+        if missing and BALL_FIELDS.keys() & present:
+            errors.append(InputError(missing[0], None, f"the pressure of balls needs {', '.join(needed)}"))
         return errors
 
     def _not_of_law(self, name: str, words: str) -> InputError:

@@ -9,7 +9,7 @@ the units of the machine (ms, mm, mm/s, N, N s, rpm) if it is known in SI units,
 Long motions are thinned: the band of the radius, the last turns of the shaft, the position once a turn.  Virtual orbits
 are drawn where the argument `virtual` asks for them.
 
-Motions and orbits are drawn by ``motions``, ``histories``, ``touchdowns``, ``spectra``, ``overviews`` and ``conditions``; along
+Motions and orbits are drawn by ``motions``, ``histories``, ``touchdowns``, ``drops``, ``spectra``, ``overviews`` and ``conditions``; along
 parameters ``diagrams`` with ``coexistence`` and ``proven``, ``regions`` and ``responses``; disturbances ``basins`` with ``pairs`` and
 ``rings``, ``gains``, ``sweeps`` and ``attractor_shares``.  Shared are ``style`` (what colours mean), ``sheet`` (the style sheet),
 ``figure`` (a figure that keeps it), ``arrangement`` (layout), ``files``, ``plane`` (the clearance circle), ``bands``, ``cells``,
@@ -22,6 +22,7 @@ from carom.plots.attractor_shares import attractors
 from carom.plots.basins import basin
 from carom.plots.conditions import period_condition
 from carom.plots.diagrams import bifurcation_diagram
+from carom.plots.drops import drop_loads, drop_orbit
 from carom.plots.figure import heading, one_column
 from carom.plots.files import save
 from carom.plots.gains import gain_map
@@ -48,6 +49,8 @@ __all__ = [
     "basin",
     "basin_pair",
     "bifurcation_diagram",
+    "drop_loads",
+    "drop_orbit",
     "energies",
     "equilibria",
     "equilibria_and_orbits",

@@ -1,12 +1,15 @@
-"""The report of a study: one self-contained HTML page, its figures as files, and the numbers as JSON.
+"""The reports of a study and of a drop: one self-contained HTML page, its figures as files, and the numbers as JSON.
 
 ==============  ====================================================
 ``basins``      where disturbances end now, and after the advised change
 ``figures``     the figures of a study with their captions
-``page``        the HTML page
+``page``        the HTML page of a study
+``drop``        the HTML page of a drop
+``html``        what pages share
 ==============  ====================================================
 """
 
+from carom.report.drop import write_drop_report
 from carom.report.page import report_page, write_report
 
-__all__ = ["report_page", "write_report"]
+__all__ = ["report_page", "write_drop_report", "write_report"]

@@ -11,6 +11,7 @@ Read them in this order.
 ``survives``             the sizes of kicks, shocks and losses of a blade up to which none is lost
 ``advice``               the least change that leaves only recovery, in the user's terms and within limits
 ``load_checks``          loads of touchdowns against stated limits
+``drops``                :class:`DropStudy`: what a drop asks of the touchdown bearing, in words and as JSON
 ``actuator``             what motions ask of the magnetic bearings, against the limits of these
 ``endings``              where simulated disturbances ended
 ``facts``                :class:`Fact`: what headline, page, report and JSON show
@@ -34,6 +35,7 @@ Read them in this order.
 from carom.studies.advice import Change, Margin, Recommendation
 from carom.studies.assembly import Study, study
 from carom.studies.document import found_orbits_document, orbits_document, trajectory_document
+from carom.studies.drops import DropStudy
 from carom.studies.facts import Fact
 from carom.studies.load_checks import LoadCheck, WorstLoads, check_loads, worst_loads
 from carom.studies.ranges import MotionRange, Threshold
@@ -49,6 +51,7 @@ __all__ = [
     "NOT_COVERED",
     "Change",
     "Check",
+    "DropStudy",
     "Fact",
     "LoadCheck",
     "Lost",

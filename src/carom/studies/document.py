@@ -21,7 +21,7 @@ from carom.closed_forms.equilibria import Equilibrium
 from carom.models import Jeffcott, Model, Span
 from carom.models.subjects import parameters_of
 from carom.motions.contacts import LastingContact, yields
-from carom.motions.loads import MEASURED, touchdown_loads
+from carom.motions.loads import MEASURED, TouchdownLoads, touchdown_loads
 from carom.motions.starts import State
 from carom.motions.trajectories import Trajectory
 from carom.orbits.orbit import Orbit
@@ -161,9 +161,14 @@ def _touches(trajectory: Trajectory) -> list[dict[str, Any]]:
 
 def _loads(trajectory: Trajectory) -> dict[str, Any]:
     """Loads of a motion, in units of the equations and in SI units."""
-    loads = touchdown_loads(trajectory)
+    return loads_document(touchdown_loads(trajectory))
+
+
+def loads_document(loads: TouchdownLoads) -> dict[str, Any]:
+    """The same of loads that are known."""
     document = fields_of(loads, "impacts", *MEASURED, "goes_on")
-    return document | in_si(document, loads.scales, *MEASURED)
+    pressure = {} if loads.pressure is None else {"pressure_si": loads.pressure}
+    return document | in_si(document, loads.scales, *MEASURED) | pressure
 
 
 def study_document(study: StudyData, verdict: Verdict, facts: Sequence[Fact]) -> dict[str, Any]:

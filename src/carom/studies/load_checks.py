@@ -10,6 +10,7 @@ from typing import Any
 from carom.arguments import checked
 from carom.attractors import AttractorSet
 from carom.motions import TouchdownLoads, simulate, touchdown_loads
+from carom.outcome import InputError
 from carom.parameters import LIMIT_FIELDS, LoadLimits
 from carom.parameters.told import number
 from carom.results import fields_of
@@ -21,7 +22,7 @@ class LoadCheck:
 
     Attributes
     ----------
-    name : {"impulse", "force", "power", "heat", "impacts"}
+    name : {"impulse", "force", "power", "heat", "depth", "pressure", "impacts"}
     value : float
         Load of the motion, up to where its end was known.
     limit : float
@@ -45,9 +46,8 @@ class LoadCheck:
     @property
     def words(self) -> str:
         """The check in words."""
-        field = LIMIT_FIELDS[self.name]
-        unit = f" {field.unit}" if field.unit else ""
-        text = f"{field.words}: {number(self.value, 3)}{unit}, limit {number(self.limit, 3)}{unit}"
+        value, limit = (LoadLimits.told(self.name, each) for each in (self.value, self.limit))
+        text = f"{LIMIT_FIELDS[self.name].words}: {value}, limit {limit}"
         if self.value > self.limit:
             return f"{text}: exceeded{', and it goes on' if self.endless else ''}"
         if not self.endless:
@@ -61,10 +61,17 @@ def check_loads(loads: TouchdownLoads, limits: LoadLimits) -> tuple[LoadCheck, .
     """Compare the loads of a motion with the limits that are stated; nothing without scales.
 
     Heat and impacts of a motion that has settled in contact have no end, so they exceed any limit in time.
+
+    Raises
+    ------
+    InputError
+        There is a limit of the pressure, but the touchdown bearing does not state its balls.
     """
     si = loads.si()
     if si is None:
         return ()
+    if limits.pressure is not None and loads.pressure is None:
+        raise InputError("pressure", limits.pressure, "a limit needs balls in the table [touchdown]")
     values = {**si, "impacts": float(loads.impacts)}
     found = []
     for name, limit in limits.stated.items():
@@ -112,13 +119,11 @@ class WorstLoads:
             return "None of the disturbances tried touched the bearing: no load to compare with the limits stated."
         lines = [f"Largest loads of the {self.disturbances} disturbances that touched, against the limits stated."]
         for check, motion, count in zip(self.checks, self.motions, self.exceeding, strict=True):
-            field = LIMIT_FIELDS[check.name]
-            unit = f" {field.unit}" if field.unit else ""
-            value = f"{number(check.value, 3)}{unit}{' and growing' if check.endless else ''} (ends in {motion})"
+            words = LIMIT_FIELDS[check.name].words
+            value, limit = (LoadLimits.told(check.name, each) for each in (check.value, check.limit))
+            grows = " and growing" if check.endless else ""
             kept = f"exceeded by {count} of {self.disturbances}" if count else "kept by all"
-            lines.append(
-                f"{field.words[0].upper()}{field.words[1:]}: {value}, limit {number(check.limit, 3)}{unit}: {kept}."
-            )
+            lines.append(f"{words[0].upper()}{words[1:]}: {value}{grows} (ends in {motion}), limit {limit}: {kept}.")
         return "\n".join(lines)
 
     def document(self) -> dict[str, Any]:

@@ -35,6 +35,11 @@ NOT_COVERED_OF_MATRICES = (
     ),
 )
 """What a study of any other model does not cover, in place of the last of these."""
+WALL, NOT_COVERED_OF_WALLS = (
+    2,
+    "Wear, heat and axial motion of the touchdown bearing: its law is taken as it is stated.",
+)
+"""Place of the entry above on the rigid wall, and what stands there if the touchdown bearing gives way."""
 
 
 @dataclass(frozen=True)
@@ -89,7 +94,10 @@ def facts_of(study: StudyData) -> Iterator[Fact]:
 
 def not_covered(study: StudyData) -> tuple[str, ...]:
     """What the study does not cover; of other models than the planar rotor also what only its closed forms say."""
-    return NOT_COVERED if study.known.orbits else (*NOT_COVERED[:-1], *NOT_COVERED_OF_MATRICES)
+    covered = list(NOT_COVERED if study.known.orbits else (*NOT_COVERED[:-1], *NOT_COVERED_OF_MATRICES))
+    if (study.rotor.system.arrays["stiffness"] > 0.0).any():
+        covered[WALL] = NOT_COVERED_OF_WALLS
+    return tuple(covered)
 
 
 def verdict(study: StudyData, found: Sequence[Fact]) -> Verdict:

@@ -16,17 +16,20 @@ from carom.core.laws.yielding import no_impulse
 impulse = impulse_by_speed = impulse_by_restitution = no_impulse
 ONSET = 1e-9
 """Depth in clearances below which a parabola takes the place of the power."""
+AT_EDGE = 5e-5
+"""Distance from the onset, relative to its depth, within which a plane counts as there."""
 
 
 @formula
 def edge(depth, rate, wall):
     """Depth at which the series of the force takes another form, negative if the plane is deeper; zero if there is none.
 
-    At the edge, to far more than the rounding error of a depth, the plane is on the side to which it moves.
+    At the edge, to far more than the rounding error of a depth, the plane is on the side to which it moves.  That must be less than
+    what the search for the edge takes for none (:data:`carom.core.compliance.SHARP`), or it stops where it starts.
     """
     if wall.law_number == 1.0:
         return 0.0
-    return ONSET if depth < 0.999 * ONSET or (depth < 1.001 * ONSET and rate < 0.0) else -ONSET
+    return ONSET if depth < (1.0 - AT_EDGE) * ONSET or (depth < (1.0 + AT_EDGE) * ONSET and rate < 0.0) else -ONSET
 
 
 @formula

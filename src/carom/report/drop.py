@@ -1,0 +1,70 @@
+"""The HTML page of a drop: self-contained, with its figures and numbers beside it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from carom import plots
+from carom.arguments import checked
+from carom.files import staged_directory, write_json
+from carom.files.directory import FIGURES
+from carom.progress import Reporter, ShowProgress, shows_progress
+from carom.report.html import InlineFigure, inline_figure, page_template, versions
+from carom.studies.drops import DropStudy
+from carom.studies.wording import machine_heading
+
+DROP_PAGE, DROP_NUMBERS = "drop.html", "drop.json"
+_ORBIT = (
+    "The orbit of the rotor centre in the fixed frame, and close to the wall: its gap over the angle from the direction of the fall. "
+    "The arrow shows the weight."
+)
+_SOFT = "Gap to the wall (depth where it is negative), normal force, slip of the contact and speed of the surface of the race."
+_RIGID = "Gap to the wall, force of lasting contact with the impulse of each impact, and slip of the contact."
+_WALLS = {
+    True: "The pressure of balls, if it is told, is that of Hertz under the peak force, of which the most loaded ball bears 5/Z (Stribeck).",
+    False: "The wall is rigid: an impact has an impulse and no duration, so no peak force can be told.",
+}
+
+
+@checked
+@shows_progress
+def write_drop_report(found: DropStudy, directory: str, *, progress: ShowProgress = None) -> Path:
+    """Write ``drop.html``, ``drop.json`` and the figures of a drop, as SVG and PNG; return the path of the page.
+
+    Parameters
+    ----------
+    directory : str
+        Target directory, created if it does not exist.  Files of an earlier drop are replaced; other files stay.
+
+    Raises
+    ------
+    InputError
+        The directory cannot be written; nothing has been changed then.
+    """
+    tell, inline, names = Reporter.of(progress, "drawing"), list[InlineFigure](), list[str]()
+    planes = found.loads.planes
+    with staged_directory(directory, "--out") as place, plots.heading(machine_heading(found.case)):
+        (place / FIGURES).mkdir()
+        for done, plane in enumerate(planes):
+            tell(done / len(planes))
+            motion, mark = found.motion.seen_at(plane.plane), f"-{plane.plane}" if len(planes) > 1 else ""
+            which = f" Plane {plane.plane}." if mark else ""
+            orbit, loads = plots.drop_orbit(motion), plots.drop_loads(motion)
+            captions = {"orbit": (orbit, _ORBIT), "loads": (loads, _SOFT if plane.gives_way else _RIGID)}
+            for name, (figure, caption) in captions.items():
+                paths = plots.save(figure, place / FIGURES / f"drop-{name}{mark}")
+                names += [f"{FIGURES}/{path.name}" for path in paths]
+                text = paths[0].read_text(encoding="utf-8")
+                inline.append(inline_figure("drop", caption + which, text, f"f{len(inline) + 1}-"))
+        write_json(place / DROP_NUMBERS, {**found.document(), "figures": names})
+        page = page_template("drop.html.jinja").render(
+            found=found,
+            heading=machine_heading(found.case),
+            machine=found.case.rows(),
+            mark="var(--warn)" if any(check.exceeded for check in found.checks) else "var(--rule)",
+            figures=inline,
+            wall=_WALLS[planes[0].gives_way],
+            versions=versions(),
+        )
+        (place / DROP_PAGE).write_text(page, encoding="utf-8")
+    return Path(directory) / DROP_PAGE

@@ -1,0 +1,74 @@
+"""Attractors and basins of a rotor in a wall that gives way, against its orbits and rubs."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import carom as cm
+from carom.attractors import character_of
+from carom.attractors.settled import settled_motion
+from carom.disturbances import Grid, StateSlice
+from carom.models import KelvinVoigt
+from carom.outcome import Outcome
+from tests.orbits.test_yielding_orbits import VOIGT, settled
+from tests.yielding_rotors import Yielding
+
+pytestmark = pytest.mark.jit_only
+
+
+@pytest.fixture(scope="module")
+def found():
+    return {str(one.name): one for one in cm.find_attractors(VOIGT.model, count=12)}
+
+
+def test_bouncing_is_the_orbit_with_its_impulse_and_peak_force(found):
+    orbit, attractor = settled(VOIGT), found["1-impact bouncing"]
+    assert attractor.period == pytest.approx(orbit.period, rel=1e-10)
+    assert str(attractor.orbit.word) == str(orbit.word)
+    assert attractor.largest_impulse == pytest.approx(orbit.impulse, rel=1e-6)
+    times = np.linspace(0.0, orbit.durations[0], 4001)
+    forces = orbit.trajectory().forces(times)[0]
+    assert attractor.largest_force == pytest.approx(forces.max(), rel=1e-5)
+    character = character_of(VOIGT.model, attractor)
+    assert character.kind == "periodic"
+    assert (np.sort(character.rates)[:-1] < 0.0).all()
+
+
+def test_the_rub_is_that_of_the_closed_form(found):
+    attractor = found["synchronous rub"]
+    (rub,) = (rub for rub in cm.find_equilibria(VOIGT.model)[1:] if rub.stable)
+    assert abs(attractor.state.position - rub.position) < 1e-6
+    assert attractor.largest_force == pytest.approx(rub.normal_force, rel=1e-5)
+    assert character_of(VOIGT.model, attractor).rates == pytest.approx(np.sort(rub.eigenvalues.real)[::-1])
+
+
+def test_rolling_in_the_wall_takes_the_time_of_its_turn(found):
+    attractor = found["rolling backward whirl"]
+    position, velocity = attractor.state.position, attractor.state.velocity
+    turning = (np.conj(position) * velocity).imag / abs(position) ** 2
+    after = cm.simulate(VOIGT.model, attractor.state, attractor.period).final
+    # The unbalance makes it uneven, so that a turn takes the period and no multiple of a speed.
+    assert after.position == pytest.approx(position, abs=1e-6)
+    assert after.velocity == pytest.approx(velocity, abs=1e-5)
+    # The contact point is at rest, further out by the depth in the wall.
+    assert abs(turning) * abs(position) == pytest.approx(VOIGT.surface_speed + abs(position) - 1.0, rel=1e-9)
+
+
+def test_a_whirl_that_never_leaves_the_wall_is_an_orbit():
+    rotor = Yielding(KelvinVoigt(964.95, 2.0874), gamma=0.0248, omega=0.797, rho=0.7268, mu=0.15, surface_speed=3.0)
+    for velocity in (-1.0j, 0.5 - 1.2j, -0.8 - 0.4j, 1.0 - 2.0j):
+        motion = cm.simulate(rotor.model, cm.State(0.2 + 0.1j, velocity), settle=True)
+        if motion.outcome is Outcome.BACKWARD_WHIRL:
+            end = settled_motion(motion)
+            assert sorted(map(str, end.orbit.word)) == ["roll", "roll", "slide+", "slide-"]
+            assert end.orbit.admissible
+            assert end.orbit.stable
+            assert end.orbit.links.size < 1e-13
+            return
+    pytest.fail("no motion whirls backward")
+
+
+def test_basins_name_the_same_motions(found):
+    basin = cm.map_basins(VOIGT.model, Grid(StateSlice(), (5, 5)))
+    assert set(basin.fractions) <= set(found)

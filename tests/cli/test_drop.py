@@ -1,0 +1,114 @@
+"""``carom drop``: loads of a drop for people, as JSON, and with figures and a page."""
+
+import json
+
+import pytest
+
+import carom as cm
+
+pytestmark = pytest.mark.jit_only
+
+MACHINE = "examples/touchdown-balls.toml"
+SHORT = ("drop", MACHINE, "--until", "20 ms")
+
+
+def test_a_drop_in_words(carom):
+    code, out, err = carom(*SHORT)
+    words = " ".join(out.split())
+    assert (code, err) == (0, "")
+    assert "Levitation is lost 0.0986 mm from the centre at -91.3°" in words
+    assert "Followed for 20 ms, and not settled by then (time reached)." in words
+    assert "peak force 1,320 N, 5.99 ms after the release" in words
+    assert "pressure of balls: 2.34 GPa, limit 4.2 GPa: kept" in words
+    assert "add --out DIR" in words
+
+
+def test_the_motion_is_that_of_simulate(carom):
+    code, out, _ = carom(*SHORT, "--json")
+    dropped = json.loads(out)
+    assert code == 0
+    _, out, _ = carom("simulate", MACHINE, "--drop", "--until", "20 ms", "--json")
+    simulated = json.loads(out)
+    (plane,) = dropped["planes"]
+    assert dropped["disturbance"] == simulated["disturbance"]
+    assert plane["loads"]["force_si"] == simulated["loads"]["force_si"]
+    assert plane["contacts"] == len(simulated["contacts"])
+    assert plane["limits"] == simulated["limits"]
+
+
+def test_what_it_is_released_from(carom):
+    options = ("--whirl", "0.2 mm,-80 Hz,30 deg", "--race-speed", "500 rpm", "--phase", "90 deg")
+    _, out, _ = carom("drop", MACHINE, *options, "--regained-after", "6 ms", "--json")
+    found = json.loads(out)
+    said = found["disturbance"]
+    assert said["radius_si"] == pytest.approx(0.2e-3)
+    assert said["speed_si"] == pytest.approx(0.2e-3 * 80.0 * 2.0 * 3.141592653589793)
+    assert said["race_speed_si"] == pytest.approx(500.0 * 3.141592653589793 / 30.0)
+    assert said["unbalance_angle"] == pytest.approx(0.0, abs=1e-15)
+    assert said["regained_after_si"] == pytest.approx(6e-3)
+    assert "the race turns with 500 rpm; levitation is back after 6 ms" in said["words"]
+    case = cm.load(MACHINE)
+    whirl = cm.motions.Whirl("0.2 mm", "-80 Hz", "30 deg")
+    motion = cm.simulate(case, cm.drop(whirl, phase="90 deg", race_speed="500 rpm", regained_after="6 ms"))
+    assert found["time"] == motion.begins + motion.time
+
+
+def test_a_bearing_on_a_mount(carom):
+    """Depth is that in the bearing, which the mount makes softer; the start is that of the rotor."""
+    mount = ("touchdown_mount_mass=2 kg", "touchdown_mount_stiffness=2e7 N/m", "touchdown_mount_damping=3000 N s/m")
+    settings = [part for setting in mount for part in ("--set", setting)]
+    _, out, _ = carom(*SHORT, "--json")
+    fixed = json.loads(out)
+    code, out, err = carom(*SHORT, *settings, "--json")
+    mounted = json.loads(out)
+    assert (code, err) == (0, "")
+    assert mounted["disturbance"]["words"] == fixed["disturbance"]["words"]
+    soft, hard = (each["planes"][0]["loads"] for each in (mounted, fixed))
+    assert soft["force_si"] < 0.6 * hard["force_si"]
+    # The peak force is k δ^1.5 but for what the rate adds.
+    assert soft["force_si"] == pytest.approx(2e10 * soft["depth_si"] ** 1.5, rel=1e-2)
+
+
+def test_figures_and_a_page(carom, tmp_path):
+    where = tmp_path / "drop"
+    code, out, err = carom(*SHORT, "--out", str(where), "--json")
+    assert code == 0
+    assert err.strip() == f"Report: {where / 'drop.html'}"
+    names = {path.name for path in (where / "figures").iterdir()}
+    assert names == {f"drop-{name}.{kind}" for name in ("orbit", "loads") for kind in ("png", "svg")}
+    written = json.loads((where / "drop.json").read_text(encoding="utf-8"))
+    assert written.pop("figures") == [
+        f"figures/drop-{name}.{kind}" for name in ("orbit", "loads") for kind in ("svg", "png")
+    ]
+    assert written == json.loads(out)
+    assert "Report:" in carom(*SHORT, "--out", str(where))[1]
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        (("--whirl", "0.1 mm"), "--whirl = 0.1 mm: must be RADIUS,SPEED or RADIUS,SPEED,ANGLE"),
+        (("--whirl", "0.3 mm,80 Hz"), "--whirl = 0.3 mm,80 Hz: must have a radius from 0 to the clearance"),
+        (("--whirl", "0.1 mm,80"), "--whirl = 80: must be an angular speed in rad/s"),
+        (("--phase", "90"), "--phase = 90: must be an angle in rad"),
+        (("--race-speed", "5 m/s"), "--race-speed = 5 m/s: must be an angular speed"),
+        (("--race-speed", "500 rpm", "--set", "touchdown_race_inertia=0"), "touchdown_race_inertia = 0: must be"),
+        (
+            ("--whirl", "0.1 mm,80 Hz", "--kick", "5 mm/s"),
+            "the release = with --kick 5 mm/s with --whirl 0.1 mm,80 Hz: allowed alone, or with one of --start, --kick and --whirl",
+        ),
+        (("--set", "gravity=0"), "gravity = nothing given: a drop needs weight"),
+        (("--until", "-5 ms"), "--until = -5 ms: must be a time above 0"),
+    ],
+)
+def test_bad_input_gets_one_line(carom, options, words):
+    code, out, err = carom("drop", MACHINE, *options)
+    assert (code, out) == (2, "")
+    assert err.startswith(f"carom: {words}")
+    assert err.count("\n") == 1
+
+
+def test_a_rigid_wall_has_no_race(carom):
+    code, _, err = carom("drop", "examples/dropped-rotor.toml", "--race-speed", "500 rpm")
+    assert code == 2
+    assert "race_speed = " in err

@@ -1,0 +1,176 @@
+"""Loads of drops over all stages: against closed forms of a mass on a spring, momentum of the race, the ledger and rolling."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from linear_rotors import tilting
+
+import carom as cm
+from carom.motions import Whirl, drop_loads, energy_ledger
+from carom.outcome import Outcome
+
+pytestmark = pytest.mark.jit_only
+
+BALLS = "examples/touchdown-balls.toml"
+RIGID = "examples/dropped-rotor.toml"
+MASS, PULL, CLEARANCE, SPEED = 5.0, 9.81, 0.25e-3, 300.0 * math.pi
+
+
+def spring_case(tmp_path):
+    """A balanced rotor over a spring without damper and friction."""
+    path = tmp_path / "spring.toml"
+    path.write_text(
+        f"""
+[machine]
+mass = {MASS}
+damping = 900
+stiffness = 5e5
+eccentricity = 0
+clearance = {CLEARANCE}
+rotor_radius = 0.02
+speed = {SPEED!r}
+friction = 0
+[gravity]
+acceleration = {PULL}
+[touchdown]
+law = "kelvin-voigt"
+stiffness = 1e7
+damping = 0
+"""
+    )
+    return cm.load(path)
+
+
+def test_a_fall_on_a_spring_in_closed_form(tmp_path):
+    """From rest in the centre: ``F = mg(1 + √(1 + 2kc/(mg)))``, and half a swing about the static depth, the weight in it."""
+    case = spring_case(tmp_path)
+    (plane,) = drop_loads(cm.simulate(case, cm.drop(cm.State(0)), "10 ms")).planes
+    fall, weight, own = math.sqrt(2.0 * CLEARANCE / PULL), MASS * PULL, math.sqrt(1e7 / MASS)
+    force = weight * (1.0 + math.sqrt(1.0 + 2.0 * 1e7 * CLEARANCE / weight))
+    lasts = 2.0 / own * (math.pi - math.atan(PULL * fall * own / PULL))
+    si = plane.loads.si()
+    assert si["force"] == pytest.approx(force, rel=1e-9)
+    assert si["depth"] == pytest.approx(force / 1e7, rel=1e-9)
+    assert si["contact_time"] == pytest.approx(lasts, rel=1e-9)
+    assert si["impulse"] == pytest.approx(2.0 * MASS * PULL * fall + weight * lasts, rel=1e-9)
+    assert plane.force_at / SPEED == pytest.approx(fall + 0.5 * lasts, rel=1e-9)
+    assert plane.impulse_at == plane.force_at
+    assert plane.restitution == pytest.approx(1.0, rel=1e-9)
+    assert (plane.contacts, plane.bounces, plane.gives_way) == (1, 1, True)
+    assert si["heat"] == 0.0
+    assert (plane.in_contact_since, plane.race_at_end, plane.loads.pressure) == (None, None, None)
+
+
+def test_friction_gives_the_race_its_momentum():
+    """Without drag ``J_r ω_r = R ∫F dt``, with the radius ``R + c_r`` at which the race is touched."""
+    case = cm.load(BALLS, ["touchdown_race_drag=0"])
+    motion = cm.simulate(case, cm.drop(race_speed="500 rpm"), "60 ms")
+    (plane,) = drop_loads(motion).planes
+    push = -motion.touches.friction_impulse.sum() * case.parameters.scales.impulse
+    gained = (plane.race_at_end * SPEED - 500.0 * math.pi / 30.0) * 2e-5
+    assert gained == pytest.approx(push * (20e-3 + CLEARANCE), rel=1e-9)
+    assert plane.fastest_race == plane.race_at_end
+    assert plane.contacts == len(motion.touches)
+
+
+@pytest.mark.parametrize("machine", [BALLS, RIGID])
+def test_stages_count_together(machine):
+    """Levitation is back in the middle of the first contact, or after some impacts."""
+    motion = cm.simulate(cm.load(machine), cm.drop(regained_after="6 ms" if machine == BALLS else "11.1 ms"))
+    falls, back = motion.parts
+    found = drop_loads(motion)
+    (plane,) = found.planes
+    assert found.time == back.begins + back.time
+    lost = [energy_ledger(part) for part in (falls, back)]
+    heat = -sum(each.friction[-1] + (0.0 if plane.gives_way else each.impacts[-1]) for each in lost)
+    assert plane.loads.heat + (0.0 if plane.gives_way else plane.loads.restitution_loss) == pytest.approx(
+        heat, rel=1e-9
+    )
+    if plane.gives_way:
+        assert falls.touches.lasts[-1]
+        assert not back.touches.entered[0]
+        assert plane.contacts == len(falls.touches) + len(back.touches) - 1
+        hardest = max((part.touches.peak_force.max(), part.begins + part.touches.peak_time[0]) for part in motion.parts)
+        assert (plane.loads.force, plane.force_at) == hardest
+    else:
+        assert plane.contacts == plane.bounces == len(falls.contacts) + len(back.contacts)
+        assert min(len(falls.contacts), len(back.contacts)) > 0
+        assert plane.force_at is None
+        assert plane.restitution == pytest.approx(0.5, rel=1e-9)
+        hardest = falls.contacts.normal_impulse.argmax()
+        assert plane.impulse_at == falls.contacts.time[hardest]
+
+
+def test_contact_that_goes_on_over_two_stages_began_in_the_first():
+    case = cm.load(BALLS, ["touchdown_dissipation=20 s/m"])
+    falling, start = cm.drop().stages(case)
+    halves = cm.models.Staged(
+        (
+            cm.models.Stage(falling, cm.models.Trigger(time=1500.0)),
+            cm.models.Stage(falling, cm.models.Trigger(time=50.0)),
+        )
+    )
+    motion = cm.simulate(halves, start)
+    (plane,) = drop_loads(motion).planes
+    begun = motion.parts[0].touches.start[-1]
+    assert motion.parts[0].touches.lasts[-1]
+    assert plane.in_contact_since == pytest.approx(begun, abs=1e-9)
+    assert plane.contacts == len(motion.parts[0].touches)
+
+
+def test_rolling_whirl_goes_round_with_the_ratio_of_the_radii():
+    """A rigid wall that stands still is rolled round at ``ΩR/c_r``, backward, for good."""
+    found = drop_loads(cm.simulate(cm.load(RIGID), cm.drop(Whirl("0.2 mm", "-150 Hz"))))
+    (plane,) = found.planes
+    assert found.outcome is Outcome.ROLLING
+    assert plane.whirl.goes_on
+    assert plane.whirl.direction == "backward"
+    assert plane.whirl.frequency_si == pytest.approx(80.0 * 150.0, rel=1e-9)
+    assert plane.whirl.angular_speed == pytest.approx(-80.0, rel=1e-9)
+    assert found.settled_at == max(plane.in_contact_since, plane.whirl.since)
+    assert found.settled_at < found.time
+
+
+def test_whirl_that_is_seen_is_not_said_to_go_on():
+    motion = cm.simulate(cm.load(BALLS), cm.drop(Whirl("0.2 mm", "-400 Hz", "30 deg"), race_speed="500 rpm"), "60 ms")
+    found = drop_loads(motion)
+    (plane,) = found.planes
+    assert found.settled_at is None
+    assert (plane.whirl.direction, plane.whirl.goes_on) == ("backward", False)
+    # Counted a second time: by the angle at a hundred instants a turn of the whirl.
+    times = np.linspace(motion.time - 16.0 * math.pi, motion.time, 1_601)
+    turned = np.ptp(np.unwrap(np.angle(motion.position(times, "fixed"))))
+    assert plane.whirl.turned == pytest.approx(-turned, rel=1e-9)
+    assert plane.whirl.lasted == pytest.approx(16.0 * math.pi, rel=1e-12)
+    short = drop_loads(cm.simulate(cm.load(BALLS), cm.drop(Whirl("0.2 mm", "-400 Hz", "30 deg")), 5.0)).planes[0]
+    assert short.whirl.lasted == 5.0
+    assert plane.whirl.frequency_si == pytest.approx(turned / (16.0 * math.pi) * 150.0, rel=1e-9)
+
+
+def test_a_rotor_at_rest_does_not_go_round():
+    found = drop_loads(cm.simulate(cm.load(RIGID, ["restitution=0.1"]), cm.drop()))
+    (plane,) = found.planes
+    assert found.outcome is Outcome.AT_REST
+    assert found.settled_at == plane.in_contact_since
+    assert plane.whirl.direction is None
+    assert not plane.whirl.goes_on
+
+
+def test_no_contact_no_load():
+    found = drop_loads(cm.simulate(cm.load(BALLS), cm.drop(), "2 ms"))
+    (plane,) = found.planes
+    assert (plane.contacts, plane.bounces, plane.loads.force, plane.loads.pressure) == (0, 0, 0.0, 0.0)
+    assert (plane.force_at, plane.impulse_at, plane.restitution, plane.whirl, plane.in_contact_since) == (None,) * 5
+    assert (plane.race_at_end, plane.fastest_race, found.settled_at) == (0.0, 0.0, None)
+
+
+def test_several_planes_have_loads_of_their_own():
+    motion = cm.simulate(tilting().model, cm.kick(1.5), 30.0)
+    found = drop_loads(motion)
+    assert [plane.plane for plane in found.planes] == list(range(len(found.planes)))
+    assert len(found.planes) > 1
+    for plane in found.planes:
+        assert plane.contacts == len(motion.seen_at(plane.plane).contacts)

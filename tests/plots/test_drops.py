@@ -1,0 +1,109 @@
+"""Figures of a drop: what they must show."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import carom as cm
+from carom import plots
+from carom.motions import Whirl, drop_loads
+from carom.outcome import InputError
+
+pytestmark = pytest.mark.jit_only
+
+
+@pytest.fixture(scope="module")
+def soft():
+    return cm.simulate(cm.load("examples/touchdown-balls.toml"), cm.drop(regained_after="20 ms"), "60 ms")
+
+
+@pytest.fixture(scope="module")
+def rigid():
+    return cm.simulate(cm.load("examples/dropped-rotor.toml", ["restitution=0.1"]), cm.drop())
+
+
+def words(figure):
+    return " ".join(text.get_text() for legend in figure.legends for text in legend.get_texts())
+
+
+def line(axes, name):
+    (found,) = [each for each in axes.lines if each.get_gid() == name]
+    return found
+
+
+def test_the_orbit_and_how_deep_it_goes(soft):
+    (plane,) = drop_loads(soft).planes
+    left, right = plots.drop_orbit(soft).axes
+    deepest = np.nanmin(line(right, "contact").get_ydata())
+    # Drawn with the time of the largest force, next to which the depth is largest.
+    assert deepest == pytest.approx(-1e6 * plane.loads.si()["depth"], rel=1e-4)
+    path = line(left, "path")
+    assert np.hypot(path.get_xdata(), path.get_ydata()).max() == pytest.approx(0.25 - 1e-3 * deepest, rel=1e-6)
+    # It falls down the y axis, where the angle counts from.
+    below = line(right, "path")
+    assert abs(below.get_xdata()[np.nanargmin(below.get_ydata())]) < 2.0
+    assert right.get_ylim()[0] < deepest
+    assert {"weight"} <= {each.get_gid() for each in left.texts}
+    assert "largest force" in words(plots.drop_orbit(soft))
+
+
+def test_force_slip_and_race_over_time(soft):
+    (plane,) = drop_loads(soft).planes
+    figure = plots.drop_loads(soft)
+    gap, force, speed = figure.axes
+    drawn = line(force, "force")
+    assert drawn.get_ydata().max() == pytest.approx(plane.loads.si()["force"], rel=1e-12)
+    peak = drawn.get_xdata()[drawn.get_ydata().argmax()]
+    assert peak == pytest.approx(1e3 * plane.force_at * soft.rotor.scales.time, rel=1e-9)
+    assert line(speed, "race").get_ydata()[-1] == pytest.approx(plane.race_at_end * 300 * np.pi * 20.25e-3, rel=1e-9)
+    slip = line(speed, "slip").get_ydata()
+    assert np.isnan(slip).any()
+    assert line(gap, "stage").get_xdata()[0] == pytest.approx(20.0)
+    assert gap.get_xlim()[1] == pytest.approx(1e3 * (soft.begins + soft.time) * soft.rotor.scales.time)
+
+
+def test_a_rigid_wall_shows_impulses_and_its_beginning_beside_the_whole(rigid):
+    (plane,) = drop_loads(rigid).planes
+    figure = plots.drop_loads(rigid)
+    beside = [axes for axes in figure.axes if axes.get_ylabel().startswith("impulse")]
+    dots = beside[-1].lines[0].get_ydata()
+    assert dots.max() == pytest.approx(plane.loads.si()["impulse"], rel=1e-12)
+    assert "impulse of an impact (right axis)" in words(figure)
+    assert "surface of the race" not in words(figure)
+    _, right = plots.drop_orbit(rigid, until=20.0).axes
+    assert right.get_title() == "close to the wall"
+
+
+def test_a_whirl_over_the_top_is_drawn_without_lines_across():
+    motion = cm.simulate(
+        cm.load("examples/touchdown-balls.toml"), cm.drop(Whirl("0.2 mm", "-400 Hz", "30 deg")), "15 ms"
+    )
+    _, right = plots.drop_orbit(motion, title="a whirl").axes
+    angles = line(right, "path").get_xdata()
+    assert np.nanmax(np.abs(np.diff(angles))) < 180.0
+    assert right.get_xlim() == (-180.0, 180.0)
+
+
+def test_the_first_contacts_have_a_column_of_their_own(soft):
+    long = cm.simulate(cm.load("examples/touchdown-balls.toml"), cm.drop(), "700 ms")
+    figure = plots.drop_loads(long)
+    first, whole = figure.axes[0], figure.axes[1]
+    assert first.get_title() == "the first contacts"
+    assert whole.get_title() == "the whole drop"
+    assert first.get_xlim()[1] < 0.25 * whole.get_xlim()[1]
+    assert plots.drop_orbit(long).axes[0].get_title() == "fixed frame, the first 30 contacts"
+
+
+def test_in_units_of_the_equations():
+    rotor = cm.models.Jeffcott(cm.parameters.Parameters(0.1, 0.76, 0.4, 0.0, 0.15, 0.5, 50.0))
+    motion = cm.simulate(rotor, cm.kick(0.5), 20.0)
+    assert "c_" in plots.drop_loads(motion).axes[0].get_ylabel()
+    assert "c_" in plots.drop_orbit(motion).axes[1].get_ylabel()
+
+
+def test_nothing_followed_cannot_be_drawn():
+    nothing = cm.simulate(cm.load("examples/keogh-cole.toml"), cm.kick(1e-6))
+    assert nothing.time == 0.0  # known at once
+    with pytest.raises(InputError, match="motion = no time followed"):
+        plots.drop_loads(nothing)

@@ -1,0 +1,57 @@
+"""The page of a drop stands alone and says what the numbers say."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+
+import pytest
+
+import carom as cm
+from carom.disturbances.echo import echo_of_drop
+from carom.outcome import InputError
+from carom.report import write_drop_report
+from carom.studies import DropStudy
+
+pytestmark = pytest.mark.jit_only
+
+
+@pytest.fixture(scope="module")
+def found():
+    case = cm.load("examples/touchdown-balls.toml")
+    motion = cm.simulate(case, cm.drop(), "20 ms")
+    echo = echo_of_drop(motion.start, 0.0, None, case.gravity, case.parameters.scales)
+    limited = cm.parameters.LoadLimits(force="1 kN", pressure="4.2 GPa")
+    return DropStudy(replace(case, name="<b>drop</b>", limits=limited), echo, motion)
+
+
+@pytest.fixture(scope="module")
+def page(found, tmp_path_factory):
+    path = write_drop_report(found, str(tmp_path_factory.mktemp("drop") / "out"))
+    return path.read_text(encoding="utf-8")
+
+
+def test_it_needs_no_other_file(page):
+    assert not re.search(r"<(?:script|link|img|iframe)\b", page)
+    assert not re.search(r'(?:src|href)="(?!#)', page)
+    assert page.count("<svg") == 2
+    identifiers = re.findall(r' id="([^"]+)"', page)
+    assert len(identifiers) == len(set(identifiers))
+
+
+def test_it_says_what_was_found(found, page):
+    text = re.sub(r"<[^>]+>", "", page).replace("\N{NO-BREAK SPACE}", " ")
+    assert found.headline in text
+    for _, rows in found.tables:
+        for label, told in rows:
+            assert label in text
+            assert told in text
+    assert "<strong>normal force in lasting contact: 1,320" in page.replace("\N{NO-BREAK SPACE}", " ")
+    assert "<b>drop</b>" not in page
+    assert "&lt;b&gt;drop&lt;/b&gt;" in page
+
+
+def test_a_directory_that_cannot_be_written(found, tmp_path):
+    (tmp_path / "file").write_text("")
+    with pytest.raises(InputError, match="--out"):
+        write_drop_report(found, str(tmp_path / "file"))

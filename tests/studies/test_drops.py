@@ -1,0 +1,111 @@
+"""A drop in words and as JSON, against the limits of the touchdown bearing."""
+
+from __future__ import annotations
+
+import json
+
+import pytest
+
+import carom as cm
+from carom.disturbances.echo import echo_of_drop
+from carom.files import as_json
+from carom.motions import Whirl
+from carom.outcome import InputError
+from carom.studies import DropStudy, check_loads
+
+pytestmark = pytest.mark.jit_only
+
+
+def dropped(machine, until=None, settings=(), **how):
+    case = cm.load(f"examples/{machine}.toml", settings)
+    motion = cm.simulate(case, cm.drop(**how), until)
+    scales = case.parameters.scales
+    return DropStudy(case, echo_of_drop(motion.parts[0].start, 0.0, None, case.gravity, scales), motion)
+
+
+@pytest.fixture(scope="module")
+def whirl():
+    return dropped("touchdown-balls", "60 ms", at=Whirl("0.2 mm", "-400 Hz", "30 deg"), race_speed="500 rpm")
+
+
+def test_a_bearing_that_gives_way_in_words(whirl):
+    ((title, rows),) = whirl.tables
+    told = dict(rows)
+    assert title == ""
+    assert whirl.headline == "Followed for 60 ms, and not settled by then (time reached)."
+    assert told["peak force"] == "12,900 N, 0.596 ms after the release"
+    assert told["depth"] == "74.3 µm"
+    assert told["pressure of balls"] == "5.01 GPa on the most loaded one"
+    assert told["contacts"] == "2 contacts, 1 bounce; 59.5 ms in contact"
+    assert told["race"].endswith("(shaft 9,000 rpm)")
+    assert told["whirl at the end"].startswith("backward, 292.8 Hz (1.95 times the shaft), over the last 8 turns")
+    assert told["whirl at the end"].endswith("is not known to go on")
+
+
+def test_limits_of_depth_and_pressure(whirl):
+    exceeded = {check.name: check.exceeded for check in whirl.checks}
+    assert exceeded == {"force": True, "heat": False, "depth": True, "pressure": True}
+    words = [check.words for check in whirl.checks]
+    assert "depth in the bearing: 74.3 µm, limit 50 µm: exceeded" in words
+    assert "pressure of balls: 5.01 GPa, limit 4.2 GPa: exceeded" in words
+
+
+def test_a_limit_of_pressure_needs_balls(whirl):
+    rigid = dropped("dropped-rotor", "12 ms")
+    with pytest.raises(InputError, match=r"pressure = 4.2e\+09|pressure = 4200000000.0"):
+        check_loads(rigid.loads.planes[0].loads, whirl.case.limits)
+
+
+def test_a_rigid_wall_has_impulses_in_place_of_forces():
+    found = dropped("dropped-rotor", settings=["restitution=0.1"])
+    ((_, rows),) = found.tables
+    told = dict(rows)
+    assert found.headline.startswith("Rest on the touchdown bearing, since ")
+    assert "after the release; followed for" in found.headline
+    assert told["hardest impact"].endswith("a rigid wall has no peak force")
+    assert "peak force" not in told
+    assert told["whirl at the end"].startswith("none: it turned by")
+    assert "it goes on with" in told["slip energy (heat)"]
+    (plane,) = found.document()["planes"]
+    assert plane["force_at"] is None
+    assert plane["loads"]["force_is_of_lasting_contact"]
+
+
+def test_whirl_that_goes_on():
+    found = dropped("dropped-rotor", at=Whirl("0.2 mm", "-150 Hz"))
+    ((_, rows),) = found.tables
+    assert found.headline.startswith("Rolling backward whirl, since ")
+    assert dict(rows)["whirl at the end"] == "backward, 12,000 Hz (80 times the shaft); it goes on"
+
+
+def test_no_contact():
+    found = dropped("touchdown-balls", "2 ms")
+    ((_, rows),) = found.tables
+    assert dict(rows)["peak force"] == "none: it did not touch"
+    assert not any(check.exceeded for check in found.checks)
+
+
+def test_as_json(whirl):
+    document = json.loads(as_json(whirl.document()))
+    (plane,) = document["planes"]
+    (loads,) = whirl.loads.planes
+    assert document["time_si"] == pytest.approx(60e-3)
+    assert (document["outcome"], document["settled_at"]) == ("time-reached", None)
+    assert document["touchdown"]["law"] == "hunt-crossley"
+    assert plane["loads"]["pressure_si"] == loads.loads.pressure
+    assert plane["force_at_si"] == loads.force_at * whirl.case.parameters.scales.time
+    assert plane["race_at_end_si"] == loads.race_at_end * whirl.case.parameters.scales.speed
+    assert plane["whirl"]["direction"] == "backward"
+    assert not plane["whirl"]["goes_on"]
+    assert [entry["name"] for entry in plane["limits"]] == ["force", "heat", "depth", "pressure"]
+
+
+def test_several_planes_have_tables_of_their_own():
+    from linear_rotors import tilting
+
+    rotor = tilting().model
+    motion = cm.simulate(rotor, cm.kick(1.5), 20.0)
+    case = cm.parameters.Case("tilting", rotor, None, cm.parameters.Zones())
+    found = DropStudy(case, cm.disturbances.echo.Echo("kick", "Kick", {}), motion)
+    assert [title for title, _ in found.tables] == ["Plane 0", "Plane 1"]
+    assert dict(found.tables[0][1])["hardest impact"].startswith("impulse ")
