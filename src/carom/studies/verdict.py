@@ -35,7 +35,10 @@ NOT_COVERED_OF_MATRICES = (
     ),
 )
 """What a study of any other model does not cover, in place of the last of these."""
-WALL, NOT_COVERED_OF_WALLS = 2, "Wear, heat and axial motion of the touchdown bearing: its law is taken as it is stated."
+WALL, NOT_COVERED_OF_WALLS = (
+    2,
+    "Wear, heat and axial motion of the touchdown bearing: its law is taken as it is stated.",
+)
 """Place of the entry above on the rigid wall, and what stands there if the touchdown bearing gives way."""
 
 
