@@ -185,7 +185,7 @@ def _followed(
         [stages[0] for stages in courses], which, (positions, velocities, begins), limits, threads, tell
     )
     for number in range(1, max(map(len, courses), default=1)):
-        _refuse_races(courses, number)
+        _refuse_turning(courses, number)
         further = np.array([number < len(stages) for stages in courses])[which]
         on = np.flatnonzero(further & (endings.outcomes == Outcome.TRIGGERED))
         before = endings[on]
@@ -207,13 +207,13 @@ def _followed(
     return endings
 
 
-def _refuse_races(courses: Sequence[Sequence[Stage]], number: int) -> None:
-    """Refuse races that turn where a stage follows: of many motions their speeds at the end of a stage are not kept."""
+def _refuse_turning(courses: Sequence[Sequence[Stage]], number: int) -> None:
+    """Refuse races that turn, and shafts whose speed changes, where a stage follows: of many motions these speeds are not kept."""
     for stages in courses:
-        if number < len(stages) and any(stage.rotor.system.races is not None for stage in stages):
-            raise InputError(
-                "machine", "a race that turns, in stages", "one motion at a time: carom.simulate keeps its speed"
-            )
+        systems = [stage.rotor.system for stage in stages]
+        if number < len(stages) and any(each.races is not None or each.shaft is not None for each in systems):
+            turning = "a race that turns, or a shaft whose speed changes, in stages"
+            raise InputError("machine", turning, "one motion at a time: carom.simulate keeps these speeds")
 
 
 def _in_stage(
