@@ -292,3 +292,40 @@ def test_what_cannot_be_is_refused():
         cm.simulate(single(SOFT, None), cm.State(0.1, 0.0, shaft=(1.0, 0.0)), 1.0)
     with pytest.raises(cm.outcome.InputError, match="a shaft whose speed changes"):
         single(SOFT, Shaft(2.0)).system.refuse_forces()
+
+
+def test_tables_of_a_soft_touch_have_the_slip_of_the_present_speed():
+    """Friction brakes the shaft by its torque: the power of the drive is that of ``−sσF``."""
+    rotor = LinearRotor.in_fixed_frame(
+        mass=[[1.0]],
+        damping=[[0.1]],
+        stiffness=[[0.6]],
+        forcing=[0.2],
+        touchdowns=[Touchdown([1.0], KelvinVoigt(1e3, 3.0), 0.3, 11.0)],
+        shaft=Shaft(300.0),
+    )
+    motion = cm.simulate(rotor, cm.State(0.2, 2.0), 8.0)
+    history = motion.history(np.linspace(0.0, motion.time, 4001))
+    held = history.normal_force > 0.0
+    assert held.any()
+    speed = -history.drive_power[held] / (10.0 * history.friction_force[held])
+    assert speed.max() <= 1.0 + 1e-12
+    assert speed.min() == pytest.approx(motion.final.shaft[0], abs=1e-3)
+    assert history.friction_power.max() < 1e-12
+    with pytest.raises(cm.outcome.InputError, match="a shaft whose speed changes"):
+        cm.motions.energy_ledger(motion)
+
+
+def test_impulses_at_a_rigid_wall_are_not_told_of_a_shaft_whose_speed_changes():
+    rotor = LinearRotor.in_fixed_frame(
+        mass=[[1.0]],
+        damping=[[0.1]],
+        stiffness=[[0.6]],
+        forcing=[0.2],
+        touchdowns=[Touchdown([1.0], Rigid(0.8), 0.3, 11.0)],
+        shaft=Shaft(300.0),
+    )
+    contacts = cm.simulate(rotor, cm.State(0.2, 2.0), 8.0).contacts
+    assert len(contacts)
+    assert np.isnan(contacts.normal_impulse).all()
+    assert np.isfinite(contacts.radial_speed).all()

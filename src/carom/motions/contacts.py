@@ -154,13 +154,17 @@ class ContactLog(Table):
         before: tuple[np.ndarray, np.ndarray],
         after: tuple[np.ndarray, np.ndarray],
     ) -> ContactLog:
-        """Log of impacts from their impulses, and positions and velocities just before and just after, shape (n,)."""
+        """Log of impacts from their impulses, and positions and velocities just before and just after, shape (n,).
+
+        Of a shaft whose speed changes, slip, impulses and works are not known from these: they are nan.
+        """
         angle, radial, angular = polar(*before)
         _, radial_after, angular_after = polar(*after)
         arrays, planes = rotor.system.arrays, blows.planes
         surface_speed, mass = arrays.surface_speed[planes], arrays.masses[planes]
-        normal, tangential = -mass * blows.impulses.real, mass * blows.impulses.imag
-        slip, slip_after = surface_speed + angular, surface_speed + angular_after
+        known = 1.0 if rotor.system.shaft is None else np.nan
+        normal, tangential = -mass * known * blows.impulses.real, mass * known * blows.impulses.imag
+        slip, slip_after = known * (surface_speed + angular), known * (surface_speed + angular_after)
         normal_work = -0.5 * normal * (radial + radial_after)
         newton = np.zeros(len(times))
         for plane, contact in enumerate(rotor.system.contacts):
@@ -240,7 +244,7 @@ class ContactHistory(Table):
             friction_force=friction,
             slip=slip,
             friction_power=friction * slip,
-            drive_power=-(surface_speed - 1.0) * friction,
+            drive_power=-(surface_speed - 1.0) * shaft_speed(rotor.system, amplitudes) * friction,
             scales=rotor.scales,
         )
 
@@ -265,15 +269,27 @@ def yields(system: System, plane: int) -> bool:
 def slip_velocity(system: System, plane: int, amplitudes: np.ndarray) -> np.ndarray:
     """Slip velocity (...) of the contact point at a plane in amplitudes (..., N), ``v = s + r(1 + θ̇) − q``.
 
-    On a rigid wall ``r`` is one.  The surface of a race that turns has the speed ``q``.
+    On a rigid wall ``r`` is one.  The surface of a race that turns has the speed ``q``.  A shaft whose speed changes has ``sσ`` in
+    place of ``s``.
     """
-    surface_speed = system.contacts[plane].wall.surface_speed
+    surface_speed: Any = system.contacts[plane].wall.surface_speed
+    if system.shaft is not None:
+        surface_speed += (surface_speed - 1.0) * (shaft_speed(system, amplitudes) - 1.0)
     position, velocity = system.at_plane(amplitudes, plane)
     along: np.ndarray = (position.conj() * velocity).imag
+    slip: np.ndarray = surface_speed + along
     if not yields(system, plane):
-        return surface_speed + along
+        return slip
     radius = np.abs(position)
-    return surface_speed + (radius - 1.0) + along / radius - race_speed(system, plane, amplitudes)
+    slip = surface_speed + (radius - 1.0) + along / radius - race_speed(system, plane, amplitudes)
+    return slip
+
+
+def shaft_speed(system: System, amplitudes: np.ndarray) -> np.ndarray:
+    """Speed (...) of the shaft in amplitudes (..., N), in ``Ω``; one unless it changes."""
+    if system.shaft is None:
+        return np.ones(amplitudes.shape[:-1])
+    return amplitudes[..., int(system.arrays.shaft[0]) + 1].real
 
 
 def race_speed(system: System, plane: int, amplitudes: np.ndarray) -> np.ndarray:

@@ -103,7 +103,7 @@ def energy_ledger(trajectory: Trajectory) -> EnergyLedger:
     Raises
     ------
     InputError
-        The mass matrix is not Hermitian, so there is no kinetic energy.
+        The mass matrix is not Hermitian, so there is no kinetic energy; or the speed of the shaft changes.
 
     See Also
     --------
@@ -118,6 +118,9 @@ def energy_ledger(trajectory: Trajectory) -> EnergyLedger:
     >>> ledger.imbalance < 1e-12
     True
     """
+    if trajectory.rotor.system.shaft is not None:
+        allowed = "a shaft at constant speed: the books do not hold the energy of one whose speed changes"
+        raise InputError("machine", "a shaft whose speed changes", allowed)
     matrices = trajectory.rotor.matrices
     edges, counts = pieces(trajectory)
     if np.abs(matrices.mass - matrices.mass.conj().T).max() > HERMITIAN * np.abs(matrices.mass).max():

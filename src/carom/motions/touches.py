@@ -11,7 +11,17 @@ import numpy as np
 
 from carom.core.laws.choice import force, stored_energy
 from carom.core.wall import Wall
-from carom.motions.contacts import PRESSING, Table, column, phase_flags, polar, presses, slip_velocity, yields
+from carom.motions.contacts import (
+    PRESSING,
+    Table,
+    column,
+    phase_flags,
+    polar,
+    presses,
+    shaft_speed,
+    slip_velocity,
+    yields,
+)
 from carom.motions.quadrature import NODES, WEIGHTS, largest
 from carom.outcome import Phase
 from carom.parameters import Scales
@@ -86,6 +96,8 @@ class InWall(NamedTuple):
     friction: np.ndarray
     lost: np.ndarray
     """Power lost in the wall's damper."""
+    shaft: np.ndarray
+    """Speed of the shaft, in ``Ω``."""
 
 
 def in_wall(motion: Trajectory, segments: np.ndarray, elapsed: np.ndarray) -> InWall:
@@ -102,7 +114,7 @@ def in_wall(motion: Trajectory, segments: np.ndarray, elapsed: np.ndarray) -> In
         return float(force(depth, rate, wall) - force(depth, 0.0, wall))
 
     lost = np.where(held, _of_law(motion, damper, radius - 1.0, rate) * rate, 0.0)
-    return InWall(radius - 1.0, slip, normal, friction, lost)
+    return InWall(radius - 1.0, slip, normal, friction, lost, shaft_speed(system, amplitudes))
 
 
 def stored(motion: Trajectory, amplitudes: np.ndarray) -> np.ndarray:
@@ -170,6 +182,6 @@ def touches_of(motion: Trajectory) -> TouchLog:
         peak_power=np.maximum.reduceat(largest(-at.friction * at.slip)[0], begins),
         heat=-total(at.friction * at.slip),
         normal_loss=total(at.lost) + parted[np.minimum(after, len(parted) - 1)] - parted[first],
-        drive_work=-(system.contacts[plane].wall.surface_speed - 1.0) * total(at.friction),
+        drive_work=-(system.contacts[plane].wall.surface_speed - 1.0) * total(at.friction * at.shaft),
         scales=motion.rotor.scales,
     )
