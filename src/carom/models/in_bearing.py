@@ -14,11 +14,12 @@ from carom.models.jeffcott import Jeffcott
 from carom.models.linear import LinearRotor
 from carom.models.model import Matrices, Model
 from carom.models.race import Race
+from carom.models.shaft import Shaft
 from carom.models.stages import Around
 from carom.models.system import System
 from carom.models.touchdown import HuntCrossley, KelvinVoigt, Touchdown
 from carom.outcome import InputError, shown
-from carom.parameters import TOUCHDOWN_FIELDS, Field, Parameters, Scales, TouchdownBearing
+from carom.parameters import TOUCHDOWN_FIELDS, Drive, Field, Parameters, Scales, TouchdownBearing
 from carom.parameters.restitution import damping_ratio_of, dissipation_of
 from carom.parameters.touchdown_bearing import BALL_FIELDS, PREFIX
 
@@ -40,6 +41,8 @@ class InBearing(Around):
         In SI units.
     levitates : bool
         Whether stiffness and damping of the levitation act.
+    drive : Drive, optional
+        In SI units; without one the speed of the shaft never changes.
 
     Raises
     ------
@@ -50,6 +53,7 @@ class InBearing(Around):
     rotor: Jeffcott
     bearing: TouchdownBearing
     levitates: bool = True
+    drive: Drive | None = None
 
     def __post_init__(self) -> None:
         rotor: Any = self.rotor
@@ -87,6 +91,7 @@ class InBearing(Around):
             forcing=forcing,
             touchdowns=[touchdown],
             translation=np.eye(len(plane))[0],
+            shaft=shaft_of(self.drive, scales),
             scales=scales,
         )
 
@@ -136,11 +141,13 @@ class InBearing(Around):
                 )
         of_bearing = {name: changes.pop(name) for name in list(changes) if name.startswith(PREFIX)}
         bearing = self.bearing.replace(**{name.removeprefix(PREFIX): value for name, value in of_bearing.items()})
-        return InBearing(self.rotor.replace(**changes) if changes else self.rotor, bearing, self.levitates)
+        rotor = self.rotor.replace(**changes) if changes else self.rotor
+        return InBearing(rotor, bearing, self.levitates, self.drive)
 
     def attributes(self) -> dict[str, Any]:
         """Return the numbers as attributes of a dataset, exact to the last bit."""
-        bearing = {**asdict(self.bearing), "levitates": self.levitates}
+        drive = asdict(self.drive) if self.drive else None
+        bearing = {**asdict(self.bearing), "levitates": self.levitates, "drive": drive}
         return {"touchdown_bearing": json.dumps(bearing), "rotor": json.dumps(self.rotor.attributes())}
 
 
@@ -158,6 +165,14 @@ def races_of(model: Model) -> tuple[Race | None, ...]:
     if isinstance(model, LinearRotor):
         return tuple(touchdown.race for touchdown in model.touchdowns)
     return races_of(model.rotor) if isinstance(model, Around) else (None,) * len(model.system.contacts)
+
+
+def shaft_of(drive: Drive | None, scales: Scales) -> Shaft | None:
+    """What turns with the shaft in the units of a rotor's equations; ``None`` of one whose speed never changes."""
+    if drive is None or drive.polar_inertia is None:
+        return None
+    unit = scales.mass * scales.length**2
+    return Shaft(drive.polar_inertia / unit, drive.torque / (unit * scales.speed**2))
 
 
 def law_of(bearing: TouchdownBearing, scales: Scales) -> KelvinVoigt | HuntCrossley:

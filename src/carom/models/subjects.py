@@ -17,7 +17,7 @@ from carom.models.model import Model
 from carom.models.stages import Forced, Stage, Staged, Trigger
 from carom.models.weight import refuse_forces, weighted
 from carom.outcome import InputError, shown
-from carom.parameters import Case, Machine, Parameters, TouchdownBearing, Zones
+from carom.parameters import Case, Drive, Machine, Parameters, TouchdownBearing, Zones
 
 Subject = Machine | Case | Parameters | Model
 """Any description of a rotor."""
@@ -40,7 +40,7 @@ def model_of(subject: Subject) -> Model:
     if isinstance(subject, Machine | Case):
         model = model_of(subject.parameters)
         if isinstance(subject, Case) and subject.touchdown and isinstance(model, Jeffcott):
-            model = InBearing(model, subject.touchdown)
+            model = InBearing(model, subject.touchdown, drive=subject.drive)
         return weighted(model, subject.gravity) if isinstance(subject, Case) and subject.gravity else model
     if isinstance(subject, Model):
         return subject
@@ -92,9 +92,9 @@ def model_from(attributes: Mapping[str, Any]) -> Model:
         return Forced(model_from(json.loads(attributes["rotor"])), forces)
     if "touchdown_bearing" in attributes:
         bearing = json.loads(attributes["touchdown_bearing"])
-        levitates = bearing.pop("levitates")
+        levitates, drive = bearing.pop("levitates"), bearing.pop("drive")
         rotor = jeffcott_of(model_from(json.loads(attributes["rotor"])))
-        return InBearing(rotor, TouchdownBearing(**bearing), levitates)
+        return InBearing(rotor, TouchdownBearing(**bearing), levitates, Drive(**drive) if drive else None)
     if "stages" in attributes:
         return Staged(tuple(map(_stage_from, json.loads(attributes["stages"]))))
     return Jeffcott(Parameters.from_attributes(attributes))

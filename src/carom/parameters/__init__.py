@@ -16,6 +16,7 @@
 ``machine``               :class:`Machine`, conversion to parameters and back
 ``load_limits``           :class:`LoadLimits` of a touchdown bearing
 ``gravity``               :class:`Gravity`: where the rotor falls
+``drive``                 :class:`Drive`: what turns with the shaft, and the torque of its drive
 ``touchdown_bearing``     :class:`TouchdownBearing`: a touchdown bearing that gives way
 ``indentation``           whether a rigid wall is a valid model under a load
 ``restitution``           restitution and what a wall that gives way dissipates
@@ -26,6 +27,7 @@
 ========================  =================================================================
 """
 
+from carom.parameters.drive import DRIVE_FIELDS, Drive
 from carom.parameters.fields import (
     DIMENSIONLESS_FIELDS,
     MACHINE_FIELDS,
@@ -58,6 +60,7 @@ from carom.parameters.touchdown_bearing import TOUCHDOWN_FIELDS, TouchdownBearin
 
 __all__ = [
     "DIMENSIONLESS_FIELDS",
+    "DRIVE_FIELDS",
     "ENTRIES",
     "GRAVITY",
     "GRAVITY_FIELDS",
@@ -75,6 +78,7 @@ __all__ = [
     "UNITS",
     "WALL_FIELDS",
     "Case",
+    "Drive",
     "Field",
     "Gravity",
     "InTerms",

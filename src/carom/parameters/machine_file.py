@@ -11,6 +11,7 @@ from typing import Any, cast
 
 from carom.arguments import checked
 from carom.outcome import InputError, Problems, printable, shown, together
+from carom.parameters.drive import Drive
 from carom.parameters.fields import DIMENSIONLESS_FIELDS, PHYSICAL_PARTNER, name_errors, unknown_names
 from carom.parameters.gravity import Gravity, refused
 from carom.parameters.load_limits import LIMIT_FIELDS, LoadLimits
@@ -96,6 +97,8 @@ class Case(Tabular):
         By default, or with an acceleration of zero, the rotor has no weight.
     touchdown : TouchdownBearing, optional
         By default, or with the law of a rigid wall, the touchdown bearing is rigid; otherwise the restitution of the machine is not used.
+    drive : Drive, optional
+        Beside a touchdown bearing that gives way; by default the speed never changes.
 
     Raises
     ------
@@ -113,6 +116,7 @@ class Case(Tabular):
     requirement: Requirement = field(default_factory=Requirement)
     gravity: Gravity | None = None
     touchdown: TouchdownBearing | None = None
+    drive: Drive | None = None
 
     def __post_init__(self) -> None:
         if not isinstance(self.parameters, Named):
@@ -126,6 +130,9 @@ class Case(Tabular):
             object.__setattr__(self, "touchdown", None)
         if self.touchdown is not None and self.parameters.scales is None:
             raise InputError("touchdown", self.touchdown.words, "not allowed beside [dimensionless]: it is in SI units")
+        if self.drive is not None and self.touchdown is None:
+            allowed = "a touchdown bearing that gives way, in a table [touchdown]: the closed forms of a rigid wall are of constant speed"
+            raise InputError("drive", self.drive.words, allowed)
         if self.machine is not None:
             self.limits.check_fit(self.touchdown)
 
@@ -147,6 +154,7 @@ class Case(Tabular):
         return [
             *self._of_machine(),
             *([("touchdown bearing", self.touchdown.words)] if self.touchdown else []),
+            *([("drive", self.drive.words)] if self.drive else []),
             *([("gravity", self.gravity.words)] if self.gravity else []),
             ("must survive", self._required()),
             ("zones, in clearances", zones),
@@ -215,7 +223,7 @@ def load(path: str | os.PathLike[str], settings: Iterable[str] = ()) -> Case:
     ----------
     path : path
         TOML file with a ``[machine]`` or a ``[dimensionless]`` table, and perhaps ``[zones]``, ``[limits]``,
-        ``[survive]``, ``[gravity]`` and ``[touchdown]``.
+        ``[survive]``, ``[gravity]``, ``[touchdown]`` and ``[drive]``.
     settings : iterable of str
         Texts ``"name=value"`` as in ``--set``; the name is a machine field, a dimensionless parameter, or ``gravity``
         for its acceleration, or an entry of the touchdown bearing, such as ``touchdown_stiffness``.
@@ -254,6 +262,7 @@ def load(path: str | os.PathLike[str], settings: Iterable[str] = ()) -> Case:
     of_machine = tables.kind == "machine"
     gravity = None if tables.gravity is None else problems.attempt(Gravity.of, tables.gravity, of_machine)
     touchdown = problems.attempt(TouchdownBearing.of, tables.touchdown, of_machine) if tables.touchdown else None
+    drive = None if tables.drive is None else problems.attempt(Drive.of, tables.drive, of_machine)
     values = problems.attempt(_with_restitution, tables.values, tables.touchdown) or tables.values
     base: Machine | Parameters | None = (
         problems.attempt(Machine, **values) if of_machine else problems.attempt(_read_dimensionless, tables)
@@ -274,7 +283,7 @@ def load(path: str | os.PathLike[str], settings: Iterable[str] = ()) -> Case:
         problems.attempt(_refuse_physical, physical)
     problems.raise_all()
     name = printable(Path(path).stem)
-    rest = (zones or Zones(), limits, requirement or Requirement(), gravity, touchdown)
+    rest = (zones or Zones(), limits, requirement or Requirement(), gravity, touchdown, drive)
     if isinstance(base, Machine):
         case = Case(name, base.parameters, base, *rest).replace(**texts)
         warn_of_proportions(case.machine)

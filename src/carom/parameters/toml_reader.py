@@ -14,7 +14,7 @@ from carom.outcome import InputError, Problems, shown, together
 from carom.parameters.fields import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, unknown_name
 
 _WHAT = "machine file"
-_OPTIONAL = ("zones", "limits", "survive", "gravity", "touchdown")
+_OPTIONAL = ("zones", "limits", "survive", "gravity", "touchdown", "drive")
 _TABLES = dict.fromkeys(("machine", "dimensionless", *_OPTIONAL))
 _LARGEST_BYTES = 1_000_000
 _REMEDY = "must hold a [machine] or a [dimensionless] table"
@@ -47,10 +47,12 @@ class MachineTables:
     """Entries of the optional table ``[gravity]``, of which an empty one means something too."""
     touchdown: Mapping[str, Any] = field(default_factory=dict)
     """Entries of the optional table ``[touchdown]``."""
+    drive: Mapping[str, Any] | None = None
+    """Entries of the optional table ``[drive]``."""
 
 
 def read_machine_tables(path: str | os.PathLike[str], problems: Problems) -> MachineTables:
-    """Read the tables of a machine file: ``[machine]`` or ``[dimensionless]``, and perhaps ``[zones]``, ``[limits]``, ``[survive]``, ``[gravity]`` and ``[touchdown]``.
+    """Read the tables of a machine file: ``[machine]`` or ``[dimensionless]``, and perhaps ``[zones]``, ``[limits]``, ``[survive]``, ``[gravity]``, ``[touchdown]`` and ``[drive]``.
 
     The entries are not checked.  Errors of other entries are added to ``problems``; if the file does not hold exactly one of the
     first two tables, all of them are raised.
