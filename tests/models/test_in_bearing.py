@@ -100,3 +100,27 @@ def test_what_needs_a_rigid_wall_says_so():
         InBearing(ROTOR, TouchdownBearing())
     with pytest.raises(InputError, match="rotor = "):
         InBearing(Jeffcott(PAPER), TouchdownBearing("kelvin-voigt", 1e8, 500.0))
+
+
+def test_a_bearing_off_centre_is_met_where_the_levitating_rotor_is_a_clearance_from_its_centre():
+    centre = 0.3 * np.exp(0.4j)
+    given = {"offset": 0.3 * SCALES.length, "offset_direction": 0.4}
+    model = of(law="kelvin-voigt", stiffness=STIFFNESS, restitution=0.9, **given)
+    alone = of(law="kelvin-voigt", stiffness=STIFFNESS, restitution=0.9)
+    start, velocity = 0.1 - 0.2j, 0.9 + 0.4j
+    # At time zero both frames coincide; the bearing's centre turns backward in the turning one.
+    motion = cm.simulate(model, cm.State(start - centre, velocity + 1j * centre), 6.0)
+    times = np.linspace(0.0, motion.segment_starts[1], 30)
+    system = alone.system
+    flight = system.fly(np.broadcast_to(system.amplitudes(start, velocity), (30, system.modes)), times)
+    path = system.state(flight)[0]
+    np.testing.assert_allclose(motion.position(times), path - centre * np.exp(-1j * times), atol=1e-12)
+    assert abs(path[-1] - centre * np.exp(-1j * times[-1])) == pytest.approx(1.0, abs=1e-12)
+    assert model.system.rest_radius == pytest.approx(alone.system.rest_radius + 0.3, rel=1e-12)
+    fallen = dataclasses.replace(model, levitates=False)
+    assert fallen.system.forced is None
+
+
+def test_a_direction_needs_a_distance():
+    with pytest.raises(InputError, match=r"offset = nothing given"):
+        of(law="kelvin-voigt", stiffness=STIFFNESS, restitution=0.9, offset_direction=0.4)

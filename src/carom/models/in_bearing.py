@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from carom.models.forcing import Force, with_forces
 from carom.models.jeffcott import Jeffcott
 from carom.models.linear import LinearRotor
 from carom.models.model import Matrices, Model
@@ -95,10 +96,19 @@ class InBearing(Around):
             scales=scales,
         )
 
-    @property
+    @cached_property
     def system(self) -> System:
-        """Modes, contact plane and contact law."""
-        return self.linear.system
+        """Modes, contact plane and contact law.
+
+        Seen from the centre of a bearing off the place of levitation, that pulls with a constant force in the fixed frame.
+        """
+        scales: Any = self.rotor.scales
+        centre = self.bearing.centre / scales.length
+        if not centre or not self.levitates:
+            return self.linear.system
+        pull = np.zeros(len(self.linear.mass), complex)
+        pull[0] = -(self.rotor.matrices.stiffness[0, 0] / self.rotor.matrices.mass[0, 0]) * centre
+        return with_forces(self.linear.system, (Force(-1j, pull),))
 
     @property
     def matrices(self) -> Matrices:

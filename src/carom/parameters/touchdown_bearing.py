@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import cmath
 import dataclasses
+import math
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -38,6 +40,8 @@ TOUCHDOWN_FIELDS: Mapping[str, Field] = by_name(
     Field("mount_mass", "", "mass of the mount", "a mass", "kg", 1e-9, 1e9, '"2 kg"'),
     Field("mount_stiffness", "", "stiffness of the mount", "a stiffness", "N/m", 1e-6, 1e18, '"2e7 N/m"'),
     Field("mount_damping", "", "damping of the mount", "a damping", "N s/m", 1e-12, 1e12, '"3000 N s/m"', True),
+    Field("offset", "", "distance of the bearing's centre", "a length", "m", 1e-12, 1e3, '"0.05 mm"', True),
+    Field("offset_direction", "", "direction of the bearing's centre", "an angle", "rad", -1e6, 1e6, '"-90 deg"'),
     *BALL_FIELDS.values(),
 )
 """Entries of a ``[touchdown]`` table beside ``law``, in SI units."""
@@ -76,6 +80,9 @@ class TouchdownBearing:
         Without an inertia it stands still.
     mount_mass, mount_stiffness, mount_damping : float or str, optional
         Mass on which the bearing sits, kg, and what holds that, N/m and N s/m.  Without these it is fixed.
+    offset, offset_direction : float or str, optional
+        Where the centre of the bearing lies, seen from the place at which levitation holds the rotor: distance, m, and angle in the
+        fixed frame from its x axis in the sense of rotation, rad; down the y axis by default.  Positions are counted from that centre.
     balls : int or str, optional
         Number of the balls that share the force, in all rows.  With their data the peak force gives a pressure
         (:func:`carom.closed_forms.ball_pressure`); no motion depends on them.
@@ -104,6 +111,8 @@ class TouchdownBearing:
     mount_mass: float | None = None
     mount_stiffness: float | None = None
     mount_damping: float | None = None
+    offset: float | None = None
+    offset_direction: float | None = None
     balls: float | None = None
     ball_diameter: float | None = None
     race_diameter: float | None = None
@@ -171,6 +180,8 @@ class TouchdownBearing:
 
     def _wrong_parts(self, present: set[str]) -> list[InputError]:
         errors = []
+        if "offset_direction" in present and self.offset is None:
+            errors.append(InputError("offset", None, "a direction needs the distance too"))
         if "race_drag" in present and self.race_inertia is None:
             errors.append(InputError("race_inertia", None, "a race with drag needs it"))
         mount = {"mount_mass", "mount_stiffness", "mount_damping"} & present
@@ -192,6 +203,12 @@ class TouchdownBearing:
     def yields(self) -> bool:
         """Whether the bearing gives way."""
         return self.law != "rigid"
+
+    @property
+    def centre(self) -> complex:
+        """Its centre in the fixed frame, seen from the place at which levitation holds the rotor, m."""
+        direction = -0.5 * math.pi if self.offset_direction is None else self.offset_direction
+        return cmath.rect(self.offset or 0.0, direction)
 
     @property
     def given(self) -> dict[str, Any]:
