@@ -24,6 +24,7 @@ Nothing here knows units, files or results.  A kernel sees a rotor as the arrays
 ``rub_step``           one step of lasting contact
 ``event_log``          the log of a motion's events
 ``in_turn``            many motions one after another, each for the same time
+``arrivals``           what happens where a plane arrives at its wall
 ``advance``            the event loop of one motion
 ``fate``               criteria for the end to which a motion settles
 ``planar_proofs``      ends that are proven before they are reached

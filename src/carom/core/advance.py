@@ -5,37 +5,28 @@ from __future__ import annotations
 import math
 
 from carom.compiling.decorators import expanded, inlined, kernel, separate
+from carom.core.arrivals import LANDING, rests, touch
 from carom.core.events import INSIDE, LEAVING, search
-from carom.core.fate import doubt, forget_rub, levitates, persists, recurs, triggers, until_triggered
-from carom.core.flow import acceleration, copy, displacement, squared_modulus, velocity
-from carom.core.friction import arrival, landing
-from carom.core.joint import join, land_together, strike_together
-from carom.core.phases import AWAY, FLIGHT, lasts, stays
-from carom.core.planar_proofs import fades_to_rolling, stays_inside
+from carom.core.fate import levitates, triggers, until_triggered
+from carom.core.flow import acceleration, copy, displacement, velocity
+from carom.core.phases import AWAY, FLIGHT, stays
+from carom.core.planar_proofs import stays_inside
 from carom.core.rounding import RESTING, push_rounding, speed_rounding
-from carom.core.rub import lift_off, meets_wall, next_phase, press, rest_on_wall, wall_push
+from carom.core.rub import lift_off, press, wall_push
 from carom.core.rub_step import NOWHERE, leading_plane, rub_step
 from carom.core.shaft import enter_flight, leave_flight
-from carom.core.wall import move_plane, set_on_wall, unit, wall_of, yields
+from carom.core.wall import unit
 from carom.outcome import Outcome
 
 CLEAR, CONTACT, GRAZING = int(Outcome.CLEAR), int(Outcome.CONTACT), int(Outcome.GRAZING)
-LANDING = -1
 TIME_REACHED, EVENT_LIMIT = int(Outcome.TIME_REACHED), int(Outcome.EVENT_LIMIT)
-CHATTER, TRIGGERED = int(Outcome.CHATTER), int(Outcome.TRIGGERED)
-LEVITATED, BOUNCING, MIXED = int(Outcome.LEVITATED), int(Outcome.BOUNCING), int(Outcome.MIXED)
-ROLLING = int(Outcome.ROLLING)
+TRIGGERED, LEVITATED = int(Outcome.TRIGGERED), int(Outcome.LEVITATED)
 CHATTER_HEIGHT = 1e-13
 """Height of a bounce, in clearances, below which a chatter counts as complete; penetration is allowed to 1e-12 at least."""
 STALLED = 64
 """Events in a row without progress in time after which double precision cannot decide what follows."""
 STALLED_TOGETHER, AT_A_STAND = 4096, 1e-9
 """Events of several planes within less than that time after which they count as jammed: no bounces of a chatter are so quick."""
-SHORTEST_LAP = 1e-6
-"""Time within which impacts at several planes count as one when a motion is tested for recurrence.
-
-Where planes strike in turn at one instant their speeds fall by a factor each time: the state recurs, but is no orbit.
-"""
 BLOCKS = 4.0
 """Longest blocks of flight that one of several planes is searched for contact before the others are."""
 SHORTEST = 1e-15
@@ -131,17 +122,9 @@ def _slides(rotor, contact, amplitudes):
     if rotor.rows.shape[0] == 1:
         return stays(contact[0])
     for plane in range(rotor.rows.shape[0]):
-        if stays(contact[plane]) or (contact[plane] == FLIGHT and _rests(rotor, plane, amplitudes)):
+        if stays(contact[plane]) or (contact[plane] == FLIGHT and rests(rotor, plane, amplitudes)):
             return True
     return False
-
-
-@kernel
-def _rests(rotor, plane, amplitudes):
-    """Whether a plane on its wall has no radial speed, to rounding."""
-    normal = unit(displacement(rotor, plane, amplitudes))
-    radial = (normal.conjugate() * velocity(rotor, plane, amplitudes)).real
-    return abs(radial) <= RESTING * speed_rounding(rotor, plane, amplitudes)
 
 
 @expanded
@@ -176,7 +159,7 @@ def _fly(rotor, table, horizon, contact, memory, work, rub):
         copy(work.arrival, state)
         if elapsed >= horizon:
             return TIME_REACHED, horizon, plane
-    return _touch(rotor, contact, plane, reaction, elapsed, memory, work, rub), elapsed, plane
+    return touch(rotor, contact, plane, reaction, elapsed, memory, work, rub), elapsed, plane
 
 
 @inlined
@@ -201,57 +184,6 @@ def _reaction(rotor, contact, memory, work, rub):
             place = plane
     memory.lifting = 0
     return reaction, resting, place
-
-
-@expanded
-def _touch(rotor, contact, plane, reaction, elapsed, memory, work, rub):
-    """Impact or landing of a plane in the state ``work.arrival``; returns the outcome."""
-    contact[plane] = FLIGHT
-    if yields(rotor, plane):
-        outcome = _enter(rotor, contact, plane, elapsed, memory, work, rub)
-    elif reaction == CONTACT:
-        outcome = _meet(rotor, contact, plane, elapsed, memory, work, rub)
-        if rotor.rows.shape[0] > 1 and outcome == CONTACT:
-            _loosen(rotor, contact, plane, work.current, rub)
-    else:
-        outcome = _end_flight(rotor, contact, plane, reaction, memory, work, rub)
-    return outcome
-
-
-@kernel
-def _end_flight(rotor, contact, plane, reaction, memory, work, rub):
-    """Landing of a plane in the state ``work.arrival``, or a grazing that ends the motion; returns the outcome."""
-    state = work.current
-    if reaction == LANDING:
-        set_on_wall(rotor, plane, work.arrival)
-    copy(work.arrival, state)
-    if reaction == GRAZING:
-        return GRAZING
-    if memory.stop_at_landing:
-        return CHATTER
-    _land(rotor, contact, plane, state, rub)
-    memory.rubbed = 1
-    forget_rub(memory)
-    contact[plane] = next_phase(rotor, contact, plane, state, rub)
-    if rotor.rows.shape[0] > 1:
-        _loosen(rotor, contact, plane, state, rub)
-    return CONTACT
-
-
-@kernel
-def _loosen(rotor, contact, struck, amplitudes, rub):
-    """Adapt the other planes on their walls to an impulse at one plane, which changes their velocities too."""
-    for plane in range(rotor.rows.shape[0]):
-        if contact[plane] == AWAY and meets_wall(rotor, plane, amplitudes):
-            contact[plane] = FLIGHT
-        if yields(rotor, plane):
-            if lasts(contact[plane]):
-                contact[plane] = next_phase(rotor, contact, plane, amplitudes, rub)
-        elif plane != struck and lasts(contact[plane]):
-            if not _rests(rotor, plane, amplitudes):
-                contact[plane] = FLIGHT
-            else:
-                contact[plane] = next_phase(rotor, contact, plane, amplitudes, rub)
 
 
 @expanded
@@ -309,111 +241,6 @@ def _next_contact_of_several(rotor, table, horizon, contact, work):
 
 
 @expanded
-def _meet(rotor, contact, plane, elapsed, memory, work, rub):
-    """Apply the impact to the arriving state; return CONTACT, or how the motion has settled."""
-    normal, speed = displacement(rotor, plane, work.arrival), velocity(rotor, plane, work.arrival)
-    memory.turns = 0
-    if memory.watches > 0:
-        memory.struck = max(memory.struck, (normal.conjugate() * speed).real)
-    # Remove the rounding error of |y| = 1 from the state, to first order; the impact law does not need that.
-    excess = 0.5 * (squared_modulus(normal) - 1.0)
-    move_plane(rotor, plane, complex(-excess * normal.real, -excess * normal.imag), work.arrival)
-    for other in range(rotor.rows.shape[0]):
-        if lasts(contact[other]):
-            memory.rubbed = 1
-    settle = memory.patience > 0 and memory.struck < memory.impact_speed
-    if settle and _comes_again(rotor, elapsed, memory, work):
-        copy(work.arrival, work.current)
-        return MIXED if memory.rubbed > 0 else BOUNCING
-    if settle and fades_to_rolling(memory.proofs, rotor, work.arrival):
-        copy(work.arrival, work.current)
-        return ROLLING
-    if rotor.rows.shape[0] > 1 or rotor.shaft.shape[0] > 0:
-        others = join(rotor, contact, plane, work.arrival, rub)
-        if others or rotor.shaft.shape[0] > 0:
-            if memory.watches > 0:
-                _note_speeds(rotor, memory, work, rub)
-            strike_together(rotor, work.arrival, work.current, rub)
-            return CONTACT
-    change = normal * arrival(normal.conjugate() * speed, wall_of(rotor, plane))
-    for k in range(work.current.shape[0]):
-        work.current[k] = work.arrival[k] + rotor.columns[k, plane] * change
-    return CONTACT
-
-
-@kernel
-def _enter(rotor, contact, plane, elapsed, memory, work, rub):
-    """Begin contact with a wall that gives way in the arriving state; return CONTACT, or how the motion has settled."""
-    set_on_wall(rotor, plane, work.arrival)
-    normal, speed = unit(displacement(rotor, plane, work.arrival)), velocity(rotor, plane, work.arrival)
-    copy(work.arrival, work.current)
-    rest = RESTING * speed_rounding(rotor, plane, work.arrival)
-    if rotor.rows.shape[0] > 1 and (normal.conjugate() * speed).real < -rest:
-        # Two planes leave their walls in one instant: the second is still at its own where the first has left.
-        _loosen(rotor, contact, plane, work.current, rub)
-        return CONTACT
-    memory.turns = 0
-    if memory.watches > 0:
-        memory.struck = max(memory.struck, (normal.conjugate() * speed).real)
-    settle = memory.patience > 0 and memory.struck < memory.impact_speed
-    if settle and _comes_again(rotor, elapsed, memory, work):
-        return MIXED if memory.rubbed > 0 else BOUNCING
-    forget_rub(memory)
-    contact[plane] = next_phase(rotor, contact, plane, work.current, rub)
-    return CONTACT
-
-
-@inlined
-def _comes_again(rotor, elapsed, memory, work):
-    """Whether the arriving state recurs, and contact that persists is not what would end the stage."""
-    if (rotor.rows.shape[0] == 1 or _time_has_passed(memory, elapsed)) and recurs(memory, work.arrival):
-        if not persists(memory, elapsed):
-            return True
-        doubt(memory)
-    return False
-
-
-@kernel
-def _note_speeds(rotor, memory, work, rub):
-    """Note the radial speeds of all planes of a joint impact."""
-    for plane in range(rotor.rows.shape[0]):
-        if rub.joined[plane]:
-            normal, speed = unit(displacement(rotor, plane, work.arrival)), velocity(rotor, plane, work.arrival)
-            memory.struck = max(memory.struck, (normal.conjugate() * speed).real)
-
-
-@inlined
-def _time_has_passed(memory, elapsed):
-    """Whether time has passed since the last impact that was tested for recurrence; the time elapsed is not yet part of the lap."""
-    passed = memory.lap + elapsed > SHORTEST_LAP
-    if passed:
-        memory.lap = -elapsed
-    return passed
-
-
-@kernel
-def _land(rotor, contact, plane, amplitudes, rub):
-    """Complete a chatter: replace its remaining bounces by lasting contact from now on.
-
-    Let ``v`` be the speed of the first rebound and ``τ`` the remaining duration of the chatter.  The bounces have the
-    total normal impulse ``N τ − v``, lasting contact has ``N τ``; each comes with its share of friction.  The
-    difference is balanced by an outward impulse ``v`` with its share of friction.  With ``h = v²/(2N)``, the height of
-    the first bounce, the error of the angle is ``8(1 + μ²)(1 + θ̇) h v/(3N(1 − d³))`` while the contact slips.  It is
-    ``4hP/(N(1 − d²))`` where every impact stops the slip against a force ``P`` along the wall.  Both hold to leading
-    order in ``v`` for the planar rotor.
-    """
-    if rotor.rows.shape[0] > 1 or rotor.shaft.shape[0] > 0:
-        land_together(rotor, contact, plane, amplitudes, rub)
-        return
-    normal = unit(displacement(rotor, plane, amplitudes))
-    local = normal.conjugate() * velocity(rotor, plane, amplitudes)
-    change = normal * landing(local, wall_of(rotor, plane))
-    for k in range(amplitudes.shape[0]):
-        amplitudes[k] += rotor.columns[k, plane] * change
-    rest_on_wall(rotor, plane, amplitudes, False)
-
-
-@expanded
 def _slide(rotor, contact, horizon, memory, work, rub):
     """One step of lasting contact from ``work.current``, in place; returns outcome, duration and plane as :func:`_fly`."""
     reaction, plane = CLEAR, NOWHERE
@@ -421,7 +248,7 @@ def _slide(rotor, contact, horizon, memory, work, rub):
         reaction, _, plane = _reaction(rotor, contact, memory, work, rub)
     if reaction != CLEAR:
         copy(work.current, work.arrival)
-        outcome, duration = _touch(rotor, contact, plane, reaction, 0.0, memory, work, rub), 0.0
+        outcome, duration = touch(rotor, contact, plane, reaction, 0.0, memory, work, rub), 0.0
     else:
         outcome, duration, plane = rub_step(rotor, contact, work.current, horizon, memory, rub)
         copy(work.current, work.arrival)

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from carom.core.advance import SHORTEST_LAP, advance
+from carom.core.advance import advance
+from carom.core.arrivals import SHORTEST_LAP
 from carom.core.closing import PASSES
 from carom.core.event_log import EventLog
 from carom.core.fate import memory

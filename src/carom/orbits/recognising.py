@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from carom.arguments import checked
-from carom.core.advance import SHORTEST_LAP
+from carom.core.arrivals import SHORTEST_LAP
 from carom.core.event_log import flying
 from carom.core.margins import local_motion
 from carom.models import Model
