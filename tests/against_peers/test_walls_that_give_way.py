@@ -59,6 +59,18 @@ def events_of(motion):
     return [(motion.segment_starts[k + 1], plane, NAMES[Phase(int(phases[k, plane]))]) for k, plane in changed]
 
 
+def one_sense(events, model):
+    """The same without changes of the sense of slip where there is no friction, which are none in the package."""
+    kept, last = [], {}
+    for time, plane, phase in events:
+        if phase == reference.BACKWARD and model.touchdowns[plane].friction == 0.0:
+            phase = reference.FORWARD
+        if last.get(plane) != phase:
+            kept.append((time, int(plane), phase))
+        last[plane] = phase
+    return kept
+
+
 @pytest.mark.parametrize(
     "base",
     [single(planes=1), tilting(planes=1), tilting(planes=2)],
@@ -76,9 +88,9 @@ def test_motions_are_those_of_the_reference(base):
         motion = cm.simulate(model, start, 1.2)
         expected = reference.follow(other, place, speed, 1.2)
         events = events_of(motion)
-        assert [(plane, phase) for _, plane, phase in events] == [(each.plane, each.phase) for each in expected.events]
-        times = [time for time, _, _ in events]
-        np.testing.assert_allclose(times, [each.time for each in expected.events], rtol=0.0, atol=PROMISED)
+        others = one_sense([(each.time, each.plane, each.phase) for each in expected.events], model)
+        assert [each[1:] for each in events] == [each[1:] for each in others]
+        np.testing.assert_allclose([each[0] for each in events], [each[0] for each in others], rtol=0.0, atol=PROMISED)
         np.testing.assert_allclose(
             motion.final.position, expected.position if n > 1 else expected.position[0], rtol=0.0, atol=PROMISED
         )

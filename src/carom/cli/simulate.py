@@ -138,6 +138,7 @@ def _write(out: str, case: Case, motion: Trajectory, echo: Echo, tell: Reporter,
             shown, title = _shown(part) if decaying else (part, None)
             mark = f"-{place + 1}" if place else ""
             output.figure(f"motion{mark}", plots.motion(shown, title=title))
+            tell((place + 0.5) / len(motion.parts))
             touched = len(shown.contacts) or shown.lasting_contacts
             over_time = plots.touchdown(shown, energy_ledger(shown)) if touched else plots.radius(shown, case.zones)
             output.figure(f"touchdown{mark}" if touched else f"radius{mark}", over_time)

@@ -10,8 +10,8 @@ import math
 from carom.compiling.decorators import inlined, kernel
 from carom.core.layout import ORDER
 
-STEP_FRACTION = 0.16
-"""Ratio of step to radius of convergence: ``0.16^ORDER`` is below rounding."""
+STEP_FRACTION = 0.135
+"""Ratio of step to radius of convergence: ``0.135^ORDER`` is below rounding."""
 NEWTON_STEPS = 8
 """Far more steps than needed for a zero that is not blurred by rounding."""
 
