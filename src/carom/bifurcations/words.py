@@ -48,6 +48,8 @@ HIDING = {
 """Special points at which others, of these kinds, mean nothing of their own."""
 LEAVES = (PERMANENT, "lift-off")
 """Where contact that never leaves the wall begins to."""
+ONE_PLACE = 1e-8
+"""Distance, in sizes of the parameter, within which two special points are one."""
 BESIDE = 1e-5
 """Distance from a border, relative to the parameter, at which the word beyond it is read from a simulated period."""
 NEARBY = 0.02
@@ -311,8 +313,11 @@ def _permanent_contact(family: Family, unknowns: np.ndarray, value: float, place
     reach = NEARBY * family.size
     limits = max(family.limits[0], value - reach), min(family.limits[1], value + reach)
     found = [point for point in continue_orbit(alone, family.along.name, limits).special if point.kind in LEAVES]
-    nearest = min(found, key=lambda point: abs(point.value - value), default=None)
-    return None if nearest is None else replace(nearest, place=place)
+    nearest = min((abs(point.value - value) for point in found), default=math.inf)
+    # In a wall that gives way the force may be least where a segment begins: then both margins vanish there.
+    near = [point for point in found if abs(point.value - value) <= nearest + ONE_PLACE * family.size]
+    near.sort(key=lambda point: point.kind != PERMANENT)
+    return replace(near[0], place=place) if near else None
 
 
 def _without_flight(word: Word, start: Start) -> tuple[Word, Start] | None:
