@@ -64,9 +64,14 @@ def assert_same(motion, reference, until, y, rotor=None):
 @pytest.mark.parametrize(
     ("rotor", "contacts", "kinds"),
     [
-        (single(KelvinVoigt(1e4, 3.3), Shaft(9e2)), 5, {(0, 1)}),
+        pytest.param(single(KelvinVoigt(1e4, 3.3), Shaft(9e2)), 5, {(0, 1)}, marks=pytest.mark.deep),
         (single(HuntCrossley(1e4, 0.05), Shaft(0.8, 0.03), 0.6, 1.5), 2, {(0, 1), (0, 0), (0, -1)}),
-        (single(SOFT, Shaft(3.0, 0.1), 0.6, 1.2, Race(0.5, 1.5, 0.02, 0.1)), 6, {(0, 1), (0, 0)}),
+        pytest.param(
+            single(SOFT, Shaft(3.0, 0.1), 0.6, 1.2, Race(0.5, 1.5, 0.02, 0.1)),
+            6,
+            {(0, 1), (0, 0)},
+            marks=pytest.mark.deep,
+        ),
         (
             double([SOFT, HuntCrossley(1e3, 0.1, 1.5)], Shaft(2.0, 0.1)),
             4,
