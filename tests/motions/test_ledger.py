@@ -98,7 +98,7 @@ def test_energies_in_joules():
     ledger = energy_ledger(carom.simulate(_rotor(0.2), carom.State(0.2 + 0.1j, 0.5 + 0.3j), until=30.0))
     table, plain = replace(ledger, scales=scales).to_dataset(), ledger.to_dataset()
     works = ("unbalance", "damping", "circulatory", "forces", "impacts", "friction", "drive")
-    of_walls = ("wall", "wall_damping", "parting", "races", "race_drag")
+    of_walls = ("wall", "wall_damping", "parting", "races", "race_drag", "shaft", "drive_left_out")
     names = ("kinetic", "spring", *works, *of_walls)
     assert {name: table[name].attrs["units"] for name in table} == dict.fromkeys(names, "J")
     assert table["times"].attrs["units"] == "s"

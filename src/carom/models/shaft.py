@@ -15,8 +15,8 @@ class Shaft:
     """What turns with the shaft, and its drive; without it the speed of a rotor never changes.
 
     In contact the torque of friction, at the rotor's radius, and that of the drive change the speed.  In flight the speed stays as it
-    is.  The unbalance follows the speed; the torque with which it acts back on the shaft is left out.  The energy ledger refuses it, and
-    impulses at a rigid wall are not told.
+    is; the energy ledger says what the drive would do there.  The unbalance follows the speed; the torque with which it acts back on the shaft
+    is left out.
 
     Attributes
     ----------

@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from carom.models import System
-from carom.motions.contacts import polar
+from carom.motions.contacts import polar, shaft_speed
 
 AT_WALL = 1e-9
 """Distance from its wall up to which a plane may have been struck together with another (:data:`carom.core.joint.ONE_INSTANT`), with
@@ -43,7 +43,8 @@ def blows_of(
     """Impulses that have changed the amplitudes of a rotor.
 
     Of a plane struck alone the impulse is the change of its own velocity.  Where others are at their walls too, the impulses
-    follow from the changes of velocity at all of these: ``Δu_p = Σ_q A_pq π_q`` (:mod:`carom.core.joint`).  Of planes that always
+    follow from the changes of velocity at all of these: ``Δu_p = Σ_q A_pq π_q`` (:mod:`carom.core.joint`), less those by the unbalance of
+    a shaft whose speed jumps.  Of planes that always
     move alike only the sum of their impulses counts, which is given to them in equal parts.
 
     Parameters
@@ -58,7 +59,8 @@ def blows_of(
         Amplitudes just before and just after the event.
     """
     arrays, places, count = system.arrays, np.arange(len(events)), lasting.shape[1]
-    states = [[system.at_planes(each, np.full(len(events), p)) for p in range(count)] for each in (before, after)]
+    pushed = (before, _without_jolt(system, before, after))
+    states = [[system.at_planes(each, np.full(len(events), p)) for p in range(count)] for each in pushed]
     position = np.stack([place for place, _ in states[0]], axis=-1)
     normal = position / np.abs(position)
     speeds = [
@@ -77,3 +79,13 @@ def blows_of(
     struck[places, planes] |= ~struck.any(axis=1)
     rows, columns = np.nonzero(struck)
     return Blows(events[rows], columns, impulses[rows, columns])
+
+
+def _without_jolt(system: System, before: np.ndarray, after: np.ndarray) -> np.ndarray:
+    """Amplitudes after events without the impulse of the unbalance, which moves the rotor as the speed of its shaft jumps."""
+    if system.shaft is None:
+        return after
+    direction = before[:, int(system.arrays.shaft[0]), None]
+    jump = shaft_speed(system, after) - shaft_speed(system, before)
+    freed: np.ndarray = after + 1j * jump[:, None] * direction * system.arrays.unbalance
+    return freed

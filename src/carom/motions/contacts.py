@@ -115,7 +115,8 @@ class ContactLog(Table):
     Of a plane struck alone, the normal impulse is ``m_p (1 + d) ṙ`` with the effective mass ``m_p = 1/(W M⁻¹ Wᴴ)`` of the plane, which
     is the whole mass for the planar rotor.  Of planes struck in one instant it is that of the joint solution
     (:mod:`carom.core.joint`), and each plane has an entry.  The slip velocity of the contact point is ``v = s + 1 + θ̇``.  The work on the contact point
-    follows from the mean of the velocities before and after; that of the drive is the kinetic energy gained without it.
+    follows from the mean of the velocities before and after; that of the drive is the kinetic energy gained without it, which a shaft whose
+    speed changes gives from its own.
     """
 
     time: np.ndarray = field(metadata=column("time", "time of impact"))
@@ -140,7 +141,7 @@ class ContactLog(Table):
     contact_work: np.ndarray = field(
         metadata=column("energy", "work of the impact on the contact point, never positive in the sum over the planes")
     )
-    drive_work: np.ndarray = field(metadata=column("energy", "work of the shaft's drive through friction"))
+    drive_work: np.ndarray = field(metadata=column("energy", "work of the shaft through friction"))
     scales: Scales | None = None
 
     dimension: ClassVar[str] = "impact"
@@ -151,23 +152,23 @@ class ContactLog(Table):
         rotor: Model,
         times: np.ndarray,
         blows: Blows,
-        before: tuple[np.ndarray, np.ndarray],
-        after: tuple[np.ndarray, np.ndarray],
+        before: np.ndarray,
+        after: np.ndarray,
     ) -> ContactLog:
-        """Log of impacts from their impulses, and positions and velocities just before and just after, shape (n,).
-
-        Of a shaft whose speed changes, slip, impulses and works are not known from these: they are nan.
-        """
-        angle, radial, angular = polar(*before)
-        _, radial_after, angular_after = polar(*after)
-        arrays, planes = rotor.system.arrays, blows.planes
+        """Log of impacts from their impulses, and amplitudes just before and just after, shape (n, N)."""
+        system, planes = rotor.system, blows.planes
+        arrays = system.arrays
+        angle, radial, angular = polar(*system.at_planes(before, planes))
+        _, radial_after, angular_after = polar(*system.at_planes(after, planes))
+        spin, spin_after = (shaft_speed(system, each) for each in (before, after))
         surface_speed, mass = arrays.surface_speed[planes], arrays.masses[planes]
-        known = 1.0 if rotor.system.shaft is None else np.nan
-        normal, tangential = -mass * known * blows.impulses.real, mass * known * blows.impulses.imag
-        slip, slip_after = known * (surface_speed + angular), known * (surface_speed + angular_after)
+        radius = surface_speed - 1.0
+        normal, tangential = -mass * blows.impulses.real, mass * blows.impulses.imag
+        slip = (surface_speed + radius * (spin - 1.0)) + angular
+        slip_after = (surface_speed + radius * (spin_after - 1.0)) + angular_after
         normal_work = -0.5 * normal * (radial + radial_after)
         newton = np.zeros(len(times))
-        for plane, contact in enumerate(rotor.system.contacts):
+        for plane, contact in enumerate(system.contacts):
             newton[planes == plane] = rebound(np.maximum(radial[planes == plane], 0.0), contact.wall)
         unlike = np.abs(radial_after + newton) > UNLIKE * (1.0 + radial)
         return cls(
@@ -185,7 +186,7 @@ class ContactLog(Table):
             sticks=arrays.friction[planes] * normal >= np.abs(mass * slip_after - tangential),
             by_poisson=np.isin(blows.events, blows.events[unlike & (-blows.impulses.real > UNLIKE)]),
             contact_work=normal_work + 0.5 * tangential * (slip + slip_after),
-            drive_work=-(surface_speed - 1.0) * tangential,
+            drive_work=-radius * (0.5 * (spin + spin_after)) * tangential,
             scales=rotor.scales,
         )
 

@@ -12,6 +12,7 @@ from carom.models import Matrices
 from carom.models.stages import forces_of
 from carom.motions.contacts import Table, column, presses, race_speed, slip_velocity, yields
 from carom.motions.quadrature import NODES, WEIGHTS, pieces
+from carom.motions.spin import spin_of
 from carom.motions.touches import in_wall, lost_on_parting, stored
 from carom.motions.trajectories import Trajectory
 from carom.outcome import InputError
@@ -33,6 +34,11 @@ class EnergyLedger(Table):
     A wall that gives way stores the energy of its spring while it presses on the rotor.  Where plane and wall part at some depth, as the
     wall comes back more slowly, the rotor does not get that energy any more: it counts as lost at this moment.  Where they meet again
     before the plane has left the wall, the spring is as deep as the plane, and what it then holds, which is less, is taken back.
+
+    A shaft at constant speed gets from its drive whatever friction takes.  One whose speed changes holds the energy ``Jσ²/2`` of its spin, which
+    friction takes from it, and ``drive`` is the work of its drive's torque in contact.  In flight the torque is left out of the motion;
+    ``drive_left_out`` is what it would do there.  The unbalance does its work through the bearing forces of an ideal axis: its torque on the
+    shaft is left out too.
     """
 
     figure: ClassVar[str] = "energies"
@@ -42,17 +48,23 @@ class EnergyLedger(Table):
     spring: np.ndarray = field(metadata=column("energy", "energy of the springs"))
     wall: np.ndarray = field(metadata=column("energy", "energy of the springs of walls that press on the rotor"))
     races: np.ndarray = field(metadata=column("energy", "kinetic energy of the races that turn"))
+    shaft: np.ndarray = field(metadata=column("energy", "kinetic energy of the spin of a shaft whose speed changes"))
     unbalance: np.ndarray = field(metadata=column("energy", "work of the unbalance since the start"))
     damping: np.ndarray = field(metadata=column("energy", "work of damping since the start"))
     circulatory: np.ndarray = field(metadata=column("energy", "work of circulatory forces since the start"))
     forces: np.ndarray = field(metadata=column("energy", "work of weight and other outer forces since the start"))
     impacts: np.ndarray = field(metadata=column("energy", "work at the contact point in impacts since the start"))
     friction: np.ndarray = field(metadata=column("energy", "work of friction in lasting contact since the start"))
-    drive: np.ndarray = field(metadata=column("energy", "work of the shaft's drive through friction since the start"))
+    drive: np.ndarray = field(metadata=column("energy", "work of the shaft's drive since the start"))
     wall_damping: np.ndarray = field(metadata=column("energy", "work of the dampers of walls since the start"))
     race_drag: np.ndarray = field(metadata=column("energy", "work of drag on the races that turn since the start"))
     parting: np.ndarray = field(
         metadata=column("energy", "energy of the springs of walls lost where planes part from them, since the start")
+    )
+    drive_left_out: np.ndarray = field(
+        metadata=column(
+            "energy", "work that the torque of the drive would do in flight, where it is left out, since the start"
+        )
     )
     scales: Scales | None = None
 
@@ -60,8 +72,8 @@ class EnergyLedger(Table):
 
     @property
     def energy(self) -> np.ndarray:
-        """Kinetic energy, that of the springs, and what walls and races hold."""
-        return self.kinetic + self.spring + self.wall + self.races
+        """Kinetic energy, that of the springs, and what walls, races and the shaft hold."""
+        return self.kinetic + self.spring + self.wall + self.races + self.shaft
 
     @property
     def wall_loss(self) -> np.ndarray:
@@ -97,13 +109,14 @@ def energy_ledger(trajectory: Trajectory) -> EnergyLedger:
     damping, ``−Re(wᴴK₁U)`` of the circulatory forces, ``Re(wᴴMa(t))`` of forces that accelerate the coordinates by ``a(t)``, such
     as weight, and that of the contact forces.  A friction force ``F`` does the work ``F v`` on the contact point, which slips with
     ``v = s + r(1 + θ̇) − q``, and the drive gives ``−F s``: the centre moves along the wall with ``r(1 + θ̇)``, and a race that turns, whose
-    surface moves with ``q``, takes ``−F q``.  The normal force ``N`` of a wall that gives way takes ``Nδ̇`` at the depth ``δ = r − 1``, which
+    surface moves with ``q``, takes ``−F q``.  A shaft whose speed ``σ`` changes takes ``sσF`` itself, its drive gives ``Tσ`` in contact, and its
+    unbalance pushes with ``F(σ² − iσ̇)e^{i(ϑ−t)}`` (:mod:`carom.core.shaft`), also in the instant of an impact.  The normal force ``N`` of a wall that gives way takes ``Nδ̇`` at the depth ``δ = r − 1``, which
     goes into its spring and its damper.
 
     Raises
     ------
     InputError
-        The mass matrix is not Hermitian, so there is no kinetic energy; or the speed of the shaft changes.
+        The mass matrix is not Hermitian, so there is no kinetic energy.
 
     See Also
     --------
@@ -118,9 +131,6 @@ def energy_ledger(trajectory: Trajectory) -> EnergyLedger:
     >>> ledger.imbalance < 1e-12
     True
     """
-    if trajectory.rotor.system.shaft is not None:
-        allowed = "a shaft at constant speed: the books do not hold the energy of one whose speed changes"
-        raise InputError("machine", "a shaft whose speed changes", allowed)
     matrices = trajectory.rotor.matrices
     edges, counts = pieces(trajectory)
     if np.abs(matrices.mass - matrices.mass.conj().T).max() > HERMITIAN * np.abs(matrices.mass).max():
@@ -147,27 +157,44 @@ def energy_ledger(trajectory: Trajectory) -> EnergyLedger:
     kinetic, spring = _stored(trajectory, matrices)
     wall, parting, dampers = _walls(trajectory, counts, half)
     races, drag = _races(trajectory, times)
+    spin = spin_of(trajectory, times)
     impact, landing = (trajectory.blows(each).events for each in (trajectory.is_impact, trajectory.is_landing))
     impacts, landings = trajectory.log_of(trajectory.is_impact), trajectory.log_of(trajectory.is_landing)
+    if trajectory.rotor.system.shaft is None:
+        drive = work(drives) + at_events(impact, impacts.drive_work) + at_events(landing, landings.drive_work)
+    else:
+        drive = work(spin.drive)
     return EnergyLedger(
         times=edges[ends],
         kinetic=kinetic,
         spring=spring,
         wall=wall,
         races=races,
-        unbalance=work((fixed.conj() @ matrices.forcing).real),
+        shaft=spin.energy,
+        unbalance=work(((fixed.conj() @ matrices.forcing) * spin.unbalance).real)
+        + at_events(np.arange(len(spin.jolts)), _work_of_jolts(trajectory, spin.jolts)),
         damping=work(-_form(fixed, matrices.damping, fixed)),
         circulatory=work(-_form(fixed, skew, position)),
         forces=work(_power_of_forces(trajectory, times, fixed)),
         impacts=at_events(impact, impacts.contact_work),
         # A landing stands for the last bounces of a chatter; its work is a correction to their friction.
         friction=work(slides) + at_events(landing, landings.contact_work),
-        drive=work(drives) + at_events(impact, impacts.drive_work) + at_events(landing, landings.drive_work),
+        drive=drive,
         wall_damping=work(dampers),
         race_drag=work(drag),
         parting=parting,
+        drive_left_out=work(spin.left_out),
         scales=trajectory.rotor.scales,
     )
+
+
+def _work_of_jolts(trajectory: Trajectory, jolts: np.ndarray) -> np.ndarray:
+    """Work of the impulses that the unbalance of a shaft gives in events, (n,): with the mean of the velocities before and after."""
+    matrices, coordinates = trajectory.rotor.matrices, len(trajectory.rotor.matrices.mass)
+    states = (trajectory.rotor.system.state(each) for each in (trajectory.arrivals, trajectory.segment_amplitudes[1:]))
+    before, after = (_in_fixed_frame(*state, coordinates)[1] for state in states)
+    done: np.ndarray = (0.5 * ((before + after).conj() @ matrices.forcing) * jolts).real
+    return done
 
 
 def _power_of_forces(trajectory: Trajectory, times: np.ndarray, velocity: np.ndarray) -> np.ndarray:

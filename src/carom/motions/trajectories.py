@@ -156,10 +156,8 @@ class Trajectory(Result):
         return self._log(self.blows(events))
 
     def _log(self, blows: Blows) -> ContactLog:
-        system, times = self.rotor.system, self.segment_starts[1:][blows.events]
-        before = system.at_planes(self.arrivals[blows.events], blows.planes)
-        after = system.at_planes(self.segment_amplitudes[1:][blows.events], blows.planes)
-        return ContactLog.from_states(self.rotor, times, blows, before, after)
+        times, after = self.segment_starts[1:][blows.events], self.segment_amplitudes[1:][blows.events]
+        return ContactLog.from_states(self.rotor, times, blows, self.arrivals[blows.events], after)
 
     @cached_property
     def lasting_contacts(self) -> tuple[LastingContact, ...]:
