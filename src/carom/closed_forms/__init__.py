@@ -38,7 +38,7 @@ from carom.closed_forms.thresholds import rub_limit
 from carom.closed_forms.unbalance import SpeedResponse, speed_response
 from carom.closed_forms.whirl import Rolling, Runaway, rolling, runaway_speed
 from carom.closed_forms.whirl_resonance import internal_resonance
-from carom.closed_forms.yielding_walls import SlippingWhirl, YieldingRub, slipping_whirl, yielding_rubs
+from carom.closed_forms.yielding_walls import SlippingWhirl, YieldingRub, slipping_whirls, yielding_rubs
 
 __all__ = [
     "ContactSystem",
@@ -73,7 +73,7 @@ __all__ = [
     "rub_limit",
     "rub_neighbourhood",
     "runaway_speed",
-    "slipping_whirl",
+    "slipping_whirls",
     "speed_response",
     "yielding_rubs",
 ]

@@ -19,15 +19,19 @@ For the disc of an overhung rotor in a frictionless ring, with the natural frequ
 per diametral one, damping ``2ζ``, unbalance ``mε`` and the ring's stiffness ``β``, the receptance is
 ``1/(1 − (1 − J_p)Ω² + 2iζΩ)`` and the condition ``|1 − (1 − J_p)Ω² + β(1 − 1/r) + 2iζΩ| r = mεΩ²``.
 
-*Slipping backward whirl* of a planar rotor without unbalance, at the speed ``ν`` in the fixed frame: ``z = re^{−iνt}`` with the
-contact force ``−(1 + iμ)Nz/r``.  Radial and tangential parts of ``z̈ + γż + ω²z`` are
+*Slipping backward whirl* of a rotor without unbalance, at the speed ``ν`` in the fixed frame: the plane is at ``re^{−iνt}`` with the
+contact force ``−(1 + iμ)N`` in its direction.  With the receptance ``G`` of the plane, seen in the fixed frame,
 
-    (ν² − ω²) r = N,      γνr = μN,
+    r = −G(−iν)(1 + iμ) N,      thus      arg[G(−iν)(1 + iμ)] = π,
 
-so that ``μ(ν² − ω²) = γν`` whatever the wall is: ``ν`` is the averaged threshold of the runaway on a rigid wall
-(:func:`~carom.closed_forms.thresholds.sustaining_speed`).  The wall decides the radius, ``κδⁿ = (γν/μ)(1 + δ)``; of a spring
-``r = 1/(1 − γν/(μκ))``, for ``κ > γν/μ``.  With ``n > 1`` there is one radius for each stiffness: ``δⁿ/(1 + δ)`` grows from
-zero to infinity.  Slip is forward while ``νr < s``; a rotor that would whirl faster rolls.
+which decides ``ν`` whatever the wall is.  ``g(ν) = −G(−iν)(1 + iμ)`` is a ratio of polynomials, and it is real where it equals its
+conjugate: the zeros of ``g − ḡ``, all of which are eigenvalues of a pencil of matrices with the modes of the rotor and their conjugates.
+Those count that are real with ``g > 0``.  The wall decides the radius, ``1 + δ = gκδⁿ``; on a spring ``r = 1/(1 − 1/(gκ))``, for
+``gκ > 1``.  With ``n > 1`` there is one radius for each stiffness: ``δⁿ/(1 + δ)`` grows from zero to infinity.  Slip is forward while
+``νr < s``; a rotor that would whirl faster rolls.
+
+Of the planar rotor ``(ν² − ω²) r = N`` and ``γνr = μN``, so that ``μ(ν² − ω²) = γν``: ``ν`` is the averaged threshold of the runaway on
+a rigid wall (:func:`~carom.closed_forms.thresholds.sustaining_speed`).
 """
 
 from __future__ import annotations
@@ -36,14 +40,20 @@ import cmath
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.linalg import eigvals  # type: ignore[import-untyped]
 
 from carom.arguments import Positive, Whole, checked
 from carom.closed_forms.free_impact import Exponent
 from carom.closed_forms.power_sums import positive_roots
 from carom.closed_forms.statics import rubs_in_wall
-from carom.closed_forms.thresholds import sustaining_speed
-from carom.models import Subject, jeffcott_of, model_of
+from carom.models import Subject, System, model_of
 from carom.outcome import InputError
+
+REAL = 1e-6
+"""Imaginary part, relative to the fastest mode, up to which a zero is tried as a real one: rounding splits double ones by its root."""
+EXACT = 1e-10
+"""What may be left of the imaginary part of ``g``, relative to its modulus."""
+NEWTON_STEPS = 8
 
 
 @dataclass(frozen=True)
@@ -127,8 +137,7 @@ def yielding_rubs(
     """
     system = model_of(machine).system
     system.refuse_forces()
-    if plane >= len(system.arrays["rows"]):
-        raise InputError("plane", plane, f"a contact plane of the rotor, from 0 to {len(system.arrays['rows']) - 1}")
+    _check_plane(system, plane)
     row, column = system.arrays["rows"][plane], system.arrays["columns"][:, plane]
     receptance = complex(-row @ np.linalg.solve(system.generator, column))
     lever = receptance * complex(1.0, system.arrays["friction"][plane])
@@ -140,49 +149,97 @@ def yielding_rubs(
 
 
 @checked
-def slipping_whirl(machine: Subject, stiffness: Positive, exponent: Exponent = 1.0) -> SlippingWhirl | None:
-    """Slipping backward whirl of the planar rotor without unbalance, derived in :mod:`carom.closed_forms.yielding_walls`.
+def slipping_whirls(
+    machine: Subject, stiffness: Positive, exponent: Exponent = 1.0, *, plane: Whole = 0
+) -> tuple[SlippingWhirl, ...]:
+    """All slipping backward whirls of a rotor without unbalance on one plane, derived in :mod:`carom.closed_forms.yielding_walls`.
 
-    Its speed depends on damping and friction alone, its radius on the wall.
+    Their speeds depend on the rotor and on friction alone, their radii on the wall.  Stability is not judged, and whether other planes
+    are clear is not asked.
 
     Parameters
     ----------
     machine : Machine, Case, Parameters or model
-        The planar rotor; its unbalance is not used.
+        Any linear rotor; its unbalance and the law of its walls are not used.  A race that turns counts as held.
     stiffness : float
-        ``κ`` of the force ``κδⁿ`` per mass, in ``Ω²`` and clearances.
+        ``κ`` of the force ``κδⁿ`` per felt mass, in ``Ω²`` and clearances.
     exponent : float
         ``n``, at least 1; 1 for a Kelvin–Voigt wall.
+    plane : int
+        The plane in contact.
 
     Returns
     -------
-    SlippingWhirl or None
-        ``None`` without friction or damping, and where the wall is too soft to hold the rotor.
+    tuple of SlippingWhirl
+        By growing speed; none without friction or damping, and where the wall is too soft to hold the rotor.
 
     Raises
     ------
     InputError
-        It is not the planar rotor, or a value is not allowed.
+        There is no such plane, a value is not allowed, or forces on the rotor change with time.
 
     See Also
     --------
-    carom.closed_forms.runaway_speed : the speed as a threshold on a rigid wall
+    carom.closed_forms.runaway_speed : the speed as a threshold of the planar rotor on a rigid wall
 
     Examples
     --------
     >>> import carom as cm
     >>> machine = cm.load("examples/source-paper.toml")
-    >>> whirl = cm.closed_forms.slipping_whirl(machine, stiffness=1e4)
-    >>> print(f"{whirl.speed:.9f}, {whirl.radius:.9f}")
+    >>> for whirl in cm.closed_forms.slipping_whirls(machine, stiffness=1e4):
+    ...     print(f"{whirl.speed:.9f}, {whirl.radius:.9f}")
     1.163219537, 1.000077554
     """
-    at = jeffcott_of(machine).parameters
-    if at.mu == 0.0 or at.gamma <= 0.0:
-        return None
-    speed = sustaining_speed(at)
-    pull = at.gamma * speed / at.mu
-    depths = positive_roots([(exponent, stiffness), (1.0, -pull), (0.0, -pull)])
-    if not depths:
-        return None
-    radius = 1.0 + depths[0]
-    return SlippingWhirl(speed, radius, pull * radius, slips=speed * radius < at.radius_ratio)
+    system = model_of(machine).system
+    system.refuse_forces()
+    _check_plane(system, plane)
+    surface = float(system.arrays["surface_speed"][plane]) - 1.0
+    whirls = []
+    for speed, lever in _slipping_speeds(system, plane):
+        for depth in positive_roots([(exponent, lever * stiffness), (1.0, -1.0), (0.0, -1.0)]):
+            force, radius = stiffness * depth**exponent, 1.0 + depth
+            whirls.append(SlippingWhirl(speed, radius, force, slips=bool(speed * radius < surface)))
+    return tuple(whirls)
+
+
+def _slipping_speeds(system: System, plane: int) -> list[tuple[float, float]]:
+    """Speeds ``ν > 0`` at which ``g`` is positive, and ``g`` there."""
+    free = np.asarray(system.free)
+    generator = 1j * system.generator[np.ix_(free, free)]
+    row = -1j * complex(1.0, system.arrays["friction"][plane]) * system.arrays["rows"][plane][free]
+    column = system.arrays["columns"][free, plane]
+    size, fastest = len(generator), float(np.abs(generator).max())
+    pencil, shifts = np.zeros((2 * size + 1, 2 * size + 1), complex), np.diag([*np.ones(2 * size), 0.0])
+    for part, (matrix, out, into) in enumerate(
+        ((generator, row, column), (generator.conj(), -row.conj(), column.conj()))
+    ):
+        here = slice(part * size, (part + 1) * size)
+        pencil[here, here], pencil[-1, here], pencil[here, -1] = matrix, out * fastest, into
+    zeros: np.ndarray = eigvals(pencil, shifts)
+    found = set()
+    for zero in zeros[np.isfinite(zeros)]:
+        if zero.real > 1.0 and abs(zero.imag) <= REAL * fastest:
+            turn, lever = _refined(generator, row, column, float(zero.real))
+            if lever.real > 0.0 and abs(lever.imag) <= EXACT * abs(lever) and turn > 1.0:
+                found.add((turn - 1.0, lever.real))
+    return sorted(found)
+
+
+def _refined(generator: np.ndarray, row: np.ndarray, column: np.ndarray, turn: float) -> tuple[float, complex]:
+    """Real zero of ``Im g`` near ``1 + ν`` by Newton's method, and ``g`` there."""
+    identity = np.eye(len(generator))
+    lever = 0j
+    for _ in range(NEWTON_STEPS):
+        moved = np.linalg.solve(turn * identity - generator, column)
+        lever = complex(row @ moved)
+        slope = -complex(row @ np.linalg.solve(turn * identity - generator, moved)).imag
+        if slope == 0.0 or lever.imag == 0.0:
+            break
+        turn -= lever.imag / slope
+    return turn, lever
+
+
+def _check_plane(system: System, plane: int) -> None:
+    """Refuse a plane that the rotor does not have."""
+    if plane >= len(system.arrays["rows"]):
+        raise InputError("plane", plane, f"a contact plane of the rotor, from 0 to {len(system.arrays['rows']) - 1}")

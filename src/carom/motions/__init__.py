@@ -14,6 +14,7 @@
 ``blows``           impulses at the planes in each event, also where several are struck in one instant
 ``contacts``        load on the bearing: the log of impacts, stretches of lasting contact
 ``quadrature``      integrals and largest values along a motion
+``spin``            what a shaft whose speed changes does along a motion
 ``touches``         contacts with walls that give way: impulses, peaks, depths, works
 ``loads``           loads of a touchdown: forces, impulses, heat
 ``bearing_loads``     the same of a drop, over all stages, with race, whirl and rest
