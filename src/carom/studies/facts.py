@@ -21,6 +21,7 @@ Topic = Literal[
     "What would change it",
     "Proven",
     "Magnetic bearings",
+    "Touchdown bearing",
     "Touchdown loads",
     "Not covered",
 ]

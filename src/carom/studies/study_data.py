@@ -22,7 +22,8 @@ from carom.studies.advice import Recommendation
 from carom.studies.load_checks import WorstLoads
 from carom.studies.ranges import MotionRange, Threshold
 from carom.studies.recovery import Recovery
-from carom.studies.survives import Survives
+from carom.studies.rigid_limit import TRIED, OtherWall, on_other_walls
+from carom.studies.survives import Survives, required_disturbances
 from carom.studies.trials import Check
 from carom.studies.wording import Wording
 
@@ -133,3 +134,10 @@ class StudyData(Result):
     def bearing_demand(self) -> BearingDemand | None:
         """What the motions ask of the magnetic bearings; ``None`` if the machine has no limits of these."""
         return bearing_demand(self.case, self.equilibria, self.orbits, self.known.rolls, self.attractors)
+
+    @cached_property
+    def other_walls(self) -> tuple[OtherWall, ...]:
+        """How disturbances end on stiffer or softer walls; none where nothing can be compared, or without stable levitation."""
+        if self.survives is None:
+            return ()
+        return on_other_walls(self.rotor, required_disturbances(self.required, TRIED))

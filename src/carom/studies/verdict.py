@@ -14,6 +14,7 @@ from carom.studies.advice_facts import advice_facts
 from carom.studies.facts import Fact, about
 from carom.studies.findings import FINDINGS
 from carom.studies.proven import proven_words
+from carom.studies.rigid_limit import wall_values, wall_words
 from carom.studies.study_data import StudyData
 from carom.studies.verdict_facts import KINDS, Level, judged, verdict_facts
 
@@ -85,6 +86,9 @@ def facts_of(study: StudyData) -> Iterator[Fact]:
         yield Fact("Proven", proven_words(study.proof), evidence="proven")
     if study.bearing_demand is not None:
         yield Fact("Magnetic bearings", actuator_words(study.bearing_demand))
+    if study.other_walls:
+        words, values = wall_words(study.wording, study.other_walls), wall_values(study.other_walls, study.rotor.scales)
+        yield Fact("Touchdown bearing", words, evidence="sampled", values=values)
     if study.loads is not None:
         for text in study.loads.words.split("\n"):
             yield Fact("Touchdown loads", text)
