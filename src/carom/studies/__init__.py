@@ -10,6 +10,7 @@ Read them in this order.
 ``recovery``             :func:`find_recovery`: which values of any parameter leave only recovery
 ``survives``             the sizes of kicks, shocks and losses of a blade up to which none is lost
 ``advice``               the least change that leaves only recovery, in the user's terms and within limits
+``rigid_limit``          whether the rigid wall is good enough
 ``load_checks``          loads of touchdowns against stated limits
 ``drops``                :class:`DropStudy`: what a drop asks of the touchdown bearing, in words and as JSON
 ``actuator``             what motions ask of the magnetic bearings, against the limits of these
