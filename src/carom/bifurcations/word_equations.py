@@ -291,8 +291,10 @@ class Family(Orbits):
     def _special_points(self) -> list[Watch]:
         # The continuation finds folds itself.
         tests = {kind: test for kind, test in TESTS.items() if kind != "fold" and self._may_happen(kind)}
-        if self.word.flies and self.word.impacts == 1:
+        if self.word.impacts == 1 and (self.word.flies or self.yields.all()):
+            # Without its only arrival the rotor never leaves levitation.
             tests[HOPF] = tests.pop("vanishing-impact")
+        if self.word.impacts == 1 and self.word.flies:
             # Beyond that point the orbit meets the wall from outside, and its maxima lie outside from the first.
             tests["grazing"] = lambda point: min(point.margins.radius, 1.0) if point.margins.approach >= 0.0 else 1.0
             if self.rotor.system.is_planar:

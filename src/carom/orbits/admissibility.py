@@ -183,10 +183,14 @@ def _why_no_such_contact(rotor: Model, segment: Segment, target: Segment, node: 
 
 
 def _put_in_wall(rotor: Model, segment: Segment, amplitudes: np.ndarray) -> int:
-    """:func:`_put_on_wall` for a wall that gives way: a segment that begins there begins exactly there."""
+    """:func:`_put_on_wall` for a wall that gives way: a segment that begins at its edge begins exactly there.
+
+    A plane parts from its wall inside, however little: a slow one a very small depth below the edge.
+    """
     arrays, plane = rotor.system.arrays, segment.plane
     depth = abs(rotor.system.at_plane(amplitudes, plane)[0]) - 1.0
-    stay_in_wall(arrays, plane, segment.kind is Kind.ROLL, abs(depth) <= STOPPED, amplitudes)
+    at_edge = segment.kind is not Kind.FREE and abs(depth) <= STOPPED
+    stay_in_wall(arrays, plane, segment.kind is Kind.ROLL, at_edge, amplitudes)
     return PHASES.get(segment.kind, int(Phase.FLIGHT))
 
 
