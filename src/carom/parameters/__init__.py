@@ -18,6 +18,7 @@
 ``gravity``               :class:`Gravity`: where the rotor falls
 ``drive``                 :class:`Drive`: what turns with the shaft, and the torque of its drive
 ``touchdown_bearing``     :class:`TouchdownBearing`: a touchdown bearing that gives way
+``settings``              what a setting, or an axis of a sweep, may change
 ``indentation``           whether a rigid wall is a valid model under a load
 ``restitution``           restitution and what a wall that gives way dissipates
 ``requirement``           :class:`Requirement`: what a machine must survive
@@ -54,8 +55,9 @@ from carom.parameters.requirement import (
     usual_kick,
 )
 from carom.parameters.scaling import UNITS, Scales
+from carom.parameters.settings import SETTINGS, field_to_set
 from carom.parameters.sizes import Size, own_size, read_size
-from carom.parameters.terms import ENTRIES, HELPER_FIELDS, SETTABLE, TERM_FIELDS, TERMS, field_to_set, field_to_vary
+from carom.parameters.terms import ENTRIES, HELPER_FIELDS, SETTABLE, TERM_FIELDS, TERMS, field_to_vary
 from carom.parameters.touchdown_bearing import TOUCHDOWN_FIELDS, TouchdownBearing
 
 __all__ = [
@@ -70,6 +72,7 @@ __all__ = [
     "PARAMETERS",
     "PHYSICAL_PARTNER",
     "SETTABLE",
+    "SETTINGS",
     "SHOCK_DURATION",
     "SURVIVE_ENTRIES",
     "TERMS",

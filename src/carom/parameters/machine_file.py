@@ -21,6 +21,7 @@ from carom.parameters.numbers import Parameters
 from carom.parameters.quantities import read_quantity
 from carom.parameters.requirement import Requirement
 from carom.parameters.scaling import Scales
+from carom.parameters.settings import GRAVITY_NAME
 from carom.parameters.terms import ENTRIES, SETTABLE, check_names, set_by
 from carom.parameters.told import number, shown_in, told
 from carom.parameters.toml_reader import MachineTables, read_machine_tables
@@ -30,8 +31,6 @@ from carom.tabular import Tabular
 _SETTING = "--set"
 UNUSED = 0.0
 """Restitution of a machine whose touchdown bearing gives way."""
-_GRAVITY = "gravity"
-"""The setting of an acceleration of free fall, which is no number of the machine."""
 _UNITS_TOLD = ("length", "time", "velocity", "force", "impulse")
 """Units of the equations that a case shows."""
 
@@ -198,10 +197,10 @@ class Case(Tabular):
         InputError
             If a name is unknown or a value not allowed.
         """
-        if _GRAVITY in changes:
+        if GRAVITY_NAME in changes:
             if self.parameters.scales is None:
-                raise refused(changes[_GRAVITY])
-            return replace(self, gravity=_pulled(self.gravity, changes.pop(_GRAVITY))).replace(**changes)
+                raise refused(changes[GRAVITY_NAME])
+            return replace(self, gravity=_pulled(self.gravity, changes.pop(GRAVITY_NAME))).replace(**changes)
         if of_bearing := {name: changes.pop(name) for name in list(changes) if name.startswith(PREFIX)}:
             return replace(self, touchdown=_changed(self.touchdown, of_bearing)).replace(**changes)
         if self.touchdown is not None and (unused := {"d", "restitution"} & changes.keys()):
@@ -269,7 +268,7 @@ def load(path: str | os.PathLike[str], settings: Iterable[str] = ()) -> Case:
     )
     requirement = problems.attempt(Requirement.of_table, tables.survive, _scales(base, of_machine))
     texts = _split(settings, problems)
-    pull = texts.pop(_GRAVITY, None)
+    pull = texts.pop(GRAVITY_NAME, None)
     if pull is not None and of_machine:
         gravity = problems.attempt(_pulled, gravity, pull)
     elif pull is not None:
@@ -310,7 +309,7 @@ def _split(settings: Iterable[str], problems: Problems) -> dict[str, str]:
         if name in texts:
             problems.errors.append(InputError(name, shown(text), f"is set twice by {_SETTING}; give it once"))
         texts[name] = text
-    own = {name: text for name, text in texts.items() if name != _GRAVITY and not name.startswith(PREFIX)}
+    own = {name: text for name, text in texts.items() if name != GRAVITY_NAME and not name.startswith(PREFIX)}
     problems.attempt(check_names, own)
     return texts
 
@@ -320,7 +319,7 @@ def _pulled(present: Gravity | None, acceleration: Any) -> Gravity:
     try:
         return replace(present or Gravity(), acceleration=acceleration)
     except InputError as problem:
-        raise InputError(_GRAVITY, shown(acceleration), problem.allowed) from None
+        raise InputError(GRAVITY_NAME, shown(acceleration), problem.allowed) from None
 
 
 def _changed(present: TouchdownBearing | None, changes: Mapping[str, Any]) -> TouchdownBearing:

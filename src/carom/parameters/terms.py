@@ -221,14 +221,6 @@ def no_such_parameter(name: str, given: object, varied: Mapping[str, Field], has
     return InputError(name, shown(given), allowed)
 
 
-@checked
-def field_to_set(name: str) -> Field:
-    """Field of anything that a setting, or an axis of a sweep, may change."""
-    if name not in SETTABLE:
-        raise unknown_name(name, "to vary", SETTABLE, "the parameters")
-    return SETTABLE[name]
-
-
 def conflicts(entries: Mapping[str, Any]) -> list[InputError]:
     """Errors for entries that set the same field of the machine, such as ``damping`` and ``damping_ratio``."""
     found, first = [], dict[str, str]()

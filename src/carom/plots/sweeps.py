@@ -22,7 +22,7 @@ from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter, PercentFor
 
 from carom.arguments import checked
 from carom.outcome import STEADY_WORDS, InputError
-from carom.parameters import SETTABLE, Field
+from carom.parameters import SETTINGS, Field
 from carom.parameters.told import shown_from_si
 from carom.plots.plane import Floats, legend_above, one_axes
 from carom.plots.style import ONE_COLUMN, TWO_COLUMNS, Look, styled
@@ -166,7 +166,7 @@ def _field(coordinate: xarray.DataArray) -> Field:
     """The parameter of a coordinate; one of another model than the planar rotor has its name for a symbol."""
     name, words, unit = str(coordinate.name), coordinate.attrs["long_name"], coordinate.attrs["units"]
     own = Field(name, name.replace("_", r"\_"), words, "a number", "" if unit == "1" else unit, -np.inf, np.inf, "")
-    return SETTABLE.get(name, own)
+    return SETTINGS.get(name, own)
 
 
 def _plain_ticks(axis: Axis, values: np.ndarray) -> None:

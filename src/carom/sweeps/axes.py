@@ -12,7 +12,7 @@ import numpy as np
 
 from carom.arguments import Count, checked
 from carom.outcome import InputError, Problems, shown
-from carom.parameters import SETTABLE, Field, field_to_set, read_quantity
+from carom.parameters import SETTINGS, Field, field_to_set, read_quantity
 
 if TYPE_CHECKING:
     from carom.models import Axis
@@ -112,7 +112,7 @@ class GridAxis:
     @property
     def field(self) -> Field:
         """Words, symbol and unit of the parameter."""
-        return self.own or SETTABLE[self.name]
+        return self.own or SETTINGS[self.name]
 
     def describe(self) -> dict[str, Any]:
         """Return what identifies the axis, as plain data for JSON."""

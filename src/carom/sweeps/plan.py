@@ -6,7 +6,7 @@ import hashlib
 import json
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import asdict, dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -14,8 +14,8 @@ import numpy as np
 from carom.arguments import Count, Seed, Whole, checked
 from carom.disturbances import Grid, Plan, Sample
 from carom.outcome import InputError, shown
-from carom.parameters import DIMENSIONLESS_FIELDS, HELPER_FIELDS, TERM_FIELDS, Case
-from carom.parameters.terms import check_names
+from carom.parameters import DIMENSIONLESS_FIELDS, HELPER_FIELDS, TERM_FIELDS, Case, Zones
+from carom.parameters.settings import GRAVITY_NAME, OF_TABLES, check_settings
 from carom.sweeps.axes import GridAxis
 from carom.sweeps.basins import BasinsTask
 from carom.sweeps.studies import StudyTask
@@ -65,6 +65,10 @@ class SweepPlan:
     seed: int = 0
     fixed: Mapping[str, float | str] = field(default_factory=dict)
     sources: Mapping[str, str] = field(default_factory=dict, compare=False)
+
+    def __post_init__(self) -> None:
+        if isinstance(self.task, StudyTask):
+            self.task.check(self.case)
 
     @property
     def variables(self) -> tuple[Variable, ...]:
@@ -156,6 +160,8 @@ class SweepPlan:
                 "parameters": self.case.parameters.as_dict(),
                 "scales": None if scales is None else [scales.mass, scales.clearance, scales.speed],
             } | self._terms(self.case)
+            tables = {name: getattr(self.case, name) for name in ("gravity", "touchdown", "drive")}
+            machine |= {name: asdict(table) for name, table in tables.items() if table is not None}
         else:
             machine = self.case.attributes()
         return machine | {
@@ -211,6 +217,11 @@ def check_varied(case: Case | Model, name: str) -> None:
     elif name not in DIMENSIONLESS_FIELDS and case.machine is None:
         allowed = "the machine is dimensionless; vary dimensionless parameters"
         raise InputError(f"axes.{name}", shown(name), allowed)
+    elif name in OF_TABLES and name != GRAVITY_NAME and case.touchdown is None:
+        raise InputError(f"axes.{name}", shown(name), "the machine has no table [touchdown]")
+    elif name in ("d", "restitution") and case.touchdown is not None:
+        allowed = "the touchdown bearing gives way: vary touchdown_restitution, or its damping or dissipation"
+        raise InputError(f"axes.{name}", shown(name), allowed)
 
 
 @checked
@@ -261,12 +272,12 @@ def plan_sweep(
     from carom.models import Model, case_of, model_of
 
     keeps = isinstance(machine, Model) and not isinstance(work, StudyTask)
-    case: Case | Model = model_of(machine) if keeps else case_of(machine)
+    case: Case | Model = machine if isinstance(machine, Case) else model_of(machine) if keeps else case_of(machine)
     names = [axis.name for axis in axes]
     if not names or len(set(names)) < len(names):
         raise InputError("axes", ", ".join(names) or None, "must be one or more, each for another parameter")
     if isinstance(case, Case):
-        check_names(dict.fromkeys(names, "varied"))
+        check_settings(dict.fromkeys(names, "varied"))
     for name in names:
         check_varied(case, name)
     scales = model_of(case).scales
@@ -277,7 +288,8 @@ def plan_sweep(
         tried = replace(work, seed=0) if isinstance(work, Sample) else work  # each point has a seed of its own
         task = BasinsTask(tried, tuple(work.model.measured_in), scales)
     else:
-        task = replace(work, zone_limits=case_of(case).zones.limits, has_scales=scales is not None)
+        limits = case.zones.limits if isinstance(case, Case) else Zones().limits
+        task = replace(work, zone_limits=limits, has_scales=scales is not None)
     if not 0 <= seed < 2**63:
         raise InputError("seed", seed, "must be a whole number from 0 to 2^63 - 1")
     if chunk is not None and chunk < 1:

@@ -10,14 +10,14 @@ import numpy as np
 
 from carom.arguments import Whole, checked
 from carom.outcome import STEADY_WORDS, InputError
-from carom.parameters import DIMENSIONLESS_FIELDS, Zones
+from carom.parameters import DIMENSIONLESS_FIELDS, Case, Zones
 from carom.results import fields_of, in_si
 from carom.sweeps.variables import Dimension, Variable, with_si
 
 if TYPE_CHECKING:
-    from carom.models import Jeffcott, Model
+    from carom.models import Model
     from carom.orbits.single_impact import OrbitSet
-    from carom.parameters import Case, Required
+    from carom.parameters import Required
 
 RUB = STEADY_WORDS["rub"]
 _SIMPLE = (
@@ -134,27 +134,43 @@ class StudyTask:
         seed : SeedSequence
             Seed of this point.
         """
-        from carom.models import Jeffcott, case_of
+        from carom.models import model_of
+        from carom.parameters import Requirement
 
-        case = case_of(machine)
-        rotor = Jeffcott(case.parameters)
-        found = self._closed_forms(rotor, case)
+        case = machine if isinstance(machine, Case) else None
+        rotor = model_of(machine)
+        found = self._closed_forms(rotor, case.zones if case else Zones())
         number = int(seed.generate_state(1)[0])
+        required = (case.requirement if case else Requirement()).own(rotor.scales)
         if self.disturbances:
-            found |= self._simulated(rotor, case.requirement.own(rotor.scales).kick, number)
+            found |= self._simulated(rotor, required.kick, number)
         if self.least_damping:
-            found |= self._damping(rotor, case.requirement.own(rotor.scales), number)
+            found |= self._damping(rotor, required, number)
         scaled = {each.name: each.scale for each in self.variables if each.scale and each.name in found}
         return found | in_si(found, rotor.scales, **scaled)
 
-    def _closed_forms(self, rotor: Jeffcott, case: Case) -> dict[str, Any]:
+    def check(self, machine: Case | Model) -> None:
+        """Refuse a machine on which forces act that change with time: it has no equilibria."""
+        if (
+            isinstance(machine, Case)
+            and machine.gravity is None
+            and not (machine.touchdown and machine.touchdown.offset)
+        ):
+            return  # known before models and their kernels are loaded
+
+        from carom.models import model_of
+        from carom.models.weight import refuse_forces
+
+        refuse_forces(model_of(machine))
+
+    def _closed_forms(self, rotor: Model, zones: Zones) -> dict[str, Any]:
         from carom.closed_forms.equilibria import find_equilibria
-        from carom.closed_forms.whirl import rolling, runaway_speed
+        from carom.closed_forms.known import known_of
         from carom.orbits.single_impact import orbits_within_reach
 
         levitation, *rubs = find_equilibria(rotor)
         there = [rub for rub in rubs if rub.status == "admissible"]
-        zones = case.zones
+        known = known_of(rotor)
         found = {
             "levitates": levitation.status == "admissible" and levitation.stable,
             "levitation_radius": levitation.radius,
@@ -162,15 +178,16 @@ class StudyTask:
             "rubs": len(there),
             "rub_stable": any(rub.stable for rub in there),
             "rub_force": next((rub.normal_force for rub in there if rub.stable), math.nan),
-            "rolling_holds": rolling(rotor).holds,
-            "runaway_speed": runaway_speed(rotor).certain,
-            **_orbits(orbits_within_reach(rotor)),
         }
+        if known.rolls and known.whirl:
+            found |= {"rolling_holds": known.rolls.holds, "runaway_speed": known.whirl.certain}
+        if known.orbits:
+            found |= _orbits(orbits_within_reach(rotor))
         if levitation.status != "virtual":
             found["zone"] = zones.labels.index(zones.zone(min(levitation.radius, 1.0)))
         return found
 
-    def _simulated(self, rotor: Jeffcott, fastest: float, seed: int) -> dict[str, Any]:
+    def _simulated(self, rotor: Model, fastest: float, seed: int) -> dict[str, Any]:
         from carom.attractors import find_attractors
         from carom.basins import share_of_kicks
 
@@ -183,21 +200,21 @@ class StudyTask:
             "smallest_unrecovered_kick": math.nan if smallest is None else smallest,
         }
 
-    def _damping(self, rotor: Jeffcott, required: Required, seed: int) -> dict[str, Any]:
-        from carom.closed_forms.whirl import rolling
+    def _damping(self, rotor: Model, required: Required, seed: int) -> dict[str, Any]:
+        from carom.closed_forms.known import known_of
         from carom.studies.recovery import find_recovery
         from carom.studies.survives import required_disturbances
 
-        at, field = rotor.parameters, DIMENSIONLESS_FIELDS["gamma"]
-        unit = max(1.0, at.omega)
-        within = LOWEST * unit, min(HIGHEST * max(unit, at.gamma), field.highest)
+        unit, field = max(1.0, rotor.value("omega")), DIMENSIONLESS_FIELDS["gamma"]
+        within = LOWEST * unit, min(HIGHEST * max(unit, rotor.value("gamma")), field.highest)
         tried = required_disturbances(required, self.disturbances)
         found = find_recovery(rotor, "gamma", tried, within=within, seed=seed, threads=1)
         least = math.inf  # something is lost at the highest damping
         if found.spans and found.spans[-1].high.value == within[1]:
             least = found.spans[-1].low.value
             least = 0.0 if least == within[0] else least
-        return {"least_damping": least, "rolling_damping": max(rolling(rotor).damping_bound, 0.0)}
+        rolls = known_of(rotor).rolls
+        return {"least_damping": least} | ({"rolling_damping": max(rolls.damping_bound, 0.0)} if rolls else {})
 
 
 def _orbits(found: OrbitSet) -> dict[str, Any]:

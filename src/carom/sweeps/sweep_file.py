@@ -15,7 +15,7 @@ from carom.disturbances import MODELS, Sample
 from carom.outcome import InputError, Problems, shown, together
 from carom.parameters import (
     DIMENSIONLESS_FIELDS,
-    SETTABLE,
+    SETTINGS,
     TERMS,
     Case,
     Scales,
@@ -26,7 +26,7 @@ from carom.parameters import (
     usual_kick,
 )
 from carom.parameters.fields import nearest_name
-from carom.parameters.terms import check_names
+from carom.parameters.settings import check_settings
 from carom.parameters.toml_reader import read_toml
 from carom.sweeps.axes import LONGEST_AXIS, GridAxis
 from carom.sweeps.basins import BasinsTask
@@ -165,7 +165,7 @@ def _axes(tables: object, settings: list[str], case: Case | None) -> tuple[GridA
         raise InputError("axes", None if tables is None else shown(tables), _ALLOWED["axes"])
     problems = Problems()
     problems.attempt(_check_varied, list(tables), settings)
-    axes = [problems.attempt(_axis, case, name, table) for name, table in tables.items() if name in SETTABLE]
+    axes = [problems.attempt(_axis, case, name, table) for name, table in tables.items() if name in SETTINGS]
     problems.raise_all()
     return cast("tuple[GridAxis, ...]", tuple(axes))
 
@@ -177,9 +177,9 @@ def _check_varied(axes: list[str], settings: list[str]) -> None:
     problems.errors += [
         InputError(f"axes.{name}", "varied", "is set too; do only one of the two") for name in axes if name in names
     ]
-    unknown = [name for name in names if name not in SETTABLE]  # reported as an error of the settings
+    unknown = [name for name in names if name not in SETTINGS]  # reported as an error of the settings
     problems.attempt(
-        check_names,
+        check_settings,
         {name: how for name, how in {**names, **dict.fromkeys(axes, "varied")}.items() if name not in unknown},
     )
     problems.raise_all()
