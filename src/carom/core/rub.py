@@ -32,7 +32,7 @@ from carom.core.phases import (
     stays,
 )
 from carom.core.rounding import RESTING, position_rounding, push_rounding, speed_rounding, yielding_rounding
-from carom.core.shaft import surface_excess
+from carom.core.surfaces import may_change, relative_excess
 from carom.core.taylor import first_fall, series_step, sum_series
 from carom.core.wall import rigid_wall, set_on_wall, unit, wall_of, yields
 
@@ -217,8 +217,7 @@ def rest_on_wall(rotor, plane, amplitudes, rolling):
     set_on_wall(rotor, plane, amplitudes)
     normal = unit(displacement(rotor, plane, amplitudes))
     local, surface_speed = normal.conjugate() * velocity(rotor, plane, amplitudes), rotor.surface_speed[plane]
-    if rotor.shaft.shape[0] > 0:
-        surface_speed += surface_excess(rotor, plane, amplitudes)
+    surface_speed += relative_excess(rotor, plane, amplitudes)
     wall = rigid_wall(0.0, 0.0, surface_speed)
     change = normal * arrival_in_sense(local, STOPPED if rolling else FORWARD, wall)
     for m in range(amplitudes.shape[0]):
@@ -280,11 +279,11 @@ def next_phase(rotor, contact, plane, amplitudes, work):
         return FORWARD_SLIP
     if gives_way:
         slip = slip_in_wall(rotor, plane, amplitudes)
-    elif rotor.shaft.shape[0] > 0:
-        slip += surface_excess(rotor, plane, amplitudes)
+    else:
+        slip += relative_excess(rotor, plane, amplitudes)
     if abs(slip) > speed_rounding(rotor, plane, amplitudes):
         return FORWARD_SLIP if slip > 0.0 else BACKWARD_SLIP
-    if rotor.rows.shape[0] == 1 and rotor.shaft.shape[0] == 0 and not gives_way:
+    if rotor.rows.shape[0] == 1 and not may_change(rotor, plane) and not gives_way:
         push, _ = wall_push(rotor, plane, amplitudes)
         pull = (position.conjugate() * acceleration(rotor, plane, amplitudes)).imag
     else:

@@ -125,13 +125,10 @@ class Case(Tabular):
             object.__setattr__(self, "gravity", None)
         if self.gravity is not None and self.parameters.scales is None:
             raise refused(self.gravity.words)
-        if self.touchdown is not None and not self.touchdown.yields:
+        if self.touchdown is not None and self.touchdown.is_plain:
             object.__setattr__(self, "touchdown", None)
         if self.touchdown is not None and self.parameters.scales is None:
             raise InputError("touchdown", self.touchdown.words, "not allowed beside [dimensionless]: it is in SI units")
-        if self.drive is not None and self.touchdown is None:
-            allowed = "a touchdown bearing that gives way, in a table [touchdown]: the closed forms of a rigid wall are of constant speed"
-            raise InputError("drive", self.drive.words, allowed)
         if self.machine is not None:
             self.limits.check_fit(self.touchdown)
 
@@ -166,7 +163,7 @@ class Case(Tabular):
         numbers = self.parameters
         if self.machine is None:
             return [(numbers.varied[name].words, number(value)) for name, value in own_numbers(numbers).items()]
-        left_out = ENTRIES["restitution"].words if self.touchdown else None
+        left_out = ENTRIES["restitution"].words if self.touchdown and self.touchdown.yields else None
         return [row for row in self.machine.rows() if row[0] != left_out]
 
     def _required(self) -> str:
@@ -203,7 +200,8 @@ class Case(Tabular):
             return replace(self, gravity=_pulled(self.gravity, changes.pop(GRAVITY_NAME))).replace(**changes)
         if of_bearing := {name: changes.pop(name) for name in list(changes) if name.startswith(PREFIX)}:
             return replace(self, touchdown=_changed(self.touchdown, of_bearing)).replace(**changes)
-        if self.touchdown is not None and (unused := {"d", "restitution"} & changes.keys()):
+        gives_way = self.touchdown is not None and self.touchdown.yields
+        if gives_way and (unused := {"d", "restitution"} & changes.keys()):
             raise _unused_restitution(changes[min(unused)])
         if self.machine is None:
             return replace(self, parameters=self.parameters.replace(**changes))
