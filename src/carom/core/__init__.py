@@ -18,6 +18,7 @@ Nothing here knows units, files or results.  A kernel sees a rotor as the arrays
 ``contact_series``     lasting contact as Taylor series
 ``compliance``         contact with a wall that gives way, as Taylor series
 ``shaft``              the speed of the shaft as a state, in contact and from flight to flight
+``surfaces``           speeds of the two surfaces that touch, where they change
 ``rounding``           rounding errors of sums over the modes
 ``taylor``             length of a step, sums and zeros of Taylor series
 ``rub``                when lasting contact changes, and what follows
