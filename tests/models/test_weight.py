@@ -91,7 +91,6 @@ def test_levitation_and_shaft_of_a_rotor_of_several_coordinates_are_not_told_apa
     [
         cm.find_equilibria,
         cm.find_orbits,
-        lambda machine: cm.find_orbits(machine, impacts=2),
         lambda machine: cm.find_bifurcations(machine, "gamma", (0.1, 0.2)),
         lambda machine: cm.find_attractors(machine, count=3),
         lambda machine: cm.map_regions(machine, cm.bifurcations.Plane("gamma", "omega", (0.1, 0.2), (0.3, 0.4))),

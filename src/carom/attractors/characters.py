@@ -141,7 +141,7 @@ def _bouncing(rotor: Model, attractor: Attractor, impacts: int) -> Character:
     except CaromError as reason:
         return _undecided(attractor, f"No exponents: {reason}")
     motion = simulate(rotor, attractor.state, max(exponents.time, 1.0), max_events=10 * impacts)
-    rotation = rotation_of(rotor.system.states_of(motion.arrivals[arrives(motion)]))
+    rotation = rotation_of(rotor.system.nodes.of(motion.arrivals[arrives(motion)]))
     return _irregular(rotor, attractor, exponents, rotation, motion)
 
 
@@ -202,7 +202,7 @@ def _periodic(attractor: Attractor, orbit: Orbit) -> Character:
 
 def _approached_orbit(motion: Trajectory) -> Orbit | None:
     """Attracting orbit to which a motion comes closer and closer."""
-    states = motion.rotor.system.states_of(motion.arrivals[arrives(motion)])
+    states = motion.rotor.system.nodes.of(motion.arrivals[arrives(motion)])
     count = len(states)
     if count < 4 * MOST_IMPACTS:
         return None

@@ -128,7 +128,7 @@ def _last_states(settled: SettledMotion) -> np.ndarray:
     """Coordinates and rates just before the arrivals at walls of the last period, complex, shape (p, 2n)."""
     motion = settled.motion
     last = np.flatnonzero(arrives(motion))[first_of_period(motion, settled.multiplicity) :]
-    return motion.rotor.system.states_of(motion.arrivals[last[-settled.multiplicity :]])
+    return motion.rotor.system.nodes.of(motion.arrivals[last[-settled.multiplicity :]])
 
 
 def known_orbit(orbit: Orbit | None, orbits: Sequence[Orbit]) -> Orbit | None:

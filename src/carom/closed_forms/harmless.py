@@ -20,7 +20,7 @@ from carom.arguments import Positive, checked
 from carom.closed_forms.known import known_of
 from carom.models import Forced, Model, Subject, model_of
 from carom.models.stages import stages_of
-from carom.models.weight import STEADY
+from carom.models.system import STEADY
 
 MARGIN = 1e-9
 """Share of the distance from the wall that is left for rounding."""

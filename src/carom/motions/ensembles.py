@@ -20,7 +20,7 @@ from carom.motions.settling import (
     low_interval,
     may_be_low,
 )
-from carom.motions.starts import LARGEST_SPEED, WALL_TOLERANCE, Until, time_until
+from carom.motions.starts import LARGEST_SPEED, WALL_TOLERANCE, State, Until, time_until
 from carom.outcome import InputError, Outcome
 from carom.progress import Reporter, ShowProgress, shows_progress
 from carom.results import Result
@@ -73,6 +73,10 @@ class Endings(Result):
     def count(self, outcome: Outcome | int) -> int:
         """Return how many motions have this outcome."""
         return int(np.count_nonzero(self.outcomes == outcome))
+
+    def state(self, place: int) -> State:
+        """State of one of the motions of an ensemble in one dimension at that time."""
+        return State.of(self.positions[place], self.velocities[place], time=float(self.times[place]))
 
     def reshaped(self, *shape: int) -> Endings:
         """Return the same endings for starts of another shape."""

@@ -121,7 +121,7 @@ def _follow_singly(part: Part, until: float, limits: Limits, memory: np.record) 
         motion = part.motions[number]
         begins = float(motion.time)
         end = min(until if limits.until is None else until - begins, part.stage.trigger.time)
-        amplitudes, contact = amplitudes_of(rotor, State.of(motion.position, motion.velocity), begins)
+        amplitudes, contact = amplitudes_of(rotor, State.of(motion.position, motion.velocity, time=begins))
         forget(memory)
         memory.resting = not rubs_known
         motion.time, motion.impacts, events, outcome = 0.0, 0, 0, Outcome.EVENT_LIMIT

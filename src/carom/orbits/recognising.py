@@ -12,6 +12,7 @@ from carom.core.event_log import flying
 from carom.core.margins import local_motion
 from carom.models import Model
 from carom.motions.simulation import simulate
+from carom.motions.starts import amplitudes_of
 from carom.motions.trajectories import Trajectory
 from carom.orbits.chatter import slow_departures
 from carom.orbits.orbit import Orbit, orbit_near
@@ -129,8 +130,8 @@ def orbit_of_whirl(motion: Trajectory, period: float) -> Orbit | None:
     if kind is Kind.ROLL:
         return None
     least = simulate(motion.rotor, motion.final, _time_of_least_force(turns, period)).final
-    node = np.append(least.position, least.velocity)
-    return _near(motion.rotor, Word((Segment(kind, turns.plane),)), Start(node[None], np.array([period])))
+    node = motion.rotor.system.nodes.of(amplitudes_of(motion.rotor, least)[0][None])
+    return _near(motion.rotor, Word((Segment(kind, turns.plane),)), Start(node, np.array([period])))
 
 
 def _time_of_least_force(turns: Trajectory, period: float) -> float:
@@ -165,7 +166,7 @@ def _closed(motion: Trajectory, first: int, last: int) -> Orbit | None:
 
 def _near(rotor: Model, word: Word, start: Start) -> Orbit | None:
     """Orbit next to a start, if it is the one that the motion has settled on."""
-    if rotor.system.forced is not None:  # orbits under forces that change with time are not known
+    if rotor.system.unrepeated is not None:
         return None
     orbit, begun = orbit_near(rotor, word, start), start.nodes[0]
     if orbit is None or np.abs(orbit.nodes - begun).max(axis=1).min() > AROUND * (1.0 + np.abs(begun).max()):
@@ -217,7 +218,7 @@ def segments_of(motion: Trajectory, first: int, last: int, *, brief: bool = Fals
                 steps.append((Segment(Kind.LAND, plane), chatter[0][1], chatter[0][2]))
         steps.append((Segment(Kind.of_phase(after), plane), motion.segment_amplitudes[event + 1], float(times[event])))
     segments, nodes, begins = zip(*steps, strict=True)
-    states = motion.rotor.system.states_of(np.array(nodes))
+    states = motion.rotor.system.nodes.of(np.array(nodes))
     return Word(segments), Start(states, np.diff([*begins, float(times[last])]))
 
 
