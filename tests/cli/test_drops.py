@@ -149,8 +149,6 @@ def test_bad_drops_get_one_line(carom, arguments, words):
     [
         ("study",),
         ("orbits",),
-        ("orbits", "--impacts", "2"),
-        ("attractors",),
         ("prove",),
         ("bifurcations", "--along", "gamma", "--from", "0.1", "--to", "0.2"),
         ("regions",),
@@ -165,6 +163,27 @@ def test_other_commands_name_gravity_and_what_works(carom, arguments):
     assert err.startswith("carom: machine = a rotor under gravity: needs a rotor without gravity")
     assert "carom.map_basins of kicks" in err
     assert err.count("\n") == 1
+
+
+def test_orbits_of_a_heavy_rotor_say_how_many_turns_they_take(carom):
+    bounces = ("gravity=100", "unbalance=400 g mm", "friction=0")
+    settings = [text for each in bounces for text in ("--set", each)]
+    arguments = ("orbits", MACHINE, "--impacts", "1", "--guesses", "20", *settings)
+    (orbit,) = document(carom(*arguments, "--json"))["orbits"]
+    assert orbit["turns"] == 2
+    assert orbit["period"] == pytest.approx(4.0 * math.pi)
+    assert len(orbit["multipliers"]) == 4
+    code, out, _ = carom(*arguments)
+    assert code == 0
+    assert "13.3 ms, 2 turns" in out
+
+
+def test_motions_on_which_disturbances_of_a_heavy_rotor_end_are_told(carom):
+    settings = [text for each in ("gravity=100", "friction=0") for text in ("--set", each)]
+    found = document(carom("attractors", MACHINE, "--starts", "20", *settings, "--json"))
+    (rest,) = [each for each in found["attractors"] if each["count"]]
+    assert rest["outcome"] == "at-rest"
+    assert (rest["word"], rest["turns"]) == ("slide+", 1)
 
 
 def test_kicks_of_a_heavy_rotor_are_mapped(carom):

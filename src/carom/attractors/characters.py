@@ -110,7 +110,8 @@ def _rubbing(rotor: Model, attractor: Attractor) -> Character:
 def _rolling_exponents(rotor: Model, attractor: Attractor) -> LyapunovExponents | None:
     """Exponents of rolling that leaves nothing of a disturbance but a delay, as that of the planar rotor on a rigid wall does."""
     directions = 2 * len(rotor.system.exponents) - 1
-    if rotor.system.arrays.stiffness.any():
+    # The phase of a weight is not left alone by a delay.
+    if rotor.system.arrays.stiffness.any() or rotor.system.forced is not None:
         return None
     # On an elastic wall bounces fade at a finite rate.
     if directions > LOST[Kind.ROLL] or attractor.period is None or (rotor.system.arrays.restitution == 1.0).any():
@@ -121,7 +122,8 @@ def _rolling_exponents(rotor: Model, attractor: Attractor) -> LyapunovExponents 
 
 def _rub_rates(rotor: Model, attractor: Attractor) -> np.ndarray | None:
     """Exponents of sliding next to a synchronous rub; the directions off the wall have no exponents."""
-    if attractor.name.drifting or attractor.name.outcome is not Outcome.FORWARD_RUB:
+    steady = attractor.name.outcome is Outcome.FORWARD_RUB and not attractor.name.drifting
+    if not steady or rotor.system.forced is not None:
         return None
     for rub in find_equilibria(rotor)[1:]:
         if np.abs(np.atleast_1d(rub.position) - np.atleast_1d(attractor.state.position)).max() < APPROACHED:
@@ -160,7 +162,7 @@ def _irregular(
         if orbit is not None:
             return _periodic(attractor, orbit)
         words = f"Nearby motions approach each other ({told}), but no orbit of up to {MOST_IMPACTS} impacts was found there."
-    elif rotation.regular and not exponents.positive and exponents.lost <= 2 * len(rotor.system.exponents) - 2:
+    elif rotation.regular and not exponents.positive and exponents.lost < len(exponents.values) - 1:
         if rotation.locked:
             words = f"Its rotation number is {rotation.nearest}, but no orbit closes there: {told}."
         else:

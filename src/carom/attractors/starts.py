@@ -19,7 +19,7 @@ from carom.disturbances.following import require_start
 from carom.models import Model, Subject, model_of
 from carom.motions.starts import Kick, State
 from carom.orbits.orbit import Orbit
-from carom.outcome import STEADY_WORDS
+from carom.outcome import STEADY_WORDS, InputError
 from carom.parameters import Scales, own_size, usual_kick
 from carom.parameters.told import told
 
@@ -155,7 +155,16 @@ class DisturbanceSet:
 
 
 def starts_at(rotor: Model, states: Sequence[State]) -> Starts:
-    """States as arrays of starts."""
+    """States as arrays of starts.
+
+    Raises
+    ------
+    InputError
+        Weight acts, and a state is not taken at time zero.
+    """
+    late = [state.time for state in states if state.time] if rotor.system.forced is not None else []
+    if late:
+        raise InputError("start time", late[0], "0: disturbances of a rotor that weighs something begin at time zero")
     positions, velocities = (
         np.array([getattr(state, name) for state in states], complex) for name in ("position", "velocity")
     )
@@ -204,7 +213,8 @@ def known_starts(machine: Subject, orbits: Sequence[Orbit]) -> tuple[Start, ...]
             for change in (-NUDGE, NUDGE) if orbit.stable else (-PUSH, PUSH):
                 state = State(leaving.position, (1.0 + change) * leaving.velocity)
                 starts.append(Start("orbit", state, f"a start next to {orbit.name}"))
-    for rub in find_equilibria(rotor)[1:]:
+    # Under weight no rub is at rest.
+    for rub in find_equilibria(rotor)[1:] if rotor.system.forced is None else ():
         if rub.status == "admissible":
             words = f"a start next to the {'stable' if rub.stable else 'unstable'} {STEADY_WORDS['rub']}"
             speeds = (-NUDGE, NUDGE) if rub.stable else (-PUSH, PUSH)

@@ -27,6 +27,9 @@ SAME_TIME = 1e-3
 """Relative difference of the time between two lift-offs and the period, if they are the same lift-off."""
 SAMPLES = 200
 """Times in a turn at which the normal force is compared to find where it is least."""
+MOST_TURNS, REPEATS = 8, 1e-6
+"""Most turns of the shaft after which whirl under weight is looked for again, and the distance, relative to one plus the size of the
+state, within which it repeats."""
 AROUND = 1e-3
 """Distance, relative to one plus the size of the nodes, within which the orbit of a settled motion is searched for."""
 
@@ -99,6 +102,15 @@ def lift_offs(motion: Trajectory) -> np.ndarray:
     flying = motion.segment_phases == Phase.FLIGHT
     events = np.arange(len(motion.event_planes))
     return np.flatnonzero(~flying[events, motion.event_planes] & flying[events + 1, motion.event_planes])
+
+
+def whole_turns(motion: Trajectory) -> int:
+    """Turns of the shaft after which the end of a motion repeats, at most eight; 0 if it does not."""
+    later = simulate(motion.rotor, motion.final, MOST_TURNS * math.tau)
+    positions, velocities = later.at(math.tau * np.arange(MOST_TURNS + 1))
+    states = np.stack([positions, velocities], axis=-1).reshape(MOST_TURNS + 1, -1)
+    apart = np.abs(states - states[0]).max(axis=1) <= REPEATS * (1.0 + np.abs(states[0]).max())
+    return int(np.argmax(apart[1:])) + 1 if apart[1:].any() else 0
 
 
 def orbit_of_whirl(motion: Trajectory, period: float) -> Orbit | None:
