@@ -38,6 +38,22 @@ def test_weight_keeps_its_acceleration_in_si_whatever_is_varied(changes):
     assert varied.value("omega") == pytest.approx(again.value("omega"), rel=1e-15)
 
 
+def test_gravity_is_a_named_parameter():
+    assert ROTOR.value("gravity") == pytest.approx(9.81, rel=1e-14)
+    moved = ROTOR.replace(gravity=1.62, speed="6000 rpm")
+    again = model_of(HEAVY.replace(gravity=1.62, speed="6000 rpm"))
+    assert weight_of(moved) == pytest.approx(weight_of(again), rel=1e-14)
+    assert moved.value("gravity") == pytest.approx(1.62, rel=1e-14)
+    assert ROTOR.replace(gravity="162 cm/s^2").value("gravity") == pytest.approx(1.62, rel=1e-14)
+    # A weight of zero has no direction, in which it could grow again.
+    with pytest.raises(InputError, match=r"^gravity = 0"):
+        ROTOR.replace(gravity=0.0)
+    # Of what pulls otherwise nobody knows an acceleration of free fall.
+    shaken = Forced(ROTOR.rotor, (Force(0.5j, np.array([0.1])),))
+    assert "gravity" not in shaken.varied
+    assert "gravity" not in Forced(Jeffcott(PAPER), (Force(-1j, np.array([0.1])),)).varied
+
+
 def test_a_shaken_housing_keeps_its_frequency_when_the_shaft_turns_faster():
     shaken = Forced(ROTOR.rotor, (Force(0.5j, np.array([0.1])),)).replace(speed=1.25 * HEAVY.machine.speed)
     assert shaken.forces[0].exponent == pytest.approx(1j * (1.5 / 1.25 - 1.0))
