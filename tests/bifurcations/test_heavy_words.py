@@ -153,3 +153,17 @@ def test_gravity_is_a_parameter_of_a_rotor_that_weighs_something_alone():
     with pytest.raises(InputError, match=r"^gravity = to vary: unknown name"):
         cm.models.axis(ROTOR.rotor, "gravity")
     assert cm.models.axis(HOPPING, "gravity").field.unit == "m/s^2"
+
+
+def test_all_branches_on_an_interval_are_found_and_levitation_reaches_the_wall():
+    diagram = cm.find_bifurcations(HOPPING, "gravity", (26.0, 36.0))
+    assert diagram.orbits
+    for branch in diagram.orbits:
+        turns = branch.period / math.tau
+        assert turns == pytest.approx(np.round(turns), rel=1e-11)
+    levitation, *rubs = diagram.equilibria
+    assert [branch.kind for branch in rubs] == ["stable rub", "saddle rub"]
+    assert np.isnan([branch.radius for branch in rubs]).all()
+    held = levitation.values[levitation.admissible].max()
+    assert cm.closed_forms.levitation(HOPPING.replace(gravity=held)).inside
+    assert not cm.closed_forms.levitation(HOPPING.replace(gravity=held + 0.06)).inside

@@ -150,7 +150,7 @@ def test_bad_drops_get_one_line(carom, arguments, words):
         ("study",),
         ("orbits",),
         ("prove",),
-        ("bifurcations", "--along", "gamma", "--from", "0.1", "--to", "0.2"),
+        ("bifurcations", "--along", "gamma", "--from", "0.1", "--to", "0.2", "--lasting"),
         ("regions",),
         ("response", "--from", "1000 rpm", "--to", "2000 rpm"),
         ("explore", "--no-browser", "--port", "0"),

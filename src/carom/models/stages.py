@@ -58,7 +58,8 @@ class Around:
 class Forced(Around):
     """A rotor with further forces on it that change with time in its frame, for example in a housing that is shaken.
 
-    It never is at rest in that frame: what needs an equilibrium there, such as orbits, is not found for it.
+    It never is at rest in that frame: what needs an equilibrium there is not found for it.  Its orbits are, under forces that are
+    constant in the fixed frame, such as weight.
 
     Attributes
     ----------

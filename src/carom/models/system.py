@@ -137,13 +137,19 @@ class System(Result):
         return np.diag(self.arrays["exponents"]) + np.diag(self.arrays["driven"][1:].astype(complex), -1)
 
     @property
+    def _steady(self) -> np.ndarray:
+        """Which modes do not change in the fixed frame, shape (N,)."""
+        steady: np.ndarray = np.abs(self.arrays["exponents"] - STEADY) <= EQUAL
+        return steady
+
+    @property
     def unrepeated(self) -> tuple[str, str] | None:
         """What keeps motions from repeating in a way that is known here, and what is allowed instead; ``None`` if nothing does."""
         if self.races is not None:
             return "a race that turns", "races that stand still, or carom.simulate and carom.settle"
         if self.shaft is not None:
             return "a shaft whose speed changes", "one at constant speed, or carom.simulate and carom.settle"
-        if self.outer[np.abs(self.arrays["exponents"] - STEADY) > EQUAL].any():
+        if self.outer[~self._steady].any():
             return "forces that change in the fixed frame", "forces that turn with the shaft, or weight"
         return None
 
@@ -309,7 +315,7 @@ class System(Result):
 
     @property
     def rest_radius(self) -> float:
-        """Largest distance of a contact plane from its centre at rest, or a bound of it: there is levitation below 1.
+        """Largest distance of a contact plane from its centre at rest: there is levitation below 1.  Under forces of several frequencies a bound.
 
         Infinite where forcing drives a free mode without bound.
         """
@@ -318,8 +324,9 @@ class System(Result):
             return float(np.abs(arrays["offsets"]).max())
         if (arrays["driven"][1:] * ~self.free[:-1] * (self.forced[:-1] != 0.0)).any():
             return math.inf
-        offsets = arrays["offsets"] + arrays["rows"] @ self._unbalanced
-        return float((np.abs(offsets) + np.abs(arrays["rows"] * self.forced).sum(axis=1)).max())
+        offsets, steady = arrays["offsets"] + arrays["rows"] @ self._unbalanced, self._steady
+        sags, others = np.abs(arrays["rows"] @ (self.forced * steady)), np.abs(arrays["rows"] * self.forced * ~steady)
+        return float((np.abs(offsets) + sags + others.sum(axis=1)).max())
 
     @cached_property
     def planes_translated(self) -> np.ndarray:
