@@ -134,7 +134,10 @@ def test_figures_of_both_stages(carom, tmp_path):
             (*DROP, "--set", "stiffness=1e5 N/m"),
             "levitation = up to 1.97 clearances from the centre: static sag and whirl",
         ),
-        (("simulate", MACHINE, "--shock", "5 g"), "machine = a rotor under gravity: needs a rotor without gravity"),
+        (
+            ("simulate", MACHINE, "--blade-loss", "20 g mm"),
+            "machine = a rotor under gravity: needs a rotor without gravity",
+        ),
     ],
 )
 def test_bad_drops_get_one_line(carom, arguments, words):

@@ -19,7 +19,7 @@ from carom.disturbances.following import require_start
 from carom.models import Model, Subject, model_of
 from carom.motions.starts import Kick, State
 from carom.orbits.orbit import Orbit
-from carom.outcome import STEADY_WORDS, InputError
+from carom.outcome import STEADY_WORDS
 from carom.parameters import Scales, own_size, usual_kick
 from carom.parameters.told import told
 
@@ -155,21 +155,13 @@ class DisturbanceSet:
 
 
 def starts_at(rotor: Model, states: Sequence[State]) -> Starts:
-    """States as arrays of starts.
-
-    Raises
-    ------
-    InputError
-        Weight acts, and a state is not taken at time zero.
-    """
-    late = [state.time for state in states if state.time] if rotor.system.forced is not None else []
-    if late:
-        raise InputError("start time", late[0], "0: disturbances of a rotor that weighs something begin at time zero")
+    """States as arrays of starts."""
     positions, velocities = (
         np.array([getattr(state, name) for state in states], complex) for name in ("position", "velocity")
     )
     places = np.abs(positions.reshape(len(states), len(rotor.system.rest)) @ rotor.system.planes.T).max(axis=1)
-    return Starts(positions, velocities, places >= 0.0, places < 0.0, places >= 1.0 - ON_WALL)
+    begins = np.array([state.time for state in states])
+    return Starts(positions, velocities, places >= 0.0, places < 0.0, places >= 1.0 - ON_WALL, begins)
 
 
 def disturbances_of(rotor: Model, tried: DisturbanceSet | Plan | Sequence[State | Kick]) -> tuple[list[Start], Starts]:
@@ -186,8 +178,10 @@ def disturbances_of(rotor: Model, tried: DisturbanceSet | Plan | Sequence[State 
         require_start(rotor, every)
         whole = every.some(every.exists)
         kicked = np.full(whole.exists.shape, isinstance(tried.model, VelocityKick | KickPlane))
-    states_of = zip(kicked.tolist(), whole.positions, whole.velocities, strict=True)
-    return [Start("kick" if one else "start", State.of(place, speed)) for one, place, speed in states_of], whole
+    each = zip(kicked.tolist(), whole.positions, whole.velocities, whole.begins.tolist(), strict=True)
+    return [
+        Start("kick" if one else "start", State.of(place, speed, time=begun)) for one, place, speed, begun in each
+    ], whole
 
 
 @checked

@@ -49,7 +49,7 @@ def _levitation(model: Model) -> _Levitation | None:
             or least < (-ROUNDING if zero else ROUNDING) * size
         ):
             return None
-    sags = np.abs(model.system.arrays["rows"] * model.system.forced_at(0.0)).sum(axis=1).tolist()
+    sags = np.abs(model.system.arrays["rows"] @ model.system.forced_at(0.0)).tolist()
     places = model.system.arrays["offsets"].tolist()
     rooms = np.array([1.0 - abs(place) - sag for place, sag in zip(places, sags, strict=True)]) * (1.0 - MARGIN)
     planes = model.system.planes

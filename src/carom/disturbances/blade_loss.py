@@ -74,7 +74,7 @@ class BladeLoss(Disturbance):
             rest = rest[0]
         positions = complex_of(rest.real * cosine + rest.imag * sine, rest.imag * cosine - rest.real * sine)
         none = np.zeros(np.shape(phase), bool)
-        return Starts(positions, np.zeros_like(positions), none | levitates, none, none)
+        return Starts(positions, np.zeros_like(positions), none | levitates, none, none, np.zeros(np.shape(phase)))
 
     def release(self, machine: Subject, phase: float = 0.0) -> tuple[Model, State]:
         """Return the machine after the loss and the state in which it starts, for :func:`carom.simulate`.

@@ -90,7 +90,7 @@ class UnbalanceStep(Disturbance):
             response.real * cosine - response.imag * sine, response.imag * cosine + response.real * sine
         )
         none = np.zeros(there.shape, bool)
-        return Starts(positions, np.zeros_like(positions), there, none, touched)
+        return Starts(positions, np.zeros_like(positions), there, none, touched, np.zeros(there.shape))
 
 
 @checked
