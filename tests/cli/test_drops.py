@@ -134,10 +134,6 @@ def test_figures_of_both_stages(carom, tmp_path):
             (*DROP, "--set", "stiffness=1e5 N/m"),
             "levitation = up to 1.97 clearances from the centre: static sag and whirl",
         ),
-        (
-            ("simulate", MACHINE, "--blade-loss", "20 g mm"),
-            "machine = a rotor under gravity: needs a rotor without gravity",
-        ),
     ],
 )
 def test_bad_drops_get_one_line(carom, arguments, words):
@@ -166,6 +162,13 @@ def test_other_commands_name_gravity_and_what_works(carom, arguments):
     assert err.startswith("carom: machine = a rotor under gravity: needs a rotor without gravity")
     assert "carom.map_basins of kicks" in err
     assert err.count("\n") == 1
+
+
+@pytest.mark.parametrize("options", [("--shock", "10 g, 5 ms, 30 deg"), ("--blade-loss", "200 g mm, 40 deg")])
+def test_other_disturbances_of_a_heavy_rotor_begin_at_its_levitation(carom, options):
+    found = document(carom("simulate", MACHINE, *options, "--json"))
+    assert found["outcome"] == "levitated"
+    assert found["gravity"]["acceleration_si"] == 9.81
 
 
 def test_orbits_of_a_heavy_rotor_say_how_many_turns_they_take(carom):

@@ -112,7 +112,6 @@ def test_levitation_and_shaft_of_a_rotor_of_several_coordinates_are_not_told_apa
         cm.study,
         cm.models.case_of,
         jeffcott_of,
-        lambda machine: cm.disturbances.UnbalanceStep(0.1).starts(model_of(machine), np.zeros(1), np.zeros(1)),
         lambda machine: refuse_forces(model_of(machine)),
     ],
 )

@@ -144,6 +144,15 @@ class Starts(NamedTuple):
         return Starts(*(values[chosen] for values in self))
 
 
+def sagged(rotor: Model, positions: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Positions of rotors at rest in the turning frame with the static sag added, and the velocities of that, which stands still."""
+    if rotor.system.forced is None:
+        return positions, np.zeros_like(positions)
+    sag = rotor.system.shapes @ rotor.system.forced
+    placed = positions + (sag if len(sag) > 1 else sag[0])
+    return placed, np.broadcast_to(-1j * (sag if len(sag) > 1 else sag[0]), placed.shape).copy()
+
+
 def displaced(rotor: Model, positions: np.ndarray, velocities: np.ndarray, exists: np.ndarray | bool = True) -> Starts:
     """Starts of a rotor that is displaced and moves as a whole.
 
