@@ -134,7 +134,6 @@ def test_figures_of_both_stages(carom, tmp_path):
             (*DROP, "--set", "stiffness=1e5 N/m"),
             "levitation = up to 1.97 clearances from the centre: static sag and whirl",
         ),
-        (("simulate", MACHINE, "--shock", "5 g"), "machine = a rotor under gravity: needs a rotor without gravity"),
     ],
 )
 def test_bad_drops_get_one_line(carom, arguments, words):
@@ -149,10 +148,8 @@ def test_bad_drops_get_one_line(carom, arguments, words):
     [
         ("study",),
         ("orbits",),
-        ("orbits", "--impacts", "2"),
-        ("attractors",),
         ("prove",),
-        ("bifurcations", "--along", "gamma", "--from", "0.1", "--to", "0.2"),
+        ("bifurcations", "--along", "gamma", "--from", "0.1", "--to", "0.2", "--lasting"),
         ("regions",),
         ("response", "--from", "1000 rpm", "--to", "2000 rpm"),
         ("explore", "--no-browser", "--port", "0"),
@@ -165,6 +162,34 @@ def test_other_commands_name_gravity_and_what_works(carom, arguments):
     assert err.startswith("carom: machine = a rotor under gravity: needs a rotor without gravity")
     assert "carom.map_basins of kicks" in err
     assert err.count("\n") == 1
+
+
+@pytest.mark.parametrize("options", [("--shock", "10 g, 5 ms, 30 deg"), ("--blade-loss", "200 g mm, 40 deg")])
+def test_other_disturbances_of_a_heavy_rotor_begin_at_its_levitation(carom, options):
+    found = document(carom("simulate", MACHINE, *options, "--json"))
+    assert found["outcome"] == "levitated"
+    assert found["gravity"]["acceleration_si"] == 9.81
+
+
+def test_orbits_of_a_heavy_rotor_say_how_many_turns_they_take(carom):
+    bounces = ("gravity=100", "unbalance=400 g mm", "friction=0")
+    settings = [text for each in bounces for text in ("--set", each)]
+    arguments = ("orbits", MACHINE, "--impacts", "1", "--guesses", "20", *settings)
+    (orbit,) = document(carom(*arguments, "--json"))["orbits"]
+    assert orbit["turns"] == 2
+    assert orbit["period"] == pytest.approx(4.0 * math.pi)
+    assert len(orbit["multipliers"]) == 4
+    code, out, _ = carom(*arguments)
+    assert code == 0
+    assert "13.3 ms, 2 turns" in out
+
+
+def test_motions_on_which_disturbances_of_a_heavy_rotor_end_are_told(carom):
+    settings = [text for each in ("gravity=100", "friction=0") for text in ("--set", each)]
+    found = document(carom("attractors", MACHINE, "--starts", "20", *settings, "--json"))
+    (rest,) = [each for each in found["attractors"] if each["count"]]
+    assert rest["outcome"] == "at-rest"
+    assert (rest["word"], rest["turns"]) == ("slide+", 1)
 
 
 def test_kicks_of_a_heavy_rotor_are_mapped(carom):

@@ -127,7 +127,8 @@ def print_found_orbits(console: Console, case: Case, found: OrbitSet) -> None:
         say = Wording(case.parameters.scales)
         for orbit in found:
             state = "stable" if orbit.stable else "unstable"
-            motions.add_row(orbit.name, say.time(orbit.period), state, orbit.segments)
+            turns = "" if orbit.turns is None else f", {counted(orbit.turns, 'turn')}"
+            motions.add_row(orbit.name, f"{say.time(orbit.period)}{turns}", state, orbit.segments)
         console.print(fitted(console, motions))
     else:
         console.print(f"No orbit with at most {counted(found.impacts, 'impact')} a period was found.")

@@ -30,6 +30,7 @@ from carom.core.in_turn import advance_in_turn
 from carom.core.layout import rub_workspace, workspace
 from carom.core.phases import AWAY
 from carom.models import Force, Forced, Model
+from carom.models.system import EQUAL, STEADY
 from carom.motions.ensembles import MOST_EVENTS
 from carom.outcome import Outcome
 
@@ -54,10 +55,14 @@ def states_after_shocks(
     """
     system = shaken(rotor, duration, 1.0).system
     at_rest = np.append(rotor.system.rest, np.zeros_like(rotor.system.rest))
-    (unit,) = system.amplitudes_of(at_rest[None])
+    # Levitation under weight goes round a circle; its amplitudes are those of the weight, whatever the shock.
+    (whole,) = system.amplitudes_of(np.concatenate(rotor.system.kicked(0.0))[None])
+    steady = np.where(np.abs(system.arrays["exponents"] - STEADY) <= EQUAL, system.outer, 0.0)
+    unit, weight = (whole - steady).tolist(), steady.tolist()
     # Number by number: the last bit of array arithmetic depends on the place in the array.
     sizes = [cmath.rect(*pair) / 2j for pair in zip(peaks.ravel().tolist(), directions.ravel().tolist(), strict=True)]
-    motions = np.array([[size * value for value in unit.tolist()] for size in sizes], complex).reshape(-1, system.modes)
+    each = [[size * value + constant for value, constant in zip(unit, weight, strict=True)] for size in sizes]
+    motions = np.array(each, complex).reshape(-1, system.modes)
     planes = len(system.arrays["rows"])
     contacts = np.full((len(motions), planes), AWAY)
     outcomes, events = np.zeros((2, len(motions)), np.int64)

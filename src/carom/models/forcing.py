@@ -19,13 +19,11 @@ import numpy as np
 
 from carom.core.wall import Wall
 from carom.models.from_modes import modal_system
-from carom.models.system import System
+from carom.models.system import EQUAL, System
 from carom.outcome import InputError
 
 RESONANT = 1e-3
 """Distance of exponents, relative to one plus their size, below which a force drives a mode instead of adding to it."""
-EQUAL = 1e-12
-"""The same for exponents that are one number."""
 ONE = 1e-7
 """Gap of a pair, relative to one plus the size of its exponents, whose square is lost in rounding."""
 

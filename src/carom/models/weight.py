@@ -12,21 +12,21 @@ from dataclasses import replace
 
 import numpy as np
 
-from carom.models.forcing import EQUAL, Force
+from carom.models.forcing import Force
 from carom.models.in_bearing import InBearing
 from carom.models.jeffcott import Jeffcott
 from carom.models.linear import LinearRotor
 from carom.models.model import Model
 from carom.models.stages import Forced, forces_of
+from carom.models.system import EQUAL, STEADY
 from carom.models.touchdown import Rigid, Touchdown
 from carom.outcome import InputError, shown
 from carom.parameters import Gravity
 
-STEADY = -1j
-"""Exponent of a force that is constant in the fixed frame."""
 _WITHOUT = (
     "needs a rotor without gravity or other forces that change with time in its frame; under these carom.simulate, carom.settle, "
-    "carom.drop, and carom.map_basins of kicks, releases and states work; a setting gravity=0 leaves weight out"
+    "carom.drop, carom.find_attractors, carom.find_orbits with impacts, carom.continue_orbit, and carom.map_basins of kicks, shocks, "
+    "steps of the unbalance, releases and states work; a setting gravity=0 leaves weight out"
 )
 
 
@@ -65,6 +65,11 @@ def refuse_forces(model: Model) -> None:
     if model.system.forced is not None:
         acting = "forces that change with time" if weight_of(model) is None else "gravity"
         raise InputError("machine", f"a rotor under {acting}", _WITHOUT)
+
+
+def refuse_unrepeated(model: Model) -> None:
+    """Refuse a rotor of which no orbits are known: a race turns, the speed changes, or a force changes in the fixed frame."""
+    model.system.refuse_unrepeated()
 
 
 def levitation_of(model: Model) -> tuple[np.ndarray, np.ndarray]:

@@ -71,7 +71,12 @@ def found_orbits_document(parameters: Parameters, found: OrbitSet) -> dict[str, 
         "parameters": parameters.as_dict(),
         "impacts": found.impacts,
         "orbits": [
-            {**_orbit(entry, parameters.scales), "word": str(entry.word), "contacts": _contacts(entry)}
+            {
+                **_orbit(entry, parameters.scales),
+                "word": str(entry.word),
+                **({} if entry.turns is None else {"turns": entry.turns}),
+                "contacts": _contacts(entry),
+            }
             for entry in found
         ],
         "search": search_document(found.search) if found.search else None,
