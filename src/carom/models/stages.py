@@ -15,10 +15,8 @@ from carom.models.forcing import Force, with_forces
 from carom.models.model import Matrices, Model
 from carom.models.system import EQUAL, STEADY, System
 from carom.outcome import InputError, shown
-from carom.parameters import GRAVITY_FIELDS, Field, Scales, read_quantity
-
-GRAVITY = "gravity"
-"""Name of the acceleration of a weight among the parameters of a rotor."""
+from carom.parameters import SETTINGS, Field, Scales, read_quantity
+from carom.parameters.settings import GRAVITY_NAME
 
 
 class Around:
@@ -100,18 +98,18 @@ class Forced(Around):
         """Named parameters that can be varied; with scales also ``gravity``, the acceleration of a weight, in its direction."""
         if self._gravity is None:
             return self.rotor.varied
-        return {**self.rotor.varied, GRAVITY: replace(GRAVITY_FIELDS["acceleration"], name=GRAVITY, zero=False)}
+        return {**self.rotor.varied, GRAVITY_NAME: replace(SETTINGS[GRAVITY_NAME], zero=False)}
 
     def value(self, name: str) -> float:
         """Value of a named parameter."""
-        return self._gravity[1] if name == GRAVITY and self._gravity else self.rotor.value(name)
+        return self._gravity[1] if name == GRAVITY_NAME and self._gravity else self.rotor.value(name)
 
     def replace(self, **changes: Any) -> Forced:
         """Return the rotor with other values of its parameters, and the same forces: in SI units, if its scales are known."""
         forces = list(self.forces)
-        if self._gravity is not None and GRAVITY in changes:
+        if self._gravity is not None and GRAVITY_NAME in changes:
             place, present = self._gravity
-            share = read_quantity(self.varied[GRAVITY], changes.pop(GRAVITY)) / present
+            share = read_quantity(self.varied[GRAVITY_NAME], changes.pop(GRAVITY_NAME)) / present
             forces[place] = Force(forces[place].exponent, forces[place].accelerations * share)
         rotor = self.rotor.replace(**changes) if changes else self.rotor
         return Forced(rotor, tuple(_in_scales(force, self.scales, rotor.scales) for force in forces))
