@@ -28,7 +28,7 @@ def balls():
 
 @pytest.fixture(scope="module")
 def played(balls):
-    case, motion = balls
+    _, motion = balls
     return motion, film_of(motion), json.loads(film_of(motion).data)
 
 
