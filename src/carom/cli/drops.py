@@ -13,13 +13,13 @@ if TYPE_CHECKING:
 
     from carom.disturbances.echo import Echo
     from carom.models import Model
-    from carom.motions.drops import Whirl
+    from carom.motions.drops import Drop, Whirl
     from carom.motions.starts import Kick, State
     from carom.motions.trajectories import Trajectory
     from carom.parameters import Case, Scales
 
 
-def read_drop(
+def read_release(
     case: Case,
     options: dict[str, str | None],
     regained_after: str | None,
@@ -27,14 +27,12 @@ def read_drop(
     phase: str | None = None,
     race_speed: str | None = None,
     called: str = "--drop",
-) -> tuple[Model, State, Echo]:
-    """Read the rotor that falls, its start and what was taken; refuse wrong input before kernels are loaded.
+) -> Drop:
+    """Read how levitation is lost; refuse wrong input before kernels are loaded.
 
     ``options`` are the ways to say the state at the release, of which one at most may be given; ``called`` is what an error calls them all.
     """
     from carom.cli.starts import read_kick, read_phase, read_positive, read_speed, read_start, read_whirl
-    from carom.disturbances.echo import echo_of_drop
-    from carom.models import model_of
     from carom.motions.drops import Drop
     from carom.studies.wording import listed
 
@@ -53,12 +51,21 @@ def read_drop(
     turned = None if phase is None else read_phase("--phase", phase, scales)
     turning = None if race_speed is None else read_speed("--race-speed", race_speed, scales)
     at = next((readers[option](text, scales) for option, text in chosen.items()), None)
-    drop = Drop(at, turned, regained, turning)
-    rotor, state = drop.stages(case)
+    return Drop(at, turned, regained, turning)
+
+
+def taken(case: Case, released: Drop) -> tuple[Model, State, Echo]:
+    """The rotor that falls, its start, and what was taken of a release whose sizes are numbers."""
+    from carom.disturbances.echo import echo_of_drop
+    from carom.models import model_of
+
+    rotor, state = released.stages(case)
+    scales, back, turning = case.parameters.scales, released.regained_after, released.race_speed
     if case.gravity is None or scales is None:  # which stages() has refused
         raise InputError("gravity", None, "a table [gravity] in the machine file")
-    angle = drop.unbalance_angle(model_of(case))
-    return rotor, state, echo_of_drop(state, angle, regained, case.gravity, scales, turning)
+    angle = released.unbalance_angle(model_of(case))
+    regained, race = (None if each is None else float(each) for each in (back, turning))
+    return rotor, state, echo_of_drop(state, angle, regained, case.gravity, scales, race)
 
 
 def drop_document(case: Case, motion: Trajectory) -> dict[str, Any]:
