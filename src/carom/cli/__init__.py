@@ -14,6 +14,8 @@ with ``regions``, ``basins``, ``sweep``, ``paper``, ``explore``), and what they 
 ``basin_tables``     what ``basins`` prints
 ``region_tables``    what ``regions`` prints
 ``starts``           starts, times and ranges from text, with or without units
+``drop_map``         drops over a plane of two numbers
+``release_options``  how a motion begins, as options of ``simulate`` and ``drop``
 ``drops``            drops, and motions in several stages
 ``logs``             contact logs as files
 ===================  ==========================================================
