@@ -60,21 +60,19 @@ class BladeLoss(Disturbance):
         return rotor.replace(rho=self.eccentricity_after)
 
     def starts(self, rotor: Model, *values: np.ndarray) -> Starts:
-        """Levitation of the machine before the loss, in the frame in which the phase of the unbalance stays the same."""
-        from carom.models.weight import refuse_forces
+        """Levitation of the machine before the loss, in the frame in which the phase of the unbalance after it stays the same.
 
+        Weight has its direction at time zero, when the loss happens.
+        """
         (phase,) = values
-        levitates = rotor.system.rest_radius < 1.0
-        if levitates:
-            refuse_forces(rotor)
-        cosine, sine, rest = np.cos(phase), np.sin(phase), rotor.system.rest * levitates
+        rest, levitates = rotor.system.rest, rotor.system.rest_radius < 1.0
+        none = np.zeros(np.shape(phase), bool)
+        cosine, sine = np.cos(phase), np.sin(phase)
         if len(rest) > 1:
             cosine, sine = cosine[..., None], sine[..., None]
-        else:
-            rest = rest[0]
-        positions = complex_of(rest.real * cosine + rest.imag * sine, rest.imag * cosine - rest.real * sine)
-        none = np.zeros(np.shape(phase), bool)
-        return Starts(positions, np.zeros_like(positions), none | levitates, none, none)
+        nowhere = np.zeros(np.broadcast_shapes(cosine.shape, rest.shape if len(rest) > 1 else ()), complex)
+        states = _levitation(rotor, cosine, sine) if levitates else (nowhere, nowhere)
+        return Starts(*states, none | levitates, none, none)
 
     def release(self, machine: Subject, phase: float = 0.0) -> tuple[Model, State]:
         """Return the machine after the loss and the state in which it starts, for :func:`carom.simulate`.
@@ -104,3 +102,16 @@ class BladeLoss(Disturbance):
     def lost(self, rotor: Model, phase: float) -> float:
         """Unbalance lost if the unbalance after it has this phase: ``|ρ'e^{iβ} − ρ|``, in ``m c_r``."""
         return abs(cmath.rect(self.eccentricity_after, phase) - rotor.value("rho"))
+
+
+def _levitation(rotor: Model, cosine: np.ndarray, sine: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Positions and velocities of levitation with the unbalance turned back by angles: the whirl turns with it, the static sag does not."""
+    whirl = rotor.system.rest
+    sag = falling = np.zeros_like(whirl)
+    if rotor.system.forced is not None:
+        sag, falling = rotor.replace(rho=0.0).system.kicked(0.0)
+        whirl = rotor.system.kicked(0.0)[0] - sag
+    if len(whirl) == 1:
+        whirl, sag, falling = whirl[0], sag[0], falling[0]
+    turned = complex_of(whirl.real * cosine + whirl.imag * sine, whirl.imag * cosine - whirl.real * sine)
+    return turned + sag, np.zeros_like(turned) + falling

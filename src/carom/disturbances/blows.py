@@ -177,27 +177,33 @@ class BaseShock(Disturbance):
     def stages(self, machine: Subject, direction: float = 0.0) -> tuple[Staged, State]:
         """Return the machine under the largest shock and then without, and its start at levitation, for :func:`carom.simulate`.
 
-        Stages of the machine begin when the shock is over.
+        Contacts during the shock are part of the motion.  Stages of the machine begin when the shock is over.  A machine with weight
+        levitates about its static sag when the shock begins, at time zero: then the frames coincide, so that the phase of its unbalance
+        and the direction of the shock count from the same axis as that of its weight.
 
         Parameters
         ----------
         machine : Machine, Case, Parameters or model
         direction : float
             Of the acceleration, rad.
+
+        Raises
+        ------
+        InputError
+            The rotor cannot levitate inside the wall.
         """
         from carom.disturbances.shocks import shaken
         from carom.models import Stage, Staged, Trigger, model_of
         from carom.models.stages import stages_of
-        from carom.models.weight import refuse_forces
+        from carom.models.weight import levitation_of
         from carom.motions.starts import State
 
         further = stages_of(model_of(machine))
         rotor = further[0].rotor
-        refuse_forces(rotor)
+        position, velocity = (part if len(part) > 1 else part[0] for part in levitation_of(rotor))
         size = cmath.rect(self.peak, own_size("direction", direction, "angle", None)) / 2j
         pulse = Stage(shaken(rotor, self.duration, size), Trigger(time=self.duration))
-        position = rotor.system.rest if len(rotor.system.rest) > 1 else rotor.system.rest[0]
-        return Staged((pulse, *further)), State.of(position, np.zeros_like(position))
+        return Staged((pulse, *further)), State.of(position, velocity)
 
     def release(self, machine: Subject, direction: float = 0.0) -> State:
         """Return the state at the end of one shock of the largest peak, for :func:`carom.simulate`.

@@ -26,7 +26,8 @@ STEADY = -1j
 """Exponent of a force that is constant in the fixed frame."""
 _WITHOUT = (
     "needs a rotor without gravity or other forces that change with time in its frame; under these carom.simulate, carom.settle, "
-    "carom.drop, and carom.map_basins of kicks, releases and states work; a setting gravity=0 leaves weight out"
+    "carom.drop, BaseShock.stages, and carom.map_basins of kicks, losses of a blade, releases and states work; a setting gravity=0 leaves "
+    "weight out"
 )
 
 

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from carom.models import Model
-from carom.models.in_bearing import bearing_of
+from carom.models.in_bearing import on_mount
 from carom.models.weight import direction_of_fall
 from carom.motions.bearing_loads import drop_loads
 from carom.motions.contacts import presses, race_speed, shaft_lead, yields
@@ -102,7 +102,7 @@ def course_of(motion: Trajectory, until: float, samples: int = EVEN) -> Course:
     return Course(
         times=times,
         place=place,
-        mount=mount if _on_mount(motion.rotor) else None,
+        mount=mount if on_mount(motion.rotor) else None,
         heavy=heavy,
         force=force,
         friction=friction,
@@ -116,15 +116,9 @@ def course_of(motion: Trajectory, until: float, samples: int = EVEN) -> Course:
     )
 
 
-def _on_mount(rotor: Model) -> bool:
-    """Whether the bearing stands on a mount, which then is the second coordinate."""
-    bearing = bearing_of(rotor)
-    return bearing is not None and bearing.mount_mass is not None
-
-
 def _mount(rotor: Model, amplitudes: np.ndarray) -> np.ndarray:
     """Place of the mount in the frame of the rotor; zero without one."""
-    if not _on_mount(rotor):
+    if not on_mount(rotor):
         return np.zeros(len(amplitudes), complex)
     place: np.ndarray = rotor.system.state(amplitudes)[0][:, 1]
     return place
