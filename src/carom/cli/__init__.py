@@ -9,6 +9,7 @@ with ``regions``, ``basins``, ``sweep``, ``paper``, ``explore``), and what they 
 ``screen``           output to the terminal, with control characters escaped
 ``output``           the directory of ``--out``
 ``fitting``          tables that fit into a narrow terminal
+``load_tables``      what touchdown bearings bear
 ``tables``           tables of ``study``, ``simulate`` and ``orbits``
 ``basin_options``    options of ``basins``
 ``basin_tables``     what ``basins`` prints

@@ -85,29 +85,16 @@ def _drop_once(case: Case, released: Drop, end: float | None, out: str | None, *
 
 def _print(console: Console, found: DropStudy, page: Path | None) -> None:
     """Print what was done, how it ended, the loads of each plane, and the limits."""
-    from rich.table import Table
     from rich.text import Text
 
+    from carom.cli.load_tables import print_checks, print_tables
     from carom.cli.tables import TEXT_WIDTH
 
     width = min(console.width, TEXT_WIDTH)
     console.print(f"{found.echo.words}.", width=width)
     console.print(Text(found.headline, style="bold"), width=width)
-    for title, rows in found.tables:
-        console.print()
-        if title:
-            console.print(Text(title, style="bold"))
-        table = Table.grid(padding=(0, 2, 0, 0))
-        table.add_column(no_wrap=True)
-        table.add_column()
-        for label, told in rows:
-            table.add_row(Text(f"  {label}"), Text(told))
-        console.print(table, width=width)
-    if found.checks:
-        console.print()
-        console.print(Text("Limits of the touchdown bearing", style="bold"))
-        for check in found.checks:
-            console.print(Text(f"  {check.words}", style="bold" if check.exceeded else ""), width=width)
+    print_tables(console, found.tables)
+    print_checks(console, found.checks)
     console.print()
     if page is None:
         console.print("Figures, drop.json and drop.html: add --out DIR")

@@ -18,6 +18,11 @@ if TYPE_CHECKING:
     from carom.motions.trajectories import Trajectory
     from carom.parameters import Case, Scales
 
+_FIRST = {"drop": "The fall:", "shock": "During the shock:"}
+"""What the first stage of a motion is called, by the kind of the disturbance."""
+_SINCE = {"drop": "the release", "shock": "the shock began", "kick": "the kick", "blade-loss": "the loss"}
+"""From what times count."""
+
 
 def read_release(
     case: Case,
@@ -68,37 +73,61 @@ def taken(case: Case, released: Drop) -> tuple[Model, State, Echo]:
     return rotor, state, echo_of_drop(state, angle, regained, case.gravity, scales, race)
 
 
-def drop_document(case: Case, motion: Trajectory) -> dict[str, Any]:
-    """Return the document of a motion under gravity: of all its stages if it has several, with times from the release."""
+def motion_document(case: Case, motion: Trajectory) -> dict[str, Any]:
+    """Return the document of a motion: of all its stages if it has several, with times from its beginning.
+
+    Where a wall gives way it has what each plane bears, as ``carom drop`` tells it.
+    """
+    from carom.models import model_of
+    from carom.models.subjects import numbers_of
+    from carom.motions import drop_loads
     from carom.studies import trajectory_document
+    from carom.studies.load_tables import load_entries
 
     documents = [trajectory_document(part, case.limits) for part in motion.parts]
-    gravity = (
-        {"acceleration_si": case.gravity.acceleration, "direction": case.gravity.direction} if case.gravity else {}
-    )
-    document = documents[-1] | {"parameters": case.parameters.as_dict(), "gravity": gravity}
-    if len(documents) == 1:
-        return document
-    document |= {"start": documents[0]["start"], "time": motion.begins + motion.time}
+    document, planes = documents[-1], load_entries(drop_loads(motion), case.limits)
+    if case.gravity:
+        gravity = {"acceleration_si": case.gravity.acceleration, "direction": case.gravity.direction}
+        document |= {"parameters": numbers_of(model_of(case)), "gravity": gravity}
+    if len(documents) > 1:
+        document = _joined(motion, documents) | {"loads": planes[motion.plane]["loads"]}
+        if case.limits.stated:
+            document["limits"] = planes[motion.plane]["limits"]
+    if case.touchdown:
+        document["touchdown"] = {"law": case.touchdown.law, **case.touchdown.given}
+    return document | ({"planes": planes} if any(plane["gives_way"] for plane in planes) else {})
+
+
+def _joined(motion: Trajectory, documents: list[dict[str, Any]]) -> dict[str, Any]:
+    """The documents of stages as one, with those beside it."""
+    document = documents[-1] | {"start": documents[0]["start"], "time": motion.begins + motion.time}
     for key, times in (("impacts", ("time",)), ("contacts", ("start", "end", "peak_time"))):
         document[key] = [
             entry | {name: part.begins + entry[name] for name in times if name in entry}
             for part, own in zip(motion.parts, documents, strict=True)
             for entry in own[key]
         ]
-    for key in ("loads", "limits"):
-        document.pop(key, None)
     begun = [{"begins": part.begins} | own for part, own in zip(motion.parts, documents, strict=True)]
     return document | {"stages": begun}
 
 
-def print_parts(console: Console, case: Case, motion: Trajectory) -> None:
-    """Print how a motion ended, and its contacts, stage by stage."""
+def print_parts(console: Console, case: Case, motion: Trajectory, kind: str) -> None:
+    """Print how a motion after a disturbance of a kind ended, and its contacts, stage by stage; then what the bearing bears in all."""
+    from carom.cli.load_tables import print_checks, print_tables
     from carom.cli.tables import print_motion
+    from carom.motions import drop_loads
+    from carom.motions.contacts import yields
     from carom.parameters.told import told
+    from carom.studies.load_tables import checks_of_planes, load_tables
 
+    together = len(motion.parts) > 1 or yields(motion.rotor.system, motion.plane)
     for part in motion.parts:
         if len(motion.parts) > 1:
             console.print()
-            console.print(f"From {told(part.begins, 'time', case.parameters.scales)}:" if part.begins else "The fall:")
-        print_motion(console, case, part)
+            begun = f"From {told(part.begins, 'time', case.parameters.scales)}:"
+            console.print(begun if part.begins else _FIRST.get(kind, "From the beginning:"))
+        print_motion(console, case, part, loads=not together)
+    found = drop_loads(motion) if together else None
+    if found is not None and any(plane.contacts or plane.loads.contact_time for plane in found.planes):
+        print_tables(console, load_tables(found, _SINCE.get(kind, "the start")))
+        print_checks(console, checks_of_planes(found, case.limits))

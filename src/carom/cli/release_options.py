@@ -24,7 +24,7 @@ Shock = Annotated[
     typer.Option(
         metavar="PEAK[,DURATION[,ANGLE]]",
         help="Instead of --start: a half-sine shock of the base at levitation, such as '5 g, 11 ms, 30 deg', the angle from "
-        "the same axis as it lies when the shock begins; the motion is logged from its end.",
+        "the same axis as it lies when the shock begins; the motion is logged from then on.",
     ),
 ]
 BladeLoss = Annotated[

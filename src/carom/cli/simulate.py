@@ -85,16 +85,14 @@ def _tell(case: Case, motion: Trajectory, echo: Echo, *, as_json: bool) -> None:
         print_document(_document(case, motion, echo))
         return
     console().print(f"{echo.words}.")
-    print_parts(console(), case, motion)
+    print_parts(console(), case, motion, echo.kind)
 
 
 def _document(case: Case, motion: Trajectory, echo: Echo) -> dict[str, Any]:
     """What was done to the rotor, then its motion."""
-    from carom.cli.drops import drop_document
-    from carom.studies import trajectory_document
+    from carom.cli.drops import motion_document
 
-    done = {"disturbance": echo.document(case.parameters.scales)}
-    return done | (drop_document(case, motion) if case.gravity else trajectory_document(motion, case.limits))
+    return {"disturbance": echo.document(case.parameters.scales)} | motion_document(case, motion)
 
 
 def _write(out: str, case: Case, motion: Trajectory, echo: Echo, tell: Reporter, *, decaying: bool) -> None:
@@ -157,7 +155,7 @@ def _read(case: Case, ways: dict[str, str | None]) -> tuple[Model, State | Kick,
         pulse, angle = read_shock(text, case)
         rotor = _rotor(case)
         said = echo.echo_of_shock(pulse.peak, pulse.duration, angle, rotor.unbalance_phase, scales)
-        return rotor, pulse.release(rotor, angle), said
+        return *pulse.stages(rotor, angle), said
     if option == "--kick":
         kick, rotor = read_kick(text, scales), _rotor(case)
         said = echo.echo_of_kick(float(kick.speed), float(kick.angle), rotor.unbalance_phase, scales)
