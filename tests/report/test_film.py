@@ -85,6 +85,8 @@ def test_a_film_of_no_contact():
     assert film.poster == 0
     assert json.loads(film.data)["peaks"] == []
     assert film.still.normal == ""
+    assert film.legend == []
+    assert film.shown == "Shown: the release; nothing is touched."
 
 
 def test_only_what_can_be_told_apart_is_filmed():
@@ -134,12 +136,15 @@ def test_it_begins_with_the_largest_force_and_plays_from_the_release(page):
     opened = page()
     assert reading(opened, "normal") == "1,320 N"
     assert reading(opened, "time") == "5.99 ms"
+    said = opened.get_by_text("Shown: the largest force, 5.99 ms after the release.")
+    assert said.is_visible()
     play = opened.get_by_role("button", name="Play")
     play.focus()
     opened.keyboard.press("Space")
     opened.wait_for_function("document.querySelector('.cursor').transform.baseVal.consolidate().matrix.e > 2")
     opened.keyboard.press("Space")
     first = seconds(opened)
+    assert not said.is_visible()
     assert opened.get_by_role("button", name="Play").count() == 1
     opened.wait_for_timeout(200)
     assert seconds(opened) == first

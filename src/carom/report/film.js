@@ -80,7 +80,7 @@ const playFilm = (figure) => {
     slider.setAttribute("aria-valuetext", readings.time.textContent);
   };
 
-  const show = (time) => { now = Math.min(end, Math.max(0, time)); untouched = false; draw(); };
+  const show = (time) => { now = Math.min(end, Math.max(0, time)); untouched = false; one(".still").hidden = true; draw(); };
   const halt = () => { running = false; clearTimeout(waiting); play.textContent = "Play"; };
   const toContact = (sense) => {
     const near = 1e-4 * film.turn;

@@ -91,11 +91,21 @@ class Film:
         return ROTOR + CLEARANCE
 
     @property
+    def outer(self) -> float:
+        """Radius of the drawn race on the outside."""
+        return self.inner + RING
+
+    @property
+    def housing(self) -> float:
+        """Radius of the drawn housing."""
+        return self.outer + HOUSING
+
+    @property
     def reach(self) -> float:
         """Half the side of the picture."""
         moved = 0.0 if self.course.mount is None else float(np.abs(self.course.mount).max())
         rim = 8.0 if self.course.mount is None else 26.0 + CLEARANCE * moved
-        return round(self.inner + RING + HOUSING + rim, 1)
+        return round(self.housing + rim, 1)
 
     @property
     def slower(self) -> list[tuple[int, bool]]:
@@ -106,41 +116,44 @@ class Film:
 
     @property
     def legend(self) -> list[tuple[str, str]]:
-        """Classes and words of the arrows, with the size that the longest shows."""
+        """Classes and words of the arrows, with the size that the longest shows; nothing where there is no contact."""
         say, course = Wording(self.course.scales), self.course
-        found = [
-            ("normal", "normal force", say.force(self._largest(course.force))),
-            ("friction", "friction", say.force(self._largest(course.friction))),
+        lasting = " of lasting contact" if course.blows is not None else ""
+        sizes = [
+            ("normal", f"normal force{lasting}", course.force, say.force),
+            ("friction", f"friction{lasting}", course.friction, say.force),
         ]
         if course.blows is not None:
-            lasting = [(name, f"{words} of lasting contact", size) for name, words, size in found]
-            blows = course.blows
-            found = [
-                ("normal", "impulse of an impact", say.impulse(self._largest(blows.impulses))),
-                ("friction", "that of friction", say.impulse(self._largest(blows.frictions))),
-                *(lasting if course.force.any() else []),
+            impacts = [
+                ("normal", "impulse of an impact", course.blows.impulses, say.impulse),
+                ("friction", "that of friction", course.blows.frictions, say.impulse),
             ]
-        return [(name, f"{words}, up to {size}") for name, words, size in found]
+            sizes = [*impacts, *sizes]
+        return [
+            (name, f"{words}, up to {told(self._largest(values))}")
+            for name, words, values, told in sizes
+            if values.any()
+        ]
 
     @property
     def caption(self) -> str:
         """What is seen, in sentences."""
-        course, filmed = (
-            self.course,
-            "" if self.whole else f" Filmed: the first {FOLLOWED} contacts, or {TURNS:.0f} turns of the shaft.",
-        )
-        race = " The light mark on the race turns with it." if self.race_radius else ""
-        mount = " The bearing moves on its mount." if course.mount is not None else ""
-        return (
-            f"The drop in slow motion, in the fixed frame. Clearance, motion and depth are drawn {self.magnified:.2g} times larger than the "
-            f"shaft. The dot on the shaft is its unbalance; the thin circle in the middle is the room of its centre, with the path over the last turn."
-            f"{race}{mount}{filmed}"
-        )
+        sentences = [
+            "The drop in slow motion, in the fixed frame.",
+            f"Clearance, motion and depth are drawn {self.magnified:.2g} times larger than the shaft.",
+            "The dot on the shaft is its unbalance; the thin circle in the middle is the room of its centre, with the path over the last turn.",
+            "The light mark on the race turns with it." if self.race_radius else "",
+            "The bearing moves on its mount." if self.course.mount is not None else "",
+            "" if self.whole else f"Filmed: the first {FOLLOWED} contacts, or {TURNS:.0f} turns of the shaft.",
+        ]
+        return " ".join(filter(None, sentences))
 
     @property
     def shown(self) -> str:
         """What instant the still picture shows."""
         time = self.units.time[0] * float(self.course.times[self.poster])
+        if not self.legend:
+            return "Shown: the release; nothing is touched."
         what = "the largest force" if self.course.blows is None else "the hardest impact"
         return f"Shown: {what}, {time:.4g} {self.units.time[1]} after the release."
 
