@@ -98,7 +98,7 @@ def test_levitation_and_shaft_of_a_rotor_of_several_coordinates_are_not_told_apa
         cm.study,
         cm.models.case_of,
         jeffcott_of,
-        lambda machine: cm.BaseShock(0.1, 1.0).stages(machine),
+        lambda machine: cm.map_basins(machine, cm.Grid(cm.BaseShock(0.1, 1.0), (2, 2))),
         lambda machine: refuse_forces(model_of(machine)),
     ],
 )
