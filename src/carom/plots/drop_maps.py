@@ -38,6 +38,8 @@ _SHOWN = {
     "whirl": (1.0, "Hz"),
 }
 """Units of the loads in figures."""
+_PARTS = 8
+"""Parts along each side into which a cell is divided for its hatching."""
 _QUARTERS = 90.0
 """Ticks of an angle over a whole turn, in degrees."""
 
@@ -66,7 +68,9 @@ def drop_map(found: DropMap, measure: str | None = None, title: str | None = Non
     first, second = found.axes
     edges = _edges(first, found), _edges(second, found)
     looks = looks_of(found.motions, [found.fractions[motion] for motion in found.motions])
-    paint(left, *edges, found.dataset["motion"].values, looks)
+    # Hatching ends halfway between the nodes of an area: in parts of cells it fills these.
+    index = np.repeat(np.repeat(found.dataset["motion"].values, _PARTS, axis=0), _PARTS, axis=1)
+    paint(left, _divided(edges[0]), _divided(edges[1]), index, looks)
     left.set_title("(a) how the drop ends", loc="left", y=1.0)
     handles: list[Artist] = []
     factor, unit = _SHOWN[name]
@@ -90,6 +94,11 @@ def drop_map(found: DropMap, measure: str | None = None, title: str | None = Non
 def _edges(varied: Axis, found: DropMap) -> Floats:
     """Edges of cells in the unit in which people say what is varied."""
     return cell_edges(found.dataset[varied.name].values / varied.field.usual_size)
+
+
+def _divided(edges: Floats) -> Floats:
+    """Edges of the parts of cells."""
+    return np.interp(np.arange(_PARTS * (len(edges) - 1) + 1) / _PARTS, np.arange(len(edges)), edges)
 
 
 def _axes(axes: Axes, first: Axis, second: Axis, edges: tuple[Floats, Floats]) -> None:
