@@ -163,11 +163,12 @@ def _print_numbers(console: Console, shown: Sequence[Orbit]) -> None:
             console.print(fitted(console, table))
 
 
-def print_motion(console: Console, case: Case, motion: Trajectory) -> None:
-    """Print how a motion ended, and its contacts."""
+def print_motion(console: Console, case: Case, motion: Trajectory, *, loads: bool = True) -> None:
+    """Print how a motion ended, and its contacts, with the ``loads`` on the touchdown bearing unless these are told elsewhere."""
     say = Wording(case.parameters.scales)
     log, contacts, touches = motion.contacts, motion.lasting_contacts, motion.touches
-    console.print(Text(_end_words(motion), style="bold"))
+    if motion.outcome is not Outcome.TRIGGERED:
+        console.print(Text(_end_words(motion), style="bold"))
     if motion.multiplicity:
         console.print(f"It repeats after {counted(motion.multiplicity, 'impact')}.")
     turns = number(motion.time / (2.0 * math.pi), 3)
@@ -181,12 +182,13 @@ def print_motion(console: Console, case: Case, motion: Trajectory) -> None:
         hardest = f"Hardest hit: normal impulse {say.impulse(float(log.normal_impulse.max()))}"
         console.print(f"{hardest}{'; ' if soft else ''}{soft}.")
     if len(log) or contacts:
-        _print_loads(console, say, case, motion)
+        if loads:
+            _print_loads(console, say, case, motion)
         console.print()
         console.print(fitted(console, _events(say, motion)))
     final = motion.final
     console.print()
-    if weight_of(motion.rotor) is not None:
+    if weight_of(motion.rotor) is not None or np.ndim(final.position):
         console.print(_final_words(say, motion))
         return
     console.print(
@@ -220,12 +222,8 @@ def _print_loads(console: Console, say: Wording, case: Case, motion: Trajectory)
     """Print the loads on the touchdown bearing, and the limits that are stated for it."""
     loads = touchdown_loads(motion)
     if loads.force > 0.0:
-        contact = "Lasting contact"
-        if loads.depth > 0.0:
-            contact = f"Contact up to {say.length(loads.depth)} deep"
-        console.print(
-            f"{contact}: normal force up to {say.force(loads.force)}, friction power up to {say.power(loads.power)}."
-        )
+        power = f"friction power up to {say.power(loads.power)}"
+        console.print(f"Lasting contact: normal force up to {say.force(loads.force)}, {power}.")
     goes_on = f"; it goes on with {say.power(loads.lasting_power)}" if loads.lasting_power > 0.0 else ""
     console.print(f"Heat of friction: {say.energy(loads.heat)}{goes_on}.")
     for check in check_loads(loads, case.limits):

@@ -10,6 +10,7 @@ Nothing here knows units, files or results.  A kernel sees a rotor as the arrays
 ``block``              one block of flight: possible roots, state at a time
 ``events``             certified first crossing of the wall
 ``wall``               numbers of a wall, and planes at it
+``wall_work``          what walls that give way take of the energy
 ``laws``               laws of a wall along its normal
 ``force_change``       how the force of a wall that gives way changes
 ``friction``           arrivals and lasting contact with Coulomb friction

@@ -179,13 +179,20 @@ class BaseShock(Disturbance):
     def stages(self, machine: Subject, direction: float = 0.0) -> tuple[Staged, State]:
         """Return the machine under the largest shock and then without, and its start at levitation, for :func:`carom.simulate`.
 
-        Stages of the machine begin when the shock is over.
+        Contacts during the shock are part of the motion.  Stages of the machine begin when the shock is over.  A machine with weight
+        levitates about its static sag when the shock begins, at time zero: then the frames coincide, so that the phase of its unbalance
+        and the direction of the shock count from the same axis as that of its weight.
 
         Parameters
         ----------
         machine : Machine, Case, Parameters or model
         direction : float
             Of the acceleration, rad.
+
+        Raises
+        ------
+        InputError
+            The rotor cannot levitate inside the wall.
         """
         from carom.disturbances.shocks import shaken
         from carom.models import Stage, Staged, Trigger, model_of

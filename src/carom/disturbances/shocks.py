@@ -5,7 +5,7 @@ translation ``t`` of the rotor as a whole, all masses feel its acceleration ``a(
 
     M Z̈ + (D − iG) Ż + K Z = F e^{iτ} − M t a(τ),
 
-if moving as a whole bends no shaft and needs no gyroscopic moment (``G t = 0``).  So the accelerations of the coordinates
+if moving as a whole bends no shaft and needs no gyroscopic moment (``G t = 0``).  A touchdown bearing on a mount is shaken too.  So the accelerations of the coordinates
 change by ``−t a``, and only the translation need be known.  In the co-rotating frame, with ``t â e^{iα}/2i`` from the two exponentials of a sine, these are two forces with exponents of
 their own (:mod:`carom.models.forcing`),
 
@@ -30,6 +30,7 @@ from carom.core.in_turn import advance_in_turn
 from carom.core.layout import rub_workspace, workspace
 from carom.core.phases import AWAY
 from carom.models import Force, Forced, Model
+from carom.models.in_bearing import carried_by_housing
 from carom.models.system import EQUAL, STEADY
 from carom.motions.ensembles import MOST_EVENTS
 from carom.outcome import Outcome
@@ -39,7 +40,7 @@ LOGGED = 256
 
 def shaken(rotor: Model, duration: float, size: complex) -> Forced:
     """The rotor under the two forces of a half-sine pulse of this duration in ``1/Ω``, with ``size = â e^{iα}/2i``."""
-    frequency, push = math.pi / duration, size * rotor.system.translated
+    frequency, push = math.pi / duration, size * carried_by_housing(rotor)
     return Forced(rotor, (Force(1j * (frequency - 1.0), -push), Force(-1j * (frequency + 1.0), push)))
 
 

@@ -202,6 +202,18 @@ def races_of(model: Model) -> tuple[Race | None, ...]:
     return races_of(model.rotor) if isinstance(model, Around) else (None,) * len(model.system.contacts)
 
 
+def on_mount(model: Model) -> bool:
+    """Whether the touchdown bearing stands on a mount, whose place then is the second coordinate."""
+    bearing = bearing_of(model)
+    return bearing is not None and bearing.mount_mass is not None
+
+
+def carried_by_housing(model: Model) -> np.ndarray:
+    """Coordinates (n,) when all that a housing carries is displaced by one against it: the rotor as a whole, and a mount."""
+    translated: np.ndarray = model.system.translated
+    return np.ones_like(translated) if on_mount(model) else translated
+
+
 def shaft_of(drive: Drive | None, scales: Scales) -> Shaft | None:
     """What turns with the shaft in the units of a rotor's equations; ``None`` of one whose speed never changes."""
     if drive is None or drive.polar_inertia is None:

@@ -73,6 +73,14 @@ def parameters_of(model: Model) -> Parameters | None:
     return model.parameters if isinstance(model, Jeffcott | InBearing) else None
 
 
+def numbers_of(model: Model) -> dict[str, float] | None:
+    """Parameters of the planar rotor by name, without a restitution that its wall does not have; ``None`` of other models."""
+    parameters = parameters_of(model)
+    if parameters is None:
+        return None
+    return {name: value for name, value in parameters.as_dict().items() if name in model.varied}
+
+
 @checked
 def model_from(attributes: Mapping[str, Any]) -> Model:
     """Model whose :meth:`~carom.models.model.Model.attributes` these are.

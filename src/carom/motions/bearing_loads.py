@@ -254,8 +254,12 @@ def _race_speeds(parts: list[Trajectory]) -> tuple[float, float] | None:
     race = races_of(rotor)[plane]
     if race is None:
         return None
-    states = [np.concatenate([part.segment_amplitudes, part.segment_ends]) for part in parts]
-    speeds = race_speed(rotor.system, plane, np.concatenate(states)) / race.radius
+    # A stage may have further modes, such as those of a shock.
+    each = [
+        race_speed(part.rotor.system, plane, np.concatenate([part.segment_amplitudes, part.segment_ends[-1:]]))
+        for part in parts
+    ]
+    speeds = np.concatenate(each) / race.radius
     return float(speeds[np.abs(speeds).argmax()]), float(speeds[-1])
 
 

@@ -294,6 +294,14 @@ def shaft_speed(system: System, amplitudes: np.ndarray) -> np.ndarray:
     return amplitudes[..., int(system.arrays.shaft[0]) + 1].real
 
 
+def shaft_lead(system: System, amplitudes: np.ndarray) -> np.ndarray:
+    """Angle (...) in rad by which the shaft is ahead of the frame in amplitudes (..., N); zero unless its speed changes."""
+    if system.shaft is None:
+        return np.zeros(amplitudes.shape[:-1])
+    lead: np.ndarray = np.angle(amplitudes[..., int(system.arrays.shaft[0])])
+    return lead
+
+
 def race_speed(system: System, plane: int, amplitudes: np.ndarray) -> np.ndarray:
     """Speed (...) of the surface of the race at a plane in amplitudes (..., N), in the fixed frame; zero of one that does not turn."""
     mode = int(system.arrays.race[plane])

@@ -11,7 +11,7 @@ are drawn where the argument `virtual` asks for them.
 
 Motions and orbits are drawn by ``motions``, ``histories``, ``touchdowns``, ``drops``, ``spectra``, ``overviews`` and ``conditions``; along
 parameters ``diagrams`` with ``coexistence`` and ``proven``, ``regions`` and ``responses``; disturbances ``basins`` with ``pairs`` and
-``rings``, ``gains``, ``sweeps`` and ``attractor_shares``.  Shared are ``style`` (what colours mean), ``sheet`` (the style sheet),
+``rings``, ``gains``, ``drop_maps``, ``sweeps`` and ``attractor_shares``.  Shared are ``style`` (what colours mean), ``sheet`` (the style sheet),
 ``figure`` (a figure that keeps it), ``arrangement`` (layout), ``files``, ``plane`` (the clearance circle), ``bands``, ``cells``,
 ``closeups``, ``numerals``, ``placement``, ``parameter_axes`` and ``words``.
 """
@@ -22,6 +22,7 @@ from carom.plots.attractor_shares import attractors
 from carom.plots.basins import basin
 from carom.plots.conditions import period_condition
 from carom.plots.diagrams import bifurcation_diagram
+from carom.plots.drop_maps import drop_map
 from carom.plots.drops import drop_loads, drop_orbit
 from carom.plots.figure import heading, one_column
 from carom.plots.files import save
@@ -50,6 +51,7 @@ __all__ = [
     "basin_pair",
     "bifurcation_diagram",
     "drop_loads",
+    "drop_map",
     "drop_orbit",
     "energies",
     "equilibria",
