@@ -101,6 +101,4 @@ def test_what_sags_to_the_wall_is_refused():
         cm.BaseShock.of(machine, "1 g", "1 ms").stages(machine)
     with pytest.raises(InputError, match="needs levitation inside the wall before the loss"):
         BladeLoss(0.1).release(machine)
-    with pytest.raises(InputError, match=r"BaseShock\.stages"):
-        cm.map_basins(cm.load(MACHINE), cm.Grid(cm.BaseShock(0.1, 1.0), (2, 2)))
     assert not BladeLoss(0.1).starts(cm.models.model_of(machine), np.array([0.0, 1.0])).exists.any()

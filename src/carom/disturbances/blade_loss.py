@@ -64,12 +64,12 @@ class BladeLoss(Disturbance):
 
         Under weight it goes round its sag, and the unbalance after the loss is then at that phase in the fixed frame.
         """
-        from carom.models.weight import refuse_unrepeated
+        from carom.models.weight import refuse_unsteady
 
         (phase,) = values
         levitates = rotor.system.rest_radius < 1.0
         if levitates:
-            refuse_unrepeated(rotor)
+            refuse_unsteady(rotor)
         cosine, sine, rest = np.cos(phase), np.sin(phase), rotor.system.rest * levitates
         if len(rest) > 1:
             cosine, sine = cosine[..., None], sine[..., None]

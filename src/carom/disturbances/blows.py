@@ -197,12 +197,10 @@ class BaseShock(Disturbance):
         from carom.disturbances.shocks import shaken
         from carom.models import Stage, Staged, Trigger, model_of
         from carom.models.stages import stages_of
-        from carom.models.weight import refuse_unrepeated
         from carom.motions.starts import Kick
 
         further = stages_of(model_of(machine))
         rotor = further[0].rotor
-        refuse_unrepeated(rotor)
         size = cmath.rect(self.peak, own_size("direction", direction, "angle", None)) / 2j
         pulse = Stage(shaken(rotor, self.duration, size), Trigger(time=self.duration))
         return Staged((pulse, *further)), Kick(0.0).state(rotor)

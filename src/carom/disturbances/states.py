@@ -71,10 +71,10 @@ class UnbalanceStep(Disturbance):
 
     def starts(self, rotor: Model, *values: np.ndarray) -> Starts:
         """Levitation with the old unbalance; under weight about the static sag."""
-        from carom.models.weight import refuse_unrepeated
+        from carom.models.weight import refuse_unsteady
 
         eccentricity, phase = values
-        refuse_unrepeated(rotor)
+        refuse_unsteady(rotor)
         mass, damping, gyroscopic, stiffness, _ = rotor.matrices
         push = cmath.rect(1.0, rotor.unbalance_phase) * rotor.system.translated
         response = np.linalg.solve(stiffness - mass + 1j * damping + gyroscopic, mass @ push)

@@ -149,9 +149,14 @@ class System(Result):
             return "a race that turns", "races that stand still, or carom.simulate and carom.settle"
         if self.shaft is not None:
             return "a shaft whose speed changes", "one at constant speed, or carom.simulate and carom.settle"
-        if self.outer[~self._steady].any():
+        if self.shaken:
             return "forces that change in the fixed frame", "forces that turn with the shaft, or weight"
         return None
+
+    @property
+    def shaken(self) -> bool:
+        """Whether forces act that change in the fixed frame too."""
+        return bool(self.outer[~self._steady].any())
 
     def refuse_unrepeated(self) -> None:
         """Refuse a rotor of which no orbits are known: a race turns, the speed changes, or a force changes in the fixed frame."""

@@ -72,6 +72,12 @@ def refuse_unrepeated(model: Model) -> None:
     model.system.refuse_unrepeated()
 
 
+def refuse_unsteady(model: Model) -> None:
+    """Refuse a rotor that levitates neither at rest nor in a circle: its speed changes, or a force changes in the fixed frame."""
+    if model.system.shaft is not None or model.system.shaken:
+        model.system.refuse_unrepeated()
+
+
 def levitation_of(model: Model) -> tuple[np.ndarray, np.ndarray]:
     """Coordinates and their rates, both (n,), where the rotor levitates at time zero: its whirl about the static sag.
 
