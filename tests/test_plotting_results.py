@@ -33,7 +33,7 @@ EXAMPLES = {
     "OrbitSet": lambda: carom.find_orbits(PAPER),
     "Basin": lambda: map_basins(PAPER, KICKS),
     "GainMap": lambda: map_gains(PAPER, KICKS, ("omega", "gamma"), shape=(2, 2)),
-    "DropMap": lambda: carom.map_drops(
+    "DropMap": lambda: carom.basins.map_drops(
         carom.load("examples/dropped-rotor.toml"), names=("phase", "friction"), shape=(2, 2), until="20 ms"
     ),
     "Diagram": lambda: carom.find_bifurcations(PAPER, "gamma", (0.1, 0.12)),

@@ -69,7 +69,7 @@ CALLS = {
     "attractors.measure_lifetimes": lambda m: cm.attractors.measure_lifetimes(m, count=4, impacts=50),
     "basins.map_basins": lambda m: cm.map_basins(m, KICKS),
     "basins.map_cells": lambda m: cm.basins.map_cells(m, KICKS),
-    "basins.map_drops": lambda m: told(lambda: cm.map_drops(m, shape=(2, 2))),
+    "basins.map_drops": lambda m: told(lambda: cm.basins.map_drops(m, shape=(2, 2))),
     "basins.map_gains": lambda m: cm.map_gains(m, KICKS, ("gamma", "omega"), shape=(2, 2)),
     "basins.smallest_loss": lambda m: cm.basins.smallest_loss(m, VelocityKick(fastest=0.5)),
     "bifurcations.boundary_equilibria": lambda m: cm.bifurcations.boundary_equilibria(m, "gamma"),

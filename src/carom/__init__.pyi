@@ -18,7 +18,6 @@ from carom import studies as studies
 from carom import sweeps as sweeps
 from carom.attractors import find_attractors as find_attractors
 from carom.basins import map_basins as map_basins
-from carom.basins import map_drops as map_drops
 from carom.basins import map_gains as map_gains
 from carom.bifurcations import continue_curve as continue_curve
 from carom.bifurcations import continue_orbit as continue_orbit

@@ -14,7 +14,7 @@ pytestmark = pytest.mark.jit_only
 
 @pytest.fixture(scope="module")
 def found():
-    return cm.map_drops(
+    return cm.basins.map_drops(
         cm.load("examples/touchdown-balls.toml"), cm.drop(regained_after="12 ms"), shape=(6, 4), until="40 ms"
     )
 

@@ -201,7 +201,7 @@ def map_drops(
     --------
     >>> import carom as cm
     >>> machine = cm.load("examples/dropped-rotor.toml")
-    >>> found = cm.map_drops(machine, names=("phase", "friction"), ranges=(None, (0.05, 0.3)), shape=(4, 2))
+    >>> found = cm.basins.map_drops(machine, names=("phase", "friction"), ranges=(None, (0.05, 0.3)), shape=(4, 2))
     >>> {str(name): share for name, share in found.fractions.items()}
     {'rest on the touchdown bearing': 1.0}
     """
