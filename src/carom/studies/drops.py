@@ -79,4 +79,7 @@ class DropStudy(Result):
             **fields_of(loads, "time", "settled_at", outcome="outcome.label", meaning="outcome.meaning"),
         }
         document |= in_si(document, scales, "time", settled_at="time")
+        if loads.shaft is not None:
+            shaft = fields_of(loads.shaft, "speed_at_end", "left_out")
+            document["shaft"] = shaft | in_si(shaft, scales, speed_at_end="speed", left_out="speed")
         return document | {"planes": load_entries(loads, case.limits)}

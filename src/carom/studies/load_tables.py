@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from carom.motions import DropLoads, LastWhirl, PlaneLoads
+from carom.motions import Braking, DropLoads, LastWhirl, PlaneLoads
 from carom.outcome import Outcome
 from carom.parameters import MACHINE_FIELDS, LoadLimits, Scales
 from carom.parameters.told import number
@@ -18,7 +18,20 @@ from carom.studies.wording import Wording, counted
 def load_tables(loads: DropLoads, since: str) -> list[tuple[str, list[tuple[str, str]]]]:
     """For each plane a title, empty if there is one plane alone, and labels with what they say; times count from ``since``."""
     planes = loads.planes
-    return [(f"Plane {each.plane}" if len(planes) > 1 else "", _rows(each, loads.outcome, since)) for each in planes]
+    tables = [(f"Plane {each.plane}" if len(planes) > 1 else "", _rows(each, loads.outcome, since)) for each in planes]
+    if loads.shaft is not None:
+        tables[-1][1].append(("shaft", _shaft_words(loads.shaft)))
+    return tables
+
+
+def _shaft_words(shaft: Braking) -> str:
+    """Its speed at the end, and what the drive would do where its torque is left out."""
+    before, end = (_speed(each, shaft.scales) for each in (1.0, shaft.speed_at_end))
+    text = f"{end} at the end, {before} before"
+    if shaft.left_out == 0.0:
+        return text
+    change = f"{'add' if shaft.left_out > 0.0 else 'take'} {_speed(abs(shaft.left_out), shaft.scales)}"
+    return f"{text}; the torque of the drive is left out in flight, where it would {change}"
 
 
 def load_entries(loads: DropLoads, limits: LoadLimits) -> list[dict[str, Any]]:
