@@ -7,13 +7,42 @@
 ``damping``               :class:`ModalDamping`, :class:`ProportionalDamping`
 ``beams``                 matrices of an element of Timoshenko's beam
 ``free_modes``            modes of a free body
+``state_spaces``          :class:`StateSpace`: linear systems with one input and one output
+``controllers``           :class:`PID`, :class:`TransferFunction`, and those of other libraries
+``magnetic_bearing``      :class:`MagneticBearing`: magnet, sensors, and what is between both
 ``flexible_rotor``        :class:`FlexibleRotor`: a shaft with discs as finite elements
+``attachments``           :class:`Unbalance`, :class:`TouchdownPlane`
+``reduction``             few vectors in place of all coordinates
+``equations``             equations of motion in SI units
+``flexible_machine``      :class:`FlexibleMachine`: the rotor with all that is attached to it
+``reduced_machine``       :class:`ReducedMachine`: by a few vectors, as a model
 ========================  =================================================================
 """
 
+from carom.rotors.attachments import TouchdownPlane, Unbalance
+from carom.rotors.controllers import PID, TransferFunction
 from carom.rotors.damping import ModalDamping, ProportionalDamping
 from carom.rotors.discs import Disc
+from carom.rotors.flexible_machine import FlexibleMachine
 from carom.rotors.flexible_rotor import FlexibleRotor
+from carom.rotors.magnetic_bearing import MagneticBearing
+from carom.rotors.reduced_machine import ReducedMachine
 from carom.rotors.sections import Material, Section
+from carom.rotors.state_spaces import StateSpace
 
-__all__ = ["Disc", "FlexibleRotor", "Material", "ModalDamping", "ProportionalDamping", "Section"]
+__all__ = [
+    "PID",
+    "Disc",
+    "FlexibleMachine",
+    "FlexibleRotor",
+    "MagneticBearing",
+    "Material",
+    "ModalDamping",
+    "ProportionalDamping",
+    "ReducedMachine",
+    "Section",
+    "StateSpace",
+    "TouchdownPlane",
+    "TransferFunction",
+    "Unbalance",
+]

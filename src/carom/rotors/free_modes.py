@@ -15,10 +15,10 @@ class FreeModes(NamedTuple):
     shapes: np.ndarray
     """Coordinates per mode, shape (n, m); the first two are translation and tilt about the centre of mass."""
 
-    def flexibility(self, place: int, kept: int) -> np.ndarray:
-        """Coordinates per force at one of them, as far as bending modes beyond the first ``kept`` modes give way."""
+    def flexibility(self, row: np.ndarray, kept: int) -> np.ndarray:
+        """Coordinates (n,) per force on what a row (n,) measures, as far as the modes beyond the first ``kept`` ones give way."""
         others = self.shapes[:, kept:]
-        moved: np.ndarray = others @ (others[place] / self.frequencies[kept:] ** 2)
+        moved: np.ndarray = others @ ((row @ others) / self.frequencies[kept:] ** 2)
         return moved
 
 
