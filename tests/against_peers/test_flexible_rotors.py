@@ -8,7 +8,20 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from carom.rotors import Disc, FlexibleRotor, Material, ModalDamping, Section
+from carom.parameters import TouchdownBearing
+from carom.rotors import (
+    PID,
+    Disc,
+    FlexibleMachine,
+    FlexibleRotor,
+    MagneticBearing,
+    Material,
+    ModalDamping,
+    Section,
+    TouchdownPlane,
+    Unbalance,
+    unbalance_response,
+)
 
 ROTORS = json.loads(Path(__file__).with_name("ross_rotors.json").read_text())
 
@@ -63,3 +76,22 @@ def test_response_to_unbalance(ross):
         found = np.linalg.solve(dynamic, push)
         for node, x in zip(asked["at_nodes"], asked["x"], strict=True):
             assert found[rotor.displacement_at(node)] == pytest.approx(complex(*x[number]), rel=1e-8)
+
+
+def test_response_on_magnetic_bearings():
+    """ROSS has them as stiffness and damping at the frequency of the unbalance, here they are controllers with states."""
+    (ross,) = (each for each in ROTORS.values() if "magnetic" in each)
+    asked = ross["magnetic"]
+    controller = PID(asked["kp_pid"], asked["ki_pid"], asked["kd_pid"], 1.0 / asked["n_f"])
+    nodes = [node for node, _, _ in ross["springs"]]
+    wall = TouchdownBearing("kelvin-voigt", stiffness=1e8, damping=100.0)
+    machine = FlexibleMachine(
+        rotor_of(ross),
+        100.0,
+        1e-3,
+        [MagneticBearing(node, asked["ki"], asked["ks"], controller) for node in nodes],
+        [TouchdownPlane(node, wall, 0.02, 0.1) for node in asked["at_nodes"]],
+        [Unbalance(asked["node"], 1.0)],
+    )
+    expected = np.array([[complex(*pair) for pair in row] for row in asked["x"]]).T
+    assert unbalance_response(machine, asked["speeds"]).touchdowns == pytest.approx(expected, rel=1e-8)

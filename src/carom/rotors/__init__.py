@@ -16,6 +16,9 @@
 ``equations``             equations of motion in SI units
 ``flexible_machine``      :class:`FlexibleMachine`: the rotor with all that is attached to it
 ``reduced_machine``       :class:`ReducedMachine`: by a few vectors, as a model
+``whirls``                :func:`find_whirls`, :func:`campbell`: free whirls, and how they change with the speed
+``unbalance``             :func:`unbalance_response`: whirl by unbalance over the speed
+``loop_sensitivity``      :func:`sensitivity`: of the loops of the bearings
 ========================  =================================================================
 """
 
@@ -25,15 +28,20 @@ from carom.rotors.damping import ModalDamping, ProportionalDamping
 from carom.rotors.discs import Disc
 from carom.rotors.flexible_machine import FlexibleMachine
 from carom.rotors.flexible_rotor import FlexibleRotor
+from carom.rotors.loop_sensitivity import Sensitivity, sensitivity
 from carom.rotors.magnetic_bearing import MagneticBearing
 from carom.rotors.reduced_machine import ReducedMachine
 from carom.rotors.sections import Material, Section
 from carom.rotors.state_spaces import StateSpace
+from carom.rotors.unbalance import FlexibleResponse, unbalance_response
+from carom.rotors.whirls import Campbell, Whirl, campbell, find_whirls
 
 __all__ = [
     "PID",
+    "Campbell",
     "Disc",
     "FlexibleMachine",
+    "FlexibleResponse",
     "FlexibleRotor",
     "MagneticBearing",
     "Material",
@@ -41,8 +49,14 @@ __all__ = [
     "ProportionalDamping",
     "ReducedMachine",
     "Section",
+    "Sensitivity",
     "StateSpace",
     "TouchdownPlane",
     "TransferFunction",
     "Unbalance",
+    "Whirl",
+    "campbell",
+    "find_whirls",
+    "sensitivity",
+    "unbalance_response",
 ]

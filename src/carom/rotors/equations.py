@@ -32,6 +32,24 @@ class Equations(NamedTuple):
     currents: np.ndarray
     """Current of each bearing, A, per coordinate, shape (B, n)."""
 
+    def exponents(self, speed: float) -> tuple[np.ndarray, np.ndarray]:
+        """Exponents (N,) of the free motion at a speed, 1/s, and the coordinates (n, N) of each."""
+        heavy = np.asarray(self.mass.any(axis=1))
+        n, masses = len(heavy), self.mass[heavy, heavy][:, None]
+        spin = (self.damping - 1j * speed * self.gyroscopic)[np.ix_(heavy, heavy)]
+        matrix = np.zeros((n + heavy.sum(), n + heavy.sum()), complex)
+        matrix[np.flatnonzero(heavy), n + np.arange(heavy.sum())] = 1.0
+        matrix[np.flatnonzero(~heavy), :n] = -self.stiffness[~heavy]
+        matrix[n:, :n], matrix[n:, n:] = -self.stiffness[heavy] / masses, -spin / masses
+        values, vectors = np.linalg.eig(matrix)
+        return values, vectors[:n]
+
+    def response(self, speed: float) -> np.ndarray:
+        """Coordinates (n,) of the whirl with which the rotor answers its unbalance, at time zero."""
+        dynamic = self.stiffness - speed**2 * self.mass + 1j * speed * (self.damping - 1j * speed * self.gyroscopic)
+        answer: np.ndarray = np.linalg.solve(dynamic, speed**2 * self.forcing)
+        return answer
+
 
 class Loops(NamedTuple):
     """Rows of coordinates of the finite elements."""

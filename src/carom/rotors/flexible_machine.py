@@ -139,6 +139,11 @@ class FlexibleMachine:
         return ReducedMachine(self, basis, self.error_of(basis))
 
     @cached_property
+    def whole(self) -> ReducedMachine:
+        """The machine with all modes: nothing is reduced."""
+        return self.with_modes(len(self.rotor.free_modes.frequencies))
+
+    @cached_property
     def model(self) -> Model:
         """Model of the reduced machine that levitates, for ``carom.simulate`` and all the others: see :attr:`ReducedMachine.model`."""
         return self.reduce().model
