@@ -63,13 +63,15 @@ def read_drop(
 
 def drop_document(case: Case, motion: Trajectory) -> dict[str, Any]:
     """Return the document of a motion under gravity: of all its stages if it has several, with times from the release."""
+    from carom.models import model_of
     from carom.studies import trajectory_document
+    from carom.studies.document import rotor_document
 
     documents = [trajectory_document(part, case.limits) for part in motion.parts]
     gravity = (
         {"acceleration_si": case.gravity.acceleration, "direction": case.gravity.direction} if case.gravity else {}
     )
-    document = documents[-1] | {"parameters": case.parameters.as_dict(), "gravity": gravity}
+    document = documents[-1] | rotor_document(model_of(case.parameters)) | {"gravity": gravity}
     if len(documents) == 1:
         return document
     document |= {"start": documents[0]["start"], "time": motion.begins + motion.time}

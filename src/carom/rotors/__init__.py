@@ -16,6 +16,7 @@
 ``equations``             equations of motion in SI units
 ``flexible_machine``      :class:`FlexibleMachine`: the rotor with all that is attached to it
 ``reduced_machine``       :class:`ReducedMachine`: by a few vectors, as a model
+``machine_file``          tables of a machine file -> its case
 ``whirls``                :func:`find_whirls`, :func:`campbell`: free whirls, and how they change with the speed
 ``unbalance``             :func:`unbalance_response`: whirl by unbalance over the speed
 ``loop_sensitivity``      :func:`sensitivity`: of the loops of the bearings

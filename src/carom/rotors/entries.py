@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Mapping
 from typing import Any
 
@@ -12,13 +13,15 @@ from carom.parameters import Field, read_quantity
 def read_entries(part: Any, fields: Mapping[str, Field]) -> None:
     """Set the attributes of a frozen part to the numbers that were given for them; all that cannot be used are reported together.
 
-    An attribute that is ``None`` was left out.
+    One that is ``None`` by default may be left out.
     """
-    problems = Problems()
+    problems, optional = Problems(), {each.name for each in dataclasses.fields(part) if each.default is None}
     for name, field in fields.items():
         given = getattr(part, name)
         if given is not None:
             object.__setattr__(part, name, problems.attempt(read_quantity, field, given))
+        elif name not in optional:
+            problems.errors.append(InputError(name, None, field.allowed))
     problems.raise_all()
 
 

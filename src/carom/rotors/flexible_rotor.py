@@ -21,7 +21,7 @@ from carom.rotors.sections import Section
 
 ELEMENTS = 32
 """Elements of a shaft of equal sections, unless a length is stated."""
-_LONGEST = length_field("longest_element", "", "longest element", 1e-6, 1e3, '"20 mm"')
+LONGEST = length_field("longest_element", "", "longest element", 1e-6, 1e3, '"20 mm"')
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,7 +65,7 @@ class FlexibleRotor:
             allowed = "carom.rotors.ModalDamping, such as ModalDamping(0.005), or ProportionalDamping"
             raise InputError("damping", shown(self.damping), allowed)
         given = self.longest_element
-        longest = self.length / ELEMENTS if given is None else read_quantity(_LONGEST, given)
+        longest = self.length / ELEMENTS if given is None else read_quantity(LONGEST, given)
         object.__setattr__(self, "longest_element", longest)
         for disc in self.discs:
             self.check_node("disc node", disc.node)

@@ -9,12 +9,13 @@ from typing import Any
 
 from carom.attractors import MotionName
 from carom.disturbances.echo import Echo
+from carom.models import model_of
 from carom.motions import DropLoads, LastWhirl, PlaneLoads, Trajectory, drop_loads
 from carom.outcome import Outcome
 from carom.parameters import MACHINE_FIELDS, Case, Scales
 from carom.parameters.told import number
 from carom.results import Result, fields_of, in_si
-from carom.studies.document import loads_document
+from carom.studies.document import loads_document, rotor_document
 from carom.studies.load_checks import LoadCheck, check_loads, loads_entry
 from carom.studies.wording import Wording, counted
 
@@ -93,7 +94,7 @@ class DropStudy(Result):
         document: dict[str, Any] = {
             "name": case.name,
             "disturbance": self.echo.document(scales),
-            "parameters": case.parameters.as_dict(),
+            **rotor_document(model_of(case.parameters)),
             "gravity": {"acceleration_si": gravity.acceleration, "direction": gravity.direction} if gravity else {},
             "touchdown": {"law": case.touchdown.law, **case.touchdown.given} if case.touchdown else {"law": "rigid"},
             **fields_of(loads, "time", "settled_at", outcome="outcome.label", meaning="outcome.meaning"),
