@@ -11,7 +11,7 @@ from flexible_machines import SOFT, munich, munich_rotor, replaced, symmetric
 import carom as cm
 from carom.models import Forced, LinearRotor
 from carom.models.weight import levitation_of
-from carom.outcome import InputError
+from carom.outcome import InputError, Outcome
 from carom.parameters import Gravity, TouchdownBearing
 from carom.rotors import PID, FlexibleMachine, MagneticBearing, TouchdownPlane, Unbalance
 from carom.rotors.reduction import contact_error
@@ -170,6 +170,12 @@ def test_the_rig_levitates_and_is_dropped_by_the_verbs_of_every_rotor():
     assert min(each.contacts for each in loads.planes) > 0
     weight = MACHINE.rotor.mass * 9.81
     assert weight < loads.planes[0].loads.si()["force"] < 50.0 * weight
+
+
+@pytest.mark.jit_only
+def test_a_dropped_rotor_that_bends_comes_to_rest():
+    """Its unbalance shakes it where it lies, in hundreds of steps a turn; it goes round nothing."""
+    assert cm.simulate(MACHINE.with_modes(2).model, cm.drop()).outcome is Outcome.AT_REST
 
 
 def test_mounts_and_races_are_those_of_the_touchdown_bearing():

@@ -48,18 +48,7 @@ def rub_series(rotor, contact, amplitudes, work):
     for m in range(modes):
         work.series[0, m] = amplitudes[m]
     for k in range(ORDER + 1):
-        if rotor.shaft.shape[0] > 0:
-            sweep_unbalance(rotor, k, work)
-        for plane in range(planes):
-            _free_motion(rotor, plane, k, work)
-            if yields(rotor, plane) and stays(contact[plane]):
-                indent(rotor, plane, k, work)
-            else:
-                _push_and_slip(rotor, plane, k, work)
-        if planes == 1 and rotor.shaft.shape[0] == 0:
-            _force(rotor, contact[0], k, work)
-        else:
-            _coupled_forces(rotor, contact, k, work)
+        _contact(rotor, contact, k, work)
         if k < ORDER:
             for m in range(modes):
                 rate = rotor.exponents[m] * work.series[k, m] + rotor.columns[m, 0] * work.force[0, k]
@@ -73,6 +62,32 @@ def rub_series(rotor, contact, amplitudes, work):
                     work.series[k + 1, rotor.race[plane]] -= rotor.race_gain[plane] * work.grip[plane, k] / (k + 1)
             if rotor.shaft.shape[0] > 0:
                 turn_shaft(rotor, contact, k, work)
+
+
+@kernel
+def first_forces(rotor, contact, amplitudes, work):
+    """Fill the first coefficients alone, which are the forces at this instant."""
+    for m in range(rotor.columns.shape[0]):
+        work.series[0, m] = amplitudes[m]
+    _contact(rotor, contact, 0, work)
+
+
+@inlined
+def _contact(rotor, contact, k, work):
+    """Coefficients ``k`` of position, speed, push, slip and forces at all planes, from those of the amplitudes."""
+    planes = rotor.columns.shape[1]
+    if rotor.shaft.shape[0] > 0:
+        sweep_unbalance(rotor, k, work)
+    for plane in range(planes):
+        _free_motion(rotor, plane, k, work)
+        if yields(rotor, plane) and stays(contact[plane]):
+            indent(rotor, plane, k, work)
+        else:
+            _push_and_slip(rotor, plane, k, work)
+    if planes == 1 and rotor.shaft.shape[0] == 0:
+        _force(rotor, contact[0], k, work)
+    else:
+        _coupled_forces(rotor, contact, k, work)
 
 
 @inlined

@@ -15,7 +15,7 @@ import numpy as np
 
 from carom.compiling.decorators import inlined, kernel
 from carom.core.compliance import first_release, slip_in_wall
-from carom.core.contact_series import rub_series
+from carom.core.contact_series import first_forces, rub_series
 from carom.core.flow import acceleration, displacement, fly, squared_modulus, unbalance_drive, velocity
 from carom.core.friction import BACKWARD, FORWARD, STOPPED, arrival_in_sense, friction_ratio, slip_of, spare_grip
 from carom.core.laws.choice import force
@@ -61,7 +61,7 @@ def forces_all(rotor, amplitudes, phases, work):
     for i in range(amplitudes.shape[0]):
         if not _stays(phases[i]):
             continue
-        rub_series(rotor, phases[i], amplitudes[i], work)
+        first_forces(rotor, phases[i], amplitudes[i], work)
         for plane in range(phases.shape[1]):
             if lasts(phases[i, plane]):
                 push, grip = work.push[plane, 0], work.grip[plane, 0]
