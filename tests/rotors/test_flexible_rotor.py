@@ -212,6 +212,10 @@ def test_long_sections_are_divided_and_nodes_stay_where_they_are():
         ),
         (lambda: FlexibleRotor([Section(1.0, 0.1)], [], None), r"^damping = None: carom.rotors.ModalDamping, such as"),
         (lambda: plain(elements=-3), r"^longest_element = -0.333"),
+        (
+            lambda: plain(elements=501),
+            r"^longest_element = 0.00199.*: a length with which the shaft has at most 500 elements",
+        ),
     ],
 )
 def test_what_cannot_be_used_is_refused_in_one_line(make, says):

@@ -153,6 +153,10 @@ def without(text, line):
             SMALL + SMALL[SMALL.index("[[touchdown]]") :].replace("0.2 mm", "0.3 mm"),
             r"^clearance = 0.2 mm, 0.3 mm: the same in all tables \[\[touchdown\]\]$",
         ),
+        (
+            SMALL[: SMALL.index("[[section]]")] + SMALL[SMALL.index("[[disc]]") :],
+            r"^\[\[section\]\] = nothing given: one",
+        ),
         (SMALL.replace("damping_ratio = 0.01", ""), r"^damping = nothing given: one of: damping_ratio"),
         (SMALL.replace("accuracy = 0.5", "damping_of_mass = 1"), r"^damping = both: one of: damping_ratio"),
         (without(SMALL, 'speed = "3000 rpm"\n'), r"^speed = nothing given: must be an angular speed"),

@@ -21,6 +21,8 @@ from carom.rotors.sections import Section
 
 ELEMENTS = 32
 """Elements of a shaft of equal sections, unless a length is stated."""
+MOST_ELEMENTS = 500
+"""With more, matrices take gigabytes; a shaft needs dozens."""
 LONGEST = length_field("longest_element", "", "longest element", 1e-6, 1e3, '"20 mm"')
 
 
@@ -67,6 +69,9 @@ class FlexibleRotor:
         given = self.longest_element
         longest = self.length / ELEMENTS if given is None else read_quantity(LONGEST, given)
         object.__setattr__(self, "longest_element", longest)
+        if sum(self.divisions) > MOST_ELEMENTS:
+            allowed = f"a length with which the shaft has at most {MOST_ELEMENTS} elements, such as {self.length / ELEMENTS:.3g} m"
+            raise InputError("longest_element", shown(longest if given is None else given), allowed)
         for disc in self.discs:
             self.check_node("disc node", disc.node)
 

@@ -83,6 +83,10 @@ def read_flexible_case(name: str, tables: MachineTables, settings: Mapping[str, 
         "unbalances": _each(tables, "unbalance", problems, lambda entry: Unbalance(**entry)),
     }
     sections = _each(tables, "section", problems, lambda entry: _section(entry, steel or Material()))
+    if not tables.parts.get("section"):
+        problems.errors.append(
+            InputError("[[section]]", None, "one or more tables, each with its length and outer_diameter")
+        )
     damping = problems.attempt(_damping, whole)
     accuracy = problems.attempt(read_quantity, ROTOR_ENTRIES["accuracy"], whole.get("accuracy", ACCURACY))
     clearance = problems.attempt(_clearance, tables.parts.get("touchdown", []))
