@@ -47,6 +47,7 @@ class Sensitivity(Result):
     peaks: np.ndarray
     peak_frequencies: np.ndarray
 
+    figure: ClassVar[str] = "sensitivity"
     shown: ClassVar = ("peaks", "peak_frequencies", "zones")
     rests_on: ClassVar = ()
 

@@ -101,6 +101,7 @@ class Campbell(Result):
     exponents: np.ndarray
     machine: FlexibleMachine
 
+    figure: ClassVar[str] = "campbell"
     shown: ClassVar = ("speeds", "frequencies", "damping_ratios")
     rests_on: ClassVar = ()
 
