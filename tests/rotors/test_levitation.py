@@ -6,12 +6,17 @@ import math
 
 import numpy as np
 import pytest
-from flexible_machines import munich, replaced, symmetric
+from flexible_machines import SOFT, munich, replaced, symmetric
 
 from carom.outcome import InputError
 from carom.rotors import (
     PID,
+    FlexibleMachine,
+    FlexibleRotor,
     MagneticBearing,
+    ModalDamping,
+    Section,
+    TouchdownPlane,
     Unbalance,
     campbell,
     find_whirls,
@@ -71,6 +76,13 @@ def test_whirls_part_with_the_speed():
     assert found.levitates.all()
     assert found.damping_ratios.shape == (3, 4)
     assert "Campbell" in repr(found)
+
+
+def test_a_shaft_with_few_whirls_has_all_of_them():
+    rotor = FlexibleRotor([Section(0.5, 0.02)], [], ModalDamping(0.01), 1.0)
+    machine = FlexibleMachine(rotor, 100.0, 2e-4, [], [TouchdownPlane(0, SOFT, 0.01, 0.1)])
+    # Two bending modes of one element, each in two senses, and a free top.
+    assert campbell(machine, [100.0, 200.0]).exponents.shape == (2, 5)
 
 
 def test_a_speed_at_which_a_whirl_grows_is_told():
@@ -156,7 +168,7 @@ def test_peaks_and_zones():
 @pytest.mark.parametrize(
     ("make", "says"),
     [
-        (lambda: find_whirls(1), r"^machine = 1: "),
+        (lambda: find_whirls(1), r"^flexible = 1: "),
         (lambda: find_whirls(MACHINE, -1.0), r"^speed = -1.0: a finite number above 0"),
         (lambda: campbell(MACHINE, []), r"^speeds = \[\]: "),
         (lambda: campbell(MACHINE, [0.0]), r"^speeds = \[0.0\]: one or more numbers above 0, in rad/s$"),

@@ -52,7 +52,7 @@ def campbell(found: Campbell) -> Figure:
     ends = np.array([0.0, found.speeds.max()])
     axes.plot(ends / RPM, ends / _HERTZ, color="#1a1a1a", lw=0.9, label="speed of the shaft", gid="synchronous")
     axes.set_xlim(0.0, found.speeds.max() / RPM)
-    axes.set_ylim(0.0, _ROOM * float(np.abs(found.frequencies).max()))
+    axes.set_ylim(0.0, _ROOM * float(np.nanmax(np.abs(found.frequencies))))
     axes.set_xlabel("speed of the shaft (rpm)")
     axes.set_ylabel("frequency of the free whirl (Hz)")
     key(figure, [axes], columns=3)

@@ -60,14 +60,14 @@ class Sensitivity(Result):
 
 
 @checked
-def sensitivity(machine: FlexibleMachine, frequencies: Sequence[float] | None = None) -> Sensitivity:
+def sensitivity(flexible: FlexibleMachine, frequencies: Sequence[float] | None = None) -> Sensitivity:
     """Compute the sensitivity of the loops of a flexible machine, from all its modes.
 
     With gyroscopic moments a direction, such as x, sees both whirls: ``S(iω)`` of the complex loop and the conjugate of ``S(−iω)``, half of each.
 
     Parameters
     ----------
-    machine : FlexibleMachine
+    flexible : FlexibleMachine
     frequencies : sequence of float, optional
         rad/s, above 0; by default from 1 Hz to three times the speed, or to 2 kHz if that is more, with those of the free whirls.  Peaks are enclosed between those given.
 
@@ -76,12 +76,12 @@ def sensitivity(machine: FlexibleMachine, frequencies: Sequence[float] | None = 
     InputError
         There is no magnetic bearing, or a frequency is not above 0.
     """
-    if not machine.bearings:
+    if not flexible.bearings:
         raise InputError("bearings", None, "one or more carom.rotors.MagneticBearing")
-    loop = _Loop(machine)
-    listed = _usual(machine) if frequencies is None else np.sort(speeds_of(frequencies))
+    loop = _Loop(flexible)
+    listed = _usual(flexible) if frequencies is None else np.sort(speeds_of(frequencies))
     values = np.array([loop.of_axis(each) for each in listed.tolist()])
-    peaks = [loop.peak(listed, np.abs(values[:, number]), number) for number in range(len(machine.bearings))]
+    peaks = [loop.peak(listed, np.abs(values[:, number]), number) for number in range(len(flexible.bearings))]
     return Sensitivity(listed, values, *(np.array(each) for each in zip(*peaks, strict=True)))
 
 

@@ -55,12 +55,12 @@ class FlexibleResponse(Result):
 
 
 @checked
-def unbalance_response(machine: FlexibleMachine, speeds: Sequence[float]) -> FlexibleResponse:
+def unbalance_response(flexible: FlexibleMachine, speeds: Sequence[float]) -> FlexibleResponse:
     """Compute the response to the unbalances of a flexible machine, from all its modes.
 
     Parameters
     ----------
-    machine : FlexibleMachine
+    flexible : FlexibleMachine
     speeds : sequence of float
         rad/s, above 0.
 
@@ -73,15 +73,15 @@ def unbalance_response(machine: FlexibleMachine, speeds: Sequence[float]) -> Fle
     --------
     carom.rotors.campbell : where its resonances are
     """
-    if not machine.unbalances:
+    if not flexible.unbalances:
         raise InputError("unbalances", None, "one or more carom.rotors.Unbalance")
-    listed, whole = speeds_of(speeds), machine.whole
+    listed, whole = speeds_of(speeds), flexible.whole
     at = np.array([whole.equations.response(speed) for speed in listed.tolist()])
-    seen = loops_of(machine.rotor, machine.bearings, machine.touchdowns).sensors @ whole.basis.shapes
+    seen = loops_of(flexible.rotor, flexible.bearings, flexible.touchdowns).sensors @ whole.basis.shapes
     return FlexibleResponse(
         speeds=listed,
         touchdowns=at @ whole.equations.planes.T,
         sensors=at[:, : whole.vectors] @ seen.T,
         currents=at @ whole.equations.currents.T,
-        machine=machine,
+        machine=flexible,
     )

@@ -57,12 +57,12 @@ class Whirl(Result):
 
 
 @checked
-def find_whirls(machine: FlexibleMachine, speed: Positive | None = None, count: Count = SLOW) -> tuple[Whirl, ...]:
+def find_whirls(flexible: FlexibleMachine, speed: Positive | None = None, count: Count = SLOW) -> tuple[Whirl, ...]:
     """Find the slowest free whirls of a flexible machine, from all its modes.
 
     Parameters
     ----------
-    machine : FlexibleMachine
+    flexible : FlexibleMachine
     speed : float, optional
         Speed of the shaft, rad/s; by default that of the machine.
     count : int
@@ -72,9 +72,9 @@ def find_whirls(machine: FlexibleMachine, speed: Positive | None = None, count: 
     --------
     carom.rotors.campbell : over the speed
     """
-    at = machine.speed if speed is None else speed
-    exponents, coordinates = machine.whole.equations.exponents(at)
-    shapes = machine.whole.basis.shapes[::2] @ coordinates[: machine.whole.vectors]
+    at = flexible.speed if speed is None else speed
+    exponents, coordinates = flexible.whole.equations.exponents(at)
+    shapes = flexible.whole.basis.shapes[::2] @ coordinates[: flexible.whole.vectors]
     whirls = [Whirl(complex(each), shape / _largest(shape)) for each, shape in zip(exponents, shapes.T, strict=True)]
     turning = [each for each in whirls if each.sense != "none"]
     return tuple(sorted(turning, key=lambda each: each.frequency)[:count])
@@ -93,7 +93,7 @@ class Campbell(Result):
     speeds : ndarray, shape (m,)
         rad/s.
     exponents : ndarray of complex, shape (m, k)
-        1/s; at each speed in the order of their imaginary parts, so backward whirls come first.
+        1/s; at each speed in the order of their imaginary parts, so backward whirls come first, and NaN at the end where there are fewer.
     machine : FlexibleMachine
     """
 
@@ -118,16 +118,16 @@ class Campbell(Result):
     @property
     def levitates(self) -> np.ndarray:
         """Whether all whirls of the list fade, at each speed, shape (m,)."""
-        return np.asarray(self.exponents.real.max(axis=1) < 0.0)
+        return np.asarray(np.nanmax(self.exponents.real, axis=1) < 0.0)
 
 
 @checked
-def campbell(machine: FlexibleMachine, speeds: Sequence[float], count: Count = SLOW) -> Campbell:
+def campbell(flexible: FlexibleMachine, speeds: Sequence[float], count: Count = SLOW) -> Campbell:
     """Follow the slowest free whirls over the speed of the shaft.
 
     Parameters
     ----------
-    machine : FlexibleMachine
+    flexible : FlexibleMachine
     speeds : sequence of float
         rad/s, above 0.
     count : int
@@ -143,11 +143,11 @@ def campbell(machine: FlexibleMachine, speeds: Sequence[float], count: Count = S
     carom.rotors.find_whirls : their shapes at one speed
     """
     listed = speeds_of(speeds)
-    found = []
-    for speed in listed.tolist():
-        exponents = np.array([each.exponent for each in find_whirls(machine, speed, count)])
-        found.append(exponents[np.argsort(exponents.imag)])
-    return Campbell(listed, np.array(found), machine)
+    found = np.full((len(listed), count), np.nan, complex)
+    for row, speed in zip(found, listed.tolist(), strict=True):
+        exponents = np.array([each.exponent for each in find_whirls(flexible, speed, count)], complex)
+        row[: len(exponents)] = exponents[np.argsort(exponents.imag)]
+    return Campbell(listed, found[:, ~np.isnan(found).all(axis=0)], flexible)
 
 
 def speeds_of(given: Sequence[float]) -> np.ndarray:
