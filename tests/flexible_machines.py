@@ -32,9 +32,9 @@ CONTROLLER = PID("5000 A/m", "1500 A/m/s", "5 A s/m", "0.1 ms")
 PRINTED = ProportionalDamping("10 1/s", "10 us")
 
 
-def munich_rotor(longest_element=0.02, damping=PRINTED):
+def munich_rotor(longest_element=0.02, damping=PRINTED, material=STEEL):
     sections = [
-        Section(f"{end - begin} mm", "9.6 mm" if any(a <= begin < b for a, b in THICK) else "8 mm", 0.0, STEEL)
+        Section(f"{end - begin} mm", "9.6 mm" if any(a <= begin < b for a, b in THICK) else "8 mm", 0.0, material)
         for begin, end in itertools.pairwise(BOUNDARIES)
     ]
     discs = [
