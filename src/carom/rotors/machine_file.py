@@ -86,7 +86,7 @@ def read_flexible_case(name: str, tables: MachineTables, settings: Mapping[str, 
         "discs": _each(tables, "disc", problems, lambda entry: _disc(entry, steel or Material())),
         "bearings": _each(tables, "magnetic_bearing", problems, _bearing),
         "touchdowns": _each(tables, "touchdown", problems, _plane),
-        "unbalances": _each(tables, "unbalance", problems, lambda entry: Unbalance(**entry)),
+        "unbalances": _each(tables, "unbalance", problems, _unbalance),
     }
     sections = _each(tables, "section", problems, lambda entry: _section(entry, steel or Material()))
     if not tables.parts.get("section"):
@@ -198,6 +198,11 @@ def _plane(entry: dict[str, Any]) -> TouchdownPlane:
     _needed(entry, ("node", "law", "clearance", *PLANE_FIELDS))
     bearing = TouchdownBearing(**_of(entry, ("law", *BEARING_ENTRIES)))
     return TouchdownPlane(entry["node"], bearing, **_of(entry, PLANE_FIELDS))
+
+
+def _unbalance(entry: dict[str, Any]) -> Unbalance:
+    _needed(entry, ("node", "size"))
+    return Unbalance(**entry)
 
 
 def _damping(whole: Mapping[str, Any]) -> ModalDamping | ProportionalDamping:

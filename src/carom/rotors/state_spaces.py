@@ -10,6 +10,8 @@ import numpy as np
 
 from carom.outcome import InputError, shown
 
+LARGEST = 1e100
+"""Largest number of a controller: products of two still are numbers."""
 SWEEPS = 20
 """Most sweeps of balancing; a few do."""
 
@@ -140,6 +142,6 @@ def _real(name: str, given: Any) -> np.ndarray:
         values = np.array(given, dtype=complex if np.iscomplexobj(given) else float)
     except (TypeError, ValueError, OverflowError):
         raise InputError(name, shown(given), "finite real numbers") from None
-    if not np.isfinite(values).all() or np.abs(values.imag).any():
-        raise InputError(name, shown(given), "finite real numbers")
+    if not (np.abs(values) <= LARGEST).all() or np.abs(values.imag).any():
+        raise InputError(name, shown(given), f"finite real numbers, up to {LARGEST:g}")
     return np.asarray(values.real, float)
