@@ -4,6 +4,7 @@ import pkgutil
 from importlib import import_module
 
 import pytest
+from flexible_machines import munich
 from machines import PAPER
 from studies import study_once
 
@@ -41,6 +42,8 @@ EXAMPLES = {
         PAPER, carom.bifurcations.Plane("gamma", "omega", (0.1, 0.12), (0.75, 0.77)), grid=2
     ),
     "UnbalanceResponse": lambda: carom.studies.unbalance_response(carom.load("examples/keogh-cole.toml")),
+    "Campbell": lambda: carom.rotors.campbell(munich(0.06), [100.0, 300.0]),
+    "Sensitivity": lambda: carom.rotors.sensitivity(munich(0.06), [100.0, 300.0, 900.0]),
     "Study": lambda: study_once(PAPER.replace(gamma=0.65, mu=0.0)),
 }
 

@@ -79,16 +79,16 @@ def motion_document(case: Case, motion: Trajectory) -> dict[str, Any]:
     Where a wall gives way it has what each plane bears, as ``carom drop`` tells it.
     """
     from carom.models import model_of
-    from carom.models.subjects import numbers_of
     from carom.motions import drop_loads
     from carom.studies import trajectory_document
+    from carom.studies.document import rotor_document
     from carom.studies.load_tables import load_entries
 
     documents = [trajectory_document(part, case.limits) for part in motion.parts]
     document, planes = documents[-1], load_entries(drop_loads(motion), case.limits)
     if case.gravity:
         gravity = {"acceleration_si": case.gravity.acceleration, "direction": case.gravity.direction}
-        document |= {"parameters": numbers_of(model_of(case)), "gravity": gravity}
+        document |= rotor_document(model_of(case)) | {"gravity": gravity}
     if len(documents) > 1:
         document = _joined(motion, documents) | {"loads": planes[motion.plane]["loads"]}
         if case.limits.stated:

@@ -188,7 +188,7 @@ def print_motion(console: Console, case: Case, motion: Trajectory, *, loads: boo
         console.print(fitted(console, _events(say, motion)))
     final = motion.final
     console.print()
-    if weight_of(motion.rotor) is not None or np.ndim(final.position):
+    if weight_of(motion.rotor) is not None or len(motion.rotor.system.rest) > 1:
         console.print(_final_words(say, motion))
         return
     console.print(
@@ -198,7 +198,7 @@ def print_motion(console: Console, case: Case, motion: Trajectory, *, loads: boo
 
 
 def _final_words(say: Wording, motion: Trajectory) -> str:
-    """Where a rotor that weighs something is at the end, and how fast, in the fixed frame."""
+    """Where a rotor that weighs something, or the first plane of one with several coordinates, is at the end, and how fast, in the fixed frame."""
     (seen,), (rate,) = motion.at_plane(np.array([motion.time]))
     turn = cmath.exp(1j * (motion.begins + motion.time))
     place, speed = complex(seen) * turn, complex(rate + 1j * seen) * turn

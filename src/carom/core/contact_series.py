@@ -45,35 +45,12 @@ def rub_series(rotor, contact, amplitudes, work):
     velocity, all of shape (P, ORDER + 1).  Where there is no lasting contact, ``work.push`` is ``Re(ȳÿ) + |ẏ|²``, or without meaning
     of a plane that has parted from a wall that gives way.
     """
-    _series_up_to(rotor, contact, amplitudes, ORDER, work)
-
-
-@kernel
-def contact_forces(rotor, contact, amplitudes, work):
-    """Fill the first coefficient of each series of :func:`rub_series` alone: the forces at these amplitudes, not their course."""
-    _series_up_to(rotor, contact, amplitudes, 0, work)
-
-
-@inlined
-def _series_up_to(rotor, contact, amplitudes, order, work):
-    """Fill the Taylor coefficients of :func:`rub_series` up to an order."""
     modes, planes = rotor.columns.shape[0], rotor.columns.shape[1]
     for m in range(modes):
         work.series[0, m] = amplitudes[m]
-    for k in range(order + 1):
-        if rotor.shaft.shape[0] > 0:
-            sweep_unbalance(rotor, k, work)
-        for plane in range(planes):
-            _free_motion(rotor, plane, k, work)
-            if yields(rotor, plane) and stays(contact[plane]):
-                indent(rotor, plane, k, work)
-            else:
-                _push_and_slip(rotor, plane, k, work)
-        if planes == 1 and (yields(rotor, 0) or not may_change(rotor, 0)) and rotor.shaft.shape[0] == 0:
-            _force(rotor, contact[0], k, work)
-        else:
-            _coupled_forces(rotor, contact, k, work)
-        if k < order:
+    for k in range(ORDER + 1):
+        _contact(rotor, contact, k, work)
+        if k < ORDER:
             for m in range(modes):
                 rate = rotor.exponents[m] * work.series[k, m] + rotor.columns[m, 0] * work.force[0, k]
                 for plane in range(1, planes):
@@ -86,6 +63,32 @@ def _series_up_to(rotor, contact, amplitudes, order, work):
                     work.series[k + 1, rotor.race[plane]] -= rotor.race_gain[plane] * work.grip[plane, k] / (k + 1)
             if rotor.shaft.shape[0] > 0:
                 turn_shaft(rotor, contact, k, work)
+
+
+@kernel
+def contact_forces(rotor, contact, amplitudes, work):
+    """Fill the first coefficient of each series of :func:`rub_series` alone: the forces at these amplitudes, not their course."""
+    for m in range(rotor.columns.shape[0]):
+        work.series[0, m] = amplitudes[m]
+    _contact(rotor, contact, 0, work)
+
+
+@inlined
+def _contact(rotor, contact, k, work):
+    """Coefficients ``k`` of position, speed, push, slip and forces at all planes, from those of the amplitudes."""
+    planes = rotor.columns.shape[1]
+    if rotor.shaft.shape[0] > 0:
+        sweep_unbalance(rotor, k, work)
+    for plane in range(planes):
+        _free_motion(rotor, plane, k, work)
+        if yields(rotor, plane) and stays(contact[plane]):
+            indent(rotor, plane, k, work)
+        else:
+            _push_and_slip(rotor, plane, k, work)
+    if planes == 1 and (yields(rotor, 0) or not may_change(rotor, 0)) and rotor.shaft.shape[0] == 0:
+        _force(rotor, contact[0], k, work)
+    else:
+        _coupled_forces(rotor, contact, k, work)
 
 
 @inlined

@@ -222,7 +222,7 @@ def shaft_of(drive: Drive | None, scales: Scales) -> Shaft | None:
     return Shaft(drive.polar_inertia / unit, drive.torque / (unit * scales.speed**2))
 
 
-def law_of(bearing: TouchdownBearing, scales: Scales, restitution: float) -> Rigid | KelvinVoigt | HuntCrossley:
+def law_of(bearing: TouchdownBearing, scales: Scales, restitution: float = 0.0) -> Rigid | KelvinVoigt | HuntCrossley:
     """Law of a bearing in the units of a rotor's equations; the restitution is that of a rigid wall."""
     if not bearing.yields:
         return Rigid(restitution)

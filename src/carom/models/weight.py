@@ -96,12 +96,12 @@ def levitation_of(model: Model) -> tuple[np.ndarray, np.ndarray]:
 
 
 def without_levitation(model: Model) -> Model:
-    """The rotor without stiffness and damping, under the same forces.
+    """The rotor without the stiffness and damping of its levitation, under the same forces.
 
     Raises
     ------
     InputError
-        It has several coordinates: levitation cannot be told from the stiffness of its shaft.
+        It has several coordinates, and does not say what is left without levitation, which cannot be told from its shaft.
     """
     if isinstance(model, Forced):
         return Forced(without_levitation(model.rotor), model.forces)
@@ -110,19 +110,18 @@ def without_levitation(model: Model) -> Model:
     if isinstance(model, Jeffcott):
         at = model.parameters
         touchdowns: tuple[Touchdown, ...] = (Touchdown((1.0,), Rigid(at.d), at.mu, at.radius_ratio + 1.0),)
-    elif isinstance(model, LinearRotor) and len(model.mass) == 1:
+    elif isinstance(model, LinearRotor) and (len(model.mass) == 1 or model.unlevitated is not None):
         touchdowns = tuple(model.touchdowns)
     else:
-        allowed = (
-            "a rotor of one coordinate; say by carom.models.Staged what is left of another one without its levitation"
-        )
+        allowed = "a rotor of one coordinate, or one that says by its unlevitated matrices what is left without its levitation"
         raise InputError("machine", shown(model), allowed)
     mass, _, gyroscopic, _, forcing = model.matrices
-    nothing = np.zeros_like(mass)
+    left = model.unlevitated if isinstance(model, LinearRotor) else None
+    damping, stiffness = np.zeros((2, *mass.shape)) if left is None else left
     return LinearRotor.in_fixed_frame(
         mass=mass,
-        damping=nothing,
-        stiffness=nothing,
+        damping=damping,
+        stiffness=stiffness,
         gyroscopic=gyroscopic,
         forcing=forcing,
         touchdowns=touchdowns,

@@ -9,7 +9,7 @@ the units of the machine (ms, mm, mm/s, N, N s, rpm) if it is known in SI units,
 Long motions are thinned: the band of the radius, the last turns of the shaft, the position once a turn.  Virtual orbits
 are drawn where the argument `virtual` asks for them.
 
-Motions and orbits are drawn by ``motions``, ``histories``, ``touchdowns``, ``drops``, ``spectra``, ``overviews`` and ``conditions``; along
+Motions and orbits are drawn by ``motions``, ``histories``, ``touchdowns``, ``drops``, ``spectra``, ``overviews``, ``levitation`` and ``conditions``; along
 parameters ``diagrams`` with ``coexistence`` and ``proven``, ``regions`` and ``responses``; disturbances ``basins`` with ``pairs`` and
 ``rings``, ``gains``, ``drop_maps``, ``sweeps`` and ``attractor_shares``.  Shared are ``style`` (what colours mean), ``sheet`` (the style sheet),
 ``figure`` (a figure that keeps it), ``arrangement`` (layout), ``files``, ``plane`` (the clearance circle), ``bands``, ``cells``,
@@ -28,6 +28,7 @@ from carom.plots.figure import heading, one_column
 from carom.plots.files import save
 from carom.plots.gains import gain_map
 from carom.plots.histories import radius
+from carom.plots.levitation import campbell, sensitivity
 from carom.plots.motions import motion, orbit
 from carom.plots.overviews import equilibria, equilibria_and_orbits, overview
 from carom.plots.pairs import basin_pair
@@ -50,6 +51,7 @@ __all__ = [
     "basin",
     "basin_pair",
     "bifurcation_diagram",
+    "campbell",
     "drop_loads",
     "drop_map",
     "drop_orbit",
@@ -69,6 +71,7 @@ __all__ = [
     "regimes",
     "region_map",
     "save",
+    "sensitivity",
     "spectrum",
     "sweep_map",
     "touchdown",

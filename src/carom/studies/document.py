@@ -55,7 +55,7 @@ def _orbits_of(
     rotor: Model, equilibria: tuple[Equilibrium, ...], orbits: OrbitSet, machine: Machine | None
 ) -> dict[str, Any]:
     return {
-        **_rotor(rotor),
+        **rotor_document(rotor),
         "machine_si": {name: getattr(machine, name) for name in MACHINE_FIELDS} if machine is not None else None,
         "machine_given": machine.given_texts if machine is not None else None,
         "equilibria": [_equilibrium(entry, rotor) for entry in equilibria],
@@ -107,7 +107,7 @@ def trajectory_document(trajectory: Trajectory, limits: LoadLimits | None = None
     keys = ("time", "angle", "radial_speed", "angular_speed", "normal_impulse")
     impacts = zip(*fields_of(trajectory.contacts, *keys).values(), strict=True)
     document: dict[str, Any] = {
-        **_rotor(trajectory.rotor),
+        **rotor_document(trajectory.rotor),
         "start": _state(trajectory.start),
         **fields_of(trajectory, outcome="outcome.label", meaning="outcome.meaning"),
         **fields_of(trajectory, "multiplicity", "time"),
@@ -238,7 +238,7 @@ def _state(state: State) -> dict[str, Any]:
     return fields_of(state, U="position", V="velocity")
 
 
-def _rotor(rotor: Model) -> dict[str, Any]:
+def rotor_document(rotor: Model) -> dict[str, Any]:
     """What describes a rotor: the parameters of the planar one, the attributes of any other."""
     numbers = numbers_of(rotor)
     return {"parameters": numbers} if numbers else {"rotor": rotor.attributes()}

@@ -9,11 +9,11 @@ from typing import Any
 from carom.attractors import MotionName
 from carom.disturbances.echo import Echo
 from carom.models import model_of
-from carom.models.subjects import numbers_of
 from carom.motions import DropLoads, Trajectory, drop_loads
 from carom.outcome import Outcome
 from carom.parameters import Case
 from carom.results import Result, fields_of, in_si
+from carom.studies.document import rotor_document
 from carom.studies.load_checks import LoadCheck
 from carom.studies.load_tables import checks_of_planes, load_entries, load_tables
 from carom.studies.wording import Wording
@@ -73,7 +73,7 @@ class DropStudy(Result):
         document: dict[str, Any] = {
             "name": case.name,
             "disturbance": self.echo.document(scales),
-            "parameters": numbers_of(model_of(case)),
+            **rotor_document(model_of(case)),
             "gravity": {"acceleration_si": gravity.acceleration, "direction": gravity.direction} if gravity else {},
             "touchdown": {"law": case.touchdown.law, **case.touchdown.given} if case.touchdown else {"law": "rigid"},
             **fields_of(loads, "time", "settled_at", outcome="outcome.label", meaning="outcome.meaning"),
