@@ -111,7 +111,6 @@ def test_levitation_and_shaft_of_a_rotor_of_several_coordinates_are_not_told_apa
         cm.find_orbits,
         lambda machine: cm.find_bifurcations(machine, "gamma", (0.1, 0.2), lasting=True),
         lambda machine: cm.map_regions(machine, cm.bifurcations.Plane("gamma", "omega", (0.1, 0.2), (0.3, 0.4))),
-        cm.study,
         cm.models.case_of,
         jeffcott_of,
         lambda machine: refuse_forces(model_of(machine)),
@@ -121,7 +120,7 @@ def test_what_needs_a_rotor_at_rest_in_its_frame_names_gravity_and_what_works(as
     with pytest.raises(InputError) as problem:
         asked(HEAVY)
     assert str(problem.value).startswith("machine = a rotor under gravity: needs a rotor without gravity")
-    assert "carom.simulate, carom.settle, carom.drop, carom.find_attractors, " in str(problem.value)
+    assert "carom.simulate, carom.settle, carom.drop, carom.study, carom.find_attractors, " in str(problem.value)
 
 
 def test_other_forces_are_not_called_gravity():

@@ -85,7 +85,8 @@ def print_study(console: Console, study: Study, report: Path | None) -> None:
     console.print(fitted(console, _motions(motion_rows(study), "Motions", console.width)))
     _print_left_out(console, study.orbits)
     console.print()
-    console.print(fitted(console, _thresholds(study)))
+    if study.thresholds:
+        console.print(fitted(console, _thresholds(study)))
     console.print()
     if report is None:
         console.print("Figures, study.json and report.html: add --out DIR")

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Literal
 
 import numpy as np
 
 from carom.arguments import Reals, checked
+from carom.closed_forms.equilibria import BOUNDARY, Equilibrium, Status, find_equilibria
 from carom.models import Model, Subject, model_of
 from carom.outcome import InputError
 from carom.results import Result
@@ -34,6 +35,9 @@ class Levitation(Result):
     """
 
     shown: ClassVar[tuple[str, ...]] = ("rotor", "sag", "whirl", "reach", "inside", "stable")
+    kind: ClassVar[Literal["contact-free"]] = "contact-free"
+    planes: ClassVar[tuple[int, ...]] = ()
+    normal_force: ClassVar[float] = 0.0
 
     rotor: Model
     sag: Any
@@ -46,6 +50,23 @@ class Levitation(Result):
     def reach(self) -> float:
         """Largest distance from the centre at any plane, in its clearance."""
         return float((self.sags + self.radii).max())
+
+    @property
+    def radius(self) -> float:
+        """The same: what an amplitude in a clearance is measured by."""
+        return self.reach
+
+    @property
+    def position(self) -> Any:
+        """Coordinates at time zero."""
+        return self.sag + self.whirl
+
+    @property
+    def status(self) -> Status:
+        """Whether it lies inside all walls, touches one, or would lie outside, as of an equilibrium."""
+        return (
+            "admissible" if self.reach < 1.0 - BOUNDARY else "boundary" if self.reach <= 1.0 + BOUNDARY else "virtual"
+        )
 
     @property
     def inside(self) -> bool:
@@ -106,3 +127,16 @@ def levitation(machine: Subject) -> Levitation:
         np.abs(arrays["offsets"]),
         np.asarray(system.exponents),
     )
+
+
+SteadyMotion = Equilibrium | Levitation
+"""A motion that is the same in each turn of the shaft."""
+
+
+def steady_motions(rotor: Model) -> tuple[SteadyMotion, ...]:
+    """Levitation, then the synchronous rubs; of a rotor that weighs something levitation alone.
+
+    Under weight nothing else is at rest in the frame that turns with the shaft: a rotor that lies on its bearing is found among the ends
+    of simulated motions.
+    """
+    return (levitation(rotor),) if rotor.system.forced is not None else find_equilibria(rotor).members

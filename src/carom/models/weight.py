@@ -25,7 +25,7 @@ from carom.parameters import Gravity
 
 _WITHOUT = (
     "needs a rotor without gravity or other forces that change with time in its frame; under these carom.simulate, carom.settle, "
-    "carom.drop, carom.find_attractors, carom.find_orbits with impacts, carom.continue_orbit, and carom.map_basins of kicks, shocks, "
+    "carom.drop, carom.study, carom.find_attractors, carom.find_orbits with impacts, carom.continue_orbit, and carom.map_basins of kicks, shocks, "
     "losses of a blade, steps of the unbalance, releases and states work; a setting gravity=0 leaves weight out"
 )
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -125,8 +125,18 @@ def equilibria_and_orbits(
 
 @checked
 def overview(study: Study, title: str | None = None, *, virtual: bool = False) -> Figure:
-    """Draw :func:`~carom.plots.equilibria_and_orbits` of a study."""
-    return equilibria_and_orbits(study.orbits, study.equilibria, title, virtual=virtual)
+    """Draw :func:`~carom.plots.equilibria_and_orbits` of a study.
+
+    Raises
+    ------
+    InputError
+        The rotor weighs something: in the frame that turns with the shaft its levitation is no point.
+    """
+    if study.heavy:
+        allowed = "a rotor without weight; carom.plots.motion and carom.plots.basin draw what one with weight does"
+        raise InputError("study", "of a rotor under gravity", allowed)
+    points = cast("tuple[Equilibrium, ...]", study.equilibria)
+    return equilibria_and_orbits(study.orbits, points, title, virtual=virtual)
 
 
 def _panels(axes: Axes | None, count: int) -> tuple[Figure, Axes, list[Axes]]:

@@ -57,10 +57,12 @@ def pictures(study: Study) -> list[Picture]:
     figures = []
     if basins.drawable(study):
         figures.append(Picture("basins", "basins", basins.caption(study), lambda: basins.draw(study)))
-    figures.append(_overview(study))
+    if not study.heavy:  # under weight levitation is no point there
+        figures.append(_overview(study))
     figures += _of_disturbances(study)
     figures += [_of_orbit(study, orbit) for orbit in study.stable_orbits[:MOST_ORBITS]]
-    figures.append(_condition(study.orbits))
+    if study.known.orbits:
+        figures.append(_condition(study.orbits))
     if possible:
         figures.append(_multipliers(possible))
     return figures

@@ -29,7 +29,7 @@ import numpy as np
 
 from carom.attractors import AttractorSet, MotionName
 from carom.attractors.names import LEVITATION, SYNCHRONOUS_RUB
-from carom.closed_forms.equilibria import Equilibrium
+from carom.closed_forms.sag import SteadyMotion
 from carom.closed_forms.whirl import Rolling
 from carom.disturbances import Sample
 from carom.models import Jeffcott, jeffcott_of
@@ -207,7 +207,7 @@ def limits_of(case: Case) -> tuple[BearingLimit, ...]:
 
 
 def bearing_demand(
-    case: Case, equilibria: Iterable[Equilibrium], orbits: Iterable[Orbit], roll: Rolling | None, found: AttractorSet
+    case: Case, equilibria: Iterable[SteadyMotion], orbits: Iterable[Orbit], roll: Rolling | None, found: AttractorSet
 ) -> BearingDemand | None:
     """What the motions of a study ask of the magnetic bearings; ``None`` if these have no limits."""
     limits = limits_of(case)

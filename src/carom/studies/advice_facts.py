@@ -45,7 +45,8 @@ def advice_facts(study: StudyData) -> Iterator[Fact]:
         told = ", ".join([told, *(f"{name} {told_entry(name, getattr(machine, name))}" for name in names)])
     yield _fact("Machine", told)
     level, outcome, _ = judged(study)
-    levitates = f"levitates at {_place(say, study.equilibria[0].radius)}, zone {study.zone}"
+    verb = "levitates, with sag and whirl out to" if study.heavy else "levitates at"
+    levitates = f"{verb} {_place(say, study.equilibria[0].radius)}, zone {study.zone}"
     yield _fact("Now", levitates if study.levitates else outcome.lower(), "closed form")
     recommended = study.recommendation
     unbuildable = recommended.kind == "nothing-buildable"

@@ -13,8 +13,8 @@ from typing import Any, ClassVar, get_args
 from carom.arguments import checked
 from carom.attractors import DisturbanceSet, find_attractors
 from carom.bifurcations.boundary import boundary_equilibria
-from carom.closed_forms.equilibria import find_equilibria
 from carom.closed_forms.known import known_of
+from carom.closed_forms.sag import steady_motions
 from carom.closed_forms.thresholds import Gain
 from carom.disturbances import Disturbance, Plan, Sample
 from carom.models import Model, Subject, case_of, model_of
@@ -133,7 +133,7 @@ def study(
 
         proof, tell = prove(rotor, progress=tell.part(0.0, 0.2)), tell.part(0.2, 1.0)
     tell(0.0, "equilibria and periodic orbits (the kernels are compiled on first use)")
-    steady = find_equilibria(rotor).members
+    steady = steady_motions(rotor)
     orbits = orbits_within_reach(rotor) if known else find_orbits(rotor, impacts=1)
     tell(0.1, "disturbances")
     described = disturbances or DisturbanceSet(fastest=required.kick)

@@ -17,7 +17,7 @@ from carom.arguments import checked
 from carom.attractors import Attractor, AttractorSet, Ending, document_of
 from carom.bifurcations.boundary import BoundaryEquilibrium
 from carom.bifurcations.documents import search_document
-from carom.closed_forms.equilibria import Equilibrium
+from carom.closed_forms.sag import Levitation, SteadyMotion
 from carom.models import Jeffcott, Model, Span
 from carom.models.subjects import numbers_of, parameters_of
 from carom.motions.contacts import LastingContact, yields
@@ -45,14 +45,14 @@ from carom.studies.wording import Wording
 
 @checked
 def orbits_document(
-    parameters: Parameters, equilibria: tuple[Equilibrium, ...], orbits: OrbitSet, machine: Machine | None = None
+    parameters: Parameters, equilibria: tuple[SteadyMotion, ...], orbits: OrbitSet, machine: Machine | None = None
 ) -> dict[str, Any]:
     """Return the document of equilibria and periodic orbits."""
     return _orbits_of(Jeffcott(parameters), equilibria, orbits, machine)
 
 
 def _orbits_of(
-    rotor: Model, equilibria: tuple[Equilibrium, ...], orbits: OrbitSet, machine: Machine | None
+    rotor: Model, equilibria: tuple[SteadyMotion, ...], orbits: OrbitSet, machine: Machine | None
 ) -> dict[str, Any]:
     return {
         **rotor_document(rotor),
@@ -211,13 +211,15 @@ def study_document(study: StudyData, verdict: Verdict, facts: Sequence[Fact]) ->
     }
 
 
-def _equilibrium(entry: Equilibrium, rotor: Model) -> dict[str, Any]:
+def _equilibrium(entry: SteadyMotion, rotor: Model) -> dict[str, Any]:
     scales = rotor.scales
     document = {
         **fields_of(entry, kind="kind", U="position", radius="radius", normal_force="normal_force"),
         **fields_of(entry, "status", "stable"),
         "eigenvalues": list(entry.eigenvalues),
     }
+    if isinstance(entry, Levitation):
+        document |= fields_of(entry, "sag", "whirl")
     document |= in_si(document, scales, "radius", "normal_force")
     if scales is not None and entry.kind == "rub":
         document |= _wall(indentation_of_force(parameters_of(rotor), entry.normal_force))

@@ -8,6 +8,7 @@ from carom.attractors import AttractorSet
 from carom.attractors.names import LEVITATION
 from carom.closed_forms.equilibria import Equilibrium
 from carom.closed_forms.known import known_of
+from carom.closed_forms.sag import Levitation
 from carom.closed_forms.whirl import Rolling, Runaway
 from carom.orbits.orbit import Orbit
 from carom.outcome import STEADY_WORDS, Outcome
@@ -34,15 +35,23 @@ def _levitation(study: StudyData) -> str:
     limits = ", ".join(number(limit, 3) for limit in study.case.zones.limits)
     if levitation.status == "virtual":
         return (
-            f"The rotor cannot run without contact. Its whirl from unbalance would need a radius of "
+            f"The rotor cannot run without contact. {'Sag and whirl' if study.heavy else 'Its whirl from unbalance'} would need a radius of "
             f"{say.radius(levitation.radius)}, more than the clearance."
         )
     if levitation.status == "boundary":
         return "The contact-free whirl from unbalance just touches the wall: the least disturbance brings contact."
-    text = (
-        f"The rotor levitates at r = {say.radius(levitation.radius)}, zone {study.zone} "
-        f"(zone limits {limits} of the clearance). A gap of {say.length(1.0 - levitation.radius)} to the wall is left. "
-    )
+    if isinstance(levitation, Levitation):
+        sag, whirl = (say.length(float(each.max())) for each in (levitation.sags, levitation.radii))
+        text = (
+            f"The rotor hangs {sag} from the centre under its weight and whirls about that place with {whirl}: it comes as far as r = "
+            f"{say.radius(levitation.reach)}, zone {study.zone} (zone limits {limits} of the clearance). "
+        )
+    else:
+        text = (
+            f"The rotor levitates at r = {say.radius(levitation.radius)}, zone {study.zone} "
+            f"(zone limits {limits} of the clearance). "
+        )
+    text += f"A gap of {say.length(1.0 - levitation.radius)} to the wall is left. "
     decay = -float(levitation.eigenvalues.real.max())
     if not levitation.stable:
         return text + "But nothing damps it: a disturbance does not die out."
@@ -72,6 +81,11 @@ _LOSS = {
 
 
 def _rub(study: StudyData) -> str:
+    if study.heavy:
+        return (
+            "Under weight no rub is at rest in the frame that turns with the shaft. Where the rotor stays on the bearing is told by where "
+            "the disturbances below end."
+        )
     rubs = [rub for rub in study.rubs if rub.status != "virtual"]
     if not rubs:
         return f"No {RUB} exists: the unbalance cannot keep the rotor pressed against the bearing."

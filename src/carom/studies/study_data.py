@@ -11,6 +11,7 @@ from carom.basins import Share
 from carom.bifurcations.boundary import BoundaryEquilibrium
 from carom.closed_forms.equilibria import Equilibrium
 from carom.closed_forms.known import Known, known_of
+from carom.closed_forms.sag import SteadyMotion
 from carom.models import Model
 from carom.models.subjects import parameters_of
 from carom.orbits.orbit import Orbit
@@ -37,8 +38,8 @@ class StudyData(Result):
 
     Attributes
     ----------
-    equilibria : tuple of Equilibrium
-        The contact-free one, then the synchronous rubs.
+    equilibria : tuple of Equilibrium or Levitation
+        The contact-free one, then the synchronous rubs; under weight levitation about the static sag alone.
     orbits : OrbitSet
         Orbits with one impact a period: all of the planar rotor, those that a search finds of other models.
     boundaries : tuple of BoundaryEquilibrium
@@ -63,7 +64,7 @@ class StudyData(Result):
 
     case: Case
     rotor: Model
-    equilibria: tuple[Equilibrium, ...]
+    equilibria: tuple[SteadyMotion, ...]
     orbits: OrbitSet
     boundaries: tuple[BoundaryEquilibrium, ...]
     attractors: AttractorSet
@@ -87,7 +88,12 @@ class StudyData(Result):
     @property
     def rubs(self) -> tuple[Equilibrium, ...]:
         """The synchronous rubs, virtual ones included."""
-        return self.equilibria[1:]
+        return tuple(each for each in self.equilibria[1:] if isinstance(each, Equilibrium))
+
+    @property
+    def heavy(self) -> bool:
+        """Whether the rotor weighs something, or is pulled off the centre of its bearing: then nothing has the symmetry of a turn."""
+        return self.rotor.system.forced is not None
 
     @property
     def levitates(self) -> bool:
@@ -132,7 +138,9 @@ class StudyData(Result):
 
     @cached_property
     def bearing_demand(self) -> BearingDemand | None:
-        """What the motions ask of the magnetic bearings; ``None`` if the machine has no limits of these."""
+        """What the motions ask of the magnetic bearings; ``None`` if the machine has no limits of these, or they bear its weight too."""
+        if self.heavy:
+            return None
         return bearing_demand(self.case, self.equilibria, self.orbits, self.known.rolls, self.attractors)
 
     @cached_property

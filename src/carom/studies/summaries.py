@@ -11,7 +11,7 @@ from carom.attractors import Attractor, AttractorSet
 from carom.attractors.names import LEVITATION, SYNCHRONOUS_RUB
 from carom.basins import Share
 from carom.basins.shares import percent
-from carom.closed_forms.equilibria import Equilibrium
+from carom.closed_forms.sag import Levitation, SteadyMotion
 from carom.models.subjects import parameters_of
 from carom.orbits.orbit import Orbit
 from carom.orbits.single_impact import OrbitSet
@@ -189,7 +189,7 @@ def motion_rows(study: StudyData) -> list[MotionRow]:
 
 
 def simple_motion_rows(
-    equilibria: tuple[Equilibrium, ...],
+    equilibria: tuple[SteadyMotion, ...],
     orbits: OrbitSet,
     say: Wording,
     found: AttractorSet | None = None,
@@ -214,10 +214,10 @@ def _share(found: AttractorSet | None, name: str) -> str:
     return f"{found[name].count} of {len(found.disturbances)}"
 
 
-def _steady(entry: Equilibrium, say: Wording, share: str, parameters: Parameters | None) -> MotionRow:
+def _steady(entry: SteadyMotion, say: Wording, share: str, parameters: Parameters | None) -> MotionRow:
     contact_free = entry.kind == "contact-free"
     name = MOTIONS[entry.kind]
-    size = f"r = {say.radius(entry.radius)}" if contact_free else ""
+    size = f"{'up to ' if isinstance(entry, Levitation) else ''}r = {say.radius(entry.radius)}" if contact_free else ""
     if entry.status == "virtual":
         remark = "would lie outside the wall" if contact_free else "the wall would have to pull"
         return MotionRow(name, "not possible", size=size, trials=share, remark=remark)

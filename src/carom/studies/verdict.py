@@ -36,6 +36,16 @@ NOT_COVERED_OF_MATRICES = (
     ),
 )
 """What a study of any other model does not cover, in place of the last of these."""
+NOT_COVERED_UNDER_WEIGHT = (
+    "Changes of speed, and controllers that add states of their own.",
+    (
+        "What rests on the symmetry of a turn: synchronous rubs, orbits in closed form, and that a kick does the same whatever the angle of the "
+        "unbalance is as it strikes. Here that is the angle in the machine file; with others some kicks may end elsewhere."
+    ),
+    "What the weight asks of the magnetic bearings, and their limits.",
+    NOT_COVERED_OF_MATRICES[-1],
+)
+"""The same of a rotor that weighs something."""
 WALL, NOT_COVERED_OF_WALLS = (
     2,
     "Wear, heat and axial motion of the touchdown bearing: its law is taken as it is stated.",
@@ -98,7 +108,8 @@ def facts_of(study: StudyData) -> Iterator[Fact]:
 
 def not_covered(study: StudyData) -> tuple[str, ...]:
     """What the study does not cover; of other models than the planar rotor also what only its closed forms say."""
-    covered = list(NOT_COVERED if study.known.orbits else (*NOT_COVERED[:-1], *NOT_COVERED_OF_MATRICES))
+    of_model = NOT_COVERED_UNDER_WEIGHT if study.heavy else NOT_COVERED_OF_MATRICES
+    covered = list(NOT_COVERED if study.known.orbits else (*NOT_COVERED[:-1], *of_model))
     if (study.rotor.system.arrays["stiffness"] > 0.0).any():
         covered[WALL] = NOT_COVERED_OF_WALLS
     return tuple(covered)

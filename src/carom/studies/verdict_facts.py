@@ -174,7 +174,9 @@ def judged(study: StudyData) -> tuple[Level, str, str]:
     levitation = study.equilibria[0]
     if levitation.status != "admissible":
         what = "just reaches" if levitation.status == "boundary" else "would lie beyond"
-        why = f"its whirl from unbalance {what} the wall of the touchdown bearing"
+        why = (
+            f"its {'sag and whirl' if study.heavy else 'whirl from unbalance'} {what} the wall of the touchdown bearing"
+        )
         return "no-contact-free-motion", "Cannot run without contact", why
     if not levitation.stable:
         why = "its levitation is not damped, so that a disturbance does not die out"
