@@ -8,12 +8,14 @@ import numpy as np
 
 from carom.bifurcations import Diagram, EquilibriumBranch, OrbitBranch, find_bifurcations
 from carom.explorer.computing.controls import Control, unit_of
-from carom.models import Jeffcott
+from carom.models import Model
 from carom.outcome import STEADY_WORDS
 from carom.plots.diagrams import BOUNDARIES, POINTS
 from carom.plots.style import LOOKS, OUTCOMES
 from carom.progress import ShowProgress
 
+NO_DIAGRAM = "Not computed on this page: only orbits on a rigid wall have closed forms. The program that is copied as Python follows them, in minutes."
+"""What is said in place of a diagram of orbits that are not known in closed form."""
 _STEADY = {
     "contact-free": ("levitated", STEADY_WORDS["contact-free"]),
     "stable rub": ("forward-rub", f"stable {STEADY_WORDS['rub']}"),
@@ -64,7 +66,7 @@ class Picture:
     points: tuple[Point, ...]
 
 
-def picture_along(rotor: Jeffcott, control: Control, progress: ShowProgress = None) -> Picture:
+def picture_along(rotor: Model, control: Control, progress: ShowProgress = None) -> Picture:
     """Compute the diagram over the whole slider of a parameter."""
     unit = unit_of(control.name)
     diagram = find_bifurcations(rotor, control.name, (unit * control.low, unit * control.high), progress=progress)

@@ -12,7 +12,7 @@ from carom.disturbances import BladeLoss, Grid
 from carom.disturbances.following import NO_START, follow_machines
 from carom.explorer.computing.planes import Plane, ShockPlane
 from carom.explorer.computing.rest import Rest, rest_of
-from carom.models import Jeffcott
+from carom.models import Model
 from carom.outcome import InputError, Outcome
 from carom.plots.cells import MotionLook, motion_looks
 from carom.plots.style import OUTCOMES
@@ -113,7 +113,7 @@ class KickMap:
         return self.share_up_to(math.inf)
 
 
-def map_kicks(rotor: Jeffcott, plane: Plane, cells: int, largest: float, progress: ShowProgress = None) -> KickMap:
+def map_kicks(rotor: Model, plane: Plane, cells: int, largest: float, progress: ShowProgress = None) -> KickMap:
     """Follow a grid of disturbances up to a size, in the units of planes, to where they end."""
     rest, own = rest_of(rotor), plane.own(largest, rotor.scales)
     if plane.name == "blade-loss":
@@ -132,7 +132,7 @@ def _ending(look: MotionLook) -> Ending:
     return Ending(look.words, look.colour, look.look.hatch[:1], look.share, look.name.outcome is Outcome.LEVITATED)
 
 
-def _map_losses(rotor: Jeffcott, rest: Rest, plane: Plane, cells: int, largest: float) -> KickMap:
+def _map_losses(rotor: Model, rest: Rest, plane: Plane, cells: int, largest: float) -> KickMap:
     """The same of losses of a blade.
 
     Each unbalance is another machine.  So there are few of them, each with many phases, and a cell shows the nearest; motions are told by
@@ -155,7 +155,7 @@ def _map_losses(rotor: Jeffcott, rest: Rest, plane: Plane, cells: int, largest: 
     if not exists.any():
         raise InputError(
             "disturbance",
-            f"|U*| = {abs(rotor.equilibrium):.6g}",
+            f"|U*| = {rotor.system.rest_radius:.6g}",
             "one of a machine that levitates inside the wall before it",
         )
     places = np.full(outcomes.shape, NOWHERE, np.uint8)
@@ -167,7 +167,7 @@ def _map_losses(rotor: Jeffcott, rest: Rest, plane: Plane, cells: int, largest: 
     return KickMap(rest, plane, largest, outcomes, touched, np.ascontiguousarray(places.T), tuple(endings))
 
 
-def opening_range(rotor: Jeffcott, plane: Plane) -> float:
+def opening_range(rotor: Model, plane: Plane) -> float:
     """The range with which the page begins, in the units of planes: one in which a good part comes back, and a good part is lost."""
     best, least = plane.usual, math.inf
     for times in RANGES:
