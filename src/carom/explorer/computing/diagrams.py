@@ -7,15 +7,15 @@ from dataclasses import dataclass
 import numpy as np
 
 from carom.bifurcations import Diagram, EquilibriumBranch, OrbitBranch, find_bifurcations
+from carom.closed_forms.known import known_of
 from carom.explorer.computing.controls import Control, unit_of
+from carom.explorer.computing.rest import repeats
 from carom.models import Model
 from carom.outcome import STEADY_WORDS
 from carom.plots.diagrams import BOUNDARIES, POINTS
 from carom.plots.style import LOOKS, OUTCOMES
 from carom.progress import ShowProgress
 
-NO_DIAGRAM = "Not computed on this page: only orbits on a rigid wall have closed forms. The program that is copied as Python follows them, in minutes."
-"""What is said in place of a diagram of orbits that are not known in closed form."""
 _STEADY = {
     "contact-free": ("levitated", STEADY_WORDS["contact-free"]),
     "stable rub": ("forward-rub", f"stable {STEADY_WORDS['rub']}"),
@@ -79,6 +79,16 @@ def picture_along(rotor: Model, control: Control, progress: ShowProgress = None)
         bars=tuple(bar for branch in diagram.equilibria for bar in _bars(branch, unit)),
         points=tuple(_points(diagram, unit)),
     )
+
+
+def why_none(rotor: Model) -> str:
+    """Why there is no diagram of the orbits of a rotor, in a sentence; nothing where there is one."""
+    if known_of(rotor).orbits:
+        return ""
+    if not repeats(rotor):
+        return "None are known where friction turns a race or changes the speed of the shaft."
+    followed = "The program that is copied as Python follows them, in minutes."
+    return f"Not computed on this page: only orbits on a rigid wall have closed forms. {followed}"
 
 
 def _speeds(diagram: Diagram, branch: OrbitBranch) -> np.ndarray:

@@ -17,7 +17,7 @@ import numpy as np
 from carom.closed_forms.known import known_of
 from carom.explorer.computing.controls import Control, controls_of, term_of, unit_of, with_unit
 from carom.explorer.computing.planes import Plane
-from carom.explorer.computing.rest import Rest
+from carom.explorer.computing.rest import Rest, repeats
 from carom.models import Model, model_of
 from carom.motions import State
 from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, Case
@@ -127,9 +127,14 @@ def as_toml(case: Case) -> str:
 
 
 def as_command(origin: Origin, changes: Mapping[str, str], rotor: Model, kick: Kick) -> str:
-    """The command that follows the disturbance shown; the rotor is that of the machine on the page."""
+    """The command that follows the disturbance shown; the rotor is that of the machine on the page.
+
+    Empty where no option says that start: a rub on a bearing with a mount.
+    """
     if kick.plane.name != "kick" or kick.rest.levitates:
         start = f"--{kick.plane.name} {shlex.quote(','.join(kick.texts(rotor)))}"
+    elif kick.rest.among:
+        return ""
     else:
         position, velocity = complex(kick.state.position), complex(kick.state.velocity)
         start = f"--start={position.real!r},{position.imag!r},{velocity.real!r},{velocity.imag!r}"
@@ -141,11 +146,8 @@ def as_python(case: Case, kick: Kick, along: Control) -> str:
 
     It holds the machine itself, so that it runs in any folder.
     """
-    unit = unit_of(along.name)
-    low, high = (float(f"{unit * end:.12g}") for end in (along.low, along.high))
     rotor = model_of(case)
     module, model, grid, start = _disturbance(rotor, kick)
-    searched = "" if known_of(rotor).orbits else ", impacts=1"
     return f"""import carom as cm
 from {module} import {model.partition("(")[0]}
 
@@ -158,7 +160,17 @@ print(basin.share_recovered.words)
 motion = cm.simulate({start}, settle=True)
 print(motion.outcome.meaning)
 motion.plot().savefig("motion.png")
+{_orbits(rotor, along)}"""
 
+
+def _orbits(rotor: Model, along: Control) -> str:
+    """The part of a program that finds orbits; none where there are none."""
+    if not repeats(rotor):
+        return ""
+    searched = "" if known_of(rotor).orbits else ", impacts=1"
+    unit = unit_of(along.name)
+    low, high = (float(f"{unit * end:.12g}") for end in (along.low, along.high))
+    return f"""
 orbits = cm.find_orbits(machine{searched})
 print(orbits)
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -24,6 +25,8 @@ TRIED = 24
 """Cells along each side of the pictures from which the first range is chosen."""
 RANGES = tuple(math.sqrt(2.0) ** power for power in range(8))
 """Ranges that the page may begin with, relative to what must be survived: no narrower, so that this is in the picture."""
+MACHINES = 32
+"""Number of machines whose first range is kept: it takes seconds to find where motions in the wall have to be followed."""
 WANTED = 0.2
 """Share of a picture that should come back: then both what returns and what is lost are seen, and where they meet."""
 
@@ -169,6 +172,11 @@ def _map_losses(rotor: Model, rest: Rest, plane: Plane, cells: int, largest: flo
 
 def opening_range(rotor: Model, plane: Plane) -> float:
     """The range with which the page begins, in the units of planes: one in which a good part comes back, and a good part is lost."""
+    return _opening_range(rotor, plane)  # type: ignore[arg-type]  # a protocol cannot say that all its models are hashable
+
+
+@lru_cache(maxsize=MACHINES)
+def _opening_range(rotor: Model, plane: Plane) -> float:
     best, least = plane.usual, math.inf
     for times in RANGES:
         share = map_kicks(rotor, plane, TRIED, times * plane.usual).share.fraction

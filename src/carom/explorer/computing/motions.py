@@ -41,8 +41,12 @@ class MotionTable:
 
 
 def table_of(rotor: Model) -> MotionTable:
-    """Compute the table; of a rotor whose orbits are not known in closed form it has the steady motions."""
+    """Compute the table; of a rotor whose orbits are not known in closed form it has the steady motions.
+
+    Refuse one that never rests in contact, on a race that turns or with a shaft whose speed changes.
+    """
     if not known_of(rotor).orbits:
+        rotor.system.refuse_forces()
         steady = steady_rows(find_equilibria(rotor).members, Wording(rotor.scales))
         return MotionTable(tuple(TableRow(**asdict(row)) for row in steady), NO_ORBITS)
     orbits = orbits_within_reach(rotor)

@@ -38,10 +38,12 @@ class RestKick(KickPlane):
     def starts(self, rotor: Model, *values: np.ndarray) -> Starts:
         """The resting motion with the velocity of the rotor as a whole changed."""
         radial, tangential = values
-        velocities, rest = self.position / abs(self.position) * (radial + 1j * tangential), np.array(self.position)
-        if self.among:
-            velocities, rest = velocities[..., None] * rotor.system.translated, np.array(self.among)
-        return Starts.of(np.broadcast_to(rest, velocities.shape), velocities, self.within(radial, tangential))
+        velocities = self.position / abs(self.position) * (radial + 1j * tangential)
+        there = Starts.of(np.full(velocities.shape, self.position), velocities, self.within(radial, tangential))
+        if not self.among:
+            return there
+        moved = velocities[..., None] * rotor.system.translated
+        return there._replace(positions=np.broadcast_to(self.among, moved.shape).astype(complex), velocities=moved)
 
 
 @dataclass(frozen=True)
@@ -88,6 +90,11 @@ class Rest:
         return tuple(self.position.tolist()) if np.ndim(self.position) else ()
 
 
+def repeats(rotor: Model) -> bool:
+    """Whether a motion in contact can rest or repeat: not while friction turns a race or changes the speed of the shaft."""
+    return rotor.system.races is None and rotor.system.shaft is None
+
+
 def rest_of(rotor: Model) -> Rest:
     """The motion that kicks disturb: levitation, otherwise the stable rub, otherwise rest where levitation meets the wall."""
     system = rotor.system
@@ -111,7 +118,7 @@ def _rest(rotor: Model, words: str, position: Any, place: complex, outward: comp
 
 
 def _rubs(rotor: Model) -> tuple[Equilibrium, ...]:
-    """Synchronous rubs; none of a rotor that never is at rest in its frame, such as one on a race that turns."""
-    if rotor.system.races is not None or rotor.system.shaft is not None:
+    """Synchronous rubs, where they are known."""
+    if not repeats(rotor):
         return ()
     return tuple(found for found in find_equilibria(rotor) if found.kind == "rub")

@@ -74,8 +74,8 @@ class Wall:
     ----------
     noun, one : str
         A contact, in a count and with its article.
-    title, hits, section : str
-        Headings of the hardest blow and of the figure of all, and what that shows.
+    title, hits, section, shaded : str
+        Headings of the hardest blow and of the figure of all, what that shows, and what is shaded over time.
     searching : str
         What is done while the hardest is searched.
     """
@@ -85,6 +85,7 @@ class Wall:
     title: str
     hits: str
     section: str
+    shaded: str
     searching: str
 
     def load(self, hardest: float, scales: Scales | None) -> str:
@@ -124,6 +125,7 @@ RIGID = Wall(
     "hardest impulse",
     "Impacts",
     "Angle and radial speed at each impact.",
+    "lasting contact",
     "looking for the hardest impact",
 )
 YIELDING = _Yielding(
@@ -132,6 +134,7 @@ YIELDING = _Yielding(
     "largest force",
     "Arrivals at the bearing",
     "Angle and radial speed on entering it.",
+    "contact",
     "looking for the largest force",
 )
 

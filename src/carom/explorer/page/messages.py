@@ -33,7 +33,10 @@ def control_message(control: Control) -> Message:
 
 def _typed(value: float) -> str:
     """A number as one types it."""
-    return f"{value:.5g}".replace("e+", "e") if abs(value) >= MANY else number(value, 5).replace(",", "")
+    if abs(value) < MANY:
+        return number(value, 5).replace(",", "")
+    digits, exponent = f"{value:.5g}".split("e")
+    return f"{digits}e{int(exponent)}"
 
 
 def plane_message(plane: Plane, scales: Scales | None) -> Message:

@@ -8,10 +8,9 @@ from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
-from carom.closed_forms.known import known_of
 from carom.explorer.background import Job, Worker
 from carom.explorer.computing.controls import Control, controls_of, values_of, with_settings
-from carom.explorer.computing.diagrams import NO_DIAGRAM, picture_along
+from carom.explorer.computing.diagrams import picture_along, why_none
 from carom.explorer.computing.exports import Kick, Origin, as_command, as_options, as_python, as_toml
 from carom.explorer.computing.judgement import find_hardest, find_loss, judge
 from carom.explorer.computing.kicked_motion import follow_kick
@@ -255,8 +254,8 @@ class Session:
         return {**messages.basin_message(found, shown.rotor), "opening": opening}
 
     def _diagram(self, shown: _Shown, tell: Callable[[Progress], None]) -> messages.Message:
-        if not known_of(shown.rotor).orbits:
-            return {"refused": NO_DIAGRAM}
+        if reason := why_none(shown.rotor):
+            return {"refused": reason}
         others = tuple(sorted(item for item in shown.settings.items() if item[0] != shown.along))
         if (shown.along, others) not in self._diagrams:
             control: Control = self.controls[shown.along]
