@@ -122,7 +122,7 @@ def test_options_and_file_lead_to_the_same_machine(origin, kind, changes, tmp_pa
 def test_what_a_bearing_cannot_have_is_named_by_its_box(origin):
     with pytest.raises(InputError, match=r"^touchdown_restitution = '?2'?: must be a number, [^\n]*$"):
         with_settings(origin("restitution").case, {"touchdown_restitution": "2"})
-    with pytest.raises(InputError, match="^touchdown_stiffness = "):
+    with pytest.raises(InputError, match=r"^touchdown_stiffness = [^\n]*$"):
         with_settings(origin("balls").case, {"touchdown_stiffness": "a lot"})
 
 
