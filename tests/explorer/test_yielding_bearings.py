@@ -17,7 +17,7 @@ from carom.cli import main
 from carom.explorer.computing.controls import controls_of, values_of, with_settings
 from carom.explorer.computing.diagrams import why_none
 from carom.explorer.computing.exports import Kick, Origin, as_command, as_options, as_python, as_toml
-from carom.explorer.computing.judgement import find_hardest
+from carom.explorer.computing.judgement import find_hardest, judge
 from carom.explorer.computing.kicked_motion import follow_kick
 from carom.explorer.computing.kicks import map_kicks
 from carom.explorer.computing.motions import table_of
@@ -227,6 +227,8 @@ def test_what_never_rests_in_contact_is_named(origin, kind, words):
     rotor = model_of(origin(kind).case)
     with pytest.raises(InputError, match=words):
         table_of(rotor)
+    with pytest.raises(InputError, match=words):
+        judge(origin(kind).case)
     assert "None are known" in why_none(rotor)
 
 
@@ -242,6 +244,10 @@ def test_a_model_has_the_case_of_its_bearing(origin):
     case = origin("drive").case
     found = planar_case_of(model_of(case))
     assert (found.parameters, found.touchdown, found.drive) == (case.parameters, case.touchdown, case.drive)
+    # A figure in a notebook begins with it.
+    assert values_of(with_settings(found, {"touchdown_stiffness": "2e8"}))["touchdown_stiffness"] == 2e8
+    assert "[dimensionless]" in as_toml(found)
+    assert "cm.models.InBearing(" in as_python(found, kick_of(found, model_of(found)), controls_of(found)[0])
     assert planar_case_of(replace(case, touchdown=None, drive=None).machine).touchdown is None
 
 

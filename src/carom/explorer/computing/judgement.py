@@ -9,7 +9,7 @@ from carom.basins import smallest_loss
 from carom.explorer.computing.planes import Plane
 from carom.explorer.computing.rest import rest_of
 from carom.explorer.computing.walls import hits_of, wall_of
-from carom.models import Model
+from carom.models import Model, model_of
 from carom.motions import simulate
 from carom.outcome import InputError
 from carom.parameters import Case, LoadLimits
@@ -93,7 +93,8 @@ def find_hardest(
 
 
 def judge(case: Case, progress: ShowProgress = None) -> Judgement:
-    """Verdict and advice of a full study."""
+    """Verdict and advice of a full study; refused where friction turns a race or changes the speed of the shaft."""
+    model_of(case).system.refuse_forces()
     found = study(case, progress=progress)
     first = next((fact for fact in about(found.facts, "Recommendation") if fact.label in (*CHANGES, BEYOND)), None)
     advice = f"{first.label}: {first.text}." if first else ""
