@@ -77,6 +77,7 @@ _SECONDS = {
     "theory/attractors": 5,
     "howto/choose-gains": 5,
     "howto/uncertain-contact": 14,
+    "howto/flexible-rotor": 8,
     "reference/command-line": 4,
     "sweeps": 4,
     "theory/regions": 4,

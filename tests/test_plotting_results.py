@@ -4,6 +4,7 @@ import pkgutil
 from importlib import import_module
 
 import pytest
+from flexible_machines import munich
 from machines import PAPER
 from studies import study_once
 
@@ -33,11 +34,16 @@ EXAMPLES = {
     "OrbitSet": lambda: carom.find_orbits(PAPER),
     "Basin": lambda: map_basins(PAPER, KICKS),
     "GainMap": lambda: map_gains(PAPER, KICKS, ("omega", "gamma"), shape=(2, 2)),
+    "DropMap": lambda: carom.basins.map_drops(
+        carom.load("examples/dropped-rotor.toml"), names=("phase", "friction"), shape=(2, 2), until="20 ms"
+    ),
     "Diagram": lambda: carom.find_bifurcations(PAPER, "gamma", (0.1, 0.12)),
     "RegionMap": lambda: carom.map_regions(
         PAPER, carom.bifurcations.Plane("gamma", "omega", (0.1, 0.12), (0.75, 0.77)), grid=2
     ),
     "UnbalanceResponse": lambda: carom.studies.unbalance_response(carom.load("examples/keogh-cole.toml")),
+    "Campbell": lambda: carom.rotors.campbell(munich(0.06), [100.0, 300.0]),
+    "Sensitivity": lambda: carom.rotors.sensitivity(munich(0.06), [100.0, 300.0, 900.0]),
     "Study": lambda: study_once(PAPER.replace(gamma=0.65, mu=0.0)),
 }
 

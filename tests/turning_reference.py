@@ -150,6 +150,8 @@ class Turning:
             changed[2 * n : 3 * n] += kick.real
             changed[3 * n : 4 * n] += kick.imag
             changed[4 * n + 1] += faster
+            if each.race is not None:
+                changed[4 * n + 2 + plane] -= each.race.radius**2 / each.race.inertia * grip
             return changed
 
         def ends(push, grip):

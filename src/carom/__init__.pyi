@@ -14,6 +14,7 @@ from carom import proofs as proofs
 from carom import report as report
 from carom import reproductions as reproductions
 from carom import results as results
+from carom import rotors as rotors
 from carom import studies as studies
 from carom import sweeps as sweeps
 from carom.attractors import find_attractors as find_attractors

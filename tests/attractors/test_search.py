@@ -310,13 +310,14 @@ class Fake:
     def __init__(self, lives):
         self.left, self.followed = np.array(lives), np.zeros(len(lives), int)
 
-    def __call__(self, rotor, positions, velocities, *, patience, which=None, threads=None, progress=None):
+    def __call__(self, rotor, positions, velocities, *, patience, which=None, begins=0.0, threads=None, progress=None):
         places = positions.real.astype(int)
         impacts = np.minimum(patience, self.left[places] - self.followed[places])
         self.followed[places] += impacts
         multiplicities = np.where(self.followed[places] < self.left[places], 0, 1)
         outcomes = np.full(len(places), Outcome.BOUNCING, np.int8)
-        return Endings(outcomes, impacts.astype(float), impacts, multiplicities, positions, velocities)
+        times = impacts.astype(float)
+        return Endings(outcomes, times, impacts, multiplicities, positions, velocities, 0.0 * times)
 
 
 def fates(monkeypatch, lives, patience=20_000, survival=LASTS):
@@ -324,7 +325,7 @@ def fates(monkeypatch, lives, patience=20_000, survival=LASTS):
     monkeypatch.setattr(carom.disturbances.following, "settle", fake)
     monkeypatch.setattr(carom.attractors.survival, "settle", fake)
     monkeypatch.setattr(
-        carom.attractors.survival, "measure_survival", lambda *states, impacts, threads, motions: survival
+        carom.attractors.survival, "measure_survival", lambda *states, begins, impacts, threads, motions: survival
     )
     starts = Starts.of(np.arange(len(lives), dtype=complex), 0j, True)
     tell = Reporter(lambda report: progress.append(report.share))

@@ -32,6 +32,7 @@ def ensemble(multiplicities, outcomes, impacts=0):
         multiplicities=np.array(multiplicities),
         positions=ones.astype(complex),
         velocities=ones.astype(complex),
+        begins=0.0 * ones,
     )
 
 
@@ -39,7 +40,7 @@ def mortal(half_life, seed):
     """Stands in for ``settle``: irregular motions that die by chance, each impact with one probability."""
     random = np.random.default_rng(seed)
 
-    def settle(rotor, positions, velocities, *, patience, threads=None):
+    def settle(rotor, positions, velocities, *, patience, begins=0.0, threads=None):
         dies = random.random(len(positions)) > 0.5 ** (patience / half_life)
         return ensemble(np.zeros(len(positions), int), np.where(dies, Outcome.ROLLING, Outcome.BOUNCING), patience)
 
@@ -107,7 +108,7 @@ def test_motions_that_all_die_at_once_have_a_short_life(monkeypatch):
 def test_motions_that_stay_low_on_the_wall_for_longer_than_a_chatter_have_left(monkeypatch):
     looks = []
 
-    def settle(rotor, positions, velocities, *, patience, threads=None):
+    def settle(rotor, positions, velocities, *, patience, begins=0.0, threads=None):
         looks.append(len(positions))
         # The first half is low from the third look on, the second half at every other look: in a chatter, time and again.
         low = np.where(positions.real > 0.0, len(looks) >= 3, len(looks) % 2 == 0)
@@ -123,7 +124,7 @@ def test_motions_that_stay_low_on_the_wall_for_longer_than_a_chatter_have_left(m
 
 
 def test_motions_given_up_have_neither_died_nor_lasted(monkeypatch):
-    def settle(rotor, positions, velocities, *, patience, threads=None):
+    def settle(rotor, positions, velocities, *, patience, begins=0.0, threads=None):
         count = len(positions)
         return ensemble(np.zeros(count, int), np.full(count, Outcome.GRAZING))
 

@@ -115,8 +115,8 @@ def test_field_huge(refused, name):
         ("[dimensionless]\ngamma=1\nomega=1\nrho=0\nphi=0\nmu=0\nd=1", "missing"),
         ("[machine\nmass=1", "TOML"),
         ("[machines]\nmass=1", "machine"),
-        ("[machine]\nmass=1\n[dimensionless]\ngamma=1", "both"),
-        ("[zones]\nlimits=[0.1,0.2,0.3]", "neither"),
+        ("[machine]\nmass=1\n[dimensionless]\ngamma=1", "more"),
+        ("[zones]\nlimits=[0.1,0.2,0.3]", "none"),
     ],
 )
 def test_wrong_file(refused, content, words):

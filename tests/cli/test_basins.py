@@ -380,3 +380,22 @@ def test_a_change_is_told_as_that_of_the_gain_and_not_of_the_stiffness():
     assert "5,900 A/m (+18 %), derivative gain, current over velocity 6 A s/m (+20 %); " in text
     assert [term["change"] for term in document["gains"]["terms"]] == pytest.approx([0.18, 0.2], rel=1e-12)
     assert document["gains"]["least_change"]["changes"] == [0.3, 0.2]
+
+
+def test_losses_of_a_blade_under_gravity(carom):
+    """They start about the static sag; the bound up to which none touches holds for what is tried."""
+    command = (
+        "basins",
+        "examples/dropped-rotor.toml",
+        "--disturbance",
+        "blade-loss",
+        "--after",
+        "60 um",
+        "--grid",
+        "4",
+    )
+    code, out, err = carom(*command)
+    words = " ".join(out.split())
+    assert (code, err) == (0, "")
+    assert "levitation 4 100 %" in words
+    assert "Only unbalances up to 0.030794 mm" in words

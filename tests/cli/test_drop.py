@@ -112,3 +112,43 @@ def test_a_rigid_wall_has_no_race(carom):
     code, _, err = carom("drop", "examples/dropped-rotor.toml", "--race-speed", "500 rpm")
     assert code == 2
     assert "race_speed = " in err
+
+
+MAP = ("drop", "examples/dropped-rotor.toml", "--map", "phase,speed", "--grid", "3x2", "--y", "8000 rpm,9000 rpm")
+
+
+def test_a_map_for_people_and_as_json(carom, tmp_path):
+    code, out, err = carom(*MAP, "--out", str(tmp_path / "map"))
+    assert code == 0
+    assert err == f"Written to {tmp_path / 'map'}\n"
+    words = " ".join(out.split())
+    assert "Drops over phase 60 to 300°, speed 8,000 to 9,000 rpm: 3 x 2." in words
+    assert "rest on the touchdown bearing 6 100 %" in words
+    assert "Hardest: largest impulse 0.4" in words
+    assert sorted(path.name for path in (tmp_path / "map").iterdir()) == ["drop-map.json", "drop-map.nc", "figures"]
+    _, out, _ = carom(*MAP, "--json")
+    document = json.loads(out)
+    assert document == json.loads((tmp_path / "map" / "drop-map.json").read_text())
+    assert document["outcomes"] == [["at-rest"] * 2] * 3
+    phase, speed = document["plane"]["phase"][1], document["plane"]["speed"][1]
+    machine = cm.load("examples/dropped-rotor.toml")
+    assert speed == pytest.approx(machine.machine.speed)
+    loads = cm.motions.drop_loads(cm.simulate(machine, cm.drop(phase=phase)))
+    assert document["impulse_si"][1][1] == pytest.approx(loads.planes[0].loads.si()["impulse"], rel=1e-9)
+    assert document["force_si"] == [[None] * 2] * 3
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        (("--grid", "3x2"), "--grid = 3x2: allowed only with --map NAME,NAME"),
+        (("--map", "phase"), "--map = phase: must be two names with a comma between them, such as phase,speed"),
+        (("--map", "phase,spede"), "did you mean speed?"),
+        (("--map", "phase,speed", "--grid", "1x5"), "--grid = 1x5: must be two whole numbers of at least 2"),
+        (("--map", "phase,speed", "--y", "8000,9000 rpm"), "--y = 8000: speed must be"),
+    ],
+)
+def test_wrong_maps(carom, options, said):
+    code, out, err = carom("drop", "examples/dropped-rotor.toml", *options)
+    assert (code, out) == (2, "")
+    assert said in err

@@ -134,7 +134,10 @@ def test_figures_of_both_stages(carom, tmp_path):
             (*DROP, "--set", "stiffness=1e5 N/m"),
             "levitation = up to 1.97 clearances from the centre: static sag and whirl",
         ),
-        (("simulate", MACHINE, "--shock", "5 g"), "machine = a rotor under gravity: needs a rotor without gravity"),
+        (
+            ("simulate", MACHINE, "--set", "stiffness=1e5 N/m", "--shock", "5 g"),
+            "levitation = up to 1.97 clearances from the centre: static sag and whirl",
+        ),
     ],
 )
 def test_bad_drops_get_one_line(carom, arguments, words):
@@ -149,10 +152,8 @@ def test_bad_drops_get_one_line(carom, arguments, words):
     [
         ("study",),
         ("orbits",),
-        ("orbits", "--impacts", "2"),
-        ("attractors",),
         ("prove",),
-        ("bifurcations", "--along", "gamma", "--from", "0.1", "--to", "0.2"),
+        ("bifurcations", "--along", "gamma", "--from", "0.1", "--to", "0.2", "--lasting"),
         ("regions",),
         ("response", "--from", "1000 rpm", "--to", "2000 rpm"),
         ("explore", "--no-browser", "--port", "0"),
@@ -167,6 +168,34 @@ def test_other_commands_name_gravity_and_what_works(carom, arguments):
     assert err.count("\n") == 1
 
 
+@pytest.mark.parametrize("options", [("--shock", "10 g, 5 ms, 30 deg"), ("--blade-loss", "200 g mm, 40 deg")])
+def test_other_disturbances_of_a_heavy_rotor_begin_at_its_levitation(carom, options):
+    found = document(carom("simulate", MACHINE, *options, "--json"))
+    assert found["outcome"] == "levitated"
+    assert found["gravity"]["acceleration_si"] == 9.81
+
+
+def test_orbits_of_a_heavy_rotor_say_how_many_turns_they_take(carom):
+    bounces = ("gravity=100", "unbalance=400 g mm", "friction=0")
+    settings = [text for each in bounces for text in ("--set", each)]
+    arguments = ("orbits", MACHINE, "--impacts", "1", "--guesses", "20", *settings)
+    (orbit,) = document(carom(*arguments, "--json"))["orbits"]
+    assert orbit["turns"] == 2
+    assert orbit["period"] == pytest.approx(4.0 * math.pi)
+    assert len(orbit["multipliers"]) == 4
+    code, out, _ = carom(*arguments)
+    assert code == 0
+    assert "13.3 ms, 2 turns" in out
+
+
+def test_motions_on_which_disturbances_of_a_heavy_rotor_end_are_told(carom):
+    settings = [text for each in ("gravity=100", "friction=0") for text in ("--set", each)]
+    found = document(carom("attractors", MACHINE, "--starts", "20", *settings, "--json"))
+    (rest,) = [each for each in found["attractors"] if each["count"]]
+    assert rest["outcome"] == "at-rest"
+    assert (rest["word"], rest["turns"]) == ("slide+", 1)
+
+
 def test_kicks_of_a_heavy_rotor_are_mapped(carom):
     found = document(
         carom("basins", MACHINE, "--grid", "6x8", "--set", "damping=100 N s/m", "--fastest", "500 mm/s", "--json")
@@ -174,3 +203,55 @@ def test_kicks_of_a_heavy_rotor_are_mapped(carom):
     assert found["starts"] == 48
     assert found["fractions"]["levitation"] > 0.2
     assert 0.0 < found["harmless_kick"] < found["smallest_unrecovered_kick"]
+
+
+BALLS = "examples/touchdown-balls.toml"
+
+
+@pytest.mark.parametrize(
+    ("option", "value", "since"),
+    [
+        ("--shock", "20 g, 5 ms", "the shock began"),
+        ("--kick", "300 mm/s", "the kick"),
+        ("--blade-loss", "2000 g mm, 90 deg", "the loss"),
+    ],
+)
+def test_a_bearing_that_gives_way_tells_its_loads_after_any_disturbance(carom, option, value, since):
+    command = ("simulate", BALLS, option, value, "--until", "30 ms")
+    code, out, err = carom(*command)
+    assert (code, err) == (0, "")
+    words = " ".join(out.split())
+    _, out, _ = carom(*command, "--json")
+    document = json.loads(out)
+    (plane,) = document["planes"]
+    peak = plane["loads"]["force_si"]
+    # The limits of the table are compared with the loads of the whole motion, once.
+    assert f"ms after {since}" in words
+    assert words.count("normal force:") == 1
+    assert document["limits"] == plane["limits"]
+    assert document["loads"]["force_si"] == peak > 1000.0
+    assert plane["loads"]["pressure_si"] > 1e9
+    forces = [entry["peak_force_si"] for entry in document["contacts"]]
+    assert max(forces) == pytest.approx(peak, rel=1e-12)
+    assert len(forces) == plane["contacts"]
+    # Its wall has a law of its own, and no coefficient of restitution.
+    assert "d" not in document["parameters"]
+    assert document["touchdown"]["law"] == "hunt-crossley"
+
+
+def test_what_is_hit_during_a_shock_counts(carom):
+    """The hardest contact of this shock comes while it lasts."""
+    _, out, _ = carom("simulate", BALLS, "--shock", "20 g, 5 ms", "--until", "30 ms", "--json")
+    document = json.loads(out)
+    first, second = document["stages"]
+    assert document["loads"]["force_si"] == first["loads"]["force_si"] > 2.0 * second["loads"]["force_si"]
+    assert document["planes"][0]["force_at_si"] < 5e-3
+    assert document["planes"][0]["fastest_race_si"] > document["planes"][0]["race_at_end_si"] > 0.0
+
+
+def test_a_bearing_on_a_mount_without_weight(carom):
+    mount = ("touchdown_mount_mass=1 kg", "touchdown_mount_stiffness=2e7 N/m", "touchdown_mount_damping=2000 N s/m")
+    settings = [part for setting in ("gravity=0", *mount) for part in ("--set", setting)]
+    code, out, err = carom("simulate", BALLS, *settings, "--kick", "100 mm/s", "--until", "10 ms")
+    assert (code, err) == (0, "")
+    assert "At the end, in the fixed frame:" in out

@@ -9,7 +9,9 @@ from rich.console import Console
 from yielding_walls import with_walls
 
 import carom as cm
-from carom.cli.tables import _motions, print_motion
+from carom.cli.basin_tables import print_basin
+from carom.cli.drops import print_parts
+from carom.cli.tables import _motions
 from carom.models import KelvinVoigt
 from carom.studies.summaries import MotionRow, State
 
@@ -30,8 +32,23 @@ def test_contacts_with_a_wall_that_gives_way_are_rows():
     motion = cm.simulate(rotor, cm.State(0.2, 1.0), 8.0)
     console = Console(width=160)
     with console.capture() as shown:
-        print_motion(console, case, motion)
+        print_parts(console, case, motion, "start")
     text = shown.get()
     assert f": {len(motion.touches)} contacts." in text
-    assert " deep: normal force up to " in text
+    assert "depth " in text
+    assert "after the start" in text
     assert text.count("forward slip for ") == len(motion.touches)
+
+
+def test_what_is_merely_unknown_is_not_called_unstable():
+    case = cm.load("examples/keogh-cole.toml")
+    for damping, words in (
+        (1400.0, "No size is known up to which"),
+        (-1400.0, "has no stable levitation inside the wall"),
+    ):
+        machine = case.parameters.replace(gamma=case.parameters.gamma * damping / 1400.0)
+        basin = cm.map_basins(machine, cm.Grid(cm.disturbances.VelocityKick(0.01), (1, 2)), until=50.0)
+        console = Console(width=160)
+        with console.capture() as shown:
+            print_basin(console, basin, None, 0.0)
+        assert words in shown.get()

@@ -15,9 +15,9 @@ import carom as cm
 from carom.basins import Basin, smallest_loss
 from carom.basins.blade_losses import PHASES
 from carom.disturbances import BladeLoss, Disturbance, Grid, Sample
-from carom.models import Jeffcott
+from carom.models import Force, Forced, Jeffcott
 from carom.outcome import InputError, Outcome
-from carom.parameters import Machine
+from carom.parameters import Machine, Parameters
 
 LIGHT = Machine(
     mass=20.0,
@@ -242,3 +242,38 @@ def test_what_is_lost_already_or_never_is_said():
     assert already.size == pytest.approx(heavy.parameters.rho)
     # A lost motion may take 20,000 impacts, so the other phases are not followed once some of a few are lost.
     assert already.tried < PHASES
+
+
+@pytest.mark.parametrize("disturbance", ["blade loss", "unbalance step"])
+def test_a_rotor_that_weighs_something_whirls_about_its_sag_before_the_unbalance_changes(disturbance):
+    """Both unbalances and the weight in the fixed frame, whose axes are those of the rotor when the change happens."""
+    numbers, weight, phase = Parameters(0.3, 0.76, 0.1, 0.4, 0.15, 0.9, 50.0), 0.04 - 0.1j, 1.1
+    rotor = Forced(Jeffcott(numbers), (Force(-1j, np.array([weight])),))
+    if disturbance == "blade loss":
+        before, after = 0.1 * cmath.exp(1j * (0.4 - phase)), 0.16 * cmath.exp(0.4j)
+        changed, start = BladeLoss(0.16).release(rotor, phase)
+    else:
+        before, after = 0.16 * cmath.exp(1j * (0.4 + phase)), 0.1 * cmath.exp(0.4j)
+        changed, starts = rotor, cm.disturbances.UnbalanceStep(0.3).starts(rotor, np.array([0.16]), np.array([phase]))
+        start = cm.State(complex(starts.positions[0]), complex(starts.velocities[0]))
+    whirl = before / (0.76**2 - 1.0 + 0.3j)
+    place, speed = whirl + weight / 0.76**2, 1j * whirl
+
+    def rate(time, y):
+        z, v = complex(y[0], y[1]), complex(y[2], y[3])
+        a = after * cmath.exp(1j * time) + weight - 0.3 * v - 0.76**2 * z
+        return [v.real, v.imag, a.real, a.imag]
+
+    times = np.linspace(0.0, 12.0, 30)
+    begin = [place.real, place.imag, speed.real, speed.imag]
+    found = solve_ivp(rate, (0.0, 12.0), begin, method="DOP853", rtol=1e-12, atol=1e-13, t_eval=times).y
+    motion = cm.simulate(changed, start, 12.0)
+    assert not len(motion.contacts)
+    assert motion.position(times, "fixed") == pytest.approx(found[0] + 1j * found[1], abs=1e-10)
+
+
+def test_an_unbalance_before_the_step_that_would_reach_the_wall_with_the_sag_has_no_start():
+    rotor = Forced(Jeffcott(Parameters(0.3, 0.76, 0.1, 0.4, 0.15, 0.9, 50.0)), (Force(-1j, np.array([-0.2j])),))
+    reach, sag = 1.0 / abs(0.76**2 - 1.0 + 0.3j), 0.2 / 0.76**2
+    sizes = (1.0 - sag) / reach * np.array([0.999, 1.001])
+    assert cm.disturbances.UnbalanceStep(1.0).starts(rotor, sizes, np.zeros(2)).exists.tolist() == [True, False]

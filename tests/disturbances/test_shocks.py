@@ -11,18 +11,23 @@ from machines import PAPER, rest_position, strike
 from scipy.integrate import solve_ivp
 
 import carom
+from carom.disturbances.following import follow_machines
 from carom.disturbances.shocks import states_after_shocks
+from carom.models import Force, Forced
 
 pytestmark = pytest.mark.jit_only
 
 
-def followed(parameters, peak, duration, direction):
-    """State at the end of the pulse by DOP853 in the fixed frame, impacts one by one; and how many there were."""
+def followed(parameters, peak, duration, direction, weight=0j):
+    """State at the end of the pulse by DOP853 in the fixed frame, impacts one by one; and how many there were.
+
+    Under a weight, an acceleration in the fixed frame, the rotor sags by what its spring gives.
+    """
     gamma, omega = parameters.gamma, parameters.omega
 
     def rate(time, state):
         place, speed = complex(state[0], state[1]), complex(state[2], state[3])
-        push = parameters.rho * cmath.exp(1j * (time + parameters.phi))
+        push = weight + parameters.rho * cmath.exp(1j * (time + parameters.phi))
         push -= peak * math.sin(math.pi * time / duration) * cmath.rect(1.0, direction)
         force = push - gamma * speed - omega**2 * place
         return [speed.real, speed.imag, force.real, force.imag]
@@ -33,6 +38,7 @@ def followed(parameters, peak, duration, direction):
     wall.terminal, wall.direction = True, 1.0
     place, time, impacts = rest_position(parameters), 0.0, 0
     speed = 1j * place
+    place += weight / omega**2
     while time < duration:
         state = [place.real, place.imag, speed.real, speed.imag]
         found = solve_ivp(rate, (time, duration), state, method="DOP853", rtol=1e-12, atol=1e-13, events=wall)
@@ -126,6 +132,35 @@ def test_a_motion_through_the_pulse_and_after_it():
     assert motion.outcome is ends.outcome
     # In the fixed frame the path is continuous where one stage ends and the next begins.
     assert after_it.position(0.0, "fixed") == pytest.approx(pulse.position(1.3, "fixed"), abs=1e-12)
+
+
+WEIGHT = 0.05 - 0.11j
+
+
+@pytest.mark.parametrize(
+    ("peak", "duration", "direction", "struck"), [(0.05, 1.3, 0.3, False), (6.0, 1.3, 0.3, True), (1.5, 2.5, 2.0, True)]
+)
+def test_a_rotor_that_weighs_something_goes_on_under_the_weight_as_it_points_then(peak, duration, direction, struck):
+    machine = PAPER.replace(rho=0.2, gamma=0.3)
+    rotor = Forced(carom.models.Jeffcott(machine), (Force(-1j, np.array([WEIGHT])),))
+    place, speed, impacts = followed(machine, peak, duration, direction, WEIGHT)
+    assert (impacts > 0) == struck
+    shock = carom.BaseShock(peak, duration)
+    state = shock.release(rotor, direction)
+    assert state.position == pytest.approx(place, abs=1e-8)
+    assert state.velocity == pytest.approx(speed, abs=1e-8)
+    assert state.time == duration
+    motion = carom.simulate(*shock.stages(rotor, direction))
+    pulse, after_it = motion.parts
+    assert pulse.final.position == pytest.approx(state.position, abs=1e-12)
+    assert after_it.begins == duration
+    # As one of many, it ends as the single motion does.
+    plan = carom.Grid(shock, (3, 4))
+    (ends,) = follow_machines([(rotor, plan.starts(rotor))], 100)
+    peaks, directions = (each.ravel() for each in np.meshgrid(*plan.values(), indexing="ij"))
+    for number, outcome in enumerate(ends.outcomes.ravel().tolist()):
+        one = carom.simulate(*carom.BaseShock(peaks[number], duration).stages(rotor, directions[number]))
+        assert one.outcome == outcome
 
 
 def test_a_shock_knows_of_no_other():

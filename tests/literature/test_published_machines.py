@@ -4,6 +4,7 @@ import math
 from pathlib import Path
 
 import pytest
+from flexible_machines import munich, munich_rotor
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
@@ -12,6 +13,7 @@ from carom.models import Jeffcott
 from carom.motions import State, simulate
 from carom.outcome import Outcome
 from carom.parameters import ENTRIES, Machine, load, read_quantity
+from carom.rotors import Material, find_whirls
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 
@@ -65,6 +67,16 @@ def test_the_test_rig_of_munich_has_nearly_the_natural_frequency_that_was_measur
     measured = machine.replace(natural_frequency="52.013 Hz")
     assert measured.stiffness / 2 == pytest.approx((52.013 * 2 * 3.141592653589793) ** 2 * 3.2740 / 2, rel=1e-13)
     assert measured.damping == machine.damping
+
+
+def test_the_flexible_shaft_of_munich_has_whirls_on_both_sides_of_what_was_measured():
+    """52.013 Hz: between the bending of the shaft and its ends on the bearings, which are strongly damped; a stiff shaft has the 48.2 Hz of a rigid one."""
+    at_rest = find_whirls(munich(speed=1.0), count=6)
+    assert [round(each.frequency, 1) for each in at_rest[::2]] == [16.7, 59.8, 61.8]
+    stiff = munich(speed=1.0, rotor=munich_rotor(material=Material(1e15, 7860.0)))
+    # What the derivative gain damps slows it down: the size of the exponent is the frequency without.
+    lowest = min(abs(each.exponent) for each in find_whirls(stiff)) / (2 * math.pi)
+    assert lowest == pytest.approx(48.177, rel=0.02)
 
 
 def test_the_test_rig_levitates_within_its_limit_of_current():

@@ -165,16 +165,27 @@ def test_a_force_near_two_modes_that_nearly_coincide_is_refused():
         with_forces(planar_system(1e-5, 0.0), [Force(-1j, np.array([0.1]))])
 
 
-def test_what_needs_rest_in_the_turning_frame_is_refused():
-    rotor = Forced(tilting().model, (Force(-1j, np.array([0.01, 0.0])),))
+def test_what_needs_rest_or_repetition_is_refused():
+    shaken = Forced(tilting().model, (Force(-0.5j, np.array([0.01, 0.0])),))
+    with pytest.raises(InputError, match="forces that change with time"):
+        cm.find_equilibria(shaken)
     calls = (
-        lambda: cm.find_equilibria(rotor),
-        lambda: cm.find_orbits(rotor, impacts=1),
-        lambda: cm.orbits.lyapunov_exponents(rotor, cm.kick(3.0), impacts=50),
+        lambda: cm.find_orbits(shaken, impacts=1),
+        lambda: cm.orbits.lyapunov_exponents(shaken, cm.kick(3.0), impacts=50),
     )
     for call in calls:
-        with pytest.raises(InputError, match="forces that change with time"):
+        with pytest.raises(InputError, match="forces that change in the fixed frame"):
             call()
+
+
+def test_no_contact_changes_a_force():
+    heavy = Forced(tilting().model, (Force(-1j, np.array([-0.2j, 0.0])),))
+    motion = cm.simulate(heavy, cm.State(np.array([0.1, 0.0]), np.array([1.0, 0.5j])), 200.0)
+    assert motion.is_impact.sum() > 100
+    course = heavy.system.forced[:, None] * np.exp(np.outer(heavy.system.arrays.exponents, motion.segment_starts))
+    # Each flight rounds the direction of the force.
+    forcing = heavy.system.forced != 0.0
+    assert motion.segment_amplitudes.T[forcing] == pytest.approx(course[forcing], abs=1e-12)
 
 
 @pytest.mark.parametrize("damping", [0.0, 1e-18])

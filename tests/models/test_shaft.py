@@ -107,6 +107,8 @@ def test_contacts_that_give_way_against_a_general_integrator(rotor, contacts, ki
         (single(Rigid(0.9), Shaft(1.0), 0.5, 2.0), 2),
         (double([Rigid(0.8), Rigid(0.7)], Shaft(2.0)), 4),
         (double([Rigid(0.8), SOFT], Shaft(2.0)), 2),
+        (single(Rigid(0.8), Shaft(5.0), 0.3, 1.5, Race(0.5, 1.5, 0.02, 0.1)), 4),
+        (double([Rigid(0.8), Rigid(0.7)], Shaft(2.0), races=(Race(0.05, 2.0, 0.02, 0.1), None)), 6),
     ],
 )
 def test_impacts_against_a_general_integrator(rotor, impacts):

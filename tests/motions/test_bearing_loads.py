@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 
 import numpy as np
@@ -174,3 +175,28 @@ def test_several_planes_have_loads_of_their_own():
     assert len(found.planes) > 1
     for plane in found.planes:
         assert plane.contacts == len(motion.seen_at(plane.plane).contacts)
+
+
+def test_what_the_drive_would_do_in_flight_is_told():
+    """A rotor that falls through the clearance and rests there: the torque acts from the first contact on."""
+    shaft = cm.models.Shaft(50.0, 3.0)
+    bare = cm.models.LinearRotor.in_fixed_frame(
+        mass=[[1.0]],
+        damping=[[0.0]],
+        stiffness=[[0.0]],
+        forcing=[0.0],
+        touchdowns=[cm.models.Touchdown([1.0], cm.models.KelvinVoigt(1e3, 60.0), 0.2, 5.0)],
+        shaft=shaft,
+    )
+    rotor = cm.models.Forced(bare, (cm.models.Force(-1j, np.array([-0.02j])),))
+    motion = cm.simulate(rotor, cm.State(0.0, 0.0), 25.0)
+    found = cm.motions.drop_loads(motion).shaft
+    ledger = cm.motions.energy_ledger(motion)
+    assert found.speed_at_end == motion.final.shaft[0]
+    fall = 10.0  # √(2/g) in 1/Ω, until the first contact
+    assert found.left_out >= 3.0 / 50.0 * fall * (1.0 - 1e-12)
+    # The ledger has the work of the same torque, at the speed of each flight.
+    assert found.left_out * 50.0 == pytest.approx(ledger.drive_left_out[-1], rel=0.1)
+    assert "left out in flight" in str(cm.studies.load_tables.load_tables(cm.motions.drop_loads(motion), "the release"))
+    still = cm.models.Forced(dataclasses.replace(bare, shaft=None), rotor.forces)
+    assert cm.motions.drop_loads(cm.simulate(still, cm.State(0.0, 0.0), 25.0)).shaft is None

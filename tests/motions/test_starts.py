@@ -11,7 +11,8 @@ import pytest
 from linear_rotors import single, tilting
 from machines import PAPER
 
-from carom.models import Jeffcott
+import carom as cm
+from carom.models import Jeffcott, model_of
 from carom.motions.simulation import simulate
 from carom.motions.starts import Kick, State, kick
 from carom.outcome import InputError
@@ -106,3 +107,21 @@ class TestUnits:
     def test_units_need_scales(self):
         with pytest.raises(InputError, match="has no scales"):
             simulate(PAPER, kick("50 mm/s"), 1.0)
+
+
+def test_a_motion_goes_on_from_where_another_has_ended():
+    heavy = model_of(cm.load("examples/dropped-rotor.toml"))
+    start = cm.State(0.2, 1.5 - 0.3j)
+    whole = cm.simulate(heavy, start, 30.0)
+    first = cm.simulate(heavy, start, 11.0)
+    assert first.final.time == 11.0
+    assert "time=11.0" in repr(first.final)
+    later = cm.simulate(heavy, first.final, 19.0)
+    assert later.begins == 11.0
+    assert later.final.time == 30.0
+    assert later.final.position == pytest.approx(whole.final.position, abs=1e-12)
+    assert later.final.velocity == pytest.approx(whole.final.velocity, abs=1e-12)
+    # Without weight a state says everything, whatever the time.
+    assert cm.simulate(heavy.rotor, start, 11.0).final.time == 0.0
+    with pytest.raises(InputError, match=r"^start time = nan: a finite number"):
+        cm.simulate(heavy, cm.State(0.2, time=math.nan), 1.0)

@@ -316,9 +316,9 @@ def test_a_path_that_leads_nowhere(tmp_path):
     [
         ("", "it is empty"),
         (" \n\n", "it is empty"),
-        ("# nothing\n", "holds neither"),
-        ("[zones]\nlimits = [0.1, 0.2, 0.3]\n", "holds neither"),
-        (text_of("machine", ENTRIES) + text_of("dimensionless", NUMBERS), "holds both"),
+        ("# nothing\n", "holds none"),
+        ("[zones]\nlimits = [0.1, 0.2, 0.3]\n", "holds none"),
+        (text_of("machine", ENTRIES) + text_of("dimensionless", NUMBERS), "holds more"),
         ("[machine\nmass = 3\n", "line 1"),
         ("[machine]\n\nmass = \n", "line 3"),
         ("[machine]\nmass = 50\nmass = 51\n", "line 3"),

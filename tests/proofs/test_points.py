@@ -251,11 +251,34 @@ def test_zero_that_is_no_point_of_the_interval_is_refused(kind, guess, low, high
         centre = newton(system, guess)
         found = enclosed_zero(system, centre)
         assert found is not None
-        entry = {"kind": kind, "label": "B1,d", "near": guess, "width": found[1]}
+        entry = {"kind": kind, "label": "B1,d", "width": found[1]}
         entry["centre"] = [str(exact_ends(x)[0]) for x in centre]
         assert "centre" not in _searched(line, kind, "B1,d", guess)
         with pytest.raises(NotShownError, match="not at a value and at times"):
             point_claims(Rotor(hypotheses), Evidence({"points": [entry]}), {"along": "gamma", "from": low, "to": high})
+
+
+def test_one_point_twice_is_refused():
+    """Also where the box of the second one is narrower."""
+    hypotheses, options = hypotheses_of(DECIMAL), {"along": "gamma", "from": "0.063", "to": "0.064"}
+    with at_precision(128):
+        searched = Evidence()
+        found = point_claims(Rotor(hypotheses), searched, options)
+        document = searched.document()
+        assert point_claims(Rotor(hypotheses), Evidence(document), options) == found
+        (entry,) = [entry for entry in document["points"] if entry["kind"] == "grazing"]
+        twice = {"points": [*document["points"], entry | {"width": entry["width"] + 4}]}
+        with pytest.raises(NotShownError, match=r"one grazing of B1,d twice"):
+            point_claims(Rotor(hypotheses), Evidence(twice), options)
+
+
+@pytest.mark.parametrize("name", KNOWN)
+def test_uniqueness_is_stated_with_its_box(paper, name):
+    enclosures = paper[name].enclosures
+    boxes = [key.removesuffix(" box") for key in enclosures if key.endswith(" box")]
+    assert boxes == [key for key in enclosures if not key.endswith(" box")]
+    for key in boxes:
+        assert enclosures[f"{key} box"].holds(enclosures[key])
 
 
 @pytest.mark.parametrize("change", [{"label": "B1,d: no kick is lost"}, {"comment": "no kick is lost"}])

@@ -251,11 +251,23 @@ def test_periods_without_radial_speeds_are_not_counted_as_roots():
 
 
 @pytest.mark.parametrize("reason", ["\x1b[2Jproven", "x" * 1000])
-def test_reason_that_is_not_one_short_line_is_refused(reason):
+def test_words_why_a_block_is_open_are_refused(reason):
     evidence = Evidence({"blocks": [["1/10", ""], ["101/1000", reason]]})
     options = {"along": "gamma", "from": "0.1", "to": "0.101", **LIMITS}
-    with at_precision(64), pytest.raises(NotShownError, match="not one short line"):
+    with at_precision(64), pytest.raises(NotShownError, match="neither decided nor open"):
         range_claims(Rotor(hypotheses_of(DECIMAL)), evidence, options)
+
+
+def test_why_a_block_is_open_is_found_again_by_the_check():
+    """Nothing of the text that is printed comes from the certificate."""
+    options = {"along": "gamma", "from": "0.08338", "to": "0.08339", "blocks": 6, "narrowest": "1/4"}
+    rotor, searched = Rotor(hypotheses_of(DECIMAL)), Evidence()
+    found = range_claims(rotor, searched, options)
+    document = searched.document()
+    assert "open" in {known for _, known in document["blocks"]} <= {"", "open", "ended"}
+    again = range_claims(rotor, Evidence(document), options)
+    assert [claim.reason for claim in again] == [claim.reason for claim in found]
+    assert any(claim.reason for claim in found)
 
 
 def test_an_open_interval_around_a_bifurcation_of_one_orbit_leaves_the_others_decided():

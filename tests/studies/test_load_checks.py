@@ -10,7 +10,7 @@ import pytest
 import carom as cm
 from carom.attractors import find_attractors
 from carom.motions import touchdown_loads
-from carom.parameters import Case, LoadLimits, Zones
+from carom.parameters import Case, LoadLimits, Required, Shock, Zones
 from carom.studies import check_loads, worst_loads
 
 MACHINE = cm.load("examples/keogh-cole.toml")
@@ -102,3 +102,22 @@ def test_a_study_says_it():
     assert found.to_dict()["loads"]["limits"][0]["name"] == "impulse"
     silent = dataclasses.replace(found, loads=None)
     assert "Touchdown loads" not in {fact.topic for fact in silent.facts}
+
+
+def test_shocks_and_losses_of_a_blade_that_must_be_survived_count():
+    """A shock is followed from its beginning: this one is hardest on the bearing while it lasts."""
+    limits, quiet = LoadLimits(impulse="5 N s"), find_attractors(MACHINE, [cm.kick(1e-3)], known=False)
+    shock = cm.BaseShock.of(MACHINE, "20 g", "11 ms")
+    required = Required(0.1, Shock(shock.peak, shock.duration), None)
+    worst = worst_loads(quiet, limits, required)
+    assert worst.disturbances == 24
+    (check,) = worst.checks
+    hardest, later = 0.0, 0.0
+    for place in range(24):
+        first, second = cm.simulate(*shock.stages(MACHINE, 2.0 * math.pi * place / 24)).parts
+        hardest = max(hardest, first.contacts.normal_impulse.max(), second.contacts.normal_impulse.max(initial=0.0))
+        later = max(later, second.contacts.normal_impulse.max(initial=0.0))
+    assert check.value == pytest.approx(hardest * MACHINE.parameters.scales.impulse)
+    assert hardest > later
+    lost = worst_loads(quiet, limits, Required(0.1, None, 0.6))
+    assert lost.disturbances > 0

@@ -110,7 +110,8 @@ def _rubbing(rotor: Model, attractor: Attractor) -> Character:
 def _rolling_exponents(rotor: Model, attractor: Attractor) -> LyapunovExponents | None:
     """Exponents of rolling that leaves nothing of a disturbance but a delay, as that of the planar rotor on a rigid wall does."""
     directions = 2 * len(rotor.system.exponents) - 1
-    if rotor.system.arrays.stiffness.any():
+    # The phase of a weight is not left alone by a delay.
+    if rotor.system.arrays.stiffness.any() or rotor.system.forced is not None:
         return None
     # On an elastic wall bounces fade at a finite rate.
     if directions > LOST[Kind.ROLL] or attractor.period is None or (rotor.system.arrays.restitution == 1.0).any():
@@ -121,7 +122,8 @@ def _rolling_exponents(rotor: Model, attractor: Attractor) -> LyapunovExponents 
 
 def _rub_rates(rotor: Model, attractor: Attractor) -> np.ndarray | None:
     """Exponents of sliding next to a synchronous rub; the directions off the wall have no exponents."""
-    if attractor.name.drifting or attractor.name.outcome is not Outcome.FORWARD_RUB:
+    steady = attractor.name.outcome is Outcome.FORWARD_RUB and not attractor.name.drifting
+    if not steady or rotor.system.forced is not None:
         return None
     for rub in find_equilibria(rotor)[1:]:
         if np.abs(np.atleast_1d(rub.position) - np.atleast_1d(attractor.state.position)).max() < APPROACHED:
@@ -141,7 +143,7 @@ def _bouncing(rotor: Model, attractor: Attractor, impacts: int) -> Character:
     except CaromError as reason:
         return _undecided(attractor, f"No exponents: {reason}")
     motion = simulate(rotor, attractor.state, max(exponents.time, 1.0), max_events=10 * impacts)
-    rotation = rotation_of(rotor.system.states_of(motion.arrivals[arrives(motion)]))
+    rotation = rotation_of(rotor.system.nodes.of(motion.arrivals[arrives(motion)]))
     return _irregular(rotor, attractor, exponents, rotation, motion)
 
 
@@ -160,7 +162,7 @@ def _irregular(
         if orbit is not None:
             return _periodic(attractor, orbit)
         words = f"Nearby motions approach each other ({told}), but no orbit of up to {MOST_IMPACTS} impacts was found there."
-    elif rotation.regular and not exponents.positive and exponents.lost <= 2 * len(rotor.system.exponents) - 2:
+    elif rotation.regular and not exponents.positive and exponents.lost < len(exponents.values) - 1:
         if rotation.locked:
             words = f"Its rotation number is {rotation.nearest}, but no orbit closes there: {told}."
         else:
@@ -202,7 +204,7 @@ def _periodic(attractor: Attractor, orbit: Orbit) -> Character:
 
 def _approached_orbit(motion: Trajectory) -> Orbit | None:
     """Attracting orbit to which a motion comes closer and closer."""
-    states = motion.rotor.system.states_of(motion.arrivals[arrives(motion)])
+    states = motion.rotor.system.nodes.of(motion.arrivals[arrives(motion)])
     count = len(states)
     if count < 4 * MOST_IMPACTS:
         return None

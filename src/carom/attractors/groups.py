@@ -149,6 +149,8 @@ def _words(settled: SettledMotion, name: MotionName) -> str:
         return f"The rotor {doing} ({name}): {impacts} in each period of {period}."
     if settled.outcome is Outcome.FORWARD_RUB:
         how = "in step with the shaft" if settled.synchronous else "out of step with the shaft"
+        if settled.orbit is not None and (turns := settled.orbit.turns):
+            how = f"and repeats itself after {'each turn' if turns == 1 else f'{turns} turns'} of the shaft"
         return f"The rotor rubs along the touchdown bearing {how}."
     if settled.outcome is Outcome.ROLLING and settled.motion.segment_phases[-1, settled.motion.plane] == Phase.FLIGHT:
         return f"{settled.outcome.meaning} {FADING}"

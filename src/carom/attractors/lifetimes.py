@@ -237,7 +237,7 @@ def measure_lifetimes(
     if discarded >= impacts:
         raise InputError("discarded", discarded, f"less than the impacts followed, {impacts}")
     _, whole = disturbances_of(rotor, DisturbanceSet.of(rotor, count, seed) if starts is None else starts)
-    ends = settle(rotor, whole.positions, whole.velocities, patience=impacts, threads=threads)
+    ends = settle(rotor, whole.positions, whole.velocities, begins=whole.begins, patience=impacts, threads=threads)
     ends = ends.reshaped(ends.outcomes.size)
     order = np.argsort(ends.impacts, kind="stable")
     ended = ~still_irregular(ends) & (ends.outcomes >= Outcome.LEVITATED)

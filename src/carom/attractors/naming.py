@@ -14,7 +14,6 @@ from carom.models import Model
 from carom.motions.ensembles import Endings
 from carom.motions.settling import AT_REST, REPEATING
 from carom.motions.simulation import simulate
-from carom.motions.starts import State
 from carom.orbits.orbit import Orbit
 from carom.orbits.single_impact import orbits_within_reach
 from carom.outcome import CaromError, Outcome
@@ -115,10 +114,8 @@ def _periodic(
     for kind, place in enumerate(first):
         chosen = np.zeros(endings.outcomes.size, bool)
         chosen[places[kinds == kind]] = True
-        # Under forces that change with time a state alone does not say how the motion goes on.
-        if kind < LOOKED_AT and rotor.system.forced is None:
-            state = State.of(positions[place], velocities[place])
-            name = _name_of(settled_motion(simulate(rotor, state, settle=True)), known, orbits)
+        if kind < LOOKED_AT:
+            name = _name_of(settled_motion(simulate(rotor, ends.state(int(place)), settle=True)), known, orbits)
         else:
             name = MotionName(Outcome(codes[place]), int(counts[place]))
         found.append((chosen.reshape(endings.outcomes.shape), name))

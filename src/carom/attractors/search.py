@@ -221,7 +221,7 @@ def find_attractors(
     )
     members = []
     for name, place in sorted(zip(*np.unique(index, return_index=True), strict=True), key=lambda found: found[1]):
-        state = State.of(ends.positions[place], ends.velocities[place])
+        state = ends.state(int(place))
         members.append(attractor_of(names[name], endings, state))
     ordered = sorted(members, key=lambda member: (not member.settled, -member.count, -member.known))
     tell(1.0)

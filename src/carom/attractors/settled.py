@@ -15,7 +15,7 @@ from carom.continuation.roots import bracketed_root, sign_change
 from carom.motions.settling import REPEATING
 from carom.motions.trajectories import Trajectory
 from carom.orbits.orbit import Orbit, same_orbit
-from carom.orbits.recognising import arrives, first_of_period, orbit_of_motion, orbit_of_whirl
+from carom.orbits.recognising import arrives, first_of_period, orbit_of_motion, orbit_of_whirl, whole_turns
 from carom.outcome import Outcome, Phase
 from carom.results import Result
 
@@ -52,6 +52,8 @@ def settled_motion(motion: Trajectory) -> SettledMotion:
     then have the same one, however far from it they were when found to be periodic.
     """
     outcome, motion = motion.outcome, seen_in_contact(motion)
+    if outcome not in REPEATING and motion.rotor.system.forced is not None:
+        return _settled_under_weight(motion)
     if outcome is Outcome.ROLLING:
         arrays = motion.rotor.system.arrays
         rigid = not arrays["stiffness"][motion.plane]
@@ -73,6 +75,17 @@ def settled_motion(motion: Trajectory) -> SettledMotion:
     if orbit is None:
         return SettledMotion(motion, outcome, count, period=span)
     return SettledMotion(motion, outcome, max(1, round(count * orbit.period / span)), orbit, orbit.period)
+
+
+def _settled_under_weight(motion: Trajectory) -> SettledMotion:
+    """What a motion without impacts repeats under weight: nothing is at rest in the co-rotating frame, and periods are whole turns."""
+    if motion.outcome is Outcome.LEVITATED:
+        return SettledMotion(motion, motion.outcome, period=2.0 * math.pi)
+    turns = whole_turns(motion) if motion.outcome.settled else 0
+    if not turns:
+        return SettledMotion(motion, motion.outcome)
+    period = 2.0 * math.pi * turns
+    return SettledMotion(motion, motion.outcome, 0, orbit_of_whirl(motion, period), period)
 
 
 def seen_in_contact(motion: Trajectory) -> Trajectory:
@@ -128,7 +141,7 @@ def _last_states(settled: SettledMotion) -> np.ndarray:
     """Coordinates and rates just before the arrivals at walls of the last period, complex, shape (p, 2n)."""
     motion = settled.motion
     last = np.flatnonzero(arrives(motion))[first_of_period(motion, settled.multiplicity) :]
-    return motion.rotor.system.states_of(motion.arrivals[last[-settled.multiplicity :]])
+    return motion.rotor.system.nodes.of(motion.arrivals[last[-settled.multiplicity :]])
 
 
 def known_orbit(orbit: Orbit | None, orbits: Sequence[Orbit]) -> Orbit | None:

@@ -160,7 +160,8 @@ def starts_at(rotor: Model, states: Sequence[State]) -> Starts:
         np.array([getattr(state, name) for state in states], complex) for name in ("position", "velocity")
     )
     places = np.abs(positions.reshape(len(states), len(rotor.system.rest)) @ rotor.system.planes.T).max(axis=1)
-    return Starts(positions, velocities, places >= 0.0, places < 0.0, places >= 1.0 - ON_WALL)
+    begins = np.array([state.time for state in states])
+    return Starts(positions, velocities, places >= 0.0, places < 0.0, places >= 1.0 - ON_WALL, begins)
 
 
 def disturbances_of(rotor: Model, tried: DisturbanceSet | Plan | Sequence[State | Kick]) -> tuple[list[Start], Starts]:
@@ -177,8 +178,10 @@ def disturbances_of(rotor: Model, tried: DisturbanceSet | Plan | Sequence[State 
         require_start(rotor, every)
         whole = every.some(every.exists)
         kicked = np.full(whole.exists.shape, isinstance(tried.model, VelocityKick | KickPlane))
-    states_of = zip(kicked.tolist(), whole.positions, whole.velocities, strict=True)
-    return [Start("kick" if one else "start", State.of(place, speed)) for one, place, speed in states_of], whole
+    each = zip(kicked.tolist(), whole.positions, whole.velocities, whole.begins.tolist(), strict=True)
+    return [
+        Start("kick" if one else "start", State.of(place, speed, time=begun)) for one, place, speed, begun in each
+    ], whole
 
 
 @checked
@@ -204,7 +207,8 @@ def known_starts(machine: Subject, orbits: Sequence[Orbit]) -> tuple[Start, ...]
             for change in (-NUDGE, NUDGE) if orbit.stable else (-PUSH, PUSH):
                 state = State(leaving.position, (1.0 + change) * leaving.velocity)
                 starts.append(Start("orbit", state, f"a start next to {orbit.name}"))
-    for rub in find_equilibria(rotor)[1:]:
+    # Under weight no rub is at rest.
+    for rub in find_equilibria(rotor)[1:] if rotor.system.forced is None else ():
         if rub.status == "admissible":
             words = f"a start next to the {'stable' if rub.stable else 'unstable'} {STEADY_WORDS['rub']}"
             speeds = (-NUDGE, NUDGE) if rub.stable else (-PUSH, PUSH)

@@ -8,7 +8,7 @@ from typing import Any, ClassVar, Literal
 
 import numpy as np
 
-from carom.arguments import Count, Whole, checked
+from carom.arguments import Count, Reals, Whole, checked
 from carom.attractors.intervals import CONFIDENCE, exact_interval
 from carom.models import Model, Subject, model_of
 from carom.motions.ensembles import Endings, settle
@@ -141,13 +141,14 @@ def measure_survival(
     positions: np.ndarray,
     velocities: np.ndarray,
     *,
+    begins: Reals | None = None,
     impacts: int,
     threads: int | None = None,
     motions: int = MOTIONS,
 ) -> Survival:
     """Follow irregular motions for a number of impacts further, and count those that leave.
 
-    The states, shape (M,), are those just before an impact, co-rotating frame.  If there are more than ``motions``, a random
+    The states, shape (M,), are those just before an impact, co-rotating frame, at the times ``begins``.  If there are more than ``motions``, a random
     part is followed; if fewer, copies with slightly changed velocities are added.  A motion that only bounces low along the wall
     for longer than a chatter has left too, wherever it ends.
     """
@@ -155,10 +156,11 @@ def measure_survival(
     places = np.resize(random.permutation(len(positions)), motions)
     change = APART * np.exp(2j * np.pi * random.random(motions))
     change = change.reshape(-1, *np.ones(velocities.ndim - 1, int))
+    times = np.zeros(motions) if begins is None else np.asarray(begins)[places]
     positions, velocities = positions[places], velocities[places] * (1.0 + change)
     looks, left, low_for = [], [], np.zeros(motions, int)
     for _ in range(1 + max(1, impacts // LOOK)):
-        ends = settle(rotor, positions, velocities, patience=LOOK, threads=threads)
+        ends = settle(rotor, positions, velocities, begins=times, patience=LOOK, threads=threads)
         low = stay_low(ends)
         low_for = np.where(low, low_for + 1, 0)
         alive = still_irregular(ends) | (low & (low_for < LOOKS_LOW))
@@ -167,6 +169,7 @@ def measure_survival(
         looks.append(len(positions) - lost)
         left.append(len(positions) - lost - int(alive.sum()))
         positions, velocities, low_for = ends.positions[alive], ends.velocities[alive], low_for[alive]
+        times = (ends.begins + ends.times)[alive]
         if not len(positions):
             break
     if len(looks) == 1:
@@ -176,10 +179,13 @@ def measure_survival(
 
 def follow_further(rotor: Model, endings: Endings, chosen: np.ndarray, **limits: Any) -> Endings:
     """Follow chosen motions of an ensemble, bool of its shape, from where they are; times and impacts are added up."""
-    further = settle(rotor, endings.positions[chosen], endings.velocities[chosen], **limits)
+    before = endings[chosen]
+    reached = before.begins + before.times
+    further = settle(rotor, before.positions, before.velocities, begins=reached, **limits)
     whole = {name: values.copy() for name, values in vars(endings).items()}
     for name, values in vars(further).items():
         whole[name][chosen] = values + (whole[name][chosen] if name in ("times", "impacts") else 0)
+    whole["begins"] = endings.begins.copy()
     return Endings(**whole)
 
 
@@ -220,8 +226,16 @@ def follow_until_settled(
     met, at = (irregular, endings) if irregular.any() or earlier is None else (still_irregular(earlier), earlier)
     if not met.any():
         return endings, None
-    states = at.positions[met], at.velocities[met]
-    survival = measure_survival(rotor, *states, impacts=impacts, threads=threads, motions=motions)
+    met_at = at[met]
+    survival = measure_survival(
+        rotor,
+        met_at.positions,
+        met_at.velocities,
+        begins=met_at.begins + met_at.times,
+        impacts=impacts,
+        threads=threads,
+        motions=motions,
+    )
     if survival.half_life is None:
         return endings, survival
     span = max(LOOK, int(survival.half_life))

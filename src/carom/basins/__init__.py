@@ -11,6 +11,8 @@
 ``integrity_measures``  the largest ball of starts that all come back
 ``entropy``             basin entropy and boundary basin entropy
 ``gains``               these measures against two parameters: gain maps
+``drops``               how drops end and what the bearing bears, against two numbers
+``drop_axes``           what these numbers may be: of the release, or of the machine
 ``changes``             the least change of both that brings back a wanted share
 ``document``            results as JSON
 ======================  ==================================================================================
@@ -19,6 +21,7 @@
 from carom.basins.brackets import SmallestLoss
 from carom.basins.changes import GainChange, least_gain_change
 from carom.basins.classification import Basin, Cells, map_basins, map_cells
+from carom.basins.drops import DropMap, map_drops
 from carom.basins.entropy import BasinEntropy, basin_entropy
 from carom.basins.gains import GainMap, map_gains
 from carom.basins.integrity_measures import Integrity, integrity
@@ -29,6 +32,7 @@ __all__ = [
     "Basin",
     "BasinEntropy",
     "Cells",
+    "DropMap",
     "GainChange",
     "GainMap",
     "Integrity",
@@ -40,6 +44,7 @@ __all__ = [
     "least_gain_change",
     "map_basins",
     "map_cells",
+    "map_drops",
     "map_gains",
     "share_of_kicks",
     "smallest_loss",

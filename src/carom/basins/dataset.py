@@ -37,10 +37,8 @@ def plan_of(document: Mapping[str, Any]) -> Plan:
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Mapped(Result):
-    """Base of basins and gain maps: a dataset whose attributes hold what is needed to repeat the computation."""
-
-    rests_on: ClassVar[tuple[str, ...]] = ("mora2014", "brent1980", "clopper1934")
+class Stored(Result):
+    """Base of maps: a dataset whose attributes hold what is needed to repeat the computation."""
 
     needed: ClassVar[tuple[str, ...]] = ()
 
@@ -56,11 +54,6 @@ class Mapped(Result):
         """Parameters of the machine, which must be a planar rotor; weight is none of them."""
         return parameters_of(self.rotor) or jeffcott_of(self.rotor).parameters
 
-    @cached_property
-    def plan(self) -> Plan:
-        """Disturbances that were tried, in units of this machine; with known scales they keep their size in SI units for others."""
-        return plan_of(json.loads(self.dataset.attrs["disturbances"]))
-
     @checked
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write a netCDF file atomically; see :func:`carom.files.netcdf.save`."""
@@ -73,6 +66,17 @@ class Mapped(Result):
         return cls(load(path, cls.needed))
 
 
+class Mapped(Stored):
+    """Base of basins and gain maps."""
+
+    rests_on: ClassVar[tuple[str, ...]] = ("mora2014", "brent1980", "clopper1934")
+
+    @cached_property
+    def plan(self) -> Plan:
+        """Disturbances that were tried, in units of this machine; with known scales they keep their size in SI units for others."""
+        return plan_of(json.loads(self.dataset.attrs["disturbances"]))
+
+
 def provenance(rotor: Model, plan: Plan) -> dict[str, str]:
     """Attributes that are needed to repeat the computation."""
     how: dict[str, object] = (
@@ -81,14 +85,15 @@ def provenance(rotor: Model, plan: Plan) -> dict[str, str]:
     return {
         "Conventions": "CF-1.11",
         "title": "Where disturbances of a rotor inside its touchdown bearing end",
-        "source": _programs(),
+        "source": programs(),
         **rotor.attributes(),
         "disturbances": json.dumps({"model": plan.model.describe(), **how}),
     }
 
 
 @cache
-def _programs() -> str:
+def programs() -> str:
+    """What has made a dataset."""
     # Looking up a version takes milliseconds, as much as a small map.
     return f"carom {version('carom')}, numba {version('numba')}, numpy {version('numpy')}"
 
@@ -105,13 +110,7 @@ def dataset_of(
     """Endings as variables over the coordinates of their disturbances, each with unit and description."""
     import xarray
 
-    codes = [
-        NO_START,
-        *(outcome for outcome in Outcome if outcome >= Outcome.TIME_REACHED or outcome == Outcome.GRAZING),
-    ]
-    meanings = ["no_start", *(Outcome(code).label for code in codes[1:])]
     axes, dimensions = _axes(rotor, plan)
-    ends = {"long_name": "where the motion ends", **flags(np.array(codes, np.int8), meanings)}
     reached = {
         "long_name": "motion on which it ends",
         "flag_values": np.arange(len(names), dtype=np.int16),
@@ -136,7 +135,7 @@ def dataset_of(
         "start_vy": ("c_r Omega", "velocity at the start, Im dU/dt", starts.velocities.imag),
     }
     variables: dict[str, tuple[np.ndarray, dict[str, Any]]] = {
-        "outcome": (endings.outcomes, ends),
+        "outcome": (endings.outcomes, outcome_flags()),
         "motion": (motions, reached),
         **{name: (values, {"units": unit, "long_name": words}) for name, (unit, words, values) in numbers.items()},
     }
@@ -152,6 +151,16 @@ def dataset_of(
         coords=axes,
         attrs=dict(attributes),
     )
+
+
+def outcome_flags() -> dict[str, Any]:
+    """Attributes of outcomes of motions."""
+    codes = [
+        NO_START,
+        *(outcome for outcome in Outcome if outcome >= Outcome.TIME_REACHED or outcome == Outcome.GRAZING),
+    ]
+    meanings = ["no_start", *(Outcome(code).label for code in codes[1:])]
+    return {"long_name": "where the motion ends", **flags(np.array(codes, np.int8), meanings)}
 
 
 def _touched(starts: Starts, endings: Endings) -> np.ndarray:

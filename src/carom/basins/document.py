@@ -7,6 +7,7 @@ where the machine is known.
 from __future__ import annotations
 
 import json
+import math
 from typing import Any
 
 import numpy as np
@@ -14,6 +15,7 @@ import numpy as np
 from carom.basins.brackets import SmallestLoss
 from carom.basins.changes import WANTED, GainChange
 from carom.basins.classification import Basin
+from carom.basins.drops import MEASURES, DropMap
 from carom.basins.entropy import basin_entropy
 from carom.basins.families import size_coordinate
 from carom.basins.gains import GainMap
@@ -22,7 +24,8 @@ from carom.basins.shares import Share, starts_enough
 from carom.closed_forms.harmless import harmless_blade_loss, harmless_shock, harmless_unbalance_step
 from carom.disturbances import BaseShock, BladeLoss, Sample, UnbalanceStep
 from carom.disturbances.echo import plan_words
-from carom.outcome import InputError
+from carom.models.subjects import numbers_of
+from carom.outcome import InputError, Outcome
 from carom.parameters import Case, in_terms_of
 from carom.parameters.scaling import SCALING
 from carom.results import fields_of, in_si
@@ -54,7 +57,7 @@ def basin_document(
         "touching_recovered": int((basin.touched & basin.recovered).sum()),
         "integrity": _integrity(basin),
         "basin_entropy": _entropy(basin),
-        "parameters": basin.parameters.as_dict(),
+        "parameters": numbers_of(basin.rotor) or basin.parameters.as_dict(),
         "disturbances": {
             **json.loads(attributes["disturbances"]),
             "words": plan_words(basin.plan, basin.parameters.rho, scales),
@@ -157,3 +160,32 @@ def _gains(gains: GainMap, change: GainChange | None, wanted: float) -> dict[str
         if change is not None
         else None,
     }
+
+
+def drop_map_document(found: DropMap) -> dict[str, Any]:
+    """Document of a map of drops: how many end in which motion, what exceeds limits, and all numbers in SI units, by rows of the first."""
+    dataset, first = found.dataset, found.dataset["outcome"]
+    labels = ["no-start" if code < 0 else Outcome(int(code)).label for code in first.values.ravel()]
+    columns = first.shape[1]
+    grids = {f"{name}_si" if unit != "1" else name: _grid(dataset[name].values) for name, (unit, _) in MEASURES.items()}
+    return {
+        "plane": {name: dataset[name].values.tolist() for name in map(str, first.dims)},
+        "units": {name: str(dataset[name].attrs["units"]) for name in map(str, first.dims)},
+        "present": [None if math.isnan(value) else value for value in found.present],
+        "released": dataset.attrs["released"],
+        "drops": int(found.exists.sum()),
+        "fractions": {str(name): share for name, share in found.fractions.items()},
+        "hardest": found.worst,
+        "limits": [
+            {"name": name, "limit_si": limit, "exceeding": int(found.exceeding(name).sum())}
+            for name, limit in found.limits.items()
+        ],
+        "outcomes": [labels[start : start + columns] for start in range(0, len(labels), columns)],
+        **grids,
+        "source": dataset.attrs["source"],
+    }
+
+
+def _grid(values: np.ndarray) -> list[list[float | None]]:
+    """Numbers by rows, nothing where there is none."""
+    return [[None if math.isnan(value) else value for value in row] for row in values.tolist()]

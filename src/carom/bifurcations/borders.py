@@ -299,7 +299,7 @@ def _follow(orbit: Orbit, apart: Callable[[np.ndarray], np.ndarray], rotor: Mode
             return np.inf, regular
         motion = simulate(rotor, motion.final, TURNS * orbit.period)
     last = motion.arrivals[-LATEST:] if orbit.word.flies else _settled_on(motion, orbit.period)
-    departure = float(apart(motion.rotor.system.states_of(last)).max())
+    departure = float(apart(motion.rotor.system.nodes.of(last)).max())
     if motion.outcome is Outcome.TIME_REACHED or motion.multiplicity or departure > LARGEST_STEP:
         return departure, regular
     try:

@@ -205,10 +205,10 @@ def orbit_at(rotor: Model, word: Word, unknowns: np.ndarray, name: OrbitName | C
 
 
 def speeds_at(rotor: Model, planes: np.ndarray, nodes: np.ndarray) -> np.ndarray:
-    """``ṙ`` in ``c_r Ω`` and ``θ̇`` in ``Ω`` at nodes (m, 2n), as real and imaginary part, shape (m,)."""
+    """``ṙ`` in ``c_r Ω`` and ``θ̇`` in ``Ω`` at nodes (m, 2n or, with weight, 2n + 1), as real and imaginary part, shape (m,)."""
     n = nodes.shape[1] // 2
     rows = rotor.system.planes[planes]
-    position, velocity = np.einsum("mn,mn->m", rows, nodes[:, :n]), np.einsum("mn,mn->m", rows, nodes[:, n:])
+    position, velocity = np.einsum("mn,mn->m", rows, nodes[:, :n]), np.einsum("mn,mn->m", rows, nodes[:, n : 2 * n])
     speeds: np.ndarray = velocity / position
     return speeds.real * np.abs(position) + 1j * speeds.imag
 

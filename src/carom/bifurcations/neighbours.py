@@ -39,7 +39,7 @@ def setting_out(orbit: Orbit) -> State:
     """
     if orbit.word.flies:
         return orbit.departure
-    system, amplitudes = orbit.rotor.system, orbit.rotor.system.amplitudes_of(orbit.nodes)
+    system, amplitudes = orbit.rotor.system, orbit.rotor.system.nodes.amplitudes(orbit.nodes)
     flights = np.flatnonzero(orbit.word.kinds == Kind.LIFT).tolist()
     if flights:
         longest = max(flights, key=lambda i: orbit.durations[i])
@@ -104,7 +104,7 @@ def is_other(word: Word, known: Word) -> bool:
 
 def _highest(orbit: Orbit) -> tuple[int, int, float, np.ndarray]:
     """Segment, plane and time from its beginning of the highest maximum of the radius in flight, and the amplitudes there (1, N)."""
-    arrays, nodes = orbit.rotor.system.arrays, orbit.rotor.system.amplitudes_of(orbit.nodes)
+    arrays, nodes = orbit.rotor.system.arrays, orbit.rotor.system.nodes.amplitudes(orbit.nodes)
     best, found = -np.inf, (0, 0, 0.0)
     for i, segment in enumerate(orbit.word):
         if segment.kind.flies:
@@ -125,7 +125,7 @@ def _with_impact(orbit: Orbit) -> tuple[Word, Start]:
     slip = slip_of(complex(np.conj(position) * velocity), orbit.rotor.system.contacts[plane].wall)
     struck = Segment(Kind.IMPACT_FORWARD if slip > 0.0 else Kind.IMPACT_BACKWARD, plane)
     word = Word((*orbit.word[: i + 1], struck, *orbit.word[i + 1 :]))
-    states = np.insert(orbit.nodes, i + 1, orbit.rotor.system.states_of(touching)[0], axis=0)
+    states = np.insert(orbit.nodes, i + 1, orbit.rotor.system.nodes.of(touching)[0], axis=0)
     durations = np.insert(orbit.durations, i + 1, orbit.durations[i] - top)
     durations[i] = top
     return word, Start(states, durations)
@@ -154,8 +154,8 @@ def with_touch(orbit: Orbit) -> list[tuple[Word, Start]]:
             continue
         parts = np.full(len(kinds), 2.0 * half / len(kinds))
         times = top - half + np.concatenate([[0.0], np.cumsum(parts)])
-        begun = departure(orbit.rotor, orbit.word[i], system.amplitudes_of(orbit.nodes[i : i + 1])[0])
-        states = system.states_of(system.fly(np.tile(begun, (len(times), 1)), times))
+        begun = departure(orbit.rotor, orbit.word[i], system.nodes.amplitudes(orbit.nodes[i : i + 1])[0])
+        states = system.nodes.of(system.fly(np.tile(begun, (len(times), 1)), times))
         word = Word((*orbit.word[: i + 1], *segments, *orbit.word[i + 1 :]))
         before, after = orbit.durations[:i], orbit.durations[i + 1 :]
         durations = np.concatenate([before, times[:1], parts, [orbit.durations[i] - times[-1]], after])

@@ -55,7 +55,7 @@ class Path:
     @classmethod
     def of(cls, orbit: Orbit) -> Path:
         """Path of an orbit, followed anew from each of its nodes."""
-        nodes = orbit.rotor.system.amplitudes_of(orbit.nodes)
+        nodes = orbit.rotor.system.nodes.amplitudes(orbit.nodes)
         parts = [_pieces(orbit.rotor, *each) for each in zip(orbit.word, nodes, orbit.durations.tolist(), strict=True)]
         return cls(orbit.rotor, *(np.concatenate(column) for column in zip(*parts, strict=True)))
 
@@ -92,7 +92,7 @@ class Path:
         """States (m, 2n) at times since the beginning of pieces."""
         room = rub_workspace(self.begins.shape[1], self.phases.shape[1])
         moved = fly_or_rub_all(self.rotor.system.arrays, self.begins[pieces], self.phases[pieces], times, room)
-        return self.rotor.system.states_of(moved)
+        return self.rotor.system.nodes.of(moved)
 
 
 def _pieces(

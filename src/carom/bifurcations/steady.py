@@ -10,6 +10,7 @@ import numpy as np
 from carom.bifurcations.conditions import TESTS
 from carom.bifurcations.points import STEADY, Bifurcation
 from carom.closed_forms.equilibria import find_equilibria
+from carom.closed_forms.sag import levitation
 from carom.closed_forms.thresholds import boundary_kind, happens_to_rubs
 from carom.closed_forms.whirl import rolling
 from carom.continuation.roots import bracketed_root
@@ -29,6 +30,7 @@ class EquilibriumBranch(Result):
     kind : str
         ``"contact-free"``, ``"stable rub"`` or ``"saddle rub"``.
     values, radius, normal_force : ndarray, shape (m,)
+        With weight the radius is the largest distance from the centre.
     admissible, stable : ndarray of bool, shape (m,)
     """
 
@@ -87,7 +89,7 @@ def steady_points(parameters: Parameters, along: Axis, interval: tuple[float, fl
 
 
 def equilibrium_branches(model: Model, along: Axis, interval: tuple[float, float]) -> tuple[EquilibriumBranch, ...]:
-    """Levitation and both rubs on an evenly spaced grid of the parameter.
+    """Levitation and both rubs on an evenly spaced grid of the parameter; with weight levitation alone, as no rub is at rest.
 
     Of several stable rubs, or several others, the admissible one with the largest normal force.  A virtual rub counts as
     stable if it would attract sliding, so that a branch continues as the same one where its normal force changes sign.
@@ -96,7 +98,12 @@ def equilibrium_branches(model: Model, along: Axis, interval: tuple[float, float
     kinds = ("contact-free", "stable rub", "saddle rub")
     table = np.full((len(kinds), len(grid), 4), np.nan)
     for column, value in enumerate(grid.tolist()):
-        found = find_equilibria(along.move(model, value))
+        rotor = along.move(model, value)
+        if rotor.system.forced is not None:
+            held = levitation(rotor)
+            table[0, column] = held.reach, 0.0, held.inside, held.stable
+            continue
+        found = find_equilibria(rotor)
         for equilibrium in sorted(found, key=lambda at: (at.status == "admissible", at.normal_force)):
             attracts = (
                 equilibrium.stable if equilibrium.status == "admissible" else equilibrium.eigenvalues.real.max() < 0.0

@@ -158,6 +158,6 @@ def _curve(special: Bifurcation, plane: Plane, equations: _CurveEquations, branc
 def _period_and_speed(at: FamilyPoint) -> tuple[float, float]:
     """Period, and radial speed at the first impact; ``nan`` if it begins with a lift-off."""
     system, start = at.rotor.system, at.links.start
-    position, velocity = system.at_planes(system.amplitudes_of(start.nodes[:1]), at.word.planes[:1])
+    position, velocity = system.at_planes(system.nodes.amplitudes(start.nodes[:1]), at.word.planes[:1])
     speed = float((position.conj() * velocity).real[0]) if at.word.arrives[0] else np.nan
     return float(start.durations.sum()), speed

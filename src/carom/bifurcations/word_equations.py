@@ -89,7 +89,7 @@ class FamilyPoint:
             return float(self.links.landings.min())
         system = self.rotor.system
         struck = [i for i, plane in enumerate(self.word.planes) if not system.contacts[plane].wall.restitution]
-        nodes = system.amplitudes_of(self.links.start.nodes[struck])
+        nodes = system.nodes.amplitudes(self.links.start.nodes[struck])
         left = (departure(self.rotor, self.word[i], node) for i, node in zip(struck, nodes, strict=True))
         pushes = (wall_push(system.arrays, self.word[i].plane, each)[0] for i, each in zip(struck, left, strict=True))
         return min((-push for push in pushes), default=np.inf)
@@ -98,7 +98,7 @@ class FamilyPoint:
     def flattest(self) -> float:
         """What changes its sign where the radius between impacts of a planar rotor gains a maximum and a minimum."""
         system, (nodes, durations) = self.rotor.system, self.links.start
-        (after,) = system.amplitudes_of(nodes)
+        (after,) = system.nodes.amplitudes(nodes)
         strike(system.arrays, 0, self.word[0].kind.sense, after, np.empty((0, 2), complex))
         (slow, fast), (driving, driven) = system.exponents.tolist(), after.tolist()
         at = system.arrays["offsets"][0], driven, driving, system.arrays["restitution"][0]

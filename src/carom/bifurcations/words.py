@@ -30,8 +30,9 @@ from carom.continuation import Branch, SpecialPoint, Steps, continue_branch
 from carom.continuation.roots import bracketed_root, sign_change
 from carom.models.axes import Axis, Ends, axis, interval_around
 from carom.orbits.names import CountedName, OrbitName
-from carom.orbits.orbit import Orbit, multipliers_of, orbit_near
-from carom.orbits.shooting import Links, Start, converged, pack, pack_free, unpack
+from carom.orbits.orbit import Orbit, orbit_near
+from carom.orbits.shooting import Links, Start, by_angle, converged, pack, pack_free, unpack
+from carom.orbits.stability import multipliers_of
 from carom.orbits.word import Kind, Word
 from carom.outcome import CaromError, InputError
 from carom.parameters import Numbers
@@ -190,10 +191,12 @@ def _alternating(word: Word, links: Links) -> np.ndarray:
     values, vectors = np.linalg.eig(links.monodromy)
     change = vectors[:, np.argmin(np.abs(values + 1.0))].real
     rows = []
-    for passage, slope in zip(links.passages, links.slopes, strict=True):
+    for passage, slope in zip(links.passages, links.turned, strict=True):
         delay = -(slope[-1, :-1] @ change) / slope[-1, -1]
         rows.append([*change, delay])
         change = passage @ change
+    if links.turns:
+        rows = [lift @ row for lift, row in zip(by_angle(links.start.nodes), rows, strict=True)]
     once = pack_free(word, unpack(np.ravel(rows), len(word)))
     both = np.concatenate([once, -once])
     whole: np.ndarray = both / np.linalg.norm(both)

@@ -125,6 +125,11 @@ def _losses(basin: Basin, smallest: SmallestLoss | None, harmless: float) -> lis
     if not has_sizes(basin.plan.model):
         return []
     if smallest is None or harmless <= 0.0:
+        system = basin.rotor.system
+        if system.rest_radius < 1.0 and system.decay > 0.0:
+            return [
+                "No size is known up to which disturbances are harmless, so the smallest that is lost is not searched."
+            ]
         return ["The rotor has no stable levitation inside the wall: no disturbance is proven harmless."]
     size = size_coordinate(basin.plan.model)
 

@@ -93,19 +93,19 @@ def bifurcations(
         from carom.bifurcations import find_bifurcations
         from carom.bifurcations.documents import diagram_document
         from carom.cli.starts import read_ends
-        from carom.models import axis, case_of
+        from carom.models import axis, case_of, model_of
         from carom.parameters import load
 
-        case = case_of(load(machine, settings or ()))
-        parameters = case.parameters
-        varied = axis(parameters, along.strip())
+        case = load(machine, settings or ())
+        model = model_of(case if case.gravity else case_of(case))
+        varied = axis(model, along.strip())
         interval = read_ends(start, end, varied)
         if seed is not None and not attractors:
             raise InputError("--seed", seed, "allowed only with --attractors")
         check_output(out)
         proven = _checked(proof, out)
         diagram = find_bifurcations(
-            parameters,
+            model,
             varied.name,
             interval,
             impacts=impacts,
@@ -115,7 +115,7 @@ def bifurcations(
             seed=seed or 0,
             progress=tell,
         )
-    document = diagram_document(parameters, diagram)
+    document = diagram_document(case.parameters, diagram)
     if out is not None:
         with output_directory(out, case) as output:
             output.figure(f"bifurcations-{varied.name}", diagram.plot(proof=proven, virtual=virtual))
@@ -123,7 +123,7 @@ def bifurcations(
     if as_json:
         print_document(document)
     else:
-        _print_diagram(diagram, parameters.value(varied.name))
+        _print_diagram(diagram, varied.value(model))
     say_where(out)
 
 

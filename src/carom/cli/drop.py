@@ -7,63 +7,32 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from carom.cli import release_options as options
 from carom.cli.terminal import AsJson, MachineFile, Settings, check_output, console, print_document, progress
 
 if TYPE_CHECKING:
     from rich.console import Console
 
+    from carom.motions.drops import Drop
+    from carom.parameters import Case
     from carom.studies.drops import DropStudy
 
 
 def drop(
     machine: MachineFile,
     settings: Settings = None,
-    start: Annotated[
-        str | None,
-        typer.Option(
-            metavar="RE,IM,VRE,VIM",
-            help="Position and velocity at the release in place of levitation, co-rotating frame; in c_r and c_r Omega, or with units.",
-        ),
-    ] = None,
-    kick: Annotated[
-        str | None,
-        typer.Option(
-            metavar="SPEED[,ANGLE]", help="Released by a velocity kick out of levitation, such as '50 mm/s,30 deg'."
-        ),
-    ] = None,
-    whirl: Annotated[
-        str | None,
-        typer.Option(
-            metavar="RADIUS,SPEED[,ANGLE]",
-            help="Released from a whirl about the centre, such as '0.1 mm,-80 Hz,30 deg': its speed (below 0: backward) and where it "
-            "is, in the fixed frame.",
-        ),
-    ] = None,
-    phase: Annotated[
-        str | None,
-        typer.Option(
-            metavar="ANGLE",
-            help="Angle from the direction of the fall to the unbalance at the release, in the sense of rotation, such as '90 deg'; "
-            "by default that of the machine.",
-        ),
-    ] = None,
-    race_speed: Annotated[
-        str | None,
-        typer.Option(
-            metavar="SPEED", help="Speed of the race at the release, such as '500 rpm'; by default it stands still."
-        ),
-    ] = None,
-    regained_after: Annotated[
-        str | None,
-        typer.Option(metavar="T", help="Time after which levitation is back, such as '50 ms'; by default never."),
-    ] = None,
-    until: Annotated[
-        str | None,
-        typer.Option(
-            metavar="T",
-            help="Follow the drop to this time, such as '200 ms'; by default until it is known where it ends.",
-        ),
-    ] = None,
+    start: options.ReleaseStart = None,
+    kick: options.ReleaseKick = None,
+    whirl: options.ReleaseWhirl = None,
+    phase: options.Phase = None,
+    race_speed: options.RaceSpeed = None,
+    regained_after: options.RegainedAfter = None,
+    until: options.DropUntil = None,
+    plane: options.Mapped = None,
+    grid: options.Grid = None,
+    x: options.FirstRange = None,
+    y: options.SecondRange = None,
+    threads: options.Threads = None,
     out: Annotated[
         str | None, typer.Option(metavar="DIR", help="Write figures, drop.json and drop.html to this directory.")
     ] = None,
@@ -72,20 +41,31 @@ def drop(
     """Drop a machine on its touchdown bearing: forces, depth, heat, whirl and race, against its limits.
 
     Levitation is lost, and the rotor falls by its weight; the machine needs [gravity]. With --out it also writes figures, drop.json and
-    drop.html. `carom simulate --drop` logs every contact of the same motion.
+    drop.html. `carom simulate --drop` logs every contact of the same motion. With --map it is dropped at many points of a plane.
     """
-    from carom.cli.drops import read_drop
+    from carom.cli.drop_map import map_plane, read_plane
+    from carom.cli.drops import read_release
     from carom.cli.starts import read_time
     from carom.parameters import load
 
     case = load(machine, settings or ())
     check_output(out)
+    ways = {"--start": start, "--kick": kick, "--whirl": whirl}
+    released = read_release(case, ways, regained_after, phase=phase, race_speed=race_speed, called="the release")
+    asked = read_plane(case, plane, grid, x, y, threads)
+    end = None if until is None else read_time(until, case.parameters.scales)
+    if asked is not None:
+        map_plane(case, released, asked, end, out, as_json=as_json)
+    else:
+        _drop_once(case, released, end, out, as_json=as_json)
+
+
+def _drop_once(case: Case, released: Drop, end: float | None, out: str | None, *, as_json: bool) -> None:
+    """Follow one drop, write its report, and tell what the bearing bears."""
+    from carom.cli.drops import taken
+
     with progress("simulating (the kernels are compiled on first use)") as tell:
-        options = {"--start": start, "--kick": kick, "--whirl": whirl}
-        rotor, state, echo = read_drop(
-            case, options, regained_after, phase=phase, race_speed=race_speed, called="the release"
-        )
-        end = None if until is None else read_time(until, case.parameters.scales)
+        rotor, state, echo = taken(case, released)
         from carom.motions.simulation import simulate as follow
         from carom.studies.drops import DropStudy
 
@@ -105,29 +85,16 @@ def drop(
 
 def _print(console: Console, found: DropStudy, page: Path | None) -> None:
     """Print what was done, how it ended, the loads of each plane, and the limits."""
-    from rich.table import Table
     from rich.text import Text
 
+    from carom.cli.load_tables import print_checks, print_tables
     from carom.cli.tables import TEXT_WIDTH
 
     width = min(console.width, TEXT_WIDTH)
     console.print(f"{found.echo.words}.", width=width)
     console.print(Text(found.headline, style="bold"), width=width)
-    for title, rows in found.tables:
-        console.print()
-        if title:
-            console.print(Text(title, style="bold"))
-        table = Table.grid(padding=(0, 2, 0, 0))
-        table.add_column(no_wrap=True)
-        table.add_column()
-        for label, told in rows:
-            table.add_row(Text(f"  {label}"), Text(told))
-        console.print(table, width=width)
-    if found.checks:
-        console.print()
-        console.print(Text("Limits of the touchdown bearing", style="bold"))
-        for check in found.checks:
-            console.print(Text(f"  {check.words}", style="bold" if check.exceeded else ""), width=width)
+    print_tables(console, found.tables)
+    print_checks(console, found.checks)
     console.print()
     if page is None:
         console.print("Figures, drop.json and drop.html: add --out DIR")

@@ -13,13 +13,18 @@ if TYPE_CHECKING:
 
     from carom.disturbances.echo import Echo
     from carom.models import Model
-    from carom.motions.drops import Whirl
+    from carom.motions.drops import Drop, Whirl
     from carom.motions.starts import Kick, State
     from carom.motions.trajectories import Trajectory
     from carom.parameters import Case, Scales
 
+_FIRST = {"drop": "The fall:", "shock": "During the shock:"}
+"""What the first stage of a motion is called, by the kind of the disturbance."""
+_SINCE = {"drop": "the release", "shock": "the shock began", "kick": "the kick", "blade-loss": "the loss"}
+"""From what times count."""
 
-def read_drop(
+
+def read_release(
     case: Case,
     options: dict[str, str | None],
     regained_after: str | None,
@@ -27,14 +32,12 @@ def read_drop(
     phase: str | None = None,
     race_speed: str | None = None,
     called: str = "--drop",
-) -> tuple[Model, State, Echo]:
-    """Read the rotor that falls, its start and what was taken; refuse wrong input before kernels are loaded.
+) -> Drop:
+    """Read how levitation is lost; refuse wrong input before kernels are loaded.
 
     ``options`` are the ways to say the state at the release, of which one at most may be given; ``called`` is what an error calls them all.
     """
     from carom.cli.starts import read_kick, read_phase, read_positive, read_speed, read_start, read_whirl
-    from carom.disturbances.echo import echo_of_drop
-    from carom.models import model_of
     from carom.motions.drops import Drop
     from carom.studies.wording import listed
 
@@ -53,45 +56,78 @@ def read_drop(
     turned = None if phase is None else read_phase("--phase", phase, scales)
     turning = None if race_speed is None else read_speed("--race-speed", race_speed, scales)
     at = next((readers[option](text, scales) for option, text in chosen.items()), None)
-    drop = Drop(at, turned, regained, turning)
-    rotor, state = drop.stages(case)
+    return Drop(at, turned, regained, turning)
+
+
+def taken(case: Case, released: Drop) -> tuple[Model, State, Echo]:
+    """The rotor that falls, its start, and what was taken of a release whose sizes are numbers."""
+    from carom.disturbances.echo import echo_of_drop
+    from carom.models import model_of
+
+    rotor, state = released.stages(case)
+    scales, back, turning = case.parameters.scales, released.regained_after, released.race_speed
     if case.gravity is None or scales is None:  # which stages() has refused
         raise InputError("gravity", None, "a table [gravity] in the machine file")
-    angle = drop.unbalance_angle(model_of(case))
-    return rotor, state, echo_of_drop(state, angle, regained, case.gravity, scales, turning)
+    angle = released.unbalance_angle(model_of(case))
+    regained, race = (None if each is None else float(each) for each in (back, turning))
+    return rotor, state, echo_of_drop(state, angle, regained, case.gravity, scales, race)
 
 
-def drop_document(case: Case, motion: Trajectory) -> dict[str, Any]:
-    """Return the document of a motion under gravity: of all its stages if it has several, with times from the release."""
+def motion_document(case: Case, motion: Trajectory) -> dict[str, Any]:
+    """Return the document of a motion: of all its stages if it has several, with times from its beginning.
+
+    Where a wall gives way it has what each plane bears, as ``carom drop`` tells it.
+    """
+    from carom.models import model_of
+    from carom.motions import drop_loads
     from carom.studies import trajectory_document
+    from carom.studies.document import rotor_document
+    from carom.studies.load_tables import load_entries
 
     documents = [trajectory_document(part, case.limits) for part in motion.parts]
-    gravity = (
-        {"acceleration_si": case.gravity.acceleration, "direction": case.gravity.direction} if case.gravity else {}
-    )
-    document = documents[-1] | {"parameters": case.parameters.as_dict(), "gravity": gravity}
-    if len(documents) == 1:
-        return document
-    document |= {"start": documents[0]["start"], "time": motion.begins + motion.time}
+    document, planes = documents[-1], load_entries(drop_loads(motion), case.limits)
+    if case.gravity:
+        gravity = {"acceleration_si": case.gravity.acceleration, "direction": case.gravity.direction}
+        document |= rotor_document(model_of(case)) | {"gravity": gravity}
+    if len(documents) > 1:
+        document = _joined(motion, documents) | {"loads": planes[motion.plane]["loads"]}
+        if case.limits.stated:
+            document["limits"] = planes[motion.plane]["limits"]
+    if case.touchdown:
+        document["touchdown"] = {"law": case.touchdown.law, **case.touchdown.given}
+    return document | ({"planes": planes} if any(plane["gives_way"] for plane in planes) else {})
+
+
+def _joined(motion: Trajectory, documents: list[dict[str, Any]]) -> dict[str, Any]:
+    """The documents of stages as one, with those beside it."""
+    document = documents[-1] | {"start": documents[0]["start"], "time": motion.begins + motion.time}
     for key, times in (("impacts", ("time",)), ("contacts", ("start", "end", "peak_time"))):
         document[key] = [
             entry | {name: part.begins + entry[name] for name in times if name in entry}
             for part, own in zip(motion.parts, documents, strict=True)
             for entry in own[key]
         ]
-    for key in ("loads", "limits"):
-        document.pop(key, None)
     begun = [{"begins": part.begins} | own for part, own in zip(motion.parts, documents, strict=True)]
     return document | {"stages": begun}
 
 
-def print_parts(console: Console, case: Case, motion: Trajectory) -> None:
-    """Print how a motion ended, and its contacts, stage by stage."""
+def print_parts(console: Console, case: Case, motion: Trajectory, kind: str) -> None:
+    """Print how a motion after a disturbance of a kind ended, and its contacts, stage by stage; then what the bearing bears in all."""
+    from carom.cli.load_tables import print_checks, print_tables
     from carom.cli.tables import print_motion
+    from carom.motions import drop_loads
+    from carom.motions.contacts import yields
     from carom.parameters.told import told
+    from carom.studies.load_tables import checks_of_planes, load_tables
 
+    together = len(motion.parts) > 1 or yields(motion.rotor.system, motion.plane)
     for part in motion.parts:
         if len(motion.parts) > 1:
             console.print()
-            console.print(f"From {told(part.begins, 'time', case.parameters.scales)}:" if part.begins else "The fall:")
-        print_motion(console, case, part)
+            begun = f"From {told(part.begins, 'time', case.parameters.scales)}:"
+            console.print(begun if part.begins else _FIRST.get(kind, "From the beginning:"))
+        print_motion(console, case, part, loads=not together)
+    found = drop_loads(motion) if together else None
+    if found is not None and any(plane.contacts or plane.loads.contact_time for plane in found.planes):
+        print_tables(console, load_tables(found, _SINCE.get(kind, "the start")))
+        print_checks(console, checks_of_planes(found, case.limits))

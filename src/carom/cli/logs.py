@@ -120,10 +120,10 @@ def write_netcdf(motion: Trajectory, path: str) -> None:
 
 
 def _dataset(motion: Trajectory) -> xarray.Dataset:
-    from carom.models.subjects import parameters_of
+    from carom.models.subjects import numbers_of
     from carom.motions.contacts import in_units, phase_flags
 
-    scales, numbers = motion.rotor.scales, parameters_of(motion.rotor)
+    scales, numbers = motion.rotor.scales, numbers_of(motion.rotor)
     dataset, contacts = _log(motion), _lasting(motion)
     for name in ("start", "end"):
         times = np.array([getattr(contact, name) for contact in contacts], float)
@@ -138,7 +138,7 @@ def _dataset(motion: Trajectory) -> xarray.Dataset:
         "outcome": motion.outcome.label,
         "comment": motion.outcome.meaning,
         "end_time": (motion.begins + motion.time) * (scales.time if scales else 1.0),
-        **(numbers.as_dict() if numbers else motion.rotor.attributes()),
+        **(numbers or motion.rotor.attributes()),
     }
     return dataset
 

@@ -41,10 +41,11 @@ def orbits(
     from carom.models import case_of
     from carom.parameters import load
 
-    case = case_of(load(machine, settings or ()))
+    given = load(machine, settings or ())
     if impacts is not None:
-        _search(case, impacts, guesses, as_json)
+        _search(given, impacts, guesses, as_json)
         return
+    case = case_of(given)
     longest = None
     if longest_period is not None:
         from carom.cli.starts import read_time

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from carom.cli import release_options as options
 from carom.cli.output import output_directory, say_where
 from carom.cli.terminal import AsJson, MachineFile, Out, Settings, check_output, console, print_document, progress
 from carom.outcome import InputError
@@ -22,58 +23,13 @@ if TYPE_CHECKING:
 def simulate(
     machine: MachineFile,
     settings: Settings = None,
-    start: Annotated[
-        str | None,
-        typer.Option(
-            metavar="RE,IM,VRE,VIM",
-            help="Position and velocity at the start, co-rotating frame; in c_r and c_r Omega, or with units.",
-        ),
-    ] = None,
-    kick: Annotated[
-        str | None,
-        typer.Option(
-            metavar="SPEED[,ANGLE]",
-            help="Instead of --start: a velocity kick out of levitation, such as '50 mm/s,30 deg'; the angle counts in the sense of "
-            "rotation from the x axis that turns with the shaft, as the phase of the unbalance does.",
-        ),
-    ] = None,
-    shock: Annotated[
-        str | None,
-        typer.Option(
-            metavar="PEAK[,DURATION[,ANGLE]]",
-            help="Instead of --start: a half-sine shock of the base at levitation, such as '5 g, 11 ms, 30 deg', the angle from "
-            "the same axis as it lies when the shock begins; the motion is logged from its end.",
-        ),
-    ] = None,
-    blade_loss: Annotated[
-        str | None,
-        typer.Option(
-            metavar="AFTER[,PHASE]",
-            help="Instead of --start: a blade is lost at levitation; eccentricity or unbalance after it, and its phase "
-            "relative to the one before, such as '5000 g mm,30 deg'.",
-        ),
-    ] = None,
-    drop: Annotated[
-        bool,
-        typer.Option(
-            "--drop",
-            help="Levitation is lost at levitation, or at what --start or --kick gives, and the rotor falls; the machine needs "
-            "[gravity].",
-        ),
-    ] = False,
-    regained_after: Annotated[
-        str | None,
-        typer.Option(
-            metavar="T", help="With --drop: time after which levitation is back, such as '50 ms'; by default never."
-        ),
-    ] = None,
-    until: Annotated[
-        str | None,
-        typer.Option(
-            metavar="T",
-            help="Follow the motion to this time, in 1/Omega or with a unit; by default until it is known where it ends.",
-        ),
-    ] = None,
+    start: options.Start = None,
+    kick: options.Kick = None,
+    shock: options.Shock = None,
+    blade_loss: options.BladeLoss = None,
+    drop: options.Dropped = False,
+    regained_after: options.BackAfter = None,
+    until: options.Until = None,
     out: Out = None,
     csv: Annotated[str | None, typer.Option(metavar="FILE", help="Write the contact log as CSV.")] = None,
     netcdf: Annotated[str | None, typer.Option(metavar="FILE", help="Write the contact log as netCDF.")] = None,
@@ -83,45 +39,60 @@ def simulate(
 
     The motion is followed through flights, impacts and lasting contact, exactly to rounding.
     """
-    from carom.cli.drops import print_parts, read_drop
+    from carom.cli.drops import read_release, taken
     from carom.cli.starts import read_time
     from carom.parameters import load
 
     case = load(machine, settings or ())
     check_output(out)
-    targets = {option: path for option, path in (("--csv", csv), ("--netcdf", netcdf)) if path is not None}
-    for option, path in targets.items():
+    logs = {option: path for option, path in (("--csv", csv), ("--netcdf", netcdf)) if path is not None}
+    _check_logs(logs)
+    if regained_after is not None and not drop:
+        raise InputError("--regained-after", regained_after, "allowed only with --drop")
+    ways = {"--start": start, "--kick": kick, "--shock": shock, "--blade-loss": blade_loss}
+    with progress("simulating (the kernels are compiled on first use)") as tell:
+        end = None if until is None else read_time(until, case.parameters.scales)
+        rotor, given, echo = taken(case, read_release(case, ways, regained_after)) if drop else _read(case, ways)
+        motion = _follow(rotor, given, kick, end, tell if out is None else tell.part(0.0, 0.4))
+        _write_logs(logs, motion)
+        if out is not None:
+            _write(out, case, motion, echo, tell.part(0.4, 1.0, "drawing"), decaying=end is None)
+    _tell(case, motion, echo, as_json=as_json)
+    say_where(out)
+
+
+def _check_logs(logs: dict[str, str]) -> None:
+    """Refuse early files of contact logs, by their option, that cannot be written."""
+    for option, path in logs.items():
         from carom.cli.logs import check_file
 
         check_file(option, path)
-    with progress("simulating (the kernels are compiled on first use)") as tell:
-        options = {"--start": start, "--kick": kick, "--shock": shock, "--blade-loss": blade_loss}
-        if regained_after is not None and not drop:
-            raise InputError("--regained-after", regained_after, "allowed only with --drop")
-        end = None if until is None else read_time(until, case.parameters.scales)
-        rotor, given, echo = read_drop(case, options, regained_after) if drop else _read(case, options)
-        motion = _follow(rotor, given, kick, end, tell if out is None else tell.part(0.0, 0.4))
-        for option, path in targets.items():
-            from carom.cli.logs import write_csv, write_netcdf
 
-            (write_csv if option == "--csv" else write_netcdf)(motion, path)
-        if out is not None:
-            _write(out, case, motion, echo, tell.part(0.4, 1.0, "drawing"), decaying=end is None)
+
+def _write_logs(logs: dict[str, str], motion: Trajectory) -> None:
+    """Write the contact logs that are asked for."""
+    for option, path in logs.items():
+        from carom.cli.logs import write_csv, write_netcdf
+
+        (write_csv if option == "--csv" else write_netcdf)(motion, path)
+
+
+def _tell(case: Case, motion: Trajectory, echo: Echo, *, as_json: bool) -> None:
+    """Print the motion, for people or as JSON."""
+    from carom.cli.drops import print_parts
+
     if as_json:
         print_document(_document(case, motion, echo))
-    else:
-        console().print(f"{echo.words}.")
-        print_parts(console(), case, motion)
-    say_where(out)
+        return
+    console().print(f"{echo.words}.")
+    print_parts(console(), case, motion, echo.kind)
 
 
 def _document(case: Case, motion: Trajectory, echo: Echo) -> dict[str, Any]:
     """What was done to the rotor, then its motion."""
-    from carom.cli.drops import drop_document
-    from carom.studies import trajectory_document
+    from carom.cli.drops import motion_document
 
-    done = {"disturbance": echo.document(case.parameters.scales)}
-    return done | (drop_document(case, motion) if case.gravity else trajectory_document(motion, case.limits))
+    return {"disturbance": echo.document(case.parameters.scales)} | motion_document(case, motion)
 
 
 def _write(out: str, case: Case, motion: Trajectory, echo: Echo, tell: Reporter, *, decaying: bool) -> None:
@@ -160,13 +131,13 @@ def _shown(motion: Trajectory) -> tuple[Trajectory, str | None]:
     return longer, f"{counted(len(longer.contacts), 'impact')} in {time} \N{EM DASH} returns to levitation"
 
 
-def _read(case: Case, options: dict[str, str | None]) -> tuple[Model, State | Kick, Echo]:
+def _read(case: Case, ways: dict[str, str | None]) -> tuple[Model, State | Kick, Echo]:
     """Read the machine that moves, its start and what was taken; refuse wrong input before kernels are loaded."""
     from carom.cli.starts import read_blade_loss, read_kick, read_shock, read_start
     from carom.disturbances import echo
 
     scales = case.parameters.scales
-    chosen = {option: text for option, text in options.items() if text is not None}
+    chosen = {option: text for option, text in ways.items() if text is not None}
     if len(chosen) != 1:
         given = " with ".join(f"{option} {text}" for option, text in chosen.items()) or None
         allowed = (
@@ -184,7 +155,7 @@ def _read(case: Case, options: dict[str, str | None]) -> tuple[Model, State | Ki
         pulse, angle = read_shock(text, case)
         rotor = _rotor(case)
         said = echo.echo_of_shock(pulse.peak, pulse.duration, angle, rotor.unbalance_phase, scales)
-        return rotor, pulse.release(rotor, angle), said
+        return *pulse.stages(rotor, angle), said
     if option == "--kick":
         kick, rotor = read_kick(text, scales), _rotor(case)
         said = echo.echo_of_kick(float(kick.speed), float(kick.angle), rotor.unbalance_phase, scales)

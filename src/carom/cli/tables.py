@@ -127,7 +127,8 @@ def print_found_orbits(console: Console, case: Case, found: OrbitSet) -> None:
         say = Wording(case.parameters.scales)
         for orbit in found:
             state = "stable" if orbit.stable else "unstable"
-            motions.add_row(orbit.name, say.time(orbit.period), state, orbit.segments)
+            turns = "" if orbit.turns is None else f", {counted(orbit.turns, 'turn')}"
+            motions.add_row(orbit.name, f"{say.time(orbit.period)}{turns}", state, orbit.segments)
         console.print(fitted(console, motions))
     else:
         console.print(f"No orbit with at most {counted(found.impacts, 'impact')} a period was found.")
@@ -162,11 +163,12 @@ def _print_numbers(console: Console, shown: Sequence[Orbit]) -> None:
             console.print(fitted(console, table))
 
 
-def print_motion(console: Console, case: Case, motion: Trajectory) -> None:
-    """Print how a motion ended, and its contacts."""
+def print_motion(console: Console, case: Case, motion: Trajectory, *, loads: bool = True) -> None:
+    """Print how a motion ended, and its contacts, with the ``loads`` on the touchdown bearing unless these are told elsewhere."""
     say = Wording(case.parameters.scales)
     log, contacts, touches = motion.contacts, motion.lasting_contacts, motion.touches
-    console.print(Text(_end_words(motion), style="bold"))
+    if motion.outcome is not Outcome.TRIGGERED:
+        console.print(Text(_end_words(motion), style="bold"))
     if motion.multiplicity:
         console.print(f"It repeats after {counted(motion.multiplicity, 'impact')}.")
     turns = number(motion.time / (2.0 * math.pi), 3)
@@ -180,12 +182,13 @@ def print_motion(console: Console, case: Case, motion: Trajectory) -> None:
         hardest = f"Hardest hit: normal impulse {say.impulse(float(log.normal_impulse.max()))}"
         console.print(f"{hardest}{'; ' if soft else ''}{soft}.")
     if len(log) or contacts:
-        _print_loads(console, say, case, motion)
+        if loads:
+            _print_loads(console, say, case, motion)
         console.print()
         console.print(fitted(console, _events(say, motion)))
     final = motion.final
     console.print()
-    if weight_of(motion.rotor) is not None:
+    if weight_of(motion.rotor) is not None or len(motion.rotor.system.rest) > 1:
         console.print(_final_words(say, motion))
         return
     console.print(
@@ -195,7 +198,7 @@ def print_motion(console: Console, case: Case, motion: Trajectory) -> None:
 
 
 def _final_words(say: Wording, motion: Trajectory) -> str:
-    """Where a rotor that weighs something is at the end, and how fast, in the fixed frame."""
+    """Where a rotor that weighs something, or the first plane of one with several coordinates, is at the end, and how fast, in the fixed frame."""
     (seen,), (rate,) = motion.at_plane(np.array([motion.time]))
     turn = cmath.exp(1j * (motion.begins + motion.time))
     place, speed = complex(seen) * turn, complex(rate + 1j * seen) * turn
@@ -219,12 +222,8 @@ def _print_loads(console: Console, say: Wording, case: Case, motion: Trajectory)
     """Print the loads on the touchdown bearing, and the limits that are stated for it."""
     loads = touchdown_loads(motion)
     if loads.force > 0.0:
-        contact = "Lasting contact"
-        if loads.depth > 0.0:
-            contact = f"Contact up to {say.length(loads.depth)} deep"
-        console.print(
-            f"{contact}: normal force up to {say.force(loads.force)}, friction power up to {say.power(loads.power)}."
-        )
+        power = f"friction power up to {say.power(loads.power)}"
+        console.print(f"Lasting contact: normal force up to {say.force(loads.force)}, {power}.")
     goes_on = f"; it goes on with {say.power(loads.lasting_power)}" if loads.lasting_power > 0.0 else ""
     console.print(f"Heat of friction: {say.energy(loads.heat)}{goes_on}.")
     for check in check_loads(loads, case.limits):

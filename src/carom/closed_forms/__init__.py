@@ -2,6 +2,7 @@
 
 ==================  ===================================================
 ``equilibria``      contact-free and rubbing equilibria of any linear rotor
+``sag``             levitation with or without weight: a circle about the sag
 ``statics``         forces of rubs at rest, at one plane and at several
 ``power_sums``      all positive roots of a sum of powers
 ``rub_stability``   whether a rub at rest attracts sliding
@@ -34,6 +35,7 @@ from carom.closed_forms.harmless import (
 from carom.closed_forms.hertz import PointContact, ball_pressure, point_contact
 from carom.closed_forms.local import ContactSystem, LocalCycle, NonSmoothHopf, cycle_determinant, non_smooth_hopf
 from carom.closed_forms.periods import PeriodCondition, PeriodRoots
+from carom.closed_forms.sag import Levitation, levitation
 from carom.closed_forms.thresholds import rub_limit
 from carom.closed_forms.unbalance import SpeedResponse, speed_response
 from carom.closed_forms.whirl import Rolling, Runaway, rolling, runaway_speed
@@ -45,6 +47,7 @@ __all__ = [
     "Equilibrium",
     "EquilibriumSet",
     "FreeImpact",
+    "Levitation",
     "LocalCycle",
     "NonSmoothHopf",
     "PeriodCondition",
@@ -67,6 +70,7 @@ __all__ = [
     "hunt_crossley_impact",
     "internal_resonance",
     "kelvin_voigt_impact",
+    "levitation",
     "non_smooth_hopf",
     "point_contact",
     "rolling",

@@ -20,7 +20,7 @@ from carom.arguments import Positive, checked
 from carom.closed_forms.known import known_of
 from carom.models import Forced, Model, Subject, model_of
 from carom.models.stages import stages_of
-from carom.models.weight import STEADY
+from carom.models.system import STEADY
 
 MARGIN = 1e-9
 """Share of the distance from the wall that is left for rounding."""
@@ -49,7 +49,7 @@ def _levitation(model: Model) -> _Levitation | None:
             or least < (-ROUNDING if zero else ROUNDING) * size
         ):
             return None
-    sags = np.abs(model.system.arrays["rows"] * model.system.forced_at(0.0)).sum(axis=1).tolist()
+    sags = np.abs(model.system.arrays["rows"] @ model.system.forced_at(0.0)).tolist()
     places = model.system.arrays["offsets"].tolist()
     rooms = np.array([1.0 - abs(place) - sag for place, sag in zip(places, sags, strict=True)]) * (1.0 - MARGIN)
     planes = model.system.planes

@@ -10,6 +10,7 @@ Nothing here knows units, files or results.  A kernel sees a rotor as the arrays
 ``block``              one block of flight: possible roots, state at a time
 ``events``             certified first crossing of the wall
 ``wall``               numbers of a wall, and planes at it
+``wall_work``          what walls that give way take of the energy
 ``laws``               laws of a wall along its normal
 ``force_change``       how the force of a wall that gives way changes
 ``friction``           arrivals and lasting contact with Coulomb friction
@@ -18,6 +19,7 @@ Nothing here knows units, files or results.  A kernel sees a rotor as the arrays
 ``contact_series``     lasting contact as Taylor series
 ``compliance``         contact with a wall that gives way, as Taylor series
 ``shaft``              the speed of the shaft as a state, in contact and from flight to flight
+``surfaces``           speeds of the two surfaces that touch, where they change
 ``rounding``           rounding errors of sums over the modes
 ``taylor``             length of a step, sums and zeros of Taylor series
 ``rub``                when lasting contact changes, and what follows

@@ -11,6 +11,7 @@ from carom.core.phases import AWAY, FLIGHT, lasts
 from carom.core.planar_proofs import fades_to_rolling
 from carom.core.rounding import RESTING, speed_rounding
 from carom.core.rub import meets_wall, next_phase, rest_on_wall
+from carom.core.surfaces import may_change
 from carom.core.wall import move_plane, set_on_wall, unit, wall_of, yields
 from carom.outcome import Outcome
 
@@ -104,9 +105,10 @@ def _meet(rotor, contact, plane, elapsed, memory, work, rub):
     if settle and fades_to_rolling(memory.proofs, rotor, work.arrival):
         copy(work.arrival, work.current)
         return ROLLING
-    if rotor.rows.shape[0] > 1 or rotor.shaft.shape[0] > 0:
+    changes = may_change(rotor, plane)
+    if rotor.rows.shape[0] > 1 or changes:
         others = join(rotor, contact, plane, work.arrival, rub)
-        if others or rotor.shaft.shape[0] > 0:
+        if others or changes:
             if memory.watches > 0:
                 _note_speeds(rotor, memory, work, rub)
             strike_together(rotor, work.arrival, work.current, rub)
@@ -178,7 +180,7 @@ def _land(rotor, contact, plane, amplitudes, rub):
     ``4hP/(N(1 − d²))`` where every impact stops the slip against a force ``P`` along the wall.  Both hold to leading
     order in ``v`` for the planar rotor.
     """
-    if rotor.rows.shape[0] > 1 or rotor.shaft.shape[0] > 0:
+    if rotor.rows.shape[0] > 1 or may_change(rotor, plane):
         land_together(rotor, contact, plane, amplitudes, rub)
         return
     normal = unit(displacement(rotor, plane, amplitudes))

@@ -31,7 +31,7 @@ from carom.core.laws.choice import edge, force_coefficient, press_coefficient, p
 from carom.core.layout import ORDER
 from carom.core.phases import FLIGHT, ROLLING, SEPARATED, sense_of_phase
 from carom.core.rounding import position_rounding, speed_rounding
-from carom.core.shaft import excess_coefficient, surface_excess
+from carom.core.surfaces import race_grip, relative_coefficient, relative_excess
 from carom.core.taylor import first_fall
 from carom.core.wall import set_on_wall, unit, wall_of
 
@@ -63,10 +63,7 @@ def indent(rotor, plane, k, work):
     work.rate[plane, k] = (k + 1.0) * depth[k + 1]
     work.push[plane, k] = force_coefficient(k, depth, work.rate[plane], work.power[plane], wall_of(rotor, plane))
     along, pressed = rotor.surface_speed[plane] + depth[0] if k == 0 else depth[k], 0j
-    if rotor.race[plane] >= 0:
-        along -= work.series[k, rotor.race[plane]].real
-    if rotor.shaft.shape[0] > 0:
-        along += excess_coefficient(rotor, plane, k, work)
+    along += relative_coefficient(rotor, plane, k, work)
     for j in range(k + 1):
         along += normal[j].real * speed[k - j].imag - normal[j].imag * speed[k - j].real
         pressed += work.push[plane, j] * normal[k - j]
@@ -76,13 +73,8 @@ def indent(rotor, plane, k, work):
 @inlined
 def rolling_grip(rotor, plane, k, work):
     """Coefficient ``k`` of the friction that lets a plane roll, times ``1 + race_gain``, against its acceleration in ``work.free``."""
-    turning, grip = work.slip[plane, k] - work.depth[plane, k], -work.rate[plane, k]
-    race = rotor.race[plane]
-    if race >= 0:
-        turning += work.series[k, race].real
-        grip += rotor.exponents[race].real * work.series[k, race].real
-    if rotor.shaft.shape[0] > 0:
-        turning -= excess_coefficient(rotor, plane, k, work)
+    turning = work.slip[plane, k] - work.depth[plane, k] - relative_coefficient(rotor, plane, k, work)
+    grip = race_grip(rotor, plane, k, work) - work.rate[plane, k]
     if k == 0:
         turning -= rotor.surface_speed[plane]
     for j in range(1, k + 1):
@@ -162,9 +154,4 @@ def slip_in_wall(rotor, plane, amplitudes):
     position = displacement(rotor, plane, amplitudes)
     radius = math.sqrt(squared_modulus(position))
     local = unit(position).conjugate() * velocity(rotor, plane, amplitudes)
-    slip = slip_of(local, wall_of(rotor, plane)) + (radius - 1.0)
-    if rotor.race[plane] >= 0:
-        slip -= amplitudes[rotor.race[plane]].real
-    if rotor.shaft.shape[0] > 0:
-        slip += surface_excess(rotor, plane, amplitudes)
-    return slip
+    return slip_of(local, wall_of(rotor, plane)) + (radius - 1.0) + relative_excess(rotor, plane, amplitudes)

@@ -31,7 +31,8 @@ from carom.core.equations import solve
 from carom.core.friction import friction_ratio, rolling_force
 from carom.core.layout import ORDER
 from carom.core.phases import ROLLING, lasts, sense_of_phase, stays
-from carom.core.shaft import brake_shaft, couple_by_shaft, excess_coefficient, sweep_unbalance, turn_shaft
+from carom.core.shaft import brake_shaft, couple_by_shaft, sweep_unbalance, turn_shaft
+from carom.core.surfaces import may_change, race_grip, relative_coefficient
 from carom.core.wall import wall_of, yields
 
 
@@ -48,18 +49,7 @@ def rub_series(rotor, contact, amplitudes, work):
     for m in range(modes):
         work.series[0, m] = amplitudes[m]
     for k in range(ORDER + 1):
-        if rotor.shaft.shape[0] > 0:
-            sweep_unbalance(rotor, k, work)
-        for plane in range(planes):
-            _free_motion(rotor, plane, k, work)
-            if yields(rotor, plane) and stays(contact[plane]):
-                indent(rotor, plane, k, work)
-            else:
-                _push_and_slip(rotor, plane, k, work)
-        if planes == 1 and rotor.shaft.shape[0] == 0:
-            _force(rotor, contact[0], k, work)
-        else:
-            _coupled_forces(rotor, contact, k, work)
+        _contact(rotor, contact, k, work)
         if k < ORDER:
             for m in range(modes):
                 rate = rotor.exponents[m] * work.series[k, m] + rotor.columns[m, 0] * work.force[0, k]
@@ -73,6 +63,32 @@ def rub_series(rotor, contact, amplitudes, work):
                     work.series[k + 1, rotor.race[plane]] -= rotor.race_gain[plane] * work.grip[plane, k] / (k + 1)
             if rotor.shaft.shape[0] > 0:
                 turn_shaft(rotor, contact, k, work)
+
+
+@kernel
+def contact_forces(rotor, contact, amplitudes, work):
+    """Fill the first coefficient of each series of :func:`rub_series` alone: the forces at these amplitudes, not their course."""
+    for m in range(rotor.columns.shape[0]):
+        work.series[0, m] = amplitudes[m]
+    _contact(rotor, contact, 0, work)
+
+
+@inlined
+def _contact(rotor, contact, k, work):
+    """Coefficients ``k`` of position, speed, push, slip and forces at all planes, from those of the amplitudes."""
+    planes = rotor.columns.shape[1]
+    if rotor.shaft.shape[0] > 0:
+        sweep_unbalance(rotor, k, work)
+    for plane in range(planes):
+        _free_motion(rotor, plane, k, work)
+        if yields(rotor, plane) and stays(contact[plane]):
+            indent(rotor, plane, k, work)
+        else:
+            _push_and_slip(rotor, plane, k, work)
+    if planes == 1 and (yields(rotor, 0) or not may_change(rotor, 0)) and rotor.shaft.shape[0] == 0:
+        _force(rotor, contact[0], k, work)
+    else:
+        _coupled_forces(rotor, contact, k, work)
 
 
 @inlined
@@ -98,8 +114,7 @@ def _push_and_slip(rotor, plane, k, work):
         y, v = work.position[plane, j], work.speed[plane, j]
         push += (y.conjugate() * work.free[plane, k - j]).real + (v.conjugate() * work.speed[plane, k - j]).real
         slip += (y.conjugate() * work.speed[plane, k - j]).imag
-    if rotor.shaft.shape[0] > 0:
-        slip += excess_coefficient(rotor, plane, k, work)
+    slip += relative_coefficient(rotor, plane, k, work)
     work.push[plane, k], work.slip[plane, k] = push, slip
 
 
@@ -184,10 +199,12 @@ def _balance(rotor, contact, p, k, work):
     normal, along = work.push[p, k], 0.0
     rolls = contact[p] == ROLLING
     given = yields(rotor, p)
+    if rolls:
+        work.matrix[2 * p + 1, 2 * p + 1] += rotor.race_gain[p]
     if rolls and given:
         along = rolling_grip(rotor, p, k, work)
-        work.matrix[2 * p + 1, 2 * p + 1] += rotor.race_gain[p]
     elif rolls:
+        along = race_grip(rotor, p, k, work)
         for j in range(k + 1):
             along -= (work.position[p, j].conjugate() * work.free[p, k - j]).imag
     else:

@@ -10,7 +10,8 @@ and one of the two is an equality.  Friction: ``|F| ≤ μP``; the slip ``v⁺``
 the law of :func:`carom.core.wall.rebound`.
 
 Friction changes the speed of a shaft that may change it too: with ``Δσ = Σ_q h_q F_q`` and ``ε = ȳep`` of :mod:`carom.core.shaft` the
-velocities change by ``i(s_p − ε_p)Δσ`` more, where the imaginary part of ``u`` now counts that of the surface.
+velocities change by ``i(s_p − ε_p)Δσ`` more, where the imaginary part of ``u`` now counts that of the surface.  Of a race that turns it
+counts that of the race too, and ``A_pp`` gains ``g_p`` for friction (:mod:`carom.core.surfaces`).
 
 The impulses do the work ``Σ m (−P(ṙ⁻ + ṙ⁺) + F(v⁻ + v⁺))/2`` on the contact points.  Where Newton's restitution would make that
 positive, *Poisson's* is used: a compression with ``ṙ ≤ 0`` and the impulses ``P_c``, then an expansion with at least ``d P_c``, and
@@ -32,7 +33,8 @@ from carom.core.friction import BACKWARD, FORWARD, STOPPED, friction_ratio, rebo
 from carom.core.laws.choice import impulse_by_restitution
 from carom.core.phases import AWAY, ROLLING, lasts, sense_of_phase
 from carom.core.rub import meets_wall
-from carom.core.shaft import change_speed, lever_of_shaft, surface_excess
+from carom.core.shaft import change_speed, lever_of_shaft
+from carom.core.surfaces import relative_excess, turn_race
 from carom.core.wall import unit, wall_of, yields
 
 EXACT = 1e-11
@@ -79,6 +81,7 @@ def strike_together(rotor, before, after, rub):
             change = unit(displacement(rotor, p, before)) * rub.impulses[p]
             for k in range(after.shape[0]):
                 after[k] += rotor.columns[k, p] * change
+            turn_race(rotor, p, rub.impulses[p].imag, after)
             if rotor.shaft.shape[0] > 0:
                 change_speed(rotor, p, rub.impulses[p].imag, after)
 
@@ -107,6 +110,7 @@ def land_together(rotor, contact, plane, amplitudes, rub):
             change = unit(displacement(rotor, p, amplitudes)) * impulse
             for k in range(amplitudes.shape[0]):
                 amplitudes[k] += rotor.columns[k, p] * change
+            turn_race(rotor, p, impulse.imag, amplitudes)
             if rotor.shaft.shape[0] > 0:
                 change_speed(rotor, p, impulse.imag, amplitudes)
 
@@ -142,6 +146,8 @@ def _write_coupling(rotor, p, q, radially, along, rub):
         matrix[2 * p, 2 * q], matrix[2 * p, 2 * q + 1] = coupling.real, coupling.imag
     if along:
         matrix[2 * p + 1, 2 * q], matrix[2 * p + 1, 2 * q + 1] = -coupling.imag, coupling.real
+        if p == q:
+            matrix[2 * p + 1, 2 * p + 1] += rotor.race_gain[p]
     if rotor.shaft.shape[0] > 0:
         by_friction = rub.levers[p] * rotor.shaft_gain[q]
         matrix[2 * p, 2 * q + 1] -= by_friction.real if radially else 0.0
@@ -150,8 +156,10 @@ def _write_coupling(rotor, p, q, radially, along, rub):
 
 @inlined
 def _change(rotor, p, q, impulse, rub):
-    """Change of the local velocity of plane ``p`` by an impulse at plane ``q``, with that of the speed of the shaft."""
+    """Change of the local velocity of plane ``p`` by an impulse at plane ``q``, with those of the speeds of shaft and race."""
     change = rub.couplings[p, q] * impulse
+    if p == q:
+        change += complex(0.0, rotor.race_gain[p] * impulse.imag)
     if rotor.shaft.shape[0] > 0:
         change += rub.levers[p] * (rotor.shaft_gain[q] * impulse.imag)
     return change
@@ -163,8 +171,8 @@ def _load(rotor, before, rub):
     for p in range(rotor.rows.shape[0]):
         normal = unit(displacement(rotor, p, before))
         rub.arrivals[p] = normal.conjugate() * velocity(rotor, p, before)
+        rub.arrivals[p] += complex(0.0, relative_excess(rotor, p, before))
         if rotor.shaft.shape[0] > 0:
-            rub.arrivals[p] += complex(0.0, surface_excess(rotor, p, before))
             rub.levers[p] = lever_of_shaft(rotor, p, normal, before)
         for q in range(rotor.rows.shape[0]):
             other = unit(displacement(rotor, q, before))

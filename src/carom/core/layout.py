@@ -121,7 +121,7 @@ def rotor_record(
         ``largest_response`` (bound of their ``|φ|`` over all later time), ``rate_rows``, ``acceleration_rows`` and
         ``jerk_rows`` (first three derivatives of the displacement at the planes per amplitude), ``mobility`` (change of
         velocity at the planes per unit impulse at each, shape (P, P), ones on its diagonal), ``weights``
-        (``Σ_k |rows|²``), and of a shaft ``unbalance_rows`` (acceleration of the planes by its unbalance at the nominal speed).
+        (``Σ_k |rows|²`` over the free modes), and of a shaft ``unbalance_rows`` (acceleration of the planes by its unbalance at the nominal speed).
         The fields of a shaft have no entries without one: kernels for such rotors are compiled without it.  A record is passed by address and its shapes are known at compile time: kernels run six
         times as fast as with a tuple of arrays.
     """
@@ -150,7 +150,7 @@ def rotor_record(
         "jerk_rows": acceleration_rows.dot(generator),
         "columns": columns,
         "mobility": rate_rows.dot(columns),
-        "weights": (np.abs(rows) ** 2).sum(axis=1),
+        "weights": (np.abs(rows) ** 2).sum(axis=1) if free is None else (np.abs(rows) ** 2).dot(free),
         "friction": friction,
         "restitution": restitution,
         "surface_speed": surface_speed,

@@ -15,7 +15,7 @@ import numpy as np
 
 from carom.compiling.decorators import inlined, kernel
 from carom.core.compliance import first_release, slip_in_wall
-from carom.core.contact_series import rub_series
+from carom.core.contact_series import contact_forces, rub_series
 from carom.core.flow import acceleration, displacement, fly, squared_modulus, unbalance_drive, velocity
 from carom.core.friction import BACKWARD, FORWARD, STOPPED, arrival_in_sense, friction_ratio, slip_of, spare_grip
 from carom.core.laws.choice import force
@@ -32,7 +32,7 @@ from carom.core.phases import (
     stays,
 )
 from carom.core.rounding import RESTING, position_rounding, push_rounding, speed_rounding, yielding_rounding
-from carom.core.shaft import surface_excess
+from carom.core.surfaces import may_change, relative_excess
 from carom.core.taylor import first_fall, series_step, sum_series
 from carom.core.wall import rigid_wall, set_on_wall, unit, wall_of, yields
 
@@ -61,7 +61,7 @@ def forces_all(rotor, amplitudes, phases, work):
     for i in range(amplitudes.shape[0]):
         if not _stays(phases[i]):
             continue
-        rub_series(rotor, phases[i], amplitudes[i], work)
+        contact_forces(rotor, phases[i], amplitudes[i], work)
         for plane in range(phases.shape[1]):
             if lasts(phases[i, plane]):
                 push, grip = work.push[plane, 0], work.grip[plane, 0]
@@ -217,8 +217,7 @@ def rest_on_wall(rotor, plane, amplitudes, rolling):
     set_on_wall(rotor, plane, amplitudes)
     normal = unit(displacement(rotor, plane, amplitudes))
     local, surface_speed = normal.conjugate() * velocity(rotor, plane, amplitudes), rotor.surface_speed[plane]
-    if rotor.shaft.shape[0] > 0:
-        surface_speed += surface_excess(rotor, plane, amplitudes)
+    surface_speed += relative_excess(rotor, plane, amplitudes)
     wall = rigid_wall(0.0, 0.0, surface_speed)
     change = normal * arrival_in_sense(local, STOPPED if rolling else FORWARD, wall)
     for m in range(amplitudes.shape[0]):
@@ -280,11 +279,11 @@ def next_phase(rotor, contact, plane, amplitudes, work):
         return FORWARD_SLIP
     if gives_way:
         slip = slip_in_wall(rotor, plane, amplitudes)
-    elif rotor.shaft.shape[0] > 0:
-        slip += surface_excess(rotor, plane, amplitudes)
+    else:
+        slip += relative_excess(rotor, plane, amplitudes)
     if abs(slip) > speed_rounding(rotor, plane, amplitudes):
         return FORWARD_SLIP if slip > 0.0 else BACKWARD_SLIP
-    if rotor.rows.shape[0] == 1 and rotor.shaft.shape[0] == 0 and not gives_way:
+    if rotor.rows.shape[0] == 1 and not may_change(rotor, plane) and not gives_way:
         push, _ = wall_push(rotor, plane, amplitudes)
         pull = (position.conjugate() * acceleration(rotor, plane, amplitudes)).imag
     else:

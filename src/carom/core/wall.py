@@ -83,8 +83,9 @@ def set_on_wall(rotor, plane, amplitudes):
 
 @inlined
 def move_plane(rotor, plane, shift, amplitudes):
-    """Move a plane by the smallest change of the amplitudes."""
+    """Move a plane by the smallest change of the amplitudes of free modes: forces do not depend on where it is."""
     scale = 1.0 / rotor.weights[plane]
     scaled = complex(scale * shift.real, scale * shift.imag)
     for k in range(amplitudes.shape[0]):
-        amplitudes[k] += rotor.rows[plane, k].conjugate() * scaled
+        if rotor.free[k]:
+            amplitudes[k] += rotor.rows[plane, k].conjugate() * scaled

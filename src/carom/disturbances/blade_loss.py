@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
-from carom.disturbances.coordinates import Coordinate, Starts, angle_coordinate, complex_of
+from carom.disturbances.coordinates import Coordinate, Starts, angle_coordinate, complex_of, sagged
 from carom.disturbances.model import Disturbance
 from carom.outcome import InputError
 from carom.parameters import own_size
@@ -60,13 +60,16 @@ class BladeLoss(Disturbance):
         return rotor.replace(rho=self.eccentricity_after)
 
     def starts(self, rotor: Model, *values: np.ndarray) -> Starts:
-        """Levitation of the machine before the loss, in the frame in which the phase of the unbalance stays the same."""
-        from carom.models.weight import refuse_forces
+        """Levitation of the machine before the loss, in the frame in which the phase of the unbalance stays the same.
+
+        Under weight it goes round its sag, and the unbalance after the loss is then at that phase in the fixed frame.
+        """
+        from carom.models.weight import refuse_unsteady
 
         (phase,) = values
         levitates = rotor.system.rest_radius < 1.0
         if levitates:
-            refuse_forces(rotor)
+            refuse_unsteady(rotor)
         cosine, sine, rest = np.cos(phase), np.sin(phase), rotor.system.rest * levitates
         if len(rest) > 1:
             cosine, sine = cosine[..., None], sine[..., None]
@@ -74,7 +77,8 @@ class BladeLoss(Disturbance):
             rest = rest[0]
         positions = complex_of(rest.real * cosine + rest.imag * sine, rest.imag * cosine - rest.real * sine)
         none = np.zeros(np.shape(phase), bool)
-        return Starts(positions, np.zeros_like(positions), none | levitates, none, none)
+        positions, velocities = sagged(rotor, positions) if levitates else (positions, np.zeros_like(positions))
+        return Starts(positions, velocities, none | levitates, none, none, np.zeros(np.shape(phase)))
 
     def release(self, machine: Subject, phase: float = 0.0) -> tuple[Model, State]:
         """Return the machine after the loss and the state in which it starts, for :func:`carom.simulate`.

@@ -163,41 +163,47 @@ class BaseShock(Disturbance):
         """State at the end of the pulse."""
         from carom.disturbances.shocks import states_after_shocks
         from carom.models.stages import stages_of
-        from carom.models.weight import refuse_forces
+        from carom.models.weight import refuse_unrepeated
 
         peaks, directions = np.broadcast_arrays(*values)
         if rotor.system.rest_radius >= 1.0:
             return displaced(rotor, np.zeros(peaks.shape, complex), np.zeros(peaks.shape), False)
-        refuse_forces(rotor)
+        refuse_unrepeated(rotor)
         positions, velocities, undecided, touched = states_after_shocks(
             stages_of(rotor)[0].rotor, peaks, self.duration, directions
         )
-        return Starts(positions, velocities, np.ones(peaks.shape, bool), undecided, touched)
+        # Without forces that change with time nothing depends on it.
+        begins = np.full(peaks.shape, self.duration if rotor.system.outer.any() else 0.0)
+        return Starts(positions, velocities, np.ones(peaks.shape, bool), undecided, touched, begins)
 
     def stages(self, machine: Subject, direction: float = 0.0) -> tuple[Staged, State]:
         """Return the machine under the largest shock and then without, and its start at levitation, for :func:`carom.simulate`.
 
-        Stages of the machine begin when the shock is over.
+        Contacts during the shock are part of the motion.  Stages of the machine begin when the shock is over.  A machine with weight
+        levitates about its static sag when the shock begins, at time zero: then the frames coincide, so that the phase of its unbalance
+        and the direction of the shock count from the same axis as that of its weight.
 
         Parameters
         ----------
         machine : Machine, Case, Parameters or model
         direction : float
             Of the acceleration, rad.
+
+        Raises
+        ------
+        InputError
+            The rotor cannot levitate inside the wall.
         """
         from carom.disturbances.shocks import shaken
         from carom.models import Stage, Staged, Trigger, model_of
         from carom.models.stages import stages_of
-        from carom.models.weight import refuse_forces
-        from carom.motions.starts import State
+        from carom.motions.starts import Kick
 
         further = stages_of(model_of(machine))
         rotor = further[0].rotor
-        refuse_forces(rotor)
         size = cmath.rect(self.peak, own_size("direction", direction, "angle", None)) / 2j
         pulse = Stage(shaken(rotor, self.duration, size), Trigger(time=self.duration))
-        position = rotor.system.rest if len(rotor.system.rest) > 1 else rotor.system.rest[0]
-        return Staged((pulse, *further)), State.of(position, np.zeros_like(position))
+        return Staged((pulse, *further)), Kick(0.0).state(rotor)
 
     def release(self, machine: Subject, direction: float = 0.0) -> State:
         """Return the state at the end of one shock of the largest peak, for :func:`carom.simulate`.
@@ -227,7 +233,7 @@ class BaseShock(Disturbance):
         if starts.undecided[0]:
             words = "another peak or direction: with this one the rotor grazes the wall during the pulse, which is undecided"
             raise InputError("peak", self.peak, words)
-        return State.of(starts.positions[0], starts.velocities[0])
+        return State.of(starts.positions[0], starts.velocities[0], time=float(starts.begins[0]))
 
 
 def outward_from(machine: Subject) -> complex:
@@ -245,4 +251,4 @@ def _kicked(rotor: Model, velocity: np.ndarray) -> Starts:
     if len(rotor.system.rest) == 1:
         positions, velocities = positions[..., 0], velocities[..., 0]
     none = np.zeros(velocity.shape, bool)
-    return Starts(positions, velocities, none | (rotor.system.rest_radius < 1.0), none, none)
+    return Starts(positions, velocities, none | (rotor.system.rest_radius < 1.0), none, none, np.zeros(none.shape))

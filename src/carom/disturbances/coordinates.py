@@ -115,6 +115,8 @@ class Starts(NamedTuple):
         Whether the rotor grazes the wall during the disturbance, so that double precision cannot decide what follows.
     touched : ndarray of bool
         Whether the rotor has already met the wall, during a shock or because it starts there.
+    begins : ndarray
+        Times at which they are taken, in ``1/Ω``, since the disturbance began: under weight they say where this points.
     """
 
     positions: np.ndarray
@@ -122,12 +124,14 @@ class Starts(NamedTuple):
     exists: np.ndarray
     undecided: np.ndarray
     touched: np.ndarray
+    begins: np.ndarray
 
     @classmethod
     def of(cls, positions: np.ndarray | complex, velocities: np.ndarray | complex, exists: np.ndarray | bool) -> Starts:
         """Broadcast the arrays to one shape; none of the starts is undecided."""
         places, speeds, there = np.broadcast_arrays(np.asarray(positions, complex), velocities, exists)
-        return cls(places, speeds.astype(complex), there, np.zeros(places.shape, bool), np.abs(places) >= 1.0 - ON_WALL)
+        none = np.zeros(places.shape, bool)
+        return cls(places, speeds.astype(complex), there, none, np.abs(places) >= 1.0 - ON_WALL, np.zeros(places.shape))
 
     @classmethod
     def joined(cls, parts: Sequence[Starts]) -> Starts:
@@ -138,6 +142,15 @@ class Starts(NamedTuple):
     def some(self, chosen: np.ndarray) -> Starts:
         """Some of the starts, one-dimensional: those where ``chosen`` is true."""
         return Starts(*(values[chosen] for values in self))
+
+
+def sagged(rotor: Model, positions: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Positions of rotors at rest in the turning frame with the static sag added, and the velocities of that, which stands still."""
+    if rotor.system.forced is None:
+        return positions, np.zeros_like(positions)
+    sag = rotor.system.shapes @ rotor.system.forced
+    placed = positions + (sag if len(sag) > 1 else sag[0])
+    return placed, np.broadcast_to(-1j * (sag if len(sag) > 1 else sag[0]), placed.shape).copy()
 
 
 def displaced(rotor: Model, positions: np.ndarray, velocities: np.ndarray, exists: np.ndarray | bool = True) -> Starts:

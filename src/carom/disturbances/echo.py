@@ -69,11 +69,11 @@ def echo_of_kick(speed: float, angle: float, phase: float, scales: Scales | None
 
 
 def echo_of_shock(peak: float, duration: float, angle: float, phase: float, scales: Scales | None) -> Echo:
-    """A half-sine shock of the base, whose motion begins at its end."""
+    """A half-sine shock of the base, with which the motion begins."""
     size = f"{told(peak, 'acceleration', scales)} for {told(duration, 'time', scales)} at {told_angle(angle)}"
     words = (
         f"Shock of the base: half-sine, {size}; {angles_words(phase, ', as it lies when the shock begins')}; "
-        "the motion is logged from its end, without contacts during it"
+        "times count from then"
     )
     sizes = {"peak": (peak, "acceleration"), "duration": (duration, "time"), "angle": (angle, "")}
     return Echo("shock", words, sizes)

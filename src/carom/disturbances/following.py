@@ -27,7 +27,10 @@ def follow(
     """
     chosen = starts.exists & ~starts.undecided
     machines = None if which is None else which[chosen]
-    found = settle(machine, starts.positions[chosen], starts.velocities[chosen], which=machines, **limits)
+    begins = starts.begins[chosen]
+    found = settle(
+        machine, starts.positions[chosen], starts.velocities[chosen], which=machines, begins=begins, **limits
+    )
     whole = {}
     for name, values in vars(found).items():
         whole[name] = np.zeros(chosen.shape + values.shape[1:], values.dtype)

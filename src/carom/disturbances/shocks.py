@@ -5,7 +5,7 @@ translation ``t`` of the rotor as a whole, all masses feel its acceleration ``a(
 
     M Z̈ + (D − iG) Ż + K Z = F e^{iτ} − M t a(τ),
 
-if moving as a whole bends no shaft and needs no gyroscopic moment (``G t = 0``).  So the accelerations of the coordinates
+if moving as a whole bends no shaft and needs no gyroscopic moment (``G t = 0``).  A touchdown bearing on a mount is shaken too.  So the accelerations of the coordinates
 change by ``−t a``, and only the translation need be known.  In the co-rotating frame, with ``t â e^{iα}/2i`` from the two exponentials of a sine, these are two forces with exponents of
 their own (:mod:`carom.models.forcing`),
 
@@ -30,6 +30,8 @@ from carom.core.in_turn import advance_in_turn
 from carom.core.layout import rub_workspace, workspace
 from carom.core.phases import AWAY
 from carom.models import Force, Forced, Model
+from carom.models.in_bearing import carried_by_housing
+from carom.models.system import EQUAL, STEADY
 from carom.motions.ensembles import MOST_EVENTS
 from carom.outcome import Outcome
 
@@ -38,7 +40,7 @@ LOGGED = 256
 
 def shaken(rotor: Model, duration: float, size: complex) -> Forced:
     """The rotor under the two forces of a half-sine pulse of this duration in ``1/Ω``, with ``size = â e^{iα}/2i``."""
-    frequency, push = math.pi / duration, size * rotor.system.translated
+    frequency, push = math.pi / duration, size * carried_by_housing(rotor)
     return Forced(rotor, (Force(1j * (frequency - 1.0), -push), Force(-1j * (frequency + 1.0), push)))
 
 
@@ -54,10 +56,14 @@ def states_after_shocks(
     """
     system = shaken(rotor, duration, 1.0).system
     at_rest = np.append(rotor.system.rest, np.zeros_like(rotor.system.rest))
-    (unit,) = system.amplitudes_of(at_rest[None])
+    # Levitation under weight goes round a circle; its amplitudes are those of the weight, whatever the shock.
+    (whole,) = system.amplitudes_of(np.concatenate(rotor.system.kicked(0.0))[None])
+    steady = np.where(np.abs(system.arrays["exponents"] - STEADY) <= EQUAL, system.outer, 0.0)
+    unit, weight = (whole - steady).tolist(), steady.tolist()
     # Number by number: the last bit of array arithmetic depends on the place in the array.
     sizes = [cmath.rect(*pair) / 2j for pair in zip(peaks.ravel().tolist(), directions.ravel().tolist(), strict=True)]
-    motions = np.array([[size * value for value in unit.tolist()] for size in sizes], complex).reshape(-1, system.modes)
+    each = [[size * value + constant for value, constant in zip(unit, weight, strict=True)] for size in sizes]
+    motions = np.array(each, complex).reshape(-1, system.modes)
     planes = len(system.arrays["rows"])
     contacts = np.full((len(motions), planes), AWAY)
     outcomes, events = np.zeros((2, len(motions)), np.int64)

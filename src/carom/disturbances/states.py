@@ -17,6 +17,7 @@ from carom.disturbances.coordinates import (
     complex_of,
     displaced,
     length_coordinate,
+    sagged,
     speed_coordinate,
     within,
 )
@@ -69,19 +70,25 @@ class UnbalanceStep(Disturbance):
         )
 
     def starts(self, rotor: Model, *values: np.ndarray) -> Starts:
-        """Levitation with the old unbalance."""
-        from carom.models.weight import refuse_forces
+        """Levitation with the old unbalance; under weight about the static sag."""
+        from carom.models.weight import refuse_unsteady
 
         eccentricity, phase = values
-        refuse_forces(rotor)
+        refuse_unsteady(rotor)
         mass, damping, gyroscopic, stiffness, _ = rotor.matrices
         push = cmath.rect(1.0, rotor.unbalance_phase) * rotor.system.translated
         response = np.linalg.solve(stiffness - mass + 1j * damping + gyroscopic, mass @ push)
-        reach = float(np.abs(rotor.system.planes @ response).max())
+        sags = np.abs(rotor.system.arrays["rows"] @ rotor.system.forced_at(0.0))
+        reaches = np.abs(rotor.system.planes @ response)
         cosine, sine = eccentricity * np.cos(phase), eccentricity * np.sin(phase)
-        there = np.hypot(cosine, sine) * reach <= 1.0
+
+        def reach() -> np.ndarray:
+            farthest: np.ndarray = (np.hypot(cosine, sine)[..., None] * reaches + sags).max(axis=-1)
+            return farthest
+
+        there = reach() <= 1.0
         cosine, sine = np.where(there, cosine, 0.0), np.where(there, sine, 0.0)
-        touched = there & (np.hypot(cosine, sine) * reach >= 1.0 - ON_WALL)
+        touched = there & (reach() >= 1.0 - ON_WALL)
         if len(response) > 1:
             cosine, sine = cosine[..., None], sine[..., None]
         else:
@@ -90,7 +97,7 @@ class UnbalanceStep(Disturbance):
             response.real * cosine - response.imag * sine, response.imag * cosine + response.real * sine
         )
         none = np.zeros(there.shape, bool)
-        return Starts(positions, np.zeros_like(positions), there, none, touched)
+        return Starts(*sagged(rotor, positions), there, none, touched, np.zeros(there.shape))
 
 
 @checked

@@ -5,6 +5,7 @@
 ``spans``                 :class:`Span`: an interval of a parameter, with what happens at its ends
 ``model``                 :class:`Model`: what every description of a rotor offers
 ``system``                :class:`System`: modes and contact planes of any linear rotor
+``nodes``                 nodes of orbits: states, and under weight its direction
 ``from_modes``            systems from their modes
 ``jeffcott``              :class:`Jeffcott`: the planar rigid rotor, by its parameters
 ``linear``                :class:`LinearRotor`: any linear isotropic rotor, by its matrices

@@ -19,13 +19,13 @@ import numpy as np
 
 from carom.core.wall import Wall
 from carom.models.from_modes import modal_system
-from carom.models.system import System
+from carom.models.system import EQUAL, System
 from carom.outcome import InputError
 
 RESONANT = 1e-3
 """Distance of exponents, relative to one plus their size, below which a force drives a mode instead of adding to it."""
-EQUAL = 1e-12
-"""The same for exponents that are one number."""
+FADING = 1e-7
+"""Rate, relative to the same, at which a mode fades beside a force: from there on it has settled to the force, not been driven away."""
 ONE = 1e-7
 """Gap of a pair, relative to one plus the size of its exponents, whose square is lost in rounding."""
 
@@ -121,7 +121,9 @@ class _Modes:
     def driven_by(self, exponent: complex, push: np.ndarray) -> _Modes:
         """With one more force, which changes the rates of the amplitudes by ``push``."""
         size = 1.0 + abs(exponent)
-        near = self.free & (np.abs(self.exponents - exponent) <= RESONANT * size)
+        close = self.free & (np.abs(self.exponents - exponent) <= RESONANT * size)
+        close &= exponent.real - self.exponents.real <= FADING * size
+        near = close & self._pushed(push)
         # Modes that a force drives already, and those after them in their chains.
         taken = self.driven & self.free
         for place in np.flatnonzero(taken).tolist():
@@ -138,11 +140,19 @@ class _Modes:
                 push = push + np.eye(len(push))[last - 1] * (push[last] * gap / 2.0)
                 return self._as_one(last, gap).driven_by(exponent, push)
             near[last - 1 : last + 1] |= touched
-        others = np.flatnonzero(self.free & ~near)
+        others = np.flatnonzero(self.free & ~near & ~close)
         matrix = np.diag(self.exponents) + np.diag(self.driven[1:].astype(complex), -1)
         shares = np.zeros(len(push), complex)
         shares[others] = np.linalg.solve(exponent * np.eye(len(others)) - matrix[np.ix_(others, others)], push[others])
         return self._resonant(exponent, push, near, shares)
+
+    def _pushed(self, push: np.ndarray) -> np.ndarray:
+        """Which modes a force changes, those of a pair together."""
+        pushed = np.abs(push) > EQUAL * np.abs(push).max(initial=0.0)
+        pairs = np.flatnonzero(self.driven & np.insert(self.free[:-1], 0, False))
+        pushed[pairs] |= pushed[pairs - 1]
+        pushed[pairs - 1] |= pushed[pairs]
+        return pushed
 
     def _resonant(self, exponent: complex, push: np.ndarray, near: np.ndarray, shares: np.ndarray) -> _Modes:
         """With one more force that drives the mode it is in resonance with, if there is one."""

@@ -1,4 +1,4 @@
-"""The planar rotor in a touchdown bearing that gives way, on a mount or not."""
+"""The planar rotor in a touchdown bearing that gives way, turns, sits on a mount or off the centre, or with a shaft that is braked."""
 
 from __future__ import annotations
 
@@ -18,26 +18,26 @@ from carom.models.race import Race
 from carom.models.shaft import Shaft
 from carom.models.stages import Around
 from carom.models.system import System
-from carom.models.touchdown import HuntCrossley, KelvinVoigt, Touchdown
+from carom.models.touchdown import HuntCrossley, KelvinVoigt, Rigid, Touchdown
 from carom.outcome import InputError, shown
 from carom.parameters import TOUCHDOWN_FIELDS, Drive, Field, Parameters, Scales, TouchdownBearing
 from carom.parameters.restitution import damping_ratio_of, dissipation_of
 from carom.parameters.touchdown_bearing import BALL_FIELDS, PREFIX
 
-_LEFT_OUT = ("restitution", "d")
-"""Parameters of the planar rotor in a rigid wall that it does not have here."""
+RESTITUTION = ("restitution", "d")
+"""Names of the restitution of a rigid wall."""
 
 
 @dataclass(frozen=True)
 class InBearing(Around):
-    """Rigid rotor inside a touchdown bearing that gives way.
+    """Rigid rotor inside a touchdown bearing that gives way, or one whose race, mount, place or shaft is more than a rigid wall's.
 
     Its coordinates are the position of the rotor and, on a mount, that of the mount.
 
     Attributes
     ----------
     rotor : Jeffcott
-        Its own coefficient of restitution means nothing.
+        In a bearing that gives way its own coefficient of restitution means nothing.
     bearing : TouchdownBearing
         In SI units.
     levitates : bool
@@ -48,7 +48,7 @@ class InBearing(Around):
     Raises
     ------
     InputError
-        The rotor is no planar rotor with scales, or the bearing is rigid.
+        The rotor is no planar rotor with scales, or there is nothing here that :class:`~carom.models.Jeffcott` has not.
     """
 
     rotor: Jeffcott
@@ -60,8 +60,11 @@ class InBearing(Around):
         rotor: Any = self.rotor
         if not isinstance(rotor, Jeffcott) or rotor.scales is None:
             raise InputError("rotor", shown(rotor), "a planar rotor with mass, clearance and speed")
-        if not self.bearing.yields:
-            raise InputError("bearing", self.bearing.words, "a bearing that gives way")
+        if self.bearing.is_plain and self.drive is None:
+            allowed = (
+                "a bearing that gives way, has a race, a mount or an offset; a rigid wall needs no model of its own"
+            )
+            raise InputError("bearing", self.bearing.words, allowed)
 
     @property
     def parameters(self) -> Parameters:
@@ -85,7 +88,7 @@ class InBearing(Around):
             forcing = np.append(forcing, 0.0)
         at = self.parameters
         touchdown = Touchdown(
-            plane, law_of(given, scales), at.mu, at.radius_ratio + 1.0, race_of(given, at.radius_ratio, scales)
+            plane, law_of(given, scales, at.d), at.mu, at.radius_ratio + 1.0, race_of(given, at.radius_ratio, scales)
         )
         return LinearRotor.in_fixed_frame(
             **matrices,
@@ -100,15 +103,20 @@ class InBearing(Around):
     def system(self) -> System:
         """Modes, contact plane and contact law.
 
-        Seen from the centre of a bearing off the place of levitation, that pulls with a constant force in the fixed frame.
+        Seen from the centre of a bearing off the place of levitation, that pulls with a constant force in the fixed frame (:attr:`pull`).
         """
+        return with_forces(self.linear.system, self.pull) if self.pull else self.linear.system
+
+    @property
+    def pull(self) -> tuple[Force, ...]:
+        """What pulls the rotor from the centre of the bearing to the place of levitation, where these differ."""
         scales: Any = self.rotor.scales
         centre = self.bearing.centre / scales.length
         if not centre or not self.levitates:
-            return self.linear.system
+            return ()
         pull = np.zeros(len(self.linear.mass), complex)
         pull[0] = -(self.rotor.matrices.stiffness[0, 0] / self.rotor.matrices.mass[0, 0]) * centre
-        return with_forces(self.linear.system, (Force(-1j, pull),))
+        return (Force(-1j, pull),)
 
     @property
     def matrices(self) -> Matrices:
@@ -118,15 +126,25 @@ class InBearing(Around):
     @property
     def words(self) -> str:
         """Its parameters in a line."""
-        own = (
-            f"{name} = {self.rotor.value(name):g}" for name in ("gamma", "omega", "rho", "phi", "mu", "radius_ratio")
-        )
-        return f"{', '.join(own)}; {self.bearing.words}"
+        names = ("gamma", "omega", "rho", "phi", "mu", *([] if self.bearing.yields else ["d"]), "radius_ratio")
+        own = (f"{name} = {self.rotor.value(name):g}" for name in names)
+        return f"{', '.join(own)}; {self.words_of_bearing}"
+
+    @property
+    def words_of_bearing(self) -> str:
+        """What is more than a rigid wall that stands still and a shaft at constant speed."""
+        parts = [] if self.bearing.is_plain else [self.bearing.words]
+        return "; ".join([*parts, *([self.drive.words] if self.drive else [])])
+
+    @property
+    def _left_out(self) -> tuple[str, ...]:
+        """Parameters of the planar rotor in a rigid wall that it does not have."""
+        return RESTITUTION if self.bearing.yields else ()
 
     @property
     def varied(self) -> Mapping[str, Field]:
         """Named parameters that can be varied."""
-        own = {name: field for name, field in self.rotor.varied.items() if name not in _LEFT_OUT}
+        own = {name: field for name, field in self.rotor.varied.items() if name not in self._left_out}
         bearing = {
             PREFIX + name: replace(TOUCHDOWN_FIELDS[name], name=PREFIX + name)
             for name in self.bearing.given
@@ -138,13 +156,13 @@ class InBearing(Around):
         """Value of a named parameter, in the unit of its field."""
         if name in self.varied and name.startswith(PREFIX):
             return float(getattr(self.bearing, name.removeprefix(PREFIX)))
-        if name in _LEFT_OUT:
+        if name in self._left_out:
             raise InputError(name, None, "a touchdown bearing that gives way has no such number for all speeds")
         return self.rotor.value(name)
 
     def replace(self, **changes: Any) -> InBearing:
         """Return the rotor with other values of its parameters; those of the bearing stay what they are in SI units."""
-        for name in _LEFT_OUT:
+        for name in self._left_out:
             if name in changes:
                 raise InputError(
                     name, changes[name], "a touchdown bearing that gives way has its own entries in [touchdown]"
@@ -162,10 +180,17 @@ class InBearing(Around):
 
 
 def bearing_of(model: Model) -> TouchdownBearing | None:
-    """The touchdown bearing that gives way, of a model that is described by its data; else ``None``."""
+    """The touchdown bearing of a model that is described by its data; else ``None``."""
     if isinstance(model, InBearing):
         return model.bearing
     return bearing_of(model.rotor) if isinstance(model, Around) else None
+
+
+def pull_of(model: Model) -> tuple[Force, ...]:
+    """:attr:`InBearing.pull` of a model that has it."""
+    if isinstance(model, InBearing):
+        return model.pull
+    return pull_of(model.rotor) if isinstance(model, Around) else ()
 
 
 def races_of(model: Model) -> tuple[Race | None, ...]:
@@ -177,6 +202,18 @@ def races_of(model: Model) -> tuple[Race | None, ...]:
     return races_of(model.rotor) if isinstance(model, Around) else (None,) * len(model.system.contacts)
 
 
+def on_mount(model: Model) -> bool:
+    """Whether the touchdown bearing stands on a mount, whose place then is the second coordinate."""
+    bearing = bearing_of(model)
+    return bearing is not None and bearing.mount_mass is not None
+
+
+def carried_by_housing(model: Model) -> np.ndarray:
+    """Coordinates (n,) when all that a housing carries is displaced by one against it: the rotor as a whole, and a mount."""
+    translated: np.ndarray = model.system.translated
+    return np.ones_like(translated) if on_mount(model) else translated
+
+
 def shaft_of(drive: Drive | None, scales: Scales) -> Shaft | None:
     """What turns with the shaft in the units of a rotor's equations; ``None`` of one whose speed never changes."""
     if drive is None or drive.polar_inertia is None:
@@ -185,8 +222,10 @@ def shaft_of(drive: Drive | None, scales: Scales) -> Shaft | None:
     return Shaft(drive.polar_inertia / unit, drive.torque / (unit * scales.speed**2))
 
 
-def law_of(bearing: TouchdownBearing, scales: Scales) -> KelvinVoigt | HuntCrossley:
-    """Law of a bearing in the units of a rotor's equations."""
+def law_of(bearing: TouchdownBearing, scales: Scales, restitution: float = 0.0) -> Rigid | KelvinVoigt | HuntCrossley:
+    """Law of a bearing in the units of a rotor's equations; the restitution is that of a rigid wall."""
+    if not bearing.yields:
+        return Rigid(restitution)
     exponent = bearing.exponent
     stiffness = (bearing.stiffness or 0.0) * scales.length ** (exponent - 1.0) / scales.stiffness
     if bearing.law == "kelvin-voigt":

@@ -39,6 +39,9 @@ class LinearRotor(Result):
     The coordinates are complex: displacements, or tilts, in two directions at a right angle.  All numbers are
     dimensionless: times in ``1/Ω``, the displacement at each plane in the clearance there.
 
+    Coordinates whose rows and columns of ``M`` are zero have no mass: their rates follow from the state, as those of a controller do.  Their
+    rates in a state are not used.
+
     Attributes
     ----------
     mass, damping, stiffness : array_like of complex, shape (n, n)
@@ -54,6 +57,9 @@ class LinearRotor(Result):
     shaft : Shaft, optional
         Shaft whose speed changes in contact, from the nominal one on; by default the speed is constant.  Of a rotor without gyroscopic
         matrix: otherwise the modes would change with the speed.
+    unlevitated : array_like of complex, shape (2, n, n), optional
+        Damping and stiffness in the fixed frame that are left when levitation is lost; a drop needs it.  By default all are
+        levitation for a rotor with one coordinate, and none is known for others.
 
     Raises
     ------
@@ -70,6 +76,7 @@ class LinearRotor(Result):
     translation: np.ndarray | None = None
     scales: Scales | None = None
     shaft: Shaft | None = None
+    unlevitated: np.ndarray | None = None
 
     def __post_init__(self) -> None:
         if not isinstance(self.scales, Scales | None):
@@ -88,6 +95,9 @@ class LinearRotor(Result):
             values = getattr(self, name)
             if values.shape != shape or not values.size or not np.isfinite(values).all():
                 raise InputError(name, values.tolist(), f"finite numbers of shape {shape}")
+        if self.heavy.any() and self.forcing[~self.heavy].any():
+            raise InputError("forcing", self.forcing.tolist(), "0 for coordinates without mass")
+        self._check_unlevitated()
         given: Any = self.touchdowns
         listed = tuple(given) if isinstance(given, Iterable) else ()
         if not listed or not all(isinstance(each, Touchdown) and len(each.plane) == n for each in listed):
@@ -96,6 +106,27 @@ class LinearRotor(Result):
         object.__setattr__(self, "touchdowns", listed)
         if self.shaft is not None:
             self._check_shaft()
+
+    def _check_unlevitated(self) -> None:
+        """Read what is left without levitation."""
+        if self.unlevitated is None:
+            return
+        values, shape = _numbers("unlevitated", self.unlevitated), (2, *self.mass.shape)
+        if values.shape != shape or not np.isfinite(values).all():
+            raise InputError("unlevitated", values.tolist(), f"finite numbers of shape {shape}")
+        values.flags.writeable = False
+        object.__setattr__(self, "unlevitated", values)
+
+    @cached_property
+    def heavy(self) -> np.ndarray:
+        """Which coordinates have mass, shape (n,)."""
+        return np.asarray(self.mass.any(axis=1) | self.mass.any(axis=0))
+
+    def accelerations(self, forces: np.ndarray) -> np.ndarray:
+        """Accelerations (n, …) of the coordinates by forces (n, …) on them; zero for those without mass."""
+        found = np.zeros(forces.shape, complex)
+        found[self.heavy] = np.linalg.solve(self.mass[np.ix_(self.heavy, self.heavy)], forces[self.heavy])
+        return found
 
     def _check_shaft(self) -> None:
         """Refuse a shaft whose speed changes where the matrices would change with it, or where it has no response to its unbalance."""
@@ -150,19 +181,16 @@ class LinearRotor(Result):
     def system(self) -> System:
         """Modes, contact planes and contact law."""
         n = len(self.mass)
-        if _singular(self.mass, self.mass):
-            raise InputError("mass", "singular", "a matrix that can be inverted")
+        self._check_inverses()
         if _singular(self.stiffness, self.mass, self.damping, self.stiffness) and self.forcing.any():
             # In undamped resonance with the unbalance, which then drives a mode, there is no rest.
-            push = Force(0.0, np.linalg.solve(self.mass, self.forcing))
+            push = Force(0.0, self.accelerations(self.forcing))
             return with_forces(dataclasses.replace(self, forcing=np.zeros(n)).system, (push,))
-        accelerations = np.linalg.solve(self.mass, np.concatenate([self.stiffness, self.damping], axis=1))
-        turning = None if self.shaft is None else ShaftModes(self.shaft, np.linalg.solve(self.mass, self.forcing))
+        turning = None if self.shaft is None else ShaftModes(self.shaft, self.accelerations(self.forcing))
         rests = turning is None and self.forcing.any()
         rest = np.linalg.solve(self.stiffness, self.forcing) if rests else np.zeros(n, complex)
-        moved = np.linalg.solve(self.mass, self.planes.conj().T)
-        generator = np.concatenate([np.eye(n, 2 * n, n), -accelerations])
-        found = modes_of(generator, self.mass)
+        moved = self.accelerations(self.planes.conj().T)
+        found = modes_of(self._generator(), self.mass if self.heavy.all() else None)
         mobilities = np.einsum("pn,np->p", self.planes, moved)
         if not (mobilities.real > 0.0).all() or (np.abs(mobilities.imag) > 1e-9 * np.abs(mobilities)).any():
             raise InputError(
@@ -171,7 +199,8 @@ class LinearRotor(Result):
         races = [each.race for each in self.touchdowns]
         if n == 1 and self.planes.tolist() == [[1.0]] and races == [None] and turning is None:
             return self._one_coordinate(found.exponents, complex(rest[0]))
-        inverse, masses = np.linalg.inv(found.basis), 1.0 / mobilities.real
+        inverse, masses = np.zeros((len(found.basis), 2 * n), complex), 1.0 / mobilities.real
+        inverse[:, np.append(np.ones(n, bool), self.heavy)] = np.linalg.inv(found.basis)
         return modal_system(
             exponents=found.exponents,
             driven=found.driven,
@@ -187,6 +216,27 @@ class LinearRotor(Result):
             masses=masses,
             translation=self.translation,
         )
+
+    def _check_inverses(self) -> None:
+        """Refuse masses that are singular, and coordinates without mass whose rates do not follow from the state."""
+        heavy, light = (np.ix_(those, those) for those in (self.heavy, ~self.heavy))
+        if not self.heavy.any() or _singular(self.mass[heavy], self.mass):
+            raise InputError(
+                "mass", "singular", "a matrix that can be inverted, but for rows and columns that are zero"
+            )
+        if not self.heavy.all() and _singular(self.damping[light], self.damping[light]):
+            raise InputError("damping", "singular", "a matrix that gives the rates of all coordinates without mass")
+
+    def _generator(self) -> np.ndarray:
+        """Rates of the coordinates, then accelerations of those with mass, per coordinate, then per rate of those with mass."""
+        n, heavy = len(self.mass), self.heavy
+        rates = np.zeros((n, n + heavy.sum()), complex)
+        rates[heavy] = np.eye(heavy.sum(), n + heavy.sum(), n)
+        if not heavy.all():
+            held = np.concatenate([self.stiffness[~heavy], self.damping[np.ix_(~heavy, heavy)]], axis=1)
+            rates[~heavy] = -np.linalg.solve(self.damping[np.ix_(~heavy, ~heavy)], held)
+        forces = np.concatenate([self.stiffness, np.zeros((n, heavy.sum()))], axis=1) + self.damping @ rates
+        return np.concatenate([rates, -self.accelerations(forces)[heavy]])
 
     def _one_coordinate(self, exponents: np.ndarray, equilibrium: complex) -> System:
         """System of a rotor with one coordinate, which is its displacement at the only plane."""
@@ -251,7 +301,9 @@ class LinearRotor(Result):
         numbers = {name: [getattr(self, name).real.tolist(), getattr(self, name).imag.tolist()] for name in _NUMBERS}
         numbers["touchdowns"] = [each.attributes() for each in self.touchdowns]
         shaft, scales = (dataclasses.asdict(part) if part else None for part in (self.shaft, self.scales))
-        return {"linear_rotor": json.dumps(numbers | {"shaft": shaft}), "scales": json.dumps(scales)}
+        left = self.unlevitated
+        others = {"shaft": shaft, "unlevitated": None if left is None else [left.real.tolist(), left.imag.tolist()]}
+        return {"linear_rotor": json.dumps(numbers | others), "scales": json.dumps(scales)}
 
     @classmethod
     def from_attributes(cls, attributes: Mapping[str, str]) -> LinearRotor:
@@ -265,9 +317,10 @@ class LinearRotor(Result):
             An attribute is missing, or is not such text.
         """
         numbers, scales = (json.loads(attributes[name]) for name in ("linear_rotor", "scales"))
-        for name in _NUMBERS:
-            real, imaginary = numbers[name]
-            numbers[name] = np.array(real) + 1j * np.array(imaginary)
+        for name in (*_NUMBERS, "unlevitated"):
+            if numbers.get(name) is not None:
+                real, imaginary = numbers[name]
+                numbers[name] = np.array(real) + 1j * np.array(imaginary)
         numbers["touchdowns"] = tuple(map(Touchdown.from_attributes, numbers["touchdowns"]))
         shaft = numbers.pop("shaft")
         return cls(**numbers, shaft=Shaft(**shaft) if shaft else None, scales=Scales(**scales) if scales else None)

@@ -38,6 +38,8 @@ def fields(rotor: LinearRotor) -> dict[str, Field]:
     """Fields of all parameters by name."""
     own = {**DIMENSIONLESS_FIELDS, **WALL_FIELDS}
     absent = own.keys() & {"mu", "d", "radius_ratio", *WALL_FIELDS} - set(_at_planes(rotor))
+    if not rotor.heavy.all():
+        absent |= {"gamma", "omega"}  # matrices that hold a controller are no multiple of a damping or a stiffness
     found = {name: field for name, field in own.items() if name not in absent}
     found |= {name: MACHINE_FIELDS[name] for name, same in SAME.items() if same not in absent}
     if rotor.scales is not None:
@@ -119,6 +121,7 @@ def moved(rotor: LinearRotor, name: str, given: float | str) -> dict[str, Any]:
             "stiffness": rotor.stiffness + stiffer + 1j * more,
             "touchdowns": tuple(each.at_speed(1.0 / slower) for each in rotor.touchdowns),
             "shaft": None if rotor.shaft is None else rotor.shaft.at_speed(1.0 / slower),
+            "unlevitated": _times(rotor, slower, slower * slower),
             "scales": replace(rotor.scales, speed=value),
         }
     present = value_of(rotor, own)
@@ -128,15 +131,24 @@ def moved(rotor: LinearRotor, name: str, given: float | str) -> dict[str, Any]:
     if own == "rho":
         return {"forcing": rotor.forcing * factor}
     if own == "omega":
-        return {"stiffness": rotor.stiffness + (factor * factor - 1.0) * stiffness}
+        stiffer = rotor.stiffness + (factor * factor - 1.0) * stiffness
+        return {"stiffness": stiffer, "unlevitated": _times(rotor, 1.0, factor * factor)}
     more = (factor - 1.0) * damping
-    return {"damping": rotor.damping + more, "stiffness": rotor.stiffness + 1j * more}
+    multiplied = _times(rotor, factor, 1.0)
+    return {"damping": rotor.damping + more, "stiffness": rotor.stiffness + 1j * more, "unlevitated": multiplied}
+
+
+def _times(rotor: LinearRotor, damping: float, stiffness: float) -> np.ndarray | None:
+    """Multiples of the damping and the stiffness that are left without levitation."""
+    left = rotor.unlevitated
+    return None if left is None else np.stack([damping * left[0], stiffness * left[1]])
 
 
 def rates_of(rotor: LinearRotor, name: str) -> Rates | None:
     """Derivatives of the equations of motion by a parameter: those of :func:`moved`; ``None`` without, or with nothing to multiply."""
     own, plane = _planes(rotor).get(name, (SAME.get(name, name), None))
-    if own in WALL_FIELDS or (name == "speed" and any(each.at_speed(2.0) != each for each in rotor.touchdowns)):
+    changes_walls = any(each.at_speed(2.0) != each for each in rotor.touchdowns)
+    if own in WALL_FIELDS or (name == "speed" and (changes_walls or not rotor.heavy.all())):
         return None
     of_law = {attribute: np.zeros(len(rotor.planes)) for attribute in _EXACT.values()}
     stiffer, more, pull = np.zeros_like(rotor.stiffness), np.zeros_like(rotor.damping), np.zeros_like(rotor.forcing)
@@ -156,5 +168,5 @@ def rates_of(rotor: LinearRotor, name: str) -> Rates | None:
         if own in ("omega", "speed"):
             stiffer = stiffness * (2.0 if own == "omega" else -2.0) / value
     changes = -np.concatenate([stiffer + 1j * more, more, -pull[:, None]], axis=1)
-    accelerations = np.linalg.solve(rotor.mass, changes)
+    accelerations = rotor.accelerations(changes)
     return Rates(accelerations[:, :-1], accelerations[:, -1], **of_law)

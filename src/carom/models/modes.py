@@ -49,9 +49,12 @@ def modes_of(matrix: np.ndarray, mass: np.ndarray | None = None) -> Modes:
     Two modes with nearly parallel eigenvectors, such as those of a critically damped oscillator, span a plane in which
     ``A`` is upper triangular, ``[[λ, t], [0, μ]]`` (Schur).  Its first vector is the driven mode, the second one over
     ``t`` the driving mode.  Where more modes nearly coincide, those of a rotor whose coordinates can be separated are
-    still known: each coordinate has a pair.  Otherwise the system is refused.
+    still known: each coordinate has a pair.  Parts of the state that do not act on each other have modes of their own, such as the
+    displacement of a free rotor beside its tilt.  Otherwise the system is refused.
     """
     found = [_by_eigenvectors(matrix)]
+    if found[0].error(matrix) > EXACT:
+        found += [_by_parts(matrix)]
     if mass is not None and found[0].error(matrix) > EXACT:
         found += [modes for weight in MIXTURES if (modes := _by_coordinates(matrix, mass, weight))]
     best = min(found, key=lambda modes: modes.error(matrix))
@@ -81,6 +84,22 @@ def _by_eigenvectors(matrix: np.ndarray) -> Modes:
         found += _pair(matrix, exponents[first], exponents[nearest])
     values, driven, columns = zip(*found, strict=True)
     return Modes(np.array(values), np.array(driven), np.array(columns).T)
+
+
+def _by_parts(matrix: np.ndarray) -> Modes:
+    """Modes of the parts of the state that do not act on each other, one part after the other."""
+    linked = (matrix != 0.0) | (matrix != 0.0).T | np.eye(len(matrix), dtype=bool)
+    for _ in range(len(matrix).bit_length()):
+        linked = linked @ linked
+    firsts = linked.argmax(axis=1)
+    exponents, driven = np.empty(len(matrix), complex), np.empty(len(matrix), bool)
+    basis, first = np.zeros(matrix.shape, complex), 0
+    for part in np.unique(firsts):
+        places = np.flatnonzero(firsts == part)
+        modes, those = _by_eigenvectors(matrix[np.ix_(places, places)]), slice(first, first + len(places))
+        exponents[those], driven[those], basis[places, those] = modes.exponents, modes.driven, modes.basis
+        first += len(places)
+    return Modes(exponents, driven, basis)
 
 
 def _by_coordinates(matrix: np.ndarray, mass: np.ndarray, weight: float) -> Modes | None:

@@ -13,9 +13,10 @@ import numpy as np
 from carom.arguments import Infinity, NotNegative, Positive, checked
 from carom.models.forcing import Force, with_forces
 from carom.models.model import Matrices, Model
-from carom.models.system import System
+from carom.models.system import EQUAL, STEADY, System
 from carom.outcome import InputError, shown
-from carom.parameters import Field, Scales
+from carom.parameters import SETTINGS, Field, Scales, read_quantity
+from carom.parameters.settings import GRAVITY_NAME
 
 
 class Around:
@@ -55,7 +56,8 @@ class Around:
 class Forced(Around):
     """A rotor with further forces on it that change with time in its frame, for example in a housing that is shaken.
 
-    It never is at rest in that frame: what needs an equilibrium there, such as orbits, is not found for it.
+    It never is at rest in that frame: what needs an equilibrium there is not found for it.  Its orbits are, under forces that are
+    constant in the fixed frame, such as weight.
 
     Attributes
     ----------
@@ -80,10 +82,37 @@ class Forced(Around):
         """Modes, contact planes and contact law, with a mode for each force."""
         return with_forces(self.rotor.system, self.forces)
 
+    @cached_property
+    def _gravity(self) -> tuple[int, float] | None:
+        """Which of the forces is weight, which pulls all masses alike, and its acceleration in m/s²; ``None`` without scales or weight."""
+        along = self.rotor.system.translated
+        for place, force in enumerate(self.forces):
+            pull = np.vdot(along, force.accelerations) / np.vdot(along, along)
+            alike = np.abs(force.accelerations - pull * along).max() <= EQUAL * abs(pull)
+            if self.scales is not None and pull and alike and abs(force.exponent - STEADY) <= EQUAL:
+                return place, float(abs(pull)) * self.scales.acceleration
+        return None
+
+    @property
+    def varied(self) -> Mapping[str, Field]:
+        """Named parameters that can be varied; with scales also ``gravity``, the acceleration of a weight, in its direction."""
+        if self._gravity is None:
+            return self.rotor.varied
+        return {**self.rotor.varied, GRAVITY_NAME: replace(SETTINGS[GRAVITY_NAME], zero=False)}
+
+    def value(self, name: str) -> float:
+        """Value of a named parameter."""
+        return self._gravity[1] if name == GRAVITY_NAME and self._gravity else self.rotor.value(name)
+
     def replace(self, **changes: Any) -> Forced:
         """Return the rotor with other values of its parameters, and the same forces: in SI units, if its scales are known."""
-        rotor = self.rotor.replace(**changes)
-        return Forced(rotor, tuple(_in_scales(force, self.scales, rotor.scales) for force in self.forces))
+        forces = list(self.forces)
+        if self._gravity is not None and GRAVITY_NAME in changes:
+            place, present = self._gravity
+            share = read_quantity(self.varied[GRAVITY_NAME], changes.pop(GRAVITY_NAME)) / present
+            forces[place] = Force(forces[place].exponent, forces[place].accelerations * share)
+        rotor = self.rotor.replace(**changes) if changes else self.rotor
+        return Forced(rotor, tuple(_in_scales(force, self.scales, rotor.scales) for force in forces))
 
     def attributes(self) -> dict[str, Any]:
         """Return the rotor and the forces as attributes of a dataset, exact to the last bit."""

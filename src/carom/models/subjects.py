@@ -39,8 +39,8 @@ def model_of(subject: Subject) -> Model:
         return Jeffcott(subject)
     if isinstance(subject, Machine | Case):
         model = model_of(subject.parameters)
-        if isinstance(subject, Case) and subject.touchdown and isinstance(model, Jeffcott):
-            model = InBearing(model, subject.touchdown, drive=subject.drive)
+        if isinstance(subject, Case) and (subject.touchdown or subject.drive) and isinstance(model, Jeffcott):
+            model = InBearing(model, subject.touchdown or TouchdownBearing(), drive=subject.drive)
         return weighted(model, subject.gravity) if isinstance(subject, Case) and subject.gravity else model
     if isinstance(subject, Model):
         return subject
@@ -61,8 +61,8 @@ def jeffcott_of(subject: Subject) -> Jeffcott:
     if isinstance(model, Forced):
         refuse_forces(model)
     if isinstance(model, InBearing):
-        allowed = "a rigid wall: this result is not known for walls that give way; carom.simulate, carom.settle and others work"
-        raise InputError("touchdown", model.bearing.words, allowed)
+        allowed = "a rigid wall that stands still, and a shaft at constant speed: this result is known for these alone; carom.simulate, carom.settle and others work"
+        raise InputError("touchdown", model.words_of_bearing, allowed)
     raise InputError("machine", shown(subject), "the planar rotor: this result is not known for other models")
 
 
@@ -71,6 +71,14 @@ def parameters_of(model: Model) -> Parameters | None:
     if isinstance(model, Forced):
         return parameters_of(model.rotor)
     return model.parameters if isinstance(model, Jeffcott | InBearing) else None
+
+
+def numbers_of(model: Model) -> dict[str, float] | None:
+    """Parameters of the planar rotor by name, without a restitution that its wall does not have; ``None`` of other models."""
+    parameters = parameters_of(model)
+    if parameters is None:
+        return None
+    return {name: value for name, value in parameters.as_dict().items() if name in model.varied}
 
 
 @checked

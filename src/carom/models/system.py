@@ -13,6 +13,7 @@ from carom.core.flow import fly_all
 from carom.core.layout import copy_of
 from carom.core.table import flight_table
 from carom.core.wall import Wall
+from carom.models.nodes import Nodes
 from carom.models.race import RaceModes
 from carom.models.shaft import ShaftModes
 from carom.outcome import InputError
@@ -20,6 +21,10 @@ from carom.results import Result
 
 TABLES = 32
 """Number of tables kept."""
+STEADY = -1j
+"""Exponent of a force that is constant in the fixed frame."""
+EQUAL = 1e-12
+"""Distance of exponents, relative to one plus their size, below which they are one number."""
 ROUNDING = 1e-12
 """Share of the sum of moduli below which the sum counts as zero."""
 
@@ -131,16 +136,36 @@ class System(Result):
         """Matrix ``M`` of flight ``ċ = M c``, shape (N, N)."""
         return np.diag(self.arrays["exponents"]) + np.diag(self.arrays["driven"][1:].astype(complex), -1)
 
+    @property
+    def _steady(self) -> np.ndarray:
+        """Which modes do not change in the fixed frame, shape (N,)."""
+        steady: np.ndarray = np.abs(self.arrays["exponents"] - STEADY) <= EQUAL
+        return steady
+
+    @property
+    def unrepeated(self) -> tuple[str, str] | None:
+        """What keeps motions from repeating in a way that is known here, and what is allowed instead; ``None`` if nothing does."""
+        if self.races is not None:
+            return "a race that turns", "races that stand still, or carom.simulate and carom.settle"
+        if self.shaft is not None:
+            return "a shaft whose speed changes", "one at constant speed, or carom.simulate and carom.settle"
+        if self.shaken:
+            return "forces that change in the fixed frame", "forces that turn with the shaft, or weight"
+        return None
+
+    @property
+    def shaken(self) -> bool:
+        """Whether forces act that change in the fixed frame too."""
+        return bool(self.outer[~self._steady].any())
+
+    def refuse_unrepeated(self) -> None:
+        """Refuse a rotor of which no orbits are known: a race turns, the speed changes, or a force changes in the fixed frame."""
+        if self.unrepeated is not None:
+            raise InputError("machine", *self.unrepeated)
+
     def refuse_forces(self) -> None:
         """Refuse a rotor that never is at rest in its frame: forces change with time there, a race turns or the speed changes."""
-        if self.races is not None:
-            raise InputError(
-                "machine", "a race that turns", "races that stand still, or carom.simulate and carom.settle"
-            )
-        if self.shaft is not None:
-            raise InputError(
-                "machine", "a shaft whose speed changes", "one at constant speed, or carom.simulate and carom.settle"
-            )
+        self.refuse_unrepeated()
         if self.forced is not None:
             raise InputError("machine", "forces that change with time", "a rotor whose forces turn with its frame")
 
@@ -175,16 +200,19 @@ class System(Result):
         return whole
 
     @cached_property
-    def coordinates(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """``basis``, ``to_modes`` and the state (2n,) at rest, as the kernels of orbits take them.
+    def outer(self) -> np.ndarray:
+        """Amplitudes at time zero of the modes of outer forces, such as weight, zeros elsewhere; shape (N,)."""
+        outer = np.zeros(self.modes, complex) if self.forced is None else self.forced.copy()
+        if self.races is not None:
+            outer[self.arrays["race"][self.races.planes]] = 0.0
+        for place in self.arrays["shaft"].tolist():
+            outer[place : place + 2] = 0.0
+        return outer
 
-        Raises
-        ------
-        InputError
-            Forces act that change with time: orbits under these are not known.
-        """
-        self.refuse_forces()
-        return self.basis, np.ascontiguousarray(self.to_modes), self._whole_rest
+    @cached_property
+    def nodes(self) -> Nodes:
+        """How nodes of orbits follow from amplitudes, of a rotor that :meth:`refuse_unrepeated` lets pass."""
+        return Nodes.under(self.forced, self.basis, self.to_modes, self._whole_rest)
 
     def forced_at(self, time: float) -> np.ndarray:
         """Amplitudes at rest at a time: those of the forcing modes, and zeros; shape (N,)."""
@@ -292,7 +320,7 @@ class System(Result):
 
     @property
     def rest_radius(self) -> float:
-        """Largest distance of a contact plane from its centre at rest, or a bound of it: there is levitation below 1.
+        """Largest distance of a contact plane from its centre at rest: there is levitation below 1.  Under forces of several frequencies a bound.
 
         Infinite where forcing drives a free mode without bound.
         """
@@ -301,8 +329,9 @@ class System(Result):
             return float(np.abs(arrays["offsets"]).max())
         if (arrays["driven"][1:] * ~self.free[:-1] * (self.forced[:-1] != 0.0)).any():
             return math.inf
-        offsets = arrays["offsets"] + arrays["rows"] @ self._unbalanced
-        return float((np.abs(offsets) + np.abs(arrays["rows"] * self.forced).sum(axis=1)).max())
+        offsets, steady = arrays["offsets"] + arrays["rows"] @ self._unbalanced, self._steady
+        sags, others = np.abs(arrays["rows"] @ (self.forced * steady)), np.abs(arrays["rows"] * self.forced * ~steady)
+        return float((np.abs(offsets) + sags + others.sum(axis=1)).max())
 
     @cached_property
     def planes_translated(self) -> np.ndarray:

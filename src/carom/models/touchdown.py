@@ -159,7 +159,7 @@ class Touchdown:
     surface_speed : float
         Slip velocity of a rotor at rest in the co-rotating frame: ``s + 1``, with the rotor radius ``s`` at the plane in clearances.
     race : Race, optional
-        Inner race that turns; by default it stands still.  Its wall has to give way.
+        Inner race that turns; by default it stands still.
 
     Raises
     ------
@@ -178,10 +178,6 @@ class Touchdown:
         if row.ndim != 1 or not row.size or not np.isfinite(row).all():
             raise InputError("plane", shown(self.plane), "finite numbers, one for each coordinate of the rotor")
         object.__setattr__(self, "plane", tuple(row.tolist()))
-        if self.race is not None and self.law.law not in YIELDING:
-            raise InputError(
-                "race", self.race, "None at a rigid wall: a race that turns needs a law of a wall that gives way"
-            )
 
     @property
     def parameters(self) -> dict[str, str]:

@@ -12,21 +12,21 @@ from dataclasses import replace
 
 import numpy as np
 
-from carom.models.forcing import EQUAL, Force
+from carom.models.forcing import Force
 from carom.models.in_bearing import InBearing
 from carom.models.jeffcott import Jeffcott
 from carom.models.linear import LinearRotor
 from carom.models.model import Model
 from carom.models.stages import Forced, forces_of
+from carom.models.system import EQUAL, STEADY
 from carom.models.touchdown import Rigid, Touchdown
 from carom.outcome import InputError, shown
 from carom.parameters import Gravity
 
-STEADY = -1j
-"""Exponent of a force that is constant in the fixed frame."""
 _WITHOUT = (
     "needs a rotor without gravity or other forces that change with time in its frame; under these carom.simulate, carom.settle, "
-    "carom.drop, and carom.map_basins of kicks, releases and states work; a setting gravity=0 leaves weight out"
+    "carom.drop, carom.find_attractors, carom.find_orbits with impacts, carom.continue_orbit, and carom.map_basins of kicks, shocks, "
+    "losses of a blade, steps of the unbalance, releases and states work; a setting gravity=0 leaves weight out"
 )
 
 
@@ -67,6 +67,17 @@ def refuse_forces(model: Model) -> None:
         raise InputError("machine", f"a rotor under {acting}", _WITHOUT)
 
 
+def refuse_unrepeated(model: Model) -> None:
+    """Refuse a rotor of which no orbits are known: a race turns, the speed changes, or a force changes in the fixed frame."""
+    model.system.refuse_unrepeated()
+
+
+def refuse_unsteady(model: Model) -> None:
+    """Refuse a rotor that levitates neither at rest nor in a circle: its speed changes, or a force changes in the fixed frame."""
+    if model.system.shaft is not None or model.system.shaken:
+        model.system.refuse_unrepeated()
+
+
 def levitation_of(model: Model) -> tuple[np.ndarray, np.ndarray]:
     """Coordinates and their rates, both (n,), where the rotor levitates at time zero: its whirl about the static sag.
 
@@ -85,12 +96,12 @@ def levitation_of(model: Model) -> tuple[np.ndarray, np.ndarray]:
 
 
 def without_levitation(model: Model) -> Model:
-    """The rotor without stiffness and damping, under the same forces.
+    """The rotor without the stiffness and damping of its levitation, under the same forces.
 
     Raises
     ------
     InputError
-        It has several coordinates: levitation cannot be told from the stiffness of its shaft.
+        It has several coordinates, and does not say what is left without levitation, which cannot be told from its shaft.
     """
     if isinstance(model, Forced):
         return Forced(without_levitation(model.rotor), model.forces)
@@ -99,19 +110,18 @@ def without_levitation(model: Model) -> Model:
     if isinstance(model, Jeffcott):
         at = model.parameters
         touchdowns: tuple[Touchdown, ...] = (Touchdown((1.0,), Rigid(at.d), at.mu, at.radius_ratio + 1.0),)
-    elif isinstance(model, LinearRotor) and len(model.mass) == 1:
+    elif isinstance(model, LinearRotor) and (len(model.mass) == 1 or model.unlevitated is not None):
         touchdowns = tuple(model.touchdowns)
     else:
-        allowed = (
-            "a rotor of one coordinate; say by carom.models.Staged what is left of another one without its levitation"
-        )
+        allowed = "a rotor of one coordinate, or one that says by its unlevitated matrices what is left without its levitation"
         raise InputError("machine", shown(model), allowed)
     mass, _, gyroscopic, _, forcing = model.matrices
-    nothing = np.zeros_like(mass)
+    left = model.unlevitated if isinstance(model, LinearRotor) else None
+    damping, stiffness = np.zeros((2, *mass.shape)) if left is None else left
     return LinearRotor.in_fixed_frame(
         mass=mass,
-        damping=nothing,
-        stiffness=nothing,
+        damping=damping,
+        stiffness=stiffness,
         gyroscopic=gyroscopic,
         forcing=forcing,
         touchdowns=touchdowns,

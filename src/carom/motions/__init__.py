@@ -24,7 +24,7 @@
 ==================  =============================================================================
 """
 
-from carom.motions.bearing_loads import DropLoads, LastWhirl, PlaneLoads, drop_loads
+from carom.motions.bearing_loads import Braking, DropLoads, LastWhirl, PlaneLoads, drop_loads
 from carom.motions.contacts import ContactHistory, ContactLog, LastingContact
 from carom.motions.drops import Drop, Whirl, drop
 from carom.motions.ensembles import Endings, settle
@@ -39,6 +39,7 @@ from carom.motions.trajectories import Trajectory
 
 __all__ = [
     "PATIENCE",
+    "Braking",
     "ContactHistory",
     "ContactLog",
     "Drop",

@@ -11,7 +11,7 @@ import numpy as np
 from carom.arguments import checked
 from carom.models import Model
 from carom.models.in_bearing import races_of
-from carom.motions.contacts import ContactLog, race_speed, yields
+from carom.motions.contacts import ContactLog, presses, race_speed, yields
 from carom.motions.loads import TouchdownLoads, touchdown_loads
 from carom.motions.touches import TouchLog
 from carom.motions.trajectories import Trajectory
@@ -108,6 +108,24 @@ class PlaneLoads(Result):
 
 
 @dataclass(frozen=True, repr=False)
+class Braking(Result):
+    """What a drop does to the speed of a shaft that is braked.
+
+    Attributes
+    ----------
+    speed_at_end : float
+        In ``Ω``.
+    left_out : float
+        Change of the speed by which the torque of the drive would add to this in flight, where it is left out, in ``Ω``.
+    scales : Scales or None
+    """
+
+    speed_at_end: float
+    left_out: float
+    scales: Scales | None = None
+
+
+@dataclass(frozen=True, repr=False)
 class DropLoads(Result):
     """What a drop asks of the touchdown bearing; nothing is claimed beyond the time up to which it was followed.
 
@@ -121,6 +139,8 @@ class DropLoads(Result):
         Time from the release up to which it was followed, ``1/Ω``.
     planes : tuple of PlaneLoads
         One for each contact plane.
+    shaft : Braking or None
+        ``None`` of a shaft at constant speed.
     scales : Scales or None
     """
 
@@ -128,6 +148,7 @@ class DropLoads(Result):
     outcome: Outcome
     time: float
     planes: tuple[PlaneLoads, ...]
+    shaft: Braking | None = None
     scales: Scales | None = None
 
     @property
@@ -176,8 +197,21 @@ def drop_loads(motion: Trajectory) -> DropLoads:
         outcome=motion.outcome,
         time=motion.begins + motion.time,
         planes=tuple(map(_at_plane, seen)),
+        shaft=_braking(motion),
         scales=motion.rotor.scales,
     )
+
+
+def _braking(motion: Trajectory) -> Braking | None:
+    """The shaft over all stages; ``None`` if its speed stays as it is."""
+    if motion.rotor.system.shaft is None:
+        return None
+    change = 0.0
+    for part in motion.parts:
+        lasts = np.diff(np.append(part.segment_starts, part.time))
+        flown = lasts[~presses(part.segment_phases).any(axis=1)].sum()
+        change += float(flown) * (part.rotor.system.shaft.drive if part.rotor.system.shaft else 0.0)
+    return Braking(motion.final.shaft[0], change, motion.rotor.scales)
 
 
 def _at_plane(parts: list[Trajectory]) -> PlaneLoads:
@@ -254,8 +288,12 @@ def _race_speeds(parts: list[Trajectory]) -> tuple[float, float] | None:
     race = races_of(rotor)[plane]
     if race is None:
         return None
-    states = [np.concatenate([part.segment_amplitudes, part.segment_ends]) for part in parts]
-    speeds = race_speed(rotor.system, plane, np.concatenate(states)) / race.radius
+    # A stage may have further modes, such as those of a shock.
+    each = [
+        race_speed(part.rotor.system, plane, np.concatenate([part.segment_amplitudes, part.segment_ends[-1:]]))
+        for part in parts
+    ]
+    speeds = np.concatenate(each) / race.radius
     return float(speeds[np.abs(speeds).argmax()]), float(speeds[-1])
 
 

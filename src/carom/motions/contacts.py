@@ -164,8 +164,10 @@ class ContactLog(Table):
         surface_speed, mass = arrays.surface_speed[planes], arrays.masses[planes]
         radius = surface_speed - 1.0
         normal, tangential = -mass * blows.impulses.real, mass * blows.impulses.imag
-        slip = (surface_speed + radius * (spin - 1.0)) + angular
-        slip_after = (surface_speed + radius * (spin_after - 1.0)) + angular_after
+        slip, slip_after = np.zeros((2, len(times)))
+        for plane in np.unique(planes).tolist():
+            here = planes == plane
+            slip[here], slip_after[here] = (slip_velocity(system, plane, each[here]) for each in (before, after))
         normal_work = -0.5 * normal * (radial + radial_after)
         newton = np.zeros(len(times))
         for plane, contact in enumerate(system.contacts):
@@ -278,11 +280,10 @@ def slip_velocity(system: System, plane: int, amplitudes: np.ndarray) -> np.ndar
         surface_speed += (surface_speed - 1.0) * (shaft_speed(system, amplitudes) - 1.0)
     position, velocity = system.at_plane(amplitudes, plane)
     along: np.ndarray = (position.conj() * velocity).imag
-    slip: np.ndarray = surface_speed + along
-    if not yields(system, plane):
-        return slip
-    radius = np.abs(position)
-    slip = surface_speed + (radius - 1.0) + along / radius - race_speed(system, plane, amplitudes)
+    if yields(system, plane):
+        radius = np.abs(position)
+        along = (radius - 1.0) + along / radius
+    slip: np.ndarray = surface_speed + along - race_speed(system, plane, amplitudes)
     return slip
 
 
@@ -291,6 +292,14 @@ def shaft_speed(system: System, amplitudes: np.ndarray) -> np.ndarray:
     if system.shaft is None:
         return np.ones(amplitudes.shape[:-1])
     return amplitudes[..., int(system.arrays.shaft[0]) + 1].real
+
+
+def shaft_lead(system: System, amplitudes: np.ndarray) -> np.ndarray:
+    """Angle (...) in rad by which the shaft is ahead of the frame in amplitudes (..., N); zero unless its speed changes."""
+    if system.shaft is None:
+        return np.zeros(amplitudes.shape[:-1])
+    lead: np.ndarray = np.angle(amplitudes[..., int(system.arrays.shaft[0])])
+    return lead
 
 
 def race_speed(system: System, plane: int, amplitudes: np.ndarray) -> np.ndarray:

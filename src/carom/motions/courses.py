@@ -1,4 +1,4 @@
-"""The course of a drop at one plane over all its stages: places in the fixed frame, force, slip and speed of the race, to be drawn."""
+"""The course of a drop at one plane over all its stages: places in the fixed frame, forces, slip, shaft and race, to be drawn."""
 
 from __future__ import annotations
 
@@ -8,24 +8,29 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from carom.models import Model
+from carom.models.in_bearing import on_mount
 from carom.models.weight import direction_of_fall
 from carom.motions.bearing_loads import drop_loads
-from carom.motions.contacts import presses, race_speed, yields
+from carom.motions.contacts import presses, race_speed, shaft_lead, yields
 from carom.motions.trajectories import Trajectory
 from carom.outcome import InputError
 from carom.parameters import Scales
 
 EVEN = 6000
 """Samples at equal distances in time; the events of a motion and the largest forces of its contacts are sampled beside them."""
+FOLLOWED = 30
+"""Contacts shown one by one: more would cover each other."""
 LATER = 1.15
 """Time up to which a drop is shown, over that since which the rotor rests or whirls."""
 
 
 class Blows(NamedTuple):
-    """Impacts on a rigid wall: times, normal impulses and sizes of the slip before them."""
+    """Impacts on a rigid wall: times, normal impulses and those of friction along growing angle, sizes of the slip before them."""
 
     times: np.ndarray
     impulses: np.ndarray
+    frictions: np.ndarray
     slips: np.ndarray
 
 
@@ -38,9 +43,13 @@ class Course:
     times : ndarray
         From the release on.
     place : ndarray of complex
-        In the fixed frame.
-    force, slip : ndarray
-        Normal force, and size of the slip of the contact.
+        In the fixed frame; on a mount relative to that.
+    mount : ndarray of complex or None
+        Place of the mount in the fixed frame; ``None`` if the bearing has none.
+    heavy : ndarray
+        Angle of the unbalance in the fixed frame, rad.
+    force, friction, slip : ndarray
+        Normal force, friction on the rotor along growing angle, and size of the slip of the contact.
     race : ndarray or None
         Speed of the surface of the race; ``None`` if it does not turn.
     held : ndarray of bool
@@ -56,7 +65,10 @@ class Course:
 
     times: np.ndarray
     place: np.ndarray
+    mount: np.ndarray | None
+    heavy: np.ndarray
     force: np.ndarray
+    friction: np.ndarray
     slip: np.ndarray
     race: np.ndarray | None
     held: np.ndarray
@@ -66,44 +78,60 @@ class Course:
     scales: Scales | None
 
 
-def course_of(motion: Trajectory, until: float) -> Course:
-    """Sample all stages of a motion up to a time from the release, in ``1/Ω``."""
+def course_of(motion: Trajectory, until: float, samples: int = EVEN) -> Course:
+    """Sample all stages of a motion up to a time from the release, in ``1/Ω``, about so often beside its events."""
     columns, parts = list[tuple[Any, ...]](), [part.seen_at(motion.plane) for part in motion.parts]
     for part in parts:
         end = min(part.time, until - part.begins)
         if end <= 0.0:
             break
         system, events = part.rotor.system, part.segment_starts[part.segment_starts <= end]
-        even = np.linspace(0.0, end, max(2, int(EVEN * end / until)))
+        even = np.linspace(0.0, end, max(2, int(samples * end / until)))
         peaks = part.touches.peak_time if yields(system, part.plane) else np.zeros(0)
         times = np.unique(np.concatenate([even, events, np.nextafter(events[1:], 0.0), peaks[peaks <= end]]))
         amplitudes, phases = part.amplitudes_at(times)
-        history = part.history(times)
-        place = (1.0 - history.gap) * np.exp(1j * (history.angle + part.begins + times))
+        history, fixed = part.history(times), part.begins + times
+        place = (1.0 - history.gap) * np.exp(1j * (history.angle + fixed))
+        mount = _mount(part.rotor, amplitudes) * np.exp(1j * fixed)
+        heavy = part.rotor.unbalance_phase + fixed + shaft_lead(system, amplitudes)
         race = race_speed(system, part.plane, amplitudes)
-        held = presses(phases[:, part.plane])
-        columns.append((part.begins + times, place, history.normal_force, np.abs(history.slip), race, held))
-    times, place, force, slip, race, held = (np.concatenate(each) for each in zip(*columns, strict=True))
+        forces = history.normal_force, history.friction_force, np.abs(history.slip)
+        columns.append((fixed, place, mount, heavy, *forces, race, presses(phases[:, part.plane])))
+    times, place, mount, heavy, force, friction, slip, race, held = map(np.concatenate, zip(*columns, strict=True))
     system = motion.rotor.system
     return Course(
         times=times,
         place=place,
+        mount=mount if on_mount(motion.rotor) else None,
+        heavy=heavy,
         force=force,
+        friction=friction,
         slip=slip,
         race=race if system.arrays.race[motion.plane] >= 0 else None,
         held=held,
-        blows=None if yields(system, motion.plane) else _blows(parts),
+        blows=None if yields(system, motion.plane) else _blows(parts, until),
         stages=tuple(part.begins for part in parts[1:] if part.begins < until),
         down=direction_of_fall(motion.rotor),
         scales=motion.rotor.scales,
     )
 
 
-def _blows(parts: list[Trajectory]) -> Blows:
+def _mount(rotor: Model, amplitudes: np.ndarray) -> np.ndarray:
+    """Place of the mount in the frame of the rotor; zero without one."""
+    if not on_mount(rotor):
+        return np.zeros(len(amplitudes), complex)
+    place: np.ndarray = rotor.system.state(amplitudes)[0][:, 1]
+    return place
+
+
+def _blows(parts: list[Trajectory], until: float) -> Blows:
     logs = [part.contacts for part in parts]
     times = np.concatenate([part.begins + log.time for part, log in zip(parts, logs, strict=True)])
-    impulses = np.concatenate([log.normal_impulse for log in logs])
-    return Blows(times, impulses, np.concatenate([np.abs(log.slip_before) for log in logs]))
+    impulses, frictions, slips = (
+        np.concatenate([getattr(log, name) for log in logs])[times <= until]
+        for name in ("normal_impulse", "tangential_impulse", "slip_before")
+    )
+    return Blows(times[times <= until], impulses, frictions, np.abs(slips))
 
 
 def shown_until(motion: Trajectory) -> float:

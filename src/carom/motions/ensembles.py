@@ -8,7 +8,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from carom.arguments import Count, Whole, checked
+from carom.arguments import Count, Reals, Whole, checked
 from carom.core.processors import available_cores
 from carom.models import Model, Stage, Subject, model_of
 from carom.models.stages import stages_of
@@ -20,7 +20,7 @@ from carom.motions.settling import (
     low_interval,
     may_be_low,
 )
-from carom.motions.starts import LARGEST_SPEED, WALL_TOLERANCE, Until, time_until
+from carom.motions.starts import LARGEST_SPEED, WALL_TOLERANCE, State, Until, time_until
 from carom.outcome import InputError, Outcome
 from carom.progress import Reporter, ShowProgress, shows_progress
 from carom.results import Result
@@ -46,6 +46,8 @@ class Endings(Result):
     positions, velocities : ndarray of complex
         State at that time, co-rotating frame; where the outcome was proven in advance, a state on the way to it.  For a
         rotor of ``n > 1`` coordinates with a last axis of that length.
+    begins : ndarray
+        Times at which the starts were taken, from which ``times`` count.
     """
 
     rests_on: ClassVar[tuple[str, ...]] = ("mora2014", "brent1980")
@@ -56,6 +58,7 @@ class Endings(Result):
     multiplicities: np.ndarray
     positions: np.ndarray
     velocities: np.ndarray
+    begins: np.ndarray
 
     def rows(self) -> list[tuple[str, str]]:
         """How many motions end in each way."""
@@ -73,6 +76,11 @@ class Endings(Result):
     def count(self, outcome: Outcome | int) -> int:
         """Return how many motions have this outcome."""
         return int(np.count_nonzero(self.outcomes == outcome))
+
+    def state(self, place: int) -> State:
+        """State of one of the motions of an ensemble in one dimension at that time."""
+        time = float(self.begins[place] + self.times[place])
+        return State.of(self.positions[place], self.velocities[place], time=time)
 
     def reshaped(self, *shape: int) -> Endings:
         """Return the same endings for starts of another shape."""
@@ -94,6 +102,7 @@ def settle(
     velocities: np.ndarray,
     *,
     which: np.ndarray | None = None,
+    begins: Reals | None = None,
     until: Until | None = None,
     patience: Whole = PATIENCE,
     max_events: Count = MOST_EVENTS,
@@ -118,6 +127,8 @@ def settle(
         last axis of that length.
     which : array_like of int, optional
         With a sequence: the index of the machine of each start, of the same shape.
+    begins : array_like, optional
+        Time at which each start is taken, in ``1/Ω``, by default 0: under weight it says where this points, as that of a :class:`carom.State`.
     until : float or str
         Time after which a motion that has not settled is given up, in ``1/Ω`` or text with a unit, such as ``"2 s"``; by
         default :func:`~carom.motions.settling.longest_time` of its machine.
@@ -152,20 +163,23 @@ def settle(
     rotors, which = _machines(machine, which)
     coordinates = _coordinates(rotors)
     positions, velocities = _read("positions", positions, coordinates), _read("velocities", velocities, coordinates)
-    shapes = [values.shape[: values.ndim - len(coordinates)] for values in (positions, velocities)] + [which.shape]
+    started = np.zeros(()) if begins is None else np.asarray(begins, float)
+    shapes = [values.shape[: values.ndim - len(coordinates)] for values in (positions, velocities)]
+    shapes += [which.shape, started.shape]
     try:
         shape = np.broadcast_shapes(*shapes)
     except ValueError:
-        raise InputError("start positions, velocities, which", shapes, "arrays of shapes that fit together") from None
+        allowed = "arrays of shapes that fit together"
+        raise InputError("start positions, velocities, which, begins", shapes, allowed) from None
     positions, velocities = (np.broadcast_to(values, shape + coordinates) for values in (positions, velocities))
-    which = np.broadcast_to(which, shape).ravel()
+    which, started = (np.broadcast_to(values, shape).ravel() for values in (which, started))
     _check_starts(positions, velocities, all(rotor.system.is_planar for rotor in rotors))
     for rotor in rotors if until is not None or patience == 0 else ():
         time_until(until, rotor.scales)
     positions, velocities = (values.reshape(len(which), *coordinates) for values in (positions, velocities))
     limits, threads = Limits(until, patience, max_events), threads or available_cores()
     tell = Reporter.of(progress, "following starts")
-    endings = _followed(rotors, which, positions, velocities, limits, threads, tell)
+    endings = _followed(rotors, which, positions, velocities, started, limits, threads, tell)
     return endings.reshaped(*shape)
 
 
@@ -174,16 +188,15 @@ def _followed(
     which: np.ndarray,
     positions: np.ndarray,
     velocities: np.ndarray,
+    begins: np.ndarray,
     limits: Limits,
     threads: int,
     tell: Reporter,
 ) -> Endings:
     """Endings of starts in one dimension, through all stages."""
     courses = [stages_of(rotor) for rotor in rotors]
-    begins = np.zeros(len(which))
-    endings = _noted_in_stage(
-        [stages[0] for stages in courses], which, (positions, velocities, begins), limits, threads, tell
-    )
+    starts = positions, velocities, begins, np.zeros(len(which))
+    endings = _noted_in_stage([stages[0] for stages in courses], which, starts, limits, threads, tell)
     for number in range(1, max(map(len, courses), default=1)):
         _refuse_turning(courses, number)
         further = np.array([number < len(stages) for stages in courses])[which]
@@ -196,7 +209,7 @@ def _followed(
             if ended.carry is not None:
                 _check_starts(places, speeds, begun.rotor.system.is_planar)
             before.positions[here], before.velocities[here] = places, speeds
-        states = before.positions, before.velocities, before.times
+        states = before.positions, before.velocities, before.begins, before.times
         later = _noted_in_stage(
             [stages[min(number, len(stages) - 1)] for stages in courses], which[on], states, limits, threads, tell
         )
@@ -205,6 +218,10 @@ def _followed(
         for name, values in vars(endings).items():
             values[on] = getattr(later, name)
     return endings
+
+
+_Begun = tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]
+"""Positions and velocities at the beginning of a stage, the times at which the starts were taken, and those elapsed since."""
 
 
 def _refuse_turning(courses: Sequence[Sequence[Stage]], number: int) -> None:
@@ -219,21 +236,22 @@ def _refuse_turning(courses: Sequence[Sequence[Stage]], number: int) -> None:
 def _in_stage(
     stages: Sequence[Stage],
     which: np.ndarray,
-    starts: tuple[np.ndarray, np.ndarray, np.ndarray],
+    starts: _Begun,
     limits: Limits,
     threads: int,
     tell: Reporter,
 ) -> Endings:
-    """Endings in one stage of each machine, with times that count from its beginning; starts are positions, velocities and times."""
+    """Endings in one stage of each machine, with times that count from its beginning."""
     # The starts of each machine are followed together, in portions; their endings are put back into the order of the starts.
     order = slice(None) if len(stages) == 1 else np.argsort(which, kind="stable")
-    motions = motions_from(*(values[order] for values in starts))
-    parts = parts_of(stages, which[order], motions, threads)
+    positions, velocities, begins, elapsed = (values[order] for values in starts)
+    motions = motions_from(positions, velocities, begins + elapsed)
+    parts = parts_of(stages, which[order], motions, elapsed, threads)
     done = 0
     for finished in settle_parts(parts, limits, threads):
         done += finished
         tell(done / len(motions))
-    endings = _endings(motions, order)
+    endings = _endings(motions, order, starts[2])
     ends = np.array([stage.trigger.time for stage in stages])[which]
     endings.outcomes[(endings.outcomes == Outcome.TIME_REACHED) & (endings.times >= ends)] = Outcome.TRIGGERED
     return endings
@@ -242,19 +260,19 @@ def _in_stage(
 def _noted_in_stage(
     stages: Sequence[Stage],
     which: np.ndarray,
-    starts: tuple[np.ndarray, np.ndarray, np.ndarray],
+    starts: _Begun,
     limits: Limits,
     threads: int,
     tell: Reporter,
 ) -> Endings:
     """:func:`_in_stage`, with low bounces told from others."""
     endings = _in_stage(stages, which, starts, limits, threads, tell)
-    _note_low_bounces(stages, which, starts[2], endings, limits, threads)
+    _note_low_bounces(stages, which, starts[3], endings, limits, threads)
     return endings
 
 
 def _note_low_bounces(
-    stages: Sequence[Stage], which: np.ndarray, begins: np.ndarray, endings: Endings, limits: Limits, threads: int
+    stages: Sequence[Stage], which: np.ndarray, elapsed: np.ndarray, endings: Endings, limits: Limits, threads: int
 ) -> None:
     """Note, in place, which motions that do not repeat stay at the wall in low bounces; they are followed further to see that."""
     rotors = [stage.rotor for stage in stages]
@@ -264,7 +282,7 @@ def _note_low_bounces(
         return
     here, which = endings[doubtful], which[doubtful]
     look = limits._replace(until=None, patience=LOW_FOR)
-    starts = here.positions, here.velocities, begins[doubtful] + here.times
+    starts = here.positions, here.velocities, here.begins, elapsed[doubtful] + here.times
     ends = _in_stage(list(map(Stage, rotors)), which, starts, look, threads, Reporter.of(None, ""))
     intervals = np.array([low_interval(rotor) for rotor in rotors])[which]
     low = np.isin(ends.outcomes, REPEATING) & (ends.multiplicities == 0) & (ends.times < intervals * ends.impacts)
@@ -314,8 +332,8 @@ def _check_starts(positions: np.ndarray, velocities: np.ndarray, planar: bool) -
         raise InputError("start position", positions[outside].flat[0], "inside the wall, |U| <= 1")
 
 
-def _endings(motions: np.recarray, order: np.ndarray | slice) -> Endings:
-    """Endings in the order of the starts."""
+def _endings(motions: np.recarray, order: np.ndarray | slice, begins: np.ndarray) -> Endings:
+    """Endings in the order of the starts, which were taken at given times."""
 
     def gather(name: str, kind: type) -> np.ndarray:
         found = motions[name]
@@ -330,4 +348,5 @@ def _endings(motions: np.recarray, order: np.ndarray | slice) -> Endings:
         multiplicities=gather("multiplicity", np.int64),
         positions=gather("position", complex),
         velocities=gather("velocity", complex),
+        begins=begins.copy(),
     )

@@ -11,7 +11,7 @@ from carom.arguments import checked
 from carom.closed_forms.hertz import ball_pressure
 from carom.closed_forms.known import known_of
 from carom.models.in_bearing import bearing_of
-from carom.motions.contacts import ContactLog, presses, yields
+from carom.motions.contacts import ContactLog, presses, slip_velocity, yields
 from carom.motions.ledger import contact_power
 from carom.motions.quadrature import NODES, WEIGHTS, pieces
 from carom.motions.trajectories import Trajectory
@@ -169,12 +169,12 @@ def _lasting(trajectory: Trajectory) -> tuple[float, float, float]:
     starts, half = edges[:-1][rubs], 0.5 * np.diff(edges)[rubs]
     if not len(starts):
         return 0.0, 0.0, 0.0
-    times = (starts + half)[:, None] + half[:, None] * NODES
-    lost = -contact_power(trajectory, times)[0]
-    ends = np.concatenate([starts, np.nextafter(edges[1:][rubs], 0.0)])
-    largest = max(float(lost.max()), float(-contact_power(trajectory, ends)[0].min()), 0.0)
-    normal, _ = trajectory.forces(np.concatenate([times.ravel(), ends]))
-    return float((half * (lost @ WEIGHTS)).sum()), float(normal.max()), largest
+    nodes, ends = (starts + half)[:, None] + half[:, None] * NODES, np.nextafter(edges[1:][rubs], 0.0)
+    # In the order of time the series of each step is needed once.
+    amplitudes, phases = trajectory.amplitudes_at(np.column_stack([starts, nodes, ends]))
+    normal, grip = trajectory.forces_of(amplitudes, phases)
+    lost = -grip * slip_velocity(trajectory.rotor.system, trajectory.plane, amplitudes)
+    return float((half * (lost[:, 1:-1] @ WEIGHTS)).sum()), float(normal.max()), max(float(lost.max()), 0.0)
 
 
 def _lasting_power(trajectory: Trajectory, times: np.ndarray, works: np.ndarray) -> float:

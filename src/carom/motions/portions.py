@@ -43,7 +43,7 @@ class Limits(NamedTuple):
 
 
 def motions_from(positions: np.ndarray, velocities: np.ndarray, times: np.ndarray) -> np.recarray:
-    """Records of motions at their starts, for the kernel to fill."""
+    """Records of motions at their starts, which are taken at given times, for the kernel to fill."""
     axes = {"position": positions.shape[1:], "velocity": positions.shape[1:]}
     kind = np.dtype([(name, MOTION[name], axes.get(name, ())) for name in MOTION.names or ()])
     motions = np.recarray(positions.shape[:1], kind)
@@ -56,23 +56,25 @@ def motions_from(positions: np.ndarray, velocities: np.ndarray, times: np.ndarra
 class Part(NamedTuple):
     """Motions of one machine; all threads that hold the same part take motions from it by its shared counter.
 
-    ``begun`` says whether earlier stages have taken time.  The times themselves are overwritten by the thread that comes first.
+    ``elapsed`` are the times, shape (M,), that earlier stages have taken.
     """
 
     stage: Stage
     motions: np.ndarray
     counter: np.record
-    begun: bool
+    elapsed: np.ndarray
 
 
-def parts_of(stages: Sequence[Stage], which: np.ndarray, motions: np.recarray, threads: int) -> list[Part]:
+def parts_of(
+    stages: Sequence[Stage], which: np.ndarray, motions: np.recarray, elapsed: np.ndarray, threads: int
+) -> list[Part]:
     """Parts for threads to take up: each as often as threads may follow it; motions are sorted by the number of their stage."""
     parts: list[Part] = []
     ends = np.searchsorted(which, np.arange(len(stages) + 1)).tolist()
     for stage, first, last in zip(stages, ends, ends[1:], strict=False):
         for begins in range(first, last, PORTION):
-            portion = motions[begins : min(begins + PORTION, last)]
-            part = Part(stage, portion, fresh_counter(), bool(portion["time"].any()))
+            chosen = slice(begins, min(begins + PORTION, last))
+            part = Part(stage, motions[chosen], fresh_counter(), elapsed[chosen])
             parts += [part] * min(threads, 1 + len(part.motions) // FEW)
     return parts
 
@@ -104,7 +106,7 @@ def _settle_part(part: Part, limits: Limits) -> int:
     until = time_limit(rotor, trigger) if limits.until is None else time_until(limits.until, rotor.scales)
     # What has settled may still be ended by a time.
     memory = fresh_memory(rotor, limits.patience if trigger.time == np.inf else 0, absorb=True, trigger=trigger)
-    if not rotor.system.is_planar or trigger.watches_contact or (limits.until is not None and part.begun):
+    if not rotor.system.is_planar or trigger.watches_contact or (limits.until is not None and part.elapsed.any()):
         return _follow_singly(part, until, limits, memory)
     task = Task(rotor.system.arrays, rotor.system.table, min(until, trigger.time), limits.max_events)
     # Without the compiler, NumPy warns of divisions in lanes that do not use the result.
@@ -119,9 +121,10 @@ def _follow_singly(part: Part, until: float, limits: Limits, memory: np.record) 
     scratch, room = tools(rotor), EventLog.empty(LOGGED, rotor.system.modes, len(rotor.system.arrays["rows"]))
     while (number := int(next_number(part.counter.numbers))) < len(part.motions):
         motion = part.motions[number]
-        begins = float(motion.time)
-        end = min(until if limits.until is None else until - begins, part.stage.trigger.time)
-        amplitudes, contact = amplitudes_of(rotor, State.of(motion.position, motion.velocity), begins)
+        elapsed = 0.0 if limits.until is None else float(part.elapsed[number])
+        end = min(until - elapsed, part.stage.trigger.time)
+        start = State.of(motion.position, motion.velocity, time=float(motion.time))
+        amplitudes, contact = amplitudes_of(rotor, start)
         forget(memory)
         memory.resting = not rubs_known
         motion.time, motion.impacts, events, outcome = 0.0, 0, 0, Outcome.EVENT_LIMIT

@@ -41,8 +41,10 @@ def least_recurrence(system: System, amplitudes: np.ndarray, contact: np.ndarray
     early, late = np.array_split(changes, 2)
     if late.max(initial=0.0) > max(GROWS * early.max(initial=0.0), ROUNDING * size):
         return PASSES
+    once = states[: impacts + 1]
     for count in range(1, min(impacts, len(states) - 1)):
-        if impacts % count == 0 and np.abs(states[count] - states[0]).sum() <= REPEATS * size:
+        # Not of the first state alone: the last bounces of a chatter are alike.
+        if impacts % count == 0 and np.abs(once[count:] - once[:-count]).sum(axis=1).max() <= REPEATS * size:
             return count
     return impacts
 

@@ -25,8 +25,8 @@ from carom.outcome import Outcome, Phase
 
 FOLLOWED_TURNS = 64
 """Turns of the shaft over which the place of the contact is watched: whirl of 1/128 of the shaft speed goes half round the wall."""
-LOGGED = 8192
-"""Steps of lasting contact, of which a turn takes about eight."""
+LOGGED, MOST_LOGS = 8192, 32
+"""Steps of lasting contact that are looked at together, and how often: of a rigid rotor a turn takes about eight, of one that bends hundreds."""
 
 
 def goes_round(rotor: Model, amplitudes: np.ndarray, contact: np.ndarray, recollection: np.record) -> Outcome | None:
@@ -65,13 +65,18 @@ def lies(rotor: Model, amplitudes: np.ndarray, contact: np.ndarray) -> bool:
     if weight_of(rotor) is None or not touching.any():
         return False
     (arrays, table), (planes, modes) = rotor.system.own_records(), rotor.system.arrays["rows"].shape
-    log = EventLog.empty(LOGGED, modes, planes)
-    state, until = amplitudes.copy(), 2.0 * math.pi * FOLLOWED_TURNS
+    log, state, contact = EventLog.empty(LOGGED, modes, planes), amplitudes.copy(), contact.copy()
     tools = memory(modes), workspace(modes), rub_workspace(modes, planes)
-    outcome, _, count = advance(arrays, table, state, until, contact.copy(), log, *tools)
-    seen = log.first(count)
-    if outcome != Outcome.TIME_REACHED or (seen.phases[:, touching] == Phase.FLIGHT).any():
-        return False
-    places = seen.after @ arrays["rows"][touching].T + arrays["offsets"][touching]
-    angles = np.unwrap(np.angle(places * np.exp(1j * seen.times)[:, None]), axis=0)
-    return bool((np.ptp(angles, axis=0) < math.pi).all())
+    passed, angles, until = 0.0, [], 2.0 * math.pi * FOLLOWED_TURNS
+    for _ in range(MOST_LOGS):
+        outcome, time, count = advance(arrays, table, state, until - passed, contact, log, *tools)
+        seen = log.first(count)
+        if (seen.phases[:, touching] == Phase.FLIGHT).any():
+            return False
+        places = seen.after @ arrays["rows"][touching].T + arrays["offsets"][touching]
+        angles.append(np.angle(places * np.exp(1j * (passed + seen.times))[:, None]))
+        passed += time
+        if outcome != Outcome.EVENT_LIMIT:
+            turned = np.unwrap(np.concatenate(angles), axis=0)
+            return outcome == Outcome.TIME_REACHED and bool((np.ptp(turned, axis=0) < math.pi).all())
+    return False

@@ -97,13 +97,13 @@ def simulate(
     options = _Options(settle, stop_at_chatter, patience, max_events, Reporter.of(progress, "simulating"))
     parts: list[Trajectory] = []
     for stage in stages_of(model):
-        begins = parts[-1].begins + parts[-1].time if parts else 0.0
-        longest = time_limit(stage.rotor, stage.trigger) if end is None else end - begins
-        parts.append(_follow_stage(stage.rotor, state, begins, longest, stage.trigger, options))
+        longest = time_limit(stage.rotor, stage.trigger) if end is None else end - sum(part.time for part in parts)
+        parts.append(_follow_stage(stage.rotor, state, longest, stage.trigger, options))
         if parts[-1].outcome is not Outcome.TRIGGERED:
             break
         ended = parts[-1].final
-        state = State.of(*stage.carried(ended.position, ended.velocity), ended.races, ended.shaft)
+        begins = parts[-1].begins + parts[-1].time
+        state = State.of(*stage.carried(ended.position, ended.velocity), ended.races, ended.shaft, begins)
     return dataclasses.replace(parts[-1], earlier=tuple(parts[:-1])) if len(parts) > 1 else parts[0]
 
 
@@ -115,14 +115,13 @@ class _Options(NamedTuple):
     tell: Reporter
 
 
-def _follow_stage(
-    rotor: Model, start: State, begins: float, longest: float, trigger: Trigger, options: _Options
-) -> Trajectory:
-    """Follow a start at a time through one stage, for so long at most, or until its trigger ends it."""
+def _follow_stage(rotor: Model, start: State, longest: float, trigger: Trigger, options: _Options) -> Trajectory:
+    """Follow a start through one stage, for so long at most, or until its trigger ends it."""
     settle, stop_at_chatter, patience, max_events, tell = options
+    begins = start.time
     # What has settled may still be ended by a time.
     settle, until = settle and trigger.time == np.inf, min(longest, trigger.time)
-    amplitudes, contact = amplitudes_of(rotor, start, begins)
+    amplitudes, contact = amplitudes_of(rotor, start)
     phases = np.where(contact == AWAY, FLIGHT, contact)[None]
     recollection = fresh_memory(rotor, patience if settle else 0, stop_at_chatter, trigger=trigger)
     first = amplitudes.copy()
@@ -147,7 +146,13 @@ def _follow_stage(
         start=start,
         outcome=outcome,
         time=reached,
-        final=State.of(position, velocity, rotor.system.race_speeds(amplitudes), rotor.system.shaft_turn(amplitudes)),
+        final=State.of(
+            position,
+            velocity,
+            rotor.system.race_speeds(amplitudes),
+            rotor.system.shaft_turn(amplitudes),
+            begins + reached if rotor.system.outer.any() else 0.0,
+        ),
         multiplicity=multiplicity,
         segment_starts=np.concatenate([np.zeros(1), *(log.times for log in logs)]),
         segment_phases=np.concatenate([phases, *(log.phases for log in logs)]),

@@ -41,6 +41,8 @@ class State:
     shaft : tuple of float
         Of a shaft whose speed changes: its speed in ``Ω``, and the angle in rad by which it is ahead of the frame, which turns at the
         nominal speed.  By default ``(1.0, 0.0)``.
+    time : float
+        Time at which it is taken, in ``1/Ω``: under forces that change with time, such as weight, it says where these point.
 
     See Also
     --------
@@ -57,9 +59,10 @@ class State:
     velocity: Any = 0j
     races: tuple[float, ...] = ()
     shaft: tuple[float, ...] = ()
+    time: float = 0.0
 
     def __repr__(self) -> str:
-        turning = [f", {name}={getattr(self, name)}" for name in ("races", "shaft") if getattr(self, name)]
+        turning = [f", {name}={getattr(self, name)}" for name in ("races", "shaft", "time") if getattr(self, name)]
         return f"State(position={self.position}, velocity={self.velocity}{''.join(turning)})"
 
     @classmethod
@@ -69,11 +72,12 @@ class State:
         velocity: np.ndarray,
         races: tuple[float, ...] = (),
         shaft: tuple[float, ...] = (),
+        time: float = 0.0,
     ) -> State:
         """State of plain numbers, or of arrays if there are several coordinates."""
         if np.ndim(position):
-            return cls(position, velocity, races, shaft)
-        return cls(complex(position), complex(velocity), races, shaft)
+            return cls(position, velocity, races, shaft, time)
+        return cls(complex(position), complex(velocity), races, shaft, time)
 
 
 @checked
@@ -142,8 +146,8 @@ def time_until(until: float | str | None, scales: Scales | None, name: str = "un
     return time
 
 
-def amplitudes_of(rotor: Model, state: State, time: float = 0.0) -> tuple[np.ndarray, np.ndarray]:
-    """Amplitudes of a start at a time, and its state of contact at each plane (see :func:`carom.core.advance.advance`)."""
+def amplitudes_of(rotor: Model, state: State) -> tuple[np.ndarray, np.ndarray]:
+    """Amplitudes of a start, and its state of contact at each plane (see :func:`carom.core.advance.advance`)."""
     system = rotor.system
     coordinates = () if len(system.rest) == 1 else system.rest.shape
     for name in ("position", "velocity"):
@@ -155,7 +159,9 @@ def amplitudes_of(rotor: Model, state: State, time: float = 0.0) -> tuple[np.nda
             raise InputError(f"start {name}", given, "finite numbers")
     if np.abs(state.velocity).max() > LARGEST_SPEED:
         raise InputError("start velocity", state.velocity, f"a speed up to {LARGEST_SPEED:g}")
-    amplitudes = system.amplitudes(state.position, state.velocity, time)
+    if not np.isfinite(state.time):
+        raise InputError("start time", state.time, "a finite number")
+    amplitudes = system.amplitudes(state.position, state.velocity, state.time)
     if state.races:
         _set_races(system, state.races, amplitudes)
     if state.shaft:

@@ -114,9 +114,10 @@ def _parts(values: np.ndarray) -> np.ndarray:
 def _numbers(state: State) -> list[Any]:
     parts = state.position, state.velocity
     numbers = ([np.asarray(part).real.tolist(), np.asarray(part).imag.tolist()] for part in parts)
-    return [*numbers, list(state.races), list(state.shaft)]
+    return [*numbers, list(state.races), list(state.shaft), state.time]
 
 
 def _state(numbers: list[Any]) -> State:
     position, velocity = (np.array(real) + 1j * np.array(imaginary) for real, imaginary in numbers[:2])
-    return State.of(position, velocity, *map(tuple, numbers[2:]))
+    races, shaft, *time = numbers[2:]
+    return State.of(position, velocity, tuple(races), tuple(shaft), *time)

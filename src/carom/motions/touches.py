@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, field
 from itertools import pairwise
 from typing import TYPE_CHECKING, ClassVar, NamedTuple
 
 import numpy as np
 
-from carom.core.laws.choice import force, stored_energy
-from carom.core.wall import Wall
+from carom.core.wall_work import damper_forces_all, stored_energies_all
 from carom.motions.contacts import (
     PRESSING,
     Table,
@@ -110,10 +108,9 @@ def in_wall(motion: Trajectory, segments: np.ndarray, elapsed: np.ndarray) -> In
     rate = (position.conj() * velocity).real / radius
     slip = np.where(held, slip_velocity(system, plane, amplitudes), 0.0)
 
-    def damper(depth: float, rate: float, wall: Wall) -> float:
-        return float(force(depth, rate, wall) - force(depth, 0.0, wall))
-
-    lost = np.where(held, _of_law(motion, damper, radius - 1.0, rate) * rate, 0.0)
+    depths, rates = (np.ravel(values) for values in (radius - 1.0, rate))
+    damper = damper_forces_all(system.arrays, plane, depths, rates).reshape(rate.shape)
+    lost = np.where(held, damper * rate, 0.0)
     return InWall(radius - 1.0, slip, normal, friction, lost, shaft_speed(system, amplitudes))
 
 
@@ -122,7 +119,7 @@ def stored(motion: Trajectory, amplitudes: np.ndarray) -> np.ndarray:
     position, _ = motion.rotor.system.at_plane(amplitudes, motion.plane)
     held = presses(motion.segment_phases[:, motion.plane])
     energy = np.zeros(len(amplitudes))
-    energy[held] = _of_law(motion, stored_energy, np.abs(position[held]) - 1.0)
+    energy[held] = stored_energies_all(motion.rotor.system.arrays, motion.plane, np.abs(position[held]) - 1.0)
     return energy
 
 
@@ -131,14 +128,6 @@ def lost_on_parting(motion: Trajectory) -> np.ndarray:
     parted = motion.segment_phases[:, motion.plane] == Phase.SEPARATED
     lost = stored(motion, motion.segment_ends)[:-1] - stored(motion, motion.segment_amplitudes)[1:]
     return np.where(parted[:-1] | parted[1:], lost, 0.0)
-
-
-def _of_law(motion: Trajectory, function: Callable[..., float], *of: np.ndarray) -> np.ndarray:
-    """A function of the law of the plane's wall, of depths (and rates), with the effective mass of the plane."""
-    system = motion.rotor.system
-    wall = system.contacts[motion.plane].wall
-    values: np.ndarray = np.vectorize(lambda *one: function(*one, wall), otypes=[float])(*of)
-    return system.arrays.masses[motion.plane] * values
 
 
 def touches_of(motion: Trajectory) -> TouchLog:

@@ -13,6 +13,7 @@ from carom.core.layout import rub_workspace, workspace
 from carom.core.phases import AWAY
 from carom.core.rub import lift_off, rest_on_wall, wall_push
 from carom.core.rub_step import NOWHERE
+from carom.core.segments import MOST_STEPS
 from carom.core.variation import strike
 from carom.models import Jeffcott, Model
 from carom.motions.simulation import follow
@@ -27,8 +28,6 @@ SHIFT = 1e-4
 """Relative difference up to which they may be the same event if the rotor is on the wall from one to the other."""
 AT_REST = 1e-14
 """Radial speed, in ``c_r Ω``, that counts as none: the size of rounding."""
-MOST_STEPS = 256
-"""Steps of lasting contact in one segment."""
 STOPPED = 1e-10
 """Slip at a landing or at the beginning of lasting contact, in ``c_r Ω``, that counts as none."""
 BY_ROUNDING = Kind.LIFT, Kind.FREE
@@ -68,7 +67,7 @@ def departure(rotor: Model, segment: Segment, node: np.ndarray) -> np.ndarray:
 
 def why_virtual(rotor: Model, word: Word, start: Start) -> str:
     """Reason why an orbit of this word, nodes and durations is not admissible; empty if it is."""
-    nodes = rotor.system.amplitudes_of(start.nodes)
+    nodes = rotor.system.nodes.amplitudes(start.nodes)
     for i, segment in enumerate(word):
         target = word[(i + 1) % len(word)]
         at = rotor, segment, target, nodes[i], float(start.durations[i])

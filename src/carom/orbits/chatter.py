@@ -36,7 +36,7 @@ def follow_chatter(
     """
     system, size, plane = rotor.system, len(arrival), following.plane
     modes = system.modes
-    basis, to_modes, rest = system.coordinates
+    basis, to_modes, rest = system.nodes
     contact = np.full(len(system.arrays.rows), -1)
     contact[plane] = Phase.FLIGHT
     log = EventLog.empty(MOST_BOUNCES, modes, len(contact))
@@ -71,7 +71,7 @@ def follow_chatter(
 def _on_wall(rotor: Model, plane: int, amplitudes: np.ndarray, changes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Amplitudes with a plane moved onto its wall, and what small changes (k, N) of them become."""
     arrays = rotor.system.arrays
-    row, lever = arrays.rows[plane], arrays.rows[plane].conj() / arrays.weights[plane]
+    row, lever = arrays.rows[plane], arrays.free * arrays.rows[plane].conj() / arrays.weights[plane]
     position = amplitudes @ row + arrays.offsets[plane]
     normal, moved = position / abs(position), changes @ row
     along = 1j * normal * (np.conj(normal) * moved).imag / abs(position)

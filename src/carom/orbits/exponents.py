@@ -13,7 +13,7 @@ from carom.arguments import Count, checked, whole
 from carom.core.closing import LONGEST
 from carom.core.growth import carry_orthogonal
 from carom.models import Model, Subject, model_of
-from carom.models.weight import refuse_forces
+from carom.models.weight import refuse_unrepeated
 from carom.motions.simulation import simulate
 from carom.motions.starts import Kick, State
 from carom.motions.trajectories import Trajectory
@@ -48,10 +48,10 @@ class LyapunovExponents(Result):
 
     Attributes
     ----------
-    values : ndarray, shape (2N,)
+    values : ndarray, shape (2N,) or, with weight, (2N + 1,)
         All exponents in ``Ω``, the largest first, for ``N`` modes.  One belongs to the disturbance along the motion itself
-        (``along``).  Those of directions that a landing, a stopped slip or rolling takes away are minus infinity.
-    errors : ndarray, shape (2N,)
+        (``along``); with weight it is beside those of all ``N`` modes, as a delay then changes the phase of the weight too.  Those of directions that a landing, a stopped slip or rolling takes away are minus infinity.
+    errors : ndarray
         Standard errors from batches; 0 where the value is minus infinity.  That of ``along`` is its distance from 0.
     along : float
         The exponent along the motion.  It tends to 0 as one over the time.
@@ -150,9 +150,10 @@ def lyapunov_exponents(
         planes touch at a time while one of the contacts lasts.
     """
     rotor = model_of(machine)
-    refuse_forces(rotor)
+    refuse_unrepeated(rotor)
     state = start.state(rotor) if isinstance(start, Kick) else start
-    directions = np.eye(2 * len(rotor.system.exponents))[:, 1:]
+    # With weight its phase at the node is one direction more.
+    directions = np.eye(2 * len(rotor.system.exponents) + int(rotor.system.forced is not None))[:, 1:]
     for stretch in _stretches(rotor, state, transient):
         directions, _ = _carried(stretch.passages, directions)
         state = stretch.end
@@ -231,8 +232,9 @@ def _stretches(rotor: Model, state: State, impacts: int) -> Iterator[_Stretch]:
         word, links = _followed(rotor, motion, first, last)
         struck = np.bincount(motion.event_planes[hits[:count]], minlength=len(rotor.system.arrays.rows))
         landings = int(motion.is_landing[first:last].sum())
-        state = State.of(*motion.rotor.system.state(motion.arrivals[last]))
-        at = links.start.durations[:-1], links.passages[:-1], links.slopes[-2, :-1, -1]
+        time = motion.begins + float(motion.segment_starts[1:][last])
+        state = State.of(*motion.rotor.system.state(motion.arrivals[last]), time=time)
+        at = links.start.durations[:-1], links.passages[:-1], links.turned[-2, :-1, -1]
         yield _Stretch(word, *at, struck, landings, contraction(motion, first, last), state)
         impacts -= count
 
@@ -253,7 +255,7 @@ def _followed(rotor: Model, motion: Trajectory, first: int, last: int) -> tuple[
 
 
 def _carried(passages: np.ndarray, directions: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Directions at the end of a stretch, and the factor by which each grew in each segment, shape (m, 2N − 1).
+    """Directions at the end of a stretch, and the factor by which each grew in each segment, shape (m, 2N − 1 or, with weight, 2N).
 
     The directions lie in the section at the node: disturbances that reach the event at the same time.
     """
@@ -288,7 +290,7 @@ def _directions_kept(rotor: Model, words: list[Word]) -> int:
             elif Kind(kind).is_impact:
                 taken = int(kind == Kind.IMPACT_STOPPED) + int(restitution[plane] == 0.0)
             lost = max(lost, taken)
-    return 2 * len(rotor.system.exponents) - 1 - lost
+    return 2 * len(rotor.system.exponents) - int(rotor.system.forced is None) - lost
 
 
 def _means(logarithms: np.ndarray, durations: np.ndarray, batches: int) -> tuple[np.ndarray, np.ndarray]:

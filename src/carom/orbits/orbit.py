@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import compress
@@ -15,7 +16,7 @@ from carom.core.layout import rub_workspace
 from carom.core.margins import contact_margins, least_margins
 from carom.core.yielding_margins import margins_in_walls
 from carom.models import Model, Subject, model_of
-from carom.models.weight import refuse_forces
+from carom.models.weight import refuse_unrepeated
 from carom.motions.simulation import simulate
 from carom.motions.starts import State
 from carom.motions.trajectories import Trajectory
@@ -23,7 +24,7 @@ from carom.orbits.admissibility import departure, why_virtual
 from carom.orbits.maps import Section
 from carom.orbits.names import CountedName, OrbitName
 from carom.orbits.shooting import Links, Start, converged, links_of
-from carom.orbits.stability import Multipliers, multipliers
+from carom.orbits.stability import Multipliers, multipliers_of
 from carom.orbits.word import Word
 from carom.outcome import CaromError, InputError
 from carom.results import Result
@@ -77,7 +78,7 @@ class Margins(Result):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Orbit(Result):
-    """A periodic motion in the co-rotating frame.
+    """A periodic motion in the co-rotating frame; with weight its period is a whole number of turns of the shaft.
 
     Attributes
     ----------
@@ -87,12 +88,14 @@ class Orbit(Result):
         and ``d`` the longer; ``a`` and ``b`` have the lower radial speed, ``c`` and ``d`` the higher.  Names of orbits with
         backward slip begin with ``R``.  ``"P2,1"`` for the first orbit with two impacts.
     word : Word
-    nodes : ndarray of complex, shape (m, 2n)
-        Coordinates, then their rates, at the beginning of each segment: just before the impact.
+    nodes : ndarray of complex, shape (m, 2n) or, with weight, (m, 2n + 1)
+        Coordinates, then their rates, at the beginning of each segment: just before the impact.  With weight also the direction
+        ``e^{−iτ}`` into which it has turned in the frame of the rotor.
     durations : ndarray, shape (m,)
         Of the segments, in ``1/Ω``.
     multipliers : Multipliers
-        The non-trivial Floquet multipliers: ``2N − 1`` for ``N`` modes.
+        The non-trivial Floquet multipliers: ``2N − 1`` for ``N`` modes.  With weight, whose phase is fixed, all ``2N`` count: none
+        belongs to a delay of the motion.
     reason : str
         Why it is not admissible; empty if it is.
     """
@@ -103,6 +106,7 @@ class Orbit(Result):
         "name",
         "segments",
         "period",
+        "turns",
         "radial_speed",
         "angle",
         "angular_speed",
@@ -139,6 +143,16 @@ class Orbit(Result):
     def period(self) -> float:
         """In ``1/Ω``."""
         return float(self.durations.sum())
+
+    @property
+    def turns(self) -> int | None:
+        """Turns of the shaft in a period, with weight; ``None`` without: any period is possible then."""
+        return round(self.period / math.tau) if self.rotor.system.forced is not None else None
+
+    @property
+    def time(self) -> float:
+        """Time at the first node, in ``1/Ω``, within one turn: with weight it tells where this points; 0 without."""
+        return float(-np.angle(self.nodes[0, -1]) % math.tau) if self.turns is not None else 0.0
 
     @property
     def segments(self) -> str:
@@ -220,7 +234,8 @@ class Orbit(Result):
     @property
     def departure(self) -> State:
         """State just after the first impact."""
-        return State.of(*self.rotor.system.state(self._departures[0]))
+        position, velocity = self.rotor.system.state(self._departures[0])
+        return State.of(position, velocity, time=self.time)
 
     @cached_property
     def _departures(self) -> np.ndarray:
@@ -230,7 +245,7 @@ class Orbit(Result):
     @cached_property
     def _amplitudes(self) -> np.ndarray:
         """Mode amplitudes at the nodes, shape (m, N)."""
-        return self.rotor.system.amplitudes_of(self.nodes)
+        return self.rotor.system.nodes.amplitudes(self.nodes)
 
     @cached_property
     def links(self) -> Links:
@@ -279,24 +294,9 @@ class Orbit(Result):
         return position
 
 
-def multipliers_of(links: Links) -> Multipliers:
-    """Non-trivial Floquet multipliers: those of the return map on the section at the first node."""
-    return multipliers(on_section(links))
-
-
-def on_section(links: Links) -> np.ndarray:
-    """Derivative of the return map in an orthonormal basis of the section at the first node, shape (2N − 1, 2N − 1)."""
-    monodromy = links.monodromy
-    if not np.isfinite(monodromy).all():
-        return np.full((len(monodromy) - 1,) * 2, np.inf)
-    # Its range is the section: the last passage ends there.
-    basis = np.linalg.svd(links.passages[-1])[0][:, :-1]
-    return basis.T @ monodromy @ basis
-
-
 def margins_of(links: Links, rotor: Model, word: Word) -> Margins:
     """How far an orbit is from a change of its word."""
-    nodes = rotor.system.amplitudes_of(links.start.nodes)
+    nodes = rotor.system.nodes.amplitudes(links.start.nodes)
     at = word.kinds, word.planes, nodes, links.start.durations, links.landings
     radius, approach, speed, force, cone = least_margins(rotor.system.arrays, *at)
     if word.flies:
@@ -339,8 +339,8 @@ def orbit_near(machine: Subject, word: Word, start: Start, name: OrbitName | Cou
         The start does not fit the word and the rotor, or the word its walls.
     """
     rotor = model_of(machine)
-    refuse_forces(rotor)
-    shape = len(word), 2 * len(rotor.system.rest)
+    refuse_unrepeated(rotor)
+    shape = len(word), len(rotor.system.nodes.rest)
     if start.nodes.shape != shape or start.durations.shape != shape[:1]:
         raise InputError("start", start.nodes.shape, f"nodes of shape {shape} and {shape[0]} durations")
     word.refuse_walls(rotor.system)
@@ -379,7 +379,7 @@ def beginning(rotor: Model, word: Word, nodes: np.ndarray) -> int:
     flights = np.flatnonzero(word.arrives).tolist()
     if not flights:
         return next((i for i, segment in enumerate(word) if segment.kind.flies), 0)
-    positions, velocities = rotor.system.at_planes(rotor.system.amplitudes_of(nodes[flights]), word.planes[flights])
+    positions, velocities = rotor.system.at_planes(rotor.system.nodes.amplitudes(nodes[flights]), word.planes[flights])
     return flights[int(np.argmax((positions.conj() * velocities).real))]
 
 

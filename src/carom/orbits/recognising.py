@@ -12,6 +12,7 @@ from carom.core.event_log import flying
 from carom.core.margins import local_motion
 from carom.models import Model
 from carom.motions.simulation import simulate
+from carom.motions.starts import amplitudes_of
 from carom.motions.trajectories import Trajectory
 from carom.orbits.chatter import slow_departures
 from carom.orbits.orbit import Orbit, orbit_near
@@ -26,6 +27,9 @@ SAME_TIME = 1e-3
 """Relative difference of the time between two lift-offs and the period, if they are the same lift-off."""
 SAMPLES = 200
 """Times in a turn at which the normal force is compared to find where it is least."""
+MOST_TURNS, REPEATS = 8, 1e-6
+"""Most turns of the shaft after which whirl under weight is looked for again, and the distance, relative to one plus the size of the
+state, within which it repeats."""
 AROUND = 1e-3
 """Distance, relative to one plus the size of the nodes, within which the orbit of a settled motion is searched for."""
 
@@ -100,6 +104,15 @@ def lift_offs(motion: Trajectory) -> np.ndarray:
     return np.flatnonzero(~flying[events, motion.event_planes] & flying[events + 1, motion.event_planes])
 
 
+def whole_turns(motion: Trajectory) -> int:
+    """Turns of the shaft after which the end of a motion repeats, at most eight; 0 if it does not."""
+    later = simulate(motion.rotor, motion.final, MOST_TURNS * math.tau)
+    positions, velocities = later.at(math.tau * np.arange(MOST_TURNS + 1))
+    states = np.stack([positions, velocities], axis=-1).reshape(MOST_TURNS + 1, -1)
+    apart = np.abs(states - states[0]).max(axis=1) <= REPEATS * (1.0 + np.abs(states[0]).max())
+    return int(np.argmax(apart[1:])) + 1 if apart[1:].any() else 0
+
+
 def orbit_of_whirl(motion: Trajectory, period: float) -> Orbit | None:
     """Close the orbit of a whirl that stays in contact with the wall and slides, at least for a part of each turn.
 
@@ -129,8 +142,8 @@ def orbit_of_whirl(motion: Trajectory, period: float) -> Orbit | None:
     if kind is Kind.ROLL:
         return None
     least = simulate(motion.rotor, motion.final, _time_of_least_force(turns, period)).final
-    node = np.append(least.position, least.velocity)
-    return _near(motion.rotor, Word((Segment(kind, turns.plane),)), Start(node[None], np.array([period])))
+    node = motion.rotor.system.nodes.of(amplitudes_of(motion.rotor, least)[0][None])
+    return _near(motion.rotor, Word((Segment(kind, turns.plane),)), Start(node, np.array([period])))
 
 
 def _time_of_least_force(turns: Trajectory, period: float) -> float:
@@ -165,7 +178,7 @@ def _closed(motion: Trajectory, first: int, last: int) -> Orbit | None:
 
 def _near(rotor: Model, word: Word, start: Start) -> Orbit | None:
     """Orbit next to a start, if it is the one that the motion has settled on."""
-    if rotor.system.forced is not None:  # orbits under forces that change with time are not known
+    if rotor.system.unrepeated is not None:
         return None
     orbit, begun = orbit_near(rotor, word, start), start.nodes[0]
     if orbit is None or np.abs(orbit.nodes - begun).max(axis=1).min() > AROUND * (1.0 + np.abs(begun).max()):
@@ -217,7 +230,7 @@ def segments_of(motion: Trajectory, first: int, last: int, *, brief: bool = Fals
                 steps.append((Segment(Kind.LAND, plane), chatter[0][1], chatter[0][2]))
         steps.append((Segment(Kind.of_phase(after), plane), motion.segment_amplitudes[event + 1], float(times[event])))
     segments, nodes, begins = zip(*steps, strict=True)
-    states = motion.rotor.system.states_of(np.array(nodes))
+    states = motion.rotor.system.nodes.of(np.array(nodes))
     return Word(segments), Start(states, np.diff([*begins, float(times[last])]))
 
 

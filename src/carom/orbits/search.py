@@ -182,7 +182,7 @@ def _orbits_of_ends(rotor: Model, count: int, random: np.random.Generator) -> It
     states = np.stack([ends.positions, ends.velocities], axis=1).reshape(len(ends.times), -1)
     _, different, numbers = np.unique(states.round(KIND), axis=0, return_index=True, return_counts=True)
     for place, number in zip(different[:ENDS].tolist(), numbers[:ENDS].tolist(), strict=True):
-        orbit = orbit_of_motion(simulate(rotor, State.of(ends.positions[place], ends.velocities[place]), settle=True))
+        orbit = orbit_of_motion(simulate(rotor, ends.state(place), settle=True))
         if orbit is not None:
             yield orbit, number
 
@@ -267,7 +267,7 @@ class Search:
         known = beside[int(random.integers(len(beside)))].departure
         velocity = np.array(known.velocity, complex)
         change = np.exp(random.uniform(*np.log(BESIDE))) * (random.normal(size=(*velocity.shape, 2)) @ [1.0, 1j])
-        return State.of(np.array(known.position), velocity + np.abs(velocity).max() * change)
+        return State.of(np.array(known.position), velocity + np.abs(velocity).max() * change, time=known.time)
 
     def _stretches(self, start: State, landing: bool) -> Iterable[tuple[int, Word, Start]]:
         """Stretches of a motion that come back closest, with their number of impacts; through a landing, from lift-off to lift-off."""
@@ -287,7 +287,7 @@ class Search:
             return
         yields = bool(self.rotor.system.arrays["stiffness"].any())
         nodes = motion.segment_amplitudes[marks + 1] if contact else motion.arrivals[marks]
-        states, times = self.rotor.system.states_of(nodes), motion.segment_starts[1:][marks]
+        states, times = self.rotor.system.nodes.of(nodes), motion.segment_starts[1:][marks]
         for count in counts:
             # Low bounces change little because they are short; planes that strike at one instant take no time.
             lasted = times[count:] - times[:-count]

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from carom.arguments import checked
+from carom.orbits.shooting import Links
 from carom.outcome import InputError
 from carom.results import Result
 
@@ -65,3 +66,21 @@ def multipliers_of_all(jacobians: Sequence[np.ndarray]) -> list[Multipliers]:
     # Conjugates are exact, so that their moduli are equal.
     found = np.linalg.eigvals(np.array(jacobians)).astype(complex).tolist()
     return [Multipliers(np.array(sorted(each, key=lambda value: (-abs(value), -value.imag)))) for each in found]
+
+
+def multipliers_of(links: Links) -> Multipliers:
+    """Non-trivial Floquet multipliers: those of the return map on the section at the first node."""
+    return multipliers(on_section(links))
+
+
+def on_section(links: Links) -> np.ndarray:
+    """Derivative of the return map in an orthonormal basis of the section at the first node, shape (2N − 1, 2N − 1).
+
+    With weight its phase at the first node counts too: shape (2N, 2N).
+    """
+    monodromy = links.monodromy
+    if not np.isfinite(monodromy).all():
+        return np.full((len(monodromy) - 1,) * 2, np.inf)
+    # Its range is the section: the last passage ends there.
+    basis = np.linalg.svd(links.passages[-1])[0][:, :-1]
+    return basis.T @ monodromy @ basis

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 LIMIT_FIELDS: Mapping[str, Field] = by_name(
     Field("impulse", "", "normal impulse of an impact", "an impulse", "N s", 1e-12, 1e12, '"5 N s"', zero=True),
-    Field("force", "", "normal force in lasting contact", "a force", "N", 1e-12, 1e15, '"2 kN"', zero=True),
+    Field("force", "", "normal force", "a force", "N", 1e-12, 1e15, '"2 kN"', zero=True),
     Field("power", "", "friction power in lasting contact", "a power", "W", 1e-12, 1e15, '"10 kW"', zero=True),
     Field("heat", "", "friction work of a touchdown", "an energy", "J", 1e-12, 1e15, '"500 J"', zero=True),
     Field(
@@ -52,7 +52,7 @@ class LoadLimits:
     impulse : float or str, optional
         Normal impulse of an impact, N s.
     force : float or str, optional
-        Normal force in lasting contact, N.
+        Normal force, N: the peak in a bearing that gives way, and on a rigid wall that of lasting contact.
     power : float or str, optional
         Friction power in lasting contact, W.
     heat : float or str, optional
@@ -105,7 +105,7 @@ class LoadLimits:
         InputError
             A depth in a rigid wall is limited, or the pressure of balls that are not stated.
         """
-        if self.depth is not None and bearing is None:
+        if self.depth is not None and (bearing is None or not bearing.yields):
             raise InputError("depth", self.depth, "a limit needs a table [touchdown] of a bearing that gives way")
         if self.pressure is not None and (bearing is None or bearing.balls is None):
             raise InputError("pressure", self.pressure, "a limit needs balls in the table [touchdown]")

@@ -15,9 +15,12 @@ from carom.parameters.fields import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, unknow
 
 _WHAT = "machine file"
 _OPTIONAL = ("zones", "limits", "survive", "gravity", "touchdown", "drive")
-_TABLES = dict.fromkeys(("machine", "dimensionless", *_OPTIONAL))
+_KINDS = ("machine", "dimensionless", "rotor")
+_LISTS = ("section", "disc", "magnetic_bearing", "touchdown", "unbalance")
+"""Tables of which a file with ``[rotor]`` holds one for each part."""
+_TABLES = dict.fromkeys((*_KINDS, *_OPTIONAL, *_LISTS))
 _LARGEST_BYTES = 1_000_000
-_REMEDY = "must hold a [machine] or a [dimensionless] table"
+_REMEDY = "must hold a [machine], a [dimensionless] or a [rotor] table"
 _MOST_LEVELS = 16
 _PARTS = re.compile(
     r'''"""(?:\\.|.)*?(?:"""|\Z)'''
@@ -34,7 +37,7 @@ class MachineTables:
     """Raw tables of a machine file."""
 
     kind: str
-    """``"machine"`` or ``"dimensionless"``: the table the file holds."""
+    """``"machine"``, ``"dimensionless"`` or ``"rotor"``: the table the file holds."""
     values: Mapping[str, Any]
     """Entries of that table, as TOML gives them."""
     zones: Mapping[str, Any] = field(default_factory=dict)
@@ -49,29 +52,47 @@ class MachineTables:
     """Entries of the optional table ``[touchdown]``."""
     drive: Mapping[str, Any] | None = None
     """Entries of the optional table ``[drive]``."""
+    parts: Mapping[str, list[Mapping[str, Any]]] = field(default_factory=dict)
+    """Tables for each part of a flexible rotor by their name, such as ``[[section]]``."""
 
 
 def read_machine_tables(path: str | os.PathLike[str], problems: Problems) -> MachineTables:
-    """Read the tables of a machine file: ``[machine]`` or ``[dimensionless]``, and perhaps ``[zones]``, ``[limits]``, ``[survive]``, ``[gravity]``, ``[touchdown]`` and ``[drive]``.
+    """Read the tables of a machine file: ``[machine]``, ``[dimensionless]`` or ``[rotor]``, and perhaps others.
 
-    The entries are not checked.  Errors of other entries are added to ``problems``; if the file does not hold exactly one of the
-    first two tables, all of them are raised.
+    The entries are not checked.  Errors of other entries are added to ``problems``; if the file does not hold exactly one of these
+    three tables, all of them are raised.
     """
     name, content = read_toml(path, _WHAT, _REMEDY)
+    kinds = [kind for kind in _KINDS if kind in content]
+    lists = _LISTS if kinds == ["rotor"] else ()
     for key, value in content.items():
         if key not in _TABLES:
             problems.errors.append(_unknown_at_top(key, value))
+        elif key in lists:
+            if not isinstance(value, list) or not all(isinstance(each, dict) for each in value):
+                allowed = f"must be tables that start with the line [[{key}]], one for each"
+                problems.errors.append(InputError(key, shown(value), allowed))
+        elif key in _LISTS and key not in _OPTIONAL:
+            problems.errors.append(InputError(key, shown(value), "belongs to a file with a [rotor] table"))
         elif not isinstance(value, dict):
             allowed = f"must be a table that starts with the line [{key}], not a value"
             problems.errors.append(InputError(key, shown(value), allowed))
-    kinds = [kind for kind in ("machine", "dimensionless") if kind in content]
     if len(kinds) != 1 and not (problems.errors and not kinds):  # a misnamed table already explains the missing one
-        found = "holds both" if kinds else "holds neither"
+        found = "holds more" if kinds else "holds none"
         problems.errors.append(InputError(_WHAT, shown(name), f"{_REMEDY}, one of them alone; it {found}"))
     if len(kinds) != 1 or not isinstance(content[kinds[0]], dict):
         problems.raise_all()
     optional = {name: table for name in _OPTIONAL if isinstance(table := content.get(name), dict)}
-    return MachineTables(kinds[0], content[kinds[0]], **optional)
+    parts = {
+        name: list(filter(_is_table, content.get(name, ())))
+        for name in lists
+        if isinstance(content.get(name, ()), list | tuple)
+    }
+    return MachineTables(kinds[0], content[kinds[0]], **optional, parts=parts)
+
+
+def _is_table(value: object) -> bool:
+    return isinstance(value, dict)
 
 
 def read_toml(path: str | os.PathLike[str], what: str, remedy: str) -> tuple[str, dict[str, Any]]:

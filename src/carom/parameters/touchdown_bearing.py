@@ -45,6 +45,8 @@ TOUCHDOWN_FIELDS: Mapping[str, Field] = by_name(
     *BALL_FIELDS.values(),
 )
 """Entries of a ``[touchdown]`` table beside ``law``, in SI units."""
+OF_LAW = ("stiffness", "damping", "dissipation", "restitution", "restitution_speed", "exponent")
+"""Entries that belong to the law of a wall that gives way; the others are of race, mount and place, or of the balls."""
 PREFIX = "touchdown_"
 """Before the names of these entries where they stand beside those of the machine, as in ``--set touchdown_stiffness=1e8 N/m``."""
 _POWERED = re.compile(r"(?P<number>.*?)\s*N/m(?:\^|\*\*)\(?[0-9./]+\)?")
@@ -63,7 +65,7 @@ class TouchdownBearing:
     ----------
     law : str
         ``"kelvin-voigt"``: the force ``kδ + cδ̇``, which cannot pull; ``"hunt-crossley"``: ``kδⁿ(1 + χδ̇)``; ``"rigid"``: a wall with
-        the restitution of the machine.
+        the restitution of the machine, which may have a race, a mount and an offset too.
     stiffness : float or str
         ``k``, N/m, or N/mⁿ.
     damping : float or str, optional
@@ -145,7 +147,9 @@ class TouchdownBearing:
         """What does not fit together."""
         present = {name for name in TOUCHDOWN_FIELDS if getattr(self, name) is not None} - {"exponent"}
         if self.law == "rigid":
-            return [self._not_of_law(name, "the law of a rigid wall has none") for name in sorted(present)]
+            others = sorted(name for name in present if name in OF_LAW or name in BALL_FIELDS)
+            refused = [self._not_of_law(name, "the law of a rigid wall has none") for name in others]
+            return refused + self._wrong_parts(present)
         own, other = ("damping", "dissipation") if self.law == "kelvin-voigt" else ("dissipation", "damping")
         errors = []
         if self.stiffness is None:
@@ -203,6 +207,11 @@ class TouchdownBearing:
     def yields(self) -> bool:
         """Whether the bearing gives way."""
         return self.law != "rigid"
+
+    @property
+    def is_plain(self) -> bool:
+        """Whether it is a rigid wall that stands still around the place of levitation, as a machine without this table has."""
+        return not self.yields and not self.given
 
     @property
     def centre(self) -> complex:

@@ -9,9 +9,9 @@ the units of the machine (ms, mm, mm/s, N, N s, rpm) if it is known in SI units,
 Long motions are thinned: the band of the radius, the last turns of the shaft, the position once a turn.  Virtual orbits
 are drawn where the argument `virtual` asks for them.
 
-Motions and orbits are drawn by ``motions``, ``histories``, ``touchdowns``, ``drops``, ``spectra``, ``overviews`` and ``conditions``; along
+Motions and orbits are drawn by ``motions``, ``histories``, ``touchdowns``, ``drops``, ``spectra``, ``overviews``, ``levitation`` and ``conditions``; along
 parameters ``diagrams`` with ``coexistence`` and ``proven``, ``regions`` and ``responses``; disturbances ``basins`` with ``pairs`` and
-``rings``, ``gains``, ``sweeps`` and ``attractor_shares``.  Shared are ``style`` (what colours mean), ``sheet`` (the style sheet),
+``rings``, ``gains``, ``drop_maps``, ``sweeps`` and ``attractor_shares``.  Shared are ``style`` (what colours mean), ``sheet`` (the style sheet),
 ``figure`` (a figure that keeps it), ``arrangement`` (layout), ``files``, ``plane`` (the clearance circle), ``bands``, ``cells``,
 ``closeups``, ``numerals``, ``placement``, ``parameter_axes`` and ``words``.
 """
@@ -22,11 +22,13 @@ from carom.plots.attractor_shares import attractors
 from carom.plots.basins import basin
 from carom.plots.conditions import period_condition
 from carom.plots.diagrams import bifurcation_diagram
+from carom.plots.drop_maps import drop_map
 from carom.plots.drops import drop_loads, drop_orbit
 from carom.plots.figure import heading, one_column
 from carom.plots.files import save
 from carom.plots.gains import gain_map
 from carom.plots.histories import radius
+from carom.plots.levitation import campbell, sensitivity
 from carom.plots.motions import motion, orbit
 from carom.plots.overviews import equilibria, equilibria_and_orbits, overview
 from carom.plots.pairs import basin_pair
@@ -49,7 +51,9 @@ __all__ = [
     "basin",
     "basin_pair",
     "bifurcation_diagram",
+    "campbell",
     "drop_loads",
+    "drop_map",
     "drop_orbit",
     "energies",
     "equilibria",
@@ -67,6 +71,7 @@ __all__ = [
     "regimes",
     "region_map",
     "save",
+    "sensitivity",
     "spectrum",
     "sweep_map",
     "touchdown",

@@ -23,8 +23,6 @@ if TYPE_CHECKING:
 
 _FIRST = 12
 """Contacts shown in the left column, before the whole drop."""
-_FOLLOWED = 30
-"""Contacts shown in the orbit, which more would cover."""
 _SHORT = 0.25
 """Length of the first contacts, over that of the drop, above which they need no column of their own."""
 _NEAR = 0.12
@@ -53,10 +51,10 @@ def drop_orbit(motion: Trajectory, until: Positive | None = None, title: str | N
     InputError
         No time was followed.
     """
-    from carom.motions.courses import first_contacts, shown_until
+    from carom.motions.courses import FOLLOWED, first_contacts, shown_until
 
     end = shown_until(motion)
-    within = min(end, first_contacts(motion, _FOLLOWED)) if until is None else min(until, motion.begins + motion.time)
+    within = min(end, first_contacts(motion, FOLLOWED)) if until is None else min(until, motion.begins + motion.time)
     course = _course(motion, within)
     figure = StyledFigure(figsize=(TWO_COLUMNS, 0.5 * TWO_COLUMNS))
     left, right = figure.subplots(1, 2)
@@ -65,7 +63,7 @@ def drop_orbit(motion: Trajectory, until: Positive | None = None, title: str | N
     _path(left, course, course.place.real, course.place.imag)
     _arrow(left, course.down, wall)
     label_frame(
-        left, "fixed", course.scales, f"the first {_FOLLOWED} contacts" if until is None and within < end else ""
+        left, "fixed", course.scales, f"the first {FOLLOWED} contacts" if until is None and within < end else ""
     )
     gap, angles = _gap_of(course), np.degrees(np.angle(course.place * cmath.exp(-1j * course.down)))
     # Where it goes over the top the angle jumps.
@@ -92,15 +90,19 @@ def _course(motion: Trajectory, until: float) -> Course:
     time, length, force, impulse = (told_in(kind, scales)[0] for kind in ("time", "length", "force", "impulse"))
     speed = 1.0 if scales is None else scales.velocity
     if blows is not None:
-        shown = blows.times <= until
         blows = blows._replace(
-            times=time * blows.times[shown], impulses=impulse * blows.impulses[shown], slips=speed * blows.slips[shown]
+            times=time * blows.times,
+            impulses=impulse * blows.impulses,
+            frictions=impulse * blows.frictions,
+            slips=speed * blows.slips,
         )
     return replace(
         course,
         times=time * course.times,
         place=length * course.place,
+        mount=None if course.mount is None else length * course.mount,
         force=force * course.force,
+        friction=force * course.friction,
         slip=speed * course.slip,
         race=None if course.race is None else speed * course.race,
         blows=blows,

@@ -15,6 +15,8 @@ from flint import arb, ctx, fmpq
 from carom.parameters.exact import ExactNumber
 
 _MOST_DIGITS, _SHOWN = 60, 16
+MARGIN = Fraction(1, 32)
+"""By how much an enclosure is written wider on each side, as a share of its width."""
 
 
 @contextmanager
@@ -124,15 +126,15 @@ def enclosures_of(**balls: Any) -> dict[str, Enclosure]:
 
 
 def enclosure_of(ball: Any) -> Enclosure:
-    """Decimal enclosure of a real ball, a little wider on both sides, with the digits that it has.
+    """Decimal enclosure of a real ball, wider by a share of it (``MARGIN``) on both sides, with the digits that it has.
 
-    The margin allows a check by another version of the arithmetic.
+    The margin allows a check by another version of the arithmetic, whose roundings differ in far less.
     """
     low, high = exact_ends(ball)
     width = high - low
     size = max(abs(low), abs(high))
-    digits = min(_MOST_DIGITS, max(3, len(str(int(size / width))) + 2)) if width else _MOST_DIGITS
-    ends = _decimal(low - width, digits, ROUND_FLOOR), _decimal(high + width, digits, ROUND_CEILING)
+    digits = min(_MOST_DIGITS, max(3, len(str(int(size / width))) + 3)) if width else _MOST_DIGITS
+    ends = _decimal(low - MARGIN * width, digits, ROUND_FLOOR), _decimal(high + MARGIN * width, digits, ROUND_CEILING)
     return Enclosure(*ends, (low, high))
 
 

@@ -74,7 +74,7 @@ def enclosed_zero(system: System, centre: Sequence[Any], width: int | None = Non
         return [found[k, 0] for k in range(count)]
 
     for bits in _WIDTHS if width is None else (width,):
-        box = [c + arb(0, (arb(2) ** -bits * (abs(c) + 2**-10)).upper()) for c in centre]
+        box = box_around(centre, bits)
         inner = image(box)
         if inner is None or not all(x.contains_interior(y) for x, y in zip(box, inner, strict=True)):
             continue
@@ -89,6 +89,17 @@ def enclosed_zero(system: System, centre: Sequence[Any], width: int | None = Non
                 break
         return inner, bits
     return None
+
+
+def box_around(centre: Sequence[Any], width: int) -> list[Any]:
+    """The box ``2**-width`` wide around a centre, relative to that, in which a zero is unique."""
+    return [c + arb(0, (arb(2) ** -width * (abs(c) + 2**-10)).upper()) for c in centre]
+
+
+def box_of(evidence: Mapping[str, Any]) -> list[Any]:
+    """The box in which the zero of such evidence is unique."""
+    centre = [rational(rational_of(text)).mid() for text in evidence["centre"]]
+    return box_around(centre, int(evidence["width"]))
 
 
 def found_zero(system: System, guess: Sequence[Any]) -> tuple[dict[str, Any], list[Any]] | None:

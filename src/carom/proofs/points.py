@@ -22,7 +22,7 @@ from carom.proofs.claims import Claim, claim_of
 from carom.proofs.courses import Course, Return
 from carom.proofs.criticality import flip_coefficient
 from carom.proofs.evidence import Evidence, NotShownError
-from carom.proofs.krawczyk import System, derivatives, found_zero, shown_zero
+from carom.proofs.krawczyk import System, box_of, derivatives, found_zero, shown_zero
 from carom.proofs.lines import Line, line_of
 from carom.proofs.rotor import Rotor
 from carom.proofs.seeds import point_seeds
@@ -73,6 +73,8 @@ KINDS: Mapping[str, Kind] = {
 """Kinds of points that can be proven."""
 _LABEL, _MOST_POINTS = re.compile(r"B[0-9]{1,4},[abcd]|contact-free|rub"), 1000
 """Motions that points belong to, and how many a certificate may have."""
+_ENTRIES = ({"kind", "label", "near"}, {"kind", "label", "centre", "width"})
+"""Entries of a point that is open, and of one that is shown."""
 
 
 def equations_of(line: Line, kind: Kind, *unknowns: Any) -> tuple[Any, ...]:
@@ -98,17 +100,28 @@ def point_claims(rotor: Rotor, evidence: Evidence, options: Any) -> list[Claim]:
     found = evidence.take("points", lambda: _all_searched(line))
     claims: list[Claim] = []
     told: set[tuple[str, str]] = set()
+    shown: dict[tuple[str, str], list[Point]] = {}
     if len(found) > _MOST_POINTS:
         raise NotShownError(f"the certificate has more than {_MOST_POINTS} points")
     for entry in found:
         label, count = str(entry["label"]), 1
-        if set(entry) - {"kind", "label", "near", "centre", "width"} or not _LABEL.fullmatch(label):
-            raise NotShownError(f"the certificate has a point of {label!r}, which names no motion")
+        if set(entry) not in _ENTRIES or not _LABEL.fullmatch(label):
+            raise NotShownError(
+                f"the certificate has a point of {label!r}, which names no motion or has other entries than a point"
+            )
         while (entry["kind"], label) in told:
             count += 1
             label = f"{entry['label']} ({count})"
         told.add((entry["kind"], label))
-        claims += _claims_of(line, label, entry)
+        if "centre" not in entry:
+            claims.append(_open_claim(line, label, entry))
+            continue
+        point = _shown(line, label, entry)
+        others = shown.setdefault((entry["kind"], str(entry["label"])), [])
+        if any(point.may_be(other) for other in others):
+            raise NotShownError(f"the certificate has one {entry['kind']} of {entry['label']} twice")
+        others.append(point)
+        claims += _claims_of(point, entry)
     return claims
 
 
@@ -122,28 +135,38 @@ def _searched(line: Line, kind: str, label: str, guess: list[float]) -> dict[str
     entry, found = {"kind": kind, "label": label, "near": guess}, found_zero(_system(line, kind), guess)
     if found is None or not _in_range(line, dict(zip(KINDS[kind].unknowns, found[1], strict=True))):
         return entry
-    return entry | found[0]
+    return {name: entry[name] for name in ("kind", "label")} | found[0]
 
 
 def _system(line: Line, kind: str) -> System:
     return partial(equations_of, line, KINDS[kind])
 
 
-def _claims_of(line: Line, label: str, entry: Mapping[str, Any]) -> list[Claim]:
-    kind = KINDS[entry["kind"]]
-    statement = f"Along {line.name}, {kind.words}, at exactly one point of a box around these values."
-    point = Point(line, entry["kind"], label, {})
-    if "centre" not in entry:
-        near = f"{float(entry['near'][-1]):.9g}"
-        reason = f"the search in double precision found one near {near}, which could not be shown"
-        return [point.claim("", statement, 0, reason)]
+def _statement(line: Line, kind: str) -> str:
+    return f"Along {line.name}, {KINDS[kind].words}, at exactly one point of the box that is given, and there at these values."
+
+
+def _open_claim(line: Line, label: str, entry: Mapping[str, Any]) -> Claim:
+    """Claim of a point that was not shown."""
+    near = f"{float(entry['near'][-1]):.9g}"
+    reason = f"the search in double precision found one near {near}, which could not be shown"
+    return Point(line, entry["kind"], label, {}).claim("", _statement(line, entry["kind"]), 0, reason)
+
+
+def _shown(line: Line, label: str, entry: Mapping[str, Any]) -> Point:
+    """The point of an entry, if it shows one."""
     found = shown_zero(_system(line, entry["kind"]), entry)
     if found is None:
         raise NotShownError(f"the certificate does not show the {entry['kind']} of {label}")
-    point = Point(line, entry["kind"], label, dict(zip(kind.unknowns, found, strict=True)))
+    point = Point(line, entry["kind"], label, dict(zip(KINDS[entry["kind"]].unknowns, found, strict=True)))
     if not _in_range(line, point.at):
         raise NotShownError(f"the {entry['kind']} of {label} is not at a value and at times that are looked at")
-    claims = [point.claim("", statement, 1, **point.at)]
+    return point
+
+
+def _claims_of(point: Point, entry: Mapping[str, Any]) -> list[Claim]:
+    boxes = {f"{name} box": ball for name, ball in zip(point.at, box_of(entry), strict=True)}
+    claims = [point.claim("", _statement(point.line, point.kind), 1, **point.at, **boxes)]
     try:
         return [*claims, *_nature(point)]
     except (ValueError, ZeroDivisionError) as problem:
@@ -186,6 +209,10 @@ class Point:
         values = {name: enclosure_of(ball) for name, ball in balls.items()}
         about = f"of {self.label} {what}".rstrip()
         return claim_of(self.kind, about, statement, sign, reason=reason, enclosures=values, limited=False)
+
+    def may_be(self, other: Point) -> bool:
+        """Whether both may be one zero: nothing tells them apart."""
+        return all(ball.overlaps(other.at[name]) for name, ball in self.at.items())
 
     def moved(self, period_rate: Any = 0, by: int = 1) -> Return:
         """The return of the orbit as a power series of the parameter; with ``by`` zero of its period alone."""
@@ -304,8 +331,10 @@ def _flip_claims(point: Point) -> list[Claim]:
     coefficient = flip_coefficient(point.course)
     # The normal form needs that no other multiplier is on the unit circle.
     sign = decided(coefficient) if 0 not in signs else 0
-    words = "super" if sign > 0 else "sub"
-    born = "born stable" if sign > 0 and others > 0 else "unstable"
+    words = {1: "supercritical", -1: "subcritical", 0: "super- or subcritical"}[sign]
+    born = "unstable"
+    if sign > 0 and others > 0:
+        born = "born stable, as the other two multipliers lie inside the unit circle"
     return [
         point.claim(
             "simple",
@@ -314,8 +343,8 @@ def _flip_claims(point: Point) -> list[Claim]:
             "one of them is outside" if others < 0 else "whether they lie inside is open",
         ),
         point.claim(
-            f"{words}critical" if sign else "critical",
-            f"It is {words}critical: on the centre manifold the impact map is x -> -x + b x^3 with this b, not zero. Orbits of "
+            words if sign else "critical",
+            f"It is {words}: on the centre manifold the impact map is x -> -x + b x^3 with this b, not zero. Orbits of "
             f"twice the period next to it are {born}, as far as they stay inside the wall.",
             abs(sign),
             "the sign of b is open, or another multiplier may be on the unit circle",

@@ -27,8 +27,8 @@ from carom.proofs.rotor import Rotor
 from carom.proofs.series import hull
 from carom.proofs.slip import slip_claim
 
-_LONGEST = 300
-"""Characters of a reason."""
+DECIDED, OPEN, ENDED = "", "open", "ended"
+"""What evidence says of a block: everything is decided there, or something is open, as the search found or because it ended before."""
 BITS = 64
 """Precision."""
 _FIRST_STEPS = 4
@@ -122,25 +122,25 @@ def _cuts(line: Line, most: int, narrowest: Fraction, tell: Reporter) -> list[li
     low, high = line.ends
     width = high - low
     least = narrowest * width
-    place, step, skip, found = low, width / _FIRST_STEPS, least, [[str(low), ""]]
+    place, step, skip, found = low, width / _FIRST_STEPS, least, [[str(low), DECIDED]]
     while place < high or len(found) == 1:
         end = high if place + step * Fraction(21, 20) >= high else _short(place + step, step)
         try:
             _facts(line, place, end, decided=True)
-        except OpenError as problem:
+        except OpenError:
             if len(found) < most and step > skip:
                 step = max(step / 2, skip)
                 continue
             # Where nothing is shown, blocks widen again, so that long open intervals take little work.
-            found.append([str(end), str(problem)])
+            found.append([str(end), OPEN])
             skip *= 2
             place, step = end, skip
         else:
-            found.append([str(end), ""])
+            found.append([str(end), DECIDED])
             place, step, skip = end, min(step * Fraction(3, 2), width / 4), least
         tell(float((place - low) / width) if width else 1.0)
         if len(found) > most and place < high:
-            found.append([str(high), f"the search ended after {most} blocks"])
+            found.append([str(high), ENDED])
             break
     return found
 
@@ -170,20 +170,23 @@ def _pieces(line: Line, cuts: Sequence[Sequence[str]], most: int, tell: Reporter
     ends = [rational_of(end) for end, _ in cuts]
     if ends[0] != low or ends[-1] != high or not 2 <= len(ends) <= most + 3 or any(a > b for a, b in pairwise(ends)):
         raise NotShownError("the blocks of the certificate do not cover the interval")
-    if not all(str(reason).isprintable() and len(str(reason)) < _LONGEST for _, reason in cuts):
-        raise NotShownError("a reason of the certificate why a block is open is not one short line")
+    if any(known not in (DECIDED, OPEN, ENDED) for _, known in cuts):
+        raise NotShownError("a block of the certificate is neither decided nor open")
     found = []
-    for before, after, (_, reason) in zip(ends, ends[1:], cuts[1:], strict=False):
-        facts = None
+    for before, after, (_, known) in zip(ends, ends[1:], cuts[1:], strict=False):
+        facts, reason = None, ""
         try:
-            facts = _facts(line, before, after, decided=not reason)
+            facts = _facts(line, before, after, decided=known == DECIDED)
+            reason = next((fact.doubt for fact in facts if fact.doubt), "")
         except OpenError as problem:
-            if not reason:
+            if known == DECIDED:
                 told = f"the certificate does not show what it claims up to {float(after):.9g}: {problem}"
                 raise NotShownError(told) from None
-        decided = facts is not None and not any(fact.doubt for fact in facts)
+            reason = str(problem)
+        if reason and known == ENDED:
+            reason = f"the search ended after {most} blocks"
         tell(float((after - low) / (high - low)) if high > low else 1.0)
-        found.append(Stretch(before, after, facts, "" if decided else str(reason)))
+        found.append(Stretch(before, after, facts, reason))
     return found
 
 

@@ -5,6 +5,8 @@
 ``figures``     the figures of a study with their captions
 ``page``        the HTML page of a study
 ``drop``        the HTML page of a drop
+``film``        a drop in slow motion on it
+``strips``      the curves beside the film
 ``html``        what pages share
 ==============  ====================================================
 """

@@ -9,6 +9,7 @@ from carom.arguments import checked
 from carom.files import staged_directory, write_json
 from carom.files.directory import FIGURES
 from carom.progress import Reporter, ShowProgress, shows_progress
+from carom.report.film import Film, film_of, film_script
 from carom.report.html import InlineFigure, inline_figure, page_template, versions
 from carom.studies.drops import DropStudy
 from carom.studies.wording import machine_heading
@@ -42,6 +43,7 @@ def write_drop_report(found: DropStudy, directory: str, *, progress: ShowProgres
         The directory cannot be written; nothing has been changed then.
     """
     tell, inline, names = Reporter.of(progress, "drawing"), list[InlineFigure](), list[str]()
+    films = list[tuple[str, Film]]()
     planes = found.loads.planes
     with staged_directory(directory, "--out") as place, plots.heading(machine_heading(found.case)):
         (place / FIGURES).mkdir()
@@ -49,6 +51,7 @@ def write_drop_report(found: DropStudy, directory: str, *, progress: ShowProgres
             tell(done / len(planes))
             motion, mark = found.motion.seen_at(plane.plane), f"-{plane.plane}" if len(planes) > 1 else ""
             which = f" Plane {plane.plane}." if mark else ""
+            films.append((f"film{plane.plane}-", film_of(motion)))
             orbit, loads = plots.drop_orbit(motion), plots.drop_loads(motion)
             captions = {"orbit": (orbit, _ORBIT), "loads": (loads, _SOFT if plane.gives_way else _RIGID)}
             for name, (figure, caption) in captions.items():
@@ -62,6 +65,8 @@ def write_drop_report(found: DropStudy, directory: str, *, progress: ShowProgres
             heading=machine_heading(found.case),
             machine=found.case.rows(),
             mark="var(--warn)" if any(check.exceeded for check in found.checks) else "var(--rule)",
+            films=films,
+            script=film_script(),
             figures=inline,
             wall=_WALLS[planes[0].gives_way],
             versions=versions(),

@@ -12,6 +12,7 @@ Read them in this order.
 ``advice``               the least change that leaves only recovery, in the user's terms and within limits
 ``rigid_limit``          whether the rigid wall is good enough
 ``load_checks``          loads of touchdowns against stated limits
+``load_tables``          what touchdown bearings bear in a motion, in rows and as JSON
 ``drops``                :class:`DropStudy`: what a drop asks of the touchdown bearing, in words and as JSON
 ``actuator``             what motions ask of the magnetic bearings, against the limits of these
 ``endings``              where simulated disturbances ended

@@ -158,7 +158,7 @@ def study(
     boundaries = tuple(boundary for gain in gains if known for boundary in boundary_equilibria(rotor, gain))
     tell(0.9, "the least change")
     advice = recommend(case, tried, recoveries, needed=present is None or not present.recovers)
-    loads = worst_loads(found, case.limits) if case.limits.stated and rotor.scales else None
+    loads = worst_loads(found, case.limits, required) if case.limits.stated and rotor.scales else None
     return Study(case, rotor, steady, orbits, boundaries, found, endured, present, recoveries, advice, loads, proof)
 
 

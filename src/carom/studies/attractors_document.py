@@ -41,6 +41,7 @@ def _attractor(entry: Attractor, total: int, character: Character, exponents: bo
         **fields_of(entry, outcome="name.outcome.label", name="name"),
         **fields_of(character, "kind", "words"),
         "word": str(orbit.word) if orbit else None,
+        **({"turns": orbit.turns} if orbit and orbit.turns is not None else {}),
         "impacts": (orbit.impacts if orbit else entry.name.multiplicity) or None,
         "period": orbit.period if orbit else entry.period,
         "share": [entry.share_of_disturbances, *(exact_interval(entry.count, total) if total else (0.0, 1.0))],

@@ -19,7 +19,7 @@ from carom.bifurcations.boundary import BoundaryEquilibrium
 from carom.bifurcations.documents import search_document
 from carom.closed_forms.equilibria import Equilibrium
 from carom.models import Jeffcott, Model, Span
-from carom.models.subjects import parameters_of
+from carom.models.subjects import numbers_of, parameters_of
 from carom.motions.contacts import LastingContact, yields
 from carom.motions.loads import MEASURED, TouchdownLoads, touchdown_loads
 from carom.motions.starts import State
@@ -55,7 +55,7 @@ def _orbits_of(
     rotor: Model, equilibria: tuple[Equilibrium, ...], orbits: OrbitSet, machine: Machine | None
 ) -> dict[str, Any]:
     return {
-        **_rotor(rotor),
+        **rotor_document(rotor),
         "machine_si": {name: getattr(machine, name) for name in MACHINE_FIELDS} if machine is not None else None,
         "machine_given": machine.given_texts if machine is not None else None,
         "equilibria": [_equilibrium(entry, rotor) for entry in equilibria],
@@ -71,7 +71,12 @@ def found_orbits_document(parameters: Parameters, found: OrbitSet) -> dict[str, 
         "parameters": parameters.as_dict(),
         "impacts": found.impacts,
         "orbits": [
-            {**_orbit(entry, parameters.scales), "word": str(entry.word), "contacts": _contacts(entry)}
+            {
+                **_orbit(entry, parameters.scales),
+                "word": str(entry.word),
+                **({} if entry.turns is None else {"turns": entry.turns}),
+                "contacts": _contacts(entry),
+            }
             for entry in found
         ],
         "search": search_document(found.search) if found.search else None,
@@ -102,7 +107,7 @@ def trajectory_document(trajectory: Trajectory, limits: LoadLimits | None = None
     keys = ("time", "angle", "radial_speed", "angular_speed", "normal_impulse")
     impacts = zip(*fields_of(trajectory.contacts, *keys).values(), strict=True)
     document: dict[str, Any] = {
-        **_rotor(trajectory.rotor),
+        **rotor_document(trajectory.rotor),
         "start": _state(trajectory.start),
         **fields_of(trajectory, outcome="outcome.label", meaning="outcome.meaning"),
         **fields_of(trajectory, "multiplicity", "time"),
@@ -233,10 +238,10 @@ def _state(state: State) -> dict[str, Any]:
     return fields_of(state, U="position", V="velocity")
 
 
-def _rotor(rotor: Model) -> dict[str, Any]:
+def rotor_document(rotor: Model) -> dict[str, Any]:
     """What describes a rotor: the parameters of the planar one, the attributes of any other."""
-    planar = parameters_of(rotor)
-    return {"parameters": planar.as_dict()} if planar else {"rotor": rotor.attributes()}
+    numbers = numbers_of(rotor)
+    return {"parameters": numbers} if numbers else {"rotor": rotor.attributes()}
 
 
 def _scales(scales: Scales) -> dict[str, float]:

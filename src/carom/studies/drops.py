@@ -2,21 +2,21 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
 from carom.attractors import MotionName
 from carom.disturbances.echo import Echo
-from carom.motions import DropLoads, LastWhirl, PlaneLoads, Trajectory, drop_loads
+from carom.models import model_of
+from carom.motions import DropLoads, Trajectory, drop_loads
 from carom.outcome import Outcome
-from carom.parameters import MACHINE_FIELDS, Case, Scales
-from carom.parameters.told import number
+from carom.parameters import Case
 from carom.results import Result, fields_of, in_si
-from carom.studies.document import loads_document
-from carom.studies.load_checks import LoadCheck, check_loads, loads_entry
-from carom.studies.wording import Wording, counted
+from carom.studies.document import rotor_document
+from carom.studies.load_checks import LoadCheck
+from carom.studies.load_tables import checks_of_planes, load_entries, load_tables
+from carom.studies.wording import Wording
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -45,7 +45,7 @@ class DropStudy(Result):
     @property
     def checks(self) -> tuple[LoadCheck, ...]:
         """The loads of all planes against the limits that are stated."""
-        return tuple(check for plane in self.loads.planes for check in check_loads(plane.loads, self.case.limits))
+        return checks_of_planes(self.loads, self.case.limits)
 
     @property
     def headline(self) -> str:
@@ -64,27 +64,7 @@ class DropStudy(Result):
     @property
     def tables(self) -> list[tuple[str, list[tuple[str, str]]]]:
         """For each plane a title, empty if there is one plane alone, and labels with what they say."""
-        planes = self.loads.planes
-        return [(f"Plane {each.plane}" if len(planes) > 1 else "", self._rows(each)) for each in planes]
-
-    def _rows(self, plane: PlaneLoads) -> list[tuple[str, str]]:
-        say, loads = Wording(plane.scales), plane.loads
-        rows = [*_hits(plane, say), ("contacts", _contacts(plane, say))]
-        if plane.restitution is not None:
-            rows.append(("restitution seen", f"{number(plane.restitution, 4)} in the fastest hit"))
-        goes_on = (
-            f"; it goes on with {say.power(loads.lasting_power)}" if loads.lasting_power * _unit(say) > 0.1 else ""
-        )
-        rows.append(("slip energy (heat)", f"{say.energy(loads.heat)}{goes_on}"))
-        rows.append(("friction power", f"up to {say.power(loads.power)}"))
-        if plane.race_at_end is not None and plane.fastest_race is not None:
-            end, fastest = (_speed(each, plane.scales) for each in (plane.race_at_end, plane.fastest_race))
-            rows.append(("race", f"{end} at the end, at most {fastest} (shaft {_speed(1.0, plane.scales)})"))
-        if plane.whirl is not None:
-            rows.append(("whirl at the end", _whirl_words(plane.whirl, self.loads.outcome)))
-        if plane.in_contact_since is not None:
-            rows.append(("in contact to the end", f"since {say.time(plane.in_contact_since)} after the release"))
-        return rows
+        return load_tables(self.loads, "the release")
 
     def document(self) -> dict[str, Any]:
         """The drop as JSON."""
@@ -93,95 +73,13 @@ class DropStudy(Result):
         document: dict[str, Any] = {
             "name": case.name,
             "disturbance": self.echo.document(scales),
-            "parameters": case.parameters.as_dict(),
+            **rotor_document(model_of(case)),
             "gravity": {"acceleration_si": gravity.acceleration, "direction": gravity.direction} if gravity else {},
             "touchdown": {"law": case.touchdown.law, **case.touchdown.given} if case.touchdown else {"law": "rigid"},
             **fields_of(loads, "time", "settled_at", outcome="outcome.label", meaning="outcome.meaning"),
         }
         document |= in_si(document, scales, "time", settled_at="time")
-        return document | {"planes": [self._plane(each) for each in loads.planes]}
-
-    def _plane(self, plane: PlaneLoads) -> dict[str, Any]:
-        names = (
-            "plane",
-            "gives_way",
-            "contacts",
-            "bounces",
-            "restitution",
-            "force_at",
-            "impulse_at",
-            "in_contact_since",
-        )
-        speeds = ("race_at_end", "fastest_race")
-        entry = fields_of(plane, *names, *speeds)
-        times = dict.fromkeys(("force_at", "impulse_at", "in_contact_since"), "time")
-        entry |= in_si(entry, plane.scales, **times, **dict.fromkeys(speeds, "speed"))
-        entry["loads"] = loads_document(plane.loads)
-        if not plane.gives_way:
-            # Impacts on a rigid wall have no force; this one is that of lasting contact.
-            entry["loads"]["force_is_of_lasting_contact"] = True
-        entry["whirl"] = None if plane.whirl is None else _whirl_entry(plane.whirl)
-        entry["limits"] = [loads_entry(check) for check in check_loads(plane.loads, self.case.limits)]
-        return entry
-
-
-def _unit(say: Wording) -> float:
-    """Power in W, or in units of the equations."""
-    return 1.0 if say.scales is None else say.scales.power
-
-
-def _hits(plane: PlaneLoads, say: Wording) -> list[tuple[str, str]]:
-    """The largest force with its depth and pressure, and the largest impulse; on a rigid wall the impulse stands for the force."""
-    loads, when = plane.loads, "after the release"
-    impulse = f"{say.impulse(loads.impulse)}"
-    if plane.impulse_at is not None:
-        impulse = f"{impulse}, {say.time(plane.impulse_at)} {when}"
-    if not plane.gives_way:
-        rows = [("hardest impact", f"impulse {impulse}; a rigid wall has no peak force")]
-        return [*rows, ("lasting contact", f"force up to {say.force(loads.force)}")] if loads.force > 0.0 else rows
-    if plane.force_at is None:
-        return [("peak force", "none: it did not touch")]
-    rows = [
-        ("peak force", f"{say.force(loads.force)}, {say.time(plane.force_at)} {when}"),
-        ("depth", say.length(loads.depth)),
-    ]
-    if loads.pressure is not None:
-        rows.append(("pressure of balls", f"{number(1e-9 * loads.pressure, 3)} GPa on the most loaded one"))
-    return [*rows, ("largest impulse", f"{impulse} (that of one contact)")] if loads.impulse > 0.0 else rows
-
-
-def _contacts(plane: PlaneLoads, say: Wording) -> str:
-    kind = "contact" if plane.gives_way else "impact"
-    text = f"{counted(plane.contacts, kind)}, {counted(plane.bounces, 'bounce')}"
-    lasting = "" if plane.gives_way else "lasting "
-    return f"{text}; {say.time(plane.loads.contact_time)} in {lasting}contact"
-
-
-def _speed(own: float, scales: Scales | None) -> str:
-    """An angular speed in rpm, or in that of the shaft."""
-    shown = MACHINE_FIELDS["speed"]
-    if scales is None:
-        return f"{number(own)} Ω"
-    return f"{number(shown.in_usual_unit(own * scales.speed), 4)} {shown.usual_unit}"
-
-
-def _whirl_words(whirl: LastWhirl, outcome: Outcome) -> str:
-    """Sense and frequency, and whether it goes on."""
-    turns = number(whirl.lasted / (2.0 * math.pi), 3)
-    if whirl.direction is None:
-        return (
-            f"none: it turned by {number(abs(math.degrees(whirl.turned)), 2)}° in the last {turns} turns of the shaft"
-        )
-    rate = f"{number(abs(whirl.angular_speed), 4)} Ω"
-    if whirl.frequency_si is not None:
-        rate = f"{number(whirl.frequency_si, 4)} Hz ({number(abs(whirl.angular_speed), 3)} times the shaft)"
-    if whirl.goes_on:
-        return f"{whirl.direction}, {rate}; it goes on"
-    seen = "and is not known to go on" if not outcome.settled else "in the mean"
-    return f"{whirl.direction}, {rate}, over the last {turns} turns of the shaft, {seen}"
-
-
-def _whirl_entry(whirl: LastWhirl) -> dict[str, Any]:
-    entry = fields_of(whirl, "direction", "angular_speed", "turned", "lasted", "since", "goes_on")
-    entry |= in_si(entry, whirl.scales, angular_speed="speed", lasted="time", since="time")
-    return entry | ({} if whirl.frequency_si is None else {"frequency_si": whirl.frequency_si})
+        if loads.shaft is not None:
+            shaft = fields_of(loads.shaft, "speed_at_end", "left_out")
+            document["shaft"] = shaft | in_si(shaft, scales, speed_at_end="speed", left_out="speed")
+        return document | {"planes": load_entries(loads, case.limits)}

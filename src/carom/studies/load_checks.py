@@ -3,17 +3,22 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 from carom.arguments import checked
-from carom.attractors import AttractorSet
-from carom.motions import TouchdownLoads, simulate, touchdown_loads
+from carom.attractors import AttractorSet, MotionName
+from carom.disturbances import BaseShock, BladeLoss
+from carom.models import Model
+from carom.motions import TouchdownLoads, Trajectory, drop_loads, simulate, touchdown_loads
 from carom.outcome import InputError
-from carom.parameters import LIMIT_FIELDS, LoadLimits
+from carom.parameters import LIMIT_FIELDS, LoadLimits, Required
 from carom.parameters.told import number
 from carom.results import fields_of
+
+DIRECTIONS = 24
+"""Directions of a shock, and phases of the unbalance after the loss of a blade, that are followed at their full size."""
 
 
 @dataclass(frozen=True)
@@ -141,13 +146,24 @@ def loads_entry(check: LoadCheck) -> dict[str, Any]:
 
 
 @checked
-def worst_loads(found: AttractorSet, limits: LoadLimits) -> WorstLoads:
-    """Follow all disturbances that touch to their ends and find the worst load for each limit."""
+def worst_loads(found: AttractorSet, limits: LoadLimits, required: Required | None = None) -> WorstLoads:
+    """Follow all disturbances that touch to their ends and find the worst load for each limit.
+
+    Parameters
+    ----------
+    required : Required, optional
+        The shock of the base and the loss of a blade that must be survived are followed too, at their full size, each in 24
+        directions; a shock from its beginning, with the contacts while it lasts.
+    """
     checked: list[tuple[str, Sequence[LoadCheck]]] = []
     for ending in found.disturbances:
         if ending.touched:
             motion = simulate(ending.rotor, ending.start.state, settle=True)
             checked.append((ending.attractor, check_loads(touchdown_loads(motion), limits)))
+    for motion in _of_required(found.rotor, required) if required else ():
+        name = MotionName(motion.outcome, motion.multiplicity)
+        touching = [plane for plane in drop_loads(motion).planes if plane.contacts or plane.loads.contact_time]
+        checked += [(name, check_loads(plane.loads, limits)) for plane in touching]
     if not checked:
         return WorstLoads((), (), (), 0)
     worst, names, counts = [], [], []
@@ -159,3 +175,15 @@ def worst_loads(found: AttractorSet, limits: LoadLimits) -> WorstLoads:
         names.append(str(checked[place][0]))
         counts.append(sum(check.exceeded for check in each))
     return WorstLoads(tuple(worst), tuple(names), tuple(counts), len(checked))
+
+
+def _of_required(rotor: Model, required: Required) -> Iterator[Trajectory]:
+    """Motions after the shock and the loss of a blade that must be survived, in all directions; none without levitation."""
+    if rotor.system.rest_radius >= 1.0:
+        return
+    for angle in (2.0 * math.pi * place / DIRECTIONS for place in range(DIRECTIONS)):
+        if required.shock:
+            shock = BaseShock(required.shock.peak, required.shock.duration)
+            yield simulate(*shock.stages(rotor, angle), settle=True)
+        if required.blade_loss:
+            yield simulate(*BladeLoss(required.blade_loss).release(rotor, angle), settle=True)

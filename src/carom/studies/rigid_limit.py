@@ -18,7 +18,6 @@ from carom.basins.shares import Share
 from carom.disturbances import Sample, VelocityKick
 from carom.disturbances.following import follow
 from carom.models import HuntCrossley, InBearing, Jeffcott, KelvinVoigt, LinearRotor, Model, Touchdown
-from carom.models.in_bearing import law_of
 from carom.parameters import Scales, TouchdownBearing
 from carom.parameters.restitution import (
     damping_ratio_of,
@@ -68,8 +67,7 @@ def on_other_walls(rotor: Model, disturbances: Sequence[Sample]) -> tuple[OtherW
         stiffnesses = [each / unit for each in (BEARINGS if rotor.scales else RATIOS)]
         others = [(each, _on_a_spring(rotor, each)) for each in stiffnesses]
     elif isinstance(rotor, InBearing) and rotor.drive is None and not _has_more(rotor.bearing):
-        scales: Any = rotor.rotor.scales
-        restitution = _restitution(law_of(rotor.bearing, scales), disturbances)
+        restitution = _restitution(rotor.linear.touchdowns[0].law, disturbances)
         others = [(None, rotor.rotor.replace(d=restitution))]
     else:
         return ()
@@ -105,7 +103,7 @@ def _has_more(bearing: TouchdownBearing) -> bool:
     return any(getattr(bearing, name) is not None for name in WITHOUT_COUNTERPART)
 
 
-def _restitution(law: KelvinVoigt | HuntCrossley, disturbances: Sequence[Sample]) -> float:
+def _restitution(law: Any, disturbances: Sequence[Sample]) -> float:
     """Restitution of the free rotor by a law; where it changes with the speed of the impact that of the fastest kick."""
     if isinstance(law, HuntCrossley):
         fastest = max(sample.model.fastest for sample in disturbances if isinstance(sample.model, VelocityKick))

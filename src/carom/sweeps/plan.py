@@ -219,7 +219,7 @@ def check_varied(case: Case | Model, name: str) -> None:
         raise InputError(f"axes.{name}", shown(name), allowed)
     elif name in OF_TABLES and name != GRAVITY_NAME and case.touchdown is None:
         raise InputError(f"axes.{name}", shown(name), "the machine has no table [touchdown]")
-    elif name in ("d", "restitution") and case.touchdown is not None:
+    elif name in ("d", "restitution") and case.touchdown is not None and case.touchdown.yields:
         allowed = "the touchdown bearing gives way: vary touchdown_restitution, or its damping or dissipation"
         raise InputError(f"axes.{name}", shown(name), allowed)
 

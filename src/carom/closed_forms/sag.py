@@ -1,0 +1,108 @@
+"""Levitation of any linear rotor, with weight or without: a circle about the static sag, once round it per turn of the shaft."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, ClassVar
+
+import numpy as np
+
+from carom.arguments import Reals, checked
+from carom.models import Model, Subject, model_of
+from carom.outcome import InputError
+from carom.results import Result
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Levitation(Result):
+    """The steady motion without contact.
+
+    In the fixed frame the coordinates are ``sag + whirl·e^{it}``.
+
+    Attributes
+    ----------
+    rotor : Model
+    sag : complex, or ndarray of complex, shape (n,)
+        Coordinates where weight, and the pull of a bearing off centre, hold the rotor without unbalance: ``K sag = M g`` with the
+        matrices of the fixed frame, in which damping does not act on what stands still.
+    whirl : complex, or ndarray of complex, shape (n,)
+        Response to the unbalance, which turns with the shaft: the equilibrium without weight.
+    sags, radii : ndarray, shape (P,)
+        Distance of the middle of the circle from the centre, and its radius, at each contact plane in its clearance.
+    eigenvalues : ndarray of complex, shape (N,)
+        Exponents of small disturbances, in the co-rotating frame, in ``Ω``.
+    """
+
+    shown: ClassVar[tuple[str, ...]] = ("rotor", "sag", "whirl", "reach", "inside", "stable")
+
+    rotor: Model
+    sag: Any
+    whirl: Any
+    sags: np.ndarray
+    radii: np.ndarray
+    eigenvalues: np.ndarray
+
+    @property
+    def reach(self) -> float:
+        """Largest distance from the centre at any plane, in its clearance."""
+        return float((self.sags + self.radii).max())
+
+    @property
+    def inside(self) -> bool:
+        """Whether it stays inside all walls."""
+        return self.reach < 1.0
+
+    @property
+    def stable(self) -> bool:
+        """Whether small disturbances die out."""
+        return bool(self.eigenvalues.real.max() < 0.0)
+
+    @checked
+    def path(self, times: Reals) -> np.ndarray:
+        """Coordinates in the fixed frame at times in ``1/Ω``, of their shape; of several coordinates with a last axis of these."""
+        turned = np.multiply.outer(np.exp(1j * np.asarray(times)), self.whirl)
+        placed: np.ndarray = self.sag + turned
+        return placed
+
+
+@checked
+def levitation(machine: Subject) -> Levitation:
+    """Levitation of a rotor, whether or not it stays inside the wall.
+
+    Parameters
+    ----------
+    machine : Machine, Case, Parameters or model
+
+    Raises
+    ------
+    InputError
+        Nothing holds the rotor, or there is no steady motion: a race turns, the speed changes, or a force changes in the fixed frame.
+
+    See Also
+    --------
+    carom.find_equilibria : without weight, levitation and synchronous rubs
+    carom.find_attractors : on which motions disturbances end
+
+    Examples
+    --------
+    >>> import carom as cm
+    >>> held = cm.closed_forms.levitation(cm.load("examples/dropped-rotor.toml"))
+    >>> print(f"{abs(held.sag):.4f} + {abs(held.whirl):.4f} = {held.reach:.4f}")
+    0.3924 + 0.0088 = 0.4012
+    """
+    model = model_of(machine)
+    model.system.refuse_unrepeated()
+    system, arrays = model.system, model.system.arrays
+    if system.rest_radius == np.inf:
+        raise InputError("levitation", "none, nothing holds the rotor", "a rotor that is held against its weight")
+    forced = np.zeros(system.modes, complex) if system.forced is None else system.forced
+    sag, whirl = system.shapes @ forced, system.rest
+    one = len(whirl) == 1
+    return Levitation(
+        model,
+        complex(sag[0]) if one else sag,
+        complex(whirl[0]) if one else whirl,
+        np.abs(arrays["rows"] @ forced),
+        np.abs(arrays["offsets"]),
+        np.asarray(system.exponents),
+    )

@@ -1,0 +1,91 @@
+"""How a flexible rotor levitates: its free whirls over the speed, and the sensitivity of its loops."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from carom.arguments import checked
+from carom.parameters.fields import RPM
+from carom.plots.plane import key, one_axes
+from carom.plots.style import LOOKS, TWO_COLUMNS, ZONE_SHADES, styled
+from carom.plots.words import number
+
+if TYPE_CHECKING:
+    from carom.rotors import Campbell, Sensitivity
+
+_HERTZ = 2.0 * math.pi
+_LINES = ("-", "--", "-.", ":")
+_ROOM = 1.15
+"""Height of the axes over what is drawn."""
+
+
+@checked
+@styled
+def campbell(found: Campbell) -> Figure:
+    """Draw the frequencies of free whirls over the speed of the shaft, with the line on which unbalance excites them.
+
+    Forward whirls are triangles that point up, backward ones point down; whirls that grow are hollow.
+    """
+    figure, axes = one_axes(None, (TWO_COLUMNS, 0.62 * TWO_COLUMNS))
+    speeds = np.broadcast_to(found.speeds[:, None] / RPM, found.exponents.shape)
+    for name, goes in (("forward", found.frequencies > 0.0), ("backward", found.frequencies <= 0.0)):
+        for grows in (False, True):
+            those = goes & ((found.exponents.real >= 0.0) == grows)
+            if not those.any():
+                continue
+            colour, words = LOOKS[name].colour, f"{name} whirl{' that grows' if grows else ''}"
+            axes.plot(
+                speeds[those],
+                np.abs(found.frequencies[those]),
+                linestyle="none",
+                marker=LOOKS[name].marker,
+                markersize=4.0,
+                color=colour,
+                markerfacecolor="none" if grows else colour,
+                label=words,
+                gid=words,
+            )
+    ends = np.array([0.0, found.speeds.max()])
+    axes.plot(ends / RPM, ends / _HERTZ, color="#1a1a1a", lw=0.9, label="speed of the shaft", gid="synchronous")
+    axes.set_xlim(0.0, found.speeds.max() / RPM)
+    axes.set_ylim(0.0, _ROOM * float(np.nanmax(np.abs(found.frequencies))))
+    axes.set_xlabel("speed of the shaft (rpm)")
+    axes.set_ylabel("frequency of the free whirl (Hz)")
+    key(figure, [axes], columns=3)
+    return figure
+
+
+@checked
+@styled
+def sensitivity(found: Sensitivity) -> Figure:
+    """Draw the size of the sensitivity of each loop over the frequency, with its peak and the zones of ISO 14839-3."""
+    from carom.rotors.loop_sensitivity import LIMITS
+
+    figure, axes = one_axes(None, (TWO_COLUMNS, 0.62 * TWO_COLUMNS))
+    top = max(_ROOM * float(found.peaks.max()), _ROOM * LIMITS["C"])
+    edges = [0.0, *LIMITS.values(), top]
+    for zone, low, high, shade in zip("ABCD", edges[:-1], edges[1:], ZONE_SHADES, strict=True):
+        axes.axhspan(low, high, color=shade, lw=0.0)
+        axes.text(0.995, (low + high) / 2.0, zone, transform=axes.get_yaxis_transform(), ha="right", va="center")
+    for bearing, (peak, frequency) in enumerate(zip(found.peaks, found.peak_frequencies, strict=True)):
+        words = f"bearing {bearing}: {number(float(peak), 3)} at {number(float(frequency) / _HERTZ, 3)} Hz"
+        (line,) = axes.plot(
+            found.frequencies / _HERTZ,
+            np.abs(found.values[:, bearing]),
+            linestyle=_LINES[bearing % len(_LINES)],
+            color=LOOKS["stable"].colour if bearing % 2 == 0 else LOOKS["unstable"].colour,
+            label=words,
+            gid=f"bearing-{bearing}",
+        )
+        axes.plot([frequency / _HERTZ], [peak], marker="o", markersize=4.0, color=line.get_color())
+    axes.set_xscale("log")
+    axes.set_xlim(found.frequencies[0] / _HERTZ, found.frequencies[-1] / _HERTZ)
+    axes.set_ylim(0.0, top)
+    axes.set_xlabel("frequency (Hz)")
+    axes.set_ylabel("sensitivity (no unit)")
+    key(figure, [axes], columns=2)
+    return figure

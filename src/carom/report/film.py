@@ -1,0 +1,289 @@
+"""A drop in slow motion: what the film on the page shows, with its picture at one instant for those who do not play it."""
+
+from __future__ import annotations
+
+import cmath
+import json
+import math
+from dataclasses import dataclass
+from functools import cache
+from importlib.resources import files
+from typing import Any, NamedTuple
+
+import numpy as np
+from markupsafe import Markup
+
+from carom.models.in_bearing import races_of
+from carom.motions import Trajectory
+from carom.motions.courses import FOLLOWED, Blows, Course, course_of, first_contacts, shown_until
+from carom.report.strips import WIDTH, Strip, Units, strips_of
+from carom.studies.wording import Wording
+
+TURNS = 40.0
+"""Most turns of the shaft that are filmed."""
+STEP = 0.25
+"""Most that the rotor centre moves between two samples, in clearances."""
+FEWEST, MOST = 1200, 4000
+"""Samples of a film; what would take more is filmed for a shorter time."""
+SLOWER = (10, 20, 50, 100, 200, 500, 1000, 2000, 5000)
+"""How many times slower than the machine a film can be played."""
+ROTOR, CLEARANCE, RING, HOUSING, ARROW = 112.0, 60.0, 20.0, 26.0, 84.0
+"""Radius of the drawn rotor, the drawn clearance, the thickness of race and housing, and the longest arrow, in units of the picture."""
+
+
+class Still(NamedTuple):
+    """Places, angles in degrees and paths of one instant, as scalable graphics have them: y grows downward."""
+
+    rotor: complex
+    ring: complex
+    shaft: float
+    race: float
+    normal: str
+    friction: str
+    trail: str
+    cursor: float
+
+
+@dataclass(frozen=True)
+class Film:
+    """A drop at a plane, as the page shows it.
+
+    Attributes
+    ----------
+    course : Course
+        What is filmed.
+    units : Units
+    magnified : float
+        How many times wider than the shaft the clearance is drawn.
+    race_radius : float or None
+        In clearances; ``None`` if the race does not turn.
+    whole : bool
+        Whether all is filmed that the figures show.
+    """
+
+    course: Course
+    units: Units
+    magnified: float
+    race_radius: float | None
+    whole: bool
+
+    @property
+    def poster(self) -> int:
+        """Sample that is shown before the film is played: the largest force, or the hardest impact."""
+        course = self.course
+        if course.blows is None or not len(course.blows.times):
+            return int(course.force.argmax())
+        return int(np.searchsorted(course.times, course.blows.times[course.blows.impulses.argmax()]))
+
+    @property
+    def strips(self) -> tuple[Strip, ...]:
+        """Gap, forces and speeds over time."""
+        return strips_of(self.course, self.units)
+
+    @property
+    def rotor(self) -> float:
+        """Radius of the drawn rotor."""
+        return ROTOR
+
+    @property
+    def inner(self) -> float:
+        """Radius of the drawn wall."""
+        return ROTOR + CLEARANCE
+
+    @property
+    def outer(self) -> float:
+        """Radius of the drawn race on the outside."""
+        return self.inner + RING
+
+    @property
+    def housing(self) -> float:
+        """Radius of the drawn housing."""
+        return self.outer + HOUSING
+
+    @property
+    def reach(self) -> float:
+        """Half the side of the picture."""
+        moved = 0.0 if self.course.mount is None else float(np.abs(self.course.mount).max())
+        rim = 8.0 if self.course.mount is None else 26.0 + CLEARANCE * moved
+        return round(self.housing + rim, 1)
+
+    @property
+    def slower(self) -> list[tuple[int, bool]]:
+        """Paces, with the one in which a turn of the shaft takes nearly a second marked."""
+        turn = math.tau * (1.0 if self.course.scales is None else self.course.scales.time)
+        best = min(SLOWER, key=lambda pace: abs(math.log(turn * pace)))
+        return [(pace, pace == best) for pace in SLOWER]
+
+    @property
+    def legend(self) -> list[tuple[str, str]]:
+        """Classes and words of the arrows, with the size that the longest shows; nothing where there is no contact."""
+        say, course = Wording(self.course.scales), self.course
+        lasting = " of lasting contact" if course.blows is not None else ""
+        sizes = [
+            ("normal", f"normal force{lasting}", course.force, say.force),
+            ("friction", f"friction{lasting}", course.friction, say.force),
+        ]
+        if course.blows is not None:
+            impacts = [
+                ("normal", "impulse of an impact", course.blows.impulses, say.impulse),
+                ("friction", "that of friction", course.blows.frictions, say.impulse),
+            ]
+            sizes = [*impacts, *sizes]
+        return [
+            (name, f"{words}, up to {told(self._largest(values))}")
+            for name, words, values, told in sizes
+            if values.any()
+        ]
+
+    @property
+    def caption(self) -> str:
+        """What is seen, in sentences."""
+        sentences = [
+            "The drop in slow motion, in the fixed frame.",
+            f"Clearance, motion and depth are drawn {self.magnified:.2g} times larger than the shaft.",
+            "The dot on the shaft is its unbalance; the thin circle in the middle is the room of its centre, with the path over the last turn.",
+            "The light mark on the race turns with it." if self.race_radius else "",
+            "The bearing moves on its mount." if self.course.mount is not None else "",
+            "" if self.whole else f"Filmed: the first {FOLLOWED} contacts, or {TURNS:.0f} turns of the shaft.",
+        ]
+        return " ".join(filter(None, sentences))
+
+    @property
+    def shown(self) -> str:
+        """What instant the still picture shows."""
+        time = self.units.time[0] * float(self.course.times[self.poster])
+        if not self.legend:
+            return "Shown: the release; nothing is touched."
+        what = "the largest force" if self.course.blows is None else "the hardest impact"
+        return f"Shown: {what}, {time:.4g} {self.units.time[1]} after the release."
+
+    @property
+    def still(self) -> Still:
+        """The picture at that instant, as the script would draw it."""
+        course, at, y_down = self.course, self.poster, np.conj
+        mount = 0j if course.mount is None else complex(course.mount[at])
+        rotor, outward = mount + complex(course.place[at]), cmath.exp(1j * cmath.phase(complex(course.place[at])))
+        normal, friction = float(course.force[at]), float(course.friction[at])
+        if course.blows is None:
+            normal, friction = normal / self._largest(course.force), friction / self._largest(course.friction)
+        else:
+            hardest = course.blows.impulses.argmax() if len(course.blows.impulses) else None
+            normal = 0.0 if hardest is None else 1.0
+            friction = (
+                0.0
+                if hardest is None
+                else float(course.blows.frictions[hardest]) / self._largest(course.blows.frictions)
+            )
+        centre, touch = CLEARANCE * rotor, CLEARANCE * rotor + ROTOR * outward
+        recent = (course.times <= course.times[at]) & (course.times > course.times[at] - math.tau)
+        trail = CLEARANCE * (course.place if course.mount is None else course.place + course.mount)[recent]
+        race = self._race_angles
+        return Still(
+            rotor=y_down(centre),
+            ring=y_down(CLEARANCE * mount),
+            shaft=-math.degrees(float(course.heavy[at])),
+            race=0.0 if race is None else -math.degrees(float(race[at])),
+            normal=_line(touch, -ARROW * normal * outward),
+            friction=_line(touch, 1j * ARROW * friction * outward),
+            trail="".join(f"{'L' if number else 'M'}{z.real:.1f} {-z.imag:.1f}" for number, z in enumerate(trail)),
+            cursor=WIDTH * float(course.times[at] / course.times[-1]),
+        )
+
+    @property
+    def _race_angles(self) -> np.ndarray | None:
+        """Angle of the race, from zero at the release."""
+        course = self.course
+        if course.race is None or self.race_radius is None:
+            return None
+        steps = 0.5 * (course.race[1:] + course.race[:-1]) * np.diff(course.times) / self.race_radius
+        return np.append(0.0, steps.cumsum())
+
+    @property
+    def data(self) -> Markup:
+        """What the script plays, as JSON: times, places in clearances, forces as shares of the largest, angles in rad."""
+        course, units = self.course, self.units
+        numbers: dict[str, Any] = {
+            "t": np.round(units.time[0] * course.times, 5),
+            "x": np.round(course.place.real, 6),
+            "y": np.round(course.place.imag, 6),
+            "n": np.round(course.force / self._largest(course.force), 4),
+            "f": np.round(course.friction / self._largest(course.friction), 4),
+            "v": np.round(units.speed[0] * course.slip, 4),
+            "a": np.round(np.unwrap(course.heavy), 3),
+            "held": course.held.astype(int),
+            "peaks": np.round(units.time[0] * self._peaks(), 5),
+        }
+        if course.mount is not None:
+            numbers |= {"mx": np.round(course.mount.real, 4), "my": np.round(course.mount.imag, 4)}
+        if course.race is not None and self._race_angles is not None:
+            numbers |= {"q": np.round(units.speed[0] * course.race, 4), "b": np.round(self._race_angles, 3)}
+        if course.blows is not None:
+            numbers["blows"], numbers["hardest"] = self._blows(course.blows)
+        entries = {name: values.tolist() for name, values in numbers.items()}
+        entries |= {
+            "poster": self.poster,
+            "turn": math.tau * units.time[0],
+            "largest": [units.force[0] * self._largest(each) for each in (course.force, course.friction)],
+            "finer": units.length[0],
+            "units": [unit for _, unit in (units.time, units.length, units.force, units.speed, units.impulse)],
+            "sizes": [ROTOR, CLEARANCE, ARROW, WIDTH],
+            "seconds": 1e-3 if course.scales is not None else 1.0,
+        }
+        return Markup(json.dumps(entries, separators=(",", ":")).replace("<", "\\u003c"))
+
+    def _blows(self, blows: Blows) -> tuple[np.ndarray, np.ndarray]:
+        """Impacts on a rigid wall: time, shares of the largest impulses, and slip, shape (n, 4); and those impulses."""
+        hardest = [self._largest(each) for each in (blows.impulses, blows.frictions)]
+        shares = (each / largest for each, largest in zip((blows.impulses, blows.frictions), hardest, strict=True))
+        columns = self.units.time[0] * blows.times, *shares, self.units.speed[0] * blows.slips
+        return np.round(np.transpose(columns), 5), self.units.impulse[0] * np.array(hardest)
+
+    def _peaks(self) -> np.ndarray:
+        """Times of the contacts: of the largest force in each, or of the impacts."""
+        course = self.course
+        if course.blows is not None:
+            return course.blows.times
+        edges = np.flatnonzero(np.diff(np.concatenate([[0], course.force > 0.0, [0]]).astype(int))).reshape(-1, 2)
+        return np.array([course.times[first + course.force[first:last].argmax()] for first, last in edges])
+
+    @staticmethod
+    def _largest(values: np.ndarray) -> float:
+        return float(np.abs(values).max(initial=0.0)) or 1.0
+
+
+def _line(start: complex, along: complex) -> str:
+    """Path of an arrow; empty if it has hardly any length."""
+    end = start + along
+    return f"M{start.real:.1f} {-start.imag:.1f}L{end.real:.1f} {-end.imag:.1f}" if abs(along) > 1.0 else ""
+
+
+def film_of(motion: Trajectory) -> Film:
+    """Sample a drop at its plane for a film: as much of it as can be seen contact by contact."""
+    shown = shown_until(motion)
+    until = min(shown, first_contacts(motion, FOLLOWED), TURNS * math.tau)
+    fastest = _fastest(motion, until)
+    until = min(until, MOST * STEP / fastest)
+    race = races_of(motion.rotor)[motion.plane]
+    return Film(
+        course=course_of(motion, until, max(FEWEST, math.ceil(until * fastest / STEP))),
+        units=Units.of(motion.rotor.scales),
+        magnified=CLEARANCE / ROTOR * (float(motion.rotor.system.arrays.surface_speed[motion.plane]) - 1.0),
+        race_radius=None if race is None else race.radius,
+        whole=until == shown,
+    )
+
+
+def _fastest(motion: Trajectory, until: float) -> float:
+    """Largest speed of the plane in the fixed frame at the events of a motion, and one at least."""
+    speeds = [1.0]
+    for part in motion.parts:
+        times = np.append(part.segment_starts, part.time)
+        place, rate = part.seen_at(motion.plane).at_plane(times[part.begins + times <= until])
+        speeds.append(float(np.abs(rate + 1j * place).max(initial=0.0)))
+    return max(speeds)
+
+
+@cache
+def film_script() -> Markup:
+    """The script that plays the films of a page."""
+    return Markup(files("carom.report").joinpath("film.js").read_text(encoding="utf-8"))

@@ -1,0 +1,63 @@
+"""Flexible rotors by finite elements, in SI units.
+
+========================  =================================================================
+``entries``               numbers of a part, in SI units or as text with a unit
+``sections``              :class:`Section`: a cylindrical section of a shaft; :class:`Material`
+``discs``                 :class:`Disc`: a rigid disc
+``damping``               :class:`ModalDamping`, :class:`ProportionalDamping`
+``beams``                 matrices of an element of Timoshenko's beam
+``free_modes``            modes of a free body
+``state_spaces``          :class:`StateSpace`: linear systems with one input and one output
+``controllers``           :class:`PID`, :class:`TransferFunction`, and those of other libraries
+``magnetic_bearing``      :class:`MagneticBearing`: magnet, sensors, and what is between both
+``flexible_rotor``        :class:`FlexibleRotor`: a shaft with discs as finite elements
+``attachments``           :class:`Unbalance`, :class:`TouchdownPlane`
+``reduction``             few vectors in place of all coordinates
+``equations``             equations of motion in SI units
+``flexible_machine``      :class:`FlexibleMachine`: the rotor with all that is attached to it
+``reduced_machine``       :class:`ReducedMachine`: by a few vectors, as a model
+``machine_file``          tables of a machine file -> its case
+``whirls``                :func:`find_whirls`, :func:`campbell`: free whirls, and how they change with the speed
+``unbalance``             :func:`unbalance_response`: whirl by unbalance over the speed
+``loop_sensitivity``      :func:`sensitivity`: of the loops of the bearings
+========================  =================================================================
+"""
+
+from carom.rotors.attachments import TouchdownPlane, Unbalance
+from carom.rotors.controllers import PID, TransferFunction
+from carom.rotors.damping import ModalDamping, ProportionalDamping
+from carom.rotors.discs import Disc
+from carom.rotors.flexible_machine import FlexibleMachine
+from carom.rotors.flexible_rotor import FlexibleRotor
+from carom.rotors.loop_sensitivity import Sensitivity, sensitivity
+from carom.rotors.magnetic_bearing import MagneticBearing
+from carom.rotors.reduced_machine import ReducedMachine
+from carom.rotors.sections import Material, Section
+from carom.rotors.state_spaces import StateSpace
+from carom.rotors.unbalance import FlexibleResponse, unbalance_response
+from carom.rotors.whirls import Campbell, Whirl, campbell, find_whirls
+
+__all__ = [
+    "PID",
+    "Campbell",
+    "Disc",
+    "FlexibleMachine",
+    "FlexibleResponse",
+    "FlexibleRotor",
+    "MagneticBearing",
+    "Material",
+    "ModalDamping",
+    "ProportionalDamping",
+    "ReducedMachine",
+    "Section",
+    "Sensitivity",
+    "StateSpace",
+    "TouchdownPlane",
+    "TransferFunction",
+    "Unbalance",
+    "Whirl",
+    "campbell",
+    "find_whirls",
+    "sensitivity",
+    "unbalance_response",
+]

@@ -1,0 +1,89 @@
+"""What is attached to a rotor beside its magnetic bearings: unbalances, and touchdown bearings around it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from carom.outcome import InputError, shown
+from carom.parameters import MACHINE_FIELDS, Field, TouchdownBearing
+from carom.parameters.fields import by_name
+from carom.rotors.entries import read_entries, read_node
+
+UNBALANCE_FIELDS: Mapping[str, Field] = by_name(
+    Field("size", "", "unbalance", "an unbalance", "kg m", 1e-15, 1e6, '"10 g mm"', True),
+    Field("angle", "", "angle of the unbalance", "an angle", "rad", -1e6, 1e6, '"90 deg"'),
+)
+PLANE_FIELDS: Mapping[str, Field] = {name: MACHINE_FIELDS[name] for name in ("rotor_radius", "friction")}
+
+
+@dataclass(frozen=True)
+class Unbalance:
+    """An unbalance at a node.
+
+    Parameters
+    ----------
+    node : int
+    size : float or str
+        Mass times its distance from the axis, kg m, or text such as ``"10 g mm"``.
+    angle : float or str, optional
+        Where it is on the rotor, rad, in the sense of rotation from one mark for all.
+
+    Raises
+    ------
+    InputError
+        A value is not of this kind or out of range.
+    """
+
+    node: int
+    size: float
+    angle: float = 0.0
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "node", read_node("unbalance node", self.node))
+        read_entries(self, UNBALANCE_FIELDS)
+
+
+@dataclass(frozen=True)
+class TouchdownPlane:
+    """A node at which a touchdown bearing stands around the rotor.
+
+    Parameters
+    ----------
+    node : int
+    bearing : carom.parameters.TouchdownBearing
+        Which gives way: a rigid wall on a rotor that bends would have no answer that stays as modes are added.  A restitution in place of the
+        damping of Kelvin–Voigt is that of the whole mass.
+    rotor_radius : float or str
+        Radius of the rotor there, m.
+    friction : float or str
+
+    Raises
+    ------
+    InputError
+        A value is not of this kind or out of range, the bearing is rigid, or its centre lies off the place of levitation.
+    """
+
+    node: int
+    bearing: TouchdownBearing
+    rotor_radius: float
+    friction: float
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "node", read_node("touchdown node", self.node))
+        if not isinstance(self.bearing, TouchdownBearing):
+            raise InputError("bearing", shown(self.bearing), "carom.parameters.TouchdownBearing")
+        if not self.bearing.yields:
+            allowed = "'kelvin-voigt' or 'hunt-crossley': a rigid wall has no answer on a rotor that bends"
+            raise InputError("law", self.bearing.law, allowed)
+        if self.bearing.offset:
+            raise InputError(
+                "offset", self.bearing.offset, "0: bearings of a flexible rotor are centred where it levitates"
+            )
+        read_entries(self, PLANE_FIELDS)
+
+    def stiffness(self, energy: float) -> float:
+        """Stiffness, N/m, at the depth to which this energy, J, presses it in."""
+        n, stiffness = self.bearing.exponent, self.bearing.stiffness or 0.0
+        depth: float = ((n + 1.0) * energy / stiffness) ** (1.0 / (n + 1.0))
+        return stiffness * n * depth ** (n - 1.0)

@@ -1,0 +1,145 @@
+"""Equations of motion of a flexible rotor on magnetic bearings, in SI units and in the fixed frame."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from carom.rotors.attachments import TouchdownPlane, Unbalance
+from carom.rotors.flexible_rotor import FlexibleRotor
+from carom.rotors.magnetic_bearing import MagneticBearing
+from carom.rotors.reduction import RIGID, Basis
+
+
+class Equations(NamedTuple):
+    """``M z̈ + (D − iΩG) ż + K z = Ω² e^{iΩt} f`` of vectors with unit modal mass, mounts, and controller states, which have no mass.
+
+    Displacements are ``basis.shapes`` times the first ``v`` coordinates, which are in m √kg.
+    """
+
+    mass: np.ndarray
+    damping: np.ndarray
+    gyroscopic: np.ndarray
+    stiffness: np.ndarray
+    forcing: np.ndarray
+    """By the square of the speed, shape (n,)."""
+    unlevitated: np.ndarray
+    """Damping and stiffness without magnetic bearings, shape (2, n, n)."""
+    planes: np.ndarray
+    """Displacement at each touchdown bearing, relative to its mount, shape (P, n)."""
+    currents: np.ndarray
+    """Current of each bearing, A, per coordinate, shape (B, n)."""
+
+    def exponents(self, speed: float) -> tuple[np.ndarray, np.ndarray]:
+        """Exponents (N,) of the free motion at a speed, 1/s, and the coordinates (n, N) of each."""
+        heavy = np.asarray(self.mass.any(axis=1))
+        n, masses = len(heavy), self.mass[heavy, heavy][:, None]
+        spin = (self.damping - 1j * speed * self.gyroscopic)[np.ix_(heavy, heavy)]
+        matrix = np.zeros((n + heavy.sum(), n + heavy.sum()), complex)
+        matrix[np.flatnonzero(heavy), n + np.arange(heavy.sum())] = 1.0
+        matrix[np.flatnonzero(~heavy), :n] = -self.stiffness[~heavy]
+        matrix[n:, :n], matrix[n:, n:] = -self.stiffness[heavy] / masses, -spin / masses
+        values, vectors = np.linalg.eig(matrix)
+        return values, vectors[:n]
+
+    def response(self, speed: float) -> np.ndarray:
+        """Coordinates (n,) of the whirl with which the rotor answers its unbalance, at time zero."""
+        dynamic = self.stiffness - speed**2 * self.mass + 1j * speed * (self.damping - 1j * speed * self.gyroscopic)
+        answer: np.ndarray = np.linalg.solve(dynamic, speed**2 * self.forcing)
+        return answer
+
+
+class Loops(NamedTuple):
+    """Rows of coordinates of the finite elements."""
+
+    bearings: np.ndarray
+    """Shape (B, n)."""
+    sensors: np.ndarray
+    """Shape (B, n): the mean of the sensors of each."""
+    touchdowns: np.ndarray
+    """Shape (P, n)."""
+
+
+def loops_of(rotor: FlexibleRotor, bearings: Sequence[MagneticBearing], planes: Sequence[TouchdownPlane]) -> Loops:
+    """Where forces act and displacements are measured."""
+    none = np.empty((0, len(rotor.mass_matrix)))
+    return Loops(
+        bearings=np.array([row_of(rotor, each.node) for each in bearings] or none),
+        sensors=np.array(
+            [np.mean([row_of(rotor, node) for node in each.sensor_nodes], axis=0) for each in bearings] or none
+        ),
+        touchdowns=np.array([row_of(rotor, each.node) for each in planes] or none),
+    )
+
+
+def row_of(rotor: FlexibleRotor, node: int) -> np.ndarray:
+    """Displacement at a node per coordinate of the finite elements, shape (n,)."""
+    row = np.zeros(len(rotor.mass_matrix))
+    row[rotor.displacement_at(node)] = 1.0
+    return row
+
+
+def equations_of(
+    rotor: FlexibleRotor,
+    basis: Basis,
+    bearings: Sequence[MagneticBearing],
+    touchdowns: Sequence[TouchdownPlane],
+    unbalances: Sequence[Unbalance],
+    restart: float,
+) -> Equations:
+    """Equations of a machine in a basis.
+
+    Parameters
+    ----------
+    restart : float
+        Rate, 1/s, with which states of controllers that are switched off fade.
+    """
+    loops = loops_of(rotor, bearings, touchdowns)
+    mounts = [(plane, each.bearing) for plane, each in enumerate(touchdowns) if each.bearing.mount_mass is not None]
+    vectors, first = len(basis.frequencies), len(basis.frequencies) + len(mounts)
+    size = first + sum(each.loop.states for each in bearings)
+    mass, damping, gyroscopic, stiffness = np.zeros((4, size, size))
+    free = slice(0, vectors)
+    mass[free, free], stiffness[free, free] = np.eye(vectors), np.diag(basis.frequencies**2)
+    damping[free, free] = _damping(rotor, basis)
+    gyroscopic[free, free] = _gyroscopic(rotor, basis)
+    planes = np.concatenate([loops.touchdowns @ basis.shapes, np.zeros((len(touchdowns), size - vectors))], axis=1)
+    for place, (plane, mount) in enumerate(mounts, vectors):
+        mass[place, place], stiffness[place, place] = mount.mount_mass or 0.0, mount.mount_stiffness or 0.0
+        damping[place, place] = mount.mount_damping or 0.0
+        planes[plane, place] = -1.0
+    states = slice(first, size)
+    damping[states, states] = np.eye(size - first)
+    left = np.stack([damping, stiffness])
+    left[1, states, states] = restart * np.eye(size - first)
+    currents = np.zeros((len(bearings), size))
+    for number, bearing in enumerate(bearings):
+        pulls, seen = loops.bearings[number] @ basis.shapes, loops.sensors[number] @ basis.shapes
+        loop, own = bearing.loop, slice(first, first + bearing.loop.states)
+        currents[number, free], currents[number, own] = loop.D * seen, loop.C
+        stiffness[free] += bearing.ki * np.outer(pulls, currents[number])
+        stiffness[free, free] += bearing.ks * np.outer(pulls, pulls)
+        stiffness[own, free], stiffness[own, own] = -np.outer(loop.B, seen), -loop.A
+        first = own.stop
+    forcing = np.zeros(size, complex)
+    for each in unbalances:
+        forcing[free] += each.size * np.exp(1j * each.angle) * (row_of(rotor, each.node) @ basis.shapes)
+    return Equations(mass, damping, gyroscopic, stiffness, forcing, left, planes, currents)
+
+
+def _damping(rotor: FlexibleRotor, basis: Basis) -> np.ndarray:
+    """Damping of the vectors: of each mode its own, which couples it with nothing."""
+    matrix = basis.shapes.T @ rotor.damping_matrix @ basis.shapes
+    matrix[: basis.modes], matrix[:, : basis.modes] = 0.0, 0.0
+    rates = [rotor.damping.rate(each) for each in basis.frequencies[: basis.modes].tolist()]
+    matrix[range(basis.modes), range(basis.modes)] = rates
+    return 0.5 * (matrix + matrix.T)
+
+
+def _gyroscopic(rotor: FlexibleRotor, basis: Basis) -> np.ndarray:
+    """Gyroscopic matrix of the vectors: none of the translation, to the last digit."""
+    matrix = basis.shapes.T @ rotor.gyroscopic_matrix @ basis.shapes
+    matrix[: RIGID - 1], matrix[:, : RIGID - 1] = 0.0, 0.0
+    return 0.5 * (matrix + matrix.T)

@@ -1,0 +1,149 @@
+"""A flexible rotor on magnetic bearings, inside touchdown bearings."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from carom.arguments import Count, Positive, checked
+from carom.models import Model
+from carom.outcome import InputError, shown
+from carom.parameters import MACHINE_FIELDS, Field, Gravity
+from carom.rotors.attachments import TouchdownPlane, Unbalance
+from carom.rotors.entries import read_entries
+from carom.rotors.equations import loops_of
+from carom.rotors.flexible_rotor import FlexibleRotor
+from carom.rotors.magnetic_bearing import MagneticBearing
+from carom.rotors.reduced_machine import ReducedMachine
+from carom.rotors.reduction import MORE, RIGID, Basis, contact_error, rubin_basis
+
+FIELDS: Mapping[str, Field] = {name: MACHINE_FIELDS[name] for name in ("speed", "clearance")}
+ACCURACY = 0.02
+"""Error of contact forces by reduction that is accepted by default; that of their peaks and impulses is smaller."""
+FALL = 9.81
+"""Acceleration, m/s², of a fall through the clearance, whose energy says how far a touchdown bearing gives way."""
+_KINDS = {
+    "bearings": MagneticBearing,
+    "touchdowns": TouchdownPlane,
+    "unbalances": Unbalance,
+}
+
+
+@dataclass(frozen=True, eq=False)
+class FlexibleMachine:
+    """A flexible rotor on magnetic bearings, inside touchdown bearings, in SI units.
+
+    Attributes
+    ----------
+    rotor : FlexibleRotor
+    speed : float or str
+        Rotational speed, rad/s, or text such as ``"3000 rpm"``.
+    clearance : float or str
+        Radial clearance at all touchdown bearings, m.
+    bearings : sequence of MagneticBearing
+        Without any the rotor is free.
+    touchdowns : sequence of TouchdownPlane
+        One or more.
+    unbalances : sequence of Unbalance, optional
+    gravity : carom.parameters.Gravity, optional
+        By default the rotor has no weight.
+
+    Raises
+    ------
+    InputError
+        A part is of another kind, a value is out of range, or a part sits at a node that the shaft does not have.
+    """
+
+    rotor: FlexibleRotor
+    speed: float
+    clearance: float
+    bearings: Sequence[MagneticBearing]
+    touchdowns: Sequence[TouchdownPlane]
+    unbalances: Sequence[Unbalance] = ()
+    gravity: Gravity | None = None
+
+    def __post_init__(self) -> None:
+        rotor: Any = self.rotor
+        if not isinstance(rotor, FlexibleRotor):
+            raise InputError("rotor", shown(rotor), "carom.rotors.FlexibleRotor")
+        if not isinstance(self.gravity, Gravity | None):
+            raise InputError("gravity", shown(self.gravity), "carom.parameters.Gravity, or None")
+        for name, kind in _KINDS.items():
+            given: Any = getattr(self, name)
+            listed = tuple(given) if isinstance(given, Iterable) else (None,)
+            if not all(isinstance(each, kind) for each in listed) or (name == "touchdowns" and not listed):
+                least = ", one or more" if name == "touchdowns" else ""
+                raise InputError(name, shown(given), f"a sequence of carom.rotors.{kind.__name__}{least}")
+            object.__setattr__(self, name, listed)
+        read_entries(self, FIELDS)
+        for each in self.bearings:
+            self.rotor.check_node("bearing node", each.node)
+            for node in each.sensor_nodes:
+                self.rotor.check_node("sensor node", node)
+        for name in ("touchdowns", "unbalances"):
+            for part in getattr(self, name):
+                self.rotor.check_node(f"{name.removesuffix('s')} node", part.node)
+
+    @cached_property
+    def _rows(self) -> list[np.ndarray]:
+        """Where forces act and displacements are measured, each place once."""
+        rows = np.concatenate(loops_of(self.rotor, self.bearings, self.touchdowns))
+        return list(np.unique(rows, axis=0))
+
+    def basis(self, modes: int) -> Basis:
+        """Vectors of the reduction with so many modes of the free rotor, at least the rigid ones."""
+        return rubin_basis(self.rotor, self._rows, max(modes, RIGID))
+
+    def error_of(self, basis: Basis) -> float:
+        """Change of the force in a touchdown bearing with half as many vectors more, relative to that force; 0 with all modes."""
+        total = len(self.rotor.free_modes.frequencies)
+        if basis.modes == total:
+            return 0.0
+        vectors = len(basis.frequencies)
+        finer = self.basis(min(total, basis.modes + round((MORE - 1.0) * vectors)))
+        energy = self.rotor.mass * FALL * self.clearance
+        loops = loops_of(self.rotor, (), self.touchdowns)
+        planes = zip(loops.touchdowns, self.touchdowns, strict=True)
+        return max(contact_error(basis, finer, row, plane.stiffness(energy)) for row, plane in planes)
+
+    @checked
+    def reduce(self, accuracy: Positive = ACCURACY) -> ReducedMachine:
+        """Return the machine with as few vectors as this accuracy of contact forces needs.
+
+        Parameters
+        ----------
+        accuracy : float
+            Largest :attr:`ReducedMachine.error` allowed.
+
+        Raises
+        ------
+        InputError
+            The accuracy is no number above 0.
+        """
+        total = len(self.rotor.free_modes.frequencies)
+        for modes in range(RIGID + 1, total):
+            basis = self.basis(modes)
+            error = self.error_of(basis)
+            if error <= accuracy:
+                return ReducedMachine(self, basis, error)
+        return self.with_modes(total)
+
+    @checked
+    def with_modes(self, modes: Count) -> ReducedMachine:
+        """Return the machine with so many modes of the free rotor, two of which are rigid, and the vectors beside them; at most all modes."""
+        basis = self.basis(modes)
+        return ReducedMachine(self, basis, self.error_of(basis))
+
+    @cached_property
+    def whole(self) -> ReducedMachine:
+        """The machine with all modes: nothing is reduced."""
+        return self.with_modes(len(self.rotor.free_modes.frequencies))
+
+    @cached_property
+    def model(self) -> Model:
+        """Model of the reduced machine that levitates, for ``carom.simulate`` and all the others: see :attr:`ReducedMachine.model`."""
+        return self.reduce().model

@@ -1,0 +1,185 @@
+"""A shaft with discs as finite elements."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from carom.outcome import InputError, shown
+from carom.parameters import read_quantity
+from carom.parameters.fields import length_field
+from carom.rotors.beams import beam_element
+from carom.rotors.damping import Damping
+from carom.rotors.discs import Disc
+from carom.rotors.free_modes import FreeModes, free_modes
+from carom.rotors.sections import Section
+
+ELEMENTS = 32
+"""Elements of a shaft of equal sections, unless a length is stated."""
+MOST_ELEMENTS = 500
+"""With more, matrices take gigabytes; a shaft needs dozens."""
+LONGEST = length_field("longest_element", "", "longest element", 1e-6, 1e3, '"20 mm"')
+
+
+@dataclass(frozen=True, eq=False)
+class FlexibleRotor:
+    """A shaft of cylindrical sections with discs, by finite elements of Timoshenko's beam, in SI units.
+
+    Nodes are the boundaries of the sections: 0 is the beginning of the first one.  Each section is divided into elements.
+    Coordinates are a complex displacement ``x + iy``, m, and a complex tilt ``dx/ds + i dy/ds`` at the ends of all elements in turn; with the speed
+    ``Ω`` of the shaft in the fixed frame
+
+        M z̈ + (D − iΩG) ż + K z = f.
+
+    Attributes
+    ----------
+    sections : sequence of Section
+    discs : sequence of Disc
+    damping : ProportionalDamping or ModalDamping
+        There is no default: without damping of the bending modes, results of contacts with stiff walls depend on details of the model.
+    longest_element : float or str, optional
+        m; by default a 32nd of the shaft.
+
+    Raises
+    ------
+    InputError
+        A part is of another kind, or a disc sits at a node that the shaft does not have.
+    """
+
+    sections: Sequence[Section]
+    discs: Sequence[Disc]
+    damping: Damping
+    longest_element: float | None = None
+
+    def __post_init__(self) -> None:
+        for name, kind in (("sections", Section), ("discs", Disc)):
+            given: Any = getattr(self, name)
+            listed = tuple(given) if isinstance(given, Iterable) else (None,)
+            if not all(isinstance(each, kind) for each in listed) or (kind is Section and not listed):
+                raise InputError(name, shown(given), f"a sequence of carom.rotors.{kind.__name__}")
+            object.__setattr__(self, name, listed)
+        if not isinstance(self.damping, Damping):
+            allowed = "carom.rotors.ModalDamping, such as ModalDamping(0.005), or ProportionalDamping"
+            raise InputError("damping", shown(self.damping), allowed)
+        given = self.longest_element
+        longest = self.length / ELEMENTS if given is None else read_quantity(LONGEST, given)
+        object.__setattr__(self, "longest_element", longest)
+        if sum(self.divisions) > MOST_ELEMENTS:
+            allowed = f"a length with which the shaft has at most {MOST_ELEMENTS} elements, such as {self.length / ELEMENTS:.3g} m"
+            raise InputError("longest_element", shown(longest if given is None else given), allowed)
+        for disc in self.discs:
+            self.check_node("disc node", disc.node)
+
+    def check_node(self, name: str, node: int) -> None:
+        """Refuse a node that the shaft does not have."""
+        if node > len(self.sections):
+            length = f"{1e3 * self.length:.6g} mm"
+            raise InputError(name, node, f"a node of the shaft: 0 to {len(self.sections)}, its end at {length}")
+
+    @property
+    def length(self) -> float:
+        """Length of the shaft, m."""
+        return math.fsum(section.length for section in self.sections)
+
+    @cached_property
+    def divisions(self) -> tuple[int, ...]:
+        """Number of elements of each section."""
+        longest: Any = self.longest_element
+        # A section that is a whole number of longest elements, but for rounding, gets that number.
+        return tuple(max(1, math.ceil(section.length / longest * (1.0 - 1e-12))) for section in self.sections)
+
+    @cached_property
+    def places(self) -> np.ndarray:
+        """Where the ends of all elements lie along the shaft, m, shape (E + 1,)."""
+        lengths = [
+            section.length / count
+            for section, count in zip(self.sections, self.divisions, strict=True)
+            for _ in range(count)
+        ]
+        return np.append(0.0, np.cumsum(lengths))
+
+    def displacement_at(self, node: int) -> int:
+        """Number of the coordinate that is the displacement of a node."""
+        return 2 * sum(self.divisions[:node])
+
+    @cached_property
+    def _matrices(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        matrices = np.zeros((3, 2 * len(self.places), 2 * len(self.places)))
+        first = 0
+        for section, count in zip(self.sections, self.divisions, strict=True):
+            element = np.array(beam_element(section, section.length / count))
+            for _ in range(count):
+                matrices[:, first : first + 4, first : first + 4] += element
+                first += 2
+        mass, stiffness, gyroscopic = matrices
+        for disc in self.discs:
+            place = self.displacement_at(disc.node)
+            mass[place, place] += disc.mass
+            mass[place + 1, place + 1] += disc.diametral_inertia
+            gyroscopic[place + 1, place + 1] += disc.polar_inertia
+        matrices.flags.writeable = False
+        return mass, stiffness, gyroscopic
+
+    @property
+    def mass_matrix(self) -> np.ndarray:
+        """``M``, shape (n, n): kg, kg m, kg m²."""
+        return self._matrices[0]
+
+    @property
+    def stiffness_matrix(self) -> np.ndarray:
+        """``K``, shape (n, n): N/m, N, N m."""
+        return self._matrices[1]
+
+    @property
+    def gyroscopic_matrix(self) -> np.ndarray:
+        """``G``, shape (n, n): kg, kg m, kg m²; it is multiplied by the speed of the shaft."""
+        return self._matrices[2]
+
+    @cached_property
+    def damping_matrix(self) -> np.ndarray:
+        """``D``, shape (n, n): N s/m, N s, N m s."""
+        modes = self.free_modes
+        pushed = self.mass_matrix @ modes.shapes
+        matrix: np.ndarray = (pushed * [self.damping.rate(each) for each in modes.frequencies.tolist()]) @ pushed.T
+        return matrix
+
+    @cached_property
+    def free_modes(self) -> FreeModes:
+        """All modes of the rotor at rest, free in space: translation, tilt, and bending from the lowest on."""
+        return free_modes(self.mass_matrix, self.stiffness_matrix, self.translation, self.tilt)
+
+    @cached_property
+    def translation(self) -> np.ndarray:
+        """Coordinates of the rotor displaced by 1 m, shape (n,)."""
+        return np.tile([1.0, 0.0], len(self.places))
+
+    @cached_property
+    def tilt(self) -> np.ndarray:
+        """Coordinates of the rigid rotor tilted by 1 about its centre of mass, shape (n,)."""
+        return np.stack([self.places - self.centre, np.ones(len(self.places))], axis=1).ravel()
+
+    @property
+    def mass(self) -> float:
+        """Mass, kg."""
+        return math.fsum([section.mass for section in self.sections] + [disc.mass for disc in self.discs])
+
+    @cached_property
+    def centre(self) -> float:
+        """Where its centre of mass lies along the shaft, m."""
+        along = np.stack([self.places, np.ones(len(self.places))], axis=1).ravel()
+        return float(self.translation @ self.mass_matrix @ along / self.mass)
+
+    @property
+    def diametral_inertia(self) -> float:
+        """Moment of inertia about a diameter through its centre of mass, kg m²."""
+        return float(self.tilt @ self.mass_matrix @ self.tilt)
+
+    @property
+    def polar_inertia(self) -> float:
+        """Moment of inertia about its axis, kg m²."""
+        return float(self.tilt @ self.gyroscopic_matrix @ self.tilt)

@@ -1,0 +1,129 @@
+"""Sensitivity of the loops of magnetic bearings, and the zones of ISO 14839-3 for its peak."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from carom.arguments import checked
+from carom.outcome import InputError
+from carom.results import Result
+from carom.rotors.equations import loops_of
+from carom.rotors.flexible_machine import FlexibleMachine
+from carom.rotors.whirls import speeds_of
+
+LIMITS = {"A": 3.0, "B": 4.0, "C": 5.0}
+"""Largest peak of the sensitivity in each zone of ISO 14839-3:2006; above lies zone D."""
+HIGHEST = 3.0
+"""Times the speed of the shaft up to which frequencies are looked at by default, or 2 kHz if that is more, as ISO 14839-3 asks."""
+LEAST_HIGHEST = 2e3 * 2.0 * math.pi
+LOWEST = 2.0 * math.pi
+COUNT = 1000
+ZOOMS, POINTS = 8, 9
+"""A peak is enclosed so many times, each time between neighbours of so many points."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Sensitivity(Result):
+    """Sensitivity of one direction of each magnetic bearing, with all other loops closed: what the controller sees of a signal added to its input.
+
+    Attributes
+    ----------
+    frequencies : ndarray, shape (m,)
+        rad/s.
+    values : ndarray of complex, shape (m, B)
+    peaks : ndarray, shape (B,)
+        Largest size of each.
+    peak_frequencies : ndarray, shape (B,)
+        Where it is, rad/s.
+    """
+
+    frequencies: np.ndarray
+    values: np.ndarray
+    peaks: np.ndarray
+    peak_frequencies: np.ndarray
+
+    figure: ClassVar[str] = "sensitivity"
+    shown: ClassVar = ("peaks", "peak_frequencies", "zones")
+    rests_on: ClassVar = ()
+
+    @property
+    def zones(self) -> tuple[str, ...]:
+        """Zone of ISO 14839-3 of each bearing."""
+        return tuple(
+            next((zone for zone, limit in LIMITS.items() if peak <= limit), "D") for peak in self.peaks.tolist()
+        )
+
+
+@checked
+def sensitivity(flexible: FlexibleMachine, frequencies: Sequence[float] | None = None) -> Sensitivity:
+    """Compute the sensitivity of the loops of a flexible machine, from all its modes.
+
+    With gyroscopic moments a direction, such as x, sees both whirls: ``S(iω)`` of the complex loop and the conjugate of ``S(−iω)``, half of each.
+
+    Parameters
+    ----------
+    flexible : FlexibleMachine
+    frequencies : sequence of float, optional
+        rad/s, above 0; by default from 1 Hz to three times the speed, or to 2 kHz if that is more, with those of the free whirls.  Peaks are enclosed between those given.
+
+    Raises
+    ------
+    InputError
+        There is no magnetic bearing, or a frequency is not above 0.
+    """
+    if not flexible.bearings:
+        raise InputError("bearings", None, "one or more carom.rotors.MagneticBearing")
+    loop = _Loop(flexible)
+    listed = _usual(flexible) if frequencies is None else np.sort(speeds_of(frequencies))
+    values = np.array([loop.of_axis(each) for each in listed.tolist()])
+    peaks = [loop.peak(listed, np.abs(values[:, number]), number) for number in range(len(flexible.bearings))]
+    return Sensitivity(listed, values, *(np.array(each) for each in zip(*peaks, strict=True)))
+
+
+def _usual(machine: FlexibleMachine) -> np.ndarray:
+    """Frequencies, rad/s, over the range that the standard asks for, and those of the free whirls, where narrow peaks are."""
+    highest = max(HIGHEST * machine.speed, LEAST_HIGHEST)
+    own = np.abs(machine.whole.equations.exponents(machine.speed)[0].imag)
+    return np.union1d(np.geomspace(LOWEST, highest, COUNT), own[(own > LOWEST) & (own < highest)])
+
+
+class _Loop:
+    """The loop of all bearings, opened at the sensors."""
+
+    def __init__(self, machine: FlexibleMachine) -> None:
+        whole, loops = machine.whole, loops_of(machine.rotor, machine.bearings, machine.touchdowns)
+        held, vectors = whole.equations, slice(0, whole.vectors)
+        self.bearings = machine.bearings
+        self.pulls, self.seen = loops.bearings @ whole.basis.shapes, loops.sensors @ whole.basis.shapes
+        softer = [bearing.ks * np.outer(pull, pull) for bearing, pull in zip(self.bearings, self.pulls, strict=True)]
+        self.stiffness = held.unlevitated[1][vectors, vectors] + np.sum(softer, axis=0)
+        self.spin = held.damping[vectors, vectors] - 1j * machine.speed * held.gyroscopic[vectors, vectors]
+
+    def of_whirls(self, frequency: float) -> np.ndarray:
+        """Sensitivity of whirls at a frequency, negative for backward ones, shape (B,)."""
+        s = 1j * frequency
+        dynamic = self.stiffness + s * self.spin + s * s * np.eye(len(self.stiffness))
+        gains = [bearing.ki * complex(bearing.loop.at(np.array(s))) for bearing in self.bearings]
+        opened = self.seen @ np.linalg.solve(dynamic, self.pulls.T) * gains
+        return np.asarray(np.diag(np.linalg.inv(np.eye(len(gains)) + opened)))
+
+    def of_axis(self, frequency: float) -> np.ndarray:
+        """Sensitivity of one direction, shape (B,)."""
+        return np.asarray(0.5 * (self.of_whirls(frequency) + self.of_whirls(-frequency).conj()))
+
+    def peak(self, frequencies: np.ndarray, sizes: np.ndarray, number: int) -> tuple[float, float]:
+        """Largest sensitivity of a bearing beside the largest of those known, and its frequency."""
+        place = int(sizes.argmax())
+        best = float(sizes[place]), float(frequencies[place])
+        for _ in range(ZOOMS):
+            low, high = frequencies[max(place - 1, 0)], frequencies[min(place + 1, len(frequencies) - 1)]
+            frequencies = np.linspace(low, high, POINTS)
+            sizes = np.array([abs(self.of_axis(each)[number]) for each in frequencies.tolist()])
+            place = int(sizes.argmax())
+            best = max(best, (float(sizes[place]), float(frequencies[place])))
+        return best

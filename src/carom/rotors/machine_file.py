@@ -1,0 +1,229 @@
+"""Read a flexible machine from the tables of a machine file."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from typing import Any, TypeVar
+
+from carom.outcome import InputError, Problems, shown
+from carom.parameters import (
+    MACHINE_FIELDS,
+    TOUCHDOWN_FIELDS,
+    Case,
+    Field,
+    Gravity,
+    LoadLimits,
+    Requirement,
+    Scales,
+    TouchdownBearing,
+    Zones,
+    read_quantity,
+)
+from carom.parameters.fields import by_name, unknown_name
+from carom.parameters.toml_reader import MachineTables
+from carom.parameters.touchdown_bearing import BALL_FIELDS
+from carom.rotors.attachments import PLANE_FIELDS, UNBALANCE_FIELDS, TouchdownPlane, Unbalance
+from carom.rotors.controllers import PID, PID_FIELDS, TransferFunction
+from carom.rotors.damping import MODAL_FIELDS, PROPORTIONAL_FIELDS, ModalDamping, ProportionalDamping
+from carom.rotors.discs import DISC_FIELDS, Disc
+from carom.rotors.flexible_machine import ACCURACY, FlexibleMachine
+from carom.rotors.flexible_rotor import LONGEST, FlexibleRotor
+from carom.rotors.magnetic_bearing import BEARING_FIELDS, MagneticBearing
+from carom.rotors.sections import MATERIAL_FIELDS, SECTION_FIELDS, Material, Section
+from carom.rotors.state_spaces import StateSpace
+
+_Part = TypeVar("_Part")
+_RENAMED = {"damping_ratio": "ratio", "damping_of_mass": "of_mass", "damping_of_stiffness": "of_stiffness"}
+"""Entries of ``[rotor]``, and the numbers of a damping that they are."""
+ROTOR_ENTRIES: Mapping[str, Any] = {
+    "speed": MACHINE_FIELDS["speed"],
+    **MATERIAL_FIELDS,
+    "longest_element": LONGEST,
+    "accuracy": Field("accuracy", "", "error of contact forces by reduction", "a number", "", 1e-9, 1.0, "0.02"),
+    **dict.fromkeys(_RENAMED),
+}
+BEARING_ENTRIES = {name: field for name, field in TOUCHDOWN_FIELDS.items() if name not in BALL_FIELDS}
+"""Entries of a touchdown bearing: the pressure of its balls is known for the planar rotor alone."""
+_MATRICES = ("A", "B", "C", "D")
+_QUOTIENT = ("numerator", "denominator")
+PART_ENTRIES: Mapping[str, Mapping[str, Any]] = {
+    "section": {**SECTION_FIELDS, **MATERIAL_FIELDS},
+    "disc": {"node": None, **DISC_FIELDS, "width": None, **by_name(*(SECTION_FIELDS[name] for name in ("outer_diameter", "inner_diameter"))), **MATERIAL_FIELDS},
+    "magnetic_bearing": {"node": None, "sensor_nodes": None, **BEARING_FIELDS, **PID_FIELDS, **dict.fromkeys((*_QUOTIENT, *_MATRICES))},
+    "touchdown": {"node": None, "law": None, "clearance": MACHINE_FIELDS["clearance"], **PLANE_FIELDS, **BEARING_ENTRIES},
+    "unbalance": {"node": None, **UNBALANCE_FIELDS},
+}  # fmt: skip
+"""Entries of the tables of parts."""
+
+
+def read_flexible_case(name: str, tables: MachineTables, settings: Mapping[str, str], problems: Problems) -> Case:
+    """Case of a file with a ``[rotor]`` table: it holds the reduced machine that levitates, as a model.
+
+    Raises
+    ------
+    InputError
+        An entry cannot be used: each error names its table, numbered from 1 where there are several; or the machine does not levitate.
+    """
+    whole = dict(tables.values)
+    gravity = None if tables.gravity is None else problems.attempt(Gravity.of, tables.gravity)
+    gravity = _set(whole, settings, gravity, problems)
+    problems.errors += [
+        unknown_name(each, given, ROTOR_ENTRIES, "[rotor]")
+        for each, given in whole.items()
+        if each not in ROTOR_ENTRIES
+    ]
+    if tables.drive is not None:
+        problems.errors.append(
+            InputError("drive", shown(dict(tables.drive)), "not allowed beside [rotor]: its speed stays as it is")
+        )
+    limits = problems.attempt(LoadLimits.of, tables.limits) or LoadLimits()
+    if limits.pressure is not None:
+        allowed = "no limit of a flexible machine: the pressure of balls is known for the planar rotor"
+        problems.errors.append(InputError("pressure", limits.pressure, allowed))
+    zones = problems.attempt(Zones, tables.zones["limits"]) if "limits" in tables.zones else Zones()
+    steel = problems.attempt(_material, whole, Material())
+    parts = {
+        "discs": _each(tables, "disc", problems, lambda entry: _disc(entry, steel or Material())),
+        "bearings": _each(tables, "magnetic_bearing", problems, _bearing),
+        "touchdowns": _each(tables, "touchdown", problems, _plane),
+        "unbalances": _each(tables, "unbalance", problems, _unbalance),
+    }
+    sections = _each(tables, "section", problems, lambda entry: _section(entry, steel or Material()))
+    if not tables.parts.get("section"):
+        problems.errors.append(
+            InputError("[[section]]", None, "one or more tables, each with its length and outer_diameter")
+        )
+    damping = problems.attempt(_damping, whole)
+    accuracy = problems.attempt(read_quantity, ROTOR_ENTRIES["accuracy"], whole.get("accuracy", ACCURACY))
+    clearance = problems.attempt(_clearance, tables.parts.get("touchdown", []))
+    problems.raise_all()
+    rotor = FlexibleRotor(sections, parts.pop("discs"), damping, whole.get("longest_element"))  # type: ignore[arg-type]
+    machine = FlexibleMachine(rotor, whole.get("speed"), clearance, gravity=gravity, **parts)  # type: ignore[arg-type]
+    model = machine.reduce(accuracy or ACCURACY).linear
+    scales = model.scales or Scales(1.0, 1.0, 1.0)
+    requirement = Requirement.of_table(tables.survive, scales)
+    return Case(name, model, None, zones or Zones(), limits, requirement, gravity)
+
+
+def _set(
+    whole: dict[str, Any], settings: Mapping[str, str], gravity: Gravity | None, problems: Problems
+) -> Gravity | None:
+    """Change entries of ``[rotor]`` by settings, and the acceleration of free fall, which is returned."""
+    for name, text in settings.items():
+        if name == "gravity":
+            direction = (gravity or Gravity()).direction
+            gravity = problems.attempt(_gravity, text, direction)
+        elif name in ROTOR_ENTRIES:
+            whole[name] = text
+        else:
+            allowed = f"of a flexible machine --set changes gravity and entries of [rotor]: {', '.join(ROTOR_ENTRIES)}"
+            problems.errors.append(InputError(name, shown(text), allowed))
+    return gravity
+
+
+def _gravity(acceleration: Any, direction: float) -> Gravity:
+    """Gravity by a setting, which is called ``gravity``."""
+    try:
+        return Gravity(acceleration, direction)
+    except InputError as problem:
+        raise InputError("gravity", problem.value, problem.allowed) from None
+
+
+def _each(tables: MachineTables, kind: str, problems: Problems, read: Callable[[dict[str, Any]], _Part]) -> list[_Part]:
+    """The parts of all tables of a kind; errors name their table."""
+    found = []
+    for number, entry in enumerate(tables.parts.get(kind, []), start=1):
+        known = PART_ENTRIES[kind]
+        errors = [unknown_name(name, given, known, f"[[{kind}]]") for name, given in entry.items() if name not in known]
+        try:
+            part = read({name: given for name, given in entry.items() if name in known})
+        except InputError as problem:
+            errors += problem.errors
+        else:
+            found.append(part)
+        problems.errors += [
+            InputError(f"[[{kind}]] {number}: {each.field}", each.value, each.allowed) for each in errors
+        ]
+    return found
+
+
+def _of(entry: Mapping[str, Any], names: Iterable[str]) -> dict[str, Any]:
+    return {name: entry[name] for name in names if name in entry}
+
+
+def _needed(entry: Mapping[str, Any], names: Iterable[str]) -> None:
+    """Refuse a table without one of these entries."""
+    for name in names:
+        if name not in entry:
+            raise InputError(name, None, "must be stated")
+
+
+def _material(entry: Mapping[str, Any], usual: Material) -> Material:
+    """Material of a table, whose other numbers are as usual."""
+    given = _of(entry, MATERIAL_FIELDS)
+    return Material(**{name: given.get(name, getattr(usual, name)) for name in MATERIAL_FIELDS})
+
+
+def _section(entry: Mapping[str, Any], steel: Material) -> Section:
+    _needed(entry, ("length", "outer_diameter"))
+    return Section(**_of(entry, SECTION_FIELDS), material=_material(entry, steel))
+
+
+def _disc(entry: dict[str, Any], steel: Material) -> Disc:
+    _needed(entry, ("node",))
+    if "width" in entry:
+        return Disc.of_body(entry["node"], _section({**entry, "length": entry["width"]}, steel))
+    _needed(entry, DISC_FIELDS)
+    return Disc(**_of(entry, ("node", *DISC_FIELDS)))
+
+
+def _bearing(entry: dict[str, Any]) -> MagneticBearing:
+    _needed(entry, ("node", "ki", "ks"))
+    ways = {"proportional": PID_FIELDS, "numerator": _QUOTIENT, "A": _MATRICES}
+    stated = [way for way, names in ways.items() if any(name in entry for name in names)]
+    if len(stated) != 1:
+        allowed = (
+            "one of: proportional (with integral, derivative, filter_time), numerator and denominator, or A, B, C and D"
+        )
+        raise InputError("controller", ", ".join(stated) or None, allowed)
+    given = _of(entry, ways[stated[0]])
+    _needed(given, {"proportional": ("proportional",), "numerator": _QUOTIENT, "A": _MATRICES}[stated[0]])
+    kinds: dict[str, Callable[..., Any]] = {"proportional": PID, "numerator": TransferFunction, "A": StateSpace}
+    return MagneticBearing(
+        **_of(entry, ("node", "sensor_nodes", *BEARING_FIELDS)), controller=kinds[stated[0]](**given)
+    )
+
+
+def _plane(entry: dict[str, Any]) -> TouchdownPlane:
+    _needed(entry, ("node", "law", "clearance", *PLANE_FIELDS))
+    bearing = TouchdownBearing(**_of(entry, ("law", *BEARING_ENTRIES)))
+    return TouchdownPlane(entry["node"], bearing, **_of(entry, PLANE_FIELDS))
+
+
+def _unbalance(entry: dict[str, Any]) -> Unbalance:
+    _needed(entry, ("node", "size"))
+    return Unbalance(**entry)
+
+
+def _damping(whole: Mapping[str, Any]) -> ModalDamping | ProportionalDamping:
+    """Damping by the entries of ``[rotor]``, one of which has to be there."""
+    modal, proportional = (
+        {_RENAMED[name]: whole[name] for name in _RENAMED if name in whole and _RENAMED[name] in fields}
+        for fields in (MODAL_FIELDS, PROPORTIONAL_FIELDS)
+    )
+    if bool(modal) == bool(proportional):
+        allowed = "damping_ratio (of all bending modes, such as 0.005), or damping_of_mass and damping_of_stiffness"
+        raise InputError("damping", None if not modal else "both", f"one of: {allowed}")
+    return ModalDamping(**modal) if modal else ProportionalDamping(**proportional)
+
+
+def _clearance(entries: Iterable[Mapping[str, Any]]) -> Any:
+    """The clearance, which is the same at all touchdown bearings."""
+    given = [entry["clearance"] for entry in entries if "clearance" in entry]
+    if not given:
+        raise InputError(
+            "[[touchdown]]", None, "one or more tables, each with its node, clearance, rotor_radius, friction and law"
+        )
+    if any(each != given[0] for each in given):
+        raise InputError("clearance", shown(", ".join(map(str, given))), "the same in all tables [[touchdown]]")
+    return given[0]

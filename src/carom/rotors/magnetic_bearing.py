@@ -1,0 +1,86 @@
+"""Magnetic bearings: what pulls at the rotor, what measures it, and what is between both."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+from carom.outcome import InputError, shown
+from carom.parameters import Field
+from carom.parameters.fields import by_name
+from carom.rotors.controllers import state_space_of
+from carom.rotors.entries import read_entries, read_node
+from carom.rotors.state_spaces import StateSpace, delay, lag
+
+PADE = 3
+"""Order of the approximation of a delay ``T``: its phase is right to 0.1° up to a frequency of 2/T, in rad/s."""
+BEARING_FIELDS: Mapping[str, Field] = by_name(
+    Field("ki", "k_i", "force of the bearing per current", "a force per current", "N/A", 1e-9, 1e12, '"50 N/A"'),
+    Field("ks", "k_s", "stiffness of the bearing at constant current", "a stiffness", "N/m", -1e15, -1e-9, '"-1e5 N/m"', True),
+    Field("delay", "", "delay of the controller", "a time", "s", 1e-9, 1.0, '"50 us"', True),
+    Field("amplifier_bandwidth", "", "bandwidth of the amplifier", "an angular frequency", "rad/s", 1e-3, 1e9, '"1 kHz"'),
+)  # fmt: skip
+
+
+@dataclass(frozen=True, eq=False)
+class MagneticBearing:
+    """An active magnetic bearing that acts in both directions alike.
+
+    With the displacements ``z`` at the bearing and ``y`` at the sensors it pulls with
+
+        f = −ki i − ks z,      i = C(s) e^{−sT} ω_b/(s + ω_b) y.
+
+    Every number is in the SI unit below, or text with a unit.
+
+    Parameters
+    ----------
+    node : int
+        Boundary of the sections of the shaft at which the force acts.
+    ki : float or str
+        Force per current, N/A.
+    ks : float or str
+        Stiffness at constant current, N/m: below zero, as a magnet pulls harder the nearer the rotor is.
+    controller : PID, TransferFunction, StateSpace, or a system of SciPy or python-control
+        ``C``: current per displacement, A/m, in continuous time; a gain above zero opposes a displacement.
+    sensor_nodes : sequence of int, optional
+        Where its sensors are, whose mean it takes; by default at the bearing.
+    delay : float or str, optional
+        ``T`` of sampling and computing, s, by Padé's approximation.
+    amplifier_bandwidth : float or str, optional
+        ``ω_b``, rad/s or such as ``"1 kHz"``; by default the amplifier is not in the way.
+
+    Raises
+    ------
+    InputError
+        A value is not of this kind or out of range, or the controller no such system.
+    """
+
+    node: int
+    ki: float
+    ks: float
+    controller: Any
+    sensor_nodes: tuple[int, ...] = ()
+    delay: float = 0.0
+    amplifier_bandwidth: float | None = None
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "node", read_node("bearing node", self.node))
+        read_entries(self, BEARING_FIELDS)
+        given: Any = self.sensor_nodes
+        if not isinstance(given, Iterable) or isinstance(given, str):
+            raise InputError("sensor_nodes", shown(given), "a sequence of numbers of nodes")
+        nodes = tuple(read_node("sensor node", each) for each in given)
+        object.__setattr__(self, "sensor_nodes", nodes or (self.node,))
+        _ = self.loop
+
+    @cached_property
+    def loop(self) -> StateSpace:
+        """Current per displacement: controller, delay and amplifier, one after the other."""
+        whole = state_space_of(self.controller)
+        if self.delay:
+            whole = whole.then(delay(self.delay, PADE))
+        if self.amplifier_bandwidth is not None:
+            whole = whole.then(lag(self.amplifier_bandwidth))
+        return whole.balanced()

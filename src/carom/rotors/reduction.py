@@ -1,0 +1,79 @@
+"""Few vectors in place of all coordinates of a rotor, after Rubin (AIAA Journal 13, 1975).
+
+Kept are the lowest modes of the free rotor; the vectors beside them hold what all other modes give way to a steady force where forces act and
+displacements are measured.  So the motion far below the lowest mode left out is exact, however few are kept.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from carom.rotors.flexible_rotor import FlexibleRotor
+
+DEPENDENT = 1e-10
+"""Share of the elastic energy of the largest of the vectors up to which another one is counted as a sum of the others."""
+RIGID = 2
+"""Rigid motions: translation and tilt."""
+MORE = 1.5
+"""Times as many vectors, with which a reduction is compared."""
+TIMES = 600
+"""Instants of a contact that are compared."""
+
+
+class Basis(NamedTuple):
+    """Vectors with unit modal mass in which no stiffness couples one with another."""
+
+    shapes: np.ndarray
+    """Coordinates per vector, shape (n, v); the first two are translation and tilt."""
+    frequencies: np.ndarray
+    """rad/s, shape (v,)."""
+    modes: int
+    """How many are modes of the free rotor."""
+
+
+def rubin_basis(rotor: FlexibleRotor, rows: Sequence[np.ndarray], modes: int) -> Basis:
+    """Vectors of a rotor: its first modes, and one for each row (n,) of what forces act on or sensors measure."""
+    free = rotor.free_modes
+    modes = min(modes, len(free.frequencies))
+    kept = free.shapes[:, :modes]
+    if modes == len(free.frequencies):
+        return Basis(kept, free.frequencies, modes)
+    beside = np.stack([free.flexibility(row, modes) for row in rows], axis=1)
+    beside /= np.sqrt(np.einsum("ni,nm,mi->i", beside, rotor.stiffness_matrix, beside))
+    energies, turn = np.linalg.eigh(beside.T @ rotor.stiffness_matrix @ beside)
+    beside = beside @ turn[:, energies > DEPENDENT * energies[-1]]
+    root = np.linalg.cholesky(beside.T @ rotor.mass_matrix @ beside)
+    beside = np.linalg.solve(root, beside.T).T
+    squares, turn = np.linalg.eigh(beside.T @ rotor.stiffness_matrix @ beside)
+    return Basis(
+        np.concatenate([kept, beside @ turn], axis=1), np.append(free.frequencies[:modes], np.sqrt(squares)), modes
+    )
+
+
+def contact_error(coarse: Basis, fine: Basis, row: np.ndarray, stiffness: float) -> float:
+    """Difference of the force on a wall between two sets of vectors, relative to the force: root of the means of the squares.
+
+    The free rotor comes straight, with all its mass, to a wall with this stiffness, N/m, at what a row measures; compared is the force until
+    contact ends.
+    """
+    end = 2.0 * np.pi * np.sqrt(1.0 / (stiffness * fine.shapes[0, 0] ** 2))  # twice as long as the rigid rotor stays
+    times = np.linspace(0.0, end, TIMES)
+    one, other = (_force(basis, row, stiffness, times) for basis in (coarse, fine))
+    over = np.flatnonzero(other[1:] <= 0.0)
+    lasts = slice(0, over[0] + 2 if len(over) else None)
+    return float(np.linalg.norm((one - other)[lasts]) / np.linalg.norm(other[lasts]))
+
+
+def _force(basis: Basis, row: np.ndarray, stiffness: float, times: np.ndarray) -> np.ndarray:
+    """Force on the wall over time, by the velocity of the rotor and the stiffness."""
+    reach = row @ basis.shapes
+    squares, turn = np.linalg.eigh(np.diag(basis.frequencies**2) + stiffness * np.outer(reach, reach))
+    rates = np.sqrt(np.maximum(squares, 0.0))
+    start = turn[0] / basis.shapes[0, 0]  # the translation at a speed of one
+    # sin(ωt)/ω, which is t for a motion that the wall does not stop.
+    moved = times[:, None] * np.sinc(rates * times[:, None] / np.pi)
+    force: np.ndarray = stiffness * (moved * start) @ (reach @ turn)
+    return force

@@ -1,0 +1,158 @@
+"""Free whirls of a levitating flexible rotor, and how they change with the speed of the shaft."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from carom.arguments import Count, Positive, checked
+from carom.outcome import InputError, shown
+from carom.results import Result
+from carom.rotors.flexible_machine import FlexibleMachine
+
+SLOW = 12
+"""Whirls that are listed by default."""
+STANDING = 0.1
+"""Frequency over the size of an exponent up to which a motion has faded before it goes round: a damping ratio of 0.995."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Whirl(Result):
+    """A free whirl at one speed of the shaft, in the fixed frame: ``z(s, t) = shape(s) e^{λt}``.
+
+    Attributes
+    ----------
+    exponent : complex
+        ``λ``, 1/s.
+    shape : ndarray of complex, shape (E + 1,)
+        Displacement at the ends of all elements (:attr:`FlexibleRotor.places`), of which the largest is 1; the angle is where the rotor is at time zero.
+    """
+
+    exponent: complex
+    shape: np.ndarray
+
+    shown: ClassVar = ("frequency", "sense", "damping_ratio")
+    rests_on: ClassVar = ()
+
+    @property
+    def frequency(self) -> float:
+        """Turns per second, Hz."""
+        return abs(self.exponent.imag) / (2.0 * math.pi)
+
+    @property
+    def sense(self) -> str:
+        """``"forward"``, ``"backward"``, or ``"none"`` of a motion that fades before it goes round."""
+        if abs(self.exponent.imag) <= STANDING * abs(self.exponent):
+            return "none"
+        return "forward" if self.exponent.imag > 0.0 else "backward"
+
+    @property
+    def damping_ratio(self) -> float:
+        """``−Re λ/|λ|``; negative of a whirl that grows."""
+        return -self.exponent.real / abs(self.exponent) if self.exponent else 0.0
+
+
+@checked
+def find_whirls(flexible: FlexibleMachine, speed: Positive | None = None, count: Count = SLOW) -> tuple[Whirl, ...]:
+    """Find the slowest free whirls of a flexible machine, from all its modes.
+
+    Parameters
+    ----------
+    flexible : FlexibleMachine
+    speed : float, optional
+        Speed of the shaft, rad/s; by default that of the machine.
+    count : int
+        How many, from the one with the lowest frequency on.  Motions without a sense, such as those of integrators and filters, are left out.
+
+    See Also
+    --------
+    carom.rotors.campbell : over the speed
+    """
+    at = flexible.speed if speed is None else speed
+    exponents, coordinates = flexible.whole.equations.exponents(at)
+    shapes = flexible.whole.basis.shapes[::2] @ coordinates[: flexible.whole.vectors]
+    whirls = [Whirl(complex(each), shape / _largest(shape)) for each, shape in zip(exponents, shapes.T, strict=True)]
+    turning = [each for each in whirls if each.sense != "none"]
+    return tuple(sorted(turning, key=lambda each: each.frequency)[:count])
+
+
+def _largest(shape: np.ndarray) -> float:
+    return float(np.abs(shape).max()) or 1.0
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Campbell(Result):
+    """Exponents of the slowest free whirls over the speed of the shaft.
+
+    Attributes
+    ----------
+    speeds : ndarray, shape (m,)
+        rad/s.
+    exponents : ndarray of complex, shape (m, k)
+        1/s; at each speed in the order of their imaginary parts, so backward whirls come first, and NaN at the end where there are fewer.
+    machine : FlexibleMachine
+    """
+
+    speeds: np.ndarray
+    exponents: np.ndarray
+    machine: FlexibleMachine
+
+    figure: ClassVar[str] = "campbell"
+    shown: ClassVar = ("speeds", "frequencies", "damping_ratios")
+    rests_on: ClassVar = ()
+
+    @property
+    def frequencies(self) -> np.ndarray:
+        """Frequencies, Hz, shape (m, k); negative ones are backward."""
+        return np.asarray(self.exponents.imag / (2.0 * math.pi))
+
+    @property
+    def damping_ratios(self) -> np.ndarray:
+        """Damping ratios, shape (m, k)."""
+        return np.asarray(-self.exponents.real / np.abs(self.exponents))
+
+    @property
+    def levitates(self) -> np.ndarray:
+        """Whether all whirls of the list fade, at each speed, shape (m,)."""
+        return np.asarray(np.nanmax(self.exponents.real, axis=1) < 0.0)
+
+
+@checked
+def campbell(flexible: FlexibleMachine, speeds: Sequence[float], count: Count = SLOW) -> Campbell:
+    """Follow the slowest free whirls over the speed of the shaft.
+
+    Parameters
+    ----------
+    flexible : FlexibleMachine
+    speeds : sequence of float
+        rad/s, above 0.
+    count : int
+        How many whirls at each speed.
+
+    Raises
+    ------
+    InputError
+        There is no speed, or one is not above 0.
+
+    See Also
+    --------
+    carom.rotors.find_whirls : their shapes at one speed
+    """
+    listed = speeds_of(speeds)
+    found = np.full((len(listed), count), np.nan, complex)
+    for row, speed in zip(found, listed.tolist(), strict=True):
+        exponents = np.array([each.exponent for each in find_whirls(flexible, speed, count)], complex)
+        row[: len(exponents)] = exponents[np.argsort(exponents.imag)]
+    return Campbell(listed, found[:, ~np.isnan(found).all(axis=0)], flexible)
+
+
+def speeds_of(given: Sequence[float]) -> np.ndarray:
+    """Speeds, rad/s; refuse none, and those not above 0."""
+    listed = np.array(given, float)
+    if listed.ndim != 1 or not listed.size or not (np.isfinite(listed) & (listed > 0.0)).all():
+        raise InputError("speeds", shown(given), "one or more numbers above 0, in rad/s")
+    return listed

@@ -1,0 +1,142 @@
+"""Attractors of rotors that weigh something: motions of whole turns, levitation about the sag, rest on the bearing, tori."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from heavy_rotors import LANDING, PARTING, RIGID, SIX, heavy, of_two_coordinates
+from scipy.optimize import brentq
+
+import carom as cm
+from carom.attractors import Attractor, character_of, find_attractors
+from carom.attractors.settled import settled_motion
+from carom.attractors.survival import follow_further
+from carom.models import Force, Forced, Jeffcott, model_of
+from carom.models.touchdown import Rigid
+from carom.orbits import Kind
+from carom.orbits.recognising import whole_turns
+from carom.outcome import Outcome
+from carom.parameters import Parameters
+
+pytestmark = pytest.mark.jit_only
+HEAVY = cm.load("examples/dropped-rotor.toml")
+
+
+def touched(found) -> list[Attractor]:
+    return [each for each in found if each.count and each.name.outcome is not Outcome.LEVITATED]
+
+
+@pytest.mark.parametrize(
+    ("name", "impacts", "turns"), [("three", 3, 1), ("six", 6, 2), ("landing", 20, 2), ("plastic", 2, 2)]
+)
+def test_bouncing_is_closed_and_told_to_take_whole_turns(name, impacts, turns):
+    rotor = RIGID[name]
+    (bouncing,) = touched(find_attractors(rotor, count=20))
+    assert bouncing.name.multiplicity == impacts
+    assert bouncing.period == pytest.approx(math.tau * turns)
+    assert bouncing.orbit.turns == turns
+    character = character_of(rotor, bouncing)
+    assert (character.kind, character.lasting) == ("periodic", "attractor")
+    assert character.exponents.across[0] < 0.0
+
+
+@pytest.mark.parametrize(
+    ("rotor", "counts"), [(PARTING[0], {2, 3}), (of_two_coordinates(Rigid(0.5), 0.38), {2, 3, 4})], ids=["soft", "two"]
+)
+def test_motions_that_coexist_are_told_apart(rotor, counts):
+    found = touched(find_attractors(rotor, count=40))
+    assert {each.name.multiplicity for each in found} == counts
+    for each in found:
+        # Its own orbit, not that of another phase of the weight.
+        assert each.orbit.impacts == each.name.multiplicity
+        assert each.orbit.admissible
+        assert each.orbit.stable
+
+
+def test_levitation_goes_round_once_a_turn():
+    found = find_attractors(HEAVY, count=20)
+    levitation = found["levitation"]
+    assert levitation.count == 20
+    assert levitation.period == pytest.approx(math.tau)
+    rotor = model_of(HEAVY)
+    later = cm.simulate(rotor, levitation.state, math.tau).final
+    assert later.position == pytest.approx(levitation.state.position, abs=1e-12)
+    assert character_of(HEAVY, levitation).kind == "equilibrium"
+
+
+def test_rest_on_the_bearing_is_sliding_that_repeats_every_turn():
+    lying = HEAVY.replace(gravity=30)
+    (rest,) = touched(find_attractors(lying, count=12))
+    assert rest.name.outcome is Outcome.AT_REST
+    assert rest.orbit.word[0].kind is Kind.SLIDE_FORWARD
+    assert rest.orbit.turns == 1
+    assert rest.orbit.stable
+    rotor, scales = model_of(lying), lying.parameters.scales
+    # It rocks with the unbalance about the place where friction holds it on the slope, against weight and spring.
+    fixed = rest.orbit.trajectory().position(np.linspace(0.0, math.tau, 400), "fixed")
+    assert abs(fixed) == pytest.approx(1.0, abs=1e-9)
+    weight, friction, spring = 30.0 / scales.acceleration, rotor.value("mu"), rotor.value("omega") ** 2
+    leans = brentq(lambda lean: weight * np.sin(lean) - friction * (weight * np.cos(lean) - spring), 0.0, 1.0)
+    # The surface moves forward at the bottom: friction pushes the rotor back.  It rocks by the size of the unbalance, its mean by the square.
+    assert np.angle(1j * fixed).mean() == pytest.approx(-leans, abs=rotor.value("rho") ** 2)
+    assert np.ptp(np.angle(1j * fixed)) < 3.0 * rotor.value("rho")
+
+
+def test_a_bounce_that_does_not_keep_time_with_the_shaft_is_a_torus():
+    rotor = Forced(
+        Jeffcott(Parameters(0.15, 0.76, 3 / 7, 0.21, 0.15, 0.95, 400 / 7)), (Force(-1j, np.array([-1e-3j])),)
+    )
+    bounce = cm.find_orbits(rotor.rotor)["B1,d"]
+    found = find_attractors(rotor, [bounce.departure], known=False, patience=2000)
+    (irregular,) = touched(found)
+    assert irregular.name.irregular
+    character = character_of(rotor, irregular, 12_000)
+    assert character.kind == "torus"
+    # The section at the impact is a curve over the phase of the weight, on which a bounce goes ahead by its period.
+    share = bounce.period / math.tau % 1.0
+    assert character.rotation.number == pytest.approx(min(share, 1.0 - share), abs=1e-4)
+    assert character.exponents.across[0] == pytest.approx(0.0, abs=3e-3)
+
+
+def test_motions_are_followed_further_under_weight_that_points_as_it_does_there():
+    starts = np.array([0.2 + 0.1j, -0.3j, 0.5]), np.array([1.0, 0.5j, -1.0])
+    first = cm.settle(SIX, *starts, until=5.0, patience=0)
+    further = follow_further(SIX, first, np.array([True, True, False]), until=7.0, patience=0)
+    assert further.times.tolist() == [12.0, 12.0, 5.0]
+    for place in range(2):
+        whole = cm.simulate(SIX, cm.State(starts[0][place], starts[1][place]), 12.0).final
+        assert further.positions[place] == pytest.approx(whole.position, abs=1e-11)
+        assert further.state(place).time == 12.0
+
+
+def test_starts_of_an_ensemble_are_taken_at_their_times():
+    orbit = settled_motion(cm.simulate(SIX, cm.State(0.2 + 0.1j, 1.0), settle=True)).orbit
+    begin = orbit.departure
+    ends = cm.settle(SIX, [begin.position], [begin.velocity], begins=[begin.time], until=orbit.period, patience=0)
+    assert ends.state(0).time == pytest.approx(begin.time + orbit.period)
+    same = cm.simulate(SIX, begin, orbit.period).final
+    assert ends.positions[0] == pytest.approx(same.position, abs=1e-12)
+    # So are single starts whose ends are named.
+    (ending,) = find_attractors(SIX, [begin], known=False).endings
+    assert ending.start.state.time == begin.time
+    assert ending.attractor.multiplicity == 6
+
+
+def test_the_least_number_of_impacts_is_not_that_of_alike_bounces_of_a_chatter():
+    motion = cm.simulate(LANDING, cm.State(0.2 + 0.1j, 1.0), settle=True)
+    assert motion.multiplicity == 20
+    # From any of its impacts on, also from those late in the chatter.
+    for event in np.flatnonzero(motion.is_impact)[-20:].tolist():
+        position, velocity = LANDING.system.state(motion.arrivals[event])
+        start = cm.State(complex(position), complex(velocity), time=float(motion.segment_starts[event + 1]))
+        assert cm.simulate(LANDING, start, settle=True).multiplicity == 20
+
+
+def test_whirl_that_never_repeats_takes_no_whole_turns():
+    rotor = heavy(0.2, 0.1, 0.3, 0.2, 0.3, 0.5, 5.37)
+    rolling = cm.simulate(rotor, cm.State(1.0, -6.37j), settle=True)
+    assert rolling.outcome is Outcome.ROLLING
+    assert whole_turns(rolling) == 0
+    assert settled_motion(rolling).period is None

@@ -1,0 +1,127 @@
+"""Basins of drops say what single drops say, and what is known in closed form."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from machines import PAPER
+
+import carom as cm
+from carom.basins import DropMap, map_drops
+from carom.basins.drops import MEASURES
+from carom.disturbances.following import NO_START
+from carom.motions import Drop, drop_loads
+from carom.outcome import InputError, Outcome
+
+pytestmark = pytest.mark.jit_only
+
+BALLS, RIGID = "examples/touchdown-balls.toml", "examples/dropped-rotor.toml"
+
+
+@pytest.fixture(scope="module")
+def balls():
+    return cm.load(BALLS)
+
+
+@pytest.fixture(scope="module")
+def found(balls):
+    """Levitation lost and regained, on a race that turns, by the phase of the unbalance and the speed of the shaft."""
+    return map_drops(balls, cm.drop(regained_after="12 ms", race_speed="500 rpm"), shape=(5, 3), until="40 ms")
+
+
+def test_fresh_drops_agree_with_the_map(balls, found):
+    random = np.random.default_rng(7)
+    dataset = found.dataset
+    for _ in range(4):
+        at = tuple(int(random.integers(count)) for count in dataset["outcome"].shape)
+        phase, speed = dataset["phase"].values[at[0]], dataset["speed"].values[at[1]]
+        machine = balls.replace(speed=float(speed))
+        drop = cm.drop(phase=f"{math.degrees(phase)!r} deg", regained_after="12 ms", race_speed="500 rpm")
+        motion = cm.simulate(machine, drop, "40 ms", settle=True)
+        loads = drop_loads(motion)
+        (plane,) = loads.planes
+        si = plane.loads.si()
+        assert dataset["outcome"].values[at] == loads.outcome
+        # Text and number of a size differ by rounding, which impacts enlarge.
+        for name in ("force", "impulse", "depth", "heat", "pressure", "contact_time", "power"):
+            assert float(dataset[name].values[at]) == pytest.approx(si[name], rel=1e-8)
+        assert dataset["contacts"].values[at] == plane.contacts
+        assert float(dataset["time"].values[at]) == pytest.approx(loads.time * machine.parameters.scales.time, rel=1e-9)
+
+
+def test_threads_do_not_change_it(balls, found):
+    drop = cm.drop(regained_after="12 ms", race_speed="500 rpm")
+    other = map_drops(balls, drop, shape=(5, 3), until="40 ms", threads=1)
+    assert found.dataset.identical(other.dataset)
+
+
+def test_it_is_kept(found, tmp_path):
+    found.save(tmp_path / "drops.nc")
+    again = DropMap.load(tmp_path / "drops.nc")
+    assert again.dataset.identical(found.dataset)
+    assert again.motions == found.motions
+    assert again.limits == {"force": 5000.0, "heat": 50.0, "depth": 5e-5, "pressure": 4.2e9}
+    assert sum(again.fractions.values()) == pytest.approx(1.0)
+    assert again.present == pytest.approx((0.5 * math.pi, 300.0 * math.pi))
+    assert "phase 36 to 324°, speed 4,500 to 18,000 rpm" in repr(again)
+    values = found.dataset["force"].values
+    assert found.hardest == "force"
+    assert f"{values.max():,.0f} N" in found.worst
+    assert found.exceeding("force").tolist() == (values > 5000.0).tolist()
+
+
+def test_a_fall_on_a_spring_in_closed_form(balls):
+    """From rest in the centre on a spring, ``F = mg (1 + √(1 + 2kc_r/(mg)))`` whatever the speed of the shaft."""
+    spring = balls.replace(
+        touchdown_law="kelvin-voigt",
+        touchdown_exponent=1,
+        touchdown_stiffness=1e8,
+        touchdown_dissipation=None,
+        touchdown_damping=0,
+        eccentricity=0,
+        friction=0,
+    )
+    names = ("touchdown_stiffness", "speed")
+    falls = map_drops(spring, Drop(cm.State(0)), names, ranges=((2e7, 2e8), None), shape=(3, 2), until="9 ms")
+    weight = 5 * 9.81
+    stiffness = falls.dataset["touchdown_stiffness"].values[:, None]
+    expected = weight * (1.0 + np.sqrt(1.0 + 2.0 * stiffness * 0.25e-3 / weight))
+    assert falls.dataset["force"].values == pytest.approx(np.broadcast_to(expected, (3, 2)), rel=1e-9)
+
+
+def test_a_rigid_wall_has_impulses_and_no_force():
+    still = cm.load(RIGID).replace(eccentricity=0.0)
+    falls = map_drops(still, Drop(cm.State(0)), ("friction", "restitution"), ranges=(None, (0.2, 0.6)), shape=(2, 2))
+    assert np.isnan(falls.dataset["force"].values).all()
+    assert np.isnan(falls.dataset["pressure"].values).all()
+    # The first impact at √(2gc_r) is the hardest.
+    restitution = falls.dataset["restitution"].values
+    hardest = 5.0 * (1.0 + restitution) * math.sqrt(2.0 * 9.81 * 0.25e-3)
+    assert falls.dataset["impulse"].values == pytest.approx(np.broadcast_to(hardest, (2, 2)), rel=1e-9)
+    assert (falls.dataset["outcome"].values == Outcome.AT_REST).all()
+    assert falls.hardest == "impulse"
+
+
+def test_machines_that_cannot_levitate_are_not_dropped():
+    weak = cm.load(RIGID)
+    ranges = ((1e5, 1e6), (0.1, 0.2))
+    falls = map_drops(weak, names=("stiffness", "friction"), ranges=ranges, shape=(2, 2), until="10 ms")
+    assert (falls.dataset["outcome"].values[0] == NO_START).all()
+    assert (falls.dataset["outcome"].values[1] != NO_START).all()
+    assert falls.exists.tolist() == [[False, False], [True, True]]
+    assert all(np.isnan(falls.dataset[name].values[0]).all() for name in MEASURES)
+    with pytest.raises(InputError, match="levitation = of none of the machines"):
+        map_drops(weak, names=("stiffness", "friction"), ranges=((1e5, 1.1e5), (0.1, 0.2)), shape=(2, 2))
+
+
+def test_wrong_input(balls):
+    with pytest.raises(InputError, match=r"^names = phase,phase: two different ones$"):
+        map_drops(balls, names=("phase", "phase"))
+    with pytest.raises(InputError, match="unknown name"):
+        map_drops(balls, names=("phase", "spede"))
+    with pytest.raises(InputError, match="needed: the drop states no regained_after"):
+        map_drops(balls, names=("phase", "regained_after"))
+    with pytest.raises(InputError, match="gravity"):
+        map_drops(PAPER)

@@ -1,0 +1,50 @@
+"""A flexible machine on the command line: what works does, and what does not says so in one line."""
+
+import json
+
+import pytest
+
+import carom as cm
+
+pytestmark = pytest.mark.jit_only
+
+MACHINE = "examples/tum-flexible-rotor.toml"
+
+
+def test_a_drop_tells_both_planes(carom):
+    code, out, err = carom("drop", MACHINE, "--until", "20 ms")
+    words = " ".join(out.split())
+    assert (code, err) == (0, "")
+    assert "Plane 0 peak force" in words
+    assert "Plane 1 peak force" in words
+    _, out, _ = carom("drop", MACHINE, "--until", "20 ms", "--json")
+    found = json.loads(out)
+    loads = cm.motions.drop_loads(cm.simulate(cm.load(MACHINE), cm.drop(), "20 ms"))
+    for entry, plane in zip(found["planes"], loads.planes, strict=True):
+        assert entry["loads"]["force_si"] == plane.loads.si()["force"]
+    assert cm.models.model_from(found["rotor"]).scales == loads.scales
+
+
+def test_a_motion_with_all_its_stages(carom):
+    code, out, _ = carom("simulate", MACHINE, "--drop", "--regained-after", "8 ms", "--until", "30 ms")
+    assert code == 0
+    assert "The fall:" in out
+    code, out, _ = carom("simulate", MACHINE, "--drop", "--until", "10 ms", "--json")
+    assert code == 0
+    assert {entry["plane"] for entry in json.loads(out)["contacts"]} <= {0, 1}
+
+
+@pytest.mark.parametrize("options", [("--shock", "5 g, 11 ms"), ("--blade-loss", "30 g mm"), ("--kick", "5 mm/s")])
+def test_without_weight_other_disturbances_work(carom, options):
+    code, out, err = carom("simulate", MACHINE, *options, "--until", "20 ms", "--set", "gravity=0")
+    assert (code, err) == (0, "")
+    assert "At the end, in the fixed frame" in out
+
+
+@pytest.mark.parametrize("command", ["orbits", "basins", "response", "prove", "explore"])
+@pytest.mark.parametrize("settings", [(), ("--set", "gravity=0")])
+def test_what_takes_the_planar_rotor_refuses_it_in_one_line(carom, command, settings):
+    code, out, err = carom(command, MACHINE, *settings)
+    assert (code, out) == (2, "")
+    assert err.startswith("carom: machine = ")
+    assert err.count("\n") == 1

@@ -1,0 +1,88 @@
+"""Levitation as a circle about the static sag, against the matrices of the fixed frame and against simulation."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from linear_rotors import tilting
+from machines import PAPER
+
+import carom as cm
+from carom.closed_forms import levitation
+from carom.models import Force, Forced, InBearing, Jeffcott, model_of
+from carom.models.weight import weight_of, weighted, without_levitation
+from carom.outcome import InputError
+
+HEAVY = cm.load("examples/dropped-rotor.toml")
+TILTING = Forced(tilting().model, (Force(-1j, np.array([0.02 - 0.1j, 0.05])),))
+
+
+def test_the_sag_is_what_the_stiffness_holds():
+    scales = HEAVY.parameters.scales
+    held = levitation(HEAVY)
+    assert held.sag == pytest.approx(-1j * 5.0 * 9.81 / 5e5 / scales.length, abs=1e-14)
+    # The mass of the unbalance whirls as that without weight.
+    assert held.whirl == pytest.approx(model_of(HEAVY).rotor.equilibrium, rel=1e-14)
+    assert held.reach == pytest.approx(abs(held.sag) + abs(held.whirl), rel=1e-14)
+    assert held.inside
+    assert held.stable
+
+
+@pytest.mark.parametrize("rotor", [model_of(HEAVY), TILTING], ids=["planar", "of two coordinates"])
+def test_it_is_in_balance_in_the_fixed_frame(rotor):
+    mass, damping, gyroscopic, stiffness, forcing = rotor.matrices
+    held = levitation(rotor)
+    sag, whirl = np.atleast_1d(held.sag), np.atleast_1d(held.whirl)
+    assert stiffness @ sag == pytest.approx(mass @ weight_of(rotor), abs=1e-12)
+    assert (stiffness - mass + 1j * damping + gyroscopic) @ whirl == pytest.approx(forcing, abs=1e-12)
+
+
+@pytest.mark.parametrize("rotor", [model_of(HEAVY), TILTING], ids=["planar", "of two coordinates"])
+def test_a_kick_of_no_size_stays_on_it(rotor):
+    held = levitation(rotor)
+    motion = cm.simulate(rotor, cm.kick(0.0), 20.0)
+    times = np.linspace(0.0, 20.0, 50)
+    positions, _ = motion.at(times)
+    turned = np.exp(1j * times).reshape(-1, *np.ones(positions.ndim - 1, int))
+    assert positions * turned == pytest.approx(held.path(times), abs=1e-12)
+    reached = max(
+        np.abs(motion.seen_at(plane).at_plane(np.linspace(0.0, 20.0, 20_001))[0]).max()
+        for plane in range(len(held.sags))
+    )
+    assert reached == pytest.approx(held.reach, abs=1e-6)
+    assert rotor.system.rest_radius == pytest.approx(held.reach, rel=1e-14)
+
+
+def test_without_weight_it_is_the_contact_free_equilibrium():
+    held, (free, *_) = levitation(PAPER), cm.find_equilibria(PAPER)
+    assert held.sag == 0.0
+    assert held.whirl == free.position
+    assert (held.reach, held.stable) == (pytest.approx(free.radius), free.stable)
+
+
+def test_a_bearing_whose_centre_is_where_the_rotor_sags_holds_it_in_the_middle():
+    bearing = cm.parameters.TouchdownBearing(
+        law="kelvin-voigt", stiffness=1e8, damping=3e3, offset=5.0 * 9.81 / 5e5, offset_direction=-0.5 * math.pi
+    )
+    held = levitation(weighted(InBearing(Jeffcott(HEAVY.parameters), bearing), HEAVY.gravity))
+    assert held.sags == pytest.approx([0.0], abs=1e-15)
+    assert held.reach == pytest.approx(abs(levitation(HEAVY).whirl), rel=1e-12)
+    # Both forces act through modes of their own, which cancel each other.
+    assert held.rotor.system.rest_radius == pytest.approx(held.reach, rel=1e-12)
+
+
+def test_a_rotor_that_nothing_holds_has_no_levitation():
+    with pytest.raises(InputError, match=r"^levitation = none, nothing holds the rotor"):
+        levitation(without_levitation(model_of(HEAVY)))
+    with pytest.raises(InputError, match=r"^machine = forces that change in the fixed frame"):
+        levitation(Forced(Jeffcott(PAPER), (Force(0.3j, np.array([0.1])),)))
+
+
+def test_the_weight_that_levitation_holds_is_that_at_which_it_reaches_the_wall():
+    whirl = abs(levitation(HEAVY).whirl)
+    most = (1.0 - whirl) * 0.25e-3 * 5e5 / 5.0
+    assert levitation(HEAVY.replace(gravity=most * (1 - 1e-9))).inside
+    assert not levitation(HEAVY.replace(gravity=most * (1 + 1e-9))).inside
+    assert math.isclose(levitation(HEAVY.replace(gravity=most)).reach, 1.0, rel_tol=1e-12)

@@ -1,0 +1,104 @@
+"""Shocks and losses of a blade of machines that weigh something, against a general solver in SI units."""
+
+from __future__ import annotations
+
+import cmath
+import math
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+import carom as cm
+from carom.disturbances import BladeLoss
+from carom.models.weight import levitation_of
+from carom.outcome import InputError
+
+MACHINE, BALLS = "examples/dropped-rotor.toml", "examples/touchdown-balls.toml"
+MASS, DAMPING, STIFFNESS, SPEED = 5.0, 900.0, 5e5, 300.0 * math.pi
+PEAK, LASTS, DIRECTION = 0.3 * 9.80665, 0.011, 0.7
+
+
+def whirl(eccentricity, phase=0.0):
+    """Displacement at time zero of the levitating rotor by its unbalance, m."""
+    dynamic = STIFFNESS - MASS * SPEED**2 + 1j * DAMPING * SPEED
+    return MASS * eccentricity * SPEED**2 * cmath.rect(1.0, phase) / dynamic
+
+
+def base(time):
+    return PEAK * math.sin(math.pi * time / LASTS) * cmath.rect(1.0, DIRECTION) if time < LASTS else 0.0
+
+
+def solved(rates, start, end):
+    # The pulse has a kink at its end.
+    options = {"rtol": 1e-12, "atol": 1e-18, "method": "DOP853"}
+    first = solve_ivp(rates, (0.0, LASTS), start, **options)
+    return solve_ivp(rates, (LASTS, end), first.y[:, -1], **options).y[0, -1]
+
+
+def test_a_shock_begins_at_levitation_about_the_sag():
+    machine = cm.load(MACHINE)
+    eccentricity = machine.machine.eccentricity
+    motion = cm.simulate(*cm.BaseShock.of(machine, f"{PEAK} m/s^2", f"{LASTS} s").stages(machine, DIRECTION), "60 ms")
+
+    def rates(time, state):
+        push = MASS * eccentricity * SPEED**2 * cmath.rect(1.0, SPEED * time)
+        force = push - DAMPING * state[1] - STIFFNESS * state[0] - 9.81j * MASS
+        return [state[1], force / MASS - base(time)]
+
+    start = [whirl(eccentricity) - 9.81j * MASS / STIFFNESS, 1j * SPEED * whirl(eccentricity)]
+    clearance = machine.parameters.scales.length
+    place = complex(motion.position(motion.time, "fixed")) * clearance
+    assert [len(part.contacts) for part in motion.parts] == [0, 0]
+    assert abs(place - solved(rates, start, 0.06)) < 1e-10 * clearance
+
+
+def test_a_bearing_on_a_mount_is_shaken_too():
+    mount = ["touchdown_mount_mass=1", "touchdown_mount_stiffness=2e6", "touchdown_mount_damping=200"]
+    machine = cm.load(BALLS, mount)
+    motion = cm.simulate(*cm.BaseShock.of(machine, f"{PEAK} m/s^2", f"{LASTS} s").stages(machine, DIRECTION), "13 ms")
+    position, _ = motion.at(motion.time)
+    moved = complex(position[1]) * cmath.rect(1.0, motion.begins + motion.time)
+
+    def rates(time, state):
+        return [state[1], -200.0 * state[1] - 2e6 * state[0] - base(time)]
+
+    clearance = machine.parameters.scales.length
+    assert abs(moved * clearance - solved(rates, [0j, 0j], 0.013)) < 1e-10 * clearance
+
+
+def test_a_blade_is_lost_at_levitation_about_the_sag():
+    machine = cm.load(MACHINE)
+    scales, phase = machine.parameters.scales, 0.9
+    loss = BladeLoss.of(machine, "12 um")
+    after, state = loss.release(machine, phase)
+    before = whirl(machine.machine.eccentricity, -phase) - 9.81j * MASS / STIFFNESS
+    assert state.position * scales.length == pytest.approx(before, rel=1e-12)
+    # In the fixed frame the sag stands still, and only the whirl moves.
+    moving = (state.velocity + 1j * state.position) * scales.velocity
+    assert moving == pytest.approx(1j * SPEED * whirl(machine.machine.eccentricity, -phase), rel=1e-9)
+    assert after.value("rho") == pytest.approx(12e-6 / scales.length)
+    turned = levitation_of(cm.models.model_of(machine).replace(phi=-phase))
+    assert state.position == pytest.approx(complex(turned[0][0]), rel=1e-12)
+    assert state.velocity == pytest.approx(complex(turned[1][0]), rel=1e-12)
+
+
+@pytest.mark.jit_only
+def test_losses_of_a_blade_are_mapped():
+    machine = cm.load(MACHINE)
+    loss = BladeLoss.of(machine, "60 um")
+    basin = cm.map_basins(machine, cm.Grid(loss, (8,)), until=400.0)
+    phases = basin.dataset["phase_after"].values
+    for place in (0, 5):
+        motion = cm.simulate(*loss.release(machine, float(phases[place])), 400.0, settle=True)
+        assert basin.outcomes[place] == motion.outcome
+        assert basin.dataset["impacts"].values[place] == len(motion.contacts)
+
+
+def test_what_sags_to_the_wall_is_refused():
+    machine = cm.load(MACHINE, ["stiffness=1e5 N/m"])
+    with pytest.raises(InputError, match="levitation = up to"):
+        cm.BaseShock.of(machine, "1 g", "1 ms").stages(machine)
+    with pytest.raises(InputError, match="needs levitation inside the wall before the loss"):
+        BladeLoss(0.1).release(machine)
+    assert not BladeLoss(0.1).starts(cm.models.model_of(machine), np.array([0.0, 1.0])).exists.any()

@@ -1,0 +1,262 @@
+"""Flexible rotors on magnetic bearings: closed loops, reduction, drops, and the limit of a rigid rotor."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from flexible_machines import SOFT, munich, munich_rotor, replaced, symmetric
+
+import carom as cm
+from carom.models import Forced, LinearRotor
+from carom.models.weight import levitation_of
+from carom.outcome import InputError, Outcome
+from carom.parameters import Gravity, TouchdownBearing
+from carom.rotors import PID, FlexibleMachine, MagneticBearing, TouchdownPlane, Unbalance
+from carom.rotors.reduction import contact_error
+
+MACHINE = munich()
+
+
+def by_elements(machine):
+    """Exponents in 1/s by the finite elements themselves, with the controllers beside them."""
+    rotor, speed = machine.rotor, machine.speed
+    n, states = len(rotor.mass_matrix), sum(each.loop.states for each in machine.bearings)
+    stiffness, inputs = rotor.stiffness_matrix.astype(complex), np.zeros((n, states))
+    matrix = np.zeros((2 * n + states, 2 * n + states), complex)
+    at = 0
+    for each in machine.bearings:
+        place, loop, own = rotor.displacement_at(each.node), each.loop, slice(at, at + each.loop.states)
+        sensors = [rotor.displacement_at(node) for node in each.sensor_nodes]
+        stiffness[place, place] += each.ks
+        for sensor in sensors:
+            stiffness[place, sensor] += each.ki * loop.D / len(sensors)
+            matrix[2 * n + at : 2 * n + own.stop, sensor] += loop.B / len(sensors)
+        inputs[place, own] = each.ki * loop.C
+        matrix[2 * n + own.start : 2 * n + own.stop, 2 * n + own.start : 2 * n + own.stop] = loop.A
+        at = own.stop
+    spin = rotor.damping_matrix - 1j * speed * rotor.gyroscopic_matrix
+    matrix[:n, n : 2 * n] = np.eye(n)
+    matrix[n : 2 * n] = -np.linalg.solve(rotor.mass_matrix, np.concatenate([stiffness, spin, inputs], axis=1))
+    return np.linalg.eigvals(matrix)
+
+
+def exponents_of(reduced):
+    """Exponents of a model in the fixed frame, 1/s."""
+    return (reduced.linear.system.exponents + 1j) * reduced.machine.speed
+
+
+def test_all_modes_are_the_finite_elements():
+    machine = munich(0.06)
+    exact, found = by_elements(machine), exponents_of(machine.with_modes(1000))
+    slow = exact[np.abs(exact) < 2e4]
+    assert len(slow) > 20
+    for each in slow:
+        # Rounding of the largest, 1e6 1/s.
+        assert np.abs(found - each).min() < 1e-8 * max(abs(each), 1.0)
+
+
+def test_few_vectors_have_the_slow_exponents():
+    machine = munich(0.06)
+    exact, reduced = by_elements(machine), machine.reduce()
+    found = exponents_of(reduced)
+    for each in exact[np.abs(exact) < 1500.0]:
+        assert np.abs(found - each).min() < 1e-4 * max(abs(each), 1.0)
+    assert reduced.vectors < len(machine.rotor.mass_matrix) // 2
+
+
+def test_the_error_told_is_that_of_the_forces():
+    """Against all modes: the estimate tells the error to a factor of two."""
+    for modes in (4, 8, 12):
+        reduced = MACHINE.with_modes(modes)
+        every = MACHINE.with_modes(1000)
+        row = np.zeros(len(MACHINE.rotor.mass_matrix))
+        row[MACHINE.rotor.displacement_at(2)] = 1.0
+        true = contact_error(reduced.basis, every.basis, row, 1e7)
+        assert 0.5 < reduced.error / true < 2.0
+    assert every.error == 0.0
+
+
+def test_a_reduction_is_as_small_as_its_accuracy_allows():
+    machine = munich(1.0)
+    reduced = machine.reduce(0.05)
+    assert reduced.error <= 0.05 < machine.with_modes(reduced.modes - 1).error
+    assert machine.reduce(1e-12).error == 0.0
+    assert "vectors" in repr(reduced)
+
+
+def test_a_steady_force_bends_the_reduced_rotor_as_all_modes_do():
+    """At bearings, sensors and touchdown bearings no compliance is lost, however few modes are kept."""
+    few, every = MACHINE.with_modes(2).equations, MACHINE.with_modes(1000).equations
+    sags = [equations.planes @ np.linalg.solve(equations.stiffness, equations.planes.T) for equations in (few, every)]
+    assert sags[0] == pytest.approx(sags[1], rel=1e-9)
+
+
+def rigid(machine, s):
+    """What vanishes at the exponents of the translation of a rigid rotor on two bearings alike."""
+    bearing = machine.bearings[0]
+    return machine.rotor.mass * s**2 + 2.0 * (bearing.ki * complex(bearing.loop.at(s)) + bearing.ks)
+
+
+def test_a_stiff_rotor_moves_as_a_rigid_one_on_its_controllers():
+    """``m s² + 2 (ki C(s) + ks) = 0`` for the translation; the distance falls with the stiffness of the shaft."""
+    errors = []
+    for stiffer in (100.0, 1000.0):
+        machine = symmetric(stiffer)
+        found = exponents_of(machine.with_modes(4))
+        exact = found[np.abs(found - 200j).argmin()]
+        for _ in range(30):  # Newton
+            missing, slope = rigid(machine, exact), (rigid(machine, exact + 1e-3) - rigid(machine, exact - 1e-3)) / 2e-3
+            exact -= missing / slope
+        errors.append(np.abs(found - exact).min())
+    assert errors[1] < 1e-3 * abs(exact)
+    assert errors[0] / errors[1] == pytest.approx(10.0, rel=0.1)
+
+
+def test_without_integral_the_rotor_sags_by_its_weight():
+    machine = symmetric(4e3)
+    position, _ = levitation_of(machine.model)
+    sag = machine.model.system.planes @ position
+    expected = machine.rotor.mass * 9.81 / (2.0 * (50.0 * 9000.0 - 1e5)) / machine.clearance
+    # A shaft that is thousands of times as stiff as steel.
+    assert sag == pytest.approx(np.full(2, -1j * expected), rel=1e-4)
+
+
+@pytest.mark.jit_only
+def test_a_drop_from_the_centre_is_free_fall_and_then_a_mass_on_springs():
+    """``√(2c/g)``, and ``F = mg(1 + √(1 + 2kc/mg))``, half of it at each bearing, for a stiff shaft: the error falls with the stiffness."""
+    errors = []
+    for stiffer in (30.0, 300.0):
+        machine = symmetric(stiffer)
+        model = machine.with_modes(4).model
+        motion = cm.simulate(
+            model, cm.drop(cm.State(np.zeros(len(model.system.rest)), np.zeros(len(model.system.rest)))), "8 ms"
+        )
+        first, scales = motion.touches, model.scales
+        assert first.start[0] * scales.time == pytest.approx(math.sqrt(2.0 * 0.2e-3 / 9.81), rel=1e-10)
+        weight, stiffness = machine.rotor.mass * 9.81, 2.0 * 2e7
+        peak = weight * (1.0 + math.sqrt(1.0 + 2.0 * stiffness * 0.2e-3 / weight))
+        forces = [motion.seen_at(plane).touches.peak_force.max() * scales.force for plane in (0, 1)]
+        assert forces[0] == pytest.approx(forces[1], rel=1e-9)
+        errors.append(abs(sum(forces) / peak - 1.0))
+    assert errors[1] < 0.01
+    assert errors[1] < 0.3 * errors[0]
+
+
+@pytest.mark.jit_only
+def test_a_drop_of_the_reduced_rig_is_that_of_all_its_modes():
+    """Times and peaks of the first contacts at both ends, within the error of the reduction; later ones differ as contacts amplify it."""
+    bearings = [MagneticBearing(node, 50.0, -1e5, PID(5000.0, 0.0, 5.0, 1e-4)) for node in (3, 11)]
+    machine, found = munich(1.0, bearings=bearings), []
+    for reduced in (machine.reduce(0.02), machine.with_modes(1000)):
+        motion = cm.simulate(reduced.model, cm.drop(), "8 ms")
+        planes = [motion.seen_at(plane).touches for plane in (0, 1)]
+        found.append([[each.start[0], each.peak_force[0], each.normal_impulse[0]] for each in planes])
+    reduced, full = np.array(found)
+    assert reduced[:, 0] == pytest.approx(full[:, 0], rel=1e-3)
+    assert reduced[:, 1:] == pytest.approx(full[:, 1:], rel=0.02)
+
+
+@pytest.mark.jit_only
+def test_the_rig_levitates_and_is_dropped_by_the_verbs_of_every_rotor():
+    model = MACHINE.model
+    assert isinstance(model, Forced)
+    assert isinstance(model.rotor, LinearRotor)
+    assert model.system.rest_radius < 0.5
+    kicked = cm.simulate(model, cm.kick("5 mm/s"), "50 ms")
+    assert not len(kicked.touches)
+    loads = cm.motions.drop_loads(cm.simulate(model, cm.drop(), "50 ms"))
+    assert min(each.contacts for each in loads.planes) > 0
+    weight = MACHINE.rotor.mass * 9.81
+    assert weight < loads.planes[0].loads.si()["force"] < 50.0 * weight
+
+
+@pytest.mark.jit_only
+def test_a_dropped_rotor_that_bends_comes_to_rest():
+    """Its unbalance shakes it where it lies, in hundreds of steps a turn; it goes round nothing."""
+    assert cm.simulate(MACHINE.with_modes(2).model, cm.drop()).outcome is Outcome.AT_REST
+
+
+def test_mounts_and_races_are_those_of_the_touchdown_bearing():
+    bearing = TouchdownBearing(
+        "hunt-crossley",
+        "1e8 N/m",
+        dissipation=0.5,
+        race_inertia=1e-5,
+        mount_mass=0.3,
+        mount_stiffness=2e6,
+        mount_damping=50.0,
+    )
+    model = munich(touchdown=bearing).with_modes(4)
+    linear = model.linear
+    assert [each.race is not None for each in linear.touchdowns] == [True, True]
+    # The mounts stand by themselves, and planes are seen from them.
+    place = model.vectors
+    mass, _, _, stiffness, _ = linear.matrices
+    assert mass[place, place] == 0.3
+    own = stiffness[place, place].real * MACHINE.speed**2 / mass[place, place].real
+    assert own == pytest.approx(2e6 / 0.3)
+    assert linear.planes[0, place] == pytest.approx(-math.sqrt(MACHINE.rotor.mass))
+
+
+def test_without_bearings_the_rotor_is_free():
+    model = munich(bearings=(), gravity=None).with_modes(4).model
+    assert isinstance(model, LinearRotor)
+    assert np.abs(model.system.exponents + 1j).min() < 1e-6
+
+
+@pytest.mark.parametrize(
+    ("make", "says"),
+    [
+        (lambda: munich(speed="3000 kg"), r"^speed = 3000 kg: must be an angular speed"),
+        (lambda: munich(bearings=None), r"^bearings = None: a sequence of carom.rotors.MagneticBearing$"),
+        (lambda: munich(touchdowns=[]), r"^touchdowns = \[\]: a sequence of carom.rotors.TouchdownPlane, one or more$"),
+        (lambda: munich(gravity=9.81), r"^gravity = 9.81: carom.parameters.Gravity, or None$"),
+        (lambda: FlexibleMachine(1, 1.0, 1.0, [], []), r"^rotor = 1: carom.rotors.FlexibleRotor$"),
+        (
+            lambda: munich(bearings=[MagneticBearing(15, 50.0, -1e5, PID(1.0))]),
+            r"^bearing node = 15: a node of the shaft: 0 to 14, its end at 702 mm$",
+        ),
+        (
+            lambda: munich(bearings=[MagneticBearing(3, 50.0, -1e5, PID(1.0), (3, 16))]),
+            r"^sensor node = 16: a node of the shaft: 0 to 14",
+        ),
+        (lambda: munich(unbalances=[Unbalance(20, 1e-5)]), r"^unbalance node = 20: a node of the shaft: 0 to 14"),
+        (
+            lambda: munich(touchdowns=[TouchdownPlane(20, SOFT, 0.01, 0.1)]),
+            r"^touchdown node = 20: a node of the shaft",
+        ),
+        (lambda: TouchdownPlane(0, TouchdownBearing(), 0.01, 0.1), r"^law = rigid: 'kelvin-voigt' or 'hunt-crossley'"),
+        (lambda: TouchdownPlane(0, "soft", 0.01, 0.1), r"^bearing = soft: carom.parameters.TouchdownBearing$"),
+        (lambda: TouchdownPlane(0, SOFT, 0.01, -0.1), r"^friction = -0.1: must be a number"),
+        (
+            lambda: TouchdownPlane(0, TouchdownBearing("kelvin-voigt", 1e8, 1.0, offset=1e-5), 0.01, 0.1),
+            r"^offset = 1e-05: 0: bearings of a flexible rotor are centred where it levitates$",
+        ),
+        (lambda: Unbalance(0, "10 mm"), r"^size = 10 mm: must be an unbalance"),
+        (lambda: MACHINE.reduce(-1.0), r"^accuracy = -1.0: a finite number above 0$"),
+        (lambda: MACHINE.with_modes(0), r"^modes = 0: a whole number of at least 1$"),
+    ],
+)
+def test_what_cannot_be_used_is_refused_in_one_line(make, says):
+    with pytest.raises(InputError, match=says) as problem:
+        make()
+    assert "\n" not in str(problem.value)
+
+
+def test_controllers_that_do_not_hold_the_rotor_are_refused():
+    weak = munich(bearings=[MagneticBearing(node, 50.0, -1e5, PID(1500.0, 0.0, 5.0, 1e-4)) for node in (3, 11)])
+    with pytest.raises(InputError, match=r"^levitation = unstable: a whirl of .* Hz grows with .* 1/s: controllers"):
+        _ = weak.model
+    late = munich(
+        bearings=[MagneticBearing(node, 50.0, -1e5, PID(5000.0, 0.0, 5.0, 1e-4), delay="20 ms") for node in (3, 11)]
+    )
+    with pytest.raises(InputError, match=r"^levitation = unstable"):
+        _ = late.model
+
+
+def test_damping_of_a_mode_is_asked_for():
+    with pytest.raises(InputError, match=r"^damping = None"):
+        munich_rotor(damping=None)
+    assert replaced(MACHINE, gravity=Gravity(0.0)).model.system.forced is None

@@ -1,0 +1,189 @@
+"""Linear results of levitating rotors: whirls, response to unbalance and sensitivity, against finite elements written down anew and closed forms."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from flexible_machines import SOFT, munich, replaced, symmetric
+
+from carom.outcome import InputError
+from carom.rotors import (
+    PID,
+    FlexibleMachine,
+    FlexibleRotor,
+    MagneticBearing,
+    ModalDamping,
+    Section,
+    TouchdownPlane,
+    Unbalance,
+    campbell,
+    find_whirls,
+    sensitivity,
+    unbalance_response,
+)
+
+MACHINE = munich(0.06, unbalances=[Unbalance(7, "20 g mm"), Unbalance(3, "5 g mm", "90 deg")])
+
+
+def dynamic(machine, exponent, closed=True, speed=None):
+    """Dynamic stiffness of the finite elements, with the bearings as complex stiffnesses, and the rows of bearings and sensors."""
+    rotor, speed = machine.rotor, machine.speed if speed is None else speed
+    matrix = rotor.stiffness_matrix + exponent**2 * rotor.mass_matrix
+    matrix = matrix + exponent * (rotor.damping_matrix - 1j * speed * rotor.gyroscopic_matrix)
+    pulls, seen = np.zeros((2, len(machine.bearings), len(matrix)))
+    for number, each in enumerate(machine.bearings):
+        pulls[number, rotor.displacement_at(each.node)] = 1.0
+        for node in each.sensor_nodes:
+            seen[number, rotor.displacement_at(node)] += 1.0 / len(each.sensor_nodes)
+        matrix = matrix + each.ks * np.outer(pulls[number], pulls[number])
+        if closed:
+            matrix = matrix + each.ki * complex(each.loop.at(exponent)) * np.outer(pulls[number], seen[number])
+    return matrix, pulls, seen
+
+
+def test_whirls_solve_the_equations_of_the_finite_elements():
+    rotor = MACHINE.rotor
+    for whirl in find_whirls(MACHINE):
+        matrix, _, _ = dynamic(MACHINE, whirl.exponent)
+        _, sizes, vectors = np.linalg.svd(
+            matrix / np.sqrt(np.outer(np.diag(rotor.stiffness_matrix), np.diag(rotor.stiffness_matrix)))
+        )
+        # Singular, to the rounding of a matrix whose largest is one.
+        assert sizes[-1] < 1e-13
+        shape = (vectors[-1].conj() / np.sqrt(np.diag(rotor.stiffness_matrix)))[::2]
+        shape /= shape[np.abs(whirl.shape).argmax()] / whirl.shape[np.abs(whirl.shape).argmax()]
+        assert shape == pytest.approx(whirl.shape, abs=1e-6)
+
+
+def test_senses_and_damping_ratios():
+    whirls = find_whirls(MACHINE)
+    assert {each.sense for each in whirls} == {"forward", "backward"}
+    for each in whirls:
+        assert each.frequency == pytest.approx(abs(each.exponent.imag) / 2.0 / math.pi)
+        assert 0.0 < each.damping_ratio < 1.0
+    # Of one pair the forward whirl is the faster one: gyroscopic moments stiffen it.
+    lowest = {each.sense: each.frequency for each in whirls[1::-1]}
+    assert lowest["forward"] > lowest["backward"]
+
+
+def test_whirls_part_with_the_speed():
+    found = campbell(MACHINE, [1e-3, 300.0, 900.0], count=4)
+    standing, faster = np.sort(np.abs(found.frequencies[0])), found.frequencies[2]
+    assert standing[0] == pytest.approx(standing[1], rel=1e-6)
+    assert faster[faster > 0.0].min() > standing[0] > -faster[faster < 0.0].max()
+    assert found.levitates.all()
+    assert found.damping_ratios.shape == (3, 4)
+    assert "Campbell" in repr(found)
+
+
+def test_a_shaft_with_few_whirls_has_all_of_them():
+    rotor = FlexibleRotor([Section(0.5, 0.02)], [], ModalDamping(0.01), 1.0)
+    machine = FlexibleMachine(rotor, 100.0, 2e-4, [], [TouchdownPlane(0, SOFT, 0.01, 0.1)])
+    # Two bending modes of one element, each in two senses, and a free top.
+    assert campbell(machine, [100.0, 200.0]).exponents.shape == (2, 5)
+
+
+def test_a_speed_at_which_a_whirl_grows_is_told():
+    """Internal damping is none of the model, but a delay makes the bending mode grow."""
+    late = [MagneticBearing(each.node, each.ki, each.ks, each.controller, delay="8 ms") for each in MACHINE.bearings]
+    assert not campbell(replaced(MACHINE, bearings=late), [300.0]).levitates.any()
+
+
+def test_unbalance_response_is_that_of_the_finite_elements():
+    speeds = [40.0, 105.0, 314.0, 900.0]
+    found, rotor = unbalance_response(MACHINE, speeds), MACHINE.rotor
+    for number, speed in enumerate(speeds):
+        matrix, _, seen = dynamic(MACHINE, 1j * speed, speed=speed)
+        push = np.zeros(len(matrix), complex)
+        for each in MACHINE.unbalances:
+            push[rotor.displacement_at(each.node)] += speed**2 * each.size * np.exp(1j * each.angle)
+        answer = np.linalg.solve(matrix, push)
+        places = [rotor.displacement_at(each.node) for each in MACHINE.touchdowns]
+        assert found.touchdowns[number] == pytest.approx(answer[places], rel=1e-8)
+        assert found.sensors[number] == pytest.approx(seen @ answer, rel=1e-8)
+        gains = [complex(each.loop.at(1j * speed)) for each in MACHINE.bearings]
+        assert found.currents[number] == pytest.approx(gains * (seen @ answer), rel=1e-8)
+    assert found.room.min() < 1.0
+    assert set(found.zones) <= set("ABCD")
+
+
+def test_the_model_that_levitates_whirls_with_that_amplitude():
+    """Reduced, in its own units: at rest in the frame that turns."""
+    reduced = MACHINE.reduce()
+    found = unbalance_response(MACHINE, [MACHINE.speed]).touchdowns[0] / MACHINE.clearance
+    assert reduced.linear.planes @ reduced.linear.system.rest == pytest.approx(found, rel=1e-3)
+    whole = MACHINE.whole.linear
+    assert whole.planes @ whole.system.rest == pytest.approx(found, rel=1e-9)
+
+
+def test_sensitivity_is_what_the_controller_sees_of_an_added_signal():
+    frequencies = [20.0, 110.0, 400.0, 3000.0]
+    found = sensitivity(MACHINE, frequencies)
+    for row, frequency in zip(found.values, frequencies, strict=True):
+        both = []
+        for s in (1j * frequency, -1j * frequency):
+            matrix, pulls, seen = dynamic(MACHINE, s)
+            answers = [
+                1.0 - row @ np.linalg.solve(matrix, pull * each.ki * complex(each.loop.at(s)))
+                for row, pull, each in zip(seen, pulls, MACHINE.bearings, strict=True)
+            ]
+            both.append(np.array(answers))
+        assert row == pytest.approx(0.5 * (both[0] + both[1].conj()), rel=1e-8)
+
+
+def test_sensitivity_of_a_rigid_rotor_on_bearings_alike():
+    """Both bearings act on the translation and on the tilt: half of each loop's sensitivity is that of either, for one speed at which none turns it."""
+    machine = symmetric(4e3, speed=1e-3)
+    rotor, (bearing, _) = machine.rotor, machine.bearings
+    frequencies = np.array([60.0, 300.0, 700.0])
+    gain, s = bearing.ki * bearing.loop.at(1j * frequencies), 1j * frequencies
+    arm = 0.2**2
+    moves = [
+        1.0 / (rotor.mass / 2.0 * s**2 + bearing.ks),
+        1.0 / (rotor.diametral_inertia / (2.0 * arm) * s**2 + bearing.ks),
+    ]
+    expected = sum(0.5 / (1.0 + gain * each) for each in moves)
+    found = sensitivity(machine, frequencies.tolist())
+    assert found.values[:, 0] == pytest.approx(expected, rel=1e-3)
+    assert found.values[:, 1] == pytest.approx(expected, rel=1e-3)
+
+
+def test_peaks_and_zones():
+    found = sensitivity(MACHINE)
+    sizes = np.abs(found.values)
+    assert (found.peaks >= sizes.max(axis=0)).all()
+    assert found.peaks == pytest.approx(sizes.max(axis=0), rel=0.02)
+    for number, frequency in enumerate(found.peak_frequencies.tolist()):
+        near = sensitivity(MACHINE, [frequency * 0.999, frequency, frequency * 1.001])
+        assert np.abs(near.values[:, number]).argmax() == 1
+    limits = {"A": 3.0, "B": 4.0, "C": 5.0, "D": math.inf}
+    for zone, peak in zip(found.zones, found.peaks.tolist(), strict=True):
+        assert peak <= limits[zone]
+    late = [MagneticBearing(each.node, each.ki, each.ks, each.controller, delay="1 ms") for each in MACHINE.bearings]
+    assert (sensitivity(replaced(MACHINE, bearings=late)).peaks > found.peaks).all()
+
+
+@pytest.mark.parametrize(
+    ("make", "says"),
+    [
+        (lambda: find_whirls(1), r"^flexible = 1: "),
+        (lambda: find_whirls(MACHINE, -1.0), r"^speed = -1.0: a finite number above 0"),
+        (lambda: campbell(MACHINE, []), r"^speeds = \[\]: "),
+        (lambda: campbell(MACHINE, [0.0]), r"^speeds = \[0.0\]: one or more numbers above 0, in rad/s$"),
+        (lambda: unbalance_response(munich(unbalances=()), [1.0]), r"^unbalances = nothing given: one or more carom"),
+        (lambda: sensitivity(munich(bearings=())), r"^bearings = nothing given: one or more carom.rotors.Magnetic"),
+        (lambda: sensitivity(MACHINE, [-5.0]), r"^speeds = \[-5.0\]: one or more numbers above 0"),
+    ],
+)
+def test_what_cannot_be_used_is_refused_in_one_line(make, says):
+    with pytest.raises(InputError, match=says):
+        make()
+
+
+def test_without_filter_and_integral_the_loop_has_no_states():
+    stiff = [MagneticBearing(each.node, each.ki, each.ks, PID(6000.0)) for each in MACHINE.bearings]
+    machine = replaced(MACHINE, bearings=stiff)
+    assert machine.whole.states == 2 * machine.whole.vectors
+    assert find_whirls(machine)[0].damping_ratio > 0.0

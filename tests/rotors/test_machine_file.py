@@ -1,0 +1,193 @@
+"""Flexible machines in machine files: what they say, what may be set, and errors that name the table."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from flexible_machines import munich
+
+import carom as cm
+from carom.models import LinearRotor, model_of
+from carom.outcome import InputError
+from carom.rotors import PID, StateSpace
+
+EXAMPLE = Path("examples/tum-flexible-rotor.toml")
+TEXT = EXAMPLE.read_text(encoding="utf-8")
+SMALL = """
+[rotor]
+speed = "3000 rpm"
+damping_ratio = 0.01
+accuracy = 0.5
+[[section]]
+length = "0.1 m"
+outer_diameter = "20 mm"
+[[section]]
+length = "0.4 m"
+outer_diameter = "20 mm"
+inner_diameter = "10 mm"
+[[section]]
+length = "0.1 m"
+outer_diameter = "20 mm"
+density = 4500
+[[disc]]
+node = 3
+width = "10 mm"
+outer_diameter = "80 mm"
+inner_diameter = "20 mm"
+[[magnetic_bearing]]
+node = 1
+ki = 50
+ks = "-1e5 N/m"
+proportional = 9000
+derivative = 10
+filter_time = "0.1 ms"
+[[magnetic_bearing]]
+node = 2
+ki = 50
+ks = "-1e5 N/m"
+numerator = [10.9, 9000]
+denominator = [1e-4, 1]
+[[touchdown]]
+node = 1
+clearance = "0.2 mm"
+rotor_radius = "10 mm"
+friction = 0.1
+law = "kelvin-voigt"
+stiffness = "1e7 N/m"
+damping = "100 N s/m"
+"""
+
+
+@pytest.fixture
+def load(tmp_path):
+    def read(text, *settings):
+        path = tmp_path / "flexible.toml"
+        path.write_text(text, encoding="utf-8")
+        return cm.load(path, settings)
+
+    return read
+
+
+def test_the_example_is_the_rig_in_python():
+    case = cm.load(EXAMPLE)
+    machine = munich(0.702 / 32.0)
+    expected = machine.reduce().linear
+    assert isinstance(case.parameters, LinearRotor)
+    assert case.parameters.scales == expected.scales
+    for name in ("mass", "damping", "stiffness", "unlevitated", "forcing", "planes"):
+        found, own = getattr(case.parameters, name), getattr(expected, name)
+        # Lengths between nodes are rounded when they are written down.
+        assert np.allclose(found, own, rtol=0, atol=1e-9 * np.abs(own).max())
+    assert model_of(case).forces
+    assert "Case tum-flexible-rotor" in repr(case)
+
+
+def test_controllers_of_all_kinds_are_the_same(load):
+    """``9000 + 10 s/(1 + 1e-4 s)``, by gains, as a quotient, and as matrices."""
+    space = PID(9000.0, 0.0, 10.0, 1e-4).state_space
+    assert isinstance(space, StateSpace)
+    matrices = f"A = {space.A.tolist()}\nB = {space.B.tolist()}\nC = {space.C.tolist()}\nD = {space.D!r}"
+    quotient = "numerator = [10.9, 9000]\ndenominator = [1e-4, 1]"
+    gains = "proportional = 9000\nderivative = 10\nfilter_time = '0.1 ms'"
+    one = load(SMALL).parameters.system.exponents
+    for way in (gains, matrices):
+        other = load(SMALL.replace(quotient, way)).parameters.system.exponents
+        for exponent in one:
+            assert np.abs(other - exponent).min() < 1e-9 * (1.0 + abs(exponent))
+
+
+def test_materials_and_dimensions_are_those_of_their_tables(load):
+    mass = load(SMALL).parameters.scales.mass
+    shaft = np.pi / 4.0 * (7850.0 * (0.02**2 * 0.1 + (0.02**2 - 0.01**2) * 0.4) + 4500.0 * 0.02**2 * 0.1)
+    assert mass == pytest.approx(shaft + 7850.0 * np.pi / 4.0 * (0.08**2 - 0.02**2) * 0.01, rel=1e-12)
+
+
+def test_settings_change_the_rotor_and_its_weight(load):
+    assert load(SMALL).gravity is None
+    case = load(SMALL, "gravity=1.62 m/s^2", "speed=6000 rpm", "accuracy=0.05")
+    assert case.gravity.acceleration == 1.62
+    assert case.parameters.scales.speed == pytest.approx(200.0 * np.pi)
+    assert len(case.parameters.mass) > len(load(SMALL).parameters.mass)
+
+
+def without(text, line):
+    assert line in text
+    return text.replace(line, "")
+
+
+@pytest.mark.parametrize(
+    ("text", "says"),
+    [
+        (
+            SMALL.replace('length = "0.4 m"', 'length = "0.4 kg"'),
+            r"^\[\[section\]\] 2: length = 0.4 kg: must be a length",
+        ),
+        (SMALL.replace('length = "0.4 m"', 'lenght = "0.4 m"'), r"\[\[section\]\] 2: lenght = .*did you mean length"),
+        (without(SMALL, "node = 3\n"), r"^\[\[disc\]\] 1: node = nothing given: must be stated$"),
+        (SMALL.replace("node = 3", "node = 4"), r"^disc node = 4: a node of the shaft: 0 to 3"),
+        (SMALL.replace("node = 2", "node = 7"), r"^bearing node = 7: a node of the shaft: 0 to 3"),
+        (
+            without(SMALL, "proportional = 9000\n"),
+            r"^\[\[magnetic_bearing\]\] 1: proportional = nothing given: must be",
+        ),
+        (
+            without(SMALL, 'filter_time = "0.1 ms"\n'),
+            r"^\[\[magnetic_bearing\]\] 1: filter_time = nothing given: a deriv",
+        ),
+        (
+            SMALL.replace("denominator = [1e-4, 1]", "denominator = [1]"),
+            r"^\[\[magnetic_bearing\]\] 2: controller numerator = a polynomial of degree 1: a proper transfer function",
+        ),
+        (
+            SMALL.replace("proportional = 9000", "proportional = 9000\nA = [[1]]"),
+            r"^\[\[magnetic_bearing\]\] 1: controller = proportional, A: one of: proportional",
+        ),
+        (without(SMALL, "ki = 50\n"), r"\[\[magnetic_bearing\]\] 1: ki = nothing given: must be stated"),
+        (SMALL.replace("friction = 0.1", "friction = -1"), r"^\[\[touchdown\]\] 1: friction = -1: must be a number"),
+        (SMALL.replace('law = "kelvin-voigt"', 'law = "rigid"'), r"^\[\[touchdown\]\] 1: damping = "),
+        (SMALL.replace('"0.2 mm"', '"-0.2 mm"'), r"^clearance = -0.2 mm: must be a length"),
+        (SMALL[: SMALL.index("[[touchdown]]")], r"^\[\[touchdown\]\] = nothing given: one or more tables"),
+        (
+            SMALL + SMALL[SMALL.index("[[touchdown]]") :].replace("0.2 mm", "0.3 mm"),
+            r"^clearance = 0.2 mm, 0.3 mm: the same in all tables \[\[touchdown\]\]$",
+        ),
+        (
+            SMALL[: SMALL.index("[[section]]")] + SMALL[SMALL.index("[[disc]]") :],
+            r"^\[\[section\]\] = nothing given: one",
+        ),
+        (SMALL.replace("damping_ratio = 0.01", ""), r"^damping = nothing given: one of: damping_ratio"),
+        (SMALL.replace("accuracy = 0.5", "damping_of_mass = 1"), r"^damping = both: one of: damping_ratio"),
+        (without(SMALL, 'speed = "3000 rpm"\n'), r"^speed = nothing given: must be an angular speed"),
+        (SMALL.replace("accuracy", "acuracy"), r"^acuracy = 0.5: .*did you mean accuracy"),
+        (SMALL.replace("accuracy = 0.5", "accuracy = -1"), r"^accuracy = -1: must be a number"),
+        (SMALL + "[drive]\npolar_inertia = 1\n", r"^drive = .*: not allowed beside \[rotor\]"),
+        (
+            SMALL + "[machine]\nmass = 1\n",
+            r"must hold a \[machine\], a \[dimensionless\] or a \[rotor\] table, one of them",
+        ),
+        (
+            "[rotor]\nspeed = 1\n[section]\nlength = 1\n",
+            r"^section = .*: must be tables that start with the line \[\[section\]\]",
+        ),
+        ("[machine]\nmass = 1\n[[section]]\nlength = 1\n", r"section = .*: belongs to a file with a \[rotor\] table"),
+        (SMALL.replace("ki = 50", "ki = 5", 1).replace("ki = 50", "ki = 5"), r"^levitation = unstable: a whirl of"),
+    ],
+)
+def test_what_cannot_be_used_is_refused_by_its_table(load, text, says):
+    with pytest.raises(InputError, match=says):
+        load(text)
+
+
+@pytest.mark.parametrize(
+    ("setting", "says"),
+    [
+        ("mass=3 kg", r"^mass = 3 kg: of a flexible machine --set changes gravity and entries of \[rotor\]: speed, "),
+        ("speed", r"^--set = speed: must be name=value"),
+        ("gravity=up", r"^gravity = up: must be an acceleration"),
+    ],
+)
+def test_what_cannot_be_set_is_refused(load, setting, says):
+    with pytest.raises(InputError, match=says):
+        load(SMALL, setting)
