@@ -51,6 +51,7 @@ KINDS = {
     "race": LINEAR + 'restitution = 0.8\nrace_inertia = "2e-4 kg m^2"\nrace_drag = "1e-5 N m s"\n',
     "mount": LINEAR
     + 'damping = "500 N s/m"\nmount_mass = "1.5 kg"\nmount_stiffness = "2e7 N/m"\nmount_damping = "3000 N s/m"\n',
+    "rigid": 'law = "rigid"\nmount_mass = "1.5 kg"\nmount_stiffness = "2e7 N/m"\nmount_damping = "3000 N s/m"\n',
     "drive": LINEAR + 'restitution = 0.8\n\n[drive]\npolar_inertia = "0.02 kg m^2"\n',
 }
 GROUNDED = {"damping": "300"}
@@ -61,7 +62,10 @@ GROUNDED = {"damping": "300"}
 def folder(tmp_path_factory):
     where = tmp_path_factory.mktemp("machines")
     for kind, table in KINDS.items():
-        (where / f"{kind}.toml").write_text(MACHINE + table, encoding="utf-8")
+        machine = (
+            MACHINE.replace("friction = 0.15", "friction = 0.15\nrestitution = 0.8") if kind == "rigid" else MACHINE
+        )
+        (where / f"{kind}.toml").write_text(machine + table, encoding="utf-8")
     return where
 
 
@@ -105,6 +109,7 @@ def test_the_bearing_has_sliders_for_what_its_file_states(origin, kind, names):
         ("balls", {"touchdown_stiffness": "3e10", "touchdown_dissipation": "0.7"}),
         ("mount", {"touchdown_damping": "700 N s/m"}),
         ("race", {"speed": "1500"}),
+        ("rigid", {"restitution": "0.7"}),
         ("drive", {"touchdown_stiffness": "200 MN/m"}),
     ],
 )
@@ -129,7 +134,15 @@ def test_what_a_bearing_cannot_have_is_named_by_its_box(origin):
 @pytest.mark.jit_only
 @pytest.mark.parametrize(
     ("kind", "changes"),
-    [("restitution", {}), ("restitution", GROUNDED), ("mount", {}), ("mount", GROUNDED), ("drive", {}), ("race", {})],
+    [
+        ("restitution", {}),
+        ("restitution", GROUNDED),
+        ("mount", {}),
+        ("mount", GROUNDED),
+        ("drive", {}),
+        ("race", {}),
+        ("rigid", {}),
+    ],
 )
 def test_the_program_and_the_command_follow_what_is_shown(origin, kind, changes, capsys, monkeypatch, tmp_path):
     given = origin(kind)

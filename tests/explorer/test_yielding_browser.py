@@ -36,7 +36,9 @@ def test_it_shows_forces_and_names_what_is_left_out(page):
     answered(page, "hardest", said(page, "carom.number"))
     answered(page, "diagram", said(page, "carom.number"))
     expect(page.locator("#hardest")).to_contain_text(" N")
-    expect(page.locator("#diagram-words")).to_contain_text("only orbits on a rigid wall have closed forms")
+    expect(page.locator("#diagram-words")).to_contain_text(
+        "only orbits on a rigid wall that stands still have closed forms"
+    )
     expect(page.locator(".bare .plot")).to_be_hidden()
     expect(page.locator("#motions tbody tr")).to_have_count(3)
     expect(page.locator("#beside-words")).to_contain_text("largest depth ")

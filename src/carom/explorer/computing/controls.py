@@ -105,9 +105,8 @@ def values_of(case: Case) -> dict[str, float]:
 
 def _kinds_of(case: Case) -> Mapping[str, _Kind]:
     own, restitution = (_DIMENSIONLESS, "d") if case.machine is None else (_KINDS, "restitution")
-    if case.touchdown is None:
-        return {**own, restitution: _OF_WALL[restitution]}
-    return {**own, **_kinds_of_bearing(case.touchdown)}
+    of_wall = {restitution: _OF_WALL[restitution]} if restitution in model_of(case).varied else {}
+    return {**own, **of_wall, **(_kinds_of_bearing(case.touchdown) if case.touchdown else {})}
 
 
 def _kinds_of_bearing(bearing: TouchdownBearing) -> Mapping[str, _Kind]:

@@ -88,7 +88,7 @@ def why_none(rotor: Model) -> str:
     if not repeats(rotor):
         return "None are known where friction turns a race or changes the speed of the shaft."
     followed = "The program that is copied as Python follows them, in minutes."
-    return f"Not computed on this page: only orbits on a rigid wall have closed forms. {followed}"
+    return f"Not computed on this page: only orbits on a rigid wall that stands still have closed forms. {followed}"
 
 
 def _speeds(diagram: Diagram, branch: OrbitBranch) -> np.ndarray:

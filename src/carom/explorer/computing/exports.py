@@ -20,7 +20,7 @@ from carom.explorer.computing.planes import Plane
 from carom.explorer.computing.rest import Rest, repeats
 from carom.models import Model, model_of
 from carom.motions import State
-from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, Case
+from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, Case, TouchdownBearing
 from carom.parameters.machine_file import UNUSED
 from carom.parameters.terms import set_by
 
@@ -115,7 +115,7 @@ def as_toml(case: Case) -> str:
     zones = f"\n[zones]\nlimits = {list(case.zones.limits)}\n"
     if case.machine is not None:
         machine = case.machine.to_toml()
-        if case.touchdown:  # which has a restitution of its own
+        if case.touchdown and case.touchdown.yields:  # which has a restitution of its own
             machine = "".join(line for line in machine.splitlines(True) if not line.startswith("restitution = "))
         others = "".join(f"\n{table.to_toml()}" for table in (case.touchdown, case.drive) if table)
         return f"{machine}{zones}\n{case.limits.to_toml()}\n{case.requirement.to_toml()}{others}"
@@ -213,11 +213,12 @@ def _constructed(case: Case) -> str:
     """The machine as an expression, from the entries of its file."""
     tables = tomllib.loads(as_toml(case))
     (kind, name) = ("machine", "Machine") if case.machine is not None else ("dimensionless", "Parameters")
-    if case.touchdown is None:
+    if case.touchdown is None and case.drive is None:
         return _call(name, tables[kind])
-    unused = {"restitution": UNUSED} if case.machine is not None else {}
+    unused = {"restitution": UNUSED} if case.machine is not None and "restitution" not in tables[kind] else {}
+    bearing = case.touchdown or TouchdownBearing()
     parts = [f"cm.models.model_of({_call(name, tables[kind] | unused)})"]
-    parts.append(_call("TouchdownBearing", {"law": case.touchdown.law, **case.touchdown.given}))
+    parts.append(_call("TouchdownBearing", {"law": bearing.law, **bearing.given}))
     if case.drive:
         parts.append(f"drive={_call('Drive', asdict(case.drive))}")
     return f"cm.models.InBearing({', '.join(parts)})"

@@ -13,7 +13,7 @@ from carom.studies import Wording
 from carom.studies.summaries import MotionRow, simple_motion_rows, steady_rows
 
 NO_ORBITS = (
-    "Orbits are not searched on this page: only those on a rigid wall have closed forms. "
+    "Orbits are not searched on this page: only those on a rigid wall that stands still have closed forms. "
     "carom.find_orbits(machine, impacts=1) searches them, in about a minute."
 )
 """What is said in place of orbits that are not known in closed form."""
