@@ -100,6 +100,7 @@ CALLS = {
     "explorer.explore": lambda m: told(lambda: case_explored(m)),
     "models.axis": lambda m: cm.models.axis(m, "gamma"),
     "models.case_of": lambda m: cm.models.case_of(m).parameters,
+    "models.planar_case_of": lambda m: cm.models.planar_case_of(m).parameters,
     "models.jeffcott_of": cm.models.jeffcott_of,
     "models.model_of": cm.models.model_of,
     "motions.settle": lambda m: settled(m),

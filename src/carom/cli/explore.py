@@ -27,7 +27,7 @@ def explore(
     The page is served on this machine alone, at the address that is printed first, until Ctrl-C. It needs the extra
     carom[explore].
     """
-    from carom.models import case_of
+    from carom.models import planar_case_of
     from carom.parameters import load
 
     if find_spec("bokeh") is None:
@@ -38,7 +38,7 @@ def explore(
     from carom.explorer.server import serve
 
     path = str(example_file()) if machine is None else machine
-    case = case_of(load(path, settings or ()))
+    case = planar_case_of(load(path, settings or ()))
     serve(
         Origin(path, tuple(settings or ()), case),
         port,

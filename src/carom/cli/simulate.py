@@ -160,7 +160,7 @@ def _read(case: Case, ways: dict[str, str | None]) -> tuple[Model, State | Kick,
         kick, rotor = read_kick(text, scales), _rotor(case)
         said = echo.echo_of_kick(float(kick.speed), float(kick.angle), rotor.unbalance_phase, scales)
         return rotor, kick, said
-    state, rotor = read_start(text, scales), _rotor(case)
+    state, rotor = read_start(text, scales, case.touchdown is not None and case.touchdown.yields), _rotor(case)
     return rotor, state, echo.echo_of_start(state, rotor.unbalance_phase, scales)
 
 

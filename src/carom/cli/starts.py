@@ -40,13 +40,16 @@ _OWN = "0.4,0.2"
 """Sizes with an angle of a machine in units of the equations."""
 
 
-def read_start(text: str, scales: Scales | None) -> State:
-    """Read ``RE,IM,VRE,VIM``: position and velocity in the co-rotating frame, in ``c_r`` and ``c_r Ω`` or with units."""
+def read_start(text: str, scales: Scales | None, gives_way: bool = False) -> State:
+    """Read ``RE,IM,VRE,VIM``: position and velocity in the co-rotating frame, in ``c_r`` and ``c_r Ω`` or with units.
+
+    A start may lie in a wall that gives way.
+    """
     parts = _split("--start", text, (4,), _START)
     x, y = (read_size("--start", part, "length", scales).own(scales) for part in parts[:2])
     vx, vy = (read_size("--start", part, "velocity", scales).own(scales) for part in parts[2:])
     radius = math.hypot(x, y)
-    if radius > 1.0 + 1e-12:
+    if radius > 1.0 + 1e-12 and not gives_way:
         raise InputError("--start", text, f"must lie inside the wall, |U| <= 1 (here |U| = {radius:.6g})")
     from carom.motions.starts import State
 

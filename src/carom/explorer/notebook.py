@@ -15,8 +15,7 @@ from carom.arguments import checked
 from carom.explorer.computing.exports import Origin
 from carom.explorer.page.scripts import PICTURES, joined
 from carom.explorer.page.session import Session
-from carom.models import Subject
-from carom.models.subjects import case_of
+from carom.models import Subject, planar_case_of
 from carom.outcome import CaromError
 from carom.plots.style import LOOKS
 
@@ -31,7 +30,7 @@ def explore(machine: Subject) -> Any:
     Parameters
     ----------
     machine : Machine, Case, Parameters or model
-        A planar rotor.
+        A planar rotor, in a touchdown bearing of any kind.
 
     Returns
     -------
@@ -49,7 +48,7 @@ def explore(machine: Subject) -> Any:
     --------
     carom.map_basins : the ends of kicks and other disturbances as data, and as a figure on paper
     """
-    case = case_of(machine)
+    case = planar_case_of(machine)
     return _figure_class()(Origin("", (), case))
 
 

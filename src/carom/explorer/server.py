@@ -36,7 +36,7 @@ from carom.explorer.computing.motions import table_of
 from carom.explorer.computing.planes import planes_of
 from carom.explorer.page.document import TOKEN, fill, write_page
 from carom.explorer.page.session import Session
-from carom.models import Jeffcott
+from carom.models import model_of
 from carom.outcome import CaromError, InputError
 
 HERE = "127.0.0.1"
@@ -222,7 +222,7 @@ def _bind(port: int) -> socket.socket:
 def _compile(origin: Origin, ready: threading.Event) -> None:
     """Compile the kernels, or load them, by a first small use."""
     try:
-        rotor = Jeffcott(origin.case.parameters)
+        rotor = model_of(origin.case)
         kicks = planes_of(origin.case)[0]
         table_of(rotor)
         found = map_kicks(rotor, kicks, 17, opening_range(rotor, kicks))

@@ -127,3 +127,22 @@ def case_of(subject: Subject) -> Case:
         return subject
     machine = subject if isinstance(subject, Machine) else None
     return Case("machine", jeffcott_of(subject).parameters, machine, Zones())
+
+
+def planar_case_of(subject: Subject) -> Case:
+    """Case of the planar rotor in a touchdown bearing of any kind, with the default zones; a case is returned as it is.
+
+    Raises
+    ------
+    InputError
+        It is none of these, another model, has weight, or the centre of the touchdown bearing is off the place of levitation.
+    """
+    model = model_of(subject)
+    if not isinstance(model, InBearing) or not model.levitates:
+        return case_of(subject)
+    if model.bearing.centre:
+        allowed = "must be 0 here: off that centre the rotor is never at rest in the frame that turns with the shaft; carom.simulate works"
+        raise InputError("touchdown_offset", model.bearing.offset, allowed)
+    if isinstance(subject, Case):
+        return subject
+    return Case("machine", model.parameters, None, Zones(), touchdown=model.bearing, drive=model.drive)

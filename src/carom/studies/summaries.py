@@ -199,13 +199,24 @@ def simple_motion_rows(
 
     Orbits that are not possible are left out if there are more than ``most_virtual``.
     """
-    rows = []
-    for entry in equilibria:
-        name = LEVITATION if entry.kind == "contact-free" else SYNCHRONOUS_RUB if entry.stable else ""
-        rows.append(_steady(entry, say, _share(found, name), parameters_of(orbits.rotor)))
+    rows = steady_rows(equilibria, say, found, parameters_of(orbits.rotor))
     virtual = [orbit for orbit in orbits if not orbit.admissible]
     shown = [orbit for orbit in orbits if orbit.admissible or len(virtual) <= most_virtual]
     return rows + [_bounce(orbit, say, _share(found, orbit.name)) for orbit in shown]
+
+
+def steady_rows(
+    equilibria: tuple[Equilibrium, ...],
+    say: Wording,
+    found: AttractorSet | None = None,
+    rigid: Parameters | None = None,
+) -> list[MotionRow]:
+    """Return the rows of equilibria; with the parameters of a rotor in a rigid wall they say where no wall is rigid enough."""
+    rows = []
+    for entry in equilibria:
+        name = LEVITATION if entry.kind == "contact-free" else SYNCHRONOUS_RUB if entry.stable else ""
+        rows.append(_steady(entry, say, _share(found, name), rigid))
+    return rows
 
 
 def _share(found: AttractorSet | None, name: str) -> str:

@@ -83,12 +83,12 @@ def survives(rotor: Model, required: Required, tell: Reporter) -> Survives | Non
 
 
 def largest_levitating(rotor: Model) -> float:
-    """Largest eccentricity, in ``c_r``, of the losses of a blade that are searched: just below that which fills the clearance.
+    """Largest eccentricity, in ``c_r``, of the losses of a blade that are searched; zero for a model of whose unbalance no rates are known."""
+    return 0.0 if rotor.rates("rho") is None else largest_unbalance(rotor)
 
-    There levitation lies on the wall, and motions do not settle.  Zero for a model whose unbalance cannot be varied.
-    """
-    if rotor.rates("rho") is None:
-        return 0.0
+
+def largest_unbalance(rotor: Model) -> float:
+    """Eccentricity, in ``c_r``, just below that with which levitation fills the clearance: there motions do not settle."""
     return min(BELOW / shift_by_unbalance(rotor), DIMENSIONLESS_FIELDS["rho"].highest)
 
 

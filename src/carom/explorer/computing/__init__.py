@@ -5,10 +5,11 @@
 ``rest``           the motion that is disturbed
 ``planes``         the kinds of disturbances: kicks, shocks, losses of a blade
 ``kicks``          where they end, over which range, and two telling ones
+``walls``          how hard a rotor strikes: impulses, or forces and depths
 ``kicked_motion``  the motion after one of them, ready to be drawn over time
 ``motions``        table of steady motions and orbits
 ``diagrams``       bifurcation diagram along one parameter
-``judgement``      smallest loss, hardest impulse, verdict and advice
+``judgement``      smallest loss, hardest blow, verdict and advice
 ``exports``        the machine shown as a file, as options, as a program
 =================  ==============================================================
 """

@@ -6,10 +6,12 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
+from carom.models import model_of
 from carom.outcome import InputError, Problems, printable, shown
-from carom.parameters import PARAMETERS, Case, read_quantity
+from carom.parameters import SETTINGS, Case, TouchdownBearing, read_quantity
 from carom.parameters.fields import Field
 from carom.parameters.terms import TERM_FIELDS, set_by
+from carom.parameters.touchdown_bearing import PREFIX
 
 _BARE = re.compile(r"[\s\d.,'+-]*\d[\s\d.,']*(?:[eE][+-]?\d+)?\s*")
 """A number without a unit, which is in the unit shown beside its box."""
@@ -58,6 +60,8 @@ class _Kind:
     """Least end of the slider, where the value of the machine is small."""
     most: float = float("inf")
     logarithmic: bool = False
+    low: float = 0.0
+    """Lower end of a slider that is not logarithmic, unless the value of the machine lies below it."""
 
 
 _KINDS: Mapping[str, _Kind] = {
@@ -66,15 +70,25 @@ _KINDS: Mapping[str, _Kind] = {
     "speed": _Kind("speed", "rpm", 2.0),
     "eccentricity": _Kind("unbalance (eccentricity)", "mm", 2.0),
     "friction": _Kind("friction", "", 2.0, least=0.5, most=10.0),
-    "restitution": _Kind("restitution", "", 1.0, least=1.0, most=1.0),
 }
 _DIMENSIONLESS: Mapping[str, _Kind] = {
     "omega": _Kind("stiffness: frequency ω over speed", "", 2.0, logarithmic=True),
     "gamma": _Kind("damping γ", "", 5.0, logarithmic=True),
     "rho": _Kind("unbalance ρ", "", 2.0),
     "mu": _Kind("friction μ", "", 2.0, least=0.5, most=10.0),
+}
+_OF_WALL: Mapping[str, _Kind] = {
+    "restitution": _Kind("restitution", "", 1.0, least=1.0, most=1.0),
     "d": _Kind("restitution d", "", 1.0, least=1.0, most=1.0),
 }
+"""What a rigid wall has, of a machine and of a dimensionless one."""
+_OF_BEARING: Mapping[str, _Kind] = {
+    "touchdown_stiffness": _Kind("touchdown stiffness", "N/m", 10.0, logarithmic=True),
+    "touchdown_restitution": _Kind("touchdown restitution", "", 1.0, least=1.0, most=1.0, low=0.05),
+    "touchdown_damping": _Kind("touchdown damping", "N s/m", 10.0, least=1000.0, logarithmic=True),
+    "touchdown_dissipation": _Kind("touchdown dissipation", "s/m", 10.0, least=1.0, logarithmic=True),
+}
+"""What a touchdown bearing that gives way has; of its losses that which is stated."""
 
 
 def controls_of(case: Case) -> tuple[Control, ...]:
@@ -85,23 +99,34 @@ def controls_of(case: Case) -> tuple[Control, ...]:
 
 def values_of(case: Case) -> dict[str, float]:
     """Values of a machine's controls, in their units."""
-    return {name: float(f"{case.parameters.value(name) / unit_of(name):.12g}") for name in _kinds_of(case)}
+    rotor = model_of(case)
+    return {name: float(f"{rotor.value(name) / unit_of(name):.12g}") for name in _kinds_of(case)}
 
 
 def _kinds_of(case: Case) -> Mapping[str, _Kind]:
-    return _DIMENSIONLESS if case.machine is None else _KINDS
+    own, restitution = (_DIMENSIONLESS, "d") if case.machine is None else (_KINDS, "restitution")
+    of_wall = {restitution: _OF_WALL[restitution]} if restitution in model_of(case).varied else {}
+    return {**own, **of_wall, **(_kinds_of_bearing(case.touchdown) if case.touchdown else {})}
+
+
+def _kinds_of_bearing(bearing: TouchdownBearing) -> Mapping[str, _Kind]:
+    """Those of the entries that the bearing states, in SI units: that of the stiffness depends on its exponent."""
+    given = {PREFIX + name: bearing.unit(name) for name in bearing.given}
+    return {name: replace(kind, unit=given[name]) for name, kind in _OF_BEARING.items() if name in given}
 
 
 def unit_of(name: str) -> float:
     """Size in SI units of the unit in which the page shows a parameter."""
-    unit = {**_KINDS, **_DIMENSIONLESS}[name].unit
-    return read_quantity(PARAMETERS[name], f"1 {unit}") if unit else 1.0
+    if name in _OF_BEARING:
+        return 1.0
+    unit = {**_KINDS, **_DIMENSIONLESS, **_OF_WALL}[name].unit
+    return read_quantity(SETTINGS[name], f"1 {unit}") if unit else 1.0
 
 
 def _control(name: str, kind: _Kind, value: float) -> Control:
     logarithmic = kind.logarithmic and value > 0.0
     high = min(max(kind.reach * value, kind.least), kind.most) or 1.0
-    low = value / kind.reach if logarithmic or name == "speed" else 0.0
+    low = value / kind.reach if logarithmic or name == "speed" else min(kind.low, value)
     return Control(name, kind.words, kind.unit, value, low, high, logarithmic)
 
 
@@ -128,8 +153,12 @@ def with_settings(case: Case, settings: Mapping[str, str]) -> Case:
 def _entry(case: Case, name: str, text: str) -> tuple[str, str | float]:
     """The entry of a machine file that a text sets, with its value: the control itself, or a term that stands for it."""
     unit = _kinds_of(case)[name].unit
+    if name in _OF_BEARING:
+        text = with_unit(unit, text)
+        case.replace(**{name: text})  # the bearing reads it, also in a unit such as N/m^1.5
+        return name, text
     try:
-        return name, read_quantity(replace(PARAMETERS[name], bare=unit), with_unit(unit, text))
+        return name, read_quantity(replace(SETTINGS[name], bare=unit), with_unit(unit, text))
     except InputError:
         term = term_of(case, name, text)
         if term == name:
@@ -144,7 +173,7 @@ def _entry(case: Case, name: str, text: str) -> tuple[str, str | float]:
 
 def term_of(case: Case, name: str, text: str) -> str:
     """The entry of a machine file in which a text for a control is stated; the control itself if no term has such a unit."""
-    if case.machine is None or _reads(PARAMETERS[name], with_unit(_kinds_of(case)[name].unit, text)):
+    if case.machine is None or _reads(SETTINGS[name], with_unit(_kinds_of(case)[name].unit, text)):
         return name
     return next((term for term in TERM_FIELDS if set_by(term) == name and _reads(TERM_FIELDS[term], text)), name)
 

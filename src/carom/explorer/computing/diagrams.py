@@ -7,8 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from carom.bifurcations import Diagram, EquilibriumBranch, OrbitBranch, find_bifurcations
+from carom.closed_forms.known import known_of
 from carom.explorer.computing.controls import Control, unit_of
-from carom.models import Jeffcott
+from carom.explorer.computing.rest import repeats
+from carom.models import Model
 from carom.outcome import STEADY_WORDS
 from carom.plots.diagrams import BOUNDARIES, POINTS
 from carom.plots.style import LOOKS, OUTCOMES
@@ -64,7 +66,7 @@ class Picture:
     points: tuple[Point, ...]
 
 
-def picture_along(rotor: Jeffcott, control: Control, progress: ShowProgress = None) -> Picture:
+def picture_along(rotor: Model, control: Control, progress: ShowProgress = None) -> Picture:
     """Compute the diagram over the whole slider of a parameter."""
     unit = unit_of(control.name)
     diagram = find_bifurcations(rotor, control.name, (unit * control.low, unit * control.high), progress=progress)
@@ -77,6 +79,16 @@ def picture_along(rotor: Jeffcott, control: Control, progress: ShowProgress = No
         bars=tuple(bar for branch in diagram.equilibria for bar in _bars(branch, unit)),
         points=tuple(_points(diagram, unit)),
     )
+
+
+def why_none(rotor: Model) -> str:
+    """Why there is no diagram of the orbits of a rotor, in a sentence; nothing where there is one."""
+    if known_of(rotor).orbits:
+        return ""
+    if not repeats(rotor):
+        return "None are known where friction turns a race or changes the speed of the shaft."
+    followed = "The program that is copied as Python follows them, in minutes."
+    return f"Not computed on this page: only orbits on a rigid wall that stands still have closed forms. {followed}"
 
 
 def _speeds(diagram: Diagram, branch: OrbitBranch) -> np.ndarray:

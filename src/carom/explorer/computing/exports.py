@@ -9,14 +9,19 @@ import math
 import shlex
 import tomllib
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
+from typing import Any
 
+import numpy as np
+
+from carom.closed_forms.known import known_of
 from carom.explorer.computing.controls import Control, controls_of, term_of, unit_of, with_unit
 from carom.explorer.computing.planes import Plane
-from carom.explorer.computing.rest import Rest
-from carom.models import Jeffcott
+from carom.explorer.computing.rest import Rest, repeats
+from carom.models import Model, model_of
 from carom.motions import State
-from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, Case
+from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, Case, TouchdownBearing
+from carom.parameters.machine_file import UNUSED
 from carom.parameters.terms import set_by
 
 
@@ -35,9 +40,10 @@ class Kick:
         """The rotor just after a kick."""
         return self.rest.kicked(self.first, self.second)
 
-    def texts(self, rotor: Jeffcott) -> tuple[str, str]:
+    def texts(self, rotor: Model) -> tuple[str, str]:
         """Size and angle as ``simulate`` reads them: that of a kick counts from the real axis of the co-rotating frame."""
-        vector = complex(self.state.velocity) if self.plane.name == "kick" else complex(self.first, self.second)
+        pair = self.first, self.second
+        vector = self.rest.velocity(*pair) if self.plane.name == "kick" else complex(*pair)
         factor, unit = self.plane.shown(rotor.scales)
         size = f"{factor * abs(vector):.9g}" + (f" {unit}" if rotor.scales else "")
         if self.plane.name == "shock":
@@ -108,7 +114,11 @@ def as_toml(case: Case) -> str:
     """A machine file that is read as the machine on the page, bit for bit."""
     zones = f"\n[zones]\nlimits = {list(case.zones.limits)}\n"
     if case.machine is not None:
-        return f"{case.machine.to_toml()}{zones}\n{case.limits.to_toml()}\n{case.requirement.to_toml()}"
+        machine = case.machine.to_toml()
+        if case.touchdown and case.touchdown.yields:  # which has a restitution of its own
+            machine = "".join(line for line in machine.splitlines(True) if not line.startswith("restitution = "))
+        others = "".join(f"\n{table.to_toml()}" for table in (case.touchdown, case.drive) if table)
+        return f"{machine}{zones}\n{case.limits.to_toml()}\n{case.requirement.to_toml()}{others}"
     lines = [
         f"{name} = {getattr(case.parameters, name)!r}  # {field.symbol}: {field.words}"
         for name, field in DIMENSIONLESS_FIELDS.items()
@@ -116,10 +126,15 @@ def as_toml(case: Case) -> str:
     return "\n".join(["[dimensionless]", *lines]) + f"\n{zones}\n{case.requirement.to_toml(has_scales=False)}"
 
 
-def as_command(origin: Origin, changes: Mapping[str, str], rotor: Jeffcott, kick: Kick) -> str:
-    """The command that follows the disturbance shown; the rotor is that of the machine on the page."""
+def as_command(origin: Origin, changes: Mapping[str, str], rotor: Model, kick: Kick) -> str:
+    """The command that follows the disturbance shown; the rotor is that of the machine on the page.
+
+    Empty where no option says that start: a rub on a bearing with a mount.
+    """
     if kick.plane.name != "kick" or kick.rest.levitates:
         start = f"--{kick.plane.name} {shlex.quote(','.join(kick.texts(rotor)))}"
+    elif kick.rest.among:
+        return ""
     else:
         position, velocity = complex(kick.state.position), complex(kick.state.velocity)
         start = f"--start={position.real!r},{position.imag!r},{velocity.real!r},{velocity.imag!r}"
@@ -131,9 +146,8 @@ def as_python(case: Case, kick: Kick, along: Control) -> str:
 
     It holds the machine itself, so that it runs in any folder.
     """
-    unit = unit_of(along.name)
-    low, high = (float(f"{unit * end:.12g}") for end in (along.low, along.high))
-    module, model, grid, start = _disturbance(Jeffcott(case.parameters), kick)
+    rotor = model_of(case)
+    module, model, grid, start = _disturbance(rotor, kick)
     return f"""import carom as cm
 from {module} import {model.partition("(")[0]}
 
@@ -146,8 +160,18 @@ print(basin.share_recovered.words)
 motion = cm.simulate({start}, settle=True)
 print(motion.outcome.meaning)
 motion.plot().savefig("motion.png")
+{_orbits(rotor, along)}"""
 
-orbits = cm.find_orbits(machine)
+
+def _orbits(rotor: Model, along: Control) -> str:
+    """The part of a program that finds orbits; none where there are none."""
+    if not repeats(rotor):
+        return ""
+    searched = "" if known_of(rotor).orbits else ", impacts=1"
+    unit = unit_of(along.name)
+    low, high = (float(f"{unit * end:.12g}") for end in (along.low, along.high))
+    return f"""
+orbits = cm.find_orbits(machine{searched})
 print(orbits)
 
 diagram = cm.find_bifurcations(machine, {json.dumps(along.name)}, ({low!r}, {high!r}))
@@ -155,7 +179,7 @@ diagram.plot().savefig("diagram.png")
 """
 
 
-def _disturbance(rotor: Jeffcott, kick: Kick) -> tuple[str, str, str, str]:
+def _disturbance(rotor: Model, kick: Kick) -> tuple[str, str, str, str]:
     """Module, model, shape of its grid, and arguments of the motion in a program."""
     size, angle = math.hypot(kick.first, kick.second), math.atan2(kick.second, kick.first)
     if kick.plane.name == "shock":
@@ -166,8 +190,9 @@ def _disturbance(rotor: Jeffcott, kick: Kick) -> tuple[str, str, str, str]:
         start = f"*BladeLoss({size!r}).release(machine, {angle!r})"
         return "carom.disturbances", f"BladeLoss({size!r})", "(360,)", start
     if not kick.rest.levitates:
-        model = f"RestKick({kick.largest!r}, {kick.rest.position!r})"
-        start = f"machine, cm.State({kick.state.position!r}, {kick.state.velocity!r})"
+        among = f", {kick.rest.among!r}" if kick.rest.among else ""
+        model = f"RestKick({kick.largest!r}, {kick.rest.place!r}{among})"
+        start = f"machine, cm.State({_numbers(kick.state.position)}, {_numbers(kick.state.velocity)})"
         return "carom.explorer.computing.rest", model, "(120, 120)", start
     told, turned = kick.texts(rotor)
     told = json.dumps(told) if rotor.scales else told
@@ -179,12 +204,30 @@ def _disturbance(rotor: Jeffcott, kick: Kick) -> tuple[str, str, str, str]:
     )
 
 
+def _numbers(given: Any) -> str:
+    """A complex number, or an array of them, in a program."""
+    return repr(given.tolist() if np.ndim(given) else given)
+
+
 def _constructed(case: Case) -> str:
     """The machine as an expression, from the entries of its file."""
     tables = tomllib.loads(as_toml(case))
     (kind, name) = ("machine", "Machine") if case.machine is not None else ("dimensionless", "Parameters")
-    entries = "".join(
+    if case.touchdown is None and case.drive is None:
+        return _call(name, tables[kind])
+    unused = {"restitution": UNUSED} if case.machine is not None and "restitution" not in tables[kind] else {}
+    bearing = case.touchdown or TouchdownBearing()
+    parts = [f"cm.models.model_of({_call(name, tables[kind] | unused)})"]
+    parts.append(_call("TouchdownBearing", {"law": bearing.law, **bearing.given}))
+    if case.drive:
+        parts.append(f"drive={_call('Drive', asdict(case.drive))}")
+    return f"cm.models.InBearing({', '.join(parts)})"
+
+
+def _call(name: str, entries: Mapping[str, Any]) -> str:
+    """A value of :mod:`carom.parameters` as an expression."""
+    lines = "".join(
         f"    {entry}={json.dumps(value, ensure_ascii=False) if isinstance(value, str) else repr(value)},\n"
-        for entry, value in tables[kind].items()
+        for entry, value in entries.items()
     )
-    return f"cm.parameters.{name}(\n{entries})"
+    return f"cm.parameters.{name}(\n{lines})"

@@ -8,18 +8,20 @@ from dataclasses import dataclass
 from carom.basins import smallest_loss
 from carom.explorer.computing.planes import Plane
 from carom.explorer.computing.rest import rest_of
-from carom.models import Jeffcott
+from carom.explorer.computing.walls import hits_of, wall_of
+from carom.models import Model, model_of
 from carom.motions import simulate
 from carom.outcome import InputError
-from carom.parameters import Case
+from carom.parameters import Case, LoadLimits
 from carom.parameters.told import told
 from carom.progress import Reporter, ShowProgress
-from carom.studies import Wording, study
+from carom.studies import study
 from carom.studies.advice_facts import BEYOND, CHANGES
 from carom.studies.facts import about
 
 SIZES, DIRECTIONS = 6, 24
-"""Disturbances whose impulses are compared."""
+"""Disturbances whose blows are compared."""
+NO_LIMITS = LoadLimits()
 
 
 @dataclass(frozen=True)
@@ -43,21 +45,21 @@ class Loss:
 
 @dataclass(frozen=True)
 class Hardest:
-    """The hardest impulse among a set of disturbances, in words, and what was tried."""
+    """The hardest blow among a set of disturbances, in words, and what was tried."""
 
-    impulse: float
-    """In ``m c_r Ω``."""
+    blow: float
+    """An impulse in ``m c_r Ω``, or a force in ``m c_r Ω²``."""
     value: str
     remark: str
 
 
-def find_loss(rotor: Jeffcott, plane: Plane, largest: float, progress: ShowProgress = None) -> Loss:
+def find_loss(rotor: Model, plane: Plane, largest: float, progress: ShowProgress = None) -> Loss:
     """Search for the smallest disturbance up to a size, in units of the equations, that is lost."""
     scales = rotor.scales
     try:
         found = smallest_loss(rotor, plane.by_size(rotor, largest), progress=progress)
     except InputError as problem:
-        if plane.name == "blade-loss" and abs(rotor.equilibrium) < 1.0:
+        if plane.name == "blade-loss" and rotor.system.rest_radius < 1.0:
             return Loss(None, "–", str(problem))
         return Loss(None, "none comes back", "there is no stable levitation to come back to")
     if found.size is None:
@@ -70,9 +72,12 @@ def find_loss(rotor: Jeffcott, plane: Plane, largest: float, progress: ShowProgr
     )
 
 
-def find_hardest(rotor: Jeffcott, plane: Plane, largest: float, progress: ShowProgress = None) -> Hardest:
-    """Follow disturbances of all directions and sizes up to one in units of the equations, and note the hardest impact."""
-    rest, tell = rest_of(rotor), Reporter.of(progress, "looking for the hardest impact")
+def find_hardest(
+    rotor: Model, plane: Plane, largest: float, limits: LoadLimits = NO_LIMITS, progress: ShowProgress = None
+) -> Hardest:
+    """Follow disturbances of all directions and sizes up to one in units of the equations, and note the hardest blow."""
+    rest, wall = rest_of(rotor), wall_of(rotor)
+    tell = Reporter.of(progress, wall.searching)
     hardest, count = 0.0, SIZES * DIRECTIONS
     for place in range(count):
         size, angle = (
@@ -81,15 +86,15 @@ def find_hardest(rotor: Jeffcott, plane: Plane, largest: float, progress: ShowPr
         )
         after, start, _ = plane.start(rotor, rest, size * math.cos(angle), size * math.sin(angle))
         motion = simulate(after, start, settle=True)
-        hardest = max(hardest, float(motion.contacts.normal_impulse.max(initial=0.0)))
+        hardest = max(hardest, hits_of(motion).hardest)
         tell((place + 1) / count)
-    say = Wording(rotor.scales)
-    tried = f"in {count} {plane.words_up_to(largest, rotor.scales)}"
-    return Hardest(hardest, say.impulse(hardest) if hardest else "no impact", tried)
+    tried = f"in {count} {plane.words_up_to(largest, rotor.scales)}{wall.beside(hardest, limits, rotor.scales)}"
+    return Hardest(hardest, wall.load(hardest, rotor.scales) if hardest else f"no {wall.noun}", tried)
 
 
 def judge(case: Case, progress: ShowProgress = None) -> Judgement:
-    """Verdict and advice of a full study."""
+    """Verdict and advice of a full study; refused where friction turns a race or changes the speed of the shaft."""
+    model_of(case).system.refuse_forces()
     found = study(case, progress=progress)
     first = next((fact for fact in about(found.facts, "Recommendation") if fact.label in (*CHANGES, BEYOND)), None)
     advice = f"{first.label}: {first.text}." if first else ""

@@ -10,14 +10,14 @@ import numpy as np
 from carom.attractors.naming import name_motions
 from carom.explorer.computing.planes import Plane
 from carom.explorer.computing.rest import rest_of
-from carom.models import Jeffcott
+from carom.explorer.computing.walls import Hits, hits_of, wall_of
+from carom.models import Model
 from carom.motions import LastingContact, Trajectory, settle, simulate
 from carom.motions.settling import REPEATING
 from carom.outcome import Outcome
 from carom.plots.cells import MotionLook
 from carom.plots.style import OUTCOMES, REGIMES
 from carom.progress import ShowProgress
-from carom.studies import Wording
 from carom.studies.wording import counted
 
 LONGEST, LONGEST_BOUNCING = 260.0, 110.0
@@ -52,8 +52,9 @@ class KickedMotion:
     ----------
     times, x, y : ndarray of float32, shape (n,)
         Position in the co-rotating frame in clearances at times in ``1/Ω``; the instants of impacts are among them.
-    impact_times, impact_angles, impact_speeds, impulses : ndarray of float32, shape (m,)
-        Impacts that are drawn: time, angle in rad, radial speed before in ``c_r Ω``, normal impulse in ``m c_r Ω``.
+    impact_times, impact_angles, impact_speeds, blows : ndarray of float32, shape (m,)
+        Impacts that are drawn, or arrivals at a wall that gives way: time, angle in rad, radial speed before in ``c_r Ω``, and how hard
+        each is: normal impulse in ``m c_r Ω``, or peak force in ``m c_r Ω²``.
     forward : ndarray of bool, shape (m,)
         Whether the rotor whirls forward in the fixed frame just before the impact.
     spans : tuple of Span
@@ -63,7 +64,7 @@ class KickedMotion:
     outcome, colour, words : str
         Label of the outcome, its colour, and what is seen, as one sentence.
     hardest : float
-        Largest normal impulse of all impacts, in ``m c_r Ω``; 0 without impact.
+        The hardest of all blows; 0 without one.
     """
 
     times: np.ndarray
@@ -72,7 +73,7 @@ class KickedMotion:
     impact_times: np.ndarray
     impact_angles: np.ndarray
     impact_speeds: np.ndarray
-    impulses: np.ndarray
+    blows: np.ndarray
     forward: np.ndarray
     spans: tuple[Span, ...]
     whole: bool
@@ -82,9 +83,7 @@ class KickedMotion:
     hardest: float
 
 
-def follow_kick(
-    rotor: Jeffcott, plane: Plane, first: float, second: float, progress: ShowProgress = None
-) -> KickedMotion:
+def follow_kick(rotor: Model, plane: Plane, first: float, second: float, progress: ShowProgress = None) -> KickedMotion:
     """Follow one disturbance, by its components in units of the equations, to where it ends; refuse one that is not possible."""
     rotor, start, begin = plane.start(rotor, rest_of(rotor), first, second)
     motion = simulate(rotor, start, settle=True, progress=progress)
@@ -92,10 +91,10 @@ def follow_kick(
     shown = simulate(rotor, start, _shown_until(rotor, motion), max_events=MOST_EVENTS)
     times = shown.sample(max(LEAST_SAMPLES, int(PER_TURN * shown.time / math.tau)))
     position, _ = shown.at_plane(times)
-    log = shown.contacts
+    log = hits_of(shown)
     _, (name,) = name_motions(rotor, settle(rotor, np.array([start.position]), np.array([start.velocity])))
     look = OUTCOMES["irregular" if name.irregular else name.outcome.label]
-    hardest = float(motion.contacts.normal_impulse.max(initial=0.0))
+    every = hits_of(motion)
     return KickedMotion(
         times=times.astype(np.float32),
         x=position.real.astype(np.float32),
@@ -103,18 +102,18 @@ def follow_kick(
         impact_times=log.time.astype(np.float32),
         impact_angles=np.angle(np.exp(1j * log.angle)).astype(np.float32),
         impact_speeds=log.radial_speed.astype(np.float32),
-        impulses=log.normal_impulse.astype(np.float32),
+        blows=log.blow.astype(np.float32),
         forward=log.angular_speed > -1.0,
         spans=tuple(map(_span, shown.lasting_contacts)),
         whole=shown.time >= motion.time,
         outcome=motion.outcome.label,
         colour=look.colour,
-        words=_words(rotor, motion, begin, hardest, MotionLook(0, name, look, look.colour, 1.0).words),
-        hardest=hardest,
+        words=_words(motion, begin, every, MotionLook(0, name, look, look.colour, 1.0).words),
+        hardest=every.hardest,
     )
 
 
-def _shown_until(rotor: Jeffcott, motion: Trajectory) -> float:
+def _shown_until(rotor: Model, motion: Trajectory) -> float:
     events = motion.segment_starts[1:]
     if motion.outcome is Outcome.LEVITATED:
         decay = rotor.system.decay
@@ -131,10 +130,10 @@ def _span(stretch: LastingContact) -> Span:
     return Span(stretch.start, stretch.end, look.words, look.colour)
 
 
-def _words(rotor: Jeffcott, motion: Trajectory, begin: str, hardest: float, ending: str) -> str:
-    say, count = Wording(rotor.scales), len(motion.contacts.time)
-    force = f"hardest impulse {say.impulse(hardest)}"
+def _words(motion: Trajectory, begin: str, hits: Hits, ending: str) -> str:
+    wall, count = wall_of(motion.rotor), hits.count
+    load = wall.told(hits, motion.rotor.scales)
     if motion.outcome in REPEATING:
-        return f"{begin} ends in {ending}; {force}."
-    impacts = "without an impact" if count == 0 else f"after {counted(count, 'impact')}; {force}"
+        return f"{begin} ends in {ending}; {load}."
+    impacts = f"without {wall.one}" if count == 0 else f"after {counted(count, wall.noun)}; {load}"
     return f"{begin} {'ends in' if motion.outcome.settled else 'was given up,'} {ending} {impacts}."

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -12,7 +13,7 @@ from carom.disturbances import BladeLoss, Grid
 from carom.disturbances.following import NO_START, follow_machines
 from carom.explorer.computing.planes import Plane, ShockPlane
 from carom.explorer.computing.rest import Rest, rest_of
-from carom.models import Jeffcott
+from carom.models import Model
 from carom.outcome import InputError, Outcome
 from carom.plots.cells import MotionLook, motion_looks
 from carom.plots.style import OUTCOMES
@@ -24,6 +25,8 @@ TRIED = 24
 """Cells along each side of the pictures from which the first range is chosen."""
 RANGES = tuple(math.sqrt(2.0) ** power for power in range(8))
 """Ranges that the page may begin with, relative to what must be survived: no narrower, so that this is in the picture."""
+MACHINES = 32
+"""Number of machines whose first range is kept: it takes seconds to find where motions in the wall have to be followed."""
 WANTED = 0.2
 """Share of a picture that should come back: then both what returns and what is lost are seen, and where they meet."""
 
@@ -113,7 +116,7 @@ class KickMap:
         return self.share_up_to(math.inf)
 
 
-def map_kicks(rotor: Jeffcott, plane: Plane, cells: int, largest: float, progress: ShowProgress = None) -> KickMap:
+def map_kicks(rotor: Model, plane: Plane, cells: int, largest: float, progress: ShowProgress = None) -> KickMap:
     """Follow a grid of disturbances up to a size, in the units of planes, to where they end."""
     rest, own = rest_of(rotor), plane.own(largest, rotor.scales)
     if plane.name == "blade-loss":
@@ -132,7 +135,7 @@ def _ending(look: MotionLook) -> Ending:
     return Ending(look.words, look.colour, look.look.hatch[:1], look.share, look.name.outcome is Outcome.LEVITATED)
 
 
-def _map_losses(rotor: Jeffcott, rest: Rest, plane: Plane, cells: int, largest: float) -> KickMap:
+def _map_losses(rotor: Model, rest: Rest, plane: Plane, cells: int, largest: float) -> KickMap:
     """The same of losses of a blade.
 
     Each unbalance is another machine.  So there are few of them, each with many phases, and a cell shows the nearest; motions are told by
@@ -155,7 +158,7 @@ def _map_losses(rotor: Jeffcott, rest: Rest, plane: Plane, cells: int, largest: 
     if not exists.any():
         raise InputError(
             "disturbance",
-            f"|U*| = {abs(rotor.equilibrium):.6g}",
+            f"|U*| = {rotor.system.rest_radius:.6g}",
             "one of a machine that levitates inside the wall before it",
         )
     places = np.full(outcomes.shape, NOWHERE, np.uint8)
@@ -167,8 +170,13 @@ def _map_losses(rotor: Jeffcott, rest: Rest, plane: Plane, cells: int, largest: 
     return KickMap(rest, plane, largest, outcomes, touched, np.ascontiguousarray(places.T), tuple(endings))
 
 
-def opening_range(rotor: Jeffcott, plane: Plane) -> float:
+def opening_range(rotor: Model, plane: Plane) -> float:
     """The range with which the page begins, in the units of planes: one in which a good part comes back, and a good part is lost."""
+    return _opening_range(rotor, plane)  # type: ignore[arg-type]  # a protocol cannot say that all its models are hashable
+
+
+@lru_cache(maxsize=MACHINES)
+def _opening_range(rotor: Model, plane: Plane) -> float:
     best, least = plane.usual, math.inf
     for times in RANGES:
         share = map_kicks(rotor, plane, TRIED, times * plane.usual).share.fraction

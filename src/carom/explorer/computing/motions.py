@@ -5,11 +5,18 @@ from __future__ import annotations
 from dataclasses import asdict, dataclass
 
 from carom.closed_forms import find_equilibria
-from carom.models import Jeffcott
+from carom.closed_forms.known import known_of
+from carom.models import Model
 from carom.orbits import Orbit
 from carom.orbits.single_impact import orbits_within_reach
 from carom.studies import Wording
-from carom.studies.summaries import MotionRow, simple_motion_rows
+from carom.studies.summaries import MotionRow, simple_motion_rows, steady_rows
+
+NO_ORBITS = (
+    "Orbits are not searched on this page: only those on a rigid wall that stands still have closed forms. "
+    "carom.find_orbits(machine, impacts=1) searches them, in about a minute."
+)
+"""What is said in place of orbits that are not known in closed form."""
 
 
 @dataclass(frozen=True)
@@ -33,8 +40,15 @@ class MotionTable:
     argument: str
 
 
-def table_of(rotor: Jeffcott) -> MotionTable:
-    """Compute the table."""
+def table_of(rotor: Model) -> MotionTable:
+    """Compute the table; of a rotor whose orbits are not known in closed form it has the steady motions.
+
+    Refuse one that never rests in contact, on a race that turns or with a shaft whose speed changes.
+    """
+    if not known_of(rotor).orbits:
+        rotor.system.refuse_forces()
+        steady = steady_rows(find_equilibria(rotor).members, Wording(rotor.scales))
+        return MotionTable(tuple(TableRow(**asdict(row)) for row in steady), NO_ORBITS)
     orbits = orbits_within_reach(rotor)
     texts = {f"orbit {orbit.name}": _multipliers(orbit) for orbit in orbits if orbit.admissible}
     rows = simple_motion_rows(find_equilibria(rotor).members, orbits, Wording(rotor.scales))

@@ -16,11 +16,11 @@ from carom.disturbances import BaseShock, BladeLoss, Coordinate, Disturbance, St
 from carom.disturbances.blows import LONGEST_SHOCK
 from carom.disturbances.echo import angles_words
 from carom.explorer.computing.rest import Rest, rest_of
-from carom.models import Jeffcott
+from carom.models import Model, model_of
 from carom.motions import State
 from carom.parameters import SHOCK_DURATION, Case, Scales
 from carom.parameters.told import shown_in, told, told_angle
-from carom.studies.survives import largest_levitating
+from carom.studies.survives import largest_unbalance
 
 Name = Literal["kick", "shock", "blade-loss"]
 
@@ -45,7 +45,7 @@ class ShockPlane(Disturbance):
         """Peak acceleration."""
         return BaseShock(self.peak, self.duration).coordinates[0]
 
-    def starts(self, rotor: Jeffcott, *values: np.ndarray) -> Starts:  # type: ignore[override]
+    def starts(self, rotor: Model, *values: np.ndarray) -> Starts:
         """State at the end of the pulse; there is none beyond the largest peak."""
         x, y = values
         found = BaseShock(self.peak, self.duration).starts(rotor, np.hypot(x, y), np.arctan2(y, x))
@@ -107,7 +107,7 @@ class Plane:
         """All of them up to a size in units of the equations, such as ``kicks up to 166 mm/s``."""
         return f"{self.nouns[1]} up to {told(size, self.scale, scales)}"
 
-    def by_size(self, rotor: Jeffcott, size: float) -> Disturbance:
+    def by_size(self, rotor: Model, size: float) -> Disturbance:
         """Disturbances by size and direction, for searches; the size is in units of the equations."""
         if self.name == "kick":
             return VelocityKick(size)
@@ -115,17 +115,18 @@ class Plane:
             return BaseShock(size, self.lasting(rotor))
         return BladeLoss(size)
 
-    def lasting(self, rotor: Jeffcott) -> float:
+    def lasting(self, rotor: Model) -> float:
         """Duration of a shock in ``1/Ω``."""
         return self.duration / (rotor.scales.time if rotor.scales else 1.0)
 
-    def start(self, rotor: Jeffcott, rest: Rest, first: float, second: float) -> tuple[Jeffcott, State, str]:
+    def start(self, rotor: Model, rest: Rest, first: float, second: float) -> tuple[Model, State, str]:
         """The machine and its state just after a disturbance by components in units of the equations, and what was done, in words."""
         size, angle = math.hypot(first, second), math.atan2(second, first)
         if self.name == "kick":
-            state = rest.kicked(first, second)
-            turned = told_angle(cmath.phase(complex(state.velocity)) % math.tau)
-            return rotor, state, f"A kick of {told(abs(complex(state.velocity)), 'velocity', rotor.scales)} at {turned}"
+            velocity = rest.velocity(first, second)
+            turned = told_angle(cmath.phase(velocity) % math.tau)
+            told_size = told(abs(velocity), "velocity", rotor.scales)
+            return rotor, rest.kicked(first, second), f"A kick of {told_size} at {turned}"
         words = f"{told(size, self.scale, rotor.scales)}"
         turned = told_angle(angle % math.tau)
         if self.name == "shock":
@@ -145,7 +146,8 @@ def planes_of(case: Case) -> tuple[Plane, ...]:
     """The kinds of disturbances that a machine can be shown with, kicks first."""
     scales = case.parameters.scales
     needed = case.requirement.own(scales)
-    rotor = Jeffcott(case.parameters)
+    rotor = model_of(case)
+    levitates = rotor.system.rest_radius < 1.0
 
     def si(size: float, scale: str) -> float:
         return size * (float(getattr(scales, scale)) if scales else 1.0)
@@ -153,21 +155,21 @@ def planes_of(case: Case) -> tuple[Plane, ...]:
     kick = si(needed.kick, "velocity")
     planes = [Plane("kick", "velocity", kick, kick)]
     duration = needed.shock.duration if needed.shock else SHOCK_DURATION / scales.time if scales else 0.0
-    if 0.0 < duration <= LONGEST_SHOCK and abs(rotor.equilibrium) < 1.0:
+    if 0.0 < duration <= LONGEST_SHOCK and levitates:
         peak = si(needed.shock.peak, "acceleration") if needed.shock else None
         usual = peak or si(math.pi * needed.kick / (2.0 * duration), "acceleration")
         planes.append(Plane("shock", "acceleration", peak, usual, si(duration, "time")))
-    if abs(rotor.equilibrium) < 1.0:
+    if levitates:
         scale = "unbalance" if scales else "length"
         after = si(needed.blade_loss, scale) if needed.blade_loss else None
-        usual = after or si(0.5 * largest_levitating(rotor), scale)
+        usual = after or si(0.5 * largest_unbalance(rotor), scale)
         planes.append(Plane("blade-loss", scale, after, usual))
     return tuple(planes)
 
 
 def opening_words(case: Case) -> str:
     """What the page begins with."""
-    rotor = Jeffcott(case.parameters)
+    rotor = model_of(case)
     kicks = planes_of(case)[0]
     needed = kicks.words_up_to(kicks.own(kicks.usual, rotor.scales), rotor.scales)
     return f"{case.name}: it must survive {needed}, which disturb {rest_of(rotor).words}; {angles_words(rotor.unbalance_phase)}"

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 
-from carom.closed_forms import find_equilibria
+from carom.closed_forms import Equilibrium, find_equilibria
 from carom.disturbances import Coordinate, Disturbance, KickPlane, Starts, outward_from
-from carom.models import Jeffcott
+from carom.models import Model
 from carom.motions import State
 from carom.outcome import STEADY_WORDS
 
@@ -21,10 +21,13 @@ class RestKick(KickPlane):
     Attributes
     ----------
     position : complex
-        Where it rests, in clearances.
+        Where it rests in its clearance, in clearances.
+    among : tuple of complex
+        Coordinates of a rotor of several; by default the position alone.
     """
 
     position: complex = 1.0 + 0.0j
+    among: tuple[complex, ...] = ()
     kind: ClassVar[str] = "rest-kick"
 
     @property
@@ -32,12 +35,15 @@ class RestKick(KickPlane):
         """Radial and tangential part."""
         return KickPlane(self.fastest).coordinates
 
-    def starts(self, rotor: Jeffcott, *values: np.ndarray) -> Starts:  # type: ignore[override]
-        """The resting motion with the velocity changed."""
+    def starts(self, rotor: Model, *values: np.ndarray) -> Starts:
+        """The resting motion with the velocity of the rotor as a whole changed."""
         radial, tangential = values
-        outward = self.position / abs(self.position)
-        there = self.within(radial, tangential)
-        return Starts.of(np.full(np.shape(radial), self.position), outward * (radial + 1j * tangential), there)
+        velocities = self.position / abs(self.position) * (radial + 1j * tangential)
+        there = Starts.of(np.full(velocities.shape, self.position), velocities, self.within(radial, tangential))
+        if not self.among:
+            return there
+        moved = velocities[..., None] * rotor.system.translated
+        return there._replace(positions=np.broadcast_to(self.among, moved.shape).astype(complex), velocities=moved)
 
 
 @dataclass(frozen=True)
@@ -48,33 +54,71 @@ class Rest:
     ----------
     words : str
     levitates : bool
-    position : complex
-        In clearances, co-rotating frame.
+    position : complex or ndarray of complex, shape (n,)
+        Coordinates of the rotor in clearances, co-rotating frame.
+    place : complex
+        Where it is in its clearance, in clearances.
     outward : complex
         Direction of a kick outward, a number of modulus one.
+    translated : ndarray of complex, shape (n,)
+        Coordinates that move with the rotor as a whole.
     """
 
     words: str
     levitates: bool
-    position: complex
+    position: Any
+    place: complex
     outward: complex
+    translated: np.ndarray
+
+    def velocity(self, radial: float, tangential: float) -> complex:
+        """Change of velocity by a kick, whose parts are in ``c_r Ω``."""
+        return self.outward * complex(radial, tangential)
 
     def kicked(self, radial: float, tangential: float) -> State:
         """State just after a kick, whose parts are in ``c_r Ω``."""
-        return State(self.position, self.outward * complex(radial, tangential))
+        velocity = self.velocity(radial, tangential)
+        return State(self.position, velocity * self.translated if np.ndim(self.position) else velocity)
 
     def kicks(self, fastest: float) -> Disturbance:
         """All kicks up to a size in ``c_r Ω``."""
-        return KickPlane(fastest) if self.levitates else RestKick(fastest, self.position)
+        return KickPlane(fastest) if self.levitates else RestKick(fastest, self.place, self.among)
+
+    @property
+    def among(self) -> tuple[complex, ...]:
+        """Coordinates of a rotor of several; none of one, which is where it is."""
+        return tuple(self.position.tolist()) if np.ndim(self.position) else ()
 
 
-def rest_of(rotor: Jeffcott) -> Rest:
+def repeats(rotor: Model) -> bool:
+    """Whether a motion in contact can rest or repeat: not while friction turns a race or changes the speed of the shaft."""
+    return rotor.system.races is None and rotor.system.shaft is None
+
+
+def rest_of(rotor: Model) -> Rest:
     """The motion that kicks disturb: levitation, otherwise the stable rub, otherwise rest where levitation meets the wall."""
-    place = rotor.equilibrium
-    if abs(place) < 1.0:
-        return Rest(STEADY_WORDS["contact-free"], True, place, outward_from(rotor))
-    for found in find_equilibria(rotor):
-        if found.kind == "rub" and found.status == "admissible" and found.stable:
-            return Rest(f"the {STEADY_WORDS['rub']}", False, complex(found.position), complex(found.position))
+    system = rotor.system
+    rest, _ = system.kicked(0.0)
+    place = complex(system.planes[0] @ rest)
+    if system.rest_radius < 1.0:
+        return _rest(rotor, STEADY_WORDS["contact-free"], rest, place, outward_from(rotor))
+    for found in _rubs(rotor):
+        if found.status == "admissible" and found.stable:
+            there = complex(found.places[0])
+            return _rest(rotor, f"the {STEADY_WORDS['rub']}", found.position, there, there / abs(there))
     on_wall = place / abs(place)
-    return Rest("rest on the bearing", False, on_wall, on_wall)
+    return _rest(rotor, "rest on the bearing", rest / abs(place), on_wall, on_wall)
+
+
+def _rest(rotor: Model, words: str, position: Any, place: complex, outward: complex) -> Rest:
+    position = np.asarray(position)
+    levitates = rotor.system.rest_radius < 1.0
+    own = position if position.size > 1 else complex(position.reshape(()))
+    return Rest(words, levitates, own, place, outward, rotor.system.translated)
+
+
+def _rubs(rotor: Model) -> tuple[Equilibrium, ...]:
+    """Synchronous rubs, where they are known."""
+    if not repeats(rotor):
+        return ()
+    return tuple(found for found in find_equilibria(rotor) if found.kind == "rub")

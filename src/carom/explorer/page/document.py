@@ -18,15 +18,18 @@ from bokeh.events import ConnectionLost, DocumentReady
 from bokeh.models import CustomJS
 from bokeh.resources import Resources
 
+from carom.closed_forms.known import known_of
 from carom.explorer.background import SupersededError
 from carom.explorer.computing.controls import controls_of
 from carom.explorer.computing.exports import Origin
 from carom.explorer.computing.planes import planes_of
+from carom.explorer.computing.walls import wall_of
 from carom.explorer.page.figures import looks, make_figures
 from carom.explorer.page.messages import control_message, plane_message
 from carom.explorer.page.models import Answers, Requests
 from carom.explorer.page.scripts import SCRIPTS, joined, text_of
 from carom.explorer.page.session import Session
+from carom.models import model_of
 
 TOKEN = "key-of-a-session"
 
@@ -86,6 +89,8 @@ def write_page(origin: Origin, resources: Resources) -> str:
             "style": text_of("page.css"),
             "script": joined(SCRIPTS),
             "looks": json.dumps(looks()),
+            "wall": wall_of(model_of(origin.case)),
+            "orbits": known_of(model_of(origin.case)).orbits,
         },
     )
 

@@ -15,19 +15,28 @@ from carom.explorer.computing.kicked_motion import KickedMotion
 from carom.explorer.computing.kicks import KickMap
 from carom.explorer.computing.motions import MotionTable
 from carom.explorer.computing.planes import Plane
-from carom.models import Jeffcott
+from carom.models import Model
 from carom.parameters import Scales
 from carom.parameters.told import number, shown_in, told
 from carom.plots.style import LOOKS
 from carom.results import fields_of
-from carom.studies import Wording
 
 Message = dict[str, Any]
+MANY = 1e8
+"""Size of numbers from which boxes have them with an exponent; ``controls.js`` does the same."""
 
 
 def control_message(control: Control) -> Message:
     """A control, as the page builds its slider from it."""
-    return {**asdict(control), "shown": number(control.value, 5).replace(",", "")}
+    return {**asdict(control), "shown": _typed(control.value)}
+
+
+def _typed(value: float) -> str:
+    """A number as one types it."""
+    if abs(value) < MANY:
+        return number(value, 5).replace(",", "")
+    digits, exponent = f"{value:.5g}".split("e")
+    return f"{digits}e{int(exponent)}"
 
 
 def plane_message(plane: Plane, scales: Scales | None) -> Message:
@@ -44,7 +53,7 @@ def units_message(scales: Scales | None) -> Message:
     return message
 
 
-def basin_message(found: KickMap, rotor: Jeffcott) -> Message:
+def basin_message(found: KickMap, rotor: Model) -> Message:
     """The picture of a basin, its legend, and what is read off it; sizes in the unit that people are told."""
     plane, scales = found.plane, rotor.scales
     factor, unit = plane.shown(scales)
@@ -71,13 +80,13 @@ def basin_message(found: KickMap, rotor: Jeffcott) -> Message:
         "lost_remark": f"no {plane.nouns[0]} of the picture is lost"
         if lost is None
         else "smallest of the picture; a finer search follows",
-        "rest_position": [found.rest.position.real, found.rest.position.imag],
+        "rest_position": [found.rest.place.real, found.rest.place.imag],
         "outward": [found.rest.outward.real, found.rest.outward.imag] if plane.name == "kick" else [1.0, 0.0],
         "legend_rest": LOOKS["contact-free"].colour if found.rest.levitates else LOOKS["rub"].colour,
     }
 
 
-def judged_share(found: KickMap, rotor: Jeffcott) -> tuple[Share, str]:
+def judged_share(found: KickMap, rotor: Model) -> tuple[Share, str]:
     """Share that comes back of what must be survived, where all of that is in the picture, otherwise of all in it; and of what."""
     required = None if found.plane.required is None else found.plane.own(found.plane.required, rotor.scales)
     # A little above, for rounding where the picture ends with it.
@@ -86,7 +95,7 @@ def judged_share(found: KickMap, rotor: Jeffcott) -> tuple[Share, str]:
     return found.share_up_to(required * (1.0 + 1e-9)), found.plane.words_up_to(required, rotor.scales)
 
 
-def plane_harmless(found: KickMap, rotor: Jeffcott) -> float:
+def plane_harmless(found: KickMap, rotor: Model) -> float:
     """Size up to which contact is proven to be impossible, in units of the equations; 0 where nothing is proven."""
     if not found.rest.levitates:
         return 0.0
@@ -95,7 +104,7 @@ def plane_harmless(found: KickMap, rotor: Jeffcott) -> float:
     if found.plane.name == "shock":
         return harmless_shock(rotor, found.plane.lasting(rotor))
     # Changes of the present unbalance up to this size.
-    return max(harmless_blade_loss(rotor) - rotor.parameters.rho, 0.0)
+    return max(harmless_blade_loss(rotor) - rotor.value("rho"), 0.0)
 
 
 def _sentence(found: KickMap, share: Share, words: str) -> str:
@@ -106,14 +115,12 @@ def _sentence(found: KickMap, share: Share, words: str) -> str:
     return f"{percent(share.fraction)} of {words} come back to levitation."
 
 
-def motion_message(motion: KickedMotion, rotor: Jeffcott) -> Message:
+def motion_message(motion: KickedMotion, rotor: Model) -> Message:
     """A motion, with the factors of its axes."""
-    say = Wording(rotor.scales)
     return {
         **vars(motion),
         "forward": motion.forward.astype("uint8"),
         "spans": [asdict(span) for span in motion.spans],
-        "hardest_words": say.impulse(motion.hardest) if motion.hardest else "no impact",
         **units_message(rotor.scales),
     }
 

@@ -10,17 +10,17 @@ from typing import Any
 
 from carom.explorer.background import Job, Worker
 from carom.explorer.computing.controls import Control, controls_of, values_of, with_settings
-from carom.explorer.computing.diagrams import picture_along
+from carom.explorer.computing.diagrams import picture_along, why_none
 from carom.explorer.computing.exports import Kick, Origin, as_command, as_options, as_python, as_toml
 from carom.explorer.computing.judgement import find_hardest, find_loss, judge
 from carom.explorer.computing.kicked_motion import follow_kick
-from carom.explorer.computing.kicks import map_kicks, opening_range, telling_pair
+from carom.explorer.computing.kicks import RANGES, TRIED, map_kicks, opening_range, telling_pair
 from carom.explorer.computing.motions import table_of
 from carom.explorer.computing.planes import Plane, planes_of
 from carom.explorer.computing.rest import rest_of
 from carom.explorer.page import messages
 from carom.explorer.page.view import SLOTS, View, read_kick, read_view
-from carom.models import Jeffcott
+from carom.models import Model, model_of
 from carom.outcome import CaromError, InputError
 from carom.parameters import Case
 from carom.progress import Progress
@@ -29,8 +29,8 @@ from carom.results import fields_of
 COARSE, FINE = 60, 120
 """Cells along each side of the picture while a slider is dragged, and after that."""
 COARSEST = 16
-PATIENCE = 0.03
-"""Seconds that a picture may take while a slider is dragged; where it would take longer it is coarser."""
+PATIENCE, PATIENCE_AFTER = 0.03, 6.0
+"""Seconds that a picture may take while a slider is dragged, and after that; where it would take longer it is coarser."""
 PAUSE = 0.06
 """Seconds without a further step after which, while a slider is dragged, more than the picture is computed."""
 QUIET = 0.15
@@ -54,7 +54,7 @@ class _Shown:
     number: int
     case: Case
     settings: Mapping[str, str]
-    rotor: Jeffcott
+    rotor: Model
     along: str
     plane: Plane
     view: View
@@ -87,7 +87,7 @@ class Session:
         self.origin, self._answer, self._ready, self._wanted = origin, answer, ready, wanted
         self.controls = {control.name: control for control in controls_of(origin.case)}
         self.planes: dict[str, Plane] = {plane.name: plane for plane in planes_of(origin.case)}
-        rotor = Jeffcott(origin.case.parameters)
+        rotor = model_of(origin.case)
         first = "damping" if "damping" in self.controls else "gamma"
         self._shown = _Shown(0, origin.case, {}, rotor, first, self.planes["kick"], View())
         self._ranges: dict[str, float] = {}
@@ -122,7 +122,7 @@ class Session:
             number,
             case,
             settings,
-            Jeffcott(case.parameters),
+            model_of(case),
             along if along in self.controls else before.along,
             self.planes.get(view.kind, self.planes["kick"]),
             view,
@@ -162,9 +162,11 @@ class Session:
         """Start everything that takes longer than a moment."""
         self._answer("exports", self._exports())
         self._left = {
-            "fine": lambda shown, tell: self._picture(shown, FINE, tell),
+            "fine": lambda shown, tell: self._picture(shown, self._cells(PATIENCE_AFTER, FINE), tell),
             "loss": self._loss,
-            "hardest": lambda shown, tell: vars(find_hardest(shown.rotor, shown.plane, self._judged(shown), tell)),
+            "hardest": lambda shown, tell: vars(
+                find_hardest(shown.rotor, shown.plane, self._judged(shown), shown.case.limits, tell)
+            ),
             "diagram": self._diagram,
             "verdict": lambda shown, tell: fields_of(judge(shown.case, tell), "lead", "advice", "survived"),
         }
@@ -201,7 +203,10 @@ class Session:
             return shown.view.largest * shown.plane.per_unit(shown.rotor.scales)
         name = shown.plane.name
         if name not in self._ranges:
-            self._ranges[name] = opening_range(Jeffcott(self.origin.case.parameters), shown.plane)
+            began = time.perf_counter()
+            self._ranges[name] = opening_range(model_of(self.origin.case), shown.plane)
+            # At least this, so that a machine whose motions take long begins with a coarse picture.
+            self._cost = max(self._cost, (time.perf_counter() - began) / (len(RANGES) * TRIED**2))
         return self._ranges[name]
 
     def _judged(self, shown: _Shown) -> float:
@@ -229,12 +234,16 @@ class Session:
 
     def _coarse(self, shown: _Shown, tell: Callable[[Progress], None]) -> messages.Message:
         """Picture that is computed fast enough to follow a dragged slider, as fine as that allows."""
-        cells = int(min(COARSE, max(COARSEST, (PATIENCE / self._cost) ** 0.5)))
-        began = time.perf_counter()
-        message = self._picture(shown, COARSE if cells > 0.85 * COARSE else cells, tell)
+        cells, began = self._cells(PATIENCE, COARSE), time.perf_counter()
+        message = self._picture(shown, cells, tell)
         cost = (time.perf_counter() - began) / message["size"] ** 2
         self._cost = min(cost, 0.5 * (self._cost + cost))  # a single slow machine has little effect
         return message
+
+    def _cells(self, patience: float, most: int) -> int:
+        """Cells along each side of a picture that may take so many seconds."""
+        cells = int(min(most, max(COARSEST, (patience / self._cost) ** 0.5)))
+        return most if cells > 0.85 * most else cells
 
     def _picture(self, shown: _Shown, cells: int, tell: Callable[[Progress], None]) -> messages.Message:
         found = map_kicks(shown.rotor, shown.plane, cells, self._largest(shown), tell)
@@ -245,6 +254,8 @@ class Session:
         return {**messages.basin_message(found, shown.rotor), "opening": opening}
 
     def _diagram(self, shown: _Shown, tell: Callable[[Progress], None]) -> messages.Message:
+        if reason := why_none(shown.rotor):
+            return {"refused": reason}
         others = tuple(sorted(item for item in shown.settings.items() if item[0] != shown.along))
         if (shown.along, others) not in self._diagrams:
             control: Control = self.controls[shown.along]

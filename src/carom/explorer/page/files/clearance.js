@@ -1,7 +1,7 @@
 // A flight on a canvas: the rotor flies inside the clearance circle, strikes with a flash and settles.
 //
 //     const shown = flight(canvas, { looks, onTime });
-//     shown.show(message);   // times, x, y, impact_times, impulses, forward, spans, colour, hardest, time, time_unit
+//     shown.show(message);   // times, x, y, impact_times, blows, forward, spans, colour, hardest, time, time_unit
 //     shown.play(); shown.finish(); shown.turnWith("rotating" or "fixed"); shown.rest = { position, colour };
 //
 // onTime(now, end) hears every instant that is drawn while it plays.
@@ -11,7 +11,7 @@ export const flight = (canvas, { looks, onTime = () => {} }) => {
   const ink = inksOf(canvas), still = window.matchMedia("(prefers-reduced-motion: reduce)");
   const flashLasts = 0.45, pace = 11, shortest = 2.2, longest = 14, narrow = 200;
   const shown = { message: null, now: 0, frame: "rotating", rest: null, running: false };
-  let began = 0, lasts = 1;
+  let began = 0, lasts = 1, widest = 1;
 
   const index = (times, now) => {
     let low = 0, high = times.length - 1;
@@ -42,7 +42,7 @@ export const flight = (canvas, { looks, onTime = () => {} }) => {
     const { times } = message, now = shown.now, perSecond = times[times.length - 1] / lasts;
     message.impact_times.forEach((time, place) => {
       if (time > now) return;
-      const [x, y] = turned(message, index(times, time)), strength = message.impulses[place] / (message.hardest || 1);
+      const [x, y] = turned(message, index(times, time)), strength = message.blows[place] / (message.hardest || 1);
       pen.fillStyle = message.forward[place] ? looks.forward : looks.backward;
       pen.beginPath(); pen.arc(toX(x), toY(y), 2.2, 0, 7); pen.fill();
       const age = (now - time) / perSecond;
@@ -57,7 +57,7 @@ export const flight = (canvas, { looks, onTime = () => {} }) => {
 
   shown.draw = () => {
     const message = shown.message, [pen, side] = square(canvas), small = side < narrow;
-    const middle = side / 2, reach = side * 0.42, toX = (x) => middle + reach * x, toY = (y) => middle - reach * y;
+    const middle = side / 2, reach = side * 0.42 / widest, toX = (x) => middle + reach * x, toY = (y) => middle - reach * y;
     pen.clearRect(0, 0, side, side);
     room(pen, middle, reach, toX, toY, small);
     if (!message || message.refused) return;
@@ -115,6 +115,8 @@ export const flight = (canvas, { looks, onTime = () => {} }) => {
   };
   shown.show = (message) => {
     shown.message = message;
+    // The rotor goes into a wall that gives way: the picture has room to 1.13 clearances, and for more the clearance is drawn smaller.
+    widest = message.refused ? 1 : message.x.reduce((most, x, place) => Math.max(most, Math.hypot(x, message.y[place]) / 1.13), 1);
     if (message.refused) { shown.running = false; shown.draw(); }
   };
   shown.clear = () => { shown.message = null; shown.running = false; shown.now = 0; shown.draw(); };

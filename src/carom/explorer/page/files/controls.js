@@ -13,6 +13,8 @@ carom.held = false;
       now: +data.value, slider: row.querySelector(".slider"), box: row.querySelector(".box"), shown: row.querySelector(".box").value };
   });
 
+  // As the server writes them: many digits are no help.
+  const typing = (value) => (Math.abs(value) >= 1e8 ? Number(value.toPrecision(4)).toExponential().replace("e+", "e") : short(value));
   const place = (one, value) => {
     const share = one.log && value > 0 ? Math.log(value / one.low) / Math.log(one.high / one.low) : (value - one.low) / (one.high - one.low);
     return Math.round(1000 * clamp(share, 0, 1));
@@ -57,8 +59,8 @@ carom.held = false;
   const moved = (one, held, keep = true) => {
     const value = valueAt(one, +one.slider.value);
     one.now = value;
-    one.box.value = short(value);
-    settings[one.name] = `${short(value)} ${one.unit}`.trim();
+    one.box.value = typing(value);
+    settings[one.name] = `${typing(value)} ${one.unit}`.trim();
     carom.moved = one.name;
     mark(one);
     if (carom.showCursor) carom.showCursor(one.name, value);

@@ -90,7 +90,7 @@ carom.panels = { exports: null };
     button.addEventListener("click", async () => {
       const text = button.dataset.copy === "link" ? location.href : carom.panels.exports ? carom.panels.exports[button.dataset.copy] : "";
       const place = at("copy-text");
-      if (!text) { at("copied").textContent = "Nothing differs from the file."; return; }
+      if (!text) { at("copied").textContent = button.dataset.copy === "command" ? "No option of the command line says this start: copy the program." : "Nothing differs from the file."; return; }
       place.value = text;
       try {
         await navigator.clipboard.writeText(text);

@@ -53,19 +53,23 @@ carom.begin_plots = (parts, plots) => {
       motion.message = message;
       motion.count = -1;
       const { times, x, y } = message, end = message.time * times[times.length - 1];
-      parts.history.data = { t: Array.from(times, (time) => message.time * time), r: Array.from(x, (part, place) => Math.hypot(part, y[place])) };
+      const r = Array.from(x, (part, place) => Math.hypot(part, y[place]));
+      // A rigid wall stands at one; into one that gives way the rotor goes farther.
+      const top = r.reduce((most, radius) => Math.max(most, radius + 0.04), 1.06);
+      parts.history.data = { t: Array.from(times, (time) => message.time * time), r };
       parts.struck.data = {
-        t: Array.from(message.impact_times, (time) => message.time * time), r: Array.from(message.impact_times, () => 1.03),
+        t: Array.from(message.impact_times, (time) => message.time * time), r: Array.from(message.impact_times, () => top - 0.03),
         ...marks(Array.from(message.forward)),
       };
       parts.history_x.setv({ start: 0, end });
+      parts.history_y.setv({ start: 0, end: top });
       plots.history.below[0].axis_label = `time (${message.time_unit})`;
       plots.section.left[0].axis_label = `radial speed (${message.speed_unit})`;
       parts.section_y.setv({ start: 0, end: 1.1 * message.speed * Math.max(...message.impact_speeds, 1e-3) });
       const all = (value) => message.spans.map(() => value);
       parts.spans.data = {
         left: message.spans.map((span) => message.time * span.start), right: message.spans.map((span) => message.time * span.end),
-        bottom: all(0), top: all(1.06), colour: message.spans.map((span) => span.colour),
+        bottom: all(0), top: all(top), colour: message.spans.map((span) => span.colour),
       };
       const kinds = new Map(message.spans.map((span) => [span.words, span.colour]));
       at("regimes").replaceChildren(...[...kinds].flatMap(([words, ink]) => {

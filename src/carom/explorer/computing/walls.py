@@ -1,0 +1,144 @@
+"""How hard a rotor strikes: impulses at a rigid wall, forces and depths in one that gives way."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from carom.models import Model
+from carom.motions import Trajectory
+from carom.motions.contacts import yields
+from carom.parameters import LoadLimits, Scales
+from carom.parameters.told import number
+from carom.studies import Wording
+
+
+@dataclass(frozen=True, eq=False)
+class Hits:
+    """Impacts of a motion, or its arrivals at a wall that gives way, in chronological order.
+
+    Attributes
+    ----------
+    time, angle, angular_speed, radial_speed : ndarray of float, shape (n,)
+        As in :class:`~carom.motions.ContactLog` and :class:`~carom.motions.TouchLog`.
+    blow : ndarray of float, shape (n,)
+        Normal impulse in ``m c_r Ω``, or peak force in ``m c_r Ω²``.
+    count : int
+        Number of impacts or contacts; a contact in which the motion begins counts too.
+    hardest : float
+        The hardest blow, also that of such a contact; 0 without any.
+    deepest : float
+        Largest depth in the wall, in clearances.
+    """
+
+    time: np.ndarray
+    angle: np.ndarray
+    angular_speed: np.ndarray
+    radial_speed: np.ndarray
+    blow: np.ndarray
+    count: int
+    hardest: float
+    deepest: float = 0.0
+
+
+def hits_of(motion: Trajectory) -> Hits:
+    """Impacts of a motion, or its arrivals at a wall that gives way."""
+    if not yields(motion.rotor.system, motion.plane):
+        log = motion.contacts
+        blow = log.normal_impulse
+        return Hits(log.time, log.angle, log.angular_speed, log.radial_speed, blow, len(log.time), _most(blow))
+    touches = motion.touches
+    came = touches.entered
+    return Hits(
+        touches.start[came],
+        touches.angle[came],
+        touches.angular_speed[came],
+        touches.radial_speed[came],
+        touches.peak_force[came],
+        len(touches),
+        _most(touches.peak_force),
+        _most(touches.deepest),
+    )
+
+
+def _most(values: np.ndarray) -> float:
+    return float(values.max(initial=0.0))
+
+
+@dataclass(frozen=True)
+class Wall:
+    """What the page calls contacts with a wall, and the load that it tells of them.
+
+    Attributes
+    ----------
+    noun, one : str
+        A contact, in a count and with its article.
+    title, hits, section, shaded : str
+        Headings of the hardest blow and of the figure of all, what that shows, and what is shaded over time.
+    searching : str
+        What is done while the hardest is searched.
+    """
+
+    noun: str
+    one: str
+    title: str
+    hits: str
+    section: str
+    shaded: str
+    searching: str
+
+    def load(self, hardest: float, scales: Scales | None) -> str:
+        """Write a blow with its unit."""
+        return Wording(scales).impulse(hardest)
+
+    def told(self, hits: Hits, scales: Scales | None) -> str:
+        """The load of a motion in words."""
+        return f"hardest impulse {self.load(hits.hardest, scales)}"
+
+    def beside(self, hardest: float, limits: LoadLimits, scales: Scales | None) -> str:
+        """What follows the hardest blow of many motions: nothing."""
+        return ""
+
+
+class _Yielding(Wall):
+    """A wall that gives way: forces have peaks there, and the rotor goes in."""
+
+    def load(self, hardest: float, scales: Scales | None) -> str:
+        return Wording(scales).force(hardest)
+
+    def told(self, hits: Hits, scales: Scales | None) -> str:
+        say = Wording(scales)
+        depth = f"{say.length(hits.deepest)}, {number(100.0 * hits.deepest, 2)} % of the clearance"
+        return f"largest force {self.load(hits.hardest, scales)}, largest depth {depth}"
+
+    def beside(self, hardest: float, limits: LoadLimits, scales: Scales | None) -> str:
+        if limits.force is None or scales is None:
+            return ""
+        kept = "kept" if hardest * scales.force <= limits.force else "exceeded"
+        return f"; limit {LoadLimits.told('force', limits.force)}: {kept}"
+
+
+RIGID = Wall(
+    "impact",
+    "an impact",
+    "hardest impulse",
+    "Impacts",
+    "Angle and radial speed at each impact.",
+    "lasting contact",
+    "looking for the hardest impact",
+)
+YIELDING = _Yielding(
+    "contact",
+    "contact",
+    "largest force",
+    "Arrivals at the bearing",
+    "Angle and radial speed on entering it.",
+    "contact",
+    "looking for the largest force",
+)
+
+
+def wall_of(rotor: Model) -> Wall:
+    """What the page says of the wall of a rotor."""
+    return YIELDING if yields(rotor.system, 0) else RIGID

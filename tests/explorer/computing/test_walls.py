@@ -1,0 +1,76 @@
+"""How hard a rotor strikes: impulses at a rigid wall, peak forces and depths in one that gives way."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from machines import PAPER
+
+import carom
+from carom.explorer.computing.walls import RIGID, YIELDING, hits_of, wall_of
+from carom.models import InBearing, Jeffcott
+from carom.parameters import LoadLimits, Parameters, Scales, TouchdownBearing
+
+SCALES = Scales(50.0, 0.7e-3, 184.2)
+SOFT = InBearing(
+    Jeffcott(Parameters(**{**PAPER.as_dict(), "gamma": 0.3}, scales=SCALES)),
+    TouchdownBearing("kelvin-voigt", 1e8, restitution=0.8),
+)
+
+
+@pytest.fixture(scope="module")
+def motion():
+    return carom.simulate(SOFT, carom.kick("160 mm/s"), settle=True)
+
+
+def test_the_wall_is_that_of_the_rotor():
+    assert wall_of(SOFT) is YIELDING
+    assert wall_of(SOFT.rotor) is RIGID
+
+
+def test_impacts_of_a_rigid_wall_are_those_of_its_log():
+    motion = carom.simulate(SOFT.rotor, carom.kick("160 mm/s"), settle=True)
+    hits, log = hits_of(motion), motion.contacts
+    assert hits.count == len(log.time) > 0
+    np.testing.assert_array_equal(hits.blow, log.normal_impulse)
+    assert (hits.hardest, hits.deepest) == (log.normal_impulse.max(), 0.0)
+    assert RIGID.told(hits, SCALES).startswith("hardest impulse ")
+    assert RIGID.told(hits, SCALES).endswith(" N s")
+
+
+def test_arrivals_at_a_wall_that_gives_way_have_the_force_and_the_depth_of_the_motion(motion):
+    hits = hits_of(motion)
+    assert hits.count == len(motion.touches) == len(hits.time)
+    # The motion itself, sampled around the hardest of its contacts: below the peak, and close to it.
+    hardest = int(motion.touches.peak_force.argmax())
+    times = np.linspace(motion.touches.start[hardest], motion.touches.end[hardest], 2001)[1:-1]
+    forces, _ = motion.forces(times)
+    assert 0.999 * hits.hardest < forces.max() <= hits.hardest * (1.0 + 1e-9)
+    depth = motion.radius(times).max() - 1.0
+    assert 0.999 * hits.deepest < depth <= hits.deepest * (1.0 + 1e-9)
+
+
+def test_force_and_depth_are_told_with_their_units(motion):
+    words = YIELDING.told(hits_of(motion), SCALES)
+    force, depth = words.split(", largest depth ")
+    assert float(force.removeprefix("largest force ").removesuffix(" N").replace(",", "")) == pytest.approx(
+        hits_of(motion).hardest * SCALES.force,
+        rel=5e-3,  # three digits are told
+    )
+    assert depth.endswith(" % of the clearance")
+
+
+def test_a_contact_in_which_a_motion_begins_is_no_arrival_but_its_force_counts():
+    start = carom.State(1.02 + 0j, 0j)
+    motion = carom.simulate(SOFT, start, 0.05)
+    hits = hits_of(motion)
+    assert (hits.count, len(hits.time)) == (1, 0)
+    assert hits.hardest > 0.0
+
+
+def test_a_limit_of_the_force_is_told_beside_the_largest():
+    force = 0.5 * SCALES.force
+    stated = LoadLimits(force=force)
+    assert YIELDING.beside(0.4, stated, SCALES).endswith(": kept")
+    assert YIELDING.beside(0.6, stated, SCALES) == f"; limit {LoadLimits.told('force', force)}: exceeded"
+    assert YIELDING.beside(0.6, LoadLimits(), SCALES) == RIGID.beside(0.6, stated, SCALES) == ""

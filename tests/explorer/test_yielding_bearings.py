@@ -1,0 +1,293 @@
+"""The page of a machine whose touchdown bearing gives way: controls, pictures, what is copied, and what is left out."""
+
+from __future__ import annotations
+
+import json
+import shlex
+import threading
+from dataclasses import replace
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from compilation import sized
+
+import carom
+from carom.cli import main
+from carom.explorer.computing.controls import controls_of, values_of, with_settings
+from carom.explorer.computing.diagrams import why_none
+from carom.explorer.computing.exports import Kick, Origin, as_command, as_options, as_python, as_toml
+from carom.explorer.computing.judgement import find_hardest, judge
+from carom.explorer.computing.kicked_motion import follow_kick
+from carom.explorer.computing.kicks import map_kicks
+from carom.explorer.computing.motions import table_of
+from carom.explorer.computing.planes import planes_of
+from carom.explorer.computing.rest import rest_of
+from carom.models import model_of, planar_case_of
+from carom.outcome import InputError
+
+MACHINE = """
+[machine]
+mass = "50 kg"
+damping = "3000 N s/m"
+stiffness = "9.8e5 N/m"
+eccentricity = "0.3 mm"
+clearance = "0.7 mm"
+rotor_radius = "40 mm"
+speed = "184.2 rad/s"
+unbalance_phase = "0.21 rad"
+friction = 0.15
+
+[limits]
+force = "5 kN"
+
+[touchdown]
+"""
+LINEAR = 'law = "kelvin-voigt"\nstiffness = "1e8 N/m"\n'
+KINDS = {
+    "restitution": LINEAR + "restitution = 0.8\n",
+    "damping": LINEAR + 'damping = "500 N s/m"\n',
+    "balls": 'law = "hunt-crossley"\nstiffness = "2e10 N/m^1.5"\nexponent = "3/2"\ndissipation = "0.5 s/m"\n',
+    "race": LINEAR + 'restitution = 0.8\nrace_inertia = "2e-4 kg m^2"\nrace_drag = "1e-5 N m s"\n',
+    "mount": LINEAR
+    + 'damping = "500 N s/m"\nmount_mass = "1.5 kg"\nmount_stiffness = "2e7 N/m"\nmount_damping = "3000 N s/m"\n',
+    "rigid": 'law = "rigid"\nmount_mass = "1.5 kg"\nmount_stiffness = "2e7 N/m"\nmount_damping = "3000 N s/m"\n',
+    "drive": LINEAR + 'restitution = 0.8\n\n[drive]\npolar_inertia = "0.02 kg m^2"\n',
+}
+GROUNDED = {"damping": "300"}
+"""A setting with which levitation would lie outside the bearing."""
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    where = tmp_path_factory.mktemp("machines")
+    for kind, table in KINDS.items():
+        machine = (
+            MACHINE.replace("friction = 0.15", "friction = 0.15\nrestitution = 0.8") if kind == "rigid" else MACHINE
+        )
+        (where / f"{kind}.toml").write_text(machine + table, encoding="utf-8")
+    return where
+
+
+@pytest.fixture(scope="module")
+def origin(folder):
+    def of(kind):
+        path = str(folder / f"{kind}.toml")
+        return Origin(path, (), planar_case_of(carom.load(path)))
+
+    return of
+
+
+def kick_of(case, rotor, size=0.8):
+    return Kick(planes_of(case)[0], rest_of(rotor), size, 0.25 * size, 1.5)
+
+
+@pytest.mark.parametrize(
+    ("kind", "names"),
+    [
+        ("restitution", {"touchdown_stiffness": "N/m", "touchdown_restitution": ""}),
+        ("mount", {"touchdown_stiffness": "N/m", "touchdown_damping": "N s/m"}),
+        ("balls", {"touchdown_stiffness": "N/m^1.5", "touchdown_dissipation": "s/m"}),
+    ],
+)
+def test_the_bearing_has_sliders_for_what_its_file_states(origin, kind, names):
+    case = origin(kind).case
+    controls = {control.name: control for control in controls_of(case)}
+    assert {name: controls[name].unit for name in controls if name.startswith("touchdown_")} == names
+    assert "restitution" not in controls
+    for control in controls.values():
+        assert 0.0 < control.low <= control.value <= control.high or control.low == 0.0
+        # Both ends of every slider are values of the machine.
+        for end in (control.low, control.high):
+            assert with_settings(case, {control.name: control.setting(end)})
+
+
+@pytest.mark.parametrize(
+    ("kind", "changes"),
+    [
+        ("restitution", {"touchdown_stiffness": "2.5e8", "touchdown_restitution": "0.6", "damping": "2500"}),
+        ("balls", {"touchdown_stiffness": "3e10", "touchdown_dissipation": "0.7"}),
+        ("mount", {"touchdown_damping": "700 N s/m"}),
+        ("race", {"speed": "1500"}),
+        ("rigid", {"restitution": "0.7"}),
+        ("drive", {"touchdown_stiffness": "200 MN/m"}),
+    ],
+)
+def test_options_and_file_lead_to_the_same_machine(origin, kind, changes, tmp_path):
+    given = origin(kind)
+    case = with_settings(given.case, changes)
+    assert carom.load(given.path, shlex.split(as_options(given, changes))[1::2]) == case
+    (tmp_path / "machine.toml").write_text(as_toml(case), encoding="utf-8")
+    again = carom.load(tmp_path / "machine.toml")
+    assert (again.machine, again.touchdown, again.drive) == (case.machine, case.touchdown, case.drive)
+    assert again.limits == case.limits
+    assert values_of(again) == values_of(case)
+
+
+def test_what_a_bearing_cannot_have_is_named_by_its_box(origin):
+    with pytest.raises(InputError, match=r"^touchdown_restitution = '?2'?: must be a number, [^\n]*$"):
+        with_settings(origin("restitution").case, {"touchdown_restitution": "2"})
+    with pytest.raises(InputError, match=r"^touchdown_stiffness = [^\n]*$"):
+        with_settings(origin("balls").case, {"touchdown_stiffness": "a lot"})
+
+
+@pytest.mark.jit_only
+@pytest.mark.parametrize(
+    ("kind", "changes"),
+    [
+        ("restitution", {}),
+        ("restitution", GROUNDED),
+        ("mount", {}),
+        ("mount", GROUNDED),
+        ("drive", {}),
+        ("race", {}),
+        ("rigid", {}),
+    ],
+)
+def test_the_program_and_the_command_follow_what_is_shown(origin, kind, changes, capsys, monkeypatch, tmp_path):
+    given = origin(kind)
+    case = with_settings(given.case, changes)
+    rotor = model_of(case)
+    kick = kick_of(given.case, rotor)
+    motion = carom.simulate(rotor, kick.state, settle=True)
+    program = as_python(case, kick, controls_of(given.case)[1])
+    assert ("find_orbits(machine, impacts=1)" in program) == (kind not in ("race", "drive"))
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(carom.basins.Basin, "plot", lambda self: SimpleNamespace(savefig=len))
+    monkeypatch.setattr(carom.motions.Trajectory, "plot", lambda self: SimpleNamespace(savefig=len))
+    names: dict = {}
+    exec(program.partition("\norbits =")[0].replace("(120, 120)", "(3, 3)"), names)
+    assert names["motion"].outcome == motion.outcome
+    # Sizes and angles of kicks are written with nine digits.
+    np.testing.assert_allclose(names["motion"].start.velocity, motion.start.velocity, atol=1e-8)
+    np.testing.assert_allclose(names["motion"].start.position, motion.start.position, atol=1e-8)
+    capsys.readouterr()
+    if command := as_command(given, changes, rotor, kick):
+        assert main([*shlex.split(command)[1:], "--json"]) == 0
+        assert json.loads(capsys.readouterr().out)["outcome"] == motion.outcome.label
+    else:
+        assert kind == "mount"
+
+
+@pytest.mark.parametrize("kind", ["restitution", "mount", "drive"])
+@pytest.mark.parametrize("changes", [{}, GROUNDED])
+def test_kicks_of_the_picture_are_those_that_are_followed(origin, kind, changes):
+    case = with_settings(origin(kind).case, changes)
+    rotor, rest = model_of(case), rest_of(model_of(case))
+    assert rest.levitates == (not changes)
+    parts = np.array([0.5, -0.2]), np.array([0.25, 0.6])
+    starts = rest.kicks(1.0).starts(rotor, *parts)
+    for place, pair in enumerate(zip(*parts, strict=True)):
+        state = rest.kicked(*pair)
+        np.testing.assert_allclose(starts.positions[place], state.position, atol=1e-14)
+        np.testing.assert_allclose(starts.velocities[place], state.velocity, atol=1e-14)
+        assert abs(rest.velocity(*pair)) == pytest.approx(np.hypot(*pair), rel=1e-14)
+
+
+def test_the_motion_goes_into_the_wall_and_tells_force_and_depth(origin):
+    case = with_settings(origin("restitution").case, {"touchdown_stiffness": "2e7"})
+    rotor, kicks = model_of(case), planes_of(case)[0]
+    kicked = follow_kick(rotor, kicks, 0.8, 0.2)
+    touches = carom.simulate(rotor, rest_of(rotor).kicked(0.8, 0.2), settle=True).touches
+    assert kicked.hardest == touches.peak_force.max()
+    radius = np.hypot(kicked.x, kicked.y)
+    # Samples lie somewhere between the ends of a contact, and are of single precision.
+    assert 1.0 < radius.max() <= 1.0 + touches.deepest.max() + 1e-6
+    count = min(len(kicked.impact_times), len(touches))
+    np.testing.assert_allclose(kicked.impact_times[:count], touches.start[:count], rtol=1e-6)
+    words = f"after {len(touches)} contacts; largest force "
+    assert words in kicked.words
+    assert " of the clearance." in kicked.words
+    assert follow_kick(rotor, kicks, 1e-4, 0.0).words.endswith("ends in levitation without contact.")
+
+
+def test_the_largest_force_is_compared_with_its_limit(origin, monkeypatch):
+    monkeypatch.setattr("carom.explorer.computing.judgement.SIZES", 1)
+    monkeypatch.setattr("carom.explorer.computing.judgement.DIRECTIONS", 3)
+    case = origin("restitution").case
+    rotor = model_of(case)
+    found = find_hardest(rotor, planes_of(case)[0], 1.0, case.limits)
+    assert found.value.endswith(" N")
+    assert found.remark.startswith("in 3 kicks up to ")
+    exceeded = found.blow * rotor.scales.force > 5000.0
+    assert found.remark.endswith(f"; limit 5,000 N: {'exceeded' if exceeded else 'kept'}")
+
+
+@pytest.mark.jit_only
+def test_losses_of_a_blade_are_shown_too(origin):
+    case = origin("restitution").case
+    losses = planes_of(case)[2]
+    assert losses.usual > 0.0
+    assert map_kicks(model_of(case), losses, sized(6, 4), 2.0 * losses.usual).exists.any()
+
+
+def test_steady_motions_are_listed_and_what_is_left_out_is_named(origin):
+    rotor = model_of(origin("restitution").case)
+    table = table_of(rotor)
+    assert [(row.name, row.state) for row in table.rows] == [
+        ("levitation", "stable"),
+        ("synchronous rub", "stable"),
+        ("synchronous rub", "unstable"),
+    ]
+    assert not any(row.remark for row in table.rows)
+    assert "find_orbits(machine, impacts=1)" in table.argument
+    assert "copied as Python" in why_none(rotor)
+    assert why_none(rotor.rotor) == ""
+
+
+@pytest.mark.parametrize(("kind", "words"), [("race", "a race that turns"), ("drive", "a shaft whose speed changes")])
+def test_what_never_rests_in_contact_is_named(origin, kind, words):
+    rotor = model_of(origin(kind).case)
+    with pytest.raises(InputError, match=words):
+        table_of(rotor)
+    with pytest.raises(InputError, match=words):
+        judge(origin(kind).case)
+    assert "None are known" in why_none(rotor)
+
+
+def test_machines_that_never_rest_in_their_frame_are_refused_in_a_line(origin):
+    case = origin("restitution").case
+    with pytest.raises(InputError, match=r"^touchdown_offset = 5e-05: must be 0 here: [^\n]*$"):
+        planar_case_of(case.replace(touchdown_offset="0.05 mm"))
+    with pytest.raises(InputError, match=r"^machine = a rotor under gravity: [^\n]*$"):
+        planar_case_of(case.replace(gravity=9.81))
+
+
+def test_a_model_has_the_case_of_its_bearing(origin):
+    case = origin("drive").case
+    found = planar_case_of(model_of(case))
+    assert (found.parameters, found.touchdown, found.drive) == (case.parameters, case.touchdown, case.drive)
+    # A figure in a notebook begins with it.
+    assert values_of(with_settings(found, {"touchdown_stiffness": "2e8"}))["touchdown_stiffness"] == 2e8
+    assert "[dimensionless]" in as_toml(found)
+    assert "cm.models.InBearing(" in as_python(found, kick_of(found, model_of(found)), controls_of(found)[0])
+    assert planar_case_of(replace(case, touchdown=None, drive=None).machine).touchdown is None
+
+
+@pytest.mark.jit_only
+def test_a_session_answers_with_everything(origin, monkeypatch):
+    pytest.importorskip("bokeh", reason="needs the extra carom[explore]")
+    from carom.explorer.page import session as sessions
+
+    monkeypatch.setattr(sessions, "COARSE", 8)
+    monkeypatch.setattr(sessions, "COARSEST", 4)
+    monkeypatch.setattr(sessions, "FINE", 9)
+    monkeypatch.setattr("carom.explorer.computing.judgement.DIRECTIONS", 1)
+    monkeypatch.setattr(sessions, "judge", lambda case, tell: SimpleNamespace(lead="No.", advice="", survived=()))
+    ready, done, answers = threading.Event(), threading.Event(), {}
+    ready.set()
+
+    def answer(name, value):
+        answers[name] = value
+        if name == "verdict":
+            done.set()
+
+    session = sessions.Session(origin("restitution"), answer, ready)
+    session.show({"number": 1, "settings": {"touchdown_stiffness": "5e7 N/m"}, "held": False})
+    assert done.wait(120.0)
+    session.close()
+    assert answers["reply"]["values"]["touchdown_stiffness"] == 5e7
+    assert not [name for name, value in answers.items() if "refused" in (value or {}) and name != "diagram"]
+    assert answers["diagram"]["refused"] == why_none(model_of(origin("restitution").case))
+    assert "[touchdown]" in answers["exports"]["toml"]
+    assert answers["motion"]["hardest"] >= 0.0
