@@ -206,7 +206,7 @@ def simple_motion_rows(
 
 
 def steady_rows(
-    equilibria: tuple[Equilibrium, ...],
+    equilibria: tuple[SteadyMotion, ...],
     say: Wording,
     found: AttractorSet | None = None,
     rigid: Parameters | None = None,

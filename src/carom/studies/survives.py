@@ -83,8 +83,12 @@ def survives(rotor: Model, required: Required, tell: Reporter) -> Survives | Non
 
 
 def largest_levitating(rotor: Model) -> float:
-    """Largest eccentricity, in ``c_r``, of the losses of a blade that are searched; zero for a model of whose unbalance no rates are known."""
-    return 0.0 if rotor.rates("rho") is None else largest_unbalance(rotor)
+    """Largest eccentricity, in ``c_r``, of the losses of a blade that are searched.
+
+    Zero for a model whose unbalance cannot be varied, and under weight, where the sag takes its part of the clearance.
+    """
+    varied = "rho" in rotor.varied and rotor.system.forced is None
+    return largest_unbalance(rotor) if varied else 0.0
 
 
 def largest_unbalance(rotor: Model) -> float:
