@@ -73,6 +73,11 @@ def parameters_of(model: Model) -> Parameters | None:
     return model.parameters if isinstance(model, Jeffcott | InBearing) else None
 
 
+def in_rigid_wall(model: Model) -> Parameters | None:
+    """Parameters of the planar rotor in a rigid wall, whose load is compared with that of solid steel; ``None`` of other models and walls."""
+    return None if model.system.arrays["stiffness"].any() else parameters_of(model)
+
+
 def numbers_of(model: Model) -> dict[str, float] | None:
     """Parameters of the planar rotor by name, without a restitution that its wall does not have; ``None`` of other models."""
     parameters = parameters_of(model)

@@ -19,7 +19,7 @@ from carom.bifurcations.boundary import BoundaryEquilibrium
 from carom.bifurcations.documents import search_document
 from carom.closed_forms.sag import Levitation, SteadyMotion
 from carom.models import Jeffcott, Model, Span
-from carom.models.subjects import numbers_of, parameters_of
+from carom.models.subjects import in_rigid_wall, numbers_of
 from carom.motions.contacts import LastingContact, yields
 from carom.motions.loads import MEASURED, TouchdownLoads, touchdown_loads
 from carom.motions.starts import State
@@ -222,7 +222,7 @@ def _equilibrium(entry: SteadyMotion, rotor: Model) -> dict[str, Any]:
         document |= fields_of(entry, "sag", "whirl")
     document |= in_si(document, scales, "radius", "normal_force")
     if scales is not None and entry.kind == "rub":
-        document |= _wall(indentation_of_force(parameters_of(rotor), entry.normal_force))
+        document |= _wall(indentation_of_force(in_rigid_wall(rotor), entry.normal_force))
     return document
 
 
@@ -232,7 +232,7 @@ def _orbit(entry: Orbit, scales: Scales | None) -> dict[str, Any]:
     if scales is not None:
         document |= in_si(document, scales, "period", "radial_speed")
         document |= {"normal_impulse_si": entry.impulse * scales.impulse}
-        document |= _wall(indentation_of_hit(parameters_of(entry.rotor), entry.radial_speed))
+        document |= _wall(indentation_of_hit(in_rigid_wall(entry.rotor), entry.radial_speed))
     return document
 
 
@@ -311,7 +311,7 @@ def _check(check: Check) -> dict[str, Any]:
 
 
 def _attractor(entry: Attractor, rotor: Model) -> dict[str, Any]:
-    scales, at = rotor.scales, parameters_of(rotor)
+    scales, at = rotor.scales, in_rigid_wall(rotor)
     told = fields_of(entry, name="name", outcome="name.outcome.label", settled="settled")
     told |= fields_of(entry, multiplicity="name.multiplicity", period="period", whirl="whirl", count="count")
     told |= fields_of(entry, "share_of_disturbances", known_starts="known")
@@ -324,7 +324,7 @@ def _attractor(entry: Attractor, rotor: Model) -> dict[str, Any]:
 
 
 def _disturbances(found: AttractorSet, rotor: Model) -> dict[str, Any]:
-    scales, at = rotor.scales, parameters_of(rotor)
+    scales, at = rotor.scales, in_rigid_wall(rotor)
     touched = touching(found)
     document = {
         "seed": getattr(found.sample, "seed", None),
@@ -367,5 +367,5 @@ def _rolling(study: StudyData) -> dict[str, Any] | None:
     document = fields_of(roll, "holds", "speed", "largest_force")
     document |= in_si(document, scales, "largest_force")
     if scales is not None:
-        document |= _wall(indentation_of_force(study.parameters, roll.largest_force))
+        document |= _wall(indentation_of_force(in_rigid_wall(study.rotor), roll.largest_force))
     return document

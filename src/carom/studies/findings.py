@@ -10,6 +10,7 @@ from carom.closed_forms.equilibria import Equilibrium
 from carom.closed_forms.known import known_of
 from carom.closed_forms.sag import Levitation
 from carom.closed_forms.whirl import Rolling, Runaway
+from carom.models.subjects import in_rigid_wall
 from carom.orbits.orbit import Orbit
 from carom.outcome import STEADY_WORDS, Outcome
 from carom.parameters import GRAVITY
@@ -106,7 +107,7 @@ def _rub(study: StudyData) -> str:
 
 def _rub_load(study: StudyData, rub: Equilibrium) -> str:
     say, wall = study.wording, study.rotor.system.contacts[rub.plane].wall
-    indentation = indentation_of_force(study.parameters, rub.normal_force)
+    indentation = indentation_of_force(in_rigid_wall(study.rotor), rub.normal_force)
     if gives_way(indentation):
         return f"one for which there is no model: {steel_words(indentation)}"
     friction, slip = wall.friction * rub.normal_force, wall.surface_speed
@@ -121,7 +122,7 @@ def _rub_load(study: StudyData, rub: Equilibrium) -> str:
 
 def _of_hit(study: StudyData, impulse: float) -> str:
     """Return a clause on whether the rigid wall is a valid model for the normal impulse of a hit; empty if it is."""
-    at = study.parameters
+    at = in_rigid_wall(study.rotor)
     text = no_rigid_wall(indentation_of_hit(at, impulse / (1.0 + at.d))) if at else ""
     return f"; {text}" if text else ""
 

@@ -13,10 +13,9 @@ from carom.closed_forms.equilibria import Equilibrium
 from carom.closed_forms.known import Known, known_of
 from carom.closed_forms.sag import SteadyMotion
 from carom.models import Model
-from carom.models.subjects import parameters_of
 from carom.orbits.orbit import Orbit
 from carom.orbits.single_impact import OrbitSet
-from carom.parameters import Case, Parameters, Required
+from carom.parameters import Case, Required
 from carom.results import Result
 from carom.studies.actuator import BearingDemand, bearing_demand
 from carom.studies.advice import Recommendation
@@ -74,11 +73,6 @@ class StudyData(Result):
     recommendation: Recommendation
     loads: WorstLoads | None = None
     proof: Proof | None = None
-
-    @property
-    def parameters(self) -> Parameters | None:
-        """Parameters of the planar rotor; ``None`` for other models."""
-        return parameters_of(self.rotor)
 
     @property
     def known(self) -> Known:
