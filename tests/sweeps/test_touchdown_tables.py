@@ -83,13 +83,24 @@ def test_kicks_and_studies_of_a_bearing_that_gives_way(machine, tmp_path):
         assert np.isnan(found["runaway_speed"]).all()  # known for rigid walls alone
 
 
+@pytest.mark.jit_only
+def test_a_study_under_weight_has_levitation_about_the_sag(machine, tmp_path):
+    weights = GridAxis.of("gravity", [1.0, 2.0])
+    cm.run_sweep(
+        plan_sweep(machine, [weights], StudyTask(disturbances=8)), tmp_path / "heavy", workers=1, progress=False
+    )
+    with cm.open_sweep(tmp_path / "heavy") as found:
+        assert (found["status"] == 1).all()
+        held = [cm.closed_forms.levitation(machine.replace(gravity=each)).reach for each in (1.0, 2.0)]
+        assert found["levitation_radius"].values == pytest.approx(held, rel=1e-12)
+        assert found["rubs"].values.tolist() == [0, 0]
+
+
 def test_what_cannot_be_varied_is_refused(machine, tmp_path):
     rigid = cm.load(EXAMPLES / "keogh-cole.toml")
     with pytest.raises(InputError, match=r"axes.touchdown_stiffness = .*no table \[touchdown\]"):
         plan_sweep(rigid, [STIFFNESS], KICKS)
     with pytest.raises(InputError, match=r"axes.restitution = .*vary touchdown_restitution"):
         plan_sweep(machine, [GridAxis.of("restitution", [0.1, 0.2])], KICKS)
-    with pytest.raises(InputError, match="gravity"):
-        plan_sweep(machine.replace(gravity=9.81), [STIFFNESS], StudyTask())
     with pytest.raises(InputError, match="touchdown_stifness = varied: unknown name"):
         load_sweep(sweep_file(machine, tmp_path, "[axes.touchdown_stifness]\nvalues = [1e7, 1e8]"))

@@ -66,10 +66,6 @@ class SweepPlan:
     fixed: Mapping[str, float | str] = field(default_factory=dict)
     sources: Mapping[str, str] = field(default_factory=dict, compare=False)
 
-    def __post_init__(self) -> None:
-        if isinstance(self.task, StudyTask):
-            self.task.check(self.case)
-
     @property
     def variables(self) -> tuple[Variable, ...]:
         """What is stored for each point, the status last."""

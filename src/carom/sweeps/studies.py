@@ -149,26 +149,12 @@ class StudyTask:
         scaled = {each.name: each.scale for each in self.variables if each.scale and each.name in found}
         return found | in_si(found, rotor.scales, **scaled)
 
-    def check(self, machine: Case | Model) -> None:
-        """Refuse a machine on which forces act that change with time: it has no equilibria."""
-        if (
-            isinstance(machine, Case)
-            and machine.gravity is None
-            and not (machine.touchdown and machine.touchdown.offset)
-        ):
-            return  # known before models and their kernels are loaded
-
-        from carom.models import model_of
-        from carom.models.weight import refuse_forces
-
-        refuse_forces(model_of(machine))
-
     def _closed_forms(self, rotor: Model, zones: Zones) -> dict[str, Any]:
-        from carom.closed_forms.equilibria import find_equilibria
         from carom.closed_forms.known import known_of
+        from carom.closed_forms.sag import steady_motions
         from carom.orbits.single_impact import orbits_within_reach
 
-        levitation, *rubs = find_equilibria(rotor)
+        levitation, *rubs = steady_motions(rotor)
         there = [rub for rub in rubs if rub.status == "admissible"]
         known = known_of(rotor)
         found = {
