@@ -55,7 +55,7 @@ class FlexibleMachine:
     Raises
     ------
     InputError
-        A part is of another kind, a value is out of range, or a part sits at a node that the shaft does not have.
+        A part is of another kind, a value is out of range, a part sits at a node that the shaft does not have, or two bearings of one kind at one node.
     """
 
     rotor: FlexibleRotor
@@ -87,6 +87,11 @@ class FlexibleMachine:
         for name in ("touchdowns", "unbalances"):
             for part in getattr(self, name):
                 self.rotor.check_node(f"{name.removesuffix('s')} node", part.node)
+        for name in ("bearings", "touchdowns"):
+            nodes = [part.node for part in getattr(self, name)]
+            if twice := [node for place, node in enumerate(nodes) if node in nodes[:place]]:
+                allowed = "a node of its own for each: several at one node are one with the sum of their forces"
+                raise InputError(f"{name.removesuffix('s')} node", twice[0], allowed)
 
     @cached_property
     def _rows(self) -> list[np.ndarray]:

@@ -14,7 +14,7 @@ import numpy as np
 from carom.arguments import Count, Seed, Whole, checked
 from carom.disturbances import Grid, Plan, Sample
 from carom.outcome import InputError, shown
-from carom.parameters import DIMENSIONLESS_FIELDS, HELPER_FIELDS, TERM_FIELDS, Case, Parameters, Zones
+from carom.parameters import DIMENSIONLESS_FIELDS, HELPER_FIELDS, TERM_FIELDS, Case, Zones
 from carom.parameters.settings import GRAVITY_NAME, OF_TABLES, check_settings
 from carom.sweeps.axes import GridAxis
 from carom.sweeps.basins import BasinsTask
@@ -209,11 +209,7 @@ def cut(shape: tuple[int, ...], task: Task, chunk: int | None) -> tuple[int, ...
 
 
 def check_varied(case: Case | Model, name: str) -> None:
-    """Refuse to vary a parameter that the machine does not have, and a file of another rotor than the planar one."""
-    if isinstance(case, Case) and not isinstance(case.parameters, Parameters):
-        from carom.models import refuse_other_rotors
-
-        refuse_other_rotors(case)
+    """Refuse to vary a parameter that the machine does not have."""
     if not isinstance(case, Case):
         from carom.models.axes import axis
 
