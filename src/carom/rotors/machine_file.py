@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable, Iterable, Mapping
 from typing import Any, TypeVar
 
-from carom.outcome import InputError, Problems, shown
+from carom.outcome import CaromWarning, InputError, Problems, shown
 from carom.parameters import (
     MACHINE_FIELDS,
     TOUCHDOWN_FIELDS,
@@ -20,6 +21,7 @@ from carom.parameters import (
     read_quantity,
 )
 from carom.parameters.fields import by_name, unknown_name
+from carom.parameters.machine import LEAST_RADIUS
 from carom.parameters.toml_reader import MachineTables
 from carom.parameters.touchdown_bearing import BALL_FIELDS
 from carom.rotors.attachments import PLANE_FIELDS, UNBALANCE_FIELDS, TouchdownPlane, Unbalance
@@ -63,6 +65,11 @@ def read_flexible_case(name: str, tables: MachineTables, settings: Mapping[str, 
     ------
     InputError
         An entry cannot be used: each error names its table, numbered from 1 where there are several; or the machine does not levitate.
+
+    Warns
+    -----
+    CaromWarning
+        A section is thicker than the shaft is long, or the rotor radius is less than 5 clearances: a unit was probably forgotten.
     """
     whole = dict(tables.values)
     gravity = None if tables.gravity is None else problems.attempt(Gravity.of, tables.gravity)
@@ -99,10 +106,29 @@ def read_flexible_case(name: str, tables: MachineTables, settings: Mapping[str, 
     problems.raise_all()
     rotor = FlexibleRotor(sections, parts.pop("discs"), damping, whole.get("longest_element"))  # type: ignore[arg-type]
     machine = FlexibleMachine(rotor, whole.get("speed"), clearance, gravity=gravity, **parts)  # type: ignore[arg-type]
+    _warn_of_proportions(machine)
     model = machine.reduce(accuracy or ACCURACY).linear
     scales = model.scales or Scales(1.0, 1.0, 1.0)
     requirement = Requirement.of_table(tables.survive, scales)
     return Case(name, model, None, zones or Zones(), limits, requirement, gravity)
+
+
+def _warn_of_proportions(machine: FlexibleMachine) -> None:
+    """Warn of what no rotor looks like: a number without a unit is in metres, not in millimetres."""
+    length, least = machine.rotor.length, LEAST_RADIUS * machine.clearance
+    told = [
+        f"[[section]] {number}: outer_diameter = {each.outer_diameter:g} m: thicker than the shaft is long, {length:.4g} m"
+        for number, each in enumerate(machine.rotor.sections, start=1)
+        if each.outer_diameter > length
+    ]
+    told += [
+        f"[[touchdown]] {number}: rotor_radius = {each.rotor_radius:g} m: less than {LEAST_RADIUS:g} clearances of {machine.clearance:g} m"
+        for number, each in enumerate(machine.touchdowns, start=1)
+        if each.rotor_radius < least
+    ]
+    if told:
+        text = f"{'; '.join(told)}: check the units (a number without a unit is in m)"
+        warnings.warn(text, CaromWarning, stacklevel=4)
 
 
 def _set(
