@@ -23,7 +23,8 @@ from carom.rotors.reduction import MORE, RIGID, Basis, contact_error, rubin_basi
 
 FIELDS: Mapping[str, Field] = {name: MACHINE_FIELDS[name] for name in ("speed", "clearance")}
 ACCURACY = 0.02
-"""Error of contact forces by reduction that is accepted by default; that of their peaks and impulses is smaller."""
+"""Error of contact forces by reduction that is accepted by default; it is that of one
+straight contact, and motions with bending of their own may differ by more (decision 087)."""
 FALL = 9.81
 """Acceleration, m/s², of a fall through the clearance, whose energy says how far a touchdown bearing gives way."""
 _KINDS = {
