@@ -23,8 +23,8 @@ Subject = Machine | Case | Parameters | Model
 """Any description of a rotor."""
 _ALLOWED = "a Machine, a Case (as carom.load reads it from a file), Parameters or a model"
 _PLANAR = (
-    "the planar rotor, as of a file with [machine] or [dimensionless]: this result is not known for other models; of these carom.simulate, "
-    "carom.settle, carom.drop, carom.find_attractors and carom.map_basins work, and the commands simulate, drop, attractors and basins"
+    "the planar rotor: this result is not known for other models, as of files with [rotor]; with these carom.simulate, carom.settle, "
+    "carom.drop, carom.find_attractors and carom.map_basins work, and the commands simulate, drop, attractors and basins"
 )
 
 
