@@ -93,7 +93,8 @@ def bifurcations(
         from carom.bifurcations import find_bifurcations
         from carom.bifurcations.documents import diagram_document
         from carom.cli.starts import read_ends
-        from carom.models import axis, case_of, model_of, refuse_other_rotors
+        from carom.models import axis, case_of, model_of
+        from carom.models.subjects import refuse_other_rotors
         from carom.parameters import load
 
         case = load(machine, settings or ())

@@ -38,7 +38,8 @@ def orbits(
     Lists all orbits with one impact a period, with the argument that there are no more; or, with --impacts N, the
     orbits with at most N impacts that are known or that a search finds, with what it tried.
     """
-    from carom.models import case_of, refuse_other_rotors
+    from carom.models import case_of
+    from carom.models.subjects import refuse_other_rotors
     from carom.parameters import load
 
     given = load(machine, settings or ())

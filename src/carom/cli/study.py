@@ -49,7 +49,7 @@ def study(
 
     case = with_requirement(load(machine, settings or ()), kick=kick, shock=shock, blade_loss=blade_loss)
     with progress("loading") as tell:
-        from carom.models import refuse_other_rotors
+        from carom.models.subjects import refuse_other_rotors
 
         refuse_other_rotors(case)
         check_output(out)

@@ -34,7 +34,7 @@ from carom.models.race import Race
 from carom.models.shaft import Shaft
 from carom.models.spans import Edge, Span
 from carom.models.stages import Forced, Stage, Staged, Trigger
-from carom.models.subjects import Subject, case_of, jeffcott_of, model_from, model_of, refuse_other_rotors
+from carom.models.subjects import Subject, case_of, jeffcott_of, model_from, model_of
 from carom.models.system import System
 from carom.models.touchdown import FallingRestitution, HuntCrossley, KelvinVoigt, Rigid, Touchdown
 
@@ -67,6 +67,5 @@ __all__ = [
     "jeffcott_of",
     "model_from",
     "model_of",
-    "refuse_other_rotors",
     "second_order_system",
 ]

@@ -140,7 +140,7 @@ def _load(machine: Path, settings: Iterable[str]) -> Case:
     """The machine, which must be a planar rotor."""
     case = load(machine, settings)
     if not isinstance(case.parameters, Parameters):
-        from carom.models import refuse_other_rotors  # only here: models and kernels take time to load
+        from carom.models.subjects import refuse_other_rotors  # only here: models and kernels take time to load
 
         refuse_other_rotors(case)
     return case
