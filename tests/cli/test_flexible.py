@@ -1,6 +1,7 @@
 """A flexible machine on the command line: what works does, and what does not says so in one line."""
 
 import json
+from pathlib import Path
 
 import pytest
 
@@ -41,10 +42,46 @@ def test_without_weight_other_disturbances_work(carom, options):
     assert "At the end, in the fixed frame" in out
 
 
-@pytest.mark.parametrize("command", ["orbits", "basins", "response", "prove", "explore"])
+PLANAR = [
+    ("orbits",),
+    ("orbits", "--impacts", "2"),
+    ("response",),
+    ("prove",),
+    ("explore",),
+    ("study",),
+    ("bifurcations", "--along", "speed", "--from", "2000 rpm", "--to", "3000 rpm"),
+    ("regions",),
+]
+
+
+@pytest.mark.parametrize("command", PLANAR, ids=" ".join)
 @pytest.mark.parametrize("settings", [(), ("--set", "gravity=0")])
 def test_what_takes_the_planar_rotor_refuses_it_in_one_line(carom, command, settings):
-    code, out, err = carom(command, MACHINE, *settings)
+    code, out, err = carom(command[0], MACHINE, *command[1:], *settings)
     assert (code, out) == (2, "")
-    assert err.startswith("carom: machine = ")
+    assert err.startswith("carom: machine = Case tum-flexible-rotor: the planar rotor")
+    assert "the commands simulate, drop, attractors and basins" in err
     assert err.count("\n") == 1
+
+
+def test_a_sweep_refuses_it_too(carom, tmp_path):
+    path = tmp_path / "sweep.toml"
+    path.write_text(
+        f'machine = "{Path(MACHINE).absolute()}"\n[axes.friction]\nvalues = [0.1, 0.2]\n[axes.speed]\nvalues = [300, 400]\n[study]\n'
+    )
+    code, out, err = carom("sweep", str(path), "--out", str(tmp_path / "sweep.zarr"))
+    assert (code, out, err.count("\n")) == (2, "", 1)
+    assert "the planar rotor" in err
+
+
+@pytest.mark.parametrize("settings", [(), ("--set", "gravity=0")])
+def test_basins_of_kicks(carom, settings):
+    kicks = ("--grid", "1x2", "--fastest", "10 mm/s", *settings)
+    code, out, _ = carom("basins", MACHINE, *kicks)
+    assert code == 0
+    assert "2 velocity kicks out of levitation" in out
+    _, out, _ = carom("basins", MACHINE, *kicks, "--json")
+    found = json.loads(out)
+    assert found["starts"] == 2
+    rotor = cm.models.model_from(found["rotor"])
+    assert rotor.scales == cm.load(MACHINE).parameters.scales

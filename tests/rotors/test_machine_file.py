@@ -10,7 +10,7 @@ from flexible_machines import munich
 
 import carom as cm
 from carom.models import LinearRotor, model_of
-from carom.outcome import InputError
+from carom.outcome import CaromWarning, InputError
 from carom.rotors import PID, StateSpace
 
 EXAMPLE = Path("examples/tum-flexible-rotor.toml")
@@ -191,3 +191,81 @@ def test_what_cannot_be_used_is_refused_by_its_table(load, text, says):
 def test_what_cannot_be_set_is_refused(load, setting, says):
     with pytest.raises(InputError, match=says):
         load(SMALL, setting)
+
+
+UBERLANDIA = "examples/uberlandia-flexible-rotor.toml"
+
+
+def test_the_rig_of_uberlandia_has_the_dimensions_of_its_source():
+    """Mass, centre and laminations by sums over the cylinders of the source, whose laminations are eight discs at each end."""
+    machine = cm.rotors.load_machine(UBERLANDIA)
+    ends = [0, 12, 92, 165.4, 190.5, 358, 370.5, 535.6, 560.7, 634.1, 646.1]
+    diameters = [6.35, 32, 34.8, 49.9, 19.05, 54, 19.05, 49.9, 34.8, 6.35]
+    bodies = [(7850.0, 0.0, d, b - a, 0.5 * (a + b)) for a, b, d in zip(ends[:-1], ends[1:], diameters, strict=True)]
+    bodies += [(7850.0, 54.0, 120.0, width, place) for width, place in ((4, 358), (7, 364), (14, 370.5))]
+    bodies += [(7700.0, 34.8, 49.8, 53.3, place) for place in (138.7, 587.4)]
+    masses = np.array(
+        [density * np.pi / 4.0 * (outer**2 - inner**2) * length * 1e-9 for density, inner, outer, length, _ in bodies]
+    )
+    assert machine.rotor.mass == pytest.approx(masses.sum(), rel=1e-12)
+    assert machine.rotor.centre == pytest.approx(
+        1e-3 * (masses @ [each[-1] for each in bodies]) / masses.sum(), rel=1e-12
+    )
+    # Force of a pair of magnets at 0.392 rad, linearised: Schweitzer and Maslen, Magnetic Bearings, 2009, section 3.1.
+    gap, factor = 0.432e-3, 4e-7 * np.pi * 138**2 * 470.3e-6 * np.cos(0.392)
+    for each in machine.bearings:
+        assert each.ki == pytest.approx(factor / gap**2, rel=1e-3)  # rounded to three digits in the file
+        assert each.ks == pytest.approx(-factor / gap**3, rel=1e-3)
+
+
+@pytest.mark.jit_only
+def test_the_rig_of_uberlandia_levitates_and_drops():
+    machine = cm.rotors.load_machine(UBERLANDIA)
+    assert max(cm.rotors.find_whirls(machine), key=lambda each: each.exponent.real).exponent.real < 0.0
+    assert cm.rotors.sensitivity(machine).zones == ("A", "A")
+    loads = cm.motions.drop_loads(cm.simulate(cm.load(UBERLANDIA), cm.drop(), "12 ms")).planes
+    weight = machine.rotor.mass * 9.81
+    assert all(each.loads.si()["force"] > weight for each in loads)
+
+
+def test_a_machine_with_all_modes_is_read_with_its_settings(tmp_path):
+    machine = cm.rotors.load_machine(EXAMPLE, ["speed=6000 rpm", "gravity=1.62 m/s^2"])
+    assert machine.speed == pytest.approx(200.0 * np.pi)
+    assert machine.gravity.acceleration == 1.62
+    case = cm.load(EXAMPLE, ["speed=6000 rpm"])
+    assert np.allclose(machine.reduce().linear.stiffness, case.parameters.stiffness, rtol=1e-12, atol=0)
+    with pytest.raises(
+        InputError, match=r"^machine file = examples/keogh-cole.toml: a \[rotor\] table; it holds \[machine\]$"
+    ):
+        cm.rotors.load_machine("examples/keogh-cole.toml")
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "says"),
+    [
+        (
+            'outer_diameter = "20 mm"',
+            "outer_diameter = 2.0",
+            r"section\]\] 1: outer_diameter = 2 m: thicker than the shaft is long",
+        ),
+        (
+            'rotor_radius = "10 mm"',
+            'rotor_radius = "0.9 mm"',
+            r"rotor_radius = 0.0009 m: less than 5 clearances of 0.0002 m",
+        ),
+    ],
+)
+def test_sizes_that_no_rotor_has_are_warned_of(tmp_path, old, new, says):
+    path = tmp_path / "flexible.toml"
+    path.write_text(SMALL.replace(old, new, 1), encoding="utf-8")
+    with pytest.warns(CaromWarning, match=says):
+        cm.rotors.load_machine(path)
+
+
+@pytest.mark.parametrize(("kind", "name"), [("magnetic_bearing", "bearing"), ("touchdown", "touchdown")])
+def test_two_bearings_at_one_node_are_refused(load, kind, name):
+    start = SMALL.index(f"[[{kind}]]")
+    end = SMALL.find("[[", start + 2)
+    again = SMALL[start : end if end > 0 else None]
+    with pytest.raises(InputError, match=f"^{name} node = 1: a node of its own for each"):
+        load(SMALL + again)

@@ -20,7 +20,7 @@ from carom.parameters.terms import SETTABLE
 
 def print_basin(screen: Console, basin: Basin, smallest: SmallestLoss | None, harmless: float) -> None:
     """Print the disturbances tried, where they end, and the smallest that is lost."""
-    screen.print(f"Disturbances: {plan_words(basin.plan, basin.parameters.rho, basin.scales)}.")
+    screen.print(f"Disturbances: {plan_words(basin.plan, basin.rotor.value('rho'), basin.scales)}.")
     drawn = basin.share_recovered.drawn
     numbers = ("starts", "share", *(["95 % interval"] if drawn else []), "known after (median)")
     table = plain_table("", "where they end", *numbers, right=numbers)
@@ -193,7 +193,7 @@ def _blade_losses(basin: Basin, smallest: SmallestLoss) -> list[str]:
         )
     if smallest.all_back is not None and smallest.size is None:
         lines.append(f"None was lost up to the largest tried, {shown(smallest.largest)}.")
-    if smallest.harmless > basin.parameters.rho:
+    if smallest.harmless > basin.rotor.value("rho"):
         lines.append(
             f"Only unbalances up to {shown(smallest.harmless)} provably never bring the rotor to the wall, at any phase."
         )
@@ -208,7 +208,7 @@ def _where(basin: Basin, smallest: SmallestLoss) -> str:
         return f"{'in ' + whirl + ' whirl ' if smallest.size else ''}at {angle:.4f} rad on the wall"
     if smallest.kind == "unbalance-step":
         return f"from an eccentricity that differs by it at {math.degrees(angle):+.0f} deg from the heavy side"
-    heavy = math.degrees(math.remainder(angle - basin.parameters.phi, 2.0 * math.pi))
+    heavy = math.degrees(math.remainder(angle - basin.rotor.unbalance_phase, 2.0 * math.pi))
     return f"in direction {angle:.4f} rad ({heavy:+.0f} deg from the heavy side)"
 
 

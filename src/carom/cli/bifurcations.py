@@ -94,9 +94,11 @@ def bifurcations(
         from carom.bifurcations.documents import diagram_document
         from carom.cli.starts import read_ends
         from carom.models import axis, case_of, model_of
+        from carom.models.subjects import refuse_other_rotors
         from carom.parameters import load
 
         case = load(machine, settings or ())
+        refuse_other_rotors(case)
         model = model_of(case if case.gravity else case_of(case))
         varied = axis(model, along.strip())
         interval = read_ends(start, end, varied)

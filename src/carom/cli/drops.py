@@ -79,9 +79,9 @@ def motion_document(case: Case, motion: Trajectory) -> dict[str, Any]:
     Where a wall gives way it has what each plane bears, as ``carom drop`` tells it.
     """
     from carom.models import model_of
+    from carom.models.subjects import rotor_document
     from carom.motions import drop_loads
     from carom.studies import trajectory_document
-    from carom.studies.document import rotor_document
     from carom.studies.load_tables import load_entries
 
     documents = [trajectory_document(part, case.limits) for part in motion.parts]

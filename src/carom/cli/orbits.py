@@ -39,9 +39,11 @@ def orbits(
     orbits with at most N impacts that are known or that a search finds, with what it tried.
     """
     from carom.models import case_of
+    from carom.models.subjects import refuse_other_rotors
     from carom.parameters import load
 
     given = load(machine, settings or ())
+    refuse_other_rotors(given)
     if impacts is not None:
         _search(given, impacts, guesses, as_json)
         return

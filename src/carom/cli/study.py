@@ -49,6 +49,9 @@ def study(
 
     case = with_requirement(load(machine, settings or ()), kick=kick, shock=shock, blade_loss=blade_loss)
     with progress("loading") as tell:
+        from carom.models.subjects import refuse_other_rotors
+
+        refuse_other_rotors(case)
         check_output(out)
         from carom.studies import study as study_case
 

@@ -22,6 +22,10 @@ from carom.parameters import Case, Drive, Machine, Parameters, TouchdownBearing,
 Subject = Machine | Case | Parameters | Model
 """Any description of a rotor."""
 _ALLOWED = "a Machine, a Case (as carom.load reads it from a file), Parameters or a model"
+_PLANAR = (
+    "the planar rotor: this result is not known for other models, as of files with [rotor]; with these carom.simulate, carom.settle, "
+    "carom.drop, carom.find_attractors and carom.map_basins work, and the commands simulate, drop, attractors and basins"
+)
 
 
 def model_of(subject: Subject) -> Model:
@@ -58,12 +62,20 @@ def jeffcott_of(subject: Subject) -> Jeffcott:
     model = model_of(subject)
     if isinstance(model, Jeffcott):
         return model
+    refuse_other_rotors(subject)
     if isinstance(model, Forced):
         refuse_forces(model)
     if isinstance(model, InBearing):
         allowed = "a rigid wall that stands still, and a shaft at constant speed: this result is known for these alone; carom.simulate, carom.settle and others work"
         raise InputError("touchdown", model.words_of_bearing, allowed)
-    raise InputError("machine", shown(subject), "the planar rotor: this result is not known for other models")
+    raise InputError("machine", shown(subject), _PLANAR)
+
+
+def refuse_other_rotors(subject: Subject) -> None:
+    """Refuse what is no planar rotor, whatever forces act on it; a rotor of several stages is left to others."""
+    model = model_of(subject)
+    if isinstance(model.rotor if isinstance(model, Forced) else model, LinearRotor):
+        raise InputError("machine", shown(subject), _PLANAR)
 
 
 def parameters_of(model: Model) -> Parameters | None:
@@ -84,6 +96,12 @@ def numbers_of(model: Model) -> dict[str, float] | None:
     if parameters is None:
         return None
     return {name: value for name, value in parameters.as_dict().items() if name in model.varied}
+
+
+def rotor_document(rotor: Model) -> dict[str, Any]:
+    """What describes a rotor in a document: the parameters of the planar one, the attributes of any other."""
+    numbers = numbers_of(rotor)
+    return {"parameters": numbers} if numbers else {"rotor": rotor.attributes()}
 
 
 @checked

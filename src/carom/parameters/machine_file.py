@@ -256,7 +256,7 @@ def load(path: str | os.PathLike[str], settings: Iterable[str] = ()) -> Case:
     """
     problems = Problems()
     tables = read_machine_tables(path, problems)
-    texts = _split(settings, problems)
+    texts = split_settings(settings, problems)
     if tables.kind == "rotor":
         # The layers forbid imports from above; who reads a planar rotor does not wait for models and kernels to load.
         read = import_module("carom.rotors.machine_file").read_flexible_case
@@ -303,7 +303,7 @@ def _scales(base: Machine | Parameters | None, of_machine: bool) -> Scales | Non
     return Scales(1.0, 1.0, 1.0) if of_machine else None
 
 
-def _split(settings: Iterable[str], problems: Problems) -> dict[str, str]:
+def split_settings(settings: Iterable[str], problems: Problems) -> dict[str, str]:
     """Names and texts of the settings, each name once."""
     texts: dict[str, str] = {}
     for setting in settings:

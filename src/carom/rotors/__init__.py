@@ -16,7 +16,7 @@
 ``equations``             equations of motion in SI units
 ``flexible_machine``      :class:`FlexibleMachine`: the rotor with all that is attached to it
 ``reduced_machine``       :class:`ReducedMachine`: by a few vectors, as a model
-``machine_file``          tables of a machine file -> its case
+``machine_file``          :func:`load_machine`; tables of a machine file -> its case
 ``whirls``                :func:`find_whirls`, :func:`campbell`: free whirls, and how they change with the speed
 ``unbalance``             :func:`unbalance_response`: whirl by unbalance over the speed
 ``loop_sensitivity``      :func:`sensitivity`: of the loops of the bearings
@@ -30,6 +30,7 @@ from carom.rotors.discs import Disc
 from carom.rotors.flexible_machine import FlexibleMachine
 from carom.rotors.flexible_rotor import FlexibleRotor
 from carom.rotors.loop_sensitivity import Sensitivity, sensitivity
+from carom.rotors.machine_file import load_machine
 from carom.rotors.magnetic_bearing import MagneticBearing
 from carom.rotors.reduced_machine import ReducedMachine
 from carom.rotors.sections import Material, Section
@@ -58,6 +59,7 @@ __all__ = [
     "Whirl",
     "campbell",
     "find_whirls",
+    "load_machine",
     "sensitivity",
     "unbalance_response",
 ]

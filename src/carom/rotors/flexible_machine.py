@@ -23,7 +23,8 @@ from carom.rotors.reduction import MORE, RIGID, Basis, contact_error, rubin_basi
 
 FIELDS: Mapping[str, Field] = {name: MACHINE_FIELDS[name] for name in ("speed", "clearance")}
 ACCURACY = 0.02
-"""Error of contact forces by reduction that is accepted by default; that of their peaks and impulses is smaller."""
+"""Error of contact forces by reduction that is accepted by default; it is that of one
+straight contact, and motions with bending of their own may differ by more (decision 087)."""
 FALL = 9.81
 """Acceleration, m/s², of a fall through the clearance, whose energy says how far a touchdown bearing gives way."""
 _KINDS = {
@@ -55,7 +56,7 @@ class FlexibleMachine:
     Raises
     ------
     InputError
-        A part is of another kind, a value is out of range, or a part sits at a node that the shaft does not have.
+        A part is of another kind, a value is out of range, a part sits at a node that the shaft does not have, or two bearings of one kind at one node.
     """
 
     rotor: FlexibleRotor
@@ -87,6 +88,11 @@ class FlexibleMachine:
         for name in ("touchdowns", "unbalances"):
             for part in getattr(self, name):
                 self.rotor.check_node(f"{name.removesuffix('s')} node", part.node)
+        for name in ("bearings", "touchdowns"):
+            nodes = [part.node for part in getattr(self, name)]
+            if twice := [node for place, node in enumerate(nodes) if node in nodes[:place]]:
+                allowed = "a node of its own for each: several at one node are one with the sum of their forces"
+                raise InputError(f"{name.removesuffix('s')} node", twice[0], allowed)
 
     @cached_property
     def _rows(self) -> list[np.ndarray]:

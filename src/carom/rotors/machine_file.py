@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import os
+import warnings
 from collections.abc import Callable, Iterable, Mapping
 from typing import Any, TypeVar
 
-from carom.outcome import InputError, Problems, shown
+from carom.arguments import checked
+from carom.outcome import CaromWarning, InputError, Problems, shown
 from carom.parameters import (
     MACHINE_FIELDS,
     TOUCHDOWN_FIELDS,
@@ -20,7 +23,9 @@ from carom.parameters import (
     read_quantity,
 )
 from carom.parameters.fields import by_name, unknown_name
-from carom.parameters.toml_reader import MachineTables
+from carom.parameters.machine import LEAST_RADIUS
+from carom.parameters.machine_file import split_settings
+from carom.parameters.toml_reader import MachineTables, read_machine_tables
 from carom.parameters.touchdown_bearing import BALL_FIELDS
 from carom.rotors.attachments import PLANE_FIELDS, UNBALANCE_FIELDS, TouchdownPlane, Unbalance
 from carom.rotors.controllers import PID, PID_FIELDS, TransferFunction
@@ -63,15 +68,12 @@ def read_flexible_case(name: str, tables: MachineTables, settings: Mapping[str, 
     ------
     InputError
         An entry cannot be used: each error names its table, numbered from 1 where there are several; or the machine does not levitate.
+
+    Warns
+    -----
+    CaromWarning
+        A section is thicker than the shaft is long, or the rotor radius is less than 5 clearances: a unit was probably forgotten.
     """
-    whole = dict(tables.values)
-    gravity = None if tables.gravity is None else problems.attempt(Gravity.of, tables.gravity)
-    gravity = _set(whole, settings, gravity, problems)
-    problems.errors += [
-        unknown_name(each, given, ROTOR_ENTRIES, "[rotor]")
-        for each, given in whole.items()
-        if each not in ROTOR_ENTRIES
-    ]
     if tables.drive is not None:
         problems.errors.append(
             InputError("drive", shown(dict(tables.drive)), "not allowed beside [rotor]: its speed stays as it is")
@@ -81,6 +83,62 @@ def read_flexible_case(name: str, tables: MachineTables, settings: Mapping[str, 
         allowed = "no limit of a flexible machine: the pressure of balls is known for the planar rotor"
         problems.errors.append(InputError("pressure", limits.pressure, allowed))
     zones = problems.attempt(Zones, tables.zones["limits"]) if "limits" in tables.zones else Zones()
+    accuracy, text = ROTOR_ENTRIES["accuracy"], settings.get("accuracy", tables.values.get("accuracy", ACCURACY))
+    wanted = problems.attempt(read_quantity, accuracy, text)
+    machine = _read_machine(tables, settings, problems)
+    model = machine.reduce(wanted or ACCURACY).linear
+    scales = model.scales or Scales(1.0, 1.0, 1.0)
+    requirement = Requirement.of_table(tables.survive, scales)
+    return Case(name, model, None, zones or Zones(), limits, requirement, machine.gravity)
+
+
+@checked
+def load_machine(path: str | os.PathLike[str], settings: Iterable[str] = ()) -> FlexibleMachine:
+    """Read the flexible machine of a machine file with a ``[rotor]`` table, with all its modes.
+
+    :func:`carom.load` reads the same file as a case of the reduced machine, for ``carom.simulate`` and the others.
+
+    Parameters
+    ----------
+    path : path
+    settings : iterable of str
+        Texts ``"name=value"`` as in ``--set``: ``gravity`` and entries of ``[rotor]``.
+
+    Raises
+    ------
+    InputError
+        The file cannot be used, or holds no ``[rotor]`` table.  Whether the machine levitates is not looked at.
+
+    See Also
+    --------
+    carom.rotors.find_whirls, carom.rotors.sensitivity, carom.rotors.unbalance_response : does it levitate well?
+
+    Examples
+    --------
+    >>> import carom as cm
+    >>> machine = cm.rotors.load_machine("examples/tum-flexible-rotor.toml", ["speed=6000 rpm"])
+    >>> machine.reduce().vectors
+    15
+    """
+    problems = Problems()
+    tables = read_machine_tables(path, problems)
+    texts = split_settings(settings, problems)
+    if tables.kind != "rotor":
+        problems.errors.append(InputError("machine file", shown(path), f"a [rotor] table; it holds [{tables.kind}]"))
+        problems.raise_all()
+    return _read_machine(tables, texts, problems)
+
+
+def _read_machine(tables: MachineTables, settings: Mapping[str, str], problems: Problems) -> FlexibleMachine:
+    """The machine of a file, after all errors, those known before too, are raised."""
+    whole = dict(tables.values)
+    gravity = None if tables.gravity is None else problems.attempt(Gravity.of, tables.gravity)
+    gravity = _set(whole, settings, gravity, problems)
+    problems.errors += [
+        unknown_name(each, given, ROTOR_ENTRIES, "[rotor]")
+        for each, given in whole.items()
+        if each not in ROTOR_ENTRIES
+    ]
     steel = problems.attempt(_material, whole, Material())
     parts = {
         "discs": _each(tables, "disc", problems, lambda entry: _disc(entry, steel or Material())),
@@ -94,15 +152,30 @@ def read_flexible_case(name: str, tables: MachineTables, settings: Mapping[str, 
             InputError("[[section]]", None, "one or more tables, each with its length and outer_diameter")
         )
     damping = problems.attempt(_damping, whole)
-    accuracy = problems.attempt(read_quantity, ROTOR_ENTRIES["accuracy"], whole.get("accuracy", ACCURACY))
     clearance = problems.attempt(_clearance, tables.parts.get("touchdown", []))
     problems.raise_all()
     rotor = FlexibleRotor(sections, parts.pop("discs"), damping, whole.get("longest_element"))  # type: ignore[arg-type]
     machine = FlexibleMachine(rotor, whole.get("speed"), clearance, gravity=gravity, **parts)  # type: ignore[arg-type]
-    model = machine.reduce(accuracy or ACCURACY).linear
-    scales = model.scales or Scales(1.0, 1.0, 1.0)
-    requirement = Requirement.of_table(tables.survive, scales)
-    return Case(name, model, None, zones or Zones(), limits, requirement, gravity)
+    _warn_of_proportions(machine)
+    return machine
+
+
+def _warn_of_proportions(machine: FlexibleMachine) -> None:
+    """Warn of what no rotor looks like: a number without a unit is in metres, not in millimetres."""
+    length, least = machine.rotor.length, LEAST_RADIUS * machine.clearance
+    told = [
+        f"[[section]] {number}: outer_diameter = {each.outer_diameter:g} m: thicker than the shaft is long, {length:.4g} m"
+        for number, each in enumerate(machine.rotor.sections, start=1)
+        if each.outer_diameter > length
+    ]
+    told += [
+        f"[[touchdown]] {number}: rotor_radius = {each.rotor_radius:g} m: less than {LEAST_RADIUS:g} clearances of {machine.clearance:g} m"
+        for number, each in enumerate(machine.touchdowns, start=1)
+        if each.rotor_radius < least
+    ]
+    if told:
+        text = f"{'; '.join(told)}: check the units (a number without a unit is in m)"
+        warnings.warn(text, CaromWarning, stacklevel=4)
 
 
 def _set(

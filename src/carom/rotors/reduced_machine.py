@@ -35,6 +35,7 @@ class ReducedMachine(Result):
     error : float
         Change of the force in a touchdown bearing with half as many vectors more, relative to that force, as the root of the means of the squares while
         the first contact lasts, when the free rotor comes straight with all its mass; the largest of all planes; 0 of all modes.
+        A rotor that comes tilted or bends on its way may differ by more: see whether results stay with a smaller accuracy.
     """
 
     machine: FlexibleMachine

@@ -7,12 +7,13 @@ from typing import Any
 
 from carom.attractors import Attractor, AttractorSet, Character, document_of, exact_interval
 from carom.basins import share_of_kicks
-from carom.parameters import Parameters
+from carom.models import Model
+from carom.models.subjects import rotor_document
 from carom.results import fields_of
 
 
 def attractors_document(
-    parameters: Parameters, found: AttractorSet, characters: Sequence[Character], exponents: bool = True
+    rotor: Model, found: AttractorSet, characters: Sequence[Character], exponents: bool = True
 ) -> dict[str, Any]:
     """Return the document of attractors, with one character for each member of ``found``.
 
@@ -23,7 +24,7 @@ def attractors_document(
         _attractor(entry, total, character, exponents) for entry, character in zip(found, characters, strict=True)
     ]
     return {
-        "parameters": parameters.as_dict(),
+        **rotor_document(rotor),
         "attractors": entries,
         "share": share.document if share else None,
         "disturbances": found.words(),

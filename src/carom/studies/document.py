@@ -19,7 +19,7 @@ from carom.bifurcations.boundary import BoundaryEquilibrium
 from carom.bifurcations.documents import search_document
 from carom.closed_forms.sag import Levitation, SteadyMotion
 from carom.models import Jeffcott, Model, Span
-from carom.models.subjects import in_rigid_wall, numbers_of
+from carom.models.subjects import in_rigid_wall, rotor_document
 from carom.motions.contacts import LastingContact, yields
 from carom.motions.loads import MEASURED, TouchdownLoads, touchdown_loads
 from carom.motions.starts import State
@@ -238,12 +238,6 @@ def _orbit(entry: Orbit, scales: Scales | None) -> dict[str, Any]:
 
 def _state(state: State) -> dict[str, Any]:
     return fields_of(state, U="position", V="velocity")
-
-
-def rotor_document(rotor: Model) -> dict[str, Any]:
-    """What describes a rotor: the parameters of the planar one, the attributes of any other."""
-    numbers = numbers_of(rotor)
-    return {"parameters": numbers} if numbers else {"rotor": rotor.attributes()}
 
 
 def _scales(scales: Scales) -> dict[str, float]:

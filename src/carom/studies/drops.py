@@ -9,11 +9,11 @@ from typing import Any
 from carom.attractors import MotionName
 from carom.disturbances.echo import Echo
 from carom.models import model_of
+from carom.models.subjects import rotor_document
 from carom.motions import DropLoads, Trajectory, drop_loads
 from carom.outcome import Outcome
 from carom.parameters import Case
 from carom.results import Result, fields_of, in_si
-from carom.studies.document import rotor_document
 from carom.studies.load_checks import LoadCheck
 from carom.studies.load_tables import checks_of_planes, load_entries, load_tables
 from carom.studies.wording import Wording

@@ -18,6 +18,7 @@ from carom.parameters import (
     SETTINGS,
     TERMS,
     Case,
+    Parameters,
     Scales,
     Zones,
     load,
@@ -115,7 +116,7 @@ def load_sweep(path: str | os.PathLike[str], settings: Iterable[str] = ()) -> Sw
     top = problems.attempt(_read, _Top, content, "", _TABLES)
     listed = [*(top.settings if top else []), *settings]
     machine = Path(name).parent / (top.machine if top else "")
-    case = problems.attempt(load, machine, listed) if top else None
+    case = problems.attempt(_load, machine, listed) if top else None
     axes = problems.attempt(_axes, tables.get("axes"), listed, case)
     task = problems.attempt(_task, tables, top, case)
     problems.raise_all()
@@ -133,6 +134,16 @@ def load_sweep(path: str | os.PathLike[str], settings: Iterable[str] = ()) -> Sw
         "machine_file": machine.read_text(encoding="utf-8-sig"),
     }
     return SweepPlan(case, axes, task, chunk, top.seed or 0, fixed, sources)
+
+
+def _load(machine: Path, settings: Iterable[str]) -> Case:
+    """The machine, which must be a planar rotor."""
+    case = load(machine, settings)
+    if not isinstance(case.parameters, Parameters):
+        from carom.models.subjects import refuse_other_rotors  # only here: models and kernels take time to load
+
+        refuse_other_rotors(case)
+    return case
 
 
 def _read(model: type[_Model], content: object, where: str, besides: Iterable[str] = ()) -> _Model:
