@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from machines import PAPER
 from scipy.linalg import expm
+from scipy.optimize import root
 
 import carom as cm
 from carom.models import HuntCrossley, Jeffcott, KelvinVoigt, LinearRotor, Touchdown
@@ -131,6 +132,43 @@ def test_the_stiffer_the_wall_the_nearer_is_the_birth_to_that_on_the_rigid_one()
             found.append([sum(times) - small.period, scaled.states(times)[0][2] - small.speed_rate])
         slopes = np.diff(np.log(np.abs(found)), axis=0) / np.diff(np.log(stiffnesses))[:, None]
         assert slopes[-1] == pytest.approx([-0.5, -0.5], abs=0.01)
+
+
+@pytest.mark.jit_only
+def test_the_shorter_orbit_ends_where_its_flight_has_no_time():
+    """Followed by its time of flight down to the stiffness that the theory page states; shortly before, it is an orbit of the rotor."""
+
+    def conditions(unknowns, flight):
+        scaled = Scaled(voigt(unknowns[2]))
+        arrival, parting, leaving = scaled.states((*unknowns[:2], flight))
+        return [scaled.depth @ arrival, scaled.force @ parting / unknowns[2], scaled.depth @ leaving]
+
+    unknowns, stiffnesses, flights = np.array([0.79, 0.0054, 39.0]), [], np.arange(0.186, 0.03, -0.006)
+    for flight in flights:
+        unknowns = root(conditions, unknowns, (flight,), tol=1e-13).x
+        assert np.abs(conditions(unknowns, flight)).max() < 1e-10
+        stiffnesses.append(unknowns[2])
+    assert (np.diff(stiffnesses) < 0.0).all()
+    # Near its end the stiffness changes by the square of the time of flight.
+    _, end = np.polyfit(flights[-3:] ** 2, stiffnesses[-3:], 1)
+    assert end == pytest.approx(35.7, abs=0.05)
+
+    times, law, gap = (*unknowns[:2], flights[-1]), voigt(unknowns[2]), 1e-4
+    orbit = orbit_near(rotor_in(law, beside(gap)), WORD, Scaled(law).start(times, gap, beside(gap)))
+    assert orbit.admissible
+    assert orbit.period == pytest.approx(sum(times), rel=1e-2)
+
+
+@pytest.mark.jit_only
+@pytest.mark.parametrize(("small", "outside"), list(zip(STAR.orbits, (2, 1), strict=True)), ids=["shorter", "longer"])
+def test_only_the_longer_orbit_parts_disturbances(small, outside):
+    """One multiplier outside the unit circle: what tends to it has one dimension less than all motions; of the shorter one two are."""
+    law = voigt(1e3)
+    scaled = Scaled(law)
+    orbit = orbit_near(rotor_in(law, beside(1e-5)), WORD, scaled.start(scaled.born(small.period), 1e-5, beside(1e-5)))
+    rigid = cm.find_orbits(PAPER.replace(gamma=beside(1e-5)))[small.name]
+    for each in (orbit, rigid):
+        assert (np.abs(each.multipliers.values) > 1.0).sum() == outside
 
 
 @pytest.mark.jit_only

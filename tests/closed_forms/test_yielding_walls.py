@@ -187,6 +187,14 @@ def test_slipping_whirls_of_any_rotor_are_all_changes_of_sign_of_the_receptance(
         assert whirl.radius - 1.0 == pytest.approx(1e-6 * whirl.normal_force, rel=1e-6, abs=1e-15)
 
 
+@pytest.mark.parametrize("ratio", [1e-4, 1e-5, 1e-6])
+def test_a_slipping_whirl_close_to_the_resonance_of_a_soft_and_hardly_damped_rotor(ratio):
+    """There one rounding of the speed changes what is left of the imaginary part by more than any share of its modulus allows."""
+    at = PAPER.replace(gamma=ratio, omega=0.01, mu=2.0, rho=0.0)
+    whirl = only(slipping_whirls(at, 1e9))
+    assert whirl.speed == pytest.approx(runaway_speed(at).average, abs=1e-15)
+
+
 @pytest.mark.jit_only
 @pytest.mark.parametrize("plane", [0, 1])
 def test_a_whirl_of_two_coordinates_goes_on_as_a_circle(plane):

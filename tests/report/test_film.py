@@ -13,7 +13,7 @@ from browsing import BROWSER, OPTIONS
 import carom as cm
 from carom.disturbances.echo import echo_of_drop
 from carom.report import write_drop_report
-from carom.report.film import CLEARANCE, film_of
+from carom.report.film import CLEARANCE, MOST, STEP, film_of
 from carom.studies import DropStudy
 
 pytestmark = pytest.mark.jit_only
@@ -94,7 +94,22 @@ def test_only_what_can_be_told_apart_is_filmed():
     film = film_of(cm.simulate(case, cm.drop(), "400 ms"))
     assert not film.whole
     assert film.course.times[-1] <= 40.0 * math.tau
-    assert "Filmed: the first 30 contacts" in film.caption
+    assert (
+        f"Filmed: the first {float(film.units.time[0] * film.course.times[-1]):.4g} ms, at most 30 contacts"
+        in film.caption
+    )
+
+
+def test_what_becomes_too_fast_later_does_not_shorten_the_film_of_what_comes_before():
+    """Here the rotor begins to roll backward at eighty times the speed of the shaft when it has bounced for a while."""
+    case = cm.load("examples/dropped-rotor.toml", ["friction=0.4", "unbalance=200 g mm"])
+    motion = cm.simulate(case, cm.drop(regained_after="40 ms"), "90 ms")
+    film, impacts = film_of(motion), motion.parts[0].contacts
+    assert not film.whole
+    assert len(film.course.times) < 1.1 * MOST
+    assert np.abs(np.diff(film.course.place)).max() < 2.0 * STEP
+    assert film.course.times[-1] > 0.9 * impacts.time[-1]
+    assert "Filmed: the first 2" in film.caption
 
 
 @pytest.fixture(scope="module")

@@ -53,6 +53,8 @@ REAL = 1e-6
 """Imaginary part, relative to the fastest mode, up to which a zero is tried as a real one: rounding splits double ones by its root."""
 EXACT = 1e-10
 """What may be left of the imaginary part of ``g``, relative to its modulus."""
+CLOSEST = 4 * 2.220446049250313e-16
+"""Last step of Newton's method that counts as rounding: close to a resonance ``g`` changes by more than :data:`EXACT` in it."""
 NEWTON_STEPS = 8
 
 
@@ -219,24 +221,26 @@ def _slipping_speeds(system: System, plane: int) -> list[tuple[float, float]]:
     found = set()
     for zero in zeros[np.isfinite(zeros)]:
         if zero.real > 1.0 and abs(zero.imag) <= REAL * fastest:
-            turn, lever = _refined(generator, row, column, float(zero.real))
-            if lever.real > 0.0 and abs(lever.imag) <= EXACT * abs(lever) and turn > 1.0:
+            turn, lever, step = _refined(generator, row, column, float(zero.real))
+            is_zero = abs(lever.imag) <= EXACT * abs(lever) or abs(step) <= CLOSEST * turn
+            if lever.real > 0.0 and is_zero and turn > 1.0:
                 found.add((turn - 1.0, lever.real))
     return sorted(found)
 
 
-def _refined(generator: np.ndarray, row: np.ndarray, column: np.ndarray, turn: float) -> tuple[float, complex]:
-    """Real zero of ``Im g`` near ``1 + ν`` by Newton's method, and ``g`` there."""
+def _refined(generator: np.ndarray, row: np.ndarray, column: np.ndarray, turn: float) -> tuple[float, complex, float]:
+    """Real zero of ``Im g`` near ``1 + ν`` by Newton's method, ``g`` there, and the last step."""
     identity = np.eye(len(generator))
-    lever = 0j
+    lever, step = 0j, np.inf
     for _ in range(NEWTON_STEPS):
         moved = np.linalg.solve(turn * identity - generator, column)
         lever = complex(row @ moved)
         slope = -complex(row @ np.linalg.solve(turn * identity - generator, moved)).imag
         if slope == 0.0 or lever.imag == 0.0:
             break
-        turn -= lever.imag / slope
-    return turn, lever
+        step = lever.imag / slope
+        turn -= step
+    return turn, lever, step
 
 
 def _check_plane(system: System, plane: int) -> None:

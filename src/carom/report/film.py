@@ -144,9 +144,16 @@ class Film:
             "The dot on the shaft is its unbalance; the thin circle in the middle is the room of its centre, with the path over the last turn.",
             "The light mark on the race turns with it." if self.race_radius else "",
             "The bearing moves on its mount." if self.course.mount is not None else "",
-            "" if self.whole else f"Filmed: the first {FOLLOWED} contacts, or {TURNS:.0f} turns of the shaft.",
+            ""
+            if self.whole
+            else f"Filmed: the first {self._end}, at most {FOLLOWED} contacts and {TURNS:.0f} turns of the shaft.",
         ]
         return " ".join(filter(None, sentences))
+
+    @property
+    def _end(self) -> str:
+        """Time at which it ends, in words."""
+        return f"{self.units.time[0] * float(self.course.times[-1]):.4g} {self.units.time[1]}"
 
     @property
     def shown(self) -> str:
@@ -260,12 +267,10 @@ def _line(start: complex, along: complex) -> str:
 def film_of(motion: Trajectory) -> Film:
     """Sample a drop at its plane for a film: as much of it as can be seen contact by contact."""
     shown = shown_until(motion)
-    until = min(shown, first_contacts(motion, FOLLOWED), TURNS * math.tau)
-    fastest = _fastest(motion, until)
-    until = min(until, MOST * STEP / fastest)
+    until, samples = _sampled(motion, min(shown, first_contacts(motion, FOLLOWED), TURNS * math.tau))
     race = races_of(motion.rotor)[motion.plane]
     return Film(
-        course=course_of(motion, until, max(FEWEST, math.ceil(until * fastest / STEP))),
+        course=course_of(motion, until, samples),
         units=Units.of(motion.rotor.scales),
         magnified=CLEARANCE / ROTOR * (float(motion.rotor.system.arrays.surface_speed[motion.plane]) - 1.0),
         race_radius=None if race is None else race.radius,
@@ -273,14 +278,23 @@ def film_of(motion: Trajectory) -> Film:
     )
 
 
-def _fastest(motion: Trajectory, until: float) -> float:
-    """Largest speed of the plane in the fixed frame at the events of a motion, and one at least."""
-    speeds = [1.0]
+def _sampled(motion: Trajectory, until: float) -> tuple[float, int]:
+    """How much of a motion the samples of a film can show, at most until a time, and how many it takes.
+
+    A film ends where the plane becomes too fast in the fixed frame, by its speeds at the events of the motion; what comes later does not
+    shorten it.
+    """
+    times, speeds = [0.0], [1.0]
     for part in motion.parts:
-        times = np.append(part.segment_starts, part.time)
-        place, rate = part.seen_at(motion.plane).at_plane(times[part.begins + times <= until])
-        speeds.append(float(np.abs(rate + 1j * place).max(initial=0.0)))
-    return max(speeds)
+        events = np.append(part.segment_starts, part.time)
+        place, rate = part.seen_at(motion.plane).at_plane(events)
+        times.extend(part.begins + events)
+        speeds.extend(np.abs(rate + 1j * place))
+    fastest, paths = np.maximum.accumulate(speeds), MOST * STEP
+    beyond = int(np.argmax(np.array(times) * fastest > paths)) or len(times) - 1
+    until = min(until, max(times[beyond - 1], paths / float(fastest[beyond])))
+    at = min(int(np.searchsorted(times, until)), beyond)
+    return until, max(FEWEST, min(MOST, math.ceil(until * float(fastest[at]) / STEP)))
 
 
 @cache
