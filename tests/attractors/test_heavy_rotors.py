@@ -43,7 +43,11 @@ def test_bouncing_is_closed_and_told_to_take_whole_turns(name, impacts, turns):
 
 
 @pytest.mark.parametrize(
-    ("rotor", "counts"), [(PARTING[0], {2, 3}), (of_two_coordinates(Rigid(0.5), 0.38), {2, 3, 4})], ids=["soft", "two"]
+    ("rotor", "counts"),
+    [
+        pytest.param(PARTING[0], {2, 3}, id="soft"),
+        pytest.param(of_two_coordinates(Rigid(0.5), 0.38), {2, 3, 4}, id="two", marks=pytest.mark.deep),
+    ],
 )
 def test_motions_that_coexist_are_told_apart(rotor, counts):
     found = touched(find_attractors(rotor, count=40))

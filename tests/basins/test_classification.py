@@ -209,6 +209,7 @@ def test_a_time_may_have_a_unit(rotor):
     xarray.testing.assert_identical(in_words["time"], map_basins(rotor, plan, until=0.02 / SCALES.time).dataset["time"])
 
 
+@pytest.mark.deep
 def test_basins_of_a_heavy_rotor_tell_bouncing_by_its_impacts_and_are_read_again(tmp_path):
     """Its bouncing repeats with the turns of the shaft; no orbit is looked for."""
     heavy = carom.load("examples/dropped-rotor.toml", ["damping=10 N s/m", "restitution=0.9", "friction=0.05"])

@@ -150,7 +150,6 @@ def test_bad_drops_get_one_line(carom, arguments, words):
 @pytest.mark.parametrize(
     "arguments",
     [
-        ("study",),
         ("orbits",),
         ("prove",),
         ("bifurcations", "--along", "gamma", "--from", "0.1", "--to", "0.2", "--lasting"),

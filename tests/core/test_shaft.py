@@ -160,6 +160,7 @@ def test_what_keeps_a_plane_on_its_wall_and_its_rate():
     assert next_phase(SYSTEM.arrays, np.array([FLIGHT, AWAY]), 0, amplitudes, work) in SIGNS
 
 
+@pytest.mark.deep
 def test_a_motion_strikes_slides_and_is_in_contact_with_a_wall_that_gives_way():
     """Short enough for kernels that are not compiled."""
     soft = dataclasses.replace(

@@ -139,7 +139,7 @@ def test_what_a_bearing_cannot_have_is_named_by_its_box(origin):
         ("restitution", GROUNDED),
         ("mount", {}),
         ("mount", GROUNDED),
-        ("drive", {}),
+        pytest.param("drive", {}, marks=pytest.mark.deep),
         ("race", {}),
         ("rigid", {}),
     ],

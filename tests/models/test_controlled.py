@@ -127,6 +127,7 @@ def test_without_levitation_nothing_holds_it_and_its_controller_stands_by_itself
     assert by_size(free.system.exponents + 1j) == pytest.approx(np.array([0, 0, 0, 0.75j, -1, -1, -1, -1]), abs=1e-7)
 
 
+@pytest.mark.deep
 @pytest.mark.jit_only
 def test_it_is_dropped_and_levitates_again():
     rotor = weighted(controlled(ki=0.01), Gravity())

@@ -144,6 +144,7 @@ def test_a_drop_from_the_centre_is_free_fall_and_then_a_mass_on_springs():
     assert errors[1] < 0.3 * errors[0]
 
 
+@pytest.mark.deep
 @pytest.mark.jit_only
 def test_a_drop_of_the_reduced_rig_is_that_of_all_its_modes():
     """Times and peaks of the first contacts at both ends, within the error of the reduction; later ones differ as contacts amplify it."""

@@ -24,7 +24,7 @@ from carom.models.axes import Ends
 from carom.motions import Drop, State, Whirl, drop_loads, simulate
 from carom.motions.bearing_loads import DropLoads
 from carom.motions.starts import Until, time_until
-from carom.outcome import InputError
+from carom.outcome import STEADY_WORDS, InputError
 from carom.parameters import Case, LoadLimits, Scales
 from carom.parameters.told import number
 from carom.progress import Reporter, ShowProgress, shows_progress
@@ -223,7 +223,9 @@ def map_drops(
         tell(len(rows) / len(nodes))
     if all(row.name is None for row in rows):
         raise InputError(
-            "levitation", "of none of the machines", "static sag and whirl must stay inside the wall: below 1"
+            STEADY_WORDS["contact-free"],
+            "of none of the machines",
+            "static sag and whirl must stay inside the wall: below 1",
         )
     limits = machine.limits if isinstance(machine, Case) else LoadLimits()
     dataset = _dataset(axes, values, rows)

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
+from carom.outcome import STEADY_WORDS
 from carom.studies.actuator import actuator_words
 from carom.studies.advice_facts import advice_facts
 from carom.studies.facts import Fact, about
@@ -39,7 +40,7 @@ NOT_COVERED_OF_MATRICES = (
 NOT_COVERED_UNDER_WEIGHT = (
     "Changes of speed, and controllers that add states of their own.",
     (
-        "What rests on the symmetry of a turn: synchronous rubs, orbits in closed form, and that a kick does the same whatever the angle of the "
+        f"What rests on the symmetry of a turn: {STEADY_WORDS['rub']}s, orbits in closed form, and that a kick does the same whatever the angle of the "
         "unbalance is as it strikes. Here that is the angle in the machine file; with others some kicks may end elsewhere."
     ),
     "What the weight asks of the magnetic bearings, and their limits.",
