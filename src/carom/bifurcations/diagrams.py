@@ -25,7 +25,6 @@ from carom.bifurcations.words import continue_orbit, renamed
 from carom.closed_forms.known import known_of
 from carom.models import Jeffcott, Model, Subject, jeffcott_of, model_of
 from carom.models.axes import Axis, Ends, axis, read_interval
-from carom.models.weight import refuse_unrepeated
 from carom.orbits.names import RubbingName
 from carom.orbits.orbit import Orbit
 from carom.orbits.rubbing import rubbing_orbits
@@ -208,7 +207,7 @@ def find_bifurcations(
     ['fold']
     """
     model = jeffcott_of(machine) if lasting else model_of(machine)
-    refuse_unrepeated(model)
+    model.system.refuse_unrepeated()
     along = axis(model, parameter)
     limits = read_interval(along, interval)
     tell = Reporter.of(progress, "following motions")

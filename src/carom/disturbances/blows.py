@@ -163,12 +163,11 @@ class BaseShock(Disturbance):
         """State at the end of the pulse."""
         from carom.disturbances.shocks import states_after_shocks
         from carom.models.stages import stages_of
-        from carom.models.weight import refuse_unrepeated
 
         peaks, directions = np.broadcast_arrays(*values)
         if rotor.system.rest_radius >= 1.0:
             return displaced(rotor, np.zeros(peaks.shape, complex), np.zeros(peaks.shape), False)
-        refuse_unrepeated(rotor)
+        rotor.system.refuse_unrepeated()
         positions, velocities, undecided, touched = states_after_shocks(
             stages_of(rotor)[0].rotor, peaks, self.duration, directions
         )

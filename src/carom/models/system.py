@@ -341,15 +341,6 @@ class System(Result):
         return distances
 
     @cached_property
-    def base_excitation(self) -> np.ndarray:
-        """Rates of change of the amplitudes when all masses are accelerated by one along the translation, shape (N,).
-
-        Free modes only: the forcing does not depend on how the masses move.
-        """
-        rates: np.ndarray = self.to_modes[:, len(self.rest) :] @ self.translated
-        return rates
-
-    @cached_property
     def is_planar(self) -> bool:
         """Whether it is a :func:`second_order_system` inside a rigid wall: lanes and the closing of orbits are made for these."""
         arrays = self.arrays

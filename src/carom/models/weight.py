@@ -67,11 +67,6 @@ def refuse_forces(model: Model) -> None:
         raise InputError("machine", f"a rotor under {acting}", _WITHOUT)
 
 
-def refuse_unrepeated(model: Model) -> None:
-    """Refuse a rotor of which no orbits are known: a race turns, the speed changes, or a force changes in the fixed frame."""
-    model.system.refuse_unrepeated()
-
-
 def refuse_unsteady(model: Model) -> None:
     """Refuse a rotor that levitates neither at rest nor in a circle: its speed changes, or a force changes in the fixed frame."""
     if model.system.shaft is not None or model.system.shaken:

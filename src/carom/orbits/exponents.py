@@ -13,7 +13,6 @@ from carom.arguments import Count, checked, whole
 from carom.core.closing import LONGEST
 from carom.core.growth import carry_orthogonal
 from carom.models import Model, Subject, model_of
-from carom.models.weight import refuse_unrepeated
 from carom.motions.simulation import simulate
 from carom.motions.starts import Kick, State
 from carom.motions.trajectories import Trajectory
@@ -150,7 +149,7 @@ def lyapunov_exponents(
         planes touch at a time while one of the contacts lasts.
     """
     rotor = model_of(machine)
-    refuse_unrepeated(rotor)
+    rotor.system.refuse_unrepeated()
     state = start.state(rotor) if isinstance(start, Kick) else start
     # With weight its phase at the node is one direction more.
     directions = np.eye(2 * len(rotor.system.exponents) + int(rotor.system.forced is not None))[:, 1:]

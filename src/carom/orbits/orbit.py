@@ -16,7 +16,6 @@ from carom.core.layout import rub_workspace
 from carom.core.margins import contact_margins, least_margins
 from carom.core.yielding_margins import margins_in_walls
 from carom.models import Model, Subject, model_of
-from carom.models.weight import refuse_unrepeated
 from carom.motions.simulation import simulate
 from carom.motions.starts import State
 from carom.motions.trajectories import Trajectory
@@ -339,7 +338,7 @@ def orbit_near(machine: Subject, word: Word, start: Start, name: OrbitName | Cou
         The start does not fit the word and the rotor, or the word its walls.
     """
     rotor = model_of(machine)
-    refuse_unrepeated(rotor)
+    rotor.system.refuse_unrepeated()
     shape = len(word), len(rotor.system.nodes.rest)
     if start.nodes.shape != shape or start.durations.shape != shape[:1]:
         raise InputError("start", start.nodes.shape, f"nodes of shape {shape} and {shape[0]} durations")

@@ -14,7 +14,6 @@ from carom.arguments import Count, Positive, Reals, Seed, checked
 from carom.closed_forms.periods import PeriodCondition, PeriodRoots
 from carom.core.planar import impact_jacobian
 from carom.models import Jeffcott, Subject, jeffcott_of, model_of
-from carom.models.weight import refuse_unrepeated
 from carom.orbits.admissibility import slip_stays_forward, why_virtual
 from carom.orbits.maps import Section
 from carom.orbits.names import OrbitName, Slip
@@ -175,7 +174,7 @@ def find_orbits(
     """
     if impacts is not None:
         model, tell = model_of(machine), Reporter.of(progress, "searching orbits")
-        refuse_unrepeated(model)
+        model.system.refuse_unrepeated()
         known = [*orbits_within_reach(model), *rubbing_orbits(model)] if isinstance(model, Jeffcott) else []
         there = [orbit for orbit in known if orbit.admissible]
         members, search = search_orbits(model, impacts, guesses, seed, there, tell)
