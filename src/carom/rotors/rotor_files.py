@@ -89,8 +89,7 @@ def write_rotor(rotor: MatrixRotor, path: str | os.PathLike[str]) -> None:
     OSError
         The file cannot be written.
     """
-    if Path(path).suffix != ".npz":
-        raise InputError("rotor file", shown(path), "a name that ends in .npz")
+    check_target(path)
     own = rotor.matrices
     arrays: dict[str, Any] = {"M": own.mass, "K": own.stiffness, "G": own.gyroscopic, "nodes": rotor.nodes}
     if rotor.own_damping is None:
@@ -100,6 +99,12 @@ def write_rotor(rotor: MatrixRotor, path: str | os.PathLike[str]) -> None:
     packed = io.BytesIO()
     np.savez_compressed(packed, **arrays)
     write_whole(Path(path), packed.getvalue())
+
+
+def check_target(path: str | os.PathLike[str]) -> None:
+    """Refuse the name of a file that is no ``.npz`` file."""
+    if Path(path).suffix != ".npz":
+        raise InputError("rotor file", shown(path), "a name that ends in .npz")
 
 
 def _arrays(path: Path) -> dict[str, np.ndarray]:
