@@ -12,6 +12,7 @@ from scipy.integrate import solve_ivp
 
 import carom as cm
 from carom.models.weight import levitation_of, without_levitation
+from carom.outcome import InputError
 from carom.parameters import TouchdownBearing
 from carom.rotors import TouchdownPlane, load_machine, unbalance_response
 
@@ -45,8 +46,8 @@ def test_the_unit_of_lengths_changes_no_result_in_si_units(wall):
         rows = [[*plane.loads.si().values(), plane.force_at * plane.scales.time] for plane in loads]
         for plane in (0, 1):
             seen = motion.seen_at(plane)
-            dataset = seen.to_dataset(seen.sample(50)[:50])
-            rows.append(np.append(dataset["x"].values[[5, 20]] / 0.2e-3, dataset["normal_force"].values[-1]))
+            dataset = seen.to_dataset(seen.sample(50))
+            rows.append(np.append(dataset["x"].values[[5, 20]] / 0.2e-3, dataset["normal_force"].values.max()))
             rows.append([seen.touches.to_dataset()[name].values[0] for name in ("deepest", "radial_speed", "heat")])
         found.append(np.concatenate(rows))
     for other in found[1:]:
@@ -142,3 +143,18 @@ class _Dropped:
         change[: self.count] = state[self.count :]
         change[self.count + self.kept] = push / self.unit
         return change
+
+
+def test_clearances_are_parameters_of_the_machine():
+    machine = with_clearances(munich(), (0.2e-3, 0.3e-3), 0.2e-3)
+    assert machine.replace(clearance_2="0.25 mm").clearances == pytest.approx((0.2e-3, 0.25e-3))
+    assert machine.value("clearance_2") == 0.3e-3
+    wide = machine.replace(clearance="0.4 mm")
+    assert wide.clearances == pytest.approx((0.4e-3, 0.4e-3))
+    assert wide.value("clearance") == pytest.approx(0.4e-3)
+    with pytest.raises(InputError, match=r"^clearance = \[0.0002, 0.0003\]: the same at all here"):
+        machine.value("clearance")
+    model = machine.with_modes(4).linear
+    assert model.value("radius_ratio_2") == pytest.approx(4.8 / 0.3)
+    same = model.replace(radius_ratio=30.0).reduced.machine
+    assert [each.rotor_radius for each in same.touchdowns] == pytest.approx([6e-3, 9e-3])

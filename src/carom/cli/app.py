@@ -69,7 +69,9 @@ for each in (
     import_rotor,
 ):
     # The list of commands shows the first line of each whole, not its beginning.
-    app.command(each.__name__.replace("_", "-"), help=each.__doc__, short_help=str(each.__doc__).partition("\n")[0])(each)
+    app.command(each.__name__.replace("_", "-"), help=each.__doc__, short_help=str(each.__doc__).partition("\n")[0])(
+        each
+    )
 
 
 def _print_version(wanted: bool) -> None:

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
-from carom.models import LinearRotor, Model, Touchdown
+from carom.models import Model, Touchdown
 from carom.models.in_bearing import law_of, race_of
 from carom.models.weight import weighted
 from carom.outcome import InputError
@@ -18,6 +18,7 @@ from carom.parameters.restitution import damping_ratio_of
 from carom.results import Result
 from carom.rotors.attachments import TouchdownPlane
 from carom.rotors.equations import Equations, equations_of
+from carom.rotors.flexible_model import FlexibleModel
 from carom.rotors.reduction import Basis
 
 if TYPE_CHECKING:
@@ -25,6 +26,8 @@ if TYPE_CHECKING:
 
 SLOWEST = 3e-7
 """Rate of an integrator, in ``Ω``, up to which its motion and the steady one under weight are one mode but for rounding."""
+SINGULAR, ROUNDED = 1e12, 1e-6
+"""Condition of the matrix of a controller above which it integrates, and share of its stiffness up to which a bearing has none."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -36,18 +39,23 @@ class ReducedMachine(Result):
     machine : FlexibleMachine
     basis : Basis
         The vectors.
-    error : float
-        Change of the force in a touchdown bearing with half as many vectors more, relative to that force, as the root of the means of the squares while
-        the first contact lasts, when the free rotor comes straight with all its mass; the largest of all planes; 0 of all modes.
-        A rotor that comes tilted or bends on its way may differ by more: see whether results stay with a smaller accuracy.
     """
 
     machine: FlexibleMachine
     basis: Basis
-    error: float
 
     shown: ClassVar = ("vectors", "modes", "error", "states")
     rests_on: ClassVar = ()
+
+    @cached_property
+    def error(self) -> float:
+        """Change of the force in a touchdown bearing with half as many vectors more, relative to that force.
+
+        It is the root of the means of the squares while the first contact lasts, when the free rotor comes straight with all its mass; the
+        largest of all planes; 0 of all modes.  A rotor that comes tilted or bends on its way may differ by more: see whether results stay with
+        a smaller accuracy.
+        """
+        return self.machine.error_of(self.basis)
 
     @property
     def vectors(self) -> int:
@@ -76,28 +84,45 @@ class ReducedMachine(Result):
         at = self.machine
         return equations_of(at.rotor, self.basis, at.bearings, at.touchdowns, at.unbalances, restart=at.speed)
 
+    def of(self, machine: FlexibleMachine) -> ReducedMachine:
+        """By the same vectors, a machine with another value of a parameter, on none of which they depend."""
+        return replace(self, machine=machine)
+
     @cached_property
-    def linear(self) -> LinearRotor:
-        """The levitating rotor without weight, in units of the equations.
+    def linear(self) -> FlexibleModel:
+        """The levitating rotor without weight, in units of the equations; it knows the parameters of the machine by their names.
 
         Raises
         ------
         InputError
             There are magnetic bearings, and a motion on them grows; or an integrator is so slow that under weight it cannot be told from none.
         """
-        rotor = self._rotor()
+        rotor = self.unchecked
         if self.machine.bearings and (rate := rotor.system.decay) <= 0.0:
             worst = rotor.system.exponents[rotor.system.exponents.real.argmax()] + 1j
             speed = self.machine.speed
             hertz = worst.imag * speed / (2.0 * math.pi)
             grows = f"unstable: a whirl of {hertz:.4g} Hz grows with {-rate * speed:.4g} 1/s"
-            raise InputError("levitation", grows, "controllers that hold the rotor at this speed")
+            raise InputError("levitation", grows, f"controllers that hold the rotor at this speed{self._weak}")
         if self.machine.gravity is not None:
             self._check_integrators(rotor)
         return rotor
 
-    def _check_integrators(self, rotor: LinearRotor) -> None:
-        """Refuse an integrator so slow that what weight does to it has no digits left."""
+    @property
+    def _weak(self) -> str:
+        """Which bearings push a steady displacement further, in words; empty if none does."""
+        found = []
+        for number, each in enumerate(self.machine.bearings, start=1):
+            loop = each.loop
+            if loop.states and np.linalg.cond(loop.A) > SINGULAR:
+                continue  # an integrator
+            stiffness = each.ki * float(loop.at(np.array(0.0)).real) + each.ks
+            if stiffness <= ROUNDED * abs(each.ks):
+                found.append(f"{number}: {stiffness:.3g} N/m")
+        return f"; static stiffness ki C(0) + ks of bearing {', '.join(found)}" if found else ""
+
+    def _check_integrators(self, rotor: FlexibleModel) -> None:
+        """Refuse an integrator so slow that what weight does to it has no digits left, and a rotor that nothing holds."""
         slowest = float(np.abs(rotor.system.exponents + 1j).min())
         if slowest > SLOWEST:
             return
@@ -110,6 +135,8 @@ class ReducedMachine(Result):
                     name, told = "integral", f"{gain:g} A/m/s"
                     allowed = f"0, or at least {faster * gain:.2g} A/m/s: less cannot be told from none under weight"
                 raise InputError(f"[[magnetic_bearing]] {number}: {name}", told, allowed)
+        told = f"none under weight: a motion comes back with {slowest * self.machine.speed:.2g} 1/s"
+        raise InputError("levitation", told, f"controllers that hold the rotor{self._weak}")
 
     @cached_property
     def model(self) -> Model:
@@ -125,7 +152,9 @@ class ReducedMachine(Result):
         gravity = self.machine.gravity
         return self.linear if gravity is None or not gravity.acceleration else weighted(self.linear, gravity)
 
-    def _rotor(self) -> LinearRotor:
+    @cached_property
+    def unchecked(self) -> FlexibleModel:
+        """The same, whether the motion on its magnetic bearings grows or not."""
         given, scales, at = self.equations, self.scales, self.machine
         heavy = given.mass.any(axis=1)
         # Coordinates without mass have equations of first order, which have another unit.
@@ -133,7 +162,8 @@ class ReducedMachine(Result):
         twice = np.where(heavy, 1.0 / scales.speed**2, 1.0 / scales.speed)[:, None]
         size = math.sqrt(scales.mass)
         planes = zip(at.touchdowns, at.clearances, size * given.planes, strict=True)
-        return LinearRotor.in_fixed_frame(
+        return FlexibleModel.in_fixed_frame(
+            reduced=self,
             mass=given.mass,
             damping=once * given.damping,
             stiffness=twice * given.stiffness,

@@ -48,9 +48,7 @@ class ImportedRotor:
 
 
 @checked
-def import_rotor(
-    source: str | os.PathLike[str], name: str | None = None, python: str | None = None
-) -> ImportedRotor:
+def import_rotor(source: str | os.PathLike[str], name: str | None = None, python: str | None = None) -> ImportedRotor:
     """Read a rotor from a file of matrices, or from one of ROSS.
 
     Parameters
@@ -95,7 +93,7 @@ def _read_by_ross(path: Path, name: str, python: str, folder: str) -> dict[str, 
     """What ROSS knows of a rotor, whose matrices are in the folder then."""
     reader = Path(__file__).with_name("ross_reader.py")
     try:
-        done = subprocess.run(  # noqa: S603  (the user's own Python and program)
+        done = subprocess.run(
             [python, str(reader), str(path), name, folder], capture_output=True, text=True, check=False
         )
     except OSError as problem:

@@ -39,7 +39,9 @@ def read(source: str, name: str, folder: Path) -> dict[str, Any]:
     try:
         import ross
     except ImportError as problem:
-        allowed = "an installed ROSS: pip install 'carom[ross]', or --python with the Python of an environment that has it"
+        allowed = (
+            "an installed ROSS: pip install 'carom[ross]', or --python with the Python of an environment that has it"
+        )
         raise RefusedError("ross", str(problem), allowed) from None
     rotor = ross.Rotor.load(source) if Path(source).suffix != ".py" else of_script(source, name, ross.Rotor)
     kind = type(rotor).__name__
@@ -75,7 +77,9 @@ def of_script(source: str, name: str, kind: type) -> Any:
     rotors = {id(value): (key, value) for key, value in found.items() if isinstance(value, kind)}
     if len(rotors) != 1:
         told = ", ".join(key for key, _ in rotors.values()) or "none"
-        raise RefusedError("rotors", told, f"one rotor of ROSS in {source}, or --name of one, or of a function that returns it")
+        raise RefusedError(
+            "rotors", told, f"one rotor of ROSS in {source}, or --name of one, or of a function that returns it"
+        )
     return next(iter(rotors.values()))[1]
 
 
@@ -96,14 +100,20 @@ def bearing_of(element: Any) -> dict[str, Any]:
         alike = np.ptp([element.kxx[0], element.kyy[0]]) == 0.0 and len(element.kxx) == 1
         numbers = {"stiffness": float(element.kxx[0]), "damping": float(element.cxx[0])}
         return {**told, **numbers, "alike": bool(alike and not np.any([element.kxy, element.kyx]))}
-    gains = [np.unique(np.asarray(values, float)) for values in (element.ki, element.ks, element.k_amp, element.k_sense)]
+    gains = [
+        np.unique(np.asarray(values, float)) for values in (element.ki, element.ks, element.k_amp, element.k_sense)
+    ]
     if any(len(each) != 1 for each in gains):
-        raise RefusedError(f"{element.tag}", "other numbers in x and y", "magnets and amplifiers alike in both directions")
+        raise RefusedError(
+            f"{element.tag}", "other numbers in x and y", "magnets and amplifiers alike in both directions"
+        )
     ki, ks, amplifier, sensor = (float(each[0]) for each in gains)
     told |= {"ki": ki, "ks": ks}
     factor, numerator = amplifier * sensor, element.controller_transfer_function_num
     if numerator is not None:
-        above, below = (np.ravel(each).astype(float).tolist() for each in (numerator, element.controller_transfer_function_den))
+        above, below = (
+            np.ravel(each).astype(float).tolist() for each in (numerator, element.controller_transfer_function_den)
+        )
         return {**told, "numerator": [factor * each for each in above], "denominator": below}
     pid = {"proportional": element.kp_pid, "integral": element.ki_pid, "derivative": element.kd_pid}
     if any(pid.values()):

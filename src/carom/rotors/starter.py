@@ -26,7 +26,11 @@ def starter_text(found: ImportedRotor, source: str) -> str:
     """
     rotor = found.rotor
     speed = f'speed = "{found.speed:.10g} rad/s"' if found.speed else f'speed = "3000 rpm"                 {ASSUMED}'
-    damping = [] if found.is_damped else [f"damping_ratio = 0.005              {ASSUMED}: measure it; of solid shafts 0.001 to 0.01"]
+    damping = (
+        []
+        if found.is_damped
+        else [f"damping_ratio = 0.005              {ASSUMED}: measure it; of solid shafts 0.001 to 0.01"]
+    )
     ends = f"Nodes: 0 to {len(rotor.nodes) - 1}, {1e3 * rotor.nodes[0]:.6g} to {1e3 * rotor.nodes[-1]:.6g} mm; mass {rotor.mass:.6g} kg."
     lines = [
         "# A machine file to start from; all entries: carom template flexible.",
@@ -46,7 +50,15 @@ def starter_text(found: ImportedRotor, source: str) -> str:
     for node in nodes:
         lines += ["", *_touchdown(node)]
     middle = min(range(len(rotor.nodes)), key=lambda node: abs(rotor.nodes[node] - rotor.centre))
-    lines += ["", f"[[unbalance]]                      {ASSUMED}", f"node = {middle}", f'size = "{1e6 * 2e-6 * rotor.mass:.3g} g mm"', "", "[gravity]", ""]
+    lines += [
+        "",
+        f"[[unbalance]]                      {ASSUMED}",
+        f"node = {middle}",
+        f'size = "{1e6 * 2e-6 * rotor.mass:.3g} g mm"',
+        "",
+        "[gravity]",
+        "",
+    ]
     return "\n".join(lines)
 
 
@@ -72,11 +84,20 @@ def _magnetic(bearing: Mapping[str, Any], count: int, mass: float) -> list[str]:
     node = f"node = {bearing['node']}"
     gains = {name: bearing[name] for name in _GAINS if name in bearing}
     if gains:
-        return [node, f'ki = "{bearing["ki"]!r} N/A"', f'ks = "{bearing["ks"]!r} N/m"', *(_entry(*each) for each in gains.items())]
+        return [
+            node,
+            f'ki = "{bearing["ki"]!r} N/A"',
+            f'ks = "{bearing["ks"]!r} N/m"',
+            *(_entry(*each) for each in gains.items()),
+        ]
     stiffness = bearing.get("stiffness") or 1e5 * mass / count
     ki, ks = bearing.get("ki", 100.0), bearing.get("ks", 0.0)
     damping = bearing.get("damping") or 2.0 * DAMPING_RATIO * (stiffness * mass / count) ** 0.5
-    lost = "the gains are not in the saved file" if bearing["kind"] == MAGNETIC else "as stiff as the bearing of the source"
+    lost = (
+        "the gains are not in the saved file"
+        if bearing["kind"] == MAGNETIC
+        else "as stiff as the bearing of the source"
+    )
     return [
         f"{node}                           {ASSUMED}, all of it: {lost if 'stiffness' in bearing or 'ki' in bearing else 'there is no bearing in the source'}",
         f'ki = "{ki:.6g} N/A"',
