@@ -24,7 +24,7 @@ from carom.models.axes import Ends, read_interval, usual_range
 from carom.motions.ensembles import MOST_EVENTS
 from carom.motions.settling import PATIENCE
 from carom.outcome import InputError, Outcome
-from carom.parameters.told import told_along, told_entry
+from carom.parameters.told import told_entry, told_range
 from carom.progress import Reporter, ShowProgress, shows_progress
 from carom.results import fields_of
 
@@ -51,7 +51,7 @@ class GainMap(Mapped):
     dataset : xarray.Dataset
         Dimensions are the two parameters.  Variables: ``recovered`` (share that comes back, by area) with ``recovered_low``
         and ``recovered_high`` (95 % confidence interval of a sample; each machine draws its own), ``unresolved``, ``levitates`` (whether there is
-        levitation to return to), ``integrity`` (for kicks and shocks on a grid: largest size up to which none is lost,
+        levitation to return to: inside the wall, and stable), ``integrity`` (for kicks and shocks on a grid: largest size up to which none is lost,
         as a fraction of the largest one), ``basin_entropy`` and ``boundary_basin_entropy`` (of the outcomes, on a
         grid).  For kicks also ``smallest_unrecovered_kick`` (of those tried, in ``c_r Ω`` of the present machine) and
         ``smallest_unrecovered_kick_angle`` (rad, co-rotating frame), NaN where all come back.
@@ -71,13 +71,13 @@ class GainMap(Mapped):
     @property
     def plane(self) -> str:
         """Both parameters and their ranges, in words."""
-        return ", ".join(told_along(axis.name, self.dataset[axis.name].values) for axis in self.axes)
+        return ", ".join(f"{axis.name} {told_range(axis.field, self.dataset[axis.name].values)}" for axis in self.axes)
 
     def line_of(self, name: str, value: object) -> str:
         """Present values are told in the units of both parameters."""
         if name == "present":
             values = zip(self.axes, self.present, strict=True)
-            return ", ".join(f"{axis.name} {told_entry(axis.name, at)}" for axis, at in values)
+            return ", ".join(f"{axis.name} {told_entry(axis.field, at)}" for axis, at in values)
         return super().line_of(name, value)
 
     @property
@@ -108,7 +108,7 @@ class GainMap(Mapped):
 def map_gains(
     machine: Subject,
     disturbances: Plan,
-    names: tuple[str, str] = ("stiffness", "damping"),
+    names: tuple[str, str] | None = None,
     *,
     ranges: tuple[Ends | None, Ends | None] = (None, None),
     shape: tuple[Several, Several] = (16, 16),
@@ -131,7 +131,7 @@ def map_gains(
         shocks keep their size in SI units.
     names : tuple of str
         The two parameters, such as ``("stiffness", "damping")`` (P and D gain) or ``("omega", "gamma")``; any of
-        :func:`carom.models.axis`.
+        :func:`carom.models.axis`, of a flexible machine such as ``("proportional", "derivative")``, which are the default there.
     ranges : tuple of tuple of float or str, optional
         Ranges of both, in SI units if physical, or texts with a unit; by default half to twice the present value.
     shape : tuple of int
@@ -159,6 +159,7 @@ def map_gains(
     {'stiffness': 3, 'damping': 3}
     """
     rotor = model_of(machine)
+    names = names or usual_gains(rotor)
     axes = axis(rotor, names[0]), axis(rotor, names[1])
     if axes[0].name == axes[1].name:
         raise InputError("names", ",".join(names), "two different parameters")
@@ -181,6 +182,12 @@ def map_gains(
         "present": json.dumps(fields_of(now["share"], "fraction", "low", "high", "count", "total")),
     }
     return GainMap(dataset)
+
+
+def usual_gains(rotor: Model) -> tuple[str, str]:
+    """Names of P and D gain: of the controllers, or what they are to the planar rotor, in its units without scales."""
+    known = (("proportional", "derivative"), ("stiffness", "damping"), ("omega", "gamma"))
+    return next((pair for pair in known if all(name in rotor.varied for name in pair)), known[1])
 
 
 def _values(rotor: Model, varied: Axis, given: Ends | None, count: int) -> np.ndarray:
@@ -212,7 +219,7 @@ def measured(
 def _machine(rotor: Model, plan: Plan, axes: tuple[Axis, Axis], node: tuple[float, ...]) -> tuple[Model, Starts]:
     """Machine of a node and its starts; none of them exists if it cannot levitate."""
     moved = rotor.replace(**{varied.name: value for varied, value in zip(axes, node, strict=True)})
-    if moved.system.rest_radius >= 1.0:
+    if not moved.system.levitates:
         nowhere = np.zeros((plan.count, *moved.system.rest.shape)[: 1 + (moved.system.rest.size > 1)], complex)
         return moved, Starts.of(np.zeros(plan.count), 0j, False)._replace(positions=nowhere, velocities=nowhere)
     return moved, plan.rescaled(rotor.scales, moved.scales).starts(moved)
@@ -260,7 +267,7 @@ _WORDS = {
     "recovered_low": "lower end of its 95 % confidence interval (of a grid: the share)",
     "recovered_high": "upper end of its 95 % confidence interval (of a grid: the share)",
     "unresolved": "share given up before it was known where it ends",
-    "levitates": "1 where the rotor can levitate without contact, else 0",
+    "levitates": "1 where the rotor levitates without contact and no motion about that grows, else 0",
     "integrity": "size up to which no disturbance is lost, as a fraction of the largest one",
     "basin_entropy": "basin entropy of the outcomes",
     "boundary_basin_entropy": "boundary basin entropy of the outcomes",

@@ -78,7 +78,7 @@ class OrbitBranch(Result):
     def line_of(self, name: str, value: object) -> str:
         """Values are told in the unit of the parameter."""
         if name == "values" and len(self):
-            return f"{len(self)} from {told_range(self.parameter, self.values)}"
+            return f"{len(self)} from {told_range(self.axis.field, self.values)}"
         return super().line_of(name, value)
 
     @property

@@ -102,7 +102,8 @@ class Bifurcation(Result):
     def line_of(self, name: str, value: object) -> str:
         """The value is told in the unit of the parameter."""
         if name == "value" and self.parameter and isinstance(value, float):
-            return told_entry(self.parameter, value, 6)
+            known = self.shot.rotor.varied if self.shot is not None else {}
+            return told_entry(known.get(self.parameter, self.parameter), value, 6)
         return super().line_of(name, value)
 
     @property

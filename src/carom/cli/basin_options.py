@@ -75,8 +75,8 @@ Plane = Annotated[
     str | None,
     typer.Option(
         metavar="NAME,NAME",
-        help="The two parameters, by default stiffness,damping; or what a machine file states them by, such as "
-        "proportional_gain,derivative_gain.",
+        help="The two parameters, by default stiffness,damping, of a flexible machine proportional,derivative; or what a machine file "
+        "states them by, such as proportional_gain,derivative_gain.",
     ),
 ]
 FirstRange = Annotated[
@@ -211,10 +211,11 @@ def _plane(
     case: Case, plane: str | None, x: str | None, y: str | None
 ) -> tuple[tuple[str, str], tuple[Any, Any], Case]:
     """Return the names and ranges of the two parameters of a gain map, and the machine that states them as the plane does."""
+    from carom.basins.gains import usual_gains
     from carom.cli.starts import read_entry_range, read_range
     from carom.parameters.terms import TERMS, set_by
 
-    given = plane or ("stiffness,damping" if case.parameters.scales else "omega,gamma")
+    given = plane or ",".join(usual_gains(case.parameters))
     entries = [name.strip() for name in given.split(",")]
     names = [set_by(entry) if entry in TERMS else entry for entry in entries]
     if len(names) != 2 or names[0] == names[1]:

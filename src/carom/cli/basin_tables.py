@@ -15,7 +15,6 @@ from carom.disturbances import Coordinate
 from carom.disturbances.echo import plan_words, told_eccentricity
 from carom.outcome import IRREGULAR_BOUNCING, InputError, Outcome
 from carom.parameters import Case, InTerms, Scales, in_terms_of
-from carom.parameters.terms import SETTABLE
 
 
 def print_basin(screen: Console, basin: Basin, smallest: SmallestLoss | None, harmless: float) -> None:
@@ -251,7 +250,7 @@ def _time(value: float, scales: Scales | None) -> str:
 
 def _value(case: Case, name: str, value: float, *, named: bool = True) -> str:
     stated = _stated(case, name, value)
-    return f"{SETTABLE[stated.entry].words} {stated.text}" if named else stated.text
+    return f"{stated.field.words} {stated.text}" if named else stated.text
 
 
 def _stated(case: Case, name: str, value: float) -> InTerms:

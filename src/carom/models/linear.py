@@ -7,7 +7,7 @@ import json
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 
@@ -145,7 +145,7 @@ class LinearRotor(Result):
     @classmethod
     def in_fixed_frame(
         cls, *, mass: Any, damping: Any, stiffness: Any, gyroscopic: Any = None, forcing: Any, **others: Any
-    ) -> LinearRotor:
+    ) -> Self:
         """Rotor from its matrices in the fixed frame, ``M Z̈ + (D − iG) Ż + K Z = F e^{it}``.
 
         With ``Z = U e^{it}`` the matrices of the co-rotating frame are ``M``, ``D − iG + 2iM`` and

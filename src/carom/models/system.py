@@ -333,6 +333,11 @@ class System(Result):
         sags, others = np.abs(arrays["rows"] @ (self.forced * steady)), np.abs(arrays["rows"] * self.forced * ~steady)
         return float((np.abs(offsets) + sags + others.sum(axis=1)).max())
 
+    @property
+    def levitates(self) -> bool:
+        """Whether there is levitation to return to: at rest, or in its circle, the rotor is inside the wall, and no free motion grows."""
+        return self.rest_radius < 1.0 and self.decay >= -EQUAL
+
     @cached_property
     def planes_translated(self) -> np.ndarray:
         """Distance by which each contact plane moves when the rotor as a whole is displaced by one, shape (P,)."""

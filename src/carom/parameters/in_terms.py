@@ -10,7 +10,7 @@ from typing import Annotated, Any, Literal, NamedTuple
 
 from carom.arguments import checked, whole
 from carom.parameters.conversions import CONVERSIONS
-from carom.parameters.fields import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, PARAMETERS, PHYSICAL_PARTNER
+from carom.parameters.fields import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, PHYSICAL_PARTNER, Field
 from carom.parameters.machine import Machine
 from carom.parameters.machine_file import Case
 from carom.parameters.quantities import read_quantity, unit_factor, unit_of
@@ -47,6 +47,8 @@ class InTerms:
         The parameter after this setting, in its own unit; on the side that was asked for.
     beside : tuple of str
         What else people call it, such as ``"damping ratio 0.31"``.
+    field : Field
+        The entry's words, symbol and range.
     """
 
     entry: str
@@ -56,6 +58,7 @@ class InTerms:
     setting: str
     reached: float
     beside: tuple[str, ...]
+    field: Field
 
 
 class _Stated(NamedTuple):
@@ -65,6 +68,7 @@ class _Stated(NamedTuple):
     exact: Decimal
     unit: str
     letter: bool
+    field: Field
 
     def written(self, number: str) -> str:
         return f"{self.unit} {number}" if self.letter else f"{number} {self.unit}".rstrip()
@@ -102,9 +106,9 @@ def in_terms_of(case: Case, name: str, value: object, side: Side = "nearest", di
     """
     if name not in case.parameters.varied:
         raise no_such_parameter(name, value, case.parameters.varied, case.parameters.scales is not None)
-    wanted = read_quantity(PARAMETERS[name], value)
+    wanted = read_quantity(case.parameters.varied[name], value)
     with localcontext(DECIMALS):
-        stated = _stated(case.machine, name, Decimal(repr(wanted)))
+        stated = _stated(case, name, Decimal(repr(wanted)))
         number = _rounded(stated.exact, digits, _ROUNDING[side])
         after = _changed(case, stated, number)
         while (side == "up" and _value(after, name) < wanted) or (side == "down" and _value(after, name) > wanted):
@@ -119,11 +123,13 @@ def in_terms_of(case: Case, name: str, value: object, side: Side = "nearest", di
             f"{stated.entry}={stated.written(_plain(number))}",
             _value(after, name),
             tuple(_beside(after, stated.entry)),
+            stated.field,
         )
 
 
-def _stated(machine: Machine | None, name: str, value: Decimal) -> _Stated:
+def _stated(case: Case, name: str, value: Decimal) -> _Stated:
     """The entry that states a parameter in the file of a machine, with its value."""
+    machine = case.machine
     given: Mapping[str, Any] = {}
     if machine is not None:
         name, value = _field(machine, name, value)
@@ -131,11 +137,11 @@ def _stated(machine: Machine | None, name: str, value: Decimal) -> _Stated:
     entry = next((entry for entry in given if entry in TERMS), name)
     if machine is not None and entry in TERMS:
         value = TERMS[entry].entry(value, *(_needed(machine, need) for need in TERMS[entry].needs))
-    field, written = SETTABLE[entry], given.get(entry)
+    field, written = SETTABLE.get(entry) or case.parameters.varied[entry], given.get(entry)
     unit = (unit_of(field, written) if isinstance(written, str) else "") or field.usual_unit
     if field.letter and unit == field.letter:
-        return _Stated(entry, value, unit, letter=True)
-    return _Stated(entry, value / unit_factor(field, unit, unit) if unit else value, unit, letter=False)
+        return _Stated(entry, value, unit, letter=True, field=field)
+    return _Stated(entry, value / unit_factor(field, unit, unit) if unit else value, unit, letter=False, field=field)
 
 
 def _changed(case: Case, stated: _Stated, number: Decimal) -> Case:
@@ -171,6 +177,8 @@ def _needed(machine: Machine, need: str) -> Decimal:
 def _beside(case: Case, entry: str) -> Iterator[str]:
     """What else people say: the damping or stiffness that follows from a term, the damping ratio, the natural frequency."""
     numbers, field = case.parameters, set_by(entry)
+    if not {"gamma", "omega"} <= set(numbers.varied):
+        return
     gamma, omega = (numbers.value(name) for name in ("gamma", "omega"))
     if field in numbers.varied and field in ("damping", "stiffness") and entry != field:
         yield f"{field} {_short(numbers.value(field))} {MACHINE_FIELDS[field].unit}"

@@ -186,7 +186,8 @@ class Case(Tabular):
         Parameters
         ----------
         **changes
-            As for :meth:`carom.parameters.Machine.replace`; for a dimensionless case as for :meth:`carom.parameters.Parameters.replace`.
+            As for :meth:`carom.parameters.Machine.replace`; for a dimensionless case as for :meth:`carom.parameters.Parameters.replace`;
+            for one of a model as for its own ``replace``.
             ``gravity`` sets the acceleration of :class:`carom.parameters.Gravity`, and ``touchdown_stiffness`` and the like the entries
             of :class:`carom.parameters.TouchdownBearing`.
 
@@ -199,6 +200,8 @@ class Case(Tabular):
             if self.parameters.scales is None:
                 raise refused(changes[GRAVITY_NAME])
             return replace(self, gravity=_pulled(self.gravity, changes.pop(GRAVITY_NAME))).replace(**changes)
+        if not isinstance(self.parameters, Parameters):
+            return replace(self, parameters=self.parameters.replace(**changes)) if changes else self
         if of_bearing := {name: changes.pop(name) for name in list(changes) if name.startswith(PREFIX)}:
             return replace(self, touchdown=_changed(self.touchdown, of_bearing)).replace(**changes)
         gives_way = self.touchdown is not None and self.touchdown.yields

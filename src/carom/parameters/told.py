@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterable
 
 from carom.parameters.conversions import CONVERSIONS
-from carom.parameters.fields import PHYSICAL_PARTNER
+from carom.parameters.fields import PHYSICAL_PARTNER, Field
 from carom.parameters.requirement import GRAVITY
 from carom.parameters.scaling import UNITS, Scales
 from carom.parameters.terms import SETTABLE
@@ -100,18 +100,21 @@ def told_angle(angle: float) -> str:
     return f"{number(math.degrees(angle), 3)}°"
 
 
-def told_entry(name: str, value: float, digits: int = 4) -> str:
-    """Write a parameter given in SI units in the unit in which people usually say it: ``1,759 rpm``, ``1.592 µm``, ``0.152``."""
-    field = SETTABLE[name]
+def told_entry(parameter: str | Field, value: float, digits: int = 4) -> str:
+    """Write a parameter given in SI units in the unit in which people usually say it: ``1,759 rpm``, ``1.592 µm``, ``0.152``.
+
+    One that is none of the planar rotor is given by its field.
+    """
+    field = SETTABLE[parameter] if isinstance(parameter, str) else parameter
     if field.usual_unit == "mm" and 0.0 < value < 1e-4:
         return f"{number(value / 1e-6, digits)} µm"
     return f"{number(field.in_usual_unit(value), digits)} {field.usual_unit}".rstrip()
 
 
-def told_range(name: str, values: Iterable[float]) -> str:
+def told_range(parameter: str | Field, values: Iterable[float]) -> str:
     """Write the range of some values of a parameter: ``500 to 2,000 N s/m``."""
     ends = list(values)
-    return told_between(told_entry(name, min(ends)), told_entry(name, max(ends)))
+    return told_between(told_entry(parameter, min(ends)), told_entry(parameter, max(ends)))
 
 
 def own_entry(name: str, value: float, scales: Scales | None) -> tuple[str, float]:

@@ -16,7 +16,7 @@ from matplotlib.ticker import PercentFormatter
 
 from carom.arguments import checked
 from carom.outcome import InputError
-from carom.parameters import SETTABLE, in_terms_of
+from carom.parameters import in_terms_of
 from carom.parameters.in_terms import EXACT
 from carom.parameters.told import shown_in
 from carom.plots.plane import Floats, one_axes
@@ -186,7 +186,7 @@ def _told(axis: Axis, now: float, case: Case | None) -> _Told:
     if case is None:
         return _Told(f"{name}: {label}" if name else label, name or axis.name, lambda value: value / unit)
     stated = in_terms_of(case, axis.name, now)
-    label = parameter_label(SETTABLE[stated.entry], stated.unit)
+    label = parameter_label(stated.field, stated.unit)
     if stated.entry != axis.name:
         name = ""
     return _Told(

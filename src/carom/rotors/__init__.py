@@ -15,7 +15,10 @@
 ``reduction``             few vectors in place of all coordinates
 ``equations``             equations of motion in SI units
 ``flexible_machine``      :class:`FlexibleMachine`: the rotor with all that is attached to it
+``machine_parameters``    named parameters of a machine and of its parts
 ``reduced_machine``       :class:`ReducedMachine`: by a few vectors, as a model
+``flexible_model``        :class:`FlexibleModel`: that model, with the parameters of the machine
+``documents``             a machine as plain data
 ``machine_file``          :func:`load_machine`; tables of a machine file -> its case
 ``whirls``                :func:`find_whirls`, :func:`campbell`: free whirls, and how they change with the speed
 ``unbalance``             :func:`unbalance_response`: whirl by unbalance over the speed
@@ -28,6 +31,7 @@ from carom.rotors.controllers import PID, TransferFunction
 from carom.rotors.damping import ModalDamping, ProportionalDamping
 from carom.rotors.discs import Disc
 from carom.rotors.flexible_machine import FlexibleMachine
+from carom.rotors.flexible_model import FlexibleModel
 from carom.rotors.flexible_rotor import FlexibleRotor
 from carom.rotors.loop_sensitivity import Sensitivity, sensitivity
 from carom.rotors.machine_file import load_machine
@@ -43,6 +47,7 @@ __all__ = [
     "Campbell",
     "Disc",
     "FlexibleMachine",
+    "FlexibleModel",
     "FlexibleResponse",
     "FlexibleRotor",
     "MagneticBearing",

@@ -12,16 +12,23 @@ import numpy as np
 from carom.arguments import Count, Positive, checked
 from carom.models import Model
 from carom.outcome import InputError, shown
-from carom.parameters import MACHINE_FIELDS, Field, Gravity
+from carom.parameters import Field, Gravity
 from carom.rotors.attachments import TouchdownPlane, Unbalance
 from carom.rotors.entries import read_entries
 from carom.rotors.equations import loops_of
 from carom.rotors.flexible_rotor import FlexibleRotor
+from carom.rotors.machine_parameters import (
+    WHOLE,
+    Entry,
+    changed_machine,
+    entries_of,
+    fields_of_machine,
+    value_of_machine,
+)
 from carom.rotors.magnetic_bearing import MagneticBearing
 from carom.rotors.reduced_machine import ReducedMachine
 from carom.rotors.reduction import MORE, RIGID, Basis, contact_error, rubin_basis
 
-FIELDS: Mapping[str, Field] = {name: MACHINE_FIELDS[name] for name in ("speed", "clearance")}
 ACCURACY = 0.02
 """Error of contact forces by reduction that is accepted by default; it is that of one
 straight contact, and motions with bending of their own may differ by more (decision 087)."""
@@ -80,7 +87,7 @@ class FlexibleMachine:
                 least = ", one or more" if name == "touchdowns" else ""
                 raise InputError(name, shown(given), f"a sequence of carom.rotors.{kind.__name__}{least}")
             object.__setattr__(self, name, listed)
-        read_entries(self, FIELDS)
+        read_entries(self, WHOLE)
         for each in self.bearings:
             self.rotor.check_node("bearing node", each.node)
             for node in each.sensor_nodes:
@@ -93,6 +100,39 @@ class FlexibleMachine:
             if twice := [node for place, node in enumerate(nodes) if node in nodes[:place]]:
                 allowed = "a node of its own for each: several at one node are one with the sum of their forces"
                 raise InputError(f"{name.removesuffix('s')} node", twice[0], allowed)
+
+    @cached_property
+    def entries(self) -> Mapping[str, Entry]:
+        """Entries of magnetic and touchdown bearings by the names of parameters."""
+        return entries_of(self)
+
+    @property
+    def varied(self) -> Mapping[str, Field]:
+        """Named parameters that can be changed: words, symbol, unit and range of each (:mod:`carom.rotors.machine_parameters`)."""
+        return fields_of_machine(self)
+
+    @checked
+    def value(self, name: str) -> float:
+        """Value of a parameter in the unit of its field.
+
+        Raises
+        ------
+        InputError
+            No such name, or parts with different values.
+        """
+        return value_of_machine(self, name)
+
+    def replace(self, **changes: Any) -> FlexibleMachine:
+        """Return the machine with other values of named parameters, such as ``proportional`` of all magnetic bearings or ``proportional_2`` of one.
+
+        Parts are changed by :func:`dataclasses.replace`.
+
+        Raises
+        ------
+        InputError
+            A name is unknown, or a value not allowed.
+        """
+        return changed_machine(self, changes)
 
     @cached_property
     def _rows(self) -> list[np.ndarray]:
@@ -132,17 +172,15 @@ class FlexibleMachine:
         """
         total = len(self.rotor.free_modes.frequencies)
         for modes in range(RIGID + 1, total):
-            basis = self.basis(modes)
-            error = self.error_of(basis)
-            if error <= accuracy:
-                return ReducedMachine(self, basis, error)
+            found = ReducedMachine(self, self.basis(modes))
+            if found.error <= accuracy:
+                return found
         return self.with_modes(total)
 
     @checked
     def with_modes(self, modes: Count) -> ReducedMachine:
         """Return the machine with so many modes of the free rotor, two of which are rigid, and the vectors beside them; at most all modes."""
-        basis = self.basis(modes)
-        return ReducedMachine(self, basis, self.error_of(basis))
+        return ReducedMachine(self, self.basis(modes))
 
     @cached_property
     def whole(self) -> ReducedMachine:

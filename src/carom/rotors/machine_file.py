@@ -33,6 +33,7 @@ from carom.rotors.damping import MODAL_FIELDS, PROPORTIONAL_FIELDS, ModalDamping
 from carom.rotors.discs import DISC_FIELDS, Disc
 from carom.rotors.flexible_machine import ACCURACY, FlexibleMachine
 from carom.rotors.flexible_rotor import LONGEST, FlexibleRotor
+from carom.rotors.machine_parameters import unknown
 from carom.rotors.magnetic_bearing import BEARING_FIELDS, MagneticBearing
 from carom.rotors.sections import MATERIAL_FIELDS, SECTION_FIELDS, Material, Section
 from carom.rotors.state_spaces import StateSpace
@@ -102,7 +103,7 @@ def load_machine(path: str | os.PathLike[str], settings: Iterable[str] = ()) -> 
     ----------
     path : path
     settings : iterable of str
-        Texts ``"name=value"`` as in ``--set``: ``gravity`` and entries of ``[rotor]``.
+        Texts ``"name=value"`` as in ``--set``: entries of ``[rotor]``, and parameters of the machine (:attr:`FlexibleMachine.varied`).
 
     Raises
     ------
@@ -133,7 +134,7 @@ def _read_machine(tables: MachineTables, settings: Mapping[str, str], problems: 
     """The machine of a file, after all errors, those known before too, are raised."""
     whole = dict(tables.values)
     gravity = None if tables.gravity is None else problems.attempt(Gravity.of, tables.gravity)
-    gravity = _set(whole, settings, gravity, problems)
+    whole |= {name: text for name, text in settings.items() if name in ROTOR_ENTRIES}
     problems.errors += [
         unknown_name(each, given, ROTOR_ENTRIES, "[rotor]")
         for each, given in whole.items()
@@ -156,6 +157,12 @@ def _read_machine(tables: MachineTables, settings: Mapping[str, str], problems: 
     problems.raise_all()
     rotor = FlexibleRotor(sections, parts.pop("discs"), damping, whole.get("longest_element"))  # type: ignore[arg-type]
     machine = FlexibleMachine(rotor, whole.get("speed"), clearance, gravity=gravity, **parts)  # type: ignore[arg-type]
+    others = {name: text for name, text in settings.items() if name not in ROTOR_ENTRIES}
+    problems.errors += [
+        unknown(machine, each, others[each], ROTOR_ENTRIES) for each in others if each not in machine.varied
+    ]
+    problems.raise_all()
+    machine = machine.replace(**others)
     _warn_of_proportions(machine)
     return machine
 
@@ -176,30 +183,6 @@ def _warn_of_proportions(machine: FlexibleMachine) -> None:
     if told:
         text = f"{'; '.join(told)}: check the units (a number without a unit is in m)"
         warnings.warn(text, CaromWarning, stacklevel=4)
-
-
-def _set(
-    whole: dict[str, Any], settings: Mapping[str, str], gravity: Gravity | None, problems: Problems
-) -> Gravity | None:
-    """Change entries of ``[rotor]`` by settings, and the acceleration of free fall, which is returned."""
-    for name, text in settings.items():
-        if name == "gravity":
-            direction = (gravity or Gravity()).direction
-            gravity = problems.attempt(_gravity, text, direction)
-        elif name in ROTOR_ENTRIES:
-            whole[name] = text
-        else:
-            allowed = f"of a flexible machine --set changes gravity and entries of [rotor]: {', '.join(ROTOR_ENTRIES)}"
-            problems.errors.append(InputError(name, shown(text), allowed))
-    return gravity
-
-
-def _gravity(acceleration: Any, direction: float) -> Gravity:
-    """Gravity by a setting, which is called ``gravity``."""
-    try:
-        return Gravity(acceleration, direction)
-    except InputError as problem:
-        raise InputError("gravity", problem.value, problem.allowed) from None
 
 
 def _each(tables: MachineTables, kind: str, problems: Problems, read: Callable[[dict[str, Any]], _Part]) -> list[_Part]:

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
-from carom.models import LinearRotor, Model, Touchdown
+from carom.models import Model, Touchdown
 from carom.models.in_bearing import law_of, race_of
 from carom.models.weight import weighted
 from carom.outcome import InputError
@@ -17,6 +17,7 @@ from carom.parameters import Scales
 from carom.results import Result
 from carom.rotors.attachments import TouchdownPlane
 from carom.rotors.equations import Equations, equations_of
+from carom.rotors.flexible_model import FlexibleModel
 from carom.rotors.reduction import Basis
 
 if TYPE_CHECKING:
@@ -32,18 +33,23 @@ class ReducedMachine(Result):
     machine : FlexibleMachine
     basis : Basis
         The vectors.
-    error : float
-        Change of the force in a touchdown bearing with half as many vectors more, relative to that force, as the root of the means of the squares while
-        the first contact lasts, when the free rotor comes straight with all its mass; the largest of all planes; 0 of all modes.
-        A rotor that comes tilted or bends on its way may differ by more: see whether results stay with a smaller accuracy.
     """
 
     machine: FlexibleMachine
     basis: Basis
-    error: float
 
     shown: ClassVar = ("vectors", "modes", "error", "states")
     rests_on: ClassVar = ()
+
+    @cached_property
+    def error(self) -> float:
+        """Change of the force in a touchdown bearing with half as many vectors more, relative to that force.
+
+        It is the root of the means of the squares while the first contact lasts, when the free rotor comes straight with all its mass; the
+        largest of all planes; 0 of all modes.  A rotor that comes tilted or bends on its way may differ by more: see whether results stay with
+        a smaller accuracy.
+        """
+        return self.machine.error_of(self.basis)
 
     @property
     def vectors(self) -> int:
@@ -72,16 +78,20 @@ class ReducedMachine(Result):
         at = self.machine
         return equations_of(at.rotor, self.basis, at.bearings, at.touchdowns, at.unbalances, restart=at.speed)
 
+    def of(self, machine: FlexibleMachine) -> ReducedMachine:
+        """By the same vectors, a machine with another value of a parameter, on none of which they depend."""
+        return replace(self, machine=machine)
+
     @cached_property
-    def linear(self) -> LinearRotor:
-        """The levitating rotor without weight, in units of the equations.
+    def linear(self) -> FlexibleModel:
+        """The levitating rotor without weight, in units of the equations; it knows the parameters of the machine by their names.
 
         Raises
         ------
         InputError
             There are magnetic bearings, and a motion on them grows.
         """
-        rotor = self._rotor()
+        rotor = self.unchecked
         if self.machine.bearings and (rate := rotor.system.decay) <= 0.0:
             worst = rotor.system.exponents[rotor.system.exponents.real.argmax()] + 1j
             speed = self.machine.speed
@@ -104,7 +114,9 @@ class ReducedMachine(Result):
         gravity = self.machine.gravity
         return self.linear if gravity is None or not gravity.acceleration else weighted(self.linear, gravity)
 
-    def _rotor(self) -> LinearRotor:
+    @cached_property
+    def unchecked(self) -> FlexibleModel:
+        """The same, whether the motion on its magnetic bearings grows or not."""
         given, scales, at = self.equations, self.scales, self.machine
         heavy = given.mass.any(axis=1)
         # Coordinates without mass have equations of first order, which have another unit.
@@ -112,7 +124,8 @@ class ReducedMachine(Result):
         twice = np.where(heavy, 1.0 / scales.speed**2, 1.0 / scales.speed)[:, None]
         size = math.sqrt(scales.mass)
         planes = zip(at.touchdowns, size * given.planes, strict=True)
-        return LinearRotor.in_fixed_frame(
+        return FlexibleModel.in_fixed_frame(
+            reduced=self,
             mass=given.mass,
             damping=once * given.damping,
             stiffness=twice * given.stiffness,

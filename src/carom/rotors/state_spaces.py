@@ -12,8 +12,8 @@ from carom.outcome import InputError, shown
 
 LARGEST = 1e100
 """Largest number of a controller: products of two still are numbers."""
-SWEEPS = 20
-"""Most sweeps of balancing; a few do."""
+SWEEPS, SETTLED = 50, 1e-12
+"""Most sweeps of balancing, and the relative change of the units at which it ends; a few sweeps do."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -86,12 +86,12 @@ class StateSpace:
             for state in range(self.states):
                 row, column = np.linalg.norm(whole[state]), np.linalg.norm(whole[:, state])
                 if row > 0.0 and column > 0.0:
-                    # A power of two: no digit changes.
-                    factor = 2.0 ** round(0.5 * math.log2(row / column))
+                    # No power of two, at which the units would jump while a parameter changes.
+                    factor = math.sqrt(row / column)
                     whole[state] /= factor
                     whole[:, state] *= factor
                     sizes[state] *= factor
-            if np.array_equal(before, sizes):
+            if np.allclose(before, sizes, rtol=SETTLED, atol=0.0):
                 break
         return StateSpace(self.A * sizes / sizes[:, None], self.B / sizes, self.C * sizes, self.D)
 

@@ -12,7 +12,7 @@ from carom.disturbances import Grid, KickPlane, Plan, Sample, VelocityKick
 from carom.disturbances.echo import plan_words
 from carom.outcome import Outcome
 from carom.results import in_si
-from carom.sweeps.variables import Dimension, Variable, with_si
+from carom.sweeps.variables import LEVITATES, Dimension, Variable, with_si
 
 if TYPE_CHECKING:
     from carom.disturbances import Disturbance, Starts
@@ -53,6 +53,7 @@ class BasinsTask:
     def variables(self) -> tuple[Variable, ...]:
         """What is stored for each point."""
         found: tuple[Variable, ...] = (
+            LEVITATES,
             Variable("possible", "disturbances that are possible", "count"),
             Variable("counts", "disturbances that ended so", "count", along=OUTCOMES),
             Variable("recovered", f"share of {self.tried.model.noun} that came back to levitation, by area"),
@@ -108,6 +109,8 @@ class BasinsTask:
 
         rotor = model_of(case)
         counts = np.zeros(len(ENDINGS), np.int64)
+        if rotor.system.decay < 0.0 and not rotor.system.levitates:
+            return {"levitates": False, "possible": 0, "counts": counts}
         impacts, kicks = 0, []
         after = self.model(rotor.scales).machine_after(rotor)
         for starts in self._batches(rotor, seed):
@@ -117,7 +120,7 @@ class BasinsTask:
             if self._kicks and (kick := smallest_lost(rotor, starts, endings.outcomes)):
                 kicks.append(kick)
         possible = int(counts.sum())
-        found: dict[str, Any] = {"possible": possible, "counts": counts}
+        found: dict[str, Any] = {"levitates": rotor.system.levitates, "possible": possible, "counts": counts}
         if possible:
             share = Share.of(int(counts[0]), possible, drawn=True)
             if isinstance(self.tried, Grid):  # one batch

@@ -14,7 +14,7 @@ import numpy as np
 from carom.arguments import Count, Seed, Whole, checked
 from carom.disturbances import Grid, Plan, Sample
 from carom.outcome import InputError, shown
-from carom.parameters import DIMENSIONLESS_FIELDS, HELPER_FIELDS, TERM_FIELDS, Case, Zones
+from carom.parameters import DIMENSIONLESS_FIELDS, HELPER_FIELDS, TERM_FIELDS, Case, Parameters, Zones
 from carom.parameters.settings import GRAVITY_NAME, OF_TABLES, check_settings
 from carom.sweeps.axes import GridAxis
 from carom.sweeps.basins import BasinsTask
@@ -151,11 +151,8 @@ class SweepPlan:
         """Return what identifies the plan: two plans with the same description have the same results."""
         machine: dict[str, Any]
         if isinstance(self.case, Case):
-            scales = self.case.parameters.scales
-            machine = {
-                "parameters": self.case.parameters.as_dict(),
-                "scales": None if scales is None else [scales.mass, scales.clearance, scales.speed],
-            } | self._terms(self.case)
+            numbers = self.case.parameters
+            machine = _described(numbers) | self._terms(self.case)
             tables = {name: getattr(self.case, name) for name in ("gravity", "touchdown", "drive")}
             machine |= {name: asdict(table) for name, table in tables.items() if table is not None}
         else:
@@ -179,6 +176,15 @@ class SweepPlan:
     def digest(self) -> str:
         """Hash of the description."""
         return hashlib.sha256(json.dumps(self.describe(), sort_keys=True).encode()).hexdigest()
+
+
+def _described(numbers: Parameters | Model) -> dict[str, Any]:
+    """What identifies the parameters of a case, or its model."""
+    if not isinstance(numbers, Parameters):
+        return numbers.attributes()
+    scales = numbers.scales
+    own = None if scales is None else [scales.mass, scales.clearance, scales.speed]
+    return {"parameters": numbers.as_dict(), "scales": own}
 
 
 def cut(shape: tuple[int, ...], task: Task, chunk: int | None) -> tuple[int, ...]:
@@ -206,10 +212,13 @@ def cut(shape: tuple[int, ...], task: Task, chunk: int | None) -> tuple[int, ...
 
 def check_varied(case: Case | Model, name: str) -> None:
     """Refuse to vary a parameter that the machine does not have."""
-    if not isinstance(case, Case):
+    if not isinstance(case, Case) or not isinstance(case.parameters, Parameters):
         from carom.models.axes import axis
 
-        axis(case, name)
+        try:
+            axis(case, name)
+        except InputError as problem:
+            raise InputError(f"axes.{name}", problem.value, problem.allowed) from None
     elif name not in DIMENSIONLESS_FIELDS and case.machine is None:
         allowed = "the machine is dimensionless; vary dimensionless parameters"
         raise InputError(f"axes.{name}", shown(name), allowed)
@@ -272,7 +281,7 @@ def plan_sweep(
     names = [axis.name for axis in axes]
     if not names or len(set(names)) < len(names):
         raise InputError("axes", ", ".join(names) or None, "must be one or more, each for another parameter")
-    if isinstance(case, Case):
+    if isinstance(case, Case) and isinstance(case.parameters, Parameters):
         check_settings(dict.fromkeys(names, "varied"))
     for name in names:
         check_varied(case, name)

@@ -12,7 +12,7 @@ from carom.arguments import Whole, checked
 from carom.outcome import STEADY_WORDS, InputError
 from carom.parameters import DIMENSIONLESS_FIELDS, Case, Zones
 from carom.results import fields_of, in_si
-from carom.sweeps.variables import Dimension, Variable, with_si
+from carom.sweeps.variables import LEVITATES, Dimension, Variable, with_si
 
 if TYPE_CHECKING:
     from carom.models import Model
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 RUB = STEADY_WORDS["rub"]
 _SIMPLE = (
-    Variable("levitates", "whether levitation exists and is stable", "flag", flags=("no", "yes")),
+    LEVITATES,
     Variable("levitation_radius", "radius of levitation", scale="length"),
     Variable("levitation_decay", "slowest decay of disturbances in levitation", unit="Omega"),
     Variable("zone", "zone of the amplitude of levitation", "flag", flags=("A", "B", "C", "D")),

@@ -6,7 +6,7 @@ import dataclasses
 import os
 from collections.abc import Iterable, Mapping
 from pathlib import Path
-from typing import Any, Literal, TypeAlias, TypeVar, cast
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias, TypeVar, cast
 
 import pydantic
 
@@ -33,6 +33,9 @@ from carom.sweeps.axes import LONGEST_AXIS, GridAxis
 from carom.sweeps.basins import BasinsTask
 from carom.sweeps.plan import SweepPlan, Task, check_varied, cut
 from carom.sweeps.studies import StudyTask
+
+if TYPE_CHECKING:
+    from carom.models import Axis
 
 _WHAT = "sweep file"
 _REMEDY = 'must hold machine = "...", a table [axes.NAME] for each axis, and a [study] or a [basins] table'
@@ -116,7 +119,7 @@ def load_sweep(path: str | os.PathLike[str], settings: Iterable[str] = ()) -> Sw
     top = problems.attempt(_read, _Top, content, "", _TABLES)
     listed = [*(top.settings if top else []), *settings]
     machine = Path(name).parent / (top.machine if top else "")
-    case = problems.attempt(_load, machine, listed) if top else None
+    case = problems.attempt(load, machine, listed) if top else None
     axes = problems.attempt(_axes, tables.get("axes"), listed, case)
     task = problems.attempt(_task, tables, top, case)
     problems.raise_all()
@@ -134,16 +137,6 @@ def load_sweep(path: str | os.PathLike[str], settings: Iterable[str] = ()) -> Sw
         "machine_file": machine.read_text(encoding="utf-8-sig"),
     }
     return SweepPlan(case, axes, task, chunk, top.seed or 0, fixed, sources)
-
-
-def _load(machine: Path, settings: Iterable[str]) -> Case:
-    """The machine, which must be a planar rotor."""
-    case = load(machine, settings)
-    if not isinstance(case.parameters, Parameters):
-        from carom.models.subjects import refuse_other_rotors  # only here: models and kernels take time to load
-
-        refuse_other_rotors(case)
-    return case
 
 
 def _read(model: type[_Model], content: object, where: str, besides: Iterable[str] = ()) -> _Model:
@@ -175,40 +168,50 @@ def _axes(tables: object, settings: list[str], case: Case | None) -> tuple[GridA
     if not isinstance(tables, dict) or not tables:
         raise InputError("axes", None if tables is None else shown(tables), _ALLOWED["axes"])
     problems = Problems()
-    problems.attempt(_check_varied, list(tables), settings)
-    axes = [problems.attempt(_axis, case, name, table) for name, table in tables.items() if name in SETTINGS]
+    planar = case is None or isinstance(case.parameters, Parameters)
+    problems.attempt(_check_varied, list(tables), settings, planar)
+    wanted = [name for name in tables if not planar or name in SETTINGS]
+    axes = [problems.attempt(_axis, case, name, tables[name], planar) for name in wanted]
     problems.raise_all()
     return cast("tuple[GridAxis, ...]", tuple(axes))
 
 
-def _check_varied(axes: list[str], settings: list[str]) -> None:
-    """Refuse settings that change a parameter that an axis varies."""
+def _check_varied(axes: list[str], settings: list[str], planar: bool) -> None:
+    """Refuse settings that change a parameter that an axis varies, and of the planar rotor what is none, or set twice in other words."""
     names = {setting.partition("=")[0].strip(): "set" for setting in settings}
     problems = Problems()
     problems.errors += [
         InputError(f"axes.{name}", "varied", "is set too; do only one of the two") for name in axes if name in names
     ]
-    unknown = [name for name in names if name not in SETTINGS]  # reported as an error of the settings
-    problems.attempt(
-        check_settings,
-        {name: how for name, how in {**names, **dict.fromkeys(axes, "varied")}.items() if name not in unknown},
-    )
+    if planar:
+        unknown = [name for name in names if name not in SETTINGS]  # reported as an error of the settings
+        problems.attempt(
+            check_settings,
+            {name: how for name, how in {**names, **dict.fromkeys(axes, "varied")}.items() if name not in unknown},
+        )
     problems.raise_all()
 
 
-def _axis(case: Case | None, name: str, given: object) -> GridAxis:
+def _axis(case: Case | None, name: str, given: object, planar: bool) -> GridAxis:
     where = f"axes.{name}"
     problems = Problems()
     if case is not None:
         problems.attempt(check_varied, case, name)
     table = problems.attempt(_read, _Axis, given, where)
-    axis = problems.attempt(_values, name, table) if table else None
+    if not planar:
+        problems.raise_all()
+    axis = problems.attempt(_values, name, table, None if planar else case) if table else None
     problems.raise_all()
     return cast("GridAxis", axis)
 
 
-def _values(name: str, table: _Axis) -> GridAxis:
-    where = f"axes.{name}"
+def _values(name: str, table: _Axis, of: Case | None) -> GridAxis:
+    """Values of a parameter, which a case of a model knows; the planar rotor's are known by their names."""
+    where, parameter = f"axes.{name}", cast("Axis | str", name)
+    if of is not None:
+        from carom.models import axis as axis_of  # only here: models and kernels take time to load
+
+        parameter = axis_of(of, name)
     ends = {"from": table.start, "to": table.end, "count": table.count}
     problems = Problems()
     if table.values is not None:
@@ -217,7 +220,7 @@ def _values(name: str, table: _Axis) -> GridAxis:
             for key, value in {**ends, "spacing": table.spacing}.items()
             if value is not None
         ]
-        axis = problems.attempt(GridAxis.of, name, table.values)
+        axis = problems.attempt(GridAxis.of, parameter, table.values)
         problems.raise_all()
         return cast("GridAxis", axis)
     problems.errors += [
@@ -227,7 +230,7 @@ def _values(name: str, table: _Axis) -> GridAxis:
     ]
     problems.raise_all()
     low, high, count = cast("tuple[_Value, _Value, int]", (table.start, table.end, table.count))
-    return GridAxis.between(name, low, high, count, table.spacing or "linear")
+    return GridAxis.between(parameter, low, high, count, table.spacing or "linear")
 
 
 # -------------------------------------------------------------------------------------------------------------- work
@@ -241,6 +244,10 @@ def _task(tables: Mapping[str, object], top: _Top | None, case: Case | None) -> 
     scales = case.parameters.scales if case else _ANY_SCALES
     if "basins" in tables:
         return _basins(tables["basins"], scales)
+    if case is not None and not isinstance(case.parameters, Parameters):
+        from carom.models.subjects import refuse_other_rotors  # only here: models and kernels take time to load
+
+        refuse_other_rotors(case)
     study = _read(_Study, tables["study"], "study")
     problems = Problems()
     limits = case.zones.limits if case else Zones().limits

@@ -85,6 +85,7 @@ class Variable:
         return attributes
 
 
+LEVITATES = Variable("levitates", "whether levitation exists and is stable", "flag", flags=("no", "yes"))
 STATUS = Variable("status", "whether the point was computed", "status", flags=("waiting", "done", "failed"))
 """The variable that is written last: a chunk is finished as soon as its status is stored."""
 

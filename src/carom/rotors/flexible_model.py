@@ -1,0 +1,145 @@
+"""The model of a flexible machine: a linear rotor that knows the parameters of its machine by their names."""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+from carom.arguments import checked
+from carom.models import LinearRotor, Rates
+from carom.outcome import InputError, shown
+from carom.parameters import Field, read_quantity
+from carom.rotors.documents import document_of, part_from
+from carom.rotors.machine_parameters import unknown, varied_in_model
+
+if TYPE_CHECKING:
+    from carom.rotors.reduced_machine import ReducedMachine
+
+_WALLS = "wall_"
+"""How names of walls in units of the equations begin; the machine has the entries of touchdown bearings in their place."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class FlexibleModel(LinearRotor):
+    """A flexible machine by a few vectors, without its weight; see :class:`~carom.models.LinearRotor` for its numbers.
+
+    Another value of a parameter keeps the vectors, which depend on none of them, and makes the equations anew.
+
+    Attributes
+    ----------
+    reduced : ReducedMachine
+        The machine and its vectors.
+    """
+
+    reduced: Any = None
+
+    @cached_property
+    def _own(self) -> dict[str, Field]:
+        """Parameters of the machine."""
+        return varied_in_model(self.reduced.machine)
+
+    @property
+    def varied(self) -> Mapping[str, Field]:
+        """Parameters that can be varied: those of the machine, and the dimensionless ones of a linear rotor."""
+        others = {name: field for name, field in super().varied.items() if not name.startswith(_WALLS)}
+        return {**others, **self._own}
+
+    @checked
+    def value(self, name: str) -> float:
+        """Value of a parameter.
+
+        Raises
+        ------
+        InputError
+            No such name, or parts with different values.
+        """
+        if name in self._own:
+            return float(self.reduced.machine.value(name))
+        if name not in self.varied:
+            raise unknown(self.reduced.machine, name, "wanted")
+        return super().value(name)
+
+    def replace(self, **changes: Any) -> Any:
+        """Return the rotor with other values of its parameters, whether it then levitates or not; with other attributes, a plain linear rotor.
+
+        Raises
+        ------
+        InputError
+            A name is unknown or a value not allowed, or there is no unbalance to be multiplied or turned.
+        """
+        if {field.name for field in dataclasses.fields(LinearRotor)} & set(changes):
+            own = {field.name: getattr(self, field.name) for field in dataclasses.fields(LinearRotor)}
+            return LinearRotor(**own).replace(**changes)
+        # What numbers of the equations mean depends on speed and clearance, which are numbers of the machine.
+        of_machine = {
+            name: read_quantity(self._own[name], given) for name, given in changes.items() if name in self._own
+        }
+        rotor = self._made(**of_machine) if of_machine else self
+        for name in (each for each in changes if each not in of_machine):
+            rotor = rotor._with_number(name, changes[name])
+        return rotor
+
+    def _made(self, **changes: Any) -> FlexibleModel:
+        made: FlexibleModel = self.reduced.of(self.reduced.machine.replace(**changes)).unchecked
+        return made
+
+    def _with_number(self, name: str, given: Any) -> FlexibleModel:
+        """The rotor with another dimensionless number, which its machine gets as what it means in SI units."""
+        reduced: ReducedMachine = self.reduced
+        if name in reduced.machine.varied:
+            allowed = "left as it is: where it is 0 another value gives a controller more states; set it in the machine, as --set does"
+            raise InputError(name, shown(given), allowed)
+        if name not in self.varied:
+            raise unknown(reduced.machine, name, given)
+        value = read_quantity(self.varied[name], given)
+        own, _, number = name.rpartition("_") if name[-1].isdigit() else (name, "", "")
+        plane = f"_{number}" if number else ""
+        if own == "mu":
+            return self._made(**{f"friction{plane}": value})
+        if own == "radius_ratio":
+            return self._made(**{f"rotor_radius{plane}": value * reduced.machine.clearance})
+        turn, factor = 0.0, 1.0
+        if own == "rho":
+            present = self.value(own)
+            if not present:
+                allowed = f"cannot be set: {name} = 0 now, and only another value can be multiplied"
+                raise InputError(name, shown(value), allowed)
+            factor = value / present
+        else:
+            turn = value - self.unbalance_phase
+        unbalances = [
+            dataclasses.replace(each, size=factor * each.size, angle=each.angle + turn)
+            for each in reduced.machine.unbalances
+        ]
+        made: FlexibleModel = reduced.of(dataclasses.replace(reduced.machine, unbalances=unbalances)).unchecked
+        return made
+
+    @checked
+    def rates(self, name: str) -> Rates | None:
+        """Return the derivatives of the equations of motion by a number of the equations; ``None`` for parameters of the machine."""
+        return None if name in self._own else super().rates(name)
+
+    def attributes(self) -> dict[str, str]:
+        """Return the numbers, the scales and the machine as attributes of a dataset, exact to the last bit."""
+        machine = {"machine": document_of(self.reduced.machine), "modes": self.reduced.modes}
+        return {**super().attributes(), "flexible_machine": json.dumps(machine)}
+
+    @classmethod
+    def from_attributes(cls, attributes: Mapping[str, str]) -> FlexibleModel:
+        """Read the attributes of a dataset that :meth:`attributes` has given.
+
+        Raises
+        ------
+        InputError
+            A value is not allowed.
+        KeyError, TypeError, ValueError
+            An attribute is missing, or is not such text.
+        """
+        given = json.loads(attributes["flexible_machine"])
+        plain = LinearRotor.from_attributes(attributes)
+        own = {field.name: getattr(plain, field.name) for field in dataclasses.fields(LinearRotor)}
+        return cls(**own, reduced=part_from(given["machine"]).with_modes(given["modes"]))

@@ -1,0 +1,228 @@
+"""Named parameters of flexible machines: of all parts and of one, in files, settings and models."""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+import math
+import pickle
+from pathlib import Path
+
+import numpy as np
+import pytest
+from flexible_machines import munich, symmetric
+
+import carom as cm
+from carom.models import Forced, LinearRotor, model_from
+from carom.outcome import InputError
+from carom.parameters import Gravity
+from carom.rotors import PID, FlexibleModel, MagneticBearing, StateSpace
+
+EXAMPLE = Path("examples/tum-flexible-rotor.toml")
+SETTINGS = (
+    "proportional=5500 A/m",
+    "derivative_2=4 A s/m",
+    "gravity=0",
+    "touchdown_stiffness=2e7 N/m",
+    "friction_1=0.2",
+)
+
+
+@pytest.fixture(scope="module")
+def case():
+    return cm.load(EXAMPLE, ["accuracy=0.5"])
+
+
+def exponents(model):
+    return np.sort_complex(model.system.exponents)
+
+
+def test_settings_name_entries_of_all_parts_or_of_one():
+    machine = cm.rotors.load_machine(EXAMPLE, SETTINGS)
+    assert [each.controller.proportional for each in machine.bearings] == [5500.0, 5500.0]
+    assert [each.controller.derivative for each in machine.bearings] == [5.0, 4.0]
+    assert [each.bearing.stiffness for each in machine.touchdowns] == [2e7, 2e7]
+    assert [each.friction for each in machine.touchdowns] == [0.2, 0.15]
+    assert machine.gravity.acceleration == 0.0
+
+
+def test_a_case_has_the_parameters_of_its_machine(case):
+    changed = case.replace(proportional="5.5e3 A/m", touchdown_dissipation_2=2.0, gravity=1.62)
+    assert changed.parameters.value("proportional") == 5500.0
+    assert changed.parameters.value("touchdown_dissipation_1") == 1.0
+    assert changed.gravity.acceleration == 1.62
+    same = cm.load(EXAMPLE, ["accuracy=0.5", "proportional=5.5e3 A/m", "touchdown_dissipation_2=2 s/m"]).parameters
+    for name in ("mass", "damping", "stiffness", "unlevitated", "forcing", "planes"):
+        assert np.array_equal(getattr(changed.parameters, name), getattr(same, name))
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"speed": 250.0},
+        {"clearance": 3e-4},
+        {"proportional": 4800.0, "integral_1": 900.0},
+        {"derivative": 6.0, "filter_time": 2e-4},
+        {"ki_2": 55.0, "ks": -9e4},
+        {"friction": 0.3, "rotor_radius_2": 6e-3},
+        {"touchdown_stiffness_1": 3e7, "touchdown_dissipation": 0.4},
+    ],
+)
+def test_a_model_changed_is_that_of_the_changed_machine(case, changes):
+    model, machine = case.parameters, case.parameters.reduced.machine
+    changed, made = model.replace(**changes), machine.replace(**changes).with_modes(model.reduced.modes).linear
+    assert isinstance(changed, FlexibleModel)
+    assert changed.scales == made.scales
+    for name in ("mass", "damping", "stiffness", "unlevitated", "forcing", "planes"):
+        own, other = getattr(changed, name), getattr(made, name)
+        assert np.allclose(own, other, rtol=0.0, atol=1e-12 * np.abs(other).max())
+    assert [each.wall(1.0) for each in changed.touchdowns] == [each.wall(1.0) for each in made.touchdowns]
+    for name, value in changes.items():
+        assert changed.value(name) == value
+    assert changed.replace(**{name: model.value(name) for name in changes}).stiffness == pytest.approx(model.stiffness)
+
+
+def test_numbers_of_the_equations_are_told_to_the_machine(case):
+    model = case.parameters
+    turned = model.replace(rho=2.0 * model.value("rho"), phi=0.3, mu=0.25, radius_ratio_2=30.0)
+    machine = turned.reduced.machine
+    (unbalance,), (own,) = machine.unbalances, model.reduced.machine.unbalances
+    assert unbalance.size == pytest.approx(2.0 * own.size, rel=1e-14)
+    assert unbalance.angle - own.angle == pytest.approx(0.3 - model.unbalance_phase, abs=1e-14)
+    assert [each.friction for each in machine.touchdowns] == [0.25, 0.25]
+    assert machine.touchdowns[1].rotor_radius == pytest.approx(30.0 * machine.clearance, rel=1e-14)
+    other = LinearRotor.replace(
+        model_from({key: text for key, text in model.attributes().items() if key != "flexible_machine"}),
+        rho=2.0 * model.value("rho"),
+        phi=0.3,
+        mu=0.25,
+        radius_ratio_2=30.0,
+    )
+    assert np.allclose(turned.forcing, other.forcing, rtol=1e-13)
+    assert [each.surface_speed for each in turned.touchdowns] == pytest.approx(
+        [each.surface_speed for each in other.touchdowns]
+    )
+
+
+def test_names_and_units_are_told(case):
+    model = case.parameters
+    assert model.varied["proportional"].unit == "A/m"
+    assert model.varied["proportional_2"].words == "proportional gain, of magnetic bearing 2"
+    assert model.varied["touchdown_stiffness_1"].name == "touchdown_stiffness_1"
+    assert not [name for name in model.varied if name.startswith("wall_")]
+    assert "gravity" in cm.models.model_of(case).varied
+    assert model.rates("proportional") is None
+
+
+def test_several_controllers_have_what_all_have():
+    other = MagneticBearing(2, 50.0, -1e5, StateSpace([[-1e4]], [1e4], [-1e5], 1.09e5))
+    machine = symmetric(bearings=[MagneticBearing(1, 50.0, -1e5, PID(9000.0, 0.0, 10.0, 1e-4)), other])
+    assert {"proportional_1", "ki", "ki_2", "ks"} <= set(machine.varied)
+    assert not {"proportional", "proportional_2", "amplifier_bandwidth"} & set(machine.varied)
+    with pytest.raises(
+        InputError, match=r"^ki = \[50.0, 60.0\]: the same at all here; ki_1, ki_2 are those of each mag"
+    ):
+        machine.replace(ki_2=60.0).value("ki")
+
+
+def test_a_model_keeps_its_states():
+    """What would add or take away states of a controller is for the machine: disturbances and branches keep their coordinates."""
+    machine = symmetric()
+    model = machine.reduce(0.5).linear
+    assert "integral" not in model.varied
+    assert "integral" in machine.varied
+    with pytest.raises(InputError, match=r"^integral = 100.0: left as it is: where it is 0"):
+        model.replace(integral=100.0)
+    with pytest.raises(InputError, match=r"^derivative = 0.0: must be a gain"):
+        model.replace(derivative=0.0)
+    assert len(machine.replace(integral=100.0).reduce(0.5).linear.mass) == len(model.mass) + 2
+
+
+def test_units_of_states_do_not_jump():
+    """The coordinates of controllers change smoothly, by which orbits are followed along a gain: no step of a power of two."""
+    gains = np.linspace(4900.0, 5100.0, 41)
+    loops = [
+        MagneticBearing(1, 50.0, -1e5, PID(P, 1500.0, 5.0, 1e-4), delay=1e-4, amplifier_bandwidth=3e3).loop
+        for P in gains
+    ]
+    for name in ("A", "B", "C"):
+        values = np.array([getattr(each, name) for each in loops])
+        second = np.abs(np.diff(values, n=2, axis=0)).max()
+        assert second <= 1e-4 * np.abs(values).max()
+
+
+def test_an_unstable_levitation_is_refused_where_a_machine_is_read(case):
+    with pytest.raises(
+        InputError, match=r"^levitation = unstable: a whirl of .* Hz grows with .* 1/s: controllers that"
+    ):
+        cm.load(EXAMPLE, ["proportional=1000 A/m"])
+    model = case.parameters.replace(proportional=1000.0)
+    assert not model.system.levitates
+    assert case.parameters.system.levitates
+
+
+@pytest.mark.parametrize(
+    ("setting", "says"),
+    [
+        (
+            "derivativ=3",
+            r"^derivativ = 3: unknown parameter of this machine; did you mean derivative\? allowed: speed, clea",
+        ),
+        (
+            "proportional_3=3",
+            r"^proportional_3 = 3: unknown parameter .*one part by its number, such as proportional_2$",
+        ),
+        ("proportional=3 N/m", r"^proportional = 3 N/m: must be a gain in A/m.*'N/m' is not a unit of gain"),
+        ("filter_time=0", r"^filter_time = 0: must be a time in s"),
+        ("touchdown_damping=3", r"^touchdown_damping = 3: unknown parameter of this machine"),
+    ],
+)
+def test_what_cannot_be_set_gets_one_line(setting, says):
+    with pytest.raises(InputError, match=says) as told:
+        cm.load(EXAMPLE, [setting])
+    assert "\n" not in str(told.value)
+
+
+def test_a_machine_comes_back_from_its_attributes(case):
+    bearings = [
+        MagneticBearing(1, 50.0, -1e5, PID(9000.0, 0.0, 10.0, 1e-4), delay=2e-5),
+        MagneticBearing(2, 50.0, -1e5, StateSpace([[-1e4]], [1e4], [-1e5], 1.09e5)),
+    ]
+    for model in (case.parameters, symmetric(bearings=bearings).with_modes(3).linear):
+        again = model_from(json.loads(json.dumps(model.attributes())))
+        assert isinstance(again, FlexibleModel)
+        assert np.array_equal(again.stiffness, model.stiffness)
+        assert np.array_equal(again.damping, model.damping)
+        changes = {"ki_1": 51.0, "friction": 0.05}
+        assert np.allclose(
+            exponents(again.replace(**changes)), exponents(model.replace(**changes)), rtol=1e-9, atol=1e-9
+        )
+
+
+def test_a_model_goes_to_other_processes(case):
+    model = cm.models.model_of(case)
+    again = pickle.loads(pickle.dumps(model))
+    assert isinstance(again, Forced)
+    assert np.array_equal(
+        again.replace(proportional=5100.0).system.exponents, model.replace(proportional=5100.0).system.exponents
+    )
+
+
+def test_weight_keeps_its_size_at_other_speeds():
+    machine = munich(gravity=Gravity(2.0)).with_modes(4)
+    moved = machine.model.replace(speed=200.0, clearance=1e-4)
+    made = machine.machine.replace(speed=200.0, clearance=1e-4).with_modes(4).model
+    assert moved.value("gravity") == pytest.approx(2.0, rel=1e-14)
+    assert moved.system.rest_radius == pytest.approx(made.system.rest_radius, rel=1e-11)
+
+
+def test_attributes_make_a_plain_rotor(case):
+    plain = case.parameters.replace(forcing=np.zeros(len(case.parameters.forcing)))
+    assert type(plain) is LinearRotor
+    assert not plain.forcing.any()
+
+
+def test_parts_are_replaced_as_they_are():
+    machine = munich()
+    assert dataclasses.replace(machine, gravity=None).value("gravity") == 0.0
+    assert machine.replace(gravity="1 m/s^2").gravity == Gravity(1.0, -0.5 * math.pi)
