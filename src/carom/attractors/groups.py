@@ -128,11 +128,12 @@ def attractor_of(name: MotionName, endings: Sequence[Ending], state: State) -> A
 
 def _representative(ending: Ending, state: State) -> Trajectory:
     """A motion on an attractor, or the one that was given up, for its first 1000 impacts if it does not repeat."""
+    until = None
     if ending.recovered:
         state = Kick(0.0).state(ending.rotor)
     elif not ending.attractor.outcome.settled:
-        state = ending.start.state
-    return seen_in_contact(simulate(ending.rotor, state, settle=True, patience=FIRST_PATIENCE))
+        state, until = ending.start.state, ending.time
+    return seen_in_contact(simulate(ending.rotor, state, until, settle=True, patience=FIRST_PATIENCE))
 
 
 def _sentence(words: str) -> str:

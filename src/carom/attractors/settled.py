@@ -24,6 +24,8 @@ Whirl = Literal["forward", "backward", "none"]
 SAME = 1e-6
 """Distance, relative to one plus the size of the state, below which states are the same; speed below which a rotor is at rest."""
 SAMPLES = 1000
+LOOKED_AT = 4096
+"""Most segments at the end of a motion that does not repeat in which contacts with walls that give way are looked at."""
 TURNS = 10.0
 """Turns of the shaft over which a motion without a period is evaluated."""
 
@@ -185,16 +187,17 @@ def forces_on(settled: SettledMotion) -> tuple[float, float]:
     force = max(float(motion.seen_at(plane).forces(times)[0].max() / widths[plane]) for plane in planes)
     if touching or not len(hits):
         return impulse, force
-    return _with_touches(motion, float(motion.segment_starts[1:][hits[min(first, len(hits) - 1)]]), impulse, force)
+    since = int(hits[min(first, len(hits) - 1)]) + 1
+    since = since if settled.multiplicity else max(since, len(motion.segment_starts) - LOOKED_AT)
+    return _with_touches(motion.since(since), impulse, force)
 
 
-def _with_touches(motion: Trajectory, begins: float, impulse: float, force: float) -> tuple[float, float]:
-    """Largest impulse and force, with those of the contacts with walls that give way from a time on; samples miss brief ones."""
+def _with_touches(motion: Trajectory, impulse: float, force: float) -> tuple[float, float]:
+    """Largest impulse and force, with those of the contacts with walls that give way; samples miss brief ones."""
     for plane in np.flatnonzero(motion.rotor.system.arrays["stiffness"] > 0.0).tolist():
         touches, width = motion.seen_at(plane).touches, float(motion.rotor.system.widths[plane])
-        late = touches.start >= begins
-        impulse = max(impulse, float(touches.normal_impulse[late].max(initial=0.0)) / width)
-        force = max(force, float(touches.peak_force[late].max(initial=0.0)) / width)
+        impulse = max(impulse, float(touches.normal_impulse.max(initial=0.0)) / width)
+        force = max(force, float(touches.peak_force.max(initial=0.0)) / width)
     return impulse, force
 
 

@@ -27,7 +27,7 @@ import numpy as np
 
 from carom.compiling.decorators import inlined, kernel
 from carom.core.block import basis_amplitudes
-from carom.core.flow import squared_modulus
+from carom.core.flow import displacement, squared_modulus
 from carom.core.layout import NEAR, record
 from carom.core.planar_proofs import planar_proofs
 
@@ -36,6 +36,8 @@ NO_CONTACT = -1.0
 """Instead of the time for which contact has persisted: there has been none."""
 TURNS = 512
 """Full turns along the wall whose changes are added up, to compare them with those of as many before."""
+BLOCK = 64
+"""Full turns along the wall of which the mean duration, and the mean sum of the radii at all planes, are kept."""
 UNLIKE = 1e-3
 """Mean change from turn to turn, relative to the size of the state, above which they never repeat if it lasts.
 
@@ -102,6 +104,8 @@ def memory(
         turns=np.asarray(0, np.int64),
         changes=np.asarray(0.0),
         earlier_changes=np.asarray(0.0),
+        block=np.zeros(2),
+        blocks=np.zeros((3, 2)),
         turn_position=np.asarray(0, np.complex128),
         turn_state=np.zeros(modes, np.complex128),
         proofs=planar_proofs() if proofs is None else proofs,
@@ -213,6 +217,22 @@ def never_repeats(memory, amplitudes):
     lasts = memory.turns > TURNS and memory.changes >= max(0.5 * memory.earlier_changes, UNLIKE * TURNS)
     memory.earlier_changes, memory.changes = memory.changes, 0.0
     return lasts
+
+
+@kernel
+def note_turn(rotor, memory, amplitudes):
+    """Add a turn along the wall to the means of the present block of turns; call it before :func:`never_repeats`."""
+    radii = 0.0
+    for plane in range(rotor.rows.shape[0]):
+        radii += math.sqrt(squared_modulus(displacement(rotor, plane, amplitudes)))
+    if memory.turns % BLOCK == 0:
+        memory.block[:] = 0.0
+    memory.block[0] += memory.turn_time / BLOCK
+    memory.block[1] += radii / BLOCK
+    if memory.turns % BLOCK == BLOCK - 1:
+        for k in range(2):
+            memory.blocks[0, k], memory.blocks[1, k] = memory.blocks[1, k], memory.blocks[2, k]
+            memory.blocks[2, k] = memory.block[k]
 
 
 @kernel

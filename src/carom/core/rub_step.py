@@ -7,7 +7,7 @@ import math
 from carom.compiling.decorators import inlined, kernel
 from carom.core.compliance import next_form, stay_in_wall
 from carom.core.contact_series import rub_series
-from carom.core.fate import approaches_turn, at_rest, forget_rub, near_rub, never_repeats, same_state
+from carom.core.fate import approaches_turn, at_rest, forget_rub, near_rub, never_repeats, note_turn, same_state
 from carom.core.layout import NEAR
 from carom.core.phases import AWAY, FLIGHT, FORWARD_SLIP, ROLLING, lasts, stays
 from carom.core.planar_proofs import absorbed, hastens, runs_away
@@ -62,6 +62,7 @@ def rub_step(rotor, contact, amplitudes, horizon, memory, rub):
     if changed != NOWHERE:
         _change_contact(rotor, contact, changed, following, undecided, amplitudes, memory, rub)
     if turned:
+        note_turn(rotor, memory, amplitudes)
         recurred = same_state(memory.turn_state, amplitudes, NEAR * min(1.0, memory.turn_time))
         # Of a shaft that loses its speed the state changes in each turn until it stands.
         if recurred or (rotor.shaft.shape[0] == 0 and never_repeats(memory, amplitudes)):

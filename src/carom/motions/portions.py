@@ -28,6 +28,8 @@ GLANCE = 0.1
 """Seconds between two reports of progress."""
 FEW = 256
 """Number of starts of a portion for which one more thread is used: some for each lane."""
+FEW_SINGLY = 8
+"""The same for motions that are followed one after another, each for milliseconds to seconds."""
 MODES = 2
 """Modes of the rotors whose motions are followed side by side."""
 LOGGED = 256
@@ -75,7 +77,8 @@ def parts_of(
         for begins in range(first, last, PORTION):
             chosen = slice(begins, min(begins + PORTION, last))
             part = Part(stage, motions[chosen], fresh_counter(), elapsed[chosen])
-            parts += [part] * min(threads, 1 + len(part.motions) // FEW)
+            few = FEW if stage.rotor.system.is_planar else FEW_SINGLY
+            parts += [part] * min(threads, 1 + len(part.motions) // few)
     return parts
 
 

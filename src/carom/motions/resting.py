@@ -16,13 +16,15 @@ import numpy as np
 
 from carom.core.advance import advance
 from carom.core.event_log import EventLog
-from carom.core.fate import NO_TURN, TURNS, memory
+from carom.core.fate import BLOCK, NO_TURN, TURNS, memory
 from carom.core.layout import rub_workspace, workspace
 from carom.core.phases import lasts
 from carom.models import Model
 from carom.models.weight import weight_of
 from carom.outcome import Outcome, Phase
 
+STEADY = 1e-3
+"""Relative change of the means of a block of turns, from one block to the next, below which backward whirl is steady."""
 FOLLOWED_TURNS = 64
 """Turns of the shaft over which the place of the contact is watched: whirl of 1/128 of the shaft speed goes half round the wall."""
 LOGGED, MOST_LOGS = 8192, 32
@@ -38,7 +40,8 @@ def goes_round(rotor: Model, amplitudes: np.ndarray, contact: np.ndarray, recoll
     if rotor.system.shaft is not None:
         return None
     in_step = recollection.turning != NO_TURN and recollection.turn_time >= 2 * TURNS * 2.0 * math.pi
-    if not (in_step or recollection.turns >= 2 * TURNS) or weight_of(rotor) is None:
+    lasts_on = recollection.turns >= 2 * TURNS or _steady(recollection)
+    if not (in_step or lasts_on) or weight_of(rotor) is None:
         return None
     plane = next((place for place, each in enumerate(contact.tolist()) if lasts(each)), None)
     if plane is None:
@@ -50,6 +53,15 @@ def goes_round(rotor: Model, amplitudes: np.ndarray, contact: np.ndarray, recoll
     position, velocity = rotor.system.at_plane(amplitudes, plane)
     backward = (position.conjugate() * velocity).imag < -1.0
     return Outcome.BACKWARD_WHIRL if backward else Outcome.FORWARD_RUB
+
+
+def _steady(recollection: np.record) -> bool:
+    """Whether whirl that is backward in the fixed frame goes on as it is: over three blocks of turns, by their duration and radii."""
+    if recollection.turns < 3 * BLOCK:
+        return False
+    blocks = recollection.blocks
+    steady = np.abs(np.diff(blocks, axis=0)) <= STEADY * blocks[1:]
+    return bool(blocks[-1, 0] < 2.0 * math.pi and steady.all())
 
 
 def lies(rotor: Model, amplitudes: np.ndarray, contact: np.ndarray) -> bool:
@@ -67,16 +79,22 @@ def lies(rotor: Model, amplitudes: np.ndarray, contact: np.ndarray) -> bool:
     (arrays, table), (planes, modes) = rotor.system.own_records(), rotor.system.arrays["rows"].shape
     log, state, contact = EventLog.empty(LOGGED, modes, planes), amplitudes.copy(), contact.copy()
     tools = memory(modes), workspace(modes), rub_workspace(modes, planes)
-    passed, angles, until = 0.0, [], 2.0 * math.pi * FOLLOWED_TURNS
+    passed, until = 0.0, 2.0 * math.pi * FOLLOWED_TURNS
+    reached = np.zeros((0, np.count_nonzero(touching)))
     for _ in range(MOST_LOGS):
         outcome, time, count = advance(arrays, table, state, until - passed, contact, log, *tools)
         seen = log.first(count)
         if (seen.phases[:, touching] == Phase.FLIGHT).any():
             return False
         places = seen.after @ arrays["rows"][touching].T + arrays["offsets"][touching]
-        angles.append(np.angle(places * np.exp(1j * (passed + seen.times))[:, None]))
+        angles = np.angle(places * np.exp(1j * (passed + seen.times))[:, None])
+        turned = np.unwrap(np.concatenate([reached, angles]), axis=0)
         passed += time
+        if len(turned):
+            # Of the past the extremes are enough, and where it has come to.
+            reached = np.stack([turned.min(axis=0), turned.max(axis=0), turned[-1]])
+            if (np.ptp(reached, axis=0) >= math.pi).any():
+                return False
         if outcome != Outcome.EVENT_LIMIT:
-            turned = np.unwrap(np.concatenate(angles), axis=0)
-            return outcome == Outcome.TIME_REACHED and bool((np.ptp(turned, axis=0) < math.pi).all())
+            return outcome == Outcome.TIME_REACHED
     return False

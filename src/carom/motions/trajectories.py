@@ -119,6 +119,25 @@ class Trajectory(Result):
             raise InputError("plane", plane, f"a whole number from 0 to {planes - 1}")
         return dataclasses.replace(self, plane=plane)
 
+    def since(self, segment: int) -> Trajectory:
+        """Return the motion from the start of one of its segments on; its stages before are left out."""
+        system, begun = self.rotor.system, float(self.segment_starts[segment])
+        amplitudes = self.segment_amplitudes[segment]
+        position, velocity = system.state(amplitudes)
+        begins = self.begins + begun
+        return dataclasses.replace(
+            self,
+            start=State.of(position, velocity, system.race_speeds(amplitudes), system.shaft_turn(amplitudes), begins),
+            time=self.time - begun,
+            segment_starts=self.segment_starts[segment:] - begun,
+            segment_phases=self.segment_phases[segment:],
+            event_planes=self.event_planes[segment:],
+            segment_amplitudes=self.segment_amplitudes[segment:],
+            arrivals=self.arrivals[segment:],
+            begins=begins,
+            earlier=(),
+        )
+
     @cached_property
     def is_impact(self) -> np.ndarray:
         """Which of the ``n`` events are impacts, bool, shape (n,)."""
