@@ -12,7 +12,7 @@ from carom.proofs.claims import Claim, claim_of
 from carom.proofs.evidence import Evidence, NotShownError
 from carom.proofs.kick_cells import IMPACTS, OPEN, Tree, leaves, read, share_of
 from carom.proofs.kick_discs import Disc
-from carom.proofs.kick_search import show_all
+from carom.proofs.kick_search import BITS, show_all
 from carom.proofs.rotor import Rotor
 
 THEOREM = "kicks"
@@ -34,6 +34,8 @@ def disc_from(rotor: Rotor, options: Mapping[str, Any]) -> Disc:
 
 def kick_claims(rotor: Rotor, evidence: Evidence, options: Mapping[str, Any]) -> list[Claim]:
     """Claims of a certificate, all of whose proven cells are shown again; nothing is searched."""
+    if rotor.bits != BITS:
+        raise NotShownError(f"cells of kicks are shown with {BITS} bits")
     disc = disc_from(rotor, options)
     tree = read(evidence.take("cells", _nothing))
     show_all(disc, tree, available_cores(), evidence.tell)

@@ -17,6 +17,7 @@ from carom.outcome import InputError, Outcome
 from carom.parameters import MACHINE_FIELDS, Field
 from carom.parameters.exact import read_exact
 from carom.proofs.balls import ball_of, rational
+from carom.proofs.evidence import NotShownError
 from carom.proofs.hypotheses import Hypotheses
 from carom.proofs.kick_cells import BY_ANGLE, BY_SPEED, IMPACTS, LOST, Cell
 from carom.proofs.passages import LeftOpenError
@@ -73,7 +74,7 @@ class Disc:
         """Whether its speed has a unit."""
         return self.hypotheses.table == "machine"
 
-    @property
+    @cached_property
     def exact(self) -> tuple[Fraction, int]:
         """Its largest speed in m/s, or in ``c_r Ω``: a rational number, times π to a power."""
         field = replace(_SPEED, needs_unit=True) if self.physical else replace(_SPEED, unit="", kind="a number")
@@ -84,19 +85,26 @@ class Disc:
 
     def speed(self, share: Fraction) -> Any:
         """Ball of a share of the largest speed, in ``c_r Ω``."""
-        number, turns = self.exact
-        values, speed = self.hypotheses.values, rational(number * share) * arb.pi() ** turns
+        return rational(self.exact[0] * share) * self._unit
+
+    @cached_property
+    def _unit(self) -> Any:
+        """What the rational part of the largest speed counts in ``c_r Ω``."""
+        unit: Any = arb.pi() ** self.exact[1]
         if self.physical:
-            clearance, rate = (
-                ball_of(read_exact(MACHINE_FIELDS[name], values[name])) for name in ("clearance", "speed")
-            )
-            speed = speed / (clearance * rate)
-        return speed
+            values = self.hypotheses.values
+            sizes = (ball_of(read_exact(MACHINE_FIELDS[name], values[name])) for name in ("clearance", "speed"))
+            for size in sizes:
+                unit = unit / size
+        return unit
 
     @cached_property
     def held(self) -> Held:
-        """The rotor, at the precision of its first use."""
-        return Held(Rotor(self.hypotheses).numbers)
+        """The rotor, at the precision of its first use; :class:`NotShownError` if it may not levitate inside the wall."""
+        held = Held(Rotor(self.hypotheses).numbers)
+        if not (held.room > 0 and held.numbers.gamma > 0):
+            raise NotShownError("the rotor must levitate inside the wall, with damping above 0, for kicks to come back")
+        return held
 
     @cached_property
     def _doubles(self) -> tuple[Jeffcott, complex, float]:

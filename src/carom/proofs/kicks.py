@@ -27,7 +27,7 @@ from carom.proofs.kick_discs import Disc
 from carom.proofs.kick_search import BITS, search
 
 _STORE = "carom cells of kicks 1"
-_TIME = Field("time_limit", "", "time to search", "a time", "s", 0.0, 1e9, '"10 min"')
+_TIME = Field("time_limit", "", "time to search", "a time", "s", 1e-3, 1e9, '"10 min"')
 USUAL_TIME = "10 min"
 USUAL_IMPACTS = 12
 
@@ -40,7 +40,7 @@ def prove_kicks(
     settings: Iterable[str] = (),
     *,
     most_impacts: Annotated[int, whole(0, len(IMPACTS) - 1)] = USUAL_IMPACTS,
-    time_limit: str | float = USUAL_TIME,
+    time_limit: str | float | None = USUAL_TIME,
     store: str | os.PathLike[str] | None = None,
     workers: Count | None = None,
     progress: ShowProgress = None,
@@ -63,7 +63,7 @@ def prove_kicks(
     most_impacts : int
         A kick that may have more of them is left open; at most 35.
     time_limit : str or float
-        When to end the search, in s or with a unit.
+        When to end the search, in s or with a unit; with ``None`` when nothing is open.
     store : path, optional
         File for the cells: an interrupted search goes on from there, and one that was ended by its time does with further time.
         The cells in it are taken as they are; :func:`~carom.proofs.check` verifies all.
@@ -89,14 +89,19 @@ def prove_kicks(
     """
     hypotheses, tell = hypotheses_of(machine, settings), Reporter.of(progress, "proving")
     disc = Disc(hypotheses, written_exactly(kicks_up_to).removeprefix("double "), most_impacts)
-    seconds = read_quantity(_TIME, time_limit)
+    seconds = math.inf if time_limit is None else read_quantity(_TIME, time_limit)
+    try:
+        with at_precision(BITS):
+            disc.held  # noqa: B018  (raises if there is no levitation)
+    except NotShownError as problem:
+        raise InputError("machine", shown(hypotheses.values), str(problem)) from None
     place = None if store is None else Path(store)
     tree = {DISC: AHEAD} if place is None or not place.exists() else _stored(place, disc)
     with at_precision(BITS):
         search(
             disc,
             tree,
-            seconds or math.inf,
+            seconds,
             workers or available_cores(),
             tell,
             None if place is None else lambda now: _store(place, disc, now),

@@ -88,14 +88,15 @@ Event = Return | Strike | Brush
 
 
 def begin(departure: Departure) -> float:
-    """A time up to which flights that leave the wall with ``g' ≤ 0`` are inside; zero for those from levitation."""
+    """A time at which flights that leave the wall with ``g' ≤ 0`` are inside, as they were until then; zero for those from levitation."""
     if not departure.from_wall:
         return 0.0
-    width = _START
+    width, outward = _START, departure.wide_velocity.real * 2
     for _ in range(_HALVINGS):
         curve = departure.at(hull(0.0, width)).curve
         rise = departure.at(arb(width / 2)).rise + curve * UNIT * (width / 2)
-        if curve < 0 or rise < 0:
+        # Rounding may add states with g' > 0 to a patch: they need not have been inside before.
+        if rise < 0 or (curve < 0 and outward + curve * width / 2 < 0):
             return width
         width /= 2
     raise LeftOpenError(SLOW, departure.weights(width))
@@ -134,13 +135,12 @@ def _end(departure: Departure) -> float:
         energy = (dot(turned, turned) - held.split * dot(away, away)).upper()
         allowed = -held.split * held.room * held.room
         time = float((energy / allowed).log().upper()) / float(n.gamma.lower()) + _ROUNDING
-        if not energy * (-n.gamma * arb(time)).exp() < allowed:
-            raise LeftOpenError(LONG, departure.weights(LONGEST))
-        return min(time, _LATEST)
+        if time < _LATEST and energy * (-n.gamma * arb(time)).exp() < allowed:
+            return time
+        raise LeftOpenError(LONG, departure.weights(LONGEST))
     for k in range(int(math.log2(_LATEST))):
         time = float(2**k)
-        waves = held.waves(arb(time), True)
-        (c, h, _), (dc, dh, _), _ = waves
+        (c, h, _), (dc, dh, _), _ = held.waves(arb(time), True)
         place, rate = away * c + speed * h, away * dc + speed * dh
         if dot(rate, rate) + n.omega_squared * dot(place, place) < n.omega_squared * held.room * held.room:
             return time

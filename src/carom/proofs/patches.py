@@ -25,18 +25,21 @@ from typing import Any, NamedTuple
 from flint import acb, arb
 
 from carom.proofs.lines import Numbers
-from carom.proofs.series import I, hyperbolic
+from carom.proofs.series import hyperbolic
 
 UNIT = arb(0, 1)
 """All numbers from −1 to 1."""
 
 
+Wave = tuple[Any, Any, Any]
+
+
 class Waves(NamedTuple):
     """``c``, ``h₁`` and ``k`` of a flight with their first two derivatives, at a time or on an interval of times."""
 
-    place: tuple[Any, Any, Any]
-    rate: tuple[Any, Any, Any]
-    bend: tuple[Any, Any, Any]
+    place: Wave
+    rate: Wave
+    bend: Wave
 
 
 class Held:
@@ -51,6 +54,7 @@ class Held:
         self.numbers = numbers
         self.half, self.split = numbers.gamma / 2, numbers.split
         self.radius = numbers.levitation
+        self.radius_squared = self.radius * self.radius
         self.room = 1 - self.radius
         self.rub = numbers.mu * (1 + numbers.d)
         self._plain = tuple(float(x.mid()) for x in (self.half, self.split, numbers.omega_squared, self.radius))
@@ -133,29 +137,22 @@ class Departure:
     wide_velocity, wide_levitation : acb
         Those of all states.
     columns : list of pairs
-        ``V`` and ``Λ`` differentiated along the spans and then along what holds the rest, on the box.
-    turns : list of arb
-        ``ψ`` differentiated along them.
+        ``V`` and ``ψ`` differentiated along the spans and then along what holds the rest; exact.
     """
 
     def __init__(self, held: Held, patch: Patch) -> None:
         self.held, self.patch, self.from_wall = held, patch, patch.from_wall
         self.velocity, self.levitation = _parts(held, patch.centre)
         self.wide_velocity, self.wide_levitation = _parts(held, patch.box)
-        turning = self.wide_levitation * I
         directions = [*patch.spans]
         for j, rest in enumerate(patch.rest):
             if not rest.is_zero():
                 directions.append([rest if i == j else arb(0) for i in range(len(patch.rest))])
-        self.columns = [(_speed(along), turning * along[-1]) for along in directions]
-        self.turns = [along[-1] for along in directions]
+        self.columns = [(_speed(along), along[-1]) for along in directions]
         middle = [float(x) for x in patch.centre]
         self._velocity = complex(*middle[:-1])
         self._levitation = held._plain[3] * cmath.exp(1j * middle[-1])
-        self._columns = [
-            (complex(v), 1j * self._levitation * float(turn))
-            for (v, _), turn in zip(self.columns, self.turns, strict=True)
-        ]
+        self._columns = [(complex(v), 1j * self._levitation * float(turn)) for v, turn in self.columns]
 
     # -------------------------------------------------------------------------------------- balls
 
@@ -207,76 +204,86 @@ def _parts(held: Held, coordinates: list[Any]) -> tuple[Any, Any]:
 
 
 class Moment:
-    """All flights of a patch at a time or on an interval of times."""
+    """All flights of a patch at a time or on an interval of times.
+
+    With ``z = p + q``, ``p = c + V h₁`` and ``q = Λk``, nothing but products of ``p`` and ``q`` depends on ``ψ`` in ``|z|²`` and its rates:
+    ``|q|² = ℓ²|k|²``.  All are evaluated so that this is not lost in the width of ``Λ``.
+    """
 
     def __init__(self, departure: Departure, waves: Waves) -> None:
         self.departure, self.waves = departure, waves
 
-    def centre(self, wave: tuple[Any, Any, Any]) -> Any:
-        """Place, rate or bend on the flight of the centre."""
+    def centre(self, wave: Wave) -> Any:
+        """Place or rate on the flight of the centre."""
         d = self.departure
         return wave[0] + d.velocity * wave[1] + d.levitation * wave[2]
 
-    def wide(self, wave: tuple[Any, Any, Any]) -> Any:
-        """The same for all flights of the box."""
-        d = self.departure
-        return wave[0] + d.wide_velocity * wave[1] + d.wide_levitation * wave[2]
+    @cached_property
+    def _p(self) -> list[Any]:
+        return [wave[0] + self.departure.wide_velocity * wave[1] for wave in self.waves]
 
     @cached_property
-    def place(self) -> Any:
-        """``z`` of all flights."""
-        return self.wide(self.waves.place)
+    def _q(self) -> list[Any]:
+        return [self.departure.wide_levitation * wave[2] for wave in self.waves]
 
     @cached_property
-    def rate(self) -> Any:
-        """``ż`` of all flights."""
-        return self.wide(self.waves.rate)
+    def wide(self) -> list[Any]:
+        """``z``, ``ż`` and ``z̈`` of all flights."""
+        return [p + q for p, q in zip(self._p, self._q, strict=True)]
+
+    def _products(self, one: int, other: int) -> Any:
+        """``Re(z̄ w)`` of two of them."""
+        (p, q), (u, w) = ((self._p[j], self._q[j]) for j in (one, other))
+        turning = dot(self.waves[one][2], self.waves[other][2])
+        return dot(p, u) + dot(p, w) + dot(q, u) + self.departure.held.radius_squared * turning
 
     @cached_property
-    def bend(self) -> Any:
-        """``z̈`` of all flights."""
-        return self.wide(self.waves.bend)
-
-    @cached_property
-    def along(self) -> list[Any]:
-        """``z`` differentiated along the columns."""
-        _, h, k = self.waves.place
-        return [v * h + lift * k for v, lift in self.departure.columns]
-
-    @cached_property
-    def rate_along(self) -> list[Any]:
-        """``ż`` differentiated along the columns."""
-        _, h, k = self.waves.rate
-        return [v * h + lift * k for v, lift in self.departure.columns]
+    def slope(self) -> Any:
+        """``Re(z̄ż)`` on all flights, as wide as the patch and the times are."""
+        return self._products(0, 1)
 
     @cached_property
     def height_along(self) -> list[Any]:
-        """``|z|²`` differentiated along the columns."""
-        return [dot(self.place, z) * 2 for z in self.along]
+        """``|z|²/2`` differentiated along the columns."""
+        turned, h = cross(self._p[0], self._q[0]), self.waves.place[1]
+        return [dot(self.wide[0], v) * h - turned * turn for v, turn in self.departure.columns]
 
     @cached_property
     def height(self) -> Any:
-        """``|z|²`` of all flights."""
+        """``|z|²`` of all flights, a mean value form."""
         z = self.centre(self.waves.place)
-        return dot(z, z) + spread(self.height_along)
+        return dot(z, z) + spread(self.height_along) * 2
 
     @cached_property
     def rise_along(self) -> list[Any]:
-        """The rate of ``|z|²`` differentiated along the columns."""
-        return [
-            (dot(self.place, dz) + dot(self.rate, z)) * 2 for z, dz in zip(self.along, self.rate_along, strict=True)
-        ]
+        """``Re(z̄ż)`` differentiated along the columns."""
+        (p, dp, _), (q, dq, _), (z, dz, _) = self._p, self._q, self.wide
+        turned, h, dh = cross(p, dq) + cross(dp, q), self.waves.place[1], self.waves.rate[1]
+        return [dot(dz, v) * h + dot(z, v) * dh - turned * turn for v, turn in self.departure.columns]
 
     @cached_property
     def rise(self) -> Any:
-        """The rate of ``|z|²`` on all flights."""
-        centre = dot(self.centre(self.waves.place), self.centre(self.waves.rate)) * 2
-        return centre + spread(self.rise_along)
+        """The rate of ``|z|²`` on all flights, a mean value form."""
+        centre = dot(self.centre(self.waves.place), self.centre(self.waves.rate))
+        return (centre + spread(self.rise_along)) * 2
 
     @cached_property
     def curve(self) -> Any:
         """The second derivative of ``|z|²`` on all flights."""
-        return (dot(self.rate, self.rate) + dot(self.place, self.bend)) * 2
+        return (self._products(1, 1) + self._products(0, 2)) * 2
+
+    @cached_property
+    def twist_along(self) -> list[Any]:
+        """``Im(z̄ż)`` differentiated along the columns."""
+        (p, dp, _), (q, dq, _), (z, dz, _) = self._p, self._q, self.wide
+        turned, h, dh = dot(p, dq) - dot(dp, q), self.waves.place[1], self.waves.rate[1]
+        return [cross(v, dz) * h + cross(z, v) * dh + turned * turn for v, turn in self.departure.columns]
+
+    def angle_along(self, square: Any) -> list[Any]:
+        """``ψ − arg z`` differentiated along the columns, from a ball of ``|z|²``."""
+        z, h = self.wide[0], self.waves.place[1]
+        turned = dot(z, self._p[0])
+        return [(turned * turn - cross(z, v) * h) / square for v, turn in self.departure.columns]
 
 
 def dot(one: Any, other: Any) -> Any:

@@ -30,24 +30,18 @@ def after_strike(departure: Departure, strike: Strike) -> Patch:
     """Patch after the impact; :class:`LeftOpenError` where the radial speed is not known to be positive."""
     window = hull(strike.begin, strike.end)
     moment = departure.at(window)
-    place, rate, bend = moment.place, moment.rate, moment.bend
-    speed = dot(place, rate)
-    if not speed > 0:
+    if not moment.slope > 0:
         raise LeftOpenError(GRAZE, departure.weights(strike.end))
+    place, rate, bend = moment.wide
+    rates = moment.curve / 2, cross(place, bend), 1 - cross(place, rate)
     columns: Columns = []
-    for z, dz, turn in zip(moment.along, moment.rate_along, departure.turns, strict=True):
-        late = -dot(place, z) / speed
-        moved, faster = z + rate * late, dz + bend * late
-        columns.append(
-            [
-                dot(moved, rate) + dot(place, faster),
-                cross(moved, rate) + cross(place, faster),
-                turn + late - cross(place, moved),
-            ]
-        )
+    along = moment.height_along, moment.rise_along, moment.twist_along, moment.angle_along(arb(1))
+    for height, *fixed in zip(*along, strict=True):
+        late = -height / moment.slope
+        columns.append([x + late * y for x, y in zip(fixed, rates, strict=True)])
     time = _crossing(departure, window)
     centre = _at_wall(departure, departure.at(time), time)
-    if not centre[0] - abs(spread([column[0] for column in columns])) > 0:
+    if not centre[0] + spread([column[0] for column in columns]) > 0:
         raise LeftOpenError(GRAZE, departure.weights(strike.end))
     return _reset(departure, centre, columns, [arb(0)] * 3)
 
@@ -56,12 +50,10 @@ def after_brush(departure: Departure, brush: Brush) -> Patch:
     """Patch after a touch."""
     window = hull(brush.begin, brush.last)
     moment, middle = departure.at(window), window.mid()
-    place, rate, bend = moment.place, moment.rate, moment.bend
+    place, rate, bend = moment.wide
     square = dot(place, place)
-    columns: Columns = [
-        [arb(0), cross(z, rate) + cross(place, dz), turn - cross(place, z) / square]
-        for z, dz, turn in zip(moment.along, moment.rate_along, departure.turns, strict=True)
-    ]
+    along = moment.twist_along, moment.angle_along(square)
+    columns: Columns = [[arb(0), twist, angle] for twist, angle in zip(*along, strict=True)]
     late = window - middle
     drift = [brush.fastest * UNIT / 2, cross(place, bend) * late, (1 - cross(place, rate) / square) * late]
     centre = _at_wall(departure, departure.at(middle), middle)
@@ -74,6 +66,7 @@ def _crossing(departure: Departure, window: Any) -> Any:
     for _ in range(8):
         height, rise, _ = departure.plain(guess)
         guess -= (height - 1) / rise
+    guess = min(max(guess, float(window.lower())), float(window.upper()))
     near = departure.at(arb(guess))
     z = near.centre(near.waves.place)
     far = departure.at(window)
