@@ -1,0 +1,1129 @@
+#!/usr/bin/env python3
+"""Check a certificate of ``carom prove`` with a program that shares nothing with carom.
+
+    python check_certificate.py proof.json
+
+It needs Python and python-flint only. It reads the hypotheses, computes the numbers of the equations from them, and decides every
+claim again from its statement alone: it uses no evidence of the certificate, only the numbers claimed as starts of Newton's method.
+One line is printed for each claim:
+
+    checked        the claim is true
+    not covered    this program says nothing about such a claim, or has tried only some values of a parameter, and none contradicts
+    claims nothing the certificate leaves it open
+    refused        it is false, is written in a way that is not known, is missing or there twice, or could not be confirmed
+
+The exit code is 0 if nothing is refused, else 1.
+
+How claims are decided. Time is in 1/Omega, length in clearances, and the frame turns with the shaft. Between impacts
+
+    u'' + (gamma + 2i) u' + (omega^2 - 1 + i gamma) u = 0,  u = U - U*,  U* = rho e^(i phi) / (omega^2 - 1 + i gamma),
+
+whose solutions are u = e^(-a t) [(C + a S) u0 + S v0], a = gamma/2 + i, C = cos wt, S = sin wt / w, w^2 = omega^2 - gamma^2/4. At |U| = 1
+the radial speed r becomes -d r and the angular speed w becomes w - mu (1 + d) r while the slip s + 1 + w stays forward. Orbits are zeros of
+"the flight after impact j ends before impact j + 1", four real equations for each impact, shown by Krawczyk's operator; the derivative of
+the map of impacts follows from the same equations by the theorem of implicit functions. Stability is that of Routh and Hurwitz
+after lambda = (1 + z)/(1 - z). |U| < 1 between impacts and the number of periods follow from Taylor polynomials with remainders on cells.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+import sys
+from collections import Counter
+from fractions import Fraction
+
+from flint import arb, arb_series, ctx, fmpq
+
+BITS = 256
+ORDER = 10  # of the Taylor polynomials on cells
+MOST_CELLS = 20_000
+
+
+class Refused(Exception):
+    """A claim, or the whole certificate, is not accepted; the text says why."""
+
+
+# ------------------------------------------------------------------------------------------- numbers of the hypotheses
+
+PI_POWER = {"deg": 1, "°": 1, "rpm": 1, "r/min": 1, "rev/min": 1, "U/min": 1, "Hz": 1, "kHz": 1, "rev/s": 1}
+_METRE = {"m": 1, "km": 10**3, "cm": "1e-2", "mm": "1e-3", "um": "1e-6", "µm": "1e-6", "μm": "1e-6", "nm": "1e-9", "in": "0.0254", "inch": "0.0254", "mil": "2.54e-5"}
+UNITS = {  # factor, and powers of kg, m, s
+    **{name: (Fraction(size), (0, 1, 0)) for name, size in _METRE.items()},
+    **{name: (Fraction(size), (1, 0, 0)) for name, size in {"kg": 1, "g": "1e-3", "mg": "1e-6", "t": 1000, "lb": "0.45359237"}.items()},
+    **{name: (Fraction(size), (0, 0, 1)) for name, size in {"s": 1, "ms": "1e-3", "us": "1e-6", "min": 60}.items()},
+    **{name: (Fraction(size), (1, 1, -2)) for name, size in {"N": 1, "kN": 1000, "MN": 10**6, "mN": "1e-3"}.items()},
+    **{name: (Fraction(size), (0, 0, 0)) for name, size in {"rad": 1, "mrad": "1e-3", "%": "1e-2"}.items()},
+    **{name: (Fraction(1, 180), (0, 0, 0)) for name in ("deg", "°")},
+    **{name: (Fraction(1, 30), (0, 0, -1)) for name in ("rpm", "r/min", "rev/min", "U/min")},
+    **{name: (Fraction(size), (0, 0, -1)) for name, size in {"Hz": 2, "kHz": 2000, "rev/s": 2}.items()},
+}
+MACHINE = {  # SI unit of each entry of a [machine] table
+    "mass": "kg", "damping": "N s/m", "stiffness": "N/m", "eccentricity": "m", "clearance": "m", "rotor_radius": "m",
+    "speed": "rad/s", "unbalance_phase": "rad", "friction": "", "restitution": "",
+}  # fmt: skip
+DIMENSIONLESS = ("gamma", "omega", "rho", "phi", "mu", "d", "radius_ratio")
+PARTNER = {"mu": "friction", "d": "restitution", "phi": "unbalance_phase"}
+
+
+class Exact:
+    """A rational number times a power of pi."""
+
+    def __init__(self, rational: Fraction | int | str, power: int = 0) -> None:
+        self.rational, self.power = Fraction(rational), power if rational else 0
+
+    def __mul__(self, other: Exact) -> Exact:
+        return Exact(self.rational * other.rational, self.power + other.power)
+
+    def __truediv__(self, other: Exact) -> Exact:
+        return Exact(self.rational / other.rational, self.power - other.power)
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Exact) and (self.rational, self.power) == (other.rational, other.power)
+
+    def __hash__(self) -> int:
+        return hash((self.rational, self.power))
+
+    def ball(self) -> arb:
+        return ball(self.rational) * arb.pi() ** self.power
+
+    @staticmethod
+    def read(text: str) -> Exact:
+        """From a text such as ``7500/1637 pi^-1``."""
+        found = re.fullmatch(r"(-?\d+(?:/\d+)?)(?: pi\^(-?\d+)| (pi))?", text)
+        if not found:
+            raise Refused(f"no exact number: {text!r}")
+        return Exact(Fraction(found[1]), int(found[2] or bool(found[3])))
+
+
+def ball(value: Fraction | float | int) -> arb:
+    value = Fraction(value)
+    return arb(fmpq(value.numerator, value.denominator))
+
+
+def decimal_of(text: str) -> Fraction:
+    """A rational or decimal number with spaces, apostrophes or commas between thousands."""
+    plain = re.sub(r"[×x]10([⁺⁻⁰¹²³⁴-⁹]+)", lambda m: "e" + m[1].translate(str.maketrans("⁺⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "+-0123456789")), text)
+    plain = re.sub(r"(?<=\d)[  ’',](?=\d{3}(?!\d))", "", plain).strip()
+    if not re.fullmatch(r"[+-]?(\d+/\d+|(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?)", plain):
+        raise Refused(f"no number: {text!r}")
+    return Fraction(plain)
+
+
+def unit_of(text: str) -> tuple[Exact, tuple[int, ...]]:
+    """Size in SI units and powers of kg, m and s of a product of units with one division at most."""
+    if text in UNITS:
+        return Exact(UNITS[text][0], PI_POWER.get(text, 0)), UNITS[text][1]
+    size, powers = Exact(1), [0, 0, 0]
+    upper, _, lower = text.partition("/")
+    for part, sign in ((upper, 1), (lower, -1)):
+        for token in re.split(r"[ ·*]+", part.strip("() ")):
+            if token in ("", "1"):
+                continue
+            name, _, exponent = token.replace("²", "^2").partition("^")
+            if name not in UNITS:
+                raise Refused(f"the unit {token!r} is not known to this program")
+            for _ in range(int(exponent or 1)):
+                one = Exact(UNITS[name][0], PI_POWER.get(name, 0))
+                size = size * one if sign > 0 else size / one
+                powers = [p + sign * q for p, q in zip(powers, UNITS[name][1], strict=True)]
+    return size, tuple(powers)
+
+
+def quantity(text: str, unit: str) -> Exact:
+    """A text of the hypotheses in the SI unit given."""
+    if text.startswith("double "):
+        return Exact(Fraction(float(text[7:])))
+    found = re.fullmatch(r"\s*([+-]?[\d.][\d.,'’ / ]*(?:[eE][+-]?\d+|[×x]10[⁺⁻⁰¹²³⁴-⁹]+)?)\s*([^\d\s].*)?", text)
+    if not found:
+        raise Refused(f"no number with a unit: {text!r}")
+    number, written = decimal_of(found[1]), found[2]
+    if written is None:
+        return Exact(number)
+    size, powers = unit_of(written.strip())
+    if powers != unit_of(unit)[1]:
+        raise Refused(f"{text!r} is not in {unit or 'plain numbers'}")
+    return Exact(number) * size
+
+
+def si_values(hypotheses: dict) -> dict[str, Exact]:
+    return {name: quantity(text, MACHINE[name]) for name, text in hypotheses["values"].items() if name in MACHINE}
+
+
+def exact_numbers(hypotheses: dict) -> dict[str, Exact]:
+    """The numbers of the equations, from the values and settings as they are written."""
+    table, values, settings = hypotheses["table"], hypotheses["values"], hypotheses["settings"]
+    wanted = {"machine": set(MACHINE), "dimensionless": set(DIMENSIONLESS)}.get(table)
+    if wanted is None or set(values) | {"unbalance_phase", "phi"} & wanted != wanted or not set(settings) <= set(DIMENSIONLESS):
+        raise Refused("the table of hypotheses has entries missing, or some that are not known")
+    if table == "machine":
+        v = {"unbalance_phase": Exact(0), **si_values(hypotheses)}
+        momentum = v["mass"] * v["speed"]
+        found = {
+            "gamma": v["damping"] / momentum,
+            "omega_squared": v["stiffness"] / (momentum * v["speed"]),
+            "rho": v["eccentricity"] / v["clearance"],
+            "mu": v["friction"],
+            "d": v["restitution"],
+            "radius_ratio": v["rotor_radius"] / v["clearance"],
+            "phi": v["unbalance_phase"],
+        }
+    else:
+        found, settings = {"phi": Exact(0)}, {**values, **settings}
+    for name, text in settings.items():
+        value = quantity(text, "rad" if name == "phi" else "")
+        found["omega_squared" if name == "omega" else name] = value * value if name == "omega" else value
+    return found
+
+
+# ------------------------------------------------------------------------------------------------- complex arithmetic
+
+
+class Z:
+    """A complex number whose parts are balls or power series of balls."""
+
+    __slots__ = ("im", "re")
+
+    def __init__(self, re, im=0) -> None:
+        self.re, self.im = re, im
+
+    def __add__(self, o):
+        return Z(self.re + o.re, self.im + o.im) if isinstance(o, Z) else Z(self.re + o, self.im)
+
+    def __sub__(self, o):
+        return Z(self.re - o.re, self.im - o.im) if isinstance(o, Z) else Z(self.re - o, self.im)
+
+    def __neg__(self):
+        return Z(-self.re, -self.im)
+
+    def __mul__(self, o):
+        if isinstance(o, Z):
+            return Z(self.re * o.re - self.im * o.im, self.re * o.im + self.im * o.re)
+        return Z(self.re * o, self.im * o)
+
+    def __truediv__(self, o):
+        if isinstance(o, Z):
+            size = o.norm()
+            return Z((self.re * o.re + self.im * o.im) / size, (self.im * o.re - self.re * o.im) / size)
+        return Z(self.re / o, self.im / o)
+
+    def norm(self):
+        return self.re * self.re + self.im * self.im
+
+    def conj(self):
+        return Z(self.re, -self.im)
+
+    def turned(self):
+        """Times i."""
+        return Z(-self.im, self.re)
+
+
+def turn(angle):
+    return Z(angle.cos(), angle.sin())
+
+
+def constant(x):
+    """The term of order zero, a ball."""
+    return x[0] if isinstance(x, arb_series) else x
+
+
+def surely_zero(x) -> bool:
+    return constant(x).is_zero() and (not isinstance(x, arb_series) or all(c == 0 for c in x.coeffs()))
+
+
+# ------------------------------------------------------------------------------------------------------------- machine
+
+
+class Machine:
+    """The numbers of the equations: balls, or power series in a parameter."""
+
+    def __init__(self, gamma, omega_squared, rho, mu, d, radius_ratio, phi=None) -> None:
+        self.gamma, self.omega2, self.rho, self.mu, self.d, self.s = gamma, omega_squared, rho, mu, d, radius_ratio
+        self.a = Z(gamma / 2, arb(1))
+        self.b = Z(omega_squared - 1, gamma)
+        self.q = Z(1 + d, mu * (1 + d))
+        self.w2 = omega_squared - gamma * gamma / 4
+        self.far2 = rho * rho / self.b.norm()  # |U*|^2
+
+    @staticmethod
+    def of(exact: dict[str, Exact]) -> Machine:
+        machine = Machine(**{name: value.ball() for name, value in exact.items()})
+        if 4 * exact["omega_squared"].rational == exact["gamma"].rational ** 2 and 2 * exact["gamma"].power == exact["omega_squared"].power:
+            machine.w2 = arb(0)
+        return machine
+
+    def waves(self, t):
+        """e^(-a t), C and S."""
+        shrink = (-(self.a.re * t)).exp()
+        swing = Z(t.cos() * shrink, -(t.sin() * shrink))
+        if surely_zero(self.w2):
+            return swing, 0 * t + 1, t
+        if constant(self.w2) > 0:
+            w = self.w2.sqrt()
+            return swing, (w * t).cos(), (w * t).sin() / w
+        if not constant(self.w2) < 0:
+            raise Refused("could not be shown: too close to critical damping")
+        k = (-self.w2).sqrt()
+        grow, fall = (k * t).exp(), (-(k * t)).exp()
+        return swing, (grow + fall) / 2, (grow - fall) / (2 * k)
+
+    def fly(self, u: Z, v: Z, t) -> tuple[Z, Z]:
+        """Deviation from U* and velocity after the time t."""
+        e, c, s = self.waves(t)
+        return e * ((self.a * s + c) * u + v * s), e * ((-(self.a * s) + c) * v - self.b * s * u)
+
+    def closing(self, t) -> tuple[Z, Z, Z]:
+        """det(1 - M), and the numerators of the levers a12 and a22, where M is the flight of length t."""
+        e, c, s = self.waves(t)
+        return -(e * c * 2) + e * e + 1, e * s, e * (-(self.a * s) + c) - e * e
+
+    def period_function(self, t):
+        """|det(1 - M)|^2 F1, which is entire in t."""
+        det, _, a22 = self.closing(t)
+        return det.norm() + (self.q * a22 * det.conj()).re
+
+    def levers(self, t) -> tuple[Z, Z]:
+        det, a12, a22 = self.closing(t)
+        return self.q * a12 / det, self.q * a22 / det
+
+
+# -------------------------------------------------------------------------------------------------- zeros of equations
+
+
+def series(*coefficients) -> arb_series:
+    return arb_series(list(coefficients))
+
+
+def middle(x: arb) -> arb:
+    return x.mid()
+
+
+def spread(x: arb, radius: arb) -> arb:
+    return x + arb(0, radius)
+
+
+def solve(matrix: list[list], right: list[list]) -> list[list]:
+    """X of matrix X = right by Gauss, of balls or series."""
+    size, rows = len(matrix), [[*row, *more] for row, more in zip(matrix, right, strict=True)]
+    for k in range(size):
+        best = max(range(k, size), key=lambda i: float(abs(constant(rows[i][k]).mid())))
+        rows[k], rows[best] = rows[best], rows[k]
+        if constant(rows[k][k]).contains(0):
+            raise Refused("could not be shown: equations that cannot be solved")
+        rows[k] = [x / rows[k][k] for x in rows[k]]
+        for i in range(size):
+            if i != k:
+                factor = rows[i][k]
+                rows[i] = [x - factor * y for x, y in zip(rows[i], rows[k], strict=True)]
+    return [row[size:] for row in rows]
+
+
+def identity(size: int) -> list[list]:
+    return [[arb(int(i == j)) for j in range(size)] for i in range(size)]
+
+
+def product(a: list[list], b: list[list]) -> list[list]:
+    return [[sum((x * y for x, y in zip(row, column, strict=True)), arb(0)) for column in zip(*b, strict=True)] for row in a]
+
+
+def krawczyk(system, start: list[arb], radius: str = "1e-25") -> list[arb]:
+    """The zero next to `start`, enclosed, the only one in a box; `system` gives residuals and their derivative."""
+    x = [middle(v) for v in start]
+    for _ in range(60):
+        residual, slope = system(x)
+        step = solve([[middle(v) for v in row] for row in slope], [[middle(v)] for v in residual])
+        x = [middle(v - s[0]) for v, s in zip(x, step, strict=True)]
+        if not all(v.is_finite() for v in x):
+            break
+        if all(abs(s[0]) < arb("1e-60") * (1 + abs(v)) for v, s in zip(x, step, strict=True)):
+            break
+    else:
+        raise Refused("could not be shown: Newton's method finds no solution next to the numbers claimed")
+    box = [spread(v, arb(radius)) for v in x]
+    residual, slope = system(x)
+    guess = [[middle(v) for v in row] for row in solve([[middle(v) for v in row] for row in slope], identity(len(x)))]
+    centre = [v - s[0] for v, s in zip(x, product(guess, [[r] for r in residual]), strict=True)]
+    proven = False
+    for _ in range(4):
+        rest = product(guess, system(box)[1])
+        rest = [[(int(i == j)) - v for j, v in enumerate(row)] for i, row in enumerate(rest)]
+        image = [c + m[0] for c, m in zip(centre, product(rest, [[b - v] for b, v in zip(box, x, strict=True)]), strict=True)]
+        if not proven and not all(b.contains_interior(i) for b, i in zip(box, image, strict=True)):
+            raise Refused("could not be shown: Krawczyk's operator does not shrink the box")
+        proven, box = True, [i.intersection(b) for i, b in zip(image, box, strict=True)]
+    return box
+
+
+# ---------------------------------------------------------------------------------------------------- motions and maps
+
+
+class Orbit:
+    """A cycle of states before the impacts: (angle, radial speed, angular speed, time to the next impact) of each.
+
+    Angles are counted from that of the contact-free equilibrium, which lies at |U*|.
+    """
+
+    def __init__(self, machine: Machine, states: list[tuple]) -> None:
+        self.machine, self.far = machine, machine.far2.sqrt()
+        start = [v for state in states for v in state]
+        found = krawczyk(self.equations, start)
+        self.states = [tuple(found[k : k + 4]) for k in range(0, len(found), 4)]
+
+    def leave(self, state) -> tuple[Z, Z]:
+        """Deviation and velocity after the impact, with forward slip."""
+        m, place = self.machine, turn(state[0])
+        return place - self.far, place * Z(-(m.d * state[1]), state[2] - m.mu * (1 + m.d) * state[1])
+
+    def equations(self, x: list) -> tuple[list, list]:
+        count = len(x) // 4
+        states, residual, slope = [tuple(x[4 * k : 4 * k + 4]) for k in range(count)], [], []
+        for k, state in enumerate(states):
+            follow = states[(k + 1) % count]
+            gap, own, end = segment(self.machine, self.far, state, follow)
+            residual += gap
+            for i in range(4):
+                row = [arb(0)] * (4 * count)
+                for j in range(4):
+                    row[4 * k + j] += own[i][j]
+                    row[4 * ((k + 1) % count) + j] += end[i][j] if j < 3 else 0
+                slope.append(row)
+        return residual, slope
+
+    def derivative(self) -> list[list]:
+        """Of the map over a period, in angle, radial and angular speed before an impact."""
+        total = identity(3)
+        for k, state in enumerate(self.states):
+            total = product(impact_derivative(self.machine, self.far, state, self.states[(k + 1) % len(self.states)]), total)
+        return total
+
+    def inside(self) -> bool | None:
+        """Whether |U| < 1 strictly between the impacts."""
+        ends = [self.states[(k + 1) % len(self.states)][1] for k in range(len(self.states))]
+        verdicts = [stays_inside(self.machine, self.far, *self.leave(s), s[3], s[1], e) for s, e in zip(self.states, ends, strict=True)]
+        return every(verdicts)
+
+    def outward(self) -> bool | None:
+        return every([positive(state[1]) for state in self.states])
+
+    def slips(self) -> list:
+        """Slip velocities after the impacts."""
+        m = self.machine
+        return [m.s + 1 + state[2] - m.mu * (1 + m.d) * state[1] for state in self.states]
+
+    def slip(self) -> bool | None:
+        if surely_zero(self.machine.mu):
+            return True
+        before = [positive(self.machine.s + 1 + state[2]) for state in self.states]
+        return every([*before, *(positive(v) for v in self.slips())])
+
+    def admissible(self) -> bool | None:
+        return every([self.outward(), self.inside() if self.outward() else None, self.slip()])
+
+
+def positive(x: arb) -> bool | None:
+    return True if x > 0 else False if x <= 0 else None
+
+
+def every(verdicts: list) -> bool | None:
+    return False if False in verdicts else None if None in verdicts else True
+
+
+def segment(m: Machine, far, state, follow) -> tuple[list, list, list]:
+    """Flight after `state` less `follow`, its derivative by `state` and time, and by angle and speeds of `follow`."""
+    place, after = turn(state[0]), Z(-(m.d * state[1]), state[2] - m.mu * (1 + m.d) * state[1])
+    u, v = place - far, place * after
+    end_u, end_v = m.fly(u, v, state[3])
+    there, speed = turn(follow[0]), Z(follow[1], follow[2])
+    arrives = there * speed
+    zero = Z(arb(0), arb(0))
+    push = Z(m.a.re * 2, arb(2))
+    own = [
+        m.fly(place.turned(), v.turned(), state[3]),
+        m.fly(zero, place * Z(-m.d, -(m.mu * (1 + m.d))), state[3]),
+        m.fly(zero, place.turned(), state[3]),
+        (end_v, -(push * end_v) - m.b * end_u),
+    ]
+    end = [(-there.turned(), -arrives.turned()), (zero, -there), (zero, -there.turned())]
+
+    def rows(columns):
+        return [list(row) for row in zip(*[(p.re, p.im, w.re, w.im) for p, w in columns], strict=True)]
+
+    gap_u, gap_v = end_u + far - there, end_v - arrives
+    return [gap_u.re, gap_u.im, gap_v.re, gap_v.im], rows(own), rows(end)
+
+
+def impact_derivative(m: Machine, far, state, follow) -> list[list]:
+    """Of the next (angle, radial speed, angular speed) by those of `state`; the time follows by the equations."""
+    _, own, end = segment(m, far, state, follow)
+    unknown = [[*row, own[i][3]] for i, row in enumerate(end)]
+    found = solve(unknown, [[-v for v in row[:3]] for row in own])
+    return found[:3]
+
+
+def invariants(j: list[list]) -> tuple:
+    """Trace, sum of the principal minors, determinant."""
+    trace = j[0][0] + j[1][1] + j[2][2]
+    minors = sum((j[a][a] * j[b][b] - j[a][b] * j[b][a] for a, b in ((0, 1), (0, 2), (1, 2))), arb(0))
+    det = sum((j[0][a] * (j[1][b] * j[2][c] - j[1][c] * j[2][b]) for a, b, c in ((0, 1, 2), (1, 2, 0), (2, 0, 1))), arb(0))
+    return trace, minors, det
+
+
+def multipliers(trace, minors, det) -> tuple[bool | None, set[str]]:
+    """Whether all lie inside the unit circle, and what is true of those that do not.
+
+    With lambda = (1 + z)/(1 - z) the characteristic polynomial becomes a cubic in z; all its zeros have a negative real
+    part exactly if its coefficients and one product of them are positive.
+    """
+    at_one, at_minus = 1 - trace + minors - det, 1 + trace + minors + det
+    first, second = 3 - trace - minors + 3 * det, 3 + trace - minors - 3 * det
+    pairs = first * second - at_one * at_minus  # 8 times the product of 1 - l_j l_k
+    true = {
+        word
+        for word, value in (
+            ("a multiplier is above 1", at_one),
+            ("a multiplier is below -1", at_minus),
+            ("the product of two multipliers is above 1", pairs),
+        )
+        if value < 0
+    }
+    if true or ((first < 0 or second < 0) and at_minus > 0):
+        return False, true
+    return (True if all(v > 0 for v in (at_one, at_minus, first, second, pairs)) else None), true
+
+
+def horner(coefficients: list, x):
+    total = arb(0)
+    for c in reversed(coefficients):
+        total = total * x + c
+    return total
+
+
+def taylor(function, middle_at, half, order: int = ORDER) -> list:
+    """Coefficients about `middle_at` whose last one holds at all points within `half` of it."""
+    ctx.cap = order + 1
+    narrow, wide = function(middle_at), function(spread(middle_at, half) if half else middle_at)
+    return [*[narrow[k] for k in range(order)], wide[order]]
+
+
+def stays_inside(m: Machine, far, u: Z, v: Z, duration, leaves, arrives) -> bool | None:
+    """Whether |U| < 1 strictly between two impacts of radial speeds `leaves` before the first and `arrives` before the last."""
+    if arrives < 0 or (leaves < 0 and not surely_zero(m.d)):
+        return False
+    if not (arrives > 0 and leaves > 0):
+        return None
+
+    def height(part):  # of the path as a series in the share of the duration
+        t = series(duration * part, duration)
+        place, _ = m.fly(u, v, t)
+        return (place + far).norm() - 1
+
+    first = 2 if surely_zero(m.d) else 1
+    edges = []
+    for at, sign in ((0, 1), (1, -1)):
+        skip, edge = (first if at == 0 else 1), Fraction(1, 8)
+        while True:
+            wide = arb(at) + sign * (ball(edge) / 2 + arb(0, ball(edge) / 2))
+            ctx.cap = ORDER + 1
+            terms, last = height(arb(at)), height(wide)[ORDER]
+            terms = [*[terms[k] for k in range(ORDER)], last]
+            signed = [c * sign**k for k, c in enumerate(terms)][skip:]
+            value = horner(signed, ball(edge) / 2 + arb(0, ball(edge) / 2))
+            if value < 0:
+                edges.append(edge)
+                break
+            if signed[0] > 0:
+                return False
+            edge /= 2
+            if edge < Fraction(1, 2**60):
+                return None
+    stack, work = [(edges[0], 1 - edges[1])], 0
+    while stack:
+        low, high = stack.pop(0)
+        work += 1
+        half, at = ball(high - low) / 2, ball(low + high) / 2
+        terms = taylor(height, at, half)
+        if horner(terms, arb(0, half)) < 0:
+            continue
+        if terms[0] > 0:
+            return False
+        if work > 3000 or high - low < Fraction(1, 2**70):
+            return None
+        cut = (low + high) / 2
+        stack += [(low, cut), (cut, high)]
+    return True
+
+
+# ------------------------------------------------------------------------------------------------- periods and completeness
+
+
+def longest_period(m: Machine) -> Fraction:
+    """A time beyond which F1 > 0.
+
+    The slower of the two exponents decays with the rate k. |S e^(-at)| <= t e^(-kt), which falls beyond 1/k, and
+    |C e^(-at)| <= e^(-kt); |det(1 - M)| >= (1 - e^(-kt))^2.
+    """
+    half = m.a.re
+    if surely_zero(m.w2) or m.w2 > 0:
+        rate = half
+    else:
+        rate = half - (-m.w2).sqrt()
+    if not rate > 0:
+        raise Refused("not covered: without damping there is no longest period")
+    size, kick, t = m.a.norm().sqrt(), m.q.norm().sqrt(), Fraction(8)
+    while True:
+        fall = (-(rate * ball(t))).exp()
+        bound = kick * (fall * (1 + size * ball(t)) + fall * fall) / ((1 - fall) * (1 - fall))
+        if rate * ball(t) > 1 and bound < 1:
+            return t
+        t = t * 5 / 4
+        t = Fraction(int(t) + 1)
+        if t > 10**6:
+            raise Refused("could not be shown: damping too weak")
+
+
+def roots(m: Machine, exact_d: Exact) -> list[tuple[arb, int]]:
+    """All T > 0 with F1(T) = 0, each simple, with the sign of the slope there, by falling cells of a Taylor polynomial."""
+
+    def function(t):
+        return m.period_function(series(t, arb(1)))
+
+    end = longest_period(m)
+    # det(1 - M) = b t^2 + ..., and the numerator of a22 is -b t^2/2 + ...: the terms below t^4 vanish, and that is |b|^2 (1 - d)/2.
+    skip = 5 if exact_d == Exact(1) else 4
+    edge = Fraction(1, 4)
+    while True:
+        half = ball(edge) / 2
+        ctx.cap = ORDER + 1
+        terms, last = function(arb(0)), function(half + arb(0, half))[ORDER]
+        value = horner([*[terms[k] for k in range(skip, ORDER)], last], half + arb(0, half))
+        if value > 0 or value < 0:
+            break
+        edge /= 2
+        if edge < Fraction(1, 2**40):
+            raise Refused("could not be shown: periods next to zero")
+    found, stack, work = [], [(edge, end)], 0
+    while stack:
+        low, high = stack.pop()
+        work += 1
+        if work > MOST_CELLS:
+            raise Refused("could not be shown: too many cells of F1")
+        half, at = ball(high - low) / 2, ball(low + high) / 2
+        if high - low < 4:
+            terms = taylor(function, at, half)
+            value = horner(terms, arb(0, half))
+            if value > 0 or value < 0:
+                continue
+            slope = horner([k * c for k, c in enumerate(terms)][1:], arb(0, half))
+            # The last coefficient bounds f^(n)/n!, so the remainder of the slope is n times it, as here.
+            if slope > 0 or slope < 0:
+                ends = [horner(terms, side) for side in (-half, half)]
+                signs = [positive(v) for v in ends]
+                if None not in signs:
+                    if signs[0] != signs[1]:
+                        found.append((low, high, 1 if signs[1] else -1))
+                    continue
+            if high - low < Fraction(1, 2**60):
+                raise Refused("could not be shown: F1 has a double zero, or one that is nearly double")
+        cut = low + (high - low) * Fraction(61, 128)
+        stack += [(low, cut), (cut, high)]
+
+    def equation(x):
+        ctx.cap = 2
+        value = function(x[0])
+        return [value[0]], [[value[1]]]
+
+    sharp = []
+    for low, high, sign in sorted(found):
+        a, b = low, high
+        for _ in range(40):
+            cut = (a + b) / 2
+            ctx.cap = 1
+            value = function(ball(cut))[0]
+            if not (value > 0 or value < 0):
+                break
+            a, b = (a, cut) if (value > 0) == (sign > 0) else (cut, b)
+        root = krawczyk(equation, [ball((a + b) / 2)])[0]
+        if not (root > ball(low) and root < ball(high)):
+            raise Refused("could not be shown: a zero of F1")
+        sharp.append((root, sign))
+    return sharp
+
+
+def start_of(m: Machine, period, speed) -> tuple:
+    """State of the orbit with one impact of this period and radial speed."""
+    a12, a22 = m.levers(period)
+    lean = a12 * speed + 1  # U*/U0
+    angle = -arb.atan2(lean.im, lean.re)
+    return angle, speed, -(a22.im * speed), period
+
+
+def single_orbits(m: Machine, exact_d: Exact) -> dict[str, Orbit | None]:
+    """All solutions of the closing conditions by their names; none where the radial speeds of a period are not real."""
+    found, number = {}, 0
+    for period, sign in roots(m, exact_d):
+        number += sign < 0 or not number  # F1 falls at the shorter period of a pair and rises at the longer one
+        names = "ac" if sign < 0 else "bd"
+        a12, _ = m.levers(period)
+        a, b, c = a12.norm(), a12.re, 1 - m.far2
+        inner = b * b - a * c
+        if inner < 0:
+            found[f"B{number},{names[0]}/{names[1]}"] = None
+            continue
+        if not (inner > 0 and a > 0):
+            raise Refused("could not be shown: radial speeds of a period that are nearly one")
+        for name, sign_of in zip(names, (-1, 1), strict=True):
+            orbit = Orbit(m, [start_of(m, period, (-b + sign_of * inner.sqrt()) / a)])
+            if not orbit.states[0][3].overlaps(period):
+                raise Refused("could not be shown: an orbit by two ways")
+            found[f"B{number},{name}"] = orbit
+    return found
+
+
+def slip_stays_forward(m: Machine) -> bool | None:
+    """Whether no motion with one impact a period can leave it with the slip stopped or backward.
+
+    In the fixed frame let the impact be at z = 1. After it y = Im z starts at 0 with a speed of -s or less, and while |z| < 1
+    y'' + gamma y' is below F = omega^2 + rho. So y < -h, h = s (1 - e^(-gamma t))/gamma - F (t - (1 - e^(-gamma t))/gamma)/gamma, which is
+    concave. Once h > 1 the rotor is out. A period T before that, T < pi, would end at y = sin T > 0: no.
+    """
+    force = m.omega2 + m.rho
+    for k in range(1, 400):
+        t = ball(Fraction(k, 128))
+        if m.gamma > 0:
+            fall = (1 - (-(m.gamma * t)).exp()) / m.gamma
+            depth = m.s * fall - force * (t - fall) / m.gamma
+        else:
+            depth = m.s * t - force * t * t / 2
+        if depth > 1 and m.gamma >= 0:
+            return True
+    return None
+
+
+# --------------------------------------------------------------------------------------------- claims about one machine
+
+SINGLE = {  # kind: statement
+    "solution": "The closing conditions of an orbit with one impact a period and forward slip have a solution with a period and a radial speed "
+    "in these intervals; it is simple, so no other is next to it.",
+    "outward": "Its radial speed before the impact is positive: it meets the wall from inside.",
+    "inside": "It stays inside the wall, |U| < 1, strictly between its impacts.",
+    "slip": "Its slip is forward before the impact and after it, or there is no friction.",
+    "admissible": "It is a motion of the machine: it meets the wall from inside, stays inside between its impacts, and its slip stays forward.",
+    "stable": "All three multipliers of the impact map at it lie inside the unit circle.",
+}
+SEVERAL = {
+    "exists": r"The closing conditions of a motion with (\d+) impacts a period and forward slip have a solution with these values, the only one in a "
+    r"box around it, and it is no shorter orbit run several times\. Angles count from that of the contact-free equilibrium\.",
+    "admissible": r"It is a motion of the machine: it stays inside the wall strictly between its impacts, and its slip stays forward\.",
+    "stable": r"All three multipliers of the map over a period lie inside the unit circle\.",
+}
+OUT, CROSSES, STOPS = (
+    "its radial speed is not above 0",
+    "it would cross the wall between its impacts",
+    "friction would stop its slip, or its slip is backward",
+)
+
+
+class Fact:
+    """What this program finds: the statement it decides, whether it is true, numbers, and reasons that may stand beside a refusal."""
+
+    def __init__(self, statement: str, true: bool | None, numbers: dict | None = None, reasons=()) -> None:
+        self.statement, self.true, self.numbers, self.reasons = statement, true, numbers or {}, set(reasons)
+
+
+def levitation_facts(m: Machine) -> dict:
+    far, inside, damped = m.far2.sqrt(), positive(1 - m.far2), positive(m.gamma)
+    true = every([inside, damped if damped else (True if surely_zero(m.gamma) else False if m.gamma < 0 else None)])
+    numbers = {}
+    if true:
+        # A kick of size v moves the rotor by v S(t) e^(-gamma t/2) along its line, most where the derivative C - gamma S/2 first vanishes.
+        half = m.gamma / 2
+        if surely_zero(m.w2):
+            t = 1 / half
+        elif m.w2 > 0:
+            t = arb.atan2(m.w2.sqrt(), half) / m.w2.sqrt()
+        else:
+            t = ((-m.w2).sqrt() / half).atanh() / (-m.w2).sqrt()
+        numbers["speed"] = (1 - far) / (m.waves(t)[2] * (-(half * t)).exp())
+    return {
+        ("levitation", "inside"): Fact("The contact-free equilibrium lies inside the wall, |U*| < 1.", inside, {"radius": far}, {"it lies outside the wall"}),
+        ("levitation", "stable"): Fact("Contact-free motions decay to the contact-free equilibrium.", damped, {}, {"the damping is not above 0"}),
+        ("kick", "harmless"): Fact(
+            "The rotor levitates inside the wall, and no kick out of levitation slower than the lower number brings it to the wall.",
+            true, numbers, {"it does not levitate inside the wall, or any kick grows"},
+        ),
+    }  # fmt: skip
+
+
+def rub_facts(m: Machine) -> dict:
+    """Rubs at rest on the wall: N = rho cos x + 1 - omega^2 and 0 = gamma + rho sin x + mu N.
+
+    Without x this is (1 + mu^2) N^2 - 2 (k - mu gamma) N + k^2 + gamma^2 - rho^2 = 0, k = 1 - omega^2. Along the wall disturbances obey
+    x'' + (gamma + 2 mu) x' + rho (cos x - mu sin x) x = 0, the last factor being (1 + mu^2) N - k + mu gamma.
+    """
+    k, square = 1 - m.omega2, 1 + m.mu * m.mu
+    middle_force = k - m.mu * m.gamma
+    inner = middle_force * middle_force - square * (k * k + m.gamma * m.gamma - m.rho * m.rho)
+    exists, found = positive(inner), {}
+    for rub, words, sign in (("rub 1", "larger", 1), ("rub 2", "smaller", -1)):
+        found[rub, "solution"] = Fact(
+            f"The balance of forces of a synchronous rub has two solutions; this is that of the {words} normal force.",
+            exists, {}, {"no rub is in balance, or both are one"},
+        )  # fmt: skip
+        if not exists:
+            continue
+        force = (middle_force + sign * inner.sqrt()) / square
+        pressed, damped = positive(force), positive(m.gamma + 2 * m.mu)
+        reasons = {"it is a saddle along the wall"} if sign < 0 else set()
+        if not (pressed and damped):
+            reasons.add("it is not pressed on the wall, or sliding is not damped")
+        found[rub, "pressed"] = Fact(
+            "The wall pushes the rotor there: its normal force is positive.",
+            pressed, {"normal_force": force}, {"the wall would have to pull, or does not push"},
+        )  # fmt: skip
+        found[rub, "attracts sliding"] = Fact(
+            "It is a motion of the machine, and small disturbances along the wall die out.", every([pressed, damped, sign > 0]), {}, reasons
+        )
+    return found
+
+
+def orbit_facts(name: str, orbit: Orbit) -> dict:
+    """Of an orbit with one impact a period."""
+    state = orbit.states[0]
+    trace, minors, det = invariants(orbit.derivative())
+    stable, why = multipliers(trace, minors, det)
+    outward, slip = orbit.outward(), orbit.slip()
+    inside = orbit.inside()
+    failing = [word for word, verdict in ((OUT, outward), (CROSSES, inside if outward else None), (STOPS, slip)) if verdict is False]
+    truths = {
+        "solution": (True, {"period": state[3], "radial_speed": state[1], "angular_speed": state[2]}, ()),
+        "outward": (outward, {}, {OUT}),
+        "inside": (inside, {}, {CROSSES} if outward else {CROSSES, OUT}),
+        "slip": (slip, {"slip_after": orbit.slips()[0]}, {STOPS}),
+        "admissible": (every([outward, inside, slip]), {}, {"; ".join(failing), OUT if outward is False else CROSSES}),
+        "stable": (stable, {"trace": trace, "minors": minors, "determinant": det}, subsets(why)),
+    }
+    return {(name, kind): Fact(SINGLE[kind], *truth) for kind, truth in truths.items()}
+
+
+def subsets(true: set[str]) -> set[str]:
+    """All texts that name some of the true words, in any order they are written in."""
+    words = [w for w in ("a multiplier is above 1", "a multiplier is below -1", "the product of two multipliers is above 1") if w in true]
+    return {"; ".join(w for k, w in enumerate(words) if pick >> k & 1) for pick in range(1, 1 << len(words))}
+
+
+# ------------------------------------------------------------------------------------------------------- certificates
+
+CLAIM_KEYS = {"about", "kind", "statement", "status", "reason", "enclosures"}
+STATUS = {True: "proven", False: "refuted"}
+
+
+def numbers_of(claim: dict) -> dict[str, tuple[Fraction, Fraction]]:
+    """The intervals stated, as rational numbers."""
+    found = {}
+    for name, pair in claim["enclosures"].items():
+        if not (isinstance(pair, list) and len(pair) == 2 and all(re.fullmatch(r"-?\d+(\.\d+)?([eE][+-]?\d+)?", v) for v in pair)):
+            raise Refused(f"no interval: {name}")
+        low, high = map(Fraction, pair)
+        if low > high:
+            raise Refused(f"the ends of {name} are in the wrong order")
+        found[name] = (low, high)
+    return found
+
+
+def holds(stated: tuple[Fraction, Fraction], true: arb) -> None:
+    """Refuse an interval without the number that is enclosed by `true`."""
+    low, high = map(ball, stated)
+    if not (true >= low and true <= high):
+        apart = true < low or true > high
+        raise Refused(f"a number stated {'is wrong' if apart else 'could not be confirmed'}: it is {true.str(20)}")
+
+
+def judge(claim: dict, fact: Fact, matched: bool = True) -> str:
+    """Compare a claim with what is found here."""
+    if not (claim["statement"] == fact.statement if matched else re.fullmatch(fact.statement, claim["statement"])):
+        raise Refused("its statement is not known to this program")
+    stated = numbers_of(claim)
+    if claim["status"] == "undecided":
+        return "claims nothing"
+    if fact.true is None:
+        raise Refused("could not be shown by this program")
+    if claim["status"] != STATUS[fact.true]:
+        raise Refused(f"it is {'true' if fact.true else 'false'}")
+    if claim["status"] == "proven" and claim["reason"] or claim["status"] == "refuted" and claim["reason"] not in fact.reasons:
+        raise Refused(f"its reason is not: {claim['reason']!r}")
+    if set(stated) != set(fact.numbers):
+        raise Refused(f"the numbers stated are {', '.join(stated) or 'none'}, not {', '.join(fact.numbers) or 'none'}")
+    for name, interval in stated.items():
+        holds(interval, fact.numbers[name])
+    return "checked"
+
+
+class Report:
+    """Lines about claims; `refused` counts what is not accepted."""
+
+    def __init__(self) -> None:
+        self.lines: list[tuple[str, str, str]] = []
+
+    def add(self, verdict: str, what: str, why: str = "") -> None:
+        self.lines.append((verdict, what, why))
+
+    @property
+    def refused(self) -> int:
+        return sum(verdict == "refused" for verdict, _, _ in self.lines)
+
+    def each(self, claims: list[dict], decide) -> None:
+        """Ask `decide` about each claim; what it raises is the reason of a refusal."""
+        for claim in claims:
+            what = f"{claim['about']}: {claim['kind']}"
+            try:
+                verdict, _, why = decide(claim).partition("|")
+                self.add(verdict, what, why)
+            except Refused as problem:
+                self.add("refused", what, str(problem))
+            except (ZeroDivisionError, ValueError, ArithmeticError) as problem:
+                self.add("refused", what, f"could not be shown: {problem}")
+
+
+def loaded(text: str) -> dict:
+    """The certificate; names that are there twice are refused."""
+
+    def once(pairs):
+        if len({name for name, _ in pairs}) != len(pairs):
+            raise Refused("an entry of the file is there twice")
+        return dict(pairs)
+
+    try:
+        document = json.loads(text, object_pairs_hook=once)
+    except (ValueError, RecursionError) as problem:
+        raise Refused(f"no JSON: {problem}") from None
+    if not isinstance(document, dict) or document.get("format") != "carom proof 1":
+        raise Refused("this program reads the format 'carom proof 1' only")
+    needed = {"format", "theorem", "options", "hypotheses", "bits", "claims", "not_claimed", "evidence"}
+    if set(document) != needed:
+        raise Refused(f"entries missing, or not known: {', '.join(sorted(set(document) ^ needed))}")
+    hypotheses = document["hypotheses"]
+    if not isinstance(hypotheses, dict) or set(hypotheses) != {"table", "values", "settings", "exact"}:
+        raise Refused("the hypotheses have entries missing, or some that are not known")
+    for name in ("values", "settings", "exact"):
+        if not isinstance(hypotheses[name], dict) or not all(isinstance(v, str) for v in hypotheses[name].values()):
+            raise Refused(f"the hypotheses have {name} that are no texts")
+    for claim in document["claims"] if isinstance(document["claims"], list) else [None]:
+        if not isinstance(claim, dict) or not set(claim) >= CLAIM_KEYS or not set(claim) <= CLAIM_KEYS | {"interval", "motions"}:
+            raise Refused("a claim has entries missing, or some that are not known")
+        if not all(isinstance(claim[k], str) for k in ("about", "kind", "statement", "status", "reason")):
+            raise Refused("a claim has texts that are none")
+        if claim["status"] not in ("proven", "refuted", "undecided") or not isinstance(claim["enclosures"], dict):
+            raise Refused(f"a claim has the status {claim['status']!r}")
+        if not all(isinstance(p, list) and all(isinstance(v, str) for v in p) for p in claim["enclosures"].values()):
+            raise Refused("a claim has numbers that are no texts")
+    return document
+
+
+def check(text: str) -> Report:
+    """The report about a certificate, given as the text of its file."""
+    ctx.prec = BITS
+    report, document = Report(), loaded(text)
+    hypotheses, claims = document["hypotheses"], document["claims"]
+    for key, times in Counter((c["about"], c["kind"]) for c in claims).items():
+        if times > 1:
+            report.add("refused", f"{key[0]}: {key[1]}", "it is there twice")
+    theorem = THEOREMS.get(document["theorem"])
+    if theorem is None:
+        raise Refused(f"the theorem {document['theorem']!r} is not known to this program")
+    if any(value.startswith("[") for value in hypotheses["exact"].values()):
+        for claim in claims:
+            report.add("not covered", f"{claim['about']}: {claim['kind']}", "the hypotheses are a box of machines")
+        return report
+    exact = exact_numbers(hypotheses)
+    stated = {name: Exact.read(value) for name, value in hypotheses["exact"].items()}
+    wrong = sorted(name for name in set(exact) | set(stated) if exact.get(name) != stated.get(name))
+    if wrong:
+        raise Refused(f"the exact numbers do not follow from the values: {', '.join(wrong)}")
+    report.add("checked", "hypotheses: exact numbers")
+    theorem(document, exact, report)
+    return report
+
+
+def refuse_missing(facts: dict, claims: list[dict], report: Report) -> None:
+    """Of an orbit that meets the wall from outside the course and the slip are not told."""
+    there = {(c["about"], c["kind"]) for c in claims}
+    for about, kind in facts:
+        untold = kind in ("inside", "slip") and (about, "outward") in facts and facts[about, "outward"].true is False
+        if (about, kind) not in there and not untold:
+            report.add("refused", f"{about}: {kind}", "it is missing")
+
+
+def check_machine(document: dict, exact: dict[str, Exact], report: Report) -> None:
+    """Claims about equilibria and all orbits with one impact a period, then about those with several."""
+    claims, m = document["claims"], Machine.of(exact)
+    by_key = {(c["about"], c["kind"]): c for c in claims}
+    facts = {**levitation_facts(m), **rub_facts(m)}
+    periods, count = by_key.get(("machine", "periods")), None
+    orbits: dict[str, Orbit | None] = {}
+    problem, open_periods = "", periods is not None and periods["status"] == "undecided"
+    try:
+        orbits = single_orbits(m, exact["d"])
+        count = len({name.split(",")[0] + ("ac" if name[-1] in "ac" else "bd") for name in orbits})
+        if open_periods:
+            orbits = {name: orbit for name, orbit in orbits.items() if (name, "solution") in by_key}
+    except Refused as refusal:
+        problem = str(refusal)
+        orbits = claimed_orbits(m, claims, report)
+    for name, orbit in orbits.items():
+        if orbit is None:
+            facts[name, "solution"] = Fact(
+                "The closing conditions of an orbit with one impact a period have solutions at this root of F1.",
+                False if count is not None else None, {}, {"its radial speeds are not real"},
+            )  # fmt: skip
+        else:
+            facts |= orbit_facts(name, orbit)
+    plural = "root" if count == 1 else "roots"
+    facts["machine", "periods"] = Fact(
+        f"F1 has exactly {count} {plural} T > 0, each of them simple." if count is not None else r"F1 has exactly .*",
+        True if count is not None else None,
+    )
+    if surely_zero(m.mu):
+        facts["machine", "slip"] = Fact("There is no friction: slip changes nothing.", True)
+    else:
+        facts["machine", "slip"] = Fact(
+            "No periodic motion with one impact a period, inside the clearance in between, has an impact that stops the slip or that begins "
+            "with backward slip.",
+            slip_stays_forward(m),
+        )
+    known = [facts.get((name, "admissible")) for name in orbits if orbits[name]]
+    complete = every([facts["machine", "periods"].true, facts["machine", "slip"].true, *(None if f.true is None else True for f in known)])
+    motions = sorted((n for n in orbits if orbits[n] and facts[n, "admissible"].true), key=in_order)
+    facts["machine", "orbits"] = Fact(
+        f"The machine has exactly these motions with one impact a period, synchronous with the shaft: {', '.join(motions)}."
+        if motions
+        else "The machine has no motion with one impact a period that is synchronous with the shaft.",
+        complete,
+    )
+    if document["theorem"] == "orbits of several impacts":
+        facts |= several_facts(m, claims, report)
+    refuse_missing(facts, claims, report)
+
+    def decide(claim: dict) -> str:
+        fact = facts.get((claim["about"], claim["kind"]))
+        if fact is None:
+            if claim["about"] in ("machine", "levitation", "kick") or re.fullmatch(r"(rub|orbit) \d+|B\d+,\S+", claim["about"]):
+                raise Refused("there is no such thing, or no such claim about it")
+            return "not covered|a claim of a kind that this program does not know"
+        if claim["status"] == "undecided":
+            return "claims nothing"
+        if fact.true is None and problem:
+            raise Refused(problem)
+        return judge(claim, fact)
+
+    report.each(claims, decide)
+
+
+def in_order(name: str) -> tuple[int, str]:
+    return int(name[1:].split(",")[0]), name
+
+
+def claimed_orbits(m: Machine, claims: list[dict], report: Report) -> dict[str, Orbit | None]:
+    """Orbits next to the numbers claimed, where not all periods are known; two names of one orbit are refused."""
+    found: dict[str, Orbit | None] = {}
+    for claim in claims:
+        if claim["kind"] != "solution" or not claim["about"].startswith("B"):
+            continue
+        stated = numbers_of(claim)
+        if claim["status"] != "proven":
+            found[claim["about"]] = None
+            continue
+        period, speed = (ball(sum(stated[name]) / 2) if name in stated else arb(1) for name in ("period", "radial_speed"))
+        try:
+            found[claim["about"]] = orbit = Orbit(m, [start_of(m, period, speed)])
+        except Refused as problem:
+            report.add("refused", f"{claim['about']}: solution", str(problem))
+            continue
+        for other, known in found.items():
+            if known is not None and known is not orbit and same(known.states, orbit.states):
+                report.add("refused", claim["about"], f"it is {other}, listed twice")
+    return found
+
+
+def same(a: list[tuple], b: list[tuple]) -> bool:
+    """Whether two lists of states may be one cycle, read from another impact on."""
+    if len(a) != len(b):
+        return False
+
+    def apart(p: tuple, q: tuple) -> bool:
+        angle = (p[0] - q[0]) / 2  # the same up to whole turns where its sine vanishes
+        return not (angle.sin().contains(0) and all(x.overlaps(y) for x, y in zip(p[1:], q[1:], strict=True)))
+
+    return any(not any(apart(a[k], b[(k + shift) % len(b)]) for k in range(len(a))) for shift in range(len(a)))
+
+
+def several_facts(m: Machine, claims: list[dict], report: Report) -> dict:
+    """Of the orbits with several impacts that are claimed."""
+    facts, found = {}, {}
+    for claim in claims:
+        about = claim["about"]
+        if not re.fullmatch(r"orbit \d+", about) or claim["kind"] != "exists":
+            continue
+        stated, match = numbers_of(claim), re.fullmatch(SEVERAL["exists"], claim["statement"])
+        if not match:
+            report.add("refused", f"{about}: exists", "its statement is not known to this program")
+            continue
+        impacts = int(match[1])
+        names = [f"{name} {k + 1}" for k in range(impacts) for name in ("angle", "radial_speed", "angular_speed", "duration")]
+        if set(stated) != {"period", *names} or impacts < 2:
+            report.add("refused", f"{about}: exists", "its numbers are not those of such an orbit")
+            continue
+        flat = [ball(sum(stated[name]) / 2) for name in names]
+        try:
+            orbit = Orbit(m, [tuple(flat[k : k + 4]) for k in range(0, len(flat), 4)])
+        except Refused as problem:
+            report.add("refused", f"{about}: exists", str(problem))
+            continue
+        true = dict(zip(names, [v for state in orbit.states for v in state], strict=True))
+        true["period"] = sum((state[3] for state in orbit.states), arb(0))
+        shorter = any(same(orbit.states[:k] * (impacts // k), orbit.states) and repeats(orbit.states, k) for k in range(1, impacts) if impacts % k == 0)
+        positive_times = every([positive(state[3]) for state in orbit.states])
+        facts[about, "exists"] = Fact(claim["statement"], positive_times if not shorter else None, true)
+        stable, why = multipliers(*invariants(orbit.derivative()))
+        outward, inside, slip = orbit.outward(), orbit.inside(), orbit.slip()
+        failing = [word for word, verdict in ((OUT, outward), (CROSSES, inside if outward else None), (STOPS, slip)) if verdict is False]
+        reasons = {"; ".join(failing), OUT if outward is False else CROSSES}
+        facts[about, "admissible"] = Fact(plain(SEVERAL["admissible"]), every([outward, inside, slip]), {}, reasons)
+        facts[about, "stable"] = Fact(plain(SEVERAL["stable"]), stable, {}, subsets(why))
+        for other, known in found.items():
+            if same(known.states, orbit.states):
+                report.add("refused", about, f"it is {other}, listed twice")
+        found[about] = orbit
+    return facts
+
+
+def repeats(states: list[tuple], k: int) -> bool:
+    """Whether the states may be the first k over and over."""
+    return all(all(x.overlaps(y) for x, y in zip(states[j], states[j % k], strict=True)) for j in range(len(states)))
+
+
+def plain(pattern: str) -> str:
+    return pattern.replace("\\", "")
+
+
+THEOREMS = {"single-impact orbits": check_machine, "orbits of several impacts": check_machine}
+
+
+def main(arguments: list[str]) -> int:
+    if len(arguments) != 1 or arguments[0] in ("-h", "--help"):
+        print(__doc__)
+        return int(len(arguments) != 1)
+    try:
+        with open(arguments[0], encoding="utf-8") as file:
+            report = check(file.read())
+    except (Refused, OSError, UnicodeDecodeError) as problem:
+        print(f"refused: {problem}")
+        return 1
+    for verdict, what, why in report.lines:
+        print(f"{verdict:14} {what}{f' ({why})' if why else ''}")
+    counts = Counter(verdict for verdict, _, _ in report.lines)
+    print(", ".join(f"{number} {verdict}" for verdict, number in sorted(counts.items())))
+    return int(report.refused > 0)
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
