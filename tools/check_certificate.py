@@ -227,6 +227,10 @@ def constant(x):
     return x[0] if isinstance(x, arb_series) else x
 
 
+def term(x, order: int) -> arb:
+    return x[order] if isinstance(x, arb_series) else x if order == 0 else arb(0)
+
+
 def surely_zero(x) -> bool:
     return constant(x).is_zero() and (not isinstance(x, arb_series) or all(c == 0 for c in x.coeffs()))
 
@@ -498,11 +502,11 @@ def horner(coefficients: list, x):
     return total
 
 
-def taylor(function, middle_at, half, order: int = ORDER) -> list:
-    """Coefficients about `middle_at` whose last one holds at all points within `half` of it."""
-    ctx.cap = order + 1
-    narrow, wide = function(middle_at), function(spread(middle_at, half) if half else middle_at)
-    return [*[narrow[k] for k in range(order)], wide[order]]
+def taylor(function, about: arb, half: arb, cell: arb | None = None) -> list:
+    """Coefficients of a series about a point whose last one holds on a cell, by default all points within `half` of it."""
+    ctx.cap = ORDER + 1
+    narrow, wide = function(about), function((about if cell is None else cell) + arb(0, half))
+    return [*[narrow[k] for k in range(ORDER)], wide[ORDER]]
 
 
 def stays_inside(m: Machine, far, u: Z, v: Z, duration, leaves, arrives) -> bool | None:
@@ -512,36 +516,40 @@ def stays_inside(m: Machine, far, u: Z, v: Z, duration, leaves, arrives) -> bool
     if not (arrives > 0 and leaves > 0):
         return None
 
-    def height(part):  # of the path as a series in the share of the duration
-        t = series(duration * part, duration)
-        place, _ = m.fly(u, v, t)
+    def height(part):  # as a series in the share of the duration
+        place, _ = m.fly(u, v, series(duration * part, duration))
         return (place + far).norm() - 1
 
-    first = 2 if surely_zero(m.d) else 1
+    return below(height, 2 if surely_zero(m.d) else 1)
+
+
+def below(height, first: int = 1, touch: tuple[Fraction, Fraction] | None = None) -> bool | None:
+    """Whether a function is negative on (0, 1) that has a zero of the order `first` at 0 and a simple one at 1.
+
+    `touch` is an interval that is left out.
+    """
     edges = []
-    for at, sign in ((0, 1), (1, -1)):
-        skip, edge = (first if at == 0 else 1), Fraction(1, 8)
+    for at, sign, skip in ((0, 1, first), (1, -1, 1)):
+        edge = Fraction(1, 8)
         while True:
-            wide = arb(at) + sign * (ball(edge) / 2 + arb(0, ball(edge) / 2))
-            ctx.cap = ORDER + 1
-            terms, last = height(arb(at)), height(wide)[ORDER]
-            terms = [*[terms[k] for k in range(ORDER)], last]
+            half = ball(edge) / 2
+            terms = taylor(height, arb(at), half, at + sign * half)
             signed = [c * sign**k for k, c in enumerate(terms)][skip:]
-            value = horner(signed, ball(edge) / 2 + arb(0, ball(edge) / 2))
-            if value < 0:
-                edges.append(edge)
+            if horner(signed, half + arb(0, half)) < 0:
                 break
             if signed[0] > 0:
                 return False
             edge /= 2
             if edge < Fraction(1, 2**60):
                 return None
-    stack, work = [(edges[0], 1 - edges[1])], 0
+        edges.append(edge)
+    low, high = edges[0], 1 - edges[1]
+    stack, work = [(low, high)] if touch is None else [(low, touch[0]), (touch[1], high)], 0
     while stack:
         low, high = stack.pop(0)
         work += 1
-        half, at = ball(high - low) / 2, ball(low + high) / 2
-        terms = taylor(height, at, half)
+        half = ball(high - low) / 2
+        terms = taylor(height, ball(low + high) / 2, half)
         if horner(terms, arb(0, half)) < 0:
             continue
         if terms[0] > 0:
@@ -593,9 +601,7 @@ def roots(m: Machine, exact_d: Exact) -> list[tuple[arb, int]]:
     edge = Fraction(1, 4)
     while True:
         half = ball(edge) / 2
-        ctx.cap = ORDER + 1
-        terms, last = function(arb(0)), function(half + arb(0, half))[ORDER]
-        value = horner([*[terms[k] for k in range(skip, ORDER)], last], half + arb(0, half))
+        value = horner(taylor(function, arb(0), half, half)[skip:], half + arb(0, half))
         if value > 0 or value < 0:
             break
         edge /= 2
@@ -854,7 +860,8 @@ def judge(claim: dict, fact: Fact, matched: bool = True) -> str:
     if set(stated) != set(fact.numbers):
         raise Refused(f"the numbers stated are {', '.join(stated) or 'none'}, not {', '.join(fact.numbers) or 'none'}")
     for name, interval in stated.items():
-        holds(interval, fact.numbers[name])
+        if fact.numbers[name] is not None:  # else it is a box, looked at before, or its scale is not in the statement
+            holds(interval, fact.numbers[name])
     return "checked"
 
 
@@ -1105,7 +1112,436 @@ def plain(pattern: str) -> str:
     return pattern.replace("\\", "")
 
 
-THEOREMS = {"single-impact orbits": check_machine, "orbits of several impacts": check_machine}
+# -------------------------------------------------------------------------------------------- points along a parameter
+
+POINTS = {  # kind: statement, numbers in the order of the unknowns
+    "fold": ("two periods of orbits meet: F1 = 0 and dF1/dT = 0", ("period", "value")),
+    "period-doubling": ("an orbit has a multiplier -1", ("period", "radial_speed", "value")),
+    "neimark-sacker": ("an orbit has two multipliers on the unit circle that are a complex pair", ("period", "radial_speed", "value")),
+    "grazing": ("an orbit touches the wall between its impacts without radial speed", ("touch", "period", "radial_speed", "value")),
+    "non-smooth-hopf": ("an orbit shrinks into the equilibrium on the wall, |U*| = 1", ("period", "value")),
+    "boundary-equilibrium": ("the contact-free equilibrium is on the wall, |U*| = 1", ("value",)),
+    "rub-fold": ("the two synchronous rubs meet", ("value",)),
+}
+ZERO = Z(arb(0), arb(0))
+
+
+class Along:
+    """The machine as a function of one of its parameters."""
+
+    def __init__(self, hypotheses: dict, exact: dict[str, Exact], name: str) -> None:
+        self.name, self.numbers = name, {key: value.ball() for key, value in exact.items()}
+        self.si = {}
+        if name not in DIMENSIONLESS:
+            if hypotheses["table"] != "machine" or name not in MACHINE or hypotheses["settings"]:
+                raise Refused("not covered|along such a parameter")
+            self.si = {key: value.ball() for key, value in si_values(hypotheses).items()}
+
+    def at(self, p) -> Machine:
+        n = dict(self.numbers)
+        if self.si:
+            v = {**self.si, self.name: p}
+            momentum = v["mass"] * v["speed"]
+            n["gamma"], n["omega_squared"] = v["damping"] / momentum, v["stiffness"] / (momentum * v["speed"])
+            n["rho"], n["radius_ratio"] = v["eccentricity"] / v["clearance"], v["rotor_radius"] / v["clearance"]
+            n["mu"], n["d"] = v["friction"], v["restitution"]
+        elif self.name == "omega":
+            n["omega_squared"] = p * p
+        else:
+            n[self.name] = p
+        return Machine(**n)
+
+
+def course(m: Machine, period, speed) -> tuple[Z, tuple]:
+    """U* and the state of an orbit with one impact in the frame in which the impact is at 1."""
+    a12, a22 = m.levers(period)
+    return a12 * speed + 1, (arb(0), speed, -(a22.im * speed), period)
+
+
+def lift(m: Machine, period, speed, t) -> tuple[Z, Z]:
+    """(U - 1)/speed a time t after the impact at 1, and its rate; regular where the speed vanishes."""
+    a12, a22 = m.levers(period)
+    u, v = m.fly(-a12, Z(-m.d, -a22.im - m.mu * (1 + m.d)), t)
+    return u + a12, v
+
+
+def rise(m: Machine, period, speed, t):
+    """(|U|^2 - 1)/speed."""
+    g, _ = lift(m, period, speed, t)
+    return 2 * g.re + speed * g.norm()
+
+
+def orbit_invariants(m: Machine, period, speed) -> tuple:
+    far, state = course(m, period, speed)
+    return invariants(impact_derivative(m, far, state, state))
+
+
+def speed_condition(m: Machine, period, speed):
+    a12, _ = m.levers(period)
+    return (a12 * speed + 1).norm() - m.far2
+
+
+def residuals(kind: str, along: Along, x: list) -> list:
+    """The equations of a point, in the order of POINTS; a fold has its own."""
+    m = along.at(x[-1])
+    if kind == "boundary-equilibrium":
+        return [wall_condition(m)]
+    if kind == "rub-fold":
+        force = m.gamma + m.mu * (1 - m.omega2)
+        return [m.rho * m.rho * (1 + m.mu * m.mu) - force * force]
+    if kind == "non-smooth-hopf":
+        return [1 + m.levers(x[0])[1].re, wall_condition(m)]
+    period, speed = x[-3], x[-2]
+    found = [1 + m.levers(period)[1].re, speed_condition(m, period, speed)]
+    if kind == "grazing":
+        g, rate = lift(m, period, speed, x[0])
+        return [*found, 2 * g.re + speed * g.norm(), rate.re + speed * (g.re * rate.re + g.im * rate.im)]
+    trace, minors, det = orbit_invariants(m, period, speed)
+    return [*found, 1 + trace + minors + det if kind == "period-doubling" else 1 - minors + trace * det - det * det]
+
+
+def wall_condition(m: Machine):
+    k = 1 - m.omega2
+    return k * k + m.gamma * m.gamma - m.rho * m.rho
+
+
+def linearised(kind: str, along: Along, x: list) -> tuple[list, list]:
+    """Residuals and their derivative, by power series in each unknown."""
+    if kind == "fold":
+        of = partials(along, x)
+        return [of[0, 0], of[1, 0]], [[of[1, 0], of[0, 1]], [of[2, 0], of[1, 1]]]
+    ctx.cap, columns = 2, []
+    for i in range(len(x)):
+        columns.append(residuals(kind, along, [series(v, arb(1)) if j == i else v for j, v in enumerate(x)]))
+    return [constant(v) for v in columns[0]], [list(row) for row in zip(*[[term(v, 1) for v in column] for column in columns], strict=True)]
+
+
+def partials(along: Along, x: list) -> dict[tuple[int, int], arb]:
+    """Derivatives of F1 by period and parameter up to the third order, the mixed ones from those along diagonals."""
+    size = ball(Fraction(float(abs(x[1].mid())) or 1.0))  # of a step of the parameter beside one of the period
+
+    def terms(by_period: int, by_value: int) -> list:
+        ctx.cap = 4
+        period, value = series(x[0], arb(by_period)), series(x[1], size * by_value)
+        found = 1 + along.at(value if by_value else x[1]).levers(period if by_period else x[0])[1].re
+        return [term(found, k) * (1, 1, 2, 6)[k] for k in range(4)]
+
+    t, p, both, across = terms(1, 0), terms(0, 1), terms(1, 1), terms(1, -1)
+    found = {
+        (0, 0): t[0], (1, 0): t[1], (0, 1): p[1],
+        (2, 0): t[2], (0, 2): p[2], (1, 1): (both[2] - across[2]) / 4,
+        (3, 0): t[3], (2, 1): (both[3] - across[3] - 2 * p[3]) / 6, (1, 2): (both[3] + across[3] - 2 * t[3]) / 6,
+    }  # fmt: skip
+    return {(i, j): value / size**j for (i, j), value in found.items()}
+
+
+def slopes_on(kind: str, along: Along, cell: list[arb]) -> list:
+    """The derivative of the equations on a cell; where F1 alone has a long way to cancel, by the mean value theorem."""
+    if kind not in ("fold", "non-smooth-hopf"):
+        return linearised(kind, along, cell)[1]
+    middles = [v.mid() for v in cell]
+    centre, wide = partials(along, middles), partials(along, cell)
+    dt, dp = (v - c for v, c in zip(cell, middles, strict=True))
+
+    def near(i: int, j: int):
+        return centre[i, j] + wide[i + 1, j] * dt + wide[i, j + 1] * dp
+
+    first = [near(1, 0), near(0, 1)]
+    return [first, [near(2, 0), near(1, 1)]] if kind == "fold" else [first, linearised(kind, along, cell)[1][1]]
+
+
+def only_zero(kind: str, along: Along, box: list[arb]) -> list[arb]:
+    """The only zero of the equations in a box; at most one is there, as guess * derivative is near 1 on all of it.
+
+    The second equation of a non-smooth Hopf point holds the value alone, so that two slopes without a zero are enough.
+    """
+
+    def system(x):
+        return linearised(kind, along, x)
+
+    found = krawczyk(system, [b.mid() for b in box])
+    if not all(b.contains_interior(f) for b, f in zip(box, found, strict=True)):
+        raise Refused("the zero of the equations is not in the box that is given")
+    guess = solve([[v.mid() for v in row] for row in system(found)[1]], identity(len(box)))
+    guess = [[v.mid() for v in row] for row in guess]
+    for pieces in (1, 2, 4, 16) if len(box) < 3 else (1, 2, 4):
+        hull = None
+        for cell in cells(box, pieces):
+            slope = slopes_on(kind, along, cell)
+            hull = slope if hull is None else [[a.union(b) for a, b in zip(r, s, strict=True)] for r, s in zip(hull, slope, strict=True)]
+        if kind == "non-smooth-hopf" and not hull[0][0].contains(0) and not hull[1][1].contains(0):
+            return found
+        rest = [[int(i == j) - v for j, v in enumerate(row)] for i, row in enumerate(product(guess, hull))]
+        widths = [b.rad() for b in box]
+        if all(sum((abs(v) * w for v, w in zip(row, widths, strict=True)), arb(0)) < width for row, width in zip(rest, widths, strict=True)):
+            return found
+    raise Refused("could not be shown: that it is the only one in its box")
+
+
+def cells(box: list[arb], pieces: int):
+    """The box cut into equal cells along each axis."""
+    if not box:
+        yield []
+        return
+    half = box[0].rad() / pieces
+    for k in range(pieces):
+        first = box[0].mid() + half * (2 * k + 1 - pieces) + arb(0, half.upper() * arb("1.0000001"))
+        for others in cells(box[1:], pieces):
+            yield [first, *others]
+
+
+def point_facts(kind: str, label: str, along: Along, claim: dict) -> dict[str, Fact]:
+    """What is true of a point next to the numbers claimed, by the second part of the kind of the claim."""
+    words, names = POINTS[kind]
+    stated = numbers_of(claim)
+    if set(stated) != {*names, *(f"{name} box" for name in names)}:
+        raise Refused("its numbers are not those of such a point")
+    box = []
+    for name in names:
+        low, high = stated[f"{name} box"]
+        if not low < stated[name][0] <= stated[name][1] < high:
+            raise Refused(f"the {name} is not in its box")
+        box.append(ball((low + high) / 2) + arb(0, ball((high - low) / 2)))
+    x = only_zero(kind, along, box)
+    numbers = dict(zip(names, x, strict=True)) | {f"{name} box": None for name in names}
+    start = f"Along {along.name}, "
+    facts = {"": Fact(f"{start}{words}, at exactly one point of the box that is given, and there at these values.", True, numbers)}
+    _, slopes = linearised(kind, along, x)
+    m = along.at(x[-1])
+    if kind == "fold":
+        facts |= fold_facts(label, along, m, x, slopes)
+    elif kind in ("boundary-equilibrium", "rub-fold"):
+        slope = slopes[0][0]
+        facts["transversal"] = Fact(
+            f"The condition vanishes with this slope by {along.name}, which is not zero.", not slope.contains(0) or None, {"slope": slope}
+        )
+        if kind == "boundary-equilibrium":
+            facts |= boundary_facts(m)
+    elif kind == "non-smooth-hopf":
+        facts |= hopf_facts(along, m, x)
+    elif kind == "grazing":
+        facts |= grazing_facts(along, m, x, slopes)
+    else:
+        facts |= multiplier_facts(kind, along, m, x, slopes)
+    return facts
+
+
+def is_motion(m: Machine, period, speed, touch=None) -> bool | None:
+    """Whether an orbit with one impact meets the wall from inside, stays inside and keeps its slip forward."""
+
+    def height(part):
+        return rise(m, period, speed, series(period * part, period))
+
+    state = course(m, period, speed)[1]
+    slip = [m.s + 1 + state[2], m.s + 1 + state[2] - m.mu * (1 + m.d) * speed]
+    slips = [True] if surely_zero(m.mu) else [positive(v) for v in slip]
+    return every([positive(speed), below(height, 2 if surely_zero(m.d) else 1, touch), *slips])
+
+
+MOTION = "The orbit there is a motion of the machine: inside the wall between the impacts."
+NO_MOTION = {CROSSES, OUT, STOPS, "it would meet the wall from outside"}
+
+
+def fold_facts(label: str, along: Along, m: Machine, x: list, slopes: list) -> dict[str, Fact]:
+    curvature, slope = slopes[1][0], slopes[0][1]
+    if curvature.contains(0) or slope.contains(0):
+        raise Refused("could not be shown: that the fold is quadratic")
+    exist, none = ("smaller", "larger") if curvature * slope > 0 else ("larger", "smaller")
+    a12, _ = m.levers(x[0])
+    a, b, c = a12.norm(), a12.re, 1 - m.far2
+    inner = b * b - a * c
+    motion = None
+    if inner > 0:
+        motion = is_motion(m, x[0], (-b + (inner.sqrt() if label[-1] in "cd" else -inner.sqrt())) / a)
+    return {
+        "transversal": Fact(
+            f"It is a quadratic fold: d2F1/dT2 and the derivative of F1 by {along.name} are not zero. Both periods exist for {exist} values of "
+            f"{along.name} next to it, and none for {none} ones.",
+            True,
+            {"curvature": curvature, "slope": slope},
+        ),
+        "motion": Fact(MOTION, motion, {}, NO_MOTION),
+    }
+
+
+def boundary_facts(m: Machine) -> dict[str, Fact]:
+    """At N = 0 the rub next to it has N = rho^2 gap/(k - mu gamma), and is the saddle if that is positive."""
+    balance = 1 - m.omega2 - m.mu * m.gamma
+    words = {
+        "non-smooth fold": "It is a non-smooth fold: a synchronous rub, a saddle along the wall, exists on the side where the rotor levitates.",
+        "persistence": "It is persistence: a synchronous rub pressed on the wall exists where the contact-free equilibrium is outside.",
+    }
+    true = {"non-smooth fold": positive(balance), "persistence": positive(-balance)}
+    return {name: Fact(words[name], true[name], {"balance": balance}) for name in words}
+
+
+def hopf_facts(along: Along, m: Machine, x: list) -> dict[str, Fact]:
+    ctx.cap = 2
+    reach = m.levers(x[0])[0].re
+    slope = term(along.at(series(x[-1], arb(1))).far2, 1) / (2 * reach)
+
+    def height(part):
+        return rise(m, x[0], arb(0), series(x[0] * part, x[0]))
+
+    words = "It is {}: next to it the small cycle has a positive radial speed where the contact-free equilibrium is {} the wall, as Re(q a12) has this sign."
+    return {
+        "transversal": Fact(
+            f"Its radial speed grows from zero by {along.name} with this slope, not zero.",
+            not slope.contains(0) or None,
+            {"speed_slope": slope, "reach": reach},
+        ),
+        "subcritical": Fact(words.format("subcritical", "inside"), positive(-reach)),
+        "supercritical": Fact(words.format("supercritical", "outside"), positive(reach)),
+        "motion": Fact(
+            "The small cycles next to it are motions of the machine: inside the wall between the impacts.",
+            below(height, 2 if surely_zero(m.d) else 1),
+            {},
+            NO_MOTION | {"they would cross the wall between their impacts"},
+        ),
+    }
+
+
+def slope_along(x: list, equations: list, condition: list):
+    """Total derivative by the last unknown of a function with these derivatives, on the curve of the equations."""
+    others = [row[:-1] for row in equations]
+    follow = solve(others, [[-row[-1]] for row in equations])
+    return condition[-1] + sum((c * f[0] for c, f in zip(condition, follow, strict=False)), arb(0))
+
+
+def grazing_facts(along: Along, m: Machine, x: list, slopes: list) -> dict[str, Fact]:
+    touch, period, speed, _ = x
+    slope = slope_along(x, [slopes[0][1:], slopes[1][1:]], slopes[2][1:])  # the touch is a maximum: its move adds nothing
+    share = float(touch.mid()) / float(period.mid())
+    gap, near = Fraction(1, 64), None
+    while gap > Fraction(1, 2**20):
+        low, high = Fraction(int(share * 2**24), 2**24) - gap, Fraction(int(share * 2**24), 2**24) + gap
+        ctx.cap = 3
+        cell = period * (ball((low + high) / 2) + arb(0, ball(gap)))
+        if rise(m, period, speed, series(cell, arb(1)))[2] < 0 and low > 0 and high < 1:
+            near = (low, high)
+            break
+        gap /= 2
+    maximum = near is not None and cell.contains_interior(touch)
+    return {
+        "transversal": Fact(
+            f"The touch is a maximum of the radius, whose height (|U|^2 - 1)/radial speed grows by {along.name} with this slope, not zero.",
+            (maximum and not slope.contains(0)) or None,
+            {"slope": slope},
+        ),
+        "motion": Fact(
+            "The orbit there is a motion of the machine: inside the wall between the impacts, but for the touch.",
+            is_motion(m, period, speed, near) if maximum else None,
+            {},
+            NO_MOTION,
+        ),
+    }
+
+
+def multiplier_facts(kind: str, along: Along, m: Machine, x: list, slopes: list) -> dict[str, Fact]:
+    period, speed, _ = x
+    slope = slope_along(x, slopes[:2], slopes[2])
+    trace, _, det = orbit_invariants(m, period, speed)
+    facts = {
+        "transversal": Fact(
+            f"Along the branch of the orbit, the test function vanishes with this slope by {along.name}, which is not zero.",
+            not slope.contains(0) or None,
+            {"slope": slope},
+        ),
+        "motion": Fact(MOTION, is_motion(m, period, speed), {}, NO_MOTION),
+    }
+    if kind == "period-doubling":
+        total, pair = trace + 1, -det  # sum and product of the other two
+        simple = True if abs(pair) < 1 and abs(total) < 1 + pair else False if abs(pair) > 1 or abs(total) > 1 + pair else None
+        facts["simple"] = Fact("The other two multipliers lie inside the unit circle.", simple, {}, {"one of them is outside"})
+        b = cubic_term(m, period, speed)
+        born = "with this b, not zero. Orbits of twice the period next to it are born"
+        words = "It is {}critical: on the centre manifold the impact map is x -> -x + b x^3 " + born + " {}"
+        facts["supercritical"] = Fact(
+            words.format("super", "stable, as the other two multipliers lie inside the unit circle, as far as they stay inside the wall."),
+            positive(b) if simple else None,
+            {"b": None},
+        )
+        facts["subcritical"] = Fact(words.format("sub", "unstable, as far as they stay inside the wall."), positive(-b), {"b": None})
+    return facts
+
+
+def cubic_term(m: Machine, period, speed) -> arb:
+    """b of the map x -> -x + b x^3 on the centre manifold, up to a positive factor: the third derivative along the parabola of the manifold."""
+    far, state = course(m, period, speed)
+    ctx.cap = 4
+    j = impact_derivative(m, far, state, state)
+    plus = [[v + int(i == k) for k, v in enumerate(row)] for i, row in enumerate(j)]
+    adjoint = [
+        [plus[(k + 1) % 3][(i + 1) % 3] * plus[(k + 2) % 3][(i + 2) % 3] - plus[(k + 1) % 3][(i + 2) % 3] * plus[(k + 2) % 3][(i + 1) % 3] for k in range(3)]
+        for i in range(3)
+    ]
+    row, column = max(((i, k) for i in range(3) for k in range(3)), key=lambda at: float(abs(adjoint[at[0]][at[1]].mid())))
+    right, left = [adjoint[i][column] for i in range(3)], adjoint[row]
+    scale = sum((a * b for a, b in zip(left, right, strict=True)), arb(0))
+
+    def image(shift: list) -> list[arb_series]:
+        """The map at the state plus a series, by corrections of which each adds an order."""
+        begin = tuple(s + d for s, d in zip(state[:3], shift, strict=True)) + (series(period),)
+        follow = [series(v) for v in state[:3]]
+        _, own, end = segment(m, far, state, state)
+        matrix = [[*r, own[i][3]] for i, r in enumerate(end)]
+        for _ in range(4):
+            gap, _, _ = segment(m, far, begin, tuple(follow))
+            step = solve(matrix, [[-g] for g in gap])
+            follow = [f + s[0] for f, s in zip(follow, step, strict=False)]
+            begin = (*begin[:3], begin[3] + step[3][0])
+        return follow
+
+    bent = image([series(arb(0), q) for q in right])
+    second = [[-f[2]] for f in bent]
+    bow = solve([[v - int(i == k) for k, v in enumerate(r)] for i, r in enumerate(j)], second)
+    third = image([series(arb(0), q, y[0]) for q, y in zip(right, bow, strict=True)])
+    return sum((p * f[3] for p, f in zip(left, third, strict=True)), arb(0)) / scale
+
+
+def check_along(document: dict, exact: dict[str, Exact], report: Report) -> None:
+    """Claims about points and intervals of a parameter."""
+    options, claims = document["options"], document["claims"]
+    along = Along(document["hypotheses"], exact, options["along"])
+    points: dict[tuple[str, str], dict[str, Fact] | str] = {}
+    zeros: list[tuple[str, str, dict]] = []
+    for claim in claims:
+        if claim["about"] not in POINTS:
+            continue
+        label = re.fullmatch(r"of (\S+)(?: \d+)?", claim["kind"])
+        if not label:
+            continue
+        key = (claim["about"], claim["kind"])
+        try:
+            points[key] = point_facts(claim["about"], label[1], along, claim)
+            values = [v for v in points[key][""].numbers.values() if v is not None]
+            letter = label[1][-1] if claim["about"] in ("fold", "non-smooth-hopf") else ""
+            if any(about == key[0] and old_letter == letter and all(a.overlaps(b) for a, b in zip(old, values, strict=True)) for about, old_letter, old in zeros):
+                report.add("refused", f"{key[0]}: {key[1]}", "this zero is listed twice")
+            zeros.append((key[0], letter, values))
+        except Refused as problem:
+            points[key] = str(problem)
+
+    def decide(claim: dict) -> str:
+        about, kind = claim["about"], claim["kind"]
+        if claim["status"] == "undecided":
+            return "claims nothing"
+        if about in POINTS:
+            for (of, first), facts in points.items():
+                if of == about and (kind == first or kind.startswith(f"{first} ")):
+                    if isinstance(facts, str):
+                        raise Refused(facts)
+                    fact = facts.get(kind[len(first) :].strip())
+                    if fact is None:
+                        return "not covered|a claim of a kind that this program does not know"
+                    return judge(claim, fact)
+            raise Refused("the point itself is missing")
+        return "not covered|an interval of a parameter"
+
+    report.each(claims, decide)
+
+
+THEOREMS = {"single-impact orbits": check_machine, "orbits of several impacts": check_machine, "along a parameter": check_along}
 
 
 def main(arguments: list[str]) -> int:
