@@ -589,70 +589,89 @@ def longest_period(m: Machine) -> Fraction:
             raise Refused("could not be shown: damping too weak")
 
 
-def roots(m: Machine, exact_d: Exact) -> list[tuple[arb, int]]:
-    """All T > 0 with F1(T) = 0, each simple, with the sign of the slope there, by falling cells of a Taylor polynomial."""
+def isolated(m: Machine, wide: Machine | None = None, by=None, budget: int = MOST_CELLS) -> list[tuple[Fraction, Fraction, int]]:
+    """Intervals that hold one T > 0 with F1(T) = 0 each, simple, and the sign of its slope; outside them there is none.
 
-    def function(t):
-        return m.period_function(series(t, arb(1)))
+    With `wide`, balls that hold the numbers of many machines, it is shown for all of them; `by` gives bounds on a cell of T of
+    what the function and its slope change by beside those of `m`.
+    """
 
-    end = longest_period(m)
+    def function(t, of=m):
+        return of.period_function(series(t, arb(1)))
+
+    every_machine = wide or m
+    end = longest_period(every_machine)
     # det(1 - M) = b t^2 + ..., and the numerator of a22 is -b t^2/2 + ...: the terms below t^4 vanish, and that is |b|^2 (1 - d)/2.
-    skip = 5 if exact_d == Exact(1) else 4
-    edge = Fraction(1, 4)
+    skip, edge = 5 if surely_zero(m.d - 1) else 4, Fraction(1, 4)
     while True:
         half = ball(edge) / 2
-        value = horner(taylor(function, arb(0), half, half)[skip:], half + arb(0, half))
+        value = horner(taylor(lambda t: function(t, every_machine), arb(0), half, half)[skip:], half + arb(0, half))
         if value > 0 or value < 0:
             break
         edge /= 2
         if edge < Fraction(1, 2**40):
             raise Refused("could not be shown: periods next to zero")
-    found, stack, work = [], [(edge, end)], 0
+    open_cells, stack, work = [], [(edge, end)], 0
     while stack:
         low, high = stack.pop()
-        work += 1
-        if work > MOST_CELLS:
-            raise Refused("could not be shown: too many cells of F1")
-        half, at = ball(high - low) / 2, ball(low + high) / 2
         if high - low < 4:
-            terms = taylor(function, at, half)
+            half, work = ball(high - low) / 2, work + 1
+            if work > budget or high - low < Fraction(1, 2**60):
+                raise Refused("could not be shown: a double zero of F1, one that is nearly double, or too many cells")
+            terms = taylor(function, ball(low + high) / 2, half)
             value = horner(terms, arb(0, half))
+            if value.contains(0) is False and by:
+                value += by(ball(low + high) / 2 + arb(0, half), 0)
             if value > 0 or value < 0:
                 continue
-            slope = horner([k * c for k, c in enumerate(terms)][1:], arb(0, half))
             # The last coefficient bounds f^(n)/n!, so the remainder of the slope is n times it, as here.
+            slope = horner([k * c for k, c in enumerate(terms)][1:], arb(0, half))
+            if slope.contains(0) is False and by:
+                slope += by(ball(low + high) / 2 + arb(0, half), 1)
             if slope > 0 or slope < 0:
-                ends = [horner(terms, side) for side in (-half, half)]
-                signs = [positive(v) for v in ends]
-                if None not in signs:
-                    if signs[0] != signs[1]:
-                        found.append((low, high, 1 if signs[1] else -1))
-                    continue
-            if high - low < Fraction(1, 2**60):
-                raise Refused("could not be shown: F1 has a double zero, or one that is nearly double")
+                open_cells.append([low, high, 1 if slope > 0 else -1])
+                continue
         cut = low + (high - low) * Fraction(61, 128)
-        stack += [(low, cut), (cut, high)]
+        stack += [(cut, high), (low, cut)]
+    groups: list[list] = []
+    for low, high, sign in open_cells:
+        if groups and groups[-1][1] == low:
+            if groups[-1][2] != sign:
+                raise Refused("could not be shown: the slope of F1 between two cells")
+            groups[-1][1] = high
+        else:
+            groups.append([low, high, sign])
+    found = []
+    for low, high, sign in groups:
+        ctx.cap = 2
+        ends = [function(ball(at))[0] + (by(ball(at), 0) if by else 0) for at in (low, high)]
+        signs = [positive(value) for value in ends]
+        if None in signs:
+            raise Refused("could not be shown: a zero of F1 next to the border of a cell")
+        if signs[0] != signs[1]:
+            found.append((low, high, sign))
+    return found
+
+
+def root(m: Machine, low: Fraction, high: Fraction, sign: int) -> arb:
+    """The zero of F1 in an interval that holds one."""
 
     def equation(x):
         ctx.cap = 2
-        value = function(x[0])
+        value = m.period_function(series(x[0], arb(1)))
         return [value[0]], [[value[1]]]
 
-    sharp = []
-    for low, high, sign in sorted(found):
-        a, b = low, high
-        for _ in range(40):
-            cut = (a + b) / 2
-            ctx.cap = 1
-            value = function(ball(cut))[0]
-            if not (value > 0 or value < 0):
-                break
-            a, b = (a, cut) if (value > 0) == (sign > 0) else (cut, b)
-        root = krawczyk(equation, [ball((a + b) / 2)])[0]
-        if not (root > ball(low) and root < ball(high)):
-            raise Refused("could not be shown: a zero of F1")
-        sharp.append((root, sign))
-    return sharp
+    a, b = low, high
+    for _ in range(40):
+        cut = (a + b) / 2
+        value = equation([ball(cut)])[0][0]
+        if not (value > 0 or value < 0):
+            break
+        a, b = (a, cut) if (value > 0) == (sign > 0) else (cut, b)
+    found = krawczyk(equation, [ball((a + b) / 2)])[0]
+    if not (found > ball(low) and found < ball(high)):
+        raise Refused("could not be shown: a zero of F1")
+    return found
 
 
 def start_of(m: Machine, period, speed) -> tuple:
@@ -663,10 +682,11 @@ def start_of(m: Machine, period, speed) -> tuple:
     return angle, speed, -(a22.im * speed), period
 
 
-def single_orbits(m: Machine, exact_d: Exact) -> dict[str, Orbit | None]:
+def single_orbits(m: Machine) -> dict[str, Orbit | None]:
     """All solutions of the closing conditions by their names; none where the radial speeds of a period are not real."""
     found, number = {}, 0
-    for period, sign in roots(m, exact_d):
+    for low, high, sign in isolated(m):
+        period = root(m, low, high, sign)
         number += sign < 0 or not number  # F1 falls at the shorter period of a pair and rises at the longer one
         names = "ac" if sign < 0 else "bd"
         a12, _ = m.levers(period)
@@ -969,7 +989,7 @@ def check_machine(document: dict, exact: dict[str, Exact], report: Report) -> No
     orbits: dict[str, Orbit | None] = {}
     problem, open_periods = "", periods is not None and periods["status"] == "undecided"
     try:
-        orbits = single_orbits(m, exact["d"])
+        orbits = single_orbits(m)
         count = len({name.split(",")[0] + ("ac" if name[-1] in "ac" else "bd") for name in orbits})
         if open_periods:
             orbits = {name: orbit for name, orbit in orbits.items() if (name, "solution") in by_key}
@@ -1172,8 +1192,14 @@ def rise(m: Machine, period, speed, t):
 
 
 def orbit_invariants(m: Machine, period, speed) -> tuple:
+    """Of the derivative of the impact map; the delay is measured in 1/speed, so that they are regular where the speed vanishes."""
+    a12, a22 = m.levers(period)
     far, state = course(m, period, speed)
-    return invariants(impact_derivative(m, far, state, state))
+    _, own, end = segment(m, far, state, state)
+    push = a22 * Z(m.a.re * 2, arb(2)) + m.b * a12  # the acceleration on arrival; the velocity is -a22
+    late = (-a22.re, -a22.im, push.re, push.im)
+    found = solve([[*row, t] for row, t in zip(end, late, strict=True)], [[-v for v in row[:3]] for row in own])
+    return invariants(found[:3])
 
 
 def speed_condition(m: Machine, period, speed):
@@ -1499,10 +1525,424 @@ def cubic_term(m: Machine, period, speed) -> arb:
     return sum((p * f[3] for p, f in zip(left, third, strict=True)), arb(0)) / scale
 
 
+# ----------------------------------------------------------------------------------------------- intervals of a parameter
+
+MOST_BLOCKS = 3000
+MOVES, MEETS = "motion of the machine", "it would meet the wall from outside"
+TWO = "two multipliers are outside the unit circle"
+
+
+class Open(Exception):
+    """A block of the parameter is too wide."""
+
+
+class Block:
+    """An orbit with one impact for all values of a parameter in a block: functions of it as Taylor polynomials of two terms and a remainder."""
+
+    def __init__(self, along: Along, low: Fraction, high: Fraction, cell: tuple[Fraction, Fraction, int], upper: bool) -> None:
+        self.along, self.half = along, ball(high - low) / 2
+        self.centre = ball(low + high) / 2
+        centre = along.at(self.centre)
+        period = root(centre, *cell)
+        self.narrow = self.branch(self.centre, period, period, upper)
+        width = abs(term(self.narrow[1], 1)) * self.half * 2 + arb("1e-30")
+        wide = period + arb(0, width.upper())
+        self.wide = self.branch(self.centre + arb(0, self.half), wide, wide, upper)
+        if not wide.contains_interior(period + term(self.wide[1], 1) * arb(0, self.half)):
+            raise Open
+        self.period, self.speed = self.over(lambda m, t, r: t), self.over(lambda m, t, r: r)
+
+    def branch(self, value: arb, period: arb, about: arb, upper: bool) -> tuple:
+        """Machine, period and radial speed as series in the parameter."""
+        ctx.cap = 2
+        slope = self.along.at(value).period_function(series(about, arb(1)))[1]
+        if slope.contains(0):
+            raise Open
+        ctx.cap = 3
+        m, terms = self.along.at(series(value, arb(1))), [period]
+        for k in (1, 2):
+            terms.append(-term(m.period_function(series(*terms)), k) / slope)
+        t = series(*terms)
+        a12, _ = m.levers(t)
+        a, b, c = a12.norm(), a12.re, 1 - m.far2
+        inner = b * b - a * c
+        if not constant(inner) > 0:
+            raise Open
+        return m, t, (-b + (inner.sqrt() if upper else -inner.sqrt())) / a
+
+    def over(self, function) -> arb:
+        """The values of a function of machine, period and radial speed on the block."""
+        ctx.cap = 3
+        near, far = function(*self.narrow), function(*self.wide)
+        away = arb(0, self.half)
+        return term(near, 0) + term(near, 1) * away + term(far, 2) * away * away
+
+    def slope(self, function) -> arb:
+        ctx.cap = 3
+        return term(function(*self.narrow), 1) + 2 * term(function(*self.wide), 2) * arb(0, self.half)
+
+    def rises(self, part: arb) -> arb:
+        """(|U|^2 - 1)/speed at a share of the period."""
+        return self.over(lambda m, t, r: rise(m, t, r, t * part))
+
+    def inside(self) -> bool | None:
+        """Whether the path is inside between impacts that meet the wall from inside, for all values; None where it differs or is open."""
+        narrow, wide = (Machine_of(v) for v in (self.narrow, self.wide))
+
+        def height(numbers):
+            m, t, r = numbers
+            return lambda part: rise(m, t, r, series(t * part, t))
+
+        first, edges = 2 if surely_zero(narrow[0].d) else 1, []
+        for at, sign, skip in ((0, 1, first), (1, -1, 1)):
+            edge = Fraction(1, 8)
+            while True:
+                half = ball(edge) / 2
+                terms = taylor(height(wide), arb(at), half, at + sign * half)
+                if horner([c * sign**k for k, c in enumerate(terms)][skip:], half + arb(0, half)) < 0:
+                    break
+                edge /= 2
+                if edge < Fraction(1, 2**12):
+                    raise Open
+            edges.append(edge)
+        stack, work = [(edges[0], 1 - edges[1])], 0
+        while stack:
+            low, high = stack.pop(0)
+            middle_part, half = ball(low + high) / 2, ball(high - low) / 2
+            terms, cell, away = taylor(height(narrow), middle_part, half), middle_part + arb(0, half), arb(0, self.half)
+            ctx.cap = 3
+            near, far = (rise(m, t, r, t * cell) for m, t, r in (self.narrow, self.wide))
+            if horner(terms, arb(0, half)) + term(near, 1) * away + term(far, 2) * away * away < 0:
+                continue
+            if terms[0] > 0 and self.rises(middle_part) > 0:
+                return False
+            work += 1
+            if work > 40:
+                raise Open
+            cut = (low + high) / 2
+            stack += [(low, cut), (cut, high)]
+        return True
+
+    def slip(self) -> bool:
+        after = self.over(lambda m, t, r: m.s + 1 - m.levers(t)[1].im * r - m.mu * (1 + m.d) * r)
+        before = self.over(lambda m, t, r: m.s + 1 - m.levers(t)[1].im * r)
+        if not (surely_zero(self.narrow[0].mu) or (after > 0 and before > 0)):
+            raise Open
+        return True
+
+    def margins(self) -> tuple:
+        """The functions whose signs say where the multipliers are."""
+
+        def of(pick):
+            def value(m, t, r):
+                trace, minors, det = orbit_invariants(m, t, r)
+                return (1 - trace + minors - det, 1 + trace + minors + det, 3 + trace - minors - 3 * det, 1 - minors + trace * det - det * det)[pick]
+
+            return value
+
+        return tuple(of(k) for k in range(4))
+
+    def stability(self) -> str:
+        at_one, at_minus, second, pairs = (self.over(f) for f in self.margins())
+        if at_one < 0:
+            return "unstable (a multiplier is above 1)"
+        if at_minus < 0:
+            return "unstable (a multiplier is below -1)"
+        if at_one > 0 and at_minus > 0 and pairs < 0:
+            return f"unstable ({TWO})"
+        if all(v > 0 for v in (at_one, at_minus, second, pairs)):
+            return "stable"
+        raise Open
+
+    def course(self) -> str:
+        if self.speed < 0:
+            return f"no motion ({MEETS})"
+        if not self.speed > 0:
+            raise Open
+        if self.inside():
+            self.slip()
+            return MOVES
+        return f"no motion ({CROSSES})"
+
+
+def Machine_of(branch: tuple) -> tuple:
+    """The terms of order zero of a branch: balls that hold all its values."""
+    m, t, r = branch
+    plain_machine = Machine(*(constant(v) for v in (m.gamma, m.omega2, m.rho, m.mu, m.d, m.s)))
+    return plain_machine, constant(t), constant(r)
+
+
+def isolated_on(along: Along, low: Fraction, high: Fraction) -> list:
+    """The cells of F1 for all values of a block."""
+    centre, half = ball(low + high) / 2, ball(high - low) / 2
+    block = centre + arb(0, half)
+    size = ball(Fraction(float(abs(centre.mid())) or 1.0))
+
+    def change(cell: arb, order: int) -> arb:
+        """By the mean value theorem; the mixed derivative from those along both diagonals."""
+        keep, away = ctx.cap, arb(0, half)
+        ctx.cap = 3
+        if order == 0:
+            slope = term(along.at(series(block, arb(1))).period_function(cell), 1)
+        else:
+            up, down = (term(along.at(series(block, sign * size)).period_function(series(cell, arb(1))), 2) for sign in (1, -1))
+            slope = (up - down) / 2 / size
+        ctx.cap = keep
+        return slope * away
+
+    return isolated(along.at(centre), along.at(block), change, 600)
+
+
+def parts(statement: str) -> dict[str, tuple[str, str]]:
+    """What a claim about a stretch says of each orbit: its course and its stability."""
+    found: dict[str, tuple[str, str]] = {}
+    start = "The closing conditions have exactly these solutions, and each keeps its properties: "
+    if not statement.startswith(start):
+        raise Refused("its statement is not known to this program")
+    listed = statement[len(start) :]
+    for text in [] if listed == "none" else listed.split("; "):
+        match = re.fullmatch(rf"(B\d+,[a-d]): ({MOVES}|no motion \([^()]*\)), (stable|unstable \([^()]*\))", text)
+        if not match or match[1] in found:
+            raise Refused(f"not known to this program: {text!r}")
+        found[match[1]] = (match[2], match[3])
+    return found
+
+
+def stretch(along: Along, low: Fraction, high: Fraction, judge_block, most: int = MOST_BLOCKS) -> None:
+    """Ask `judge_block` on blocks that cover an interval, narrower ones where it raises Open."""
+    stack, work = [(low, high)], 0
+    while stack:
+        a, b = stack.pop()
+        work += 1
+        if work > most:
+            raise Refused("could not be shown: too many blocks")
+        try:
+            judge_block(a, b)
+        except (Open, ZeroDivisionError) as problem:
+            words = f"{problem} " if str(problem) else ""
+        except Refused as problem:
+            if not str(problem).startswith("could not"):
+                raise
+            words = ""
+        else:
+            continue
+        if b - a < (high - low) / 2**24:
+            raise Refused(f"could not be shown: {words}next to {along.name} = {float(a):.8g}")
+        stack += [((a + b) / 2, b), (a, (a + b) / 2)]
+
+
+def named(cells_found: list) -> dict[str, tuple[tuple, bool]]:
+    """Names of the orbits on cells of F1, and whether they have the higher radial speed."""
+    found, number = {}, 0
+    for cell in cells_found:
+        number += cell[2] < 0 or not number
+        for letter in "ac" if cell[2] < 0 else "bd":
+            found[f"B{number},{letter}"] = (cell, letter in "cd")
+    return found
+
+
+def check_stretch(along: Along, claim: dict) -> str:
+    """The list of all orbits for an interval, with what each of them is."""
+    said, stated = parts(claim["statement"]), numbers_of(claim)
+    low, high = (decimal_of(v) for v in claim["interval"])
+    if set(stated) != {f"{name} {what}" for name in said for what in ("period", "radial_speed")}:
+        raise Refused("its numbers are not those of such an interval")
+    if claim["motions"] != [name for name, (course_of, _) in said.items() if course_of == MOVES]:
+        raise Refused("its list of motions does not follow from its statement")
+    periods: list = []
+
+    def count(a: Fraction, b: Fraction) -> None:
+        names = named(isolated_on(along, a, b))
+        for name in set(names) - set(said):
+            cell, _ = names[name]
+            m = along.at(ball(a + b) / 2 + arb(0, ball(b - a) / 2))
+            a12, _ = m.levers(ball(cell[0] + cell[1]) / 2 + arb(0, ball(cell[1] - cell[0]) / 2))
+            if not a12.re * a12.re - a12.norm() * (1 - m.far2) < 0:
+                raise Open
+        if set(said) - set(names):
+            raise Refused("it is false: there are not so many periods")
+        periods.append((a, b, names))
+
+    def each(a: Fraction, b: Fraction) -> None:
+        names = next(n for p, q, n in periods if p <= a and b <= q)
+        for name, (course_of, stable) in said.items():
+            block = Block(along, a, b, *names[name])
+            found = (block.course(), block.stability())
+            if found != (course_of, stable):
+                raise Refused(f"it is false: {name} is {found[0]}, {found[1]}")
+            for what, true in (("period", block.period), ("radial_speed", block.speed)):
+                start, end = map(ball, stated[f"{name} {what}"])
+                if true < start or true > end:
+                    raise Refused(f"a number stated is wrong: {name} {what}")
+                if not (true >= start and true <= end):
+                    raise Open
+
+    stretch(along, low, high, count)
+    for a, b, _ in list(periods) if said else []:
+        stretch(along, a, b, each)
+    return "checked"
+
+
+def check_change(along: Along, claim: dict, name: str) -> str:
+    """One change of an orbit on an interval: where its radial speed, or a margin of its stability, has its only zero."""
+    birth = claim["kind"].startswith("birth")
+    low, high = (decimal_of(v) for v in re.fullmatch(rf"{along.name} in \[(\S+), (\S+)\]", claim["about"]).groups())
+    stated = numbers_of(claim)
+    if set(stated) != {"value"}:
+        raise Refused("its numbers are not those of such a change")
+    zero, slopes = stated["value"], []
+
+    def each(a: Fraction, b: Fraction) -> None:
+        names = named(isolated_on(along, a, b))
+        if name not in names:
+            raise Refused("it is false: there is no such orbit")
+        block = Block(along, a, b, *names[name])
+        function = (lambda m, t, r: r) if birth else block.margins()[1]
+        value, slope = block.over(function), block.slope(function)
+        if b <= zero[0] or a >= zero[1]:
+            if not (value > 0 or value < 0):
+                raise Open
+        elif slope.contains(0):
+            raise Open
+        slopes.append((a, 1 if (value > 0) == (a >= zero[1]) else -1) if not value.contains(0) else (a, 1 if slope > 0 else -1))
+        if birth:
+            if not block.speed < 0:
+                if block.inside() is not True:
+                    raise Open
+                block.slip()
+        elif not value < 0:
+            rest = [block.over(f) for k, f in enumerate(block.margins()) if k != 1]
+            if not all(v > 0 for v in rest):
+                raise Open
+
+    edges = [low, *sorted(v for v in zero if low < v < high), high]
+    for a, b in zip(edges, edges[1:], strict=False):
+        stretch(along, a, b, each)
+    signs = {s for _, s in slopes}
+    if len(signs) != 1 or not low < zero[0] or not zero[1] < high:
+        raise Refused("could not be shown: one zero only")
+    larger, smaller = ("larger", "smaller") if signs == {1} else ("smaller", "larger")
+    words = (
+        f"{name} exists for all values of this interval, and its radial speed has exactly one zero there, at this value: for all {larger} values of "
+        f"the interval {name} is a motion of the machine, and for no {smaller} one."
+        if birth
+        else f"{name} exists for all values of this interval, and det(1 + J) has exactly one zero there, at this value: for all {larger} values of "
+        f"the interval {name} is stable, and for no {smaller} one."
+    )
+    return judge(claim, Fact(words, True, {"value": None}))
+
+
+def check_slip_on(along: Along, low: Fraction, high: Fraction) -> bool:
+    def each(a: Fraction, b: Fraction) -> None:
+        if not slip_stays_forward(along.at(ball(a + b) / 2 + arb(0, ball(b - a) / 2))):
+            raise Open
+
+    stretch(along, low, high, each)
+    return True
+
+
+class Intervals:
+    """Claims about intervals of a parameter: those about stretches are shown, the others follow from them."""
+
+    def __init__(self, along: Along, options: dict, claims: list[dict]) -> None:
+        unit = "" if along.name in DIMENSIONLESS else MACHINE[along.name]
+        ends = [quantity(options[key], unit) for key in ("from", "to")]
+        if any(end.power for end in ends):
+            raise Refused("not covered|ends of the interval that hold pi")
+        self.along, self.low, self.high = along, ends[0].rational, ends[1].rational
+        self.words = f"For all {options['from']} <= {along.name} <= {options['to']}, "
+        self.listed, self.trusted = [], True
+        for claim in claims:
+            if claim["kind"] == "orbits" and claim["about"].startswith(f"{along.name} in ["):
+                a, b = (decimal_of(v) for v in re.fullmatch(rf"{along.name} in \[(\S+), (\S+)\]", claim["about"]).groups())
+                shown = claim["status"] == "proven"
+                if shown and (claim.get("interval") is None or [decimal_of(v) for v in claim["interval"]] != [a, b]):
+                    raise Refused("an interval has other ends in its name")
+                self.listed.append((a, b, parts(claim["statement"]) if shown else None, claim["about"].partition(" in ")[2]))
+        edges = [a for a, _, _, _ in self.listed] + [self.high]
+        if not self.listed or self.listed[0][0] != self.low or any(b != e for (_, b, _, _), e in zip(self.listed, edges[1:], strict=True)):
+            raise Refused("the stretches do not cover the interval in order")
+
+    def tried(self, low: Fraction, high: Fraction, name: str, kind: str) -> bool | None:
+        """What is true of an orbit on a stretch that is left open, if it is the same for all values."""
+        verdicts = set()
+
+        def each(a: Fraction, b: Fraction) -> None:
+            names = named(isolated_on(self.along, a, b))
+            if name not in names:
+                verdicts.add(False)
+                return
+            block = Block(self.along, a, b, *names[name])
+            verdicts.add(kind == "exists" or (block.course() == MOVES if kind == "admissible" else block.stability() == "stable"))
+
+        try:
+            stretch(self.along, low, high, each, 40)
+        except Refused:
+            return None
+        return verdicts.pop() if len(verdicts) == 1 else None
+
+    def follows(self, claim: dict) -> str:
+        """A claim about the whole interval, from what is stated on the stretches."""
+        about, kind, stated = claim["about"], claim["kind"], numbers_of(claim)
+        whole = all(said is not None for _, _, said, _ in self.listed)
+        if (about, kind) == ("machine", "all-single-impact-orbits"):
+            lists = {tuple(sorted((n for n, v in said.items() if v[0] == MOVES), key=in_order)) for _, _, said, _ in self.listed if said is not None}
+            if not (whole and len(lists) == 1):
+                raise Refused("it does not follow from the stretches")
+            names = ", ".join(next(iter(lists)))
+            text = f"{self.words}motions of the machine with one impact a period, synchronous with the shaft, are {f'exactly these: {names}' if names else 'none'}."
+            return judge(claim, Fact(text, True))
+        texts = {"exists": "its closing conditions have a solution.", "admissible": "it is a motion of the machine.", "stable": "all its multipliers lie inside the unit circle."}
+        good = {"exists": lambda v: True, "admissible": lambda v: v[0] == MOVES, "stable": lambda v: v[1] == "stable"}[kind]
+        verdicts = [self.tried(a, b, about, kind) if said is None else about in said and good(said[about]) for a, b, said, _ in self.listed]
+        true = every(verdicts)
+        if all(end in stated for end in ("from", "to")):
+            a, b = stated.pop("from")[0], stated.pop("to")[1]
+            inner = [v for (p, q, _, _), v in zip(self.listed, verdicts, strict=True) if p < b and q > a]
+            if not a < b or not all(inner) or not inner:
+                raise Refused("between the numbers stated it is not shown")
+        if stated or claim["statement"] != self.words + texts[kind] or claim["status"] != STATUS.get(true):
+            raise Refused("it does not follow from the stretches")
+        if (claim["reason"] == "") != (true is True):
+            raise Refused("its reason does not follow from the stretches")
+        for word, verdict in (("shown on", True), ("the contrary on", False), ("open on", None)):
+            told = re.search(rf"{word} ([^;]*)", claim["reason"])
+            spans = [tuple(decimal_of(v) for v in pair) for pair in re.findall(r"\[(\S+), (\S+)\]", told[1])] if told else []
+            for a, b in spans:
+                inner = [v for (p, q, _, _), v in zip(self.listed, verdicts, strict=True) if p < b and q > a]
+                if any(v is not verdict for v in inner):
+                    raise Refused("its reason does not follow from the stretches")
+        return "checked"
+
+
+def decide_interval(claim: dict, intervals: Intervals | None, along: Along) -> str:
+    about, kind = claim["about"], claim["kind"]
+    if intervals is None:
+        return "not covered|an interval of this parameter"
+    if (about, kind) == ("machine", "slip"):
+        text = f"{intervals.words}no orbit with one impact a period stops its slip or slips backward."
+        return judge(claim, Fact(text, check_slip_on(along, intervals.low, intervals.high)))
+    if (about, kind) == ("machine", "all-single-impact-orbits") or (re.fullmatch(r"B\d+,[a-d]", about) and kind in ("exists", "admissible", "stable")):
+        return intervals.follows(claim)
+    if re.fullmatch(rf"{along.name} in \[\S+, \S+\]", about):
+        if kind == "orbits" and claim["status"] == "proven" and claim["reason"] == "":
+            return check_stretch(along, claim)
+        change = re.fullmatch(r"(?:birth|period doubling) of (B\d+,[a-d])", kind)
+        if change:
+            return check_change(along, claim, change[1])
+    return "not covered|a claim of a kind that this program does not know"
+
+
 def check_along(document: dict, exact: dict[str, Exact], report: Report) -> None:
     """Claims about points and intervals of a parameter."""
     options, claims = document["options"], document["claims"]
     along = Along(document["hypotheses"], exact, options["along"])
+    try:
+        intervals = Intervals(along, options, claims)
+    except Refused as problem:
+        if not str(problem).startswith("not covered"):
+            raise
+        intervals = None
     points: dict[tuple[str, str], dict[str, Fact] | str] = {}
     zeros: list[tuple[str, str, dict]] = []
     for claim in claims:
@@ -1536,7 +1976,7 @@ def check_along(document: dict, exact: dict[str, Exact], report: Report) -> None
                         return "not covered|a claim of a kind that this program does not know"
                     return judge(claim, fact)
             raise Refused("the point itself is missing")
-        return "not covered|an interval of a parameter"
+        return decide_interval(claim, intervals, along)
 
     report.each(claims, decide)
 
