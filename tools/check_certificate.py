@@ -712,7 +712,7 @@ def root(m: Machine, low: Fraction, high: Fraction, sign: int) -> arb:
         return [value[0]], [[value[1]]]
 
     a, b = low, high
-    for _ in range(40):
+    for _ in range(12):
         cut = (a + b) / 2
         value = equation([ball(cut)])[0][0]
         if not (value > 0 or value < 0):
@@ -1250,6 +1250,7 @@ class Along:
 
     def __init__(self, hypotheses: dict, exact: dict[str, Exact], name: str) -> None:
         self.name, self.numbers = name, {key: value.ball() for key, value in exact.items()}
+        self.known: dict[tuple[Fraction, Fraction], list] = {}  # cells of F1 on blocks
         self.si = {}
         if name not in DIMENSIONLESS:
             if hypotheses["table"] != "machine" or name not in MACHINE or hypotheses["settings"]:
@@ -1710,10 +1711,12 @@ class Block:
 
     def over(self, function) -> arb:
         """The values of a function of machine, period and radial speed on the block."""
+        return self.over_each(lambda m, t, r: (function(m, t, r),))[0]
+
+    def over_each(self, functions) -> list[arb]:
         ctx.cap = 3
-        near, far = function(*self.narrow), function(*self.wide)
-        away = arb(0, self.half)
-        return term(near, 0) + term(near, 1) * away + term(far, 2) * away * away
+        near, far, away = functions(*self.narrow), functions(*self.wide), arb(0, self.half)
+        return [term(n, 0) + term(n, 1) * away + term(f, 2) * away * away for n, f in zip(near, far, strict=True)]
 
     def slope(self, function) -> arb:
         ctx.cap = 3
@@ -1768,25 +1771,12 @@ class Block:
             raise OpenError
         return True
 
-    def margins(self) -> tuple:
-        """The functions whose signs say where the multipliers are."""
-
-        def of(pick):
-            def value(m, t, r):
-                trace, minors, det = orbit_invariants(m, t, r)
-                return (
-                    1 - trace + minors - det,
-                    1 + trace + minors + det,
-                    3 + trace - minors - 3 * det,
-                    1 - minors + trace * det - det * det,
-                )[pick]
-
-            return value
-
-        return tuple(of(k) for k in range(4))
+    def margins(self) -> list[arb]:
+        """Four numbers whose signs say where the multipliers are; the second one is det(1 + J)."""
+        return self.over_each(margins_of)
 
     def stability(self) -> str:
-        at_one, at_minus, second, pairs = (self.over(f) for f in self.margins())
+        at_one, at_minus, second, pairs = self.margins()
         if at_one < 0:
             return "unstable (a multiplier is above 1)"
         if at_minus < 0:
@@ -1808,6 +1798,16 @@ class Block:
         return f"no motion ({CROSSES})"
 
 
+def margins_of(m: Machine, period, speed) -> tuple:
+    trace, minors, det = orbit_invariants(m, period, speed)
+    return (
+        1 - trace + minors - det,
+        1 + trace + minors + det,
+        3 + trace - minors - 3 * det,
+        1 - minors + trace * det - det * det,
+    )
+
+
 def balls_of(branch: tuple) -> tuple:
     """The terms of order zero of a branch: balls that hold all its values."""
     m, t, r = branch
@@ -1817,6 +1817,8 @@ def balls_of(branch: tuple) -> tuple:
 
 def isolated_on(along: Along, low: Fraction, high: Fraction) -> list:
     """The cells of F1 for all values of a block."""
+    if (low, high) in along.known:
+        return along.known[low, high]
     centre, half = ball(low + high) / 2, ball(high - low) / 2
     block = centre + arb(0, half)
     size = ball(Fraction(float(abs(centre.mid())) or 1.0))
@@ -1835,7 +1837,8 @@ def isolated_on(along: Along, low: Fraction, high: Fraction) -> list:
         ctx.cap = keep
         return slope * away
 
-    return isolated(along.at(centre), along.at(block), change, 600)
+    along.known[low, high] = isolated(along.at(centre), along.at(block), change, 600)
+    return along.known[low, high]
 
 
 def parts(statement: str) -> dict[str, tuple[str, str]]:
@@ -1942,7 +1945,7 @@ def check_change(along: Along, claim: dict, name: str) -> str:
         if name not in names:
             raise RefusedError("it is false: there is no such orbit")
         block = Block(along, a, b, *names[name])
-        function = (lambda m, t, r: r) if birth else block.margins()[1]
+        function = (lambda m, t, r: r) if birth else (lambda m, t, r: margins_of(m, t, r)[1])
         value, slope = block.over(function), block.slope(function)
         if b <= zero[0] or a >= zero[1]:
             if not (value > 0 or value < 0):
@@ -1957,10 +1960,8 @@ def check_change(along: Along, claim: dict, name: str) -> str:
                 if block.inside() is not True:
                     raise OpenError
                 block.slip()
-        elif not value < 0:
-            rest = [block.over(f) for k, f in enumerate(block.margins()) if k != 1]
-            if not all(v > 0 for v in rest):
-                raise OpenError
+        elif not value < 0 and not all(v > 0 for k, v in enumerate(block.margins()) if k != 1):
+            raise OpenError
 
     edges = [low, *sorted(v for v in zero if low < v < high), high]
     for a, b in pairwise(edges):
@@ -1977,6 +1978,11 @@ def check_change(along: Along, claim: dict, name: str) -> str:
         f"the interval {name} is stable, and for no {smaller} one."
     )
     return judge(claim, Fact(words, True, {"value": None}))
+
+
+def one(verdicts: set):
+    """The verdict of a set that holds one."""
+    return next(iter(verdicts)) if len(verdicts) == 1 else None
 
 
 def check_slip_on(along: Along, low: Fraction, high: Fraction) -> bool:
@@ -2027,37 +2033,44 @@ class Intervals:
             if (about, kind) not in there:
                 report.add("refused", f"{about}: {kind}", "it is missing")
 
-    def tried(self, low: Fraction, high: Fraction, name: str, kind: str) -> bool | None:
-        """What is true of an orbit on a stretch that is left open, if it is the same for all values."""
-        verdicts = set()
+    def tried(self, low: Fraction, high: Fraction, wanted: dict[str, str]) -> dict[str, set]:
+        """What is found of orbits on a stretch that is left open, by their names; all of them for the name "all"."""
+        found: dict[str, set] = {name: set() for name in wanted}
 
         def each(a: Fraction, b: Fraction) -> None:
             names = named(isolated_on(self.along, a, b))
-            if name not in names:
-                verdicts.add(False)
-                return
-            block = Block(self.along, a, b, *names[name])
-            verdicts.add(
-                kind == "exists" or (block.course() == MOVES if kind == "admissible" else block.stability() == "stable")
-            )
+            for name, kind in wanted.items():
+                if name == "all":
+                    courses = {n: Block(self.along, a, b, *names[n]).course() for n in names}
+                    found[name].add(tuple(sorted((n for n, v in courses.items() if v == MOVES), key=in_order)))
+                elif name in names:
+                    block = Block(self.along, a, b, *names[name])
+                    good = {
+                        "exists": lambda of: True,
+                        "admissible": lambda of: of.course() == MOVES,
+                        "stable": lambda of: of.stability() == "stable",
+                    }
+                    found[name].add(good[kind](block))
+                else:
+                    found[name].add(False)
 
         try:
             stretch(self.along, low, high, each, 40)
         except RefusedError:
-            return None
-        return verdicts.pop() if len(verdicts) == 1 else None
+            return {name: {None} for name in wanted}
+        return found
 
     def follows(self, claim: dict) -> str:
         """A claim about the whole interval, from what is stated on the stretches."""
         about, kind, stated = claim["about"], claim["kind"], numbers_of(claim)
-        whole = all(said is not None for _, _, said, _ in self.listed)
         if (about, kind) == ("machine", "all-single-impact-orbits"):
-            lists = {
-                tuple(sorted((n for n, v in said.items() if v[0] == MOVES), key=in_order))
-                for _, _, said, _ in self.listed
-                if said is not None
-            }
-            if not (whole and len(lists) == 1):
+            lists = set()
+            for low, high, said, _ in self.listed:
+                if said is None:
+                    lists |= self.tried(low, high, {"all": ""})["all"]
+                else:
+                    lists.add(tuple(sorted((n for n, v in said.items() if v[0] == MOVES), key=in_order)))
+            if one(lists) is None:
                 raise RefusedError("it does not follow from the stretches")
             names = ", ".join(next(iter(lists)))
             text = f"{self.words}motions of the machine with one impact a period, synchronous with the shaft, are {f'exactly these: {names}' if names else 'none'}."
@@ -2071,7 +2084,7 @@ class Intervals:
             kind
         ]
         verdicts = [
-            self.tried(a, b, about, kind) if said is None else about in said and good(said[about])
+            one(self.tried(a, b, {about: kind})[about]) if said is None else about in said and good(said[about])
             for a, b, said, _ in self.listed
         ]
         true = every(verdicts)
