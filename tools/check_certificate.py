@@ -2136,7 +2136,7 @@ def points_of(along: Along, claims: list[dict], report: Report) -> dict[tuple[st
     points: dict[tuple[str, str], dict[str, Fact] | str] = {}
     zeros: list[tuple[tuple, list]] = []
     for claim in claims:
-        label = re.fullmatch(r"of (\S+)(?: \d+)?", claim["kind"])
+        label = re.fullmatch(r"of (\S+)(?: \(\d+\))?", claim["kind"])
         if claim["about"] not in POINTS or not label or claim["status"] == "undecided":
             continue
         key = (claim["about"], claim["kind"])
