@@ -10,7 +10,7 @@ from carom.models.touchdown import Touchdown
 SURFACE_SPEED = 40.0
 
 
-def touching(law, seed, gap=0.0, friction=0.12, damping=(0.15, 0.6)):
+def touching(law, seed, gap=0.0, friction=0.12, damping=(0.03, 0.12)):
     """A rigid body on two springs with polar inertia, by its displacements at two discs; its largest response is at one of the planes."""
     random = np.random.default_rng(seed)
     first, second = random.uniform(0.4, 1.5, 2)

@@ -113,7 +113,7 @@ class WallMeeting(Result):
     gap : float
         Distance of levitation from the wall there, in clearances, below zero inside: the test function, zero where they meet.
     force_rate : float
-        Normal force of the rub, per felt mass in ``c_r Ω²``, per gap: its sign says on which side the rub exists.  Zero in a
+        Normal force of the rub, in ``m c_r Ω²``, per gap: its sign says on which side the rub exists.  Zero in a
         wall whose force grows with a higher power of the depth, into which levitation goes on.
     rub_eigenvalues : ndarray of complex, shape (2N,)
         Exponents of small motions in contact with a wall that gives way; empty for a rigid wall.
@@ -212,7 +212,7 @@ def small_cycles(machine: Subject, plane: Whole | None = None, longest: Positive
         rotor=model,
         plane=place,
         gap=float(radii[place]) - 1.0,
-        force_rate=1.0 / lever if lever else math.inf,
+        force_rate=float(system.arrays.masses[place]) / lever if lever else math.inf,
         rub_eigenvalues=eigenvalues,
         cycles=tuple(sorted(found, key=lambda each: each.period)),
         complete=complete,
@@ -234,9 +234,7 @@ def _cycle(
 # ------------------------------------------------------------------------------------------------------- rigid walls
 
 
-def _bouncing(
-    system: System, plane: int, pieces: Pieces, longest: float | None
-) -> tuple[list[SmallCycle], bool]:
+def _bouncing(system: System, plane: int, pieces: Pieces, longest: float | None) -> tuple[list[SmallCycle], bool]:
     """Cycles of bounces off a rigid wall, and whether they are all."""
     roots = PeriodCondition.of(system, plane=plane).roots(longest)
     found = []
