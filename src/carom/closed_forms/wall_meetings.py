@@ -160,7 +160,7 @@ def small_cycles(machine: Subject, plane: Whole | None = None, longest: Positive
     """Rubs and cycles that are born where levitation meets a wall, for any number of modes and planes.
 
     The rotor is taken as it is, so it should be near that point: results hold to first order in the gap.  The derivation is in
-    :mod:`carom.closed_forms.small_cycles`.
+    :mod:`carom.closed_forms.wall_meetings`.
 
     Parameters
     ----------
