@@ -64,7 +64,9 @@ def on_magnets(ross, shipped, nodes, disc, frequency):
     numbers = ("n_f", "kp_pid", "kd_pid", "ki_pid", "g0", "i0", "ag", "nw", "alpha")
     magnets = [
         ross.MagneticBearingElement(
-            n=each.n, frequency=[frequency, 2.0 * frequency, 3.0 * frequency], **{name: float(np.ravel(getattr(each, name))[0]) for name in numbers}
+            n=each.n,
+            frequency=[frequency, 2.0 * frequency, 3.0 * frequency],
+            **{name: float(np.ravel(getattr(each, name))[0]) for name in numbers},
         )
         for each in shipped.bearing_elements
     ]
@@ -82,7 +84,12 @@ def held(ross, shipped, nodes, springs):
 
 def response(rotor, disc, nodes, frequencies):
     found = rotor.run_unbalance_response(disc, 1.0, 0.0, np.array(frequencies)).forced_resp
-    return {"node": disc, "speeds": list(frequencies), "at_nodes": nodes, "x": [pairs(found[6 * node]) for node in nodes]}
+    return {
+        "node": disc,
+        "speeds": list(frequencies),
+        "at_nodes": nodes,
+        "x": [pairs(found[6 * node]) for node in nodes],
+    }
 
 
 def lateral(rotor, speed):

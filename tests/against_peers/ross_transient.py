@@ -88,7 +88,7 @@ def main():
     }
     place = Path(__file__).with_suffix(".json")
     runs = ",\n".join(map(json.dumps, table.pop("runs")))
-    place.write_text(f"{json.dumps(table)[:-1]}, \"runs\": [\n{runs}]}}\n", encoding="utf-8")
+    place.write_text(f'{json.dumps(table)[:-1]}, "runs": [\n{runs}]}}\n', encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -90,7 +90,10 @@ def magnetic(name):
         1e-3,
         [
             MagneticBearing(
-                each["node"], each["ki"], each["ks"], PID(each["proportional"], 0.0, each["derivative"], each["filter_time"])
+                each["node"],
+                each["ki"],
+                each["ks"],
+                PID(each["proportional"], 0.0, each["derivative"], each["filter_time"]),
             )
             for each in magnets
         ],
