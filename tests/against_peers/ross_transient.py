@@ -70,7 +70,7 @@ def main():
         for name, rotor in rotors.items():
             transient(rotor, "newmark", 1e-4, 1e-3)  # its kernels compile on first use
             lasted = transient(rotor, "newmark", STEPS[0], 1.0)[1]
-            print(json.dumps({"rotor": name, "step": STEPS[0], "seconds": lasted}), flush=True)  # noqa: T201
+            print(json.dumps({"rotor": name, "step": STEPS[0], "seconds": lasted}), flush=True)
         return
     magnet = rotors["magnets"].bearing_elements[0]
     table = {

@@ -6,6 +6,7 @@ another sign of the magnets' stiffness.
 
 from __future__ import annotations
 
+import itertools
 import json
 from pathlib import Path
 
@@ -97,27 +98,21 @@ def test_the_default_integrator_is_right_on_springs(springs):
     """Half the step, a quarter of the error."""
     found = errors("springs", "default", springs)
     assert found[0] < 1e-4
-    assert [coarse / fine for coarse, fine in zip(found[:-1], found[1:], strict=True)] == pytest.approx(
-        [4.0, 4.0], rel=0.02
-    )
+    assert [coarse / fine for coarse, fine in itertools.pairwise(found)] == pytest.approx([4.0, 4.0], rel=0.02)
 
 
 def test_newmark_is_of_first_order_where_a_force_acts_from_the_beginning(springs):
     """It begins with no acceleration, so the average acceleration of its first step is half of the true one; the method would be of second order."""
     found = errors("springs", "newmark", springs)
     assert found[0] == pytest.approx(6.3e-3, rel=0.02)
-    assert [coarse / fine for coarse, fine in zip(found[:-1], found[1:], strict=True)] == pytest.approx(
-        [2.0, 2.0], rel=0.02
-    )
+    assert [coarse / fine for coarse, fine in itertools.pairwise(found)] == pytest.approx([2.0, 2.0], rel=0.02)
 
 
 def test_newmark_on_magnets_tends_to_a_rotor_whose_magnets_push_back(magnets):
     """Its controller has ``F = −ki u + ks x`` with ``ks < 0`` where its bearings have the stiffness ``ki C + ks``: the motion is a third off."""
     right, reverse = (errors("magnets", "newmark", each) for each in magnets)
     assert min(right) > 0.3
-    assert [coarse / fine for coarse, fine in zip(reverse[:-1], reverse[1:], strict=True)] == pytest.approx(
-        [2.0, 2.0], rel=0.03
-    )
+    assert [coarse / fine for coarse, fine in itertools.pairwise(reverse)] == pytest.approx([2.0, 2.0], rel=0.03)
     assert reverse[-1] < 5e-3
 
 
