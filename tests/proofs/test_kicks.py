@@ -135,7 +135,8 @@ def test_a_general_integrator_agrees(proof):
 
 @pytest.fixture(scope="module")
 def document():
-    proof = prove_kicks(SPINDLE, "111 mm/s", most_impacts=1, time_limit=None, workers=1)
+    machine, largest, most = CASES["elastic wall, no unbalance"]
+    proof = prove_kicks(machine, largest, most_impacts=most, time_limit=None, workers=1)
     return json.loads(json.dumps(proof.document()))
 
 
@@ -174,14 +175,14 @@ def test_forged_cells_are_refused(document):
 
 def test_any_letter_that_matters_is_refused(document):
     cells, picked = document["evidence"]["cells"], random.Random(3)
-    for place in picked.sample(range(len(cells)), sized(12, 4, len(cells))):
-        letter = picked.choice([other for other in "va01g" if other != cells[place]])
+    for place in picked.sample(range(len(cells)), sized(20, 4, len(cells))):
+        letter = picked.choice([other for other in "va012g" if other != cells[place]])
         try:
             proof = check(changed(document, cells[:place] + letter + cells[place + 1 :]))
         except InputError:
             continue
-        # A cell said to need one impact more than it does is no false claim.
-        assert (cells[place], letter) == ("0", "1")
+        # A cell said to need more impacts than it does is no false claim.
+        assert "0" <= cells[place] < letter <= "2"
         assert proof["kicks all recover"].statement == document["claims"][1]["statement"]
 
 
@@ -189,9 +190,9 @@ def test_any_letter_that_matters_is_refused(document):
     "change",
     [
         {"bits": 128},
-        {"options": {"kicks_up_to": "112 mm/s", "most_impacts": 1}},
-        {"options": {"kicks_up_to": "111 mm/s", "most_impacts": "1"}},
-        {"options": {"kicks_up_to": "111 mm/s"}},
+        {"options": {"kicks_up_to": "6.8", "most_impacts": 3}},
+        {"options": {"kicks_up_to": "6.7", "most_impacts": "3"}},
+        {"options": {"kicks_up_to": "6.7"}},
     ],
 )
 def test_other_terms_are_refused(document, change):
@@ -279,3 +280,11 @@ def test_cells_are_read_as_they_are_written():
 
 def test_letters_are_told_apart():
     assert len(OPEN) + len(IMPACTS) + 2 == len({*OPEN, *IMPACTS, BY_SPEED, BY_ANGLE})
+
+
+def test_processes_find_and_verify_the_same(document, monkeypatch):
+    machine, largest, most = CASES["elastic wall, no unbalance"]
+    monkeypatch.setattr("carom.proofs.kick_search.ALONE", 0.0)
+    found = prove_kicks(machine, largest, most_impacts=most, time_limit=None, workers=2)
+
+    assert found.document() == document
