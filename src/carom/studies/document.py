@@ -67,9 +67,9 @@ def _orbits_of(
 @checked
 def found_orbits_document(parameters: Parameters | Model, found: OrbitSet) -> dict[str, Any]:
     """Return the document of orbits with at most a number of impacts."""
-    planar = isinstance(parameters, Parameters)
+    planar = parameters.as_dict() if isinstance(parameters, Parameters) else None
     return {
-        **({"parameters": parameters.as_dict()} if planar else rotor_document(found.rotor)),
+        **(rotor_document(found.rotor) if planar is None else {"parameters": planar}),
         "impacts": found.impacts,
         "orbits": [
             {
