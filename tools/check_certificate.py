@@ -921,8 +921,12 @@ def numbers_of(claim: dict) -> dict[str, tuple[Fraction, Fraction]]:
     return found
 
 
-def holds(stated: tuple[Fraction, Fraction], true: arb) -> None:
+def holds(stated: tuple[Fraction, Fraction], true: arb | Fraction) -> None:
     """Refuse an interval without the number that is enclosed by `true`."""
+    if isinstance(true, Fraction):
+        if not stated[0] <= true <= stated[1]:
+            raise RefusedError(f"a number stated is wrong: it is {true}")
+        return
     low, high = map(ball, stated)
     if not (true >= low and true <= high):
         apart = true < low or true > high
@@ -2186,16 +2190,172 @@ def check_along(document: dict, exact: dict[str, Exact], report: Report) -> None
     report.each(claims, decide)
 
 
-def check_nothing(document: dict, _: dict[str, Exact], report: Report) -> None:
-    """Claims about kicks, of which this program knows the hypotheses only."""
-    report.each(document["claims"], lambda claim: "not covered|kicks")
+# ----------------------------------------------------------------------------------------------------------------- kicks
+
+MOST_FLIGHTS = 300
+KICKS = (
+    r"Of kicks out of levitation, seen in the fixed frame, with velocities in the disc up to (.+), the share share_proven of the area returns to "
+    r"levitation with at most so many impacts, among them every kick slower than the lower end of speed\."
+)
+ALL_KICKS = r"All kicks out of levitation, seen in the fixed frame, with velocities in the disc up to (.+), return to levitation with at most (\d+) impacts\."
+
+
+def leaves_of(letters: str) -> list[tuple[str, Fraction, Fraction, Fraction, Fraction]]:
+    """The cells of a tree: letter, speeds as shares of the largest, angles as shares of a turn."""
+    found, stack = [], [(Fraction(0), Fraction(1), Fraction(0), Fraction(1))]
+    for letter in letters:
+        if not stack:
+            raise RefusedError("the tree of cells has letters left over")
+        low, high, first, last = stack.pop()
+        if letter == "v":
+            cut = (low + high) / 2
+            stack += [(cut, high, first, last), (low, cut, first, last)]
+        elif letter == "a":
+            cut = (first + last) / 2
+            stack += [(low, high, cut, last), (low, high, first, cut)]
+        elif re.fullmatch("[0-9A-Zb-uw-z]", letter):
+            found.append((letter, low, high, first, last))
+        else:
+            raise RefusedError("the tree of cells has a letter that is not known")
+    if stack:
+        raise RefusedError("the tree of cells ends early")
+    return found
+
+
+def impacts_of(letter: str) -> int | None:
+    """The number of impacts of a closed cell, none of an open one."""
+    return int(letter, 36) if letter.isdigit() or letter.isupper() else None
+
+
+def impacts_of_kick(m: Machine, speed: arb, angle: arb, most: int) -> int | None:
+    """How many impacts a kick has until no flight reaches the wall; None where this is not decided."""
+    far = m.far2.sqrt()
+    u, v = ZERO, turn(angle) * speed
+    room = m.omega2 * (1 - far) * (1 - far)
+    for count in range(most + 2):
+        start, skip = arb(0), 0 if count == 0 else 1
+        while True:
+            place, rate = m.fly(u, v, start)
+            energy = (rate + place.turned()).norm() + m.omega2 * place.norm()  # in the fixed frame it never rises
+            if energy < room:
+                return count
+            step = next_zero(lambda t, a=u, b=v: (m.fly(a, b, t)[0] + far).norm() - 1, start, skip)
+            if step is None:
+                return None
+            start, crossed = step
+            if crossed:
+                break
+            skip = 0
+        u, v = m.fly(u, v, start)
+        place = u + far
+        rate = v * place.conj()  # r + i w times |U|^2 = 1
+        slip, bite = m.s + 1 + rate.im, m.mu * (1 + m.d) * rate.re
+        if not rate.re > 0:
+            return None
+        if slip > bite:
+            change = bite
+        elif slip < -bite:
+            change = -bite
+        elif abs(slip) < bite:
+            change = slip
+        else:
+            return None
+        v = place * Z(-(m.d * rate.re), rate.im - change)
+    return most + 1
+
+
+def next_zero(height, start: arb, skip: int) -> tuple[arb, bool] | None:
+    """The first zero after `start`, or a later time up to which there is none; with `skip` there is one at the start itself."""
+    length = Fraction(1, 2)
+    while length > Fraction(1, 2**40):
+        half = ball(length) / 2
+        terms = taylor(lambda t: height(series(t, arb(1))), start, half, start + half)
+        span = half + arb(0, half)
+        if horner(terms[skip:], span) < 0:
+            return start + ball(length), False
+        slope = horner([k * c for k, c in enumerate(terms)][1:], span)
+        if slope > 0 and not skip and horner(terms, ball(length)) > 0 and terms[0] < 0:
+
+            def equation(x):
+                ctx.cap = 2
+                value = height(series(x[0], arb(1)))
+                return [value[0]], [[value[1]]]
+
+            return krawczyk(equation, [start + half], "1e-15")[0], True
+        length /= 2
+    return None
+
+
+def kicks_followed(m: Machine, scaled: Exact, cells_of: list) -> int:
+    """How many kicks in the middle of cells are seen to return; one that has more impacts than its cell may have is refused."""
+    closed = [cell for cell in cells_of if impacts_of(cell[0]) is not None]
+    closed.sort(key=lambda cell: (cell[1] ** 2 - cell[2] ** 2) * (cell[4] - cell[3]))
+    flown = 0
+    for letter, low, high, first, last in closed[:MOST_FLIGHTS]:
+        bound = impacts_of(letter) or 0
+        speed, angle = (scaled * Exact((low + high) / 2)).ball(), 2 * arb.pi() * ball((first + last) / 2)
+        try:
+            found = impacts_of_kick(m, speed, angle, bound)
+        except RefusedError:
+            found = None
+        flown += found is not None
+        if found is not None and found > bound:
+            raise RefusedError(f"the kick in the middle of a cell has more than {bound} impacts")
+    return flown
+
+
+def check_kicks(document: dict, exact: dict[str, Exact], report: Report) -> None:
+    """The shares follow from the cells, and in the middle of each of the largest cells one kick is followed."""
+    options, hypotheses, m = document["options"], document["hypotheses"], Machine.of(exact)
+    letters = document["evidence"].get("cells") if isinstance(document["evidence"], dict) else None
+    if not isinstance(letters, str):
+        raise RefusedError("there is no tree of cells")
+    cells_of = leaves_of(letters)
+    largest = quantity(options["kicks_up_to"], "m/s" if hypotheses["table"] == "machine" else "")
+    scaled = largest
+    if hypotheses["table"] == "machine":
+        si = si_values(hypotheses)
+        scaled = largest / (si["clearance"] * si["speed"])
+    area = {True: Fraction(0), False: Fraction(0)}
+    for letter, low, high, first, last in cells_of:
+        area[impacts_of(letter) is not None] += (high * high - low * low) * (last - first)
+    safe = min((low for letter, low, *_ in cells_of if impacts_of(letter) is None), default=Fraction(1))
+    most = max((impacts_of(letter) or 0 for letter, *_ in cells_of), default=0)
+    numbers = {
+        "speed": (scaled * Exact(safe)).ball(),
+        "share_proven": area[True],
+        "share_refuted": Fraction(0),
+        "share_open": area[False],
+        "impacts": Fraction(most),
+    }
+    if hypotheses["table"] == "machine":
+        numbers["speed_si"] = largest.rational * safe
+
+    def decide(claim: dict) -> str:
+        pattern = {"recover": KICKS, "all recover": ALL_KICKS}.get(claim["kind"]) if claim["about"] == "kicks" else None
+        if pattern is None:
+            return "not covered|a claim of a kind that this program does not know"
+        match = re.fullmatch(pattern, claim["statement"])
+        if not match or match[1] != options["kicks_up_to"]:
+            raise RefusedError("its statement is not known to this program")
+        if claim["kind"] == "all recover" and (claim["status"] == "proven") != (
+            area[False] == 0 and int(match[2]) >= most
+        ):
+            raise RefusedError("it does not follow from the cells")
+        if claim["status"] == "undecided":
+            return "claims nothing"
+        judge(claim, Fact(claim["statement"], True, numbers if claim["kind"] == "recover" else {}))
+        flown = kicks_followed(m, scaled, cells_of)
+        return f"not covered|its shares follow from the cells, and {flown} kicks, in the middle of the largest cells, were followed and return"
+
+    report.each(document["claims"], decide)
 
 
 THEOREMS = {
     "single-impact orbits": check_machine,
     "orbits of several impacts": check_machine,
     "along a parameter": check_along,
-    "kicks": check_nothing,
+    "kicks": check_kicks,
 }
 
 
