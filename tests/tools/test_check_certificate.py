@@ -6,6 +6,7 @@ import ast
 import copy
 import importlib.util
 import json
+import re
 import subprocess
 import sys
 from fractions import Fraction
@@ -302,13 +303,16 @@ def kicks():
 
 def test_the_shares_of_kicks_follow_from_the_cells_and_kicks_in_them_return(kicks, monkeypatch):
     monkeypatch.setattr(PROGRAM_OF, "MOST_FLIGHTS", 40)
+    monkeypatch.setattr(PROGRAM_OF, "MOST_PARTS", 20)
     verdict, what, why = next(line for line in report_of(kicks).lines if "recover" in line[1])
     assert (verdict, what) == ("not covered", "kicks: recover")
     assert "40 kicks" in why
+    assert float(re.search("all kicks of (\\S+) of", why)[1]) > 0.6
 
 
 def test_cells_of_kicks_that_are_forged_are_refused(kicks, monkeypatch):
     monkeypatch.setattr(PROGRAM_OF, "MOST_FLIGHTS", 60)
+    monkeypatch.setattr(PROGRAM_OF, "MOST_PARTS", 2)
     cells = kicks["evidence"]["cells"]
     first = cells.index("1")
     for letters in (
