@@ -1610,19 +1610,15 @@ def multiplier_facts(kind: str, along: Along, m: Machine, x: list, slopes: list)
             "The other two multipliers lie inside the unit circle.", simple, {}, {"one of them is outside"}
         )
         b = cubic_term(m, period, speed)
-        born = "with this b, not zero. Orbits of twice the period next to it are born"
-        words = "It is {}critical: on the centre manifold the impact map is x -> -x + b x^3 " + born + " {}"
+        words = "It is {}: on the centre manifold the impact map is x -> -x + b x^3 with this b, not zero. Orbits of twice the period next to it are {}"
+        stable = (
+            "born stable, as the other two multipliers lie inside the unit circle, as far as they stay inside the wall."
+        )
+        unstable = "unstable, as far as they stay inside the wall."
         facts["supercritical"] = Fact(
-            words.format(
-                "super",
-                "stable, as the other two multipliers lie inside the unit circle, as far as they stay inside the wall.",
-            ),
-            positive(b) if simple else None,
-            {"b": None},
+            words.format("supercritical", stable), positive(b) if simple else None, {"b": None}
         )
-        facts["subcritical"] = Fact(
-            words.format("sub", "unstable, as far as they stay inside the wall."), positive(-b), {"b": None}
-        )
+        facts["subcritical"] = Fact(words.format("subcritical", unstable), positive(-b), {"b": None})
     return facts
 
 
@@ -2193,7 +2189,7 @@ def check_along(document: dict, exact: dict[str, Exact], report: Report) -> None
 # ----------------------------------------------------------------------------------------------------------------- kicks
 
 MOST_FLIGHTS = 300
-MOST_PARTS = 2000  # of cells
+MOST_PARTS = 600  # of cells
 KICKS = (
     r"Of kicks out of levitation, seen in the fixed frame, with velocities in the disc up to (.+), the share share_proven of the area returns to "
     r"levitation with at most so many impacts, among them every kick slower than the lower end of speed\."
