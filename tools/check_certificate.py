@@ -921,8 +921,12 @@ def numbers_of(claim: dict) -> dict[str, tuple[Fraction, Fraction]]:
     return found
 
 
-def holds(stated: tuple[Fraction, Fraction], true: arb) -> None:
+def holds(stated: tuple[Fraction, Fraction], true: arb | Fraction) -> None:
     """Refuse an interval without the number that is enclosed by `true`."""
+    if isinstance(true, Fraction):
+        if not stated[0] <= true <= stated[1]:
+            raise RefusedError(f"a number stated is wrong: it is {true}")
+        return
     low, high = map(ball, stated)
     if not (true >= low and true <= high):
         apart = true < low or true > high
@@ -1606,19 +1610,15 @@ def multiplier_facts(kind: str, along: Along, m: Machine, x: list, slopes: list)
             "The other two multipliers lie inside the unit circle.", simple, {}, {"one of them is outside"}
         )
         b = cubic_term(m, period, speed)
-        born = "with this b, not zero. Orbits of twice the period next to it are born"
-        words = "It is {}critical: on the centre manifold the impact map is x -> -x + b x^3 " + born + " {}"
+        words = "It is {}: on the centre manifold the impact map is x -> -x + b x^3 with this b, not zero. Orbits of twice the period next to it are {}"
+        stable = (
+            "born stable, as the other two multipliers lie inside the unit circle, as far as they stay inside the wall."
+        )
+        unstable = "unstable, as far as they stay inside the wall."
         facts["supercritical"] = Fact(
-            words.format(
-                "super",
-                "stable, as the other two multipliers lie inside the unit circle, as far as they stay inside the wall.",
-            ),
-            positive(b) if simple else None,
-            {"b": None},
+            words.format("supercritical", stable), positive(b) if simple else None, {"b": None}
         )
-        facts["subcritical"] = Fact(
-            words.format("sub", "unstable, as far as they stay inside the wall."), positive(-b), {"b": None}
-        )
+        facts["subcritical"] = Fact(words.format("subcritical", unstable), positive(-b), {"b": None})
     return facts
 
 
@@ -2186,16 +2186,445 @@ def check_along(document: dict, exact: dict[str, Exact], report: Report) -> None
     report.each(claims, decide)
 
 
-def check_nothing(document: dict, _: dict[str, Exact], report: Report) -> None:
-    """Claims about kicks, of which this program knows the hypotheses only."""
-    report.each(document["claims"], lambda claim: "not covered|kicks")
+# ----------------------------------------------------------------------------------------------------------------- kicks
+
+MOST_FLIGHTS = 300
+MOST_PARTS = 600  # of cells
+KICKS = (
+    r"Of kicks out of levitation, seen in the fixed frame, with velocities in the disc up to (.+), the share share_proven of the area returns to "
+    r"levitation with at most so many impacts, among them every kick slower than the lower end of speed\."
+)
+ALL_KICKS = r"All kicks out of levitation, seen in the fixed frame, with velocities in the disc up to (.+), return to levitation with at most (\d+) impacts\."
+
+
+def leaves_of(letters: str) -> list[tuple[str, Fraction, Fraction, Fraction, Fraction]]:
+    """The cells of a tree: letter, speeds as shares of the largest, angles as shares of a turn."""
+    found, stack = [], [(Fraction(0), Fraction(1), Fraction(0), Fraction(1))]
+    for letter in letters:
+        if not stack:
+            raise RefusedError("the tree of cells has letters left over")
+        low, high, first, last = stack.pop()
+        if letter == "v":
+            cut = (low + high) / 2
+            stack += [(cut, high, first, last), (low, cut, first, last)]
+        elif letter == "a":
+            cut = (first + last) / 2
+            stack += [(low, high, cut, last), (low, high, first, cut)]
+        elif re.fullmatch("[0-9A-Zb-uw-z]", letter):
+            found.append((letter, low, high, first, last))
+        else:
+            raise RefusedError("the tree of cells has a letter that is not known")
+    if stack:
+        raise RefusedError("the tree of cells ends early")
+    return found
+
+
+def impacts_of(letter: str) -> int | None:
+    """The number of impacts of a closed cell, none of an open one."""
+    return int(letter, 36) if letter.isdigit() or letter.isupper() else None
+
+
+def impacts_of_kick(m: Machine, speed: arb, angle: arb, most: int) -> int | None:
+    """How many impacts a kick has until no flight reaches the wall; None where this is not decided."""
+    far = m.far2.sqrt()
+    u, v = ZERO, turn(angle) * speed
+    room = m.omega2 * (1 - far) * (1 - far)
+    for count in range(most + 2):
+        start, skip = arb(0), 0 if count == 0 else 1
+        while True:
+            place, rate = m.fly(u, v, start)
+            energy = (rate + place.turned()).norm() + m.omega2 * place.norm()  # in the fixed frame it never rises
+            if energy < room:
+                return count
+            step = next_zero(lambda t, a=u, b=v: (m.fly(a, b, t)[0] + far).norm() - 1, start, skip)
+            if step is None:
+                return None
+            start, crossed = step
+            if crossed:
+                break
+            skip = 0
+        u, v = m.fly(u, v, start)
+        place = u + far
+        rate = v * place.conj()  # r + i w times |U|^2 = 1
+        slip, bite = m.s + 1 + rate.im, m.mu * (1 + m.d) * rate.re
+        if not rate.re > 0:
+            return None
+        if slip > bite:
+            change = bite
+        elif slip < -bite:
+            change = -bite
+        elif abs(slip) < bite:
+            change = slip
+        else:
+            return None
+        v = place * Z(-(m.d * rate.re), rate.im - change)
+    return most + 1
+
+
+def next_zero(height, start: arb, skip: int) -> tuple[arb, bool] | None:
+    """The first zero after `start`, or a later time up to which there is none; with `skip` there is one at the start itself."""
+    length = Fraction(1, 2)
+    while length > Fraction(1, 2**40):
+        half = ball(length) / 2
+        terms = taylor(lambda t: height(series(t, arb(1))), start, half, start + half)
+        span = half + arb(0, half)
+        if horner(terms[skip:], span) < 0:
+            return start + ball(length), False
+        slope = horner([k * c for k, c in enumerate(terms)][1:], span)
+        if slope > 0 and not skip and horner(terms, ball(length)) > 0 and terms[0] < 0:
+
+            def equation(x):
+                ctx.cap = 2
+                value = height(series(x[0], arb(1)))
+                return [value[0]], [[value[1]]]
+
+            return krawczyk(equation, [start + half], "1e-15")[0], True
+        length /= 2
+    return None
+
+
+def kicks_followed(m: Machine, scaled: Exact, cells_of: list) -> int:
+    """How many kicks in the middle of cells are seen to return; one that has more impacts than its cell may have is refused."""
+    closed = [cell for cell in cells_of if impacts_of(cell[0]) is not None]
+    closed.sort(key=lambda cell: (cell[1] ** 2 - cell[2] ** 2) * (cell[4] - cell[3]))
+    flown = 0
+    for letter, low, high, first, last in closed[:MOST_FLIGHTS]:
+        bound = impacts_of(letter) or 0
+        speed, angle = (scaled * Exact((low + high) / 2)).ball(), 2 * arb.pi() * ball((first + last) / 2)
+        try:
+            found = impacts_of_kick(m, speed, angle, bound)
+        except RefusedError:
+            found = None
+        flown += found is not None
+        if found is not None and found > bound:
+            raise RefusedError(f"the kick in the middle of a cell has more than {bound} impacts")
+    return flown
+
+
+class Spread:
+    """A number that depends on two shares in [-1, 1]: its value at the centre, all its values, and its derivatives by the shares."""
+
+    __slots__ = ("all", "at", "by")
+
+    def __init__(self, at: arb, by: tuple | None = None, every_value: arb | None = None) -> None:
+        self.at, self.by = at, by or (arb(0), arb(0))
+        near = at + self.by[0] * arb(0, 1) + self.by[1] * arb(0, 1)
+        self.all = near if every_value is None else meet(near, every_value)
+
+    def __add__(self, o):
+        if not isinstance(o, Spread):
+            return Spread(self.at + o, self.by, self.all + o)
+        return Spread(self.at + o.at, (self.by[0] + o.by[0], self.by[1] + o.by[1]), self.all + o.all)
+
+    def __neg__(self):
+        return Spread(-self.at, (-self.by[0], -self.by[1]), -self.all)
+
+    def __sub__(self, o):
+        return self + (-o)
+
+    def __rsub__(self, o):
+        return -self + o
+
+    def __mul__(self, o):
+        if not isinstance(o, Spread):
+            return Spread(self.at * o, (self.by[0] * o, self.by[1] * o), self.all * o)
+        by = tuple(a * o.all + b * self.all for a, b in zip(self.by, o.by, strict=True))
+        return Spread(self.at * o.at, by, self.all * o.all)
+
+    __radd__, __rmul__ = __add__, __mul__
+
+    def chain(self, at: arb, every_value: arb, slope: arb):
+        return Spread(at, (self.by[0] * slope, self.by[1] * slope), every_value)
+
+    def cos(self):
+        return self.chain(self.at.cos(), self.all.cos(), -self.all.sin())
+
+    def sin(self):
+        return self.chain(self.at.sin(), self.all.sin(), self.all.cos())
+
+    def exp(self):
+        return self.chain(self.at.exp(), self.all.exp(), self.all.exp())
+
+    def __truediv__(self, o):
+        if not isinstance(o, Spread):
+            return self * (1 / o)
+        inverse = o.chain(1 / o.at, 1 / o.all, -1 / (o.all * o.all))
+        return self * inverse
+
+
+def meet(a: arb, b: arb) -> arb:
+    try:
+        return a.intersection(b)
+    except ValueError:
+        return b
+
+
+class Levitating:
+    """Flights in the fixed frame, z = u + L e^(it), whose displacement and impulse have the real responses h0 and h1."""
+
+    def __init__(self, m: Machine) -> None:
+        self.m, self.far, self.half = m, m.far2.sqrt(), m.gamma / 2
+        self.room = m.omega2 * (1 - self.far) * (1 - self.far)
+
+    def place(self, state: tuple, t) -> tuple[Z, Z, Z]:
+        """z, its rate, and L e^(it)."""
+        u, v, lag = state
+        shrink = (-(t * self.half)).exp()
+        if self.m.w2 > 0:
+            w = self.m.w2.sqrt()
+            c, s = (t * w).cos(), (t * w).sin() * (1 / w)
+        else:
+            raise RefusedError("could not be shown: strong damping")
+        h0, h1 = shrink * (c + s * self.half), shrink * s
+        r0, r1 = -(shrink * s * self.m.omega2), shrink * (c - s * self.half)
+        now = lag * Z(t.cos(), t.sin())
+        return u * h0 + v * h1 + now, u * r0 + v * r1 + now.turned(), now
+
+    def goes(self, state: tuple, impacts: int, struck: bool) -> bool:
+        """Whether all states of a cell come back with at most so many impacts."""
+        step, t = Fraction(1, 4), Fraction(0)
+        while t < 400:
+            z, rate, now = self.place(state, Spread(ball(t)))
+            u, v = z - now, rate - now.turned()
+            energy = v.norm() + u.norm() * self.m.omega2
+            if (energy.all if isinstance(energy, Spread) else energy) < self.room:
+                return True
+            tried = self.inside(state, t, step, struck and t == 0)
+            if tried:
+                t += step
+                step = min(step * 2, Fraction(4))
+                continue
+            if step > Fraction(1, 8):
+                step /= 2
+                continue
+            strike = self.strike(state, t)
+            if strike is not None:
+                return impacts > 0 and self.goes(strike, impacts - 1, True)
+            if step < Fraction(1, 16):
+                brush = self.brush(state, t)
+                if brush is not None:
+                    if impacts == 0 or not self.goes(brush[1], impacts - 1, True):
+                        return False
+                    t, step = brush[0], Fraction(1, 4)
+                    continue
+            step /= 2
+            if step < Fraction(1, 2**9):
+                return False
+        return False
+
+    def inside(self, state: tuple, t: Fraction, step: Fraction, leaves: bool) -> bool:
+        """Whether |z| < 1 on an interval of time for all states; it begins at the wall if the flights leave it."""
+        half = ball(step) / 2
+        middle_at = ball(t) + half
+        wide = Spread(middle_at + arb(0, half))
+        slope = self.climb(state, wide)
+        if leaves:  # it begins with a slope of zero or less, and a falling one keeps it so
+            return bool(slope < 0) or bool(self.bend(state, wide) < 0)
+        return bool(self.height(state, middle_at) + slope * arb(0, half) < 0)
+
+    def height(self, state: tuple, t) -> arb:
+        """|z|^2 - 1 of all states at a time."""
+        return (self.place(state, Spread(t))[0].norm() - 1).all
+
+    def climb(self, state: tuple, t: Spread) -> arb:
+        """The rate of |z|^2."""
+        z, rate, _ = self.place(state, t)
+        return 2 * (z.re * rate.re + z.im * rate.im).all
+
+    def crossing(self, state: tuple, t: Fraction) -> arb | None:
+        """About when the flight in the middle of a cell crosses the wall."""
+        x = ball(t)
+        for _ in range(30):
+            slope = self.climb(state, Spread(x))
+            if slope.contains(0):
+                return None
+            x = (x - self.height(state, x) / slope).mid()
+        return x if x > ball(t) and x < ball(t) + 2 else None
+
+    def strike(self, state: tuple, t: Fraction):
+        """The state after the impact, if all flights cross the wall next after t."""
+        centre = tuple(Z(Spread(v.re.at), Spread(v.im.at)) for v in state)
+        x = self.crossing(centre, t)
+        if x is None:
+            return None
+        near = [x + arb("1e-18") * sign for sign in (-1, 1)]
+        if not (self.height(centre, near[0]) < 0 and self.height(centre, near[1]) > 0):
+            return None
+        x = near[0].union(near[1])
+        size = self.place(state, Spread(x))[0].norm()
+        width = (abs(size.by[0]) + abs(size.by[1])) / abs(self.climb(centre, Spread(x))) * arb("1.3")
+        first, last = (
+            Fraction(float((x - width).lower())) - Fraction(1, 2**40),
+            Fraction(float((x + width).upper())) + Fraction(1, 2**40),
+        )
+        box = Spread(ball(first + last) / 2 + arb(0, ball(last - first) / 2))
+        z, rate, _ = self.place(state, box)
+        climb = 2 * (z.re * rate.re + z.im * rate.im).all
+        # Each flight crosses once in the box of times, which holds the derivative of that time by the shares.
+        if not (climb > 0 and self.height(state, ball(last)) > 0):
+            return None
+        if first > t and not (self.height(state, ball(first)) < 0 and self.clear(state, t, first)):
+            return None
+        by = tuple(-g / climb for g in z.norm().by)
+        return self.after(state, Spread(x, by, box.all), None)
+
+    def after(self, state: tuple, t: Spread, radial: Spread | None):
+        """The state after an impact at this time, in the plane turned so that it is at 1."""
+        z, rate, now = self.place(state, t)
+        rate, now, m = rate * z.conj(), now * z.conj(), self.m
+        if radial is None:
+            radial = rate.re
+            if not radial.all > 0:
+                return None
+        bite = radial * (m.mu * (1 + m.d))
+        if not (rate.im - bite).all + m.s > 0:
+            return None
+        return -now + 1, Z(-(radial * m.d), rate.im - bite) - now.turned(), now
+
+    def clear(self, state: tuple, low: Fraction, high: Fraction) -> bool:
+        """Whether |z| < 1 on an interval of time."""
+        stack = [(low, high)]
+        while stack:
+            a, b = stack.pop()
+            if self.inside(state, a, b - a, False):
+                continue
+            if b - a < (high - low) / 2**12:
+                return False
+            stack += [(a, (a + b) / 2), ((a + b) / 2, b)]
+        return True
+
+    def bend(self, state: tuple, t) -> arb:
+        """The second derivative of |z|^2."""
+        z, rate, now = self.place(state, t)
+        push = -(rate - now.turned()) * self.m.gamma - (z - now) * self.m.omega2 - now
+        return 2 * (rate.norm() + z.re * push.re + z.im * push.im).all
+
+    def brush(self, state: tuple, t: Fraction):
+        """A time after a graze, and the states of the flights that touch, after their impact.
+
+        While |z|^2 is concave, less than 1 at the ends, and falls from a time on, a flight touches before that time first; it then rises by at
+        least (2a)^2/(2C), a the radial speed and C the bound of the second derivative.
+        """
+        x = ball(t)
+        centre = tuple(Z(Spread(v.re.at), Spread(v.im.at)) for v in state)
+        for _ in range(12):
+            bend = self.bend(centre, Spread(x))
+            if not bend < 0:
+                return None
+            x = (x - self.climb(centre, Spread(x)) / bend).mid()
+        if not (x > ball(t) and x < ball(t) + 2):
+            return None
+        top = Fraction(float(x))
+        climb = self.climb(state, Spread(ball(top)))
+        falls = top + Fraction(float((abs(climb) / abs(bend) * arb("1.4")).upper())) + Fraction(1, 2**20)
+        end = max(2 * top - t, falls + Fraction(1, 2**20))
+        bend = self.bend(state, Spread(ball(t + end) / 2 + arb(0, ball(end - t) / 2)))
+        if not (bend < 0 and self.climb(state, Spread(ball(falls))) < 0 and self.height(state, ball(end)) < 0):
+            return None
+        highest = abs(
+            self.height(state, ball(top)) + abs(climb) * ball(falls - t)
+        )  # a concave function is below its tangent at the top
+        most = (abs(bend).upper() * highest.upper() / 2).sqrt().upper()
+        touched = self.after(
+            state, Spread(ball(t + falls) / 2 + arb(0, ball(falls - t) / 2)), Spread(most / 2 + arb(0, most / 2))
+        )
+        return None if touched is None else (end, touched)
+
+
+def kick_state(levitating: Levitating, speeds: tuple, angles: tuple) -> tuple:
+    """The kicks of a cell along the real axis, levitation being turned instead."""
+    v = Spread(speeds[0], (speeds[1], arb(0)))
+    a = Spread(angles[0], (arb(0), angles[1]))
+    zero = Spread(arb(0))
+    return Z(zero, zero), Z(v, zero), Z(a.cos() * levitating.far, -(a.sin() * levitating.far))
+
+
+def share_followed(m: Machine, scaled: Exact, cells_of: list) -> Fraction:
+    """The share of the disc whose kicks are all followed and come back in time: cells, the largest first, and parts of them."""
+    flights, shown = Levitating(m), Fraction(0)
+    stack = [(*cell, 0) for cell in cells_of if impacts_of(cell[0]) is not None]
+    stack.sort(key=lambda cell: (cell[2] ** 2 - cell[1] ** 2) * (cell[4] - cell[3]))
+    largest, keep = scaled.ball(), ctx.prec
+    ctx.prec = 96
+    for _ in range(MOST_PARTS):
+        if not stack:
+            break
+        letter, low, high, first, last, depth = stack.pop()
+        speeds = (largest * ball((low + high) / 2), largest * ball((high - low) / 2))
+        angles = (2 * arb.pi() * ball((first + last) / 2), 2 * arb.pi() * ball((last - first) / 2))
+        try:
+            if flights.goes(kick_state(flights, speeds, angles), impacts_of(letter) or 0, False):
+                shown += (high * high - low * low) * (last - first)
+                continue
+        except (RefusedError, ZeroDivisionError):
+            pass
+        if depth == 8:
+            continue
+        middle_speed, middle_angle = (low + high) / 2, (first + last) / 2
+        if speeds[1] > angles[1] * flights.far * m.omega2.sqrt():
+            parts = [(low, middle_speed, first, last), (middle_speed, high, first, last)]
+        else:
+            parts = [(low, high, first, middle_angle), (low, high, middle_angle, last)]
+        stack += [(letter, *part, depth + 1) for part in parts]
+    ctx.prec = keep
+    return shown
+
+
+def check_kicks(document: dict, exact: dict[str, Exact], report: Report) -> None:
+    """The shares follow from the cells, and in the middle of each of the largest cells one kick is followed."""
+    options, hypotheses, m = document["options"], document["hypotheses"], Machine.of(exact)
+    letters = document["evidence"].get("cells") if isinstance(document["evidence"], dict) else None
+    if not isinstance(letters, str):
+        raise RefusedError("there is no tree of cells")
+    cells_of = leaves_of(letters)
+    largest = quantity(options["kicks_up_to"], "m/s" if hypotheses["table"] == "machine" else "")
+    scaled = largest
+    if hypotheses["table"] == "machine":
+        si = si_values(hypotheses)
+        scaled = largest / (si["clearance"] * si["speed"])
+    area = {True: Fraction(0), False: Fraction(0)}
+    for letter, low, high, first, last in cells_of:
+        area[impacts_of(letter) is not None] += (high * high - low * low) * (last - first)
+    safe = min((low for letter, low, *_ in cells_of if impacts_of(letter) is None), default=Fraction(1))
+    most = max((impacts_of(letter) or 0 for letter, *_ in cells_of), default=0)
+    numbers = {
+        "speed": (scaled * Exact(safe)).ball(),
+        "share_proven": area[True],
+        "share_refuted": Fraction(0),
+        "share_open": area[False],
+        "impacts": Fraction(most),
+    }
+    if hypotheses["table"] == "machine":
+        numbers["speed_si"] = largest.rational * safe
+
+    def decide(claim: dict) -> str:
+        pattern = {"recover": KICKS, "all recover": ALL_KICKS}.get(claim["kind"]) if claim["about"] == "kicks" else None
+        if pattern is None:
+            return "not covered|a claim of a kind that this program does not know"
+        match = re.fullmatch(pattern, claim["statement"])
+        if not match or match[1] != options["kicks_up_to"]:
+            raise RefusedError("its statement is not known to this program")
+        if claim["kind"] == "all recover" and (claim["status"] == "proven") != (
+            area[False] == 0 and int(match[2]) >= most
+        ):
+            raise RefusedError("it does not follow from the cells")
+        if claim["status"] == "undecided":
+            return "claims nothing"
+        judge(claim, Fact(claim["statement"], True, numbers if claim["kind"] == "recover" else {}))
+        flown = kicks_followed(m, scaled, cells_of)
+        shown = share_followed(m, scaled, cells_of)
+        if shown == area[True]:
+            return "checked"
+        return f"not covered|its shares follow from the cells; {flown} kicks in the middle of cells return, and all kicks of {float(shown):.6f} of the disc"
+
+    report.each(document["claims"], decide)
 
 
 THEOREMS = {
     "single-impact orbits": check_machine,
     "orbits of several impacts": check_machine,
     "along a parameter": check_along,
-    "kicks": check_nothing,
+    "kicks": check_kicks,
 }
 
 

@@ -6,6 +6,7 @@ import ast
 import copy
 import importlib.util
 import json
+import re
 import subprocess
 import sys
 from fractions import Fraction
@@ -289,3 +290,41 @@ def points_only_safe(document):
     points = PROGRAM_OF.points_of(along, document["claims"], report)
     problems = [facts for facts in points.values() if isinstance(facts, str)]
     return problems or [line for line in points_only(document) if line[0] == "refused"]
+
+
+# ------------------------------------------------------------------------------------------------------------- kicks
+
+
+@pytest.fixture(scope="module")
+def kicks():
+    """Of a spindle, kicks up to 120 mm/s."""
+    return json.loads((Path(__file__).parent / "kicks.json").read_text(encoding="utf-8"))
+
+
+def test_the_shares_of_kicks_follow_from_the_cells_and_kicks_in_them_return(kicks, monkeypatch):
+    monkeypatch.setattr(PROGRAM_OF, "MOST_FLIGHTS", 40)
+    monkeypatch.setattr(PROGRAM_OF, "MOST_PARTS", 20)
+    verdict, what, why = next(line for line in report_of(kicks).lines if "recover" in line[1])
+    assert (verdict, what) == ("not covered", "kicks: recover")
+    assert "40 kicks" in why
+    assert float(re.search("all kicks of (\\S+) of", why)[1]) > 0.6
+
+
+def test_cells_of_kicks_that_are_forged_are_refused(kicks, monkeypatch):
+    monkeypatch.setattr(PROGRAM_OF, "MOST_FLIGHTS", 60)
+    monkeypatch.setattr(PROGRAM_OF, "MOST_PARTS", 2)
+    cells = kicks["evidence"]["cells"]
+    first = cells.index("1")
+    for letters in (
+        cells.replace("1", "0"),
+        cells[:-1],
+        cells + "1",
+        cells[:first] + "g" + cells[first + 1 :],
+        cells.replace("v", "!"),
+    ):
+        assert refused({**kicks, "evidence": {**kicks["evidence"], "cells": letters}})
+    claim = kicks["claims"][0]
+    for name in claim["enclosures"]:
+        forged = changed(kicks, "kicks", "recover", enclosures={**claim["enclosures"], name: ["0.5", "0.6"]})
+        assert refused(forged)
+    assert refused(changed(kicks, "kicks", "all recover", status="proven", reason=""))
