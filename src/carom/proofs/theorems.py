@@ -20,6 +20,8 @@ from carom.proofs.several_impacts import several_impact_claims
 from carom.proofs.single_impact import candidates, orbit_claims
 from carom.proofs.slip import slip_claim
 from carom.proofs.steady import steady_claims
+from carom.proofs.whirl import whirl_claims
+from carom.proofs.whirl_lines import whirl_line_claims
 
 Options = Mapping[str, Any]
 MOST_PLACES = 4
@@ -49,7 +51,7 @@ def _single_impact(rotor: Rotor, evidence: Evidence, options: Options) -> list[C
     longest = options.get("longest_period")
     periods = all_periods(rotor, evidence, None if longest is None else rational_of(longest), int(options["cells"]))
     slip = slip_claim(rotor.numbers, evidence)
-    claims = [*steady_claims(rotor), _periods_claim(rotor, periods), slip]
+    claims = [*steady_claims(rotor), *whirl_claims(rotor), _periods_claim(rotor, periods), slip]
     admissible, doubts = [], []
     if not periods.complete:
         doubts.append("not all periods are known")
@@ -130,6 +132,7 @@ THEOREMS: Mapping[str, Theorem] = {
         lambda rotor, evidence, options: [
             *point_claims(rotor, evidence, options),
             *range_claims(rotor, evidence, options),
+            *whirl_line_claims(rotor, options),
         ],
         (
             "what is said to be open on an interval, but for the points listed there",
