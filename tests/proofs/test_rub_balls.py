@@ -105,10 +105,11 @@ class Bouncing:
             state = (1.0, -self.d * speed, x, y)
 
     def settled(self, state):
-        """Least normal force of a slide, and its state in the end."""
-        path = solve_ivp(
-            self.slide, (0, 60 / (self.gamma / 2 + self.mu)), state, method="DOP853", rtol=1e-10, atol=1e-12
-        )
+        """Least normal force of a slide, and its state after many of its slower times of decay."""
+        angle, _ = self.rub()
+        drag, stiffness = self.gamma + 2 * self.mu, self.rho * (np.cos(angle) - self.mu * np.sin(angle))
+        time = 12 * max(2 / drag, 2 * drag / stiffness)
+        path = solve_ivp(self.slide, (0, time), state, method="DOP853", rtol=1e-10, atol=1e-13)
         return self.push(*path.y).min(), path.y[:, -1]
 
 
