@@ -12,18 +12,19 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import partial, reduce
 from itertools import groupby, pairwise
-from math import ceil, floor, log2
+from math import floor, log2
 from typing import Any
 
 from carom.progress import Reporter
-from carom.proofs.balls import Enclosure, at_precision, enclosure_of, interval
+from carom.proofs.balls import at_precision, enclosure_of, interval
 from carom.proofs.block_orbits import OrbitFact, first_cells, orbits_on
 from carom.proofs.blocks import Block, OpenError
-from carom.proofs.claims import Claim, Status, claim_of
+from carom.proofs.claims import Claim, claim_of
 from carom.proofs.crossings import crossing_claims
 from carom.proofs.evidence import Evidence, NotShownError, rational_of
 from carom.proofs.lines import Line, line_of
 from carom.proofs.rotor import Rotor
+from carom.proofs.runs import claim_of_runs, in_brackets, written
 from carom.proofs.series import hull
 from carom.proofs.slip import slip_claim
 
@@ -57,33 +58,16 @@ class Stretch:
     @property
     def inner(self) -> tuple[str, str]:
         """Its ends in decimal numbers, rounded inward where it is proven, else outward."""
-        return _written(self.low, self.high, inward=not self.reason)
+        return written(self.low, self.high, inward=not self.reason)
 
     @property
     def ends(self) -> str:
         """The interval between these."""
-        return _interval(self.inner)
+        return in_brackets(self.inner)
 
     def fact(self, name: str) -> OrbitFact | None:
         """What holds for an orbit of a name."""
         return next((fact for fact in self.facts or () if fact.name == name), None)
-
-
-def _written(low: Fraction, high: Fraction, *, inward: bool) -> tuple[str, str]:
-    """Both ends as decimal numbers, rounded inward or outward."""
-    return _decimal(low, inward), _decimal(high, not inward)
-
-
-def _interval(ends: tuple[str, str]) -> str:
-    return f"[{', '.join(ends)}]"
-
-
-def _decimal(value: Fraction, upward: bool) -> str:
-    """Decimal number of 12 places on one side of a number."""
-    scale = 10**12
-    scaled = ceil(value * scale) if upward else floor(value * scale)
-    whole, places = divmod(abs(scaled), scale)
-    return f"{'-' if scaled < 0 else ''}{whole}.{places:012d}".rstrip("0").rstrip(".")
 
 
 def range_claims(rotor: Rotor, evidence: Evidence, options: Any) -> list[Claim]:
@@ -254,21 +238,7 @@ def _orbit_claims(line: Line, name: str, stretches: Sequence[Stretch]) -> list[C
         for value, group in groupby(stretches, key=partial(_told, name, holds)):
             members = list(group)
             runs[value].append((members[0].low, members[-1].high))
-        where = {
-            value: ", ".join(_interval(_written(*run, inward=value is not None)) for run in found)
-            for value, found in runs.items()
-        }
-        enclosures: dict[str, Enclosure] = {}
-        if runs[True]:
-            ends = _written(*max(runs[True], key=lambda run: run[1] - run[0]), inward=True)
-            enclosures = {
-                side: Enclosure(end, end, (Fraction(end),) * 2) for side, end in zip(("from", "to"), ends, strict=True)
-            }
-        headings = {True: "shown on", False: "the contrary on", None: "open on"}
-        reason = "; ".join(f"{told} {where[value]}" for value, told in headings.items() if where[value])
-        status: Status = "refuted" if runs[False] else "undecided" if runs[None] else "proven"
-        reason = "" if status == "proven" else reason
-        claims.append(Claim(name, kind, f"For all {line.words}, {words}.", status, reason, enclosures))
+        claims.append(claim_of_runs(name, kind, f"For all {line.words}, {words}.", runs))
     return claims
 
 

@@ -1,0 +1,326 @@
+"""Steady whirl in lasting contact: rolling, slides in backward whirl, and speeds of the shaft at which there is none.
+
+On the wall, with ``x = θ − φ``, the whirl ``W = 1 + θ̇``, ``w = −W`` and the forward slip ``s + W``,
+
+    N = ρ cos x + W² − ω²,      W' = −γW − ρ sin x + F,      F = −μN (slip forward), μN (backward), |F| ≤ μN (none).
+
+Write ``A = s² − ω²`` and ``p = ρ√(1 + μ²)``, which is the largest value of ``ρ(sin x + μ cos x)``.
+
+*Rolling* has ``W = −s`` and passes all angles, so it needs ``A > ρ`` and ``|ρ sin x − γs| ≤ μN`` at all of them:
+``μA ≥ |γ|s + p``.
+
+*Slides.*  In backward whirl with forward slip ``w' = μ(w² − ω²) − γw + ρ(sin x + μ cos x)`` lies within ``p`` of
+``−h(w)``, ``h(w) = γw − μ(w² − ω²)``.  Let ``−h(w_c) = p`` and ``−h(w_b) = −p`` at the larger roots.  Beyond ``w_c`` every
+slide gains speed.  Between ``w_b`` and ``w_c`` backward time maps the turn's first speed to a last one, monotonically and into
+the same interval.  At its fixed points the slope is ``exp −∮(2μw − γ)/(1 + w) dx``, less than 1 for ``w ≥ w_b > γ/(2μ)``, so there
+is exactly one; other slides leave the interval.
+
+*None.*  ``docs/theory/proofs.md`` shows: with ``γ ≥ 0`` and ``γs > μA`` no motion on the wall that whirls backward all the time
+repeats after a turn.  If ``ω² + ρ ≥ 1`` too, a motion on the wall that repeats is a synchronous rub.  At ``ν`` times the speed of
+the shaft ``γ`` is ``γ/ν`` and ``ω²`` is ``ω²/ν²``: the first condition becomes ``ν < (γ + √(γ² + 4μ²ω²))/(2μs)``, for any unbalance,
+the second ``ν ≤ ω/√(1 − ρ)`` or ``ρ ≥ 1``.
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from functools import partial
+from typing import Any
+
+from carom.parameters import MACHINE_FIELDS
+from carom.parameters.exact import read_exact
+from carom.proofs.balls import ball_of, decided, enclosures_of
+from carom.proofs.claims import Claim, claim_of
+from carom.proofs.lines import Numbers
+from carom.proofs.rotor import Rotor
+
+_NAMES = ("gamma", "omega_squared", "rho", "mu", "radius_ratio")
+_NEGATIVE, _NEITHER = "the argument needs damping that is not negative", "there is neither damping nor friction"
+_BACKWARD = "no motion on the wall that whirls backward all the time repeats after a turn"
+_AT_SPEEDS = "With its damping and stiffness, at every speed of the shaft"
+_BELOW = "below the lower end of share times the present one, "
+
+
+def whirl_claims(rotor: Rotor) -> list[Claim]:
+    """Claims about rolling, slides and their absence."""
+    exact = exact_numbers(rotor)
+    rolls, slips = _rolling_claim(rotor, exact), _slide_claims(rotor, exact)
+    repeats = any(claim.status == "proven" for claim in slips)
+    return [
+        rolls,
+        _attraction_claim(rotor, exact),
+        _reached_claim(rotor, exact),
+        _constant_slide_claim(rotor, exact),
+        *slips,
+        _absence_claim(rotor, exact, rolls.status == "proven", repeats),
+        *_speed_claims(rotor, exact),
+    ]
+
+
+def exact_numbers(rotor: Rotor) -> Numbers:
+    """The numbers as fractions, if all that count here are rational; else as balls."""
+    given = rotor.hypotheses.rational(*_NAMES)
+    if given is None:
+        return rotor.numbers
+    gamma, stiffness, rho, mu, ratio = given
+    return Numbers(gamma, stiffness, rho, mu, Fraction(0), ratio)
+
+
+def sign_of(value: Any) -> int | None:
+    """Sign of a fraction or of all numbers of a ball; ``None`` if it is not decided."""
+    if isinstance(value, Fraction):
+        return (value > 0) - (value < 0)
+    return 0 if value.is_zero() else decided(value) or None
+
+
+def rolling_force(n: Numbers) -> Any:
+    """``A = s² − ω²``, the mean normal force of rolling."""
+    return n.radius_ratio * n.radius_ratio - n.omega_squared
+
+
+def pull_of(n: Numbers) -> Any:
+    """``p = ρ√(1 + μ²)`` as a ball."""
+    return n.rho * (1 + n.mu * n.mu).sqrt()
+
+
+def _against_pull(value: Any, n: Numbers) -> int | None:
+    """Sign of a value less ``p``, exactly for fractions."""
+    if isinstance(value, Fraction):
+        return -1 if value < 0 else sign_of(value * value - n.rho * n.rho * (1 + n.mu * n.mu))
+    return sign_of(value - pull_of(n))
+
+
+def rolling_signs(n: Numbers) -> tuple[int | None, int | None]:
+    """Signs of ``A − ρ`` and of ``μA − |γ|s − p``: rolling is pressed, and held."""
+    force = rolling_force(n)
+    return sign_of(force - n.rho), _against_pull(n.mu * force - abs(n.gamma) * n.radius_ratio, n)
+
+
+def rolling_sign(n: Numbers) -> int | None:
+    """1 if rolling lasts, −1 if it does not."""
+    pressed, held = rolling_signs(n)
+    if pressed in (0, -1) or held == -1:
+        return -1
+    return 1 if pressed == 1 and held in (0, 1) else None
+
+
+def drag_sign(n: Numbers) -> int | None:
+    """1 if ``γ ≥ 0`` and ``γs > μA``: no backward whirl on the wall repeats; else −1."""
+    damping, excess = sign_of(n.gamma), sign_of(n.gamma * n.radius_ratio - n.mu * rolling_force(n))
+    if damping == -1 or excess in (0, -1):
+        return -1
+    not_negative = damping in (0, 1) or bool(n.gamma >= 0)
+    return 1 if not_negative and excess == 1 else None
+
+
+def _claim(
+    rotor: Rotor, kind: str, statement: str, sign: int | None, reason: str = "", *, more: bool = False, **balls: Any
+) -> Claim:
+    """Claim about whirl.  More bits may decide it where the sign is ``None``, or on request where it is 0."""
+    limited = rotor.hypotheses.exact and (sign is None or more)
+    told = reason or ("the sign of a condition is open" if sign is None else "")
+    numbers = enclosures_of(**balls) if sign == 1 else {}
+    return claim_of("whirl", kind, statement, sign or 0, reason=told, enclosures=numbers, limited=limited)
+
+
+def _rolling_claim(rotor: Rotor, exact: Numbers) -> Claim:
+    n, sign = rotor.numbers, rolling_sign(exact)
+    pressed, _ = rolling_signs(exact)
+    reason = "the wall would have to pull" if pressed in (0, -1) else "friction is too weak"
+    force = rolling_force(n)
+    return _claim(
+        rotor,
+        "rolls",
+        "The rotor can roll on the wall without slip, backward, for ever: at every angle the wall pushes and friction holds it.",
+        sign,
+        reason if sign == -1 else "",
+        speed=n.radius_ratio,
+        least_normal_force=force - n.rho,
+        spare_friction=n.mu * force - abs(n.gamma) * n.radius_ratio - pull_of(n),
+    )
+
+
+def _attraction_claim(rotor: Rotor, exact: Numbers) -> Claim:
+    """Faster than ``w_c`` slides gain speed; faster than rolling they lose it, at a rate that rolling bounds."""
+    n, (_, held), rolls = rotor.numbers, rolling_signs(exact), rolling_sign(exact)
+    pull = pull_of(n)
+    kept = (n.omega_squared + n.rho).sqrt()
+    speed = sustaining_speed(n, pull)
+    # With damping that is not negative contact asks for no more.
+    speed = speed if n.gamma >= 0 else speed.max(kept)
+    sign = rolls if rolls != 1 else 1 if held == 1 and speed < n.radius_ratio else 0 if held == 0 else None
+    reasons = {-1: "it cannot roll for ever", 0: "friction just suffices for rolling"}
+    return _claim(
+        rotor,
+        "attracts sliding",
+        "Every motion on the wall in backward whirl faster than the upper end of speed stays pressed and after a finite time rolls for ever.",
+        sign,
+        reasons.get(sign, "") if sign is not None else "",
+        speed=speed,
+    )
+
+
+def sustaining_speed(n: Numbers, pull: Any) -> Any:
+    """Larger root ``w`` of ``μ(w² − ω²) − γw = pull``, as a ball."""
+    return (n.gamma + (n.gamma * n.gamma + 4 * n.mu * (n.mu * n.omega_squared + pull)).sqrt()) / (2 * n.mu)
+
+
+def _reached_claim(rotor: Rotor, exact: Numbers) -> Claim:
+    """At ``w = s`` slides gain at most ``μA − γs + p``, namely where ``cos x = μ/√(1 + μ²)``."""
+    n, force = exact, rolling_force(exact)
+    need = n.gamma * n.radius_ratio - n.mu * force
+    against = _against_pull(need, n)
+    apart = sign_of(force + n.rho)
+    pushed = decided(
+        rolling_force(rotor.numbers) + rotor.numbers.rho * rotor.numbers.mu / (1 + rotor.numbers.mu**2).sqrt()
+    )
+    sign: int | None = 0
+    if against == 1 or apart == -1:
+        sign, reason = (
+            -1,
+            "damping outweighs friction at every angle" if against == 1 else "the wall cannot push so fast a whirl",
+        )
+    elif against is None or apart is None:
+        sign, reason = None, ""
+    elif against == -1 and pushed == 1:
+        sign, reason = 1, ""
+    else:
+        reason = (
+            "damping and friction balance" if against == 0 else "the wall may not push where friction feeds the whirl"
+        )
+    return _claim(
+        rotor,
+        "reached by sliding",
+        "Sliding can run away: some motion on the wall with forward slip gains speed of backward whirl until its slip ends.",
+        sign,
+        reason,
+    )
+
+
+def _constant_slide_claim(rotor: Rotor, exact: Numbers) -> Claim:
+    """Without unbalance ``h(w) = 0``, or ``−γw = μ(w² − ω²)`` where slip is backward; with it there is none."""
+    statement = "The rotor can slide on the wall in backward whirl at a constant speed, pressed by it."
+    balanced, damping, friction = (sign_of(v) for v in (exact.rho, exact.gamma, exact.mu))
+    n = rotor.numbers
+    if balanced == 1:
+        return _claim(rotor, "slips steadily", statement, -1, "unbalance changes its speed within each turn")
+    if None in (balanced, damping, friction):
+        return _claim(rotor, "slips steadily", statement, None)
+    if friction == 0 or damping == 0:
+        free = friction == damping
+        return _claim(
+            rotor,
+            "slips steadily",
+            statement,
+            1 if free else -1,
+            "" if free else "the forces along the wall do not balance",
+        )
+    room = sign_of(exact.mu * rolling_force(exact) - abs(exact.gamma) * exact.radius_ratio)
+    sign = None if room is None else 1 if room == damping else -1
+    speed = (abs(n.gamma) + (n.gamma * n.gamma + 4 * n.mu * n.mu * n.omega_squared).sqrt()) / (2 * n.mu)
+    reason = "its slip would have the other direction" if sign == -1 else ""
+    return _claim(rotor, "slips steadily", statement, sign, reason, speed=speed)
+
+
+def _slide_claims(rotor: Rotor, exact: Numbers) -> list[Claim]:
+    """Claim about a slide that repeats; none where unbalance may take it off the wall, to rolling, or to rest."""
+    claim = partial(
+        _claim,
+        rotor,
+        "slips",
+        "A motion slides on the wall in backward whirl slower than rolling, pressed all the time, and repeats after each turn; its speed lies "
+        "between the numbers slowest and fastest, and every other slide leaves this range.",
+    )
+    damping, friction, drag = sign_of(exact.gamma), sign_of(exact.mu), drag_sign(exact)
+    if damping == 0 and friction == 0:
+        return []
+    if damping in (0, -1) or friction == 0:
+        return [claim(-1, "no damping balances the friction" if friction else "there is no friction")]
+    if drag == 1:
+        return [claim(-1, "damping outweighs friction at all speeds up to that of rolling")]
+    n, pull = rotor.numbers, pull_of(rotor.numbers)
+    room = n.gamma * n.gamma + 4 * n.mu * (n.mu * n.omega_squared - pull)
+    slowest, fastest = sustaining_speed(n, -pull), sustaining_speed(n, pull)
+    signs = [decided(room), decided(slowest - (n.omega_squared + n.rho).sqrt()), decided(n.radius_ratio - fastest)]
+    if -1 in signs:
+        return []
+    shown = damping == 1 and friction == 1 and 0 not in signs
+    return [claim(1 if shown else None, slowest=slowest, fastest=fastest)]
+
+
+def _absence_claim(rotor: Rotor, exact: Numbers, rolls: bool, slips: bool) -> Claim:
+    statement = f"Dry-friction whirl in lasting contact is absent: {_BACKWARD}."
+    if rolls or slips:
+        return _claim(rotor, "absent", statement, -1, "the rotor can roll" if rolls else "one slide repeats")
+    sign = drag_sign(exact)
+    reason = "damping is not so strong that all backward whirl dies out" if sign == -1 else ""
+    return _claim(rotor, "absent", statement, 0 if sign == -1 else sign, reason)
+
+
+def _speed_claims(rotor: Rotor, exact: Numbers) -> list[Claim]:
+    """Claims for all speeds of the shaft below or above one."""
+    n, damping, friction = rotor.numbers, sign_of(exact.gamma), sign_of(exact.mu)
+    words = {
+        "absent below": f"{_BACKWARD}.",
+        "only rubs below": "every motion on the wall that repeats, pressed all the time, is a synchronous rub.",
+    }
+    above = _rolls_above_claim(rotor, exact)
+    if damping == -1 or (damping == 0 and friction == 0):
+        reason = _NEGATIVE if damping else _NEITHER
+        statements = {kind: f"{_AT_SPEEDS} {_BELOW}{told}" for kind, told in words.items()}
+        return [*(_claim(rotor, kind, told, 0, reason) for kind, told in statements.items()), above]
+    # Without friction there is no such speed.
+    share = None if friction == 0 else still_share(n)
+    light = _light_share(n, exact)
+    least = light if share is None else share if light is None else share.min(light)
+    shares = zip(words.items(), (share, least), strict=True)
+    return [*(_below(rotor, kind, told, found) for (kind, told), found in shares), above]
+
+
+def still_share(n: Numbers) -> Any:
+    """``(γ + √(γ² + 4μ²ω²))/(2μs)``, the share of the shaft's speed below which no backward whirl repeats, as a ball."""
+    return sustaining_speed(n, 0) / n.radius_ratio
+
+
+def _light_share(n: Numbers, exact: Numbers) -> Any | None:
+    """``ω/√(1 − ρ)``; ``None`` if there is no such limit."""
+    if sign_of(exact.rho - 1) in (0, 1):
+        return None
+    return (n.omega_squared / (1 - n.rho)).sqrt()
+
+
+def _below(rotor: Rotor, kind: str, words: str, share: Any | None) -> Claim:
+    """Claim for all speeds of the shaft below a share of the present one; for all speeds if it is ``None``."""
+    if share is None:
+        return _claim(rotor, kind, f"{_AT_SPEEDS} {words}", 1)
+    shown = rotor.numbers.gamma >= 0 and share.is_finite() and share > 0
+    return _claim(rotor, kind, f"{_AT_SPEEDS} {_BELOW}{words}", 1 if shown else None, **_speeds(rotor, share))
+
+
+def _rolls_above_claim(rotor: Rotor, exact: Numbers) -> Claim:
+    """At ``ν`` times the speed rolling is held where ``(μs² − p)ν² − |γ|sν − μω² ≥ 0``."""
+    n = rotor.numbers
+    statement = (
+        f"{_AT_SPEEDS} above the upper end of share times the present one the rotor can roll on the wall for ever."
+    )
+    against = _against_pull(exact.mu * exact.radius_ratio * exact.radius_ratio, exact)
+    if against in (0, -1):
+        return _claim(
+            rotor,
+            "rolls above",
+            statement,
+            against,
+            "friction is too weak at every speed" if against else "friction just balances the unbalance",
+        )
+    room, drag = n.mu * n.radius_ratio * n.radius_ratio - pull_of(n), abs(n.gamma) * n.radius_ratio
+    share = (drag + (drag * drag + 4 * room * n.mu * n.omega_squared).sqrt()) / (2 * room)
+    shown = against == 1 and share.is_finite()
+    return _claim(rotor, "rolls above", statement, 1 if shown else None, **_speeds(rotor, share))
+
+
+def _speeds(rotor: Rotor, share: Any) -> dict[str, Any]:
+    """A speed of the shaft as a share of the present one and, of a machine in SI units, in rad/s."""
+    given = rotor.hypotheses
+    if given.table != "machine":
+        return {"share": share}
+    return {"share": share, "speed_si": share * ball_of(read_exact(MACHINE_FIELDS["speed"], given.values["speed"]))}

@@ -1,0 +1,350 @@
+"""Claims about whirl in lasting contact beside a general integrator of the equations on the wall, and at limits."""
+
+from __future__ import annotations
+
+import copy
+import json
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from compilation import sized
+from scipy.integrate import solve_ivp
+from scipy.optimize import brentq
+
+from carom.outcome import InputError
+from carom.proofs import check, prove
+from carom.proofs.balls import at_precision
+from carom.proofs.hypotheses import hypotheses_of
+from carom.proofs.rotor import Rotor
+from carom.proofs.whirl import whirl_claims
+from carom.proofs.whirl_lines import whirl_line_claims
+
+DECIMAL = {
+    "gamma": "0.1",
+    "omega": "0.76",
+    "rho": "3/7",
+    "phi": "0.21",
+    "mu": "0.15",
+    "d": "0.95",
+    "radius_ratio": "57",
+}
+LONG = 400.0
+
+
+def claims_of(machine):
+    with at_precision(128):
+        return {claim.kind: claim for claim in whirl_claims(Rotor(hypotheses_of(machine)))}
+
+
+def along(machine, name, low, high):
+    with at_precision(128):
+        options = {"along": name, "from": low, "to": high}
+        return {claim.kind: claim for claim in whirl_line_claims(Rotor(hypotheses_of(machine)), options)}
+
+
+def random_machine(random):
+    gamma, rho = 10 ** random.uniform(-2, 1), 10 ** random.uniform(-2, 0.5)
+    mu, ratio = random.choice((0.03, 0.15, 0.5, 1.5)), random.uniform(1.5, 20.0)
+    return {
+        "gamma": gamma,
+        "omega": random.uniform(0.1, 3.0),
+        "rho": rho,
+        "phi": 0.0,
+        "mu": mu,
+        "d": 0.5,
+        "radius_ratio": ratio,
+    }
+
+
+class Wall:
+    """The planar rotor on a rigid wall: angle from the unbalance and backward speed ``w``, slip forward, backward or none."""
+
+    def __init__(self, machine):
+        at = {name: float(value) for name, value in machine.items()}
+        self.gamma, self.rho, self.mu, self.s = at["gamma"], at["rho"], at["mu"], at["radius_ratio"]
+        self.stiffness = at["omega"] ** 2
+
+    def push(self, x, w):
+        return self.rho * np.cos(x) + w * w - self.stiffness
+
+    def need(self, x):
+        """Friction force along growing angle of rolling."""
+        return self.rho * np.sin(x) - self.gamma * self.s
+
+    def rate(self, slip, x, w):
+        if slip == 0:
+            return -1 - w, 0.0 * w
+        return -1 - w, -self.gamma * w + self.rho * np.sin(x) + slip * self.mu * self.push(x, w)
+
+    def follow(self, x, w, slip, time):
+        """The motion until it leaves the wall or time is up: phases ``(slip, times, x, w)`` and whether it left."""
+        phases, clock = [], 0.0
+        while clock < time and len(phases) < 200:
+            events = [lambda _, y: self.push(*y)]
+            if slip:
+                events.append(lambda _, y, slip=slip: slip * (self.s - y[1]) + 1e-13)
+            else:
+                events += [
+                    lambda _, y, side=side: self.mu * self.push(*y) - side * self.need(y[0]) + 1e-13 for side in (1, -1)
+                ]
+            for event in events:
+                event.terminal, event.direction = True, -1
+            path = solve_ivp(
+                lambda _, y, slip=slip: self.rate(slip, *y),
+                (clock, time),
+                (x, w),
+                rtol=1e-9,
+                atol=1e-10,
+                events=events,
+            )
+            phases.append((slip, path.t, *path.y))
+            clock, (x, w) = path.t[-1], path.y[:, -1]
+            if path.status == 0:
+                break
+            if len(path.t_events[0]):
+                return phases, True
+            if slip:
+                w, side = self.s, np.sign(self.need(x))
+                slip = 0 if abs(self.need(x)) <= self.mu * self.push(x, w) else -side
+            else:
+                slip = -1 if len(path.t_events[1]) else 1
+        return phases, False
+
+
+def starting(wall, w):
+    return 1 if w < wall.s else -1
+
+
+def test_rolling_beside_angles():
+    random = np.random.default_rng(1)
+    angles = np.linspace(0, 2 * np.pi, 4001)
+    told = []
+    for _ in range(sized(200, 50, 2000)):
+        machine = random_machine(random)
+        wall, claim = Wall(machine), claims_of(machine)["rolls"]
+        push = wall.push(angles, wall.s)
+        spare = min(push.min(), (wall.mu * push - abs(wall.need(angles))).min())
+        if abs(spare) > 1e-4 * wall.s**2:
+            assert claim.status == ("proven" if spare > 0 else "refuted")
+            told.append(claim.status)
+        if claim.status == "proven":
+            assert claim.enclosures["least_normal_force"].value == pytest.approx(push.min(), abs=1e-9)
+            assert claim.enclosures["spare_friction"].value == pytest.approx(
+                (wall.mu * push - abs(wall.need(angles))).min(), abs=1e-3
+            )
+    assert min(told.count("proven"), told.count("refuted")) > len(told) / 10
+
+
+def test_slides_faster_than_the_speed_told_end_in_rolling():
+    random, followed = np.random.default_rng(2), 0
+    while followed < sized(20, 3, 300):
+        machine = random_machine(random)
+        if followed % 4 == 3:
+            machine["gamma"] *= -0.3
+        wall, claim = Wall(machine), claims_of(machine)["attracts sliding"]
+        if claim.status != "proven":
+            continue
+        least = claim.enclosures["speed"].value
+        for w in (least * 1.001, random.uniform(least, wall.s), random.uniform(wall.s, 3 * wall.s)):
+            phases, left = wall.follow(random.uniform(0, 2 * np.pi), w, starting(wall, w), LONG)
+            assert not left
+            assert [phase[0] for phase in phases] == [starting(wall, w), 0]
+        followed += 1
+
+
+def test_whether_slides_reach_rolling():
+    random, told = np.random.default_rng(3), []
+    for _ in range(sized(60, 20, 600)):
+        machine = random_machine(random)
+        wall, claim = Wall(machine), claims_of(machine)["reached by sliding"]
+        angles = np.linspace(0, 2 * np.pi, 4001)
+        pressed = angles[wall.push(angles, wall.s) > 0]
+        gain = max(wall.rate(1, pressed, wall.s)[1], default=-np.inf)
+        if claim.status == "undecided" or abs(gain) < 1e-4 * wall.s:
+            continue
+        assert (gain > 0) == (claim.status == "proven")
+        told.append(claim.status)
+    assert len(set(told)) == 2
+
+
+def test_one_slide_repeats_and_its_neighbours_leave():
+    random, followed = np.random.default_rng(4), 0
+    while followed < sized(8, 2, 100):
+        machine = random_machine(random)
+        claim = claims_of(machine).get("slips")
+        if claim is None or claim.status != "proven":
+            continue
+        wall = Wall(machine)
+        low, high = claim.enclosures["slowest"].value, claim.enclosures["fastest"].value
+
+        def turn(w, sign, wall=wall):
+            """Speed after a turn forward or backward in time, and the range passed."""
+            path = solve_ivp(
+                lambda x, y: wall.rate(1, x, y)[1] / (-1 - y),
+                (0, -sign * 2 * np.pi),
+                [w],
+                rtol=1e-11,
+                atol=1e-12,
+                max_step=0.1,
+            )
+            return path.y[0, -1], path.y[0], path.t
+
+        # Backward in time the map of a turn shrinks the range.
+        assert low * (1 - 1e-9) <= turn(low, -1)[0] <= turn(high, -1)[0] <= high * (1 + 1e-9)
+        speed = brentq(lambda w, turn=turn: turn(w, -1)[0] - w, low * (1 - 1e-9), high * (1 + 1e-9), xtol=1e-13)
+        _, speeds, angles = turn(speed, 1)
+        assert low * (1 - 1e-8) < speeds.min() <= speeds.max() < high * (1 + 1e-8) < wall.s * (1 + 1e-8)
+        assert wall.push(angles, speeds).min() > 0
+        assert turn(speed * 1.0001, 1)[0] > speed * 1.0001
+        assert turn(speed * 0.9999, 1)[0] < speed * 0.9999
+        followed += 1
+
+
+def test_where_whirl_is_absent_none_repeats_and_only_rubs_remain():
+    random, left, rested = np.random.default_rng(5), 0, 0
+    while left + rested < sized(40, 6, 600):
+        machine = random_machine(random)
+        below = claims_of(machine)["only rubs below"].enclosures["share"]
+        share = float(Fraction(below.low)) * random.choice((0.3, 0.9, 0.999))
+        slow = {**machine, "gamma": machine["gamma"] / share, "omega": machine["omega"] / share}
+        if slow["gamma"] > 1000 or slow["omega"] > 1000:
+            continue
+        assert claims_of(slow)["absent"].status == "proven"
+        wall = Wall(slow)
+        w, x = random.uniform(-3, 1.5) * max(wall.s, slow["omega"]), random.uniform(0, 2 * np.pi)
+        if wall.push(x, w) <= 0:
+            continue
+        phases, gone = wall.follow(x, w, starting(wall, w), LONG)
+        assert gone or abs(phases[-1][3][-1] + 1) < 1e-5
+        left, rested = left + gone, rested + (not gone)
+    assert left
+
+
+def test_thresholds_of_the_speed_are_those_of_each_speed():
+    """Just below and above each speed told, the machine at that speed has what is claimed, and not beyond."""
+    random = np.random.default_rng(6)
+    for _ in range(sized(40, 10, 400)):
+        machine = random_machine(random)
+        claims = claims_of(machine)
+        for kind, at_speed, rises in (("absent below", "absent", False), ("rolls above", "rolls", True)):
+            if claims[kind].status != "proven":
+                continue
+            share = claims[kind].enclosures["share"].value
+            for factor, holds in ((1 + 1e-6, rises), (1 - 1e-6, not rises)):
+                moved = {
+                    **machine,
+                    "gamma": machine["gamma"] / (share * factor),
+                    "omega": machine["omega"] / (share * factor),
+                }
+                if moved["gamma"] < 1000 and moved["omega"] < 1000:
+                    assert (claims_of(moved)[at_speed].status == "proven") is holds
+
+
+@pytest.mark.parametrize(
+    ("changes", "kind", "status"),
+    [
+        # No friction: nothing holds rolling, but for a rotor without unbalance and damping.
+        ({"mu": "0"}, "rolls", "refuted"),
+        ({"mu": "0", "gamma": "0"}, "rolls", "refuted"),
+        ({"mu": "0", "gamma": "0", "rho": "0"}, "rolls", "proven"),
+        ({"mu": "0", "gamma": "0", "rho": "0"}, "slips steadily", "proven"),
+        ({"mu": "0", "gamma": "0", "rho": "0"}, "absent", "refuted"),
+        ({"mu": "0", "gamma": "0", "rho": "0"}, "attracts sliding", "undecided"),
+        ({"mu": "0"}, "absent below", "proven"),
+        ({"mu": "0", "rho": "1"}, "only rubs below", "proven"),
+        ({"mu": "1e-30"}, "rolls", "refuted"),
+        ({"mu": "1e-30"}, "absent", "proven"),
+        # Just enough friction: μ(s² − ω²) = γs + p with p = 5/4.
+        ({"mu": "3/4", "rho": "1", "omega": "1", "radius_ratio": "3", "gamma": "19/12"}, "rolls", "proven"),
+        (
+            {"mu": "3/4", "rho": "1", "omega": "1", "radius_ratio": "3", "gamma": "19/12"},
+            "attracts sliding",
+            "undecided",
+        ),
+        (
+            {"mu": "3/4", "rho": "1", "omega": "1", "radius_ratio": "3", "gamma": "1583333333334/1000000000000"},
+            "rolls",
+            "refuted",
+        ),
+        # γs = μ(s² − ω²) exactly, without unbalance: the slide of constant speed rolls.
+        ({"mu": "3/4", "rho": "0", "omega": "1", "radius_ratio": "3", "gamma": "2"}, "rolls", "proven"),
+        ({"mu": "3/4", "rho": "0", "omega": "1", "radius_ratio": "3", "gamma": "2"}, "slips steadily", "refuted"),
+        ({"mu": "3/4", "rho": "0", "omega": "1", "radius_ratio": "3", "gamma": "2"}, "absent", "refuted"),
+        ({"mu": "3/4", "rho": "0", "omega": "1", "radius_ratio": "3", "gamma": "2"}, "reached by sliding", "undecided"),
+        ({"mu": "3/4", "rho": "0.1", "omega": "1", "radius_ratio": "3", "gamma": "2"}, "absent", "undecided"),
+        # The wall pulls: s² − ω² = ρ exactly.
+        ({"rho": "1", "omega": "2", "radius_ratio": "2", "gamma": "0"}, "rolls", "refuted"),
+        ({"rho": "0", "omega": "2", "radius_ratio": "2", "gamma": "0"}, "rolls", "refuted"),
+        ({"rho": "1", "omega": "2", "radius_ratio": "2", "gamma": "0"}, "absent", "undecided"),
+        ({"gamma": "-0.1"}, "absent below", "undecided"),
+        ({"gamma": "-0.1", "rho": "0"}, "slips steadily", "refuted"),
+        ({"gamma": "-9", "rho": "0"}, "slips steadily", "proven"),
+        ({"gamma": ("0", "0.2")}, "rolls", "proven"),
+        ({"gamma": ("-0.1", "0.2")}, "only rubs below", "undecided"),
+        ({"gamma": ("8", "9")}, "rolls", "undecided"),
+    ],
+)
+def test_limits(changes, kind, status):
+    assert claims_of({**DECIMAL, **changes})[kind].status == status
+
+
+def test_threshold_in_turns_of_the_shaft():
+    claim = prove("examples/keogh-cole.toml")["whirl absent below"]
+    # γ/Ω and ω²/Ω² by hand: μs²Ω² − (c/m)sΩ − μk/m = 0.
+    m, c, k, mu, s = 50.0, 1400.0, 980_000.0, 0.15, 0.04 / 0.0007
+    root = np.roots([mu * s * s, -c * s / m, -mu * k / m]).max()
+    assert claim.enclosures["speed_si"].value == pytest.approx(root, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("name", "low", "high", "rolls", "absent"),
+    [
+        ("speed", "1", "4.5", "refuted", "proven"),
+        ("speed", "5", "300", "proven", "refuted"),
+        ("speed", "4.579", "4.5795", "refuted", "undecided"),
+        ("friction", "0", "0.5", "refuted", "refuted"),
+        ("eccentricity", "0 mm", "0.3 mm", "proven", "refuted"),
+        ("gamma", "0", "1", "proven", "refuted"),
+    ],
+)
+def test_along_a_parameter(name, low, high, rolls, absent):
+    claims = along("examples/keogh-cole.toml", name, low, high)
+    assert (claims["rolls"].status, claims["absent"].status) == (rolls, absent)
+
+
+def test_fresh_values_along_a_parameter_hold_one_by_one():
+    random = np.random.default_rng(7)
+    for _ in range(sized(10, 3, 100)):
+        machine = random_machine(random)
+        for name, high in (("mu", 2.0), ("gamma", 10.0), ("omega", 6.0), ("radius_ratio", 10.0), ("rho", 3.0)):
+            low = 0.1
+            for kind, claim in along(machine, name, f"double {low}", f"double {high}").items():
+                if "from" not in claim.enclosures:
+                    continue
+                ends = [float(claim.enclosures[end].low) for end in ("from", "to")]
+                for value in (*ends, random.uniform(*ends)):
+                    assert claims_of({**machine, name: min(max(value, low), high)})[kind].status == "proven"
+
+
+def test_forged_claims_are_refused():
+    document = json.loads(json.dumps(prove(DECIMAL).document()))
+    places = [k for k, claim in enumerate(document["claims"]) if claim["about"] == "whirl"]
+    assert len(places) >= 8
+    for place in places:
+        claim = document["claims"][place]
+        others = {"proven": "refuted", "refuted": "proven", "undecided": "proven"}
+        changes = [{"status": others[claim["status"]]}, {"statement": claim["statement"] + " "}, {"reason": "none"}]
+        changes += [
+            {"enclosures": {**claim["enclosures"], name: [f"{float(end) * 1.01:.12f}" for end in ends]}}
+            for name, ends in claim["enclosures"].items()
+        ]
+        for change in changes:
+            forged = copy.deepcopy(document)
+            forged["claims"][place] = {**claim, **change}
+            with pytest.raises(InputError, match="is refused"):
+                check(forged)
+        forged = copy.deepcopy(document)
+        del forged["claims"][place]
+        with pytest.raises(InputError, match="is refused"):
+            check(forged)
