@@ -18,7 +18,7 @@ from carom.proofs.rotor import Rotor
 THEOREM = "kicks"
 OPTIONS = ("kicks_up_to", "most_impacts")
 NOT_CLAIMED = (
-    "that kicks of open cells do not return, or that they do",
+    "that kicks of open cells do not return, or that they do; why they are open is told by the search",
     "that the impacts stated happen: they are bounds from above",
     "anything of kicks beyond the largest speed, of starts other than levitation, or of walls that give way",
 )

@@ -20,7 +20,7 @@ from carom.proofs.balls import ball_of, rational
 from carom.proofs.evidence import NotShownError
 from carom.proofs.hypotheses import Hypotheses
 from carom.proofs.kick_cells import BY_ANGLE, BY_SPEED, IMPACTS, LOST, Cell
-from carom.proofs.passages import LeftOpenError
+from carom.proofs.passages import GRAZE, LeftOpenError
 from carom.proofs.patches import Held
 from carom.proofs.recoveries import impacts_of, kicked
 from carom.proofs.rotor import Rotor
@@ -117,7 +117,11 @@ class Disc:
         """Impacts after which all kicks of a cell return at most; :class:`LeftOpenError` if this is not shown."""
         slow, fast = (self.speed(share) for share in cell.speeds)
         angles = tuple(2 * arb.pi() * rational(share) for share in cell.angles)
-        return impacts_of(self.held, kicked((slow, fast), (angles[0], angles[1])), most)
+        try:
+            return impacts_of(self.held, kicked((slow, fast), (angles[0], angles[1])), most)
+        except (ArithmeticError, ValueError):
+            # Balls of a wide cell that hold everything: numbers in double precision fail then.
+            raise LeftOpenError(GRAZE) from None
 
     def try_(self, cell: Cell) -> Found:
         """What can be proven of a cell of which the kick in the middle returns."""

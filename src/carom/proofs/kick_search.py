@@ -6,10 +6,11 @@ import heapq
 import signal
 import time
 from collections.abc import Callable, Iterator
-from concurrent.futures import FIRST_COMPLETED, Future, wait
+from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Future, wait
 from contextlib import contextmanager
 from typing import Any, TypeVar
 
+from carom.outcome import CaromError
 from carom.progress import Reporter
 from carom.proofs.balls import at_precision
 from carom.proofs.evidence import NotShownError
@@ -134,7 +135,11 @@ def _each(
             if not waiting:
                 return
             for future in wait(waiting, return_when=FIRST_COMPLETED).done:
-                yield waiting.pop(future), future.result()
+                try:
+                    result = future.result()
+                except BrokenExecutor:
+                    raise CaromError("a process that tested cells has ended; try again, with fewer workers") from None
+                yield waiting.pop(future), result
 
 
 @contextmanager

@@ -48,6 +48,15 @@ class Held:
     Parameters
     ----------
     numbers : Numbers
+
+    Attributes
+    ----------
+    half, split : arb
+        ``γ/2`` and ``γ²/4 − ω²``.
+    radius, radius_squared, room : arb
+        ``ℓ``, ``ℓ²`` and ``1 − ℓ``.
+    grip : arb
+        ``μ(1 + d)``.
     """
 
     def __init__(self, numbers: Numbers) -> None:
@@ -56,8 +65,8 @@ class Held:
         self.radius = numbers.levitation
         self.radius_squared = self.radius * self.radius
         self.room = 1 - self.radius
-        self.rub = numbers.mu * (1 + numbers.d)
-        self._plain = tuple(float(x.mid()) for x in (self.half, self.split, numbers.omega_squared, self.radius))
+        self.grip = numbers.mu * (1 + numbers.d)
+        self._plain = tuple(float(x.mid()) for x in (self.half, self.split, numbers.omega_squared))
 
     def waves(self, time: Any, from_wall: bool) -> Waves:
         """Waves of flights from the wall or from levitation."""
@@ -78,7 +87,7 @@ class Held:
 
     def plain_waves(self, time: float, from_wall: bool) -> tuple[tuple[complex, complex, complex], ...]:
         """The same in doubles."""
-        half, split, stiff, _ = self._plain
+        half, split, stiff = self._plain
         root = cmath.sqrt(split) or 1e-9
         fade = cmath.exp(-half * time).real
         h = fade * (cmath.sinh(root * time) / root).real
@@ -151,7 +160,7 @@ class Departure:
         self.columns = [(_speed(along), along[-1]) for along in directions]
         middle = [float(x) for x in patch.centre]
         self._velocity = complex(*middle[:-1])
-        self._levitation = held._plain[3] * cmath.exp(1j * middle[-1])
+        self._levitation = float(held.radius.mid()) * cmath.exp(1j * middle[-1])
         self._columns = [(complex(v), 1j * self._levitation * float(turn)) for v, turn in self.columns]
 
     # -------------------------------------------------------------------------------------- balls

@@ -84,15 +84,15 @@ def _at_wall(departure: Departure, moment: Moment, time: Any) -> list[Any]:
 
 def _reset(departure: Departure, centre: list[Any], columns: Columns, drift: list[Any]) -> Patch:
     """Patch after the impact of states ``a, b, ψ`` before it."""
-    n, rub = departure.held.numbers, departure.held.rub
+    n, grip = departure.held.numbers, departure.held.grip
     wide = [x + spread([column[j] for column in columns]) + drift[j] for j, x in enumerate(centre)]
-    stops, goes = _slip_slopes(n.radius_ratio + wide[1], rub * wide[0])
-    slip, grip = n.radius_ratio + centre[1], rub * centre[0]
-    kept = slip - slip.min(grip).max(-grip)
+    stops, goes = _slip_slopes(n.radius_ratio + wide[1], grip * wide[0])
+    slip, most = n.radius_ratio + centre[1], grip * centre[0]
+    kept = slip - slip.min(most).max(-most)
     start = [-n.d * centre[0], kept - n.radius_ratio, centre[2]]
 
     def through(x: list[Any]) -> list[Any]:
-        return [-n.d * x[0], (1 - stops) * x[1] - goes * rub * x[0], x[2]]
+        return [-n.d * x[0], (1 - stops) * x[1] - goes * grip * x[0], x[2]]
 
     return _patch(start, [through(column) for column in columns], through(drift))
 
