@@ -43,7 +43,6 @@ def test_without_weight_other_disturbances_work(carom, options):
 
 
 PLANAR = [
-    ("orbits",),
     ("response",),
     ("prove",),
     ("explore",),
@@ -59,7 +58,7 @@ def test_what_takes_the_planar_rotor_refuses_it_in_one_line(carom, command, sett
     code, out, err = carom(command[0], MACHINE, *command[1:], *settings)
     assert (code, out) == (2, "")
     assert err.startswith("carom: machine = Case tum-flexible-rotor: the planar rotor")
-    assert "the commands simulate, drop, attractors, basins, orbits --impacts, and sweep with [basins]" in err
+    assert "the commands simulate, drop, attractors, basins, orbits, and sweep with [basins]" in err
     assert err.count("\n") == 1
 
 
@@ -128,6 +127,24 @@ def test_gains_are_mapped_by_their_names(carom, tmp_path):
     assert found.dataset.levitates.values.tolist() == [[0.0, 0.0], [1.0, 1.0]]
     assert found.present == (5000.0, 5.0)
     assert [each.name for each in found.axes] == ["proportional", "derivative"]
+
+
+def test_orbits_tell_steady_motions(carom):
+    code, out, err = carom("orbits", MACHINE, "--set", "gravity=0", "--json")
+    assert (code, err) == (0, "")
+    found = json.loads(out)["steady"]
+    model = cm.load(MACHINE, ["gravity=0"]).parameters
+    assert [each["motion"] for each in found] == ["levitation", *["sliding backward whirl"] * 3]
+    held, whirl = found[:2]
+    assert (held["state"], held["planes"]) == ("stable", [])
+    assert held["radius_si"] == pytest.approx(model.system.rest_radius * model.scales.length)
+    # Kept by a force that is that of the wall at this depth: 1e7 N/m.
+    assert whirl["normal_force_si"] == pytest.approx(1e7 * (whirl["radius_si"] - 0.2e-3), rel=1e-6)
+    code, out, _ = carom("orbits", MACHINE)
+    assert code == 0
+    assert "Under weight rubs and whirls are no steady motions" in " ".join(out.split())
+    code, out, err = carom("orbits", MACHINE, "--longest-period", "3")
+    assert (code, out, err.count("\n")) == (2, "", 1)
 
 
 def test_an_unstable_levitation_is_one_line(carom):

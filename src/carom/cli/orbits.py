@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from carom.cli.terminal import AsJson, MachineFile, Settings, console, print_document, progress
+from carom.outcome import InputError
 
 if TYPE_CHECKING:
     from carom.parameters import Case
@@ -39,18 +40,19 @@ def orbits(
 ) -> None:
     """List equilibria and periodic orbits, stable or not.
 
-    Lists all orbits with one impact a period, with the argument that there are no more; or, with --impacts N, the
+    Lists all orbits with one impact a period, with the argument that there are no more, of a flexible machine the steady motions; or, with --impacts N, the
     orbits with at most N impacts that are known or that a search finds, with what it tried.
     """
-    from carom.models import case_of
-    from carom.models.subjects import refuse_other_rotors
+    from carom.models import LinearRotor, case_of
     from carom.parameters import load
 
     given = load(machine, settings or ())
     if impacts is not None:
         _search(given, impacts, guesses, as_json)
         return
-    refuse_other_rotors(given)
+    if isinstance(given.parameters, LinearRotor):
+        _print_steady(given, longest_period, as_json)
+        return
     case = case_of(given)
     longest = None
     if longest_period is not None:
@@ -73,6 +75,18 @@ def orbits(
     from carom.cli.tables import print_orbits
 
     print_orbits(console(), case, steady, found)
+
+
+def _print_steady(case: Case, longest_period: str | None, as_json: bool) -> None:
+    """Print the steady motions of a flexible machine."""
+    from carom.cli.steady import print_steady, steady_document
+
+    if longest_period is not None:
+        raise InputError("--longest-period", longest_period, "allowed only for the planar rotor")
+    if as_json:
+        print_document(steady_document(case))
+        return
+    print_steady(console(), case)
 
 
 def _search(case: Case, impacts: int, guesses: int | None, as_json: bool) -> None:

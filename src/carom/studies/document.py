@@ -67,9 +67,8 @@ def _orbits_of(
 @checked
 def found_orbits_document(parameters: Parameters | Model, found: OrbitSet) -> dict[str, Any]:
     """Return the document of orbits with at most a number of impacts."""
-    planar = isinstance(parameters, Parameters)
     return {
-        **({"parameters": parameters.as_dict()} if planar else rotor_document(found.rotor)),
+        **({"parameters": parameters.as_dict()} if isinstance(parameters, Parameters) else rotor_document(found.rotor)),
         "impacts": found.impacts,
         "orbits": [
             {
