@@ -12,11 +12,14 @@ from scipy.integrate import solve_ivp
 
 import carom as cm
 from carom.closed_forms import ball_pressure
-from carom.models import model_from
+from carom.models import LinearRotor, Rigid, Touchdown, model_from
 from carom.models.weight import levitation_of, without_levitation
+from carom.orbits import find_orbits
 from carom.outcome import InputError
-from carom.parameters import TouchdownBearing
+from carom.parameters import Scales, TouchdownBearing
+from carom.plots.plane import orbit_path
 from carom.rotors import TouchdownPlane, load_machine, unbalance_response
+from carom.studies.document import found_orbits_document
 
 RACE = {"race_inertia": 1e-5, "race_drag": 1e-6, "mount_mass": 0.3, "mount_stiffness": 2e6, "mount_damping": 50.0}
 WALLS = {
@@ -188,3 +191,27 @@ def test_a_limit_of_the_pressure_needs_balls(tmp_path):
     given = text.replace("friction = 0.15\n", f"friction = 0.15\n{balls}") + '[limits]\npressure = "3 GPa"\n'
     (tmp_path / "limited.toml").write_text(given, encoding="utf-8")
     assert cm.load(tmp_path / "limited.toml").limits.pressure == 3e9
+
+
+@pytest.mark.jit_only
+def test_orbits_are_told_in_the_clearance_of_their_plane():
+    """One coordinate and one wall in two units of length: the same orbits, in N s, m/s and mm."""
+    gamma, omega, rho, wide = 0.1, 0.76, 3.0 / 7.0, 2.0
+    found = []
+    for unit in (1.0, wide):  # clearances in the unit of length
+        plane = Touchdown([1.0 / unit], Rigid(0.95), 0.15, 21.0, clearance=unit)
+        rotor = LinearRotor.in_fixed_frame(
+            mass=[[1.0]],
+            damping=[[gamma]],
+            stiffness=[[omega**2]],
+            forcing=[rho * unit],
+            touchdowns=[plane],
+            scales=Scales(3.0, 1e-3 / unit, 200.0),
+        )
+        orbits = find_orbits(rotor, impacts=1, guesses=60)
+        (stable,) = (orbit for orbit in orbits if orbit.stable and orbit.admissible)
+        entries = found_orbits_document(rotor, orbits)["orbits"]
+        (entry,) = (each for each in entries if each["stable"] and each["admissible"])
+        circle = orbit_path(stable, 1)[1]
+        found.append([entry["period_si"], entry["radial_speed_si"], entry["normal_impulse_si"], np.abs(circle).max()])
+    assert found[1] == pytest.approx(found[0], rel=1e-9)
