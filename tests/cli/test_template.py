@@ -62,6 +62,8 @@ def test_every_line_that_may_be_used_loads(tmp_path, text):
         "D =",
         "damping =",
         "race",
+        "ball",
+        "conformity",
         "mount",
         "exponent",
         "longest",

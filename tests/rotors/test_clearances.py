@@ -11,10 +11,15 @@ from flexible_machines import SOFT, munich
 from scipy.integrate import solve_ivp
 
 import carom as cm
+from carom.closed_forms import ball_pressure
+from carom.models import LinearRotor, Rigid, Touchdown, model_from
 from carom.models.weight import levitation_of, without_levitation
+from carom.orbits import find_orbits
 from carom.outcome import InputError
-from carom.parameters import TouchdownBearing
+from carom.parameters import Scales, TouchdownBearing
+from carom.plots.plane import orbit_path
 from carom.rotors import TouchdownPlane, load_machine, unbalance_response
+from carom.studies.document import found_orbits_document
 
 RACE = {"race_inertia": 1e-5, "race_drag": 1e-6, "mount_mass": 0.3, "mount_stiffness": 2e6, "mount_damping": 50.0}
 WALLS = {
@@ -158,3 +163,55 @@ def test_clearances_are_parameters_of_the_machine():
     assert model.value("radius_ratio_2") == pytest.approx(4.8 / 0.3)
     same = model.replace(radius_ratio=30.0).reduced.machine
     assert [each.rotor_radius for each in same.touchdowns] == pytest.approx([6e-3, 9e-3])
+
+
+@pytest.mark.jit_only
+def test_balls_have_a_pressure_at_each_plane():
+    """That of the peak force in N there, levitating and falling; it is written and read with the model."""
+    balls = {"balls": 12, "ball_diameter": "6.35 mm", "race_diameter": "42 mm"}
+    wall = TouchdownBearing("hunt-crossley", stiffness="1e7 N/m", dissipation="1 s/m", **balls)
+    model = with_clearances(munich(touchdown=wall), (0.2e-3, 0.3e-3), 0.1e-3).with_modes(3).model
+    planes = cm.motions.drop_loads(cm.simulate(model, cm.drop(regained_after="8 ms"), "9 ms")).planes
+    for plane in planes:
+        si = plane.loads.si()
+        assert si["pressure"] == pytest.approx(ball_pressure(wall, si["force"]), rel=1e-12)
+        assert si["pressure"] > 1e8
+    again = model_from(model.rotor.attributes())
+    assert [each.bearing.balls for each in again.touchdowns] == [12, 12]
+
+
+def test_a_limit_of_the_pressure_needs_balls(tmp_path):
+    text = Path("examples/tum-flexible-rotor.toml").read_text(encoding="utf-8")
+    (tmp_path / "limited.toml").write_text(text + '[limits]\npressure = "3 GPa"\n', encoding="utf-8")
+    with pytest.raises(
+        InputError, match=r"^pressure = 3000000000.0: a limit needs balls in all tables \[\[touchdown\]\]$"
+    ):
+        cm.load(tmp_path / "limited.toml")
+    balls = 'balls = 12\nball_diameter = "6 mm"\nrace_diameter = "30 mm"\n'
+    given = text.replace("friction = 0.15\n", f"friction = 0.15\n{balls}") + '[limits]\npressure = "3 GPa"\n'
+    (tmp_path / "limited.toml").write_text(given, encoding="utf-8")
+    assert cm.load(tmp_path / "limited.toml").limits.pressure == 3e9
+
+
+@pytest.mark.jit_only
+def test_orbits_are_told_in_the_clearance_of_their_plane():
+    """One coordinate and one wall in two units of length: the same orbits, in N s, m/s and mm."""
+    gamma, omega, rho, wide = 0.1, 0.76, 3.0 / 7.0, 2.0
+    found = []
+    for unit in (1.0, wide):  # clearances in the unit of length
+        plane = Touchdown([1.0 / unit], Rigid(0.95), 0.15, 21.0, clearance=unit)
+        rotor = LinearRotor.in_fixed_frame(
+            mass=[[1.0]],
+            damping=[[gamma]],
+            stiffness=[[omega**2]],
+            forcing=[rho * unit],
+            touchdowns=[plane],
+            scales=Scales(3.0, 1e-3 / unit, 200.0),
+        )
+        orbits = find_orbits(rotor, impacts=1, guesses=60)
+        (stable,) = (orbit for orbit in orbits if orbit.stable and orbit.admissible)
+        entries = found_orbits_document(rotor, orbits)["orbits"]
+        (entry,) = (each for each in entries if each["stable"] and each["admissible"])
+        circle = orbit_path(stable, 1)[1]
+        found.append([entry["period_si"], entry["radial_speed_si"], entry["normal_impulse_si"], np.abs(circle).max()])
+    assert found[1] == pytest.approx(found[0], rel=1e-9)

@@ -186,6 +186,15 @@ def bearing_of(model: Model) -> TouchdownBearing | None:
     return bearing_of(model.rotor) if isinstance(model, Around) else None
 
 
+def bearing_at(model: Model, plane: int) -> TouchdownBearing | None:
+    """Data of the touchdown bearing at a plane, which may state its balls; ``None`` if they are not known."""
+    if isinstance(model, LinearRotor):
+        return model.touchdowns[plane].bearing
+    if isinstance(model, Around) and not isinstance(model, InBearing):
+        return bearing_at(model.rotor, plane)
+    return bearing_of(model)
+
+
 def pull_of(model: Model) -> tuple[Force, ...]:
     """:attr:`InBearing.pull` of a model that has it."""
     if isinstance(model, InBearing):

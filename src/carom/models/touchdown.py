@@ -14,6 +14,7 @@ from carom.core.laws.choice import LAWS
 from carom.core.wall import Wall
 from carom.models.race import Race
 from carom.outcome import InputError, shown
+from carom.parameters import TouchdownBearing
 
 _Share = Annotated[float, Kind(lambda number: 0.0 <= number <= 1.0, "a number from 0 to 1")]
 _Exponent = Annotated[float, Kind(lambda number: 1.0 <= number <= 2.0, "a number from 1 to 2")]
@@ -162,6 +163,8 @@ class Touchdown:
         Inner race that turns; by default it stands still.
     clearance : float, optional
         Clearance there in the unit of length of the rotor's scales, 1 by default: results at the plane in SI units need it, the equations do not.
+    bearing : carom.parameters.TouchdownBearing, optional
+        Its data in SI units where it states its balls: they give a pressure, and change no motion.
 
     Raises
     ------
@@ -175,6 +178,7 @@ class Touchdown:
     surface_speed: _Forward
     race: Race | None = None
     clearance: Positive = 1.0
+    bearing: TouchdownBearing | None = None
 
     def __post_init__(self) -> None:
         row = np.array(self.plane, complex) if _are_numbers(self.plane) else np.empty(0)
@@ -219,6 +223,7 @@ class Touchdown:
             "surface_speed": self.surface_speed,
             "race": race,
             "clearance": self.clearance,
+            "bearing": None if self.bearing is None else dataclasses.asdict(self.bearing),
         }
 
     @classmethod
@@ -228,7 +233,10 @@ class Touchdown:
         (law,) = (each for each in get_args(Law) if each.law == name)
         plane = [complex(*number) for number in given["plane"]]
         race = Race(**given["race"]) if given["race"] is not None else None
-        return cls(plane, law(**numbers), given["friction"], given["surface_speed"], race, given.get("clearance", 1.0))
+        bearing = TouchdownBearing(**given["bearing"]) if given.get("bearing") is not None else None
+        return cls(
+            plane, law(**numbers), given["friction"], given["surface_speed"], race, given.get("clearance", 1.0), bearing
+        )
 
     def wall(self, mass: float) -> Wall:
         """The numbers of its wall, as the kernels take them, if the plane resists impulses with this mass."""

@@ -10,7 +10,7 @@ import numpy as np
 from carom.arguments import checked
 from carom.closed_forms.hertz import ball_pressure
 from carom.closed_forms.known import known_of
-from carom.models.in_bearing import bearing_of
+from carom.models.in_bearing import bearing_at
 from carom.motions.contacts import ContactLog, presses, slip_velocity, yields
 from carom.motions.ledger import contact_power
 from carom.motions.quadrature import NODES, WEIGHTS, pieces
@@ -102,7 +102,7 @@ def touchdown_loads(trajectory: Trajectory) -> TouchdownLoads:
     """
     rotor, scales = trajectory.rotor, trajectory.scales
     loads = (_in_wall if yields(rotor.system, trajectory.plane) else _on_wall)(trajectory)
-    bearing, pressure = bearing_of(rotor), None
+    bearing, pressure = bearing_at(rotor, trajectory.plane), None
     if bearing is not None and scales is not None:
         pressure = ball_pressure(bearing, loads["force"] * scales.force)
     return TouchdownLoads(

@@ -26,6 +26,7 @@ from carom.orbits.shooting import Links, Start, converged, links_of
 from carom.orbits.stability import Multipliers, multipliers_of
 from carom.orbits.word import Word
 from carom.outcome import CaromError, InputError
+from carom.parameters import Scales
 from carom.results import Result
 
 SHORTEST = 1e-9
@@ -204,6 +205,11 @@ class Orbit(Result):
     def radial_speed(self) -> float:
         """``ṙ`` just before the first impact in ``c_r Ω``."""
         return self.section.radial_speed
+
+    @property
+    def scales(self) -> Scales | None:
+        """Scales of what is told of the plane of the first segment: lengths there are in its own clearance."""
+        return self.rotor.system.scales_at(self.word[0].plane, self.rotor.scales)
 
     @property
     def impulse(self) -> float:

@@ -153,7 +153,7 @@ def last_turns(history: History) -> History | None:
 
 
 def _of_orbit(orbit: Orbit, periods: int) -> History:
-    scales = orbit.rotor.scales
+    scales = orbit.scales
     unit = told_in("time", scales)[0]
     times, position = orbit_path(orbit, periods)
     look = LOOKS[orbit_look(orbit)]

@@ -65,7 +65,7 @@ def orbit(orbit: Orbit, periods: Count | None = None, *, axes: tuple[Axes, Axes]
     """
     count = _pattern_length(orbit.period) if periods is None else periods
     figure, (left, right) = _two_frames(axes)
-    scales = orbit.rotor.scales
+    scales = orbit.scales
     wall, once = clearance(scales), orbit_path(orbit, 1)[1]
     reach = max(1.12, 1.06 * float(np.abs(once).max()) / wall)
     for drawn in (left, right):
@@ -94,7 +94,7 @@ def _draw_orbit(axes: Axes, orbit: Orbit, frame: Frame, periods: int) -> None:
     # In the fixed frame the position is Z = U e^(it), with the time t in 1/Omega.
     turn = np.exp(1j * times) if frame == "fixed" else np.ones_like(times)
     line = line * turn
-    wall = clearance(orbit.rotor.scales)
+    wall = clearance(orbit.scales)
     path(axes, line, look, label=f"orbit ({look.words})", width=None if periods == 1 else 0.6, wall=wall)
     direction_arrow(axes, line[times <= orbit.period], look)
     struck, speeds = orbit_impacts(orbit, periods)

@@ -102,19 +102,20 @@ def equilibria_and_orbits(
         (_Drawn(orbit, orbit_path(orbit, 1, plane)[1]) for orbit in wanted), key=lambda drawn: _ORDER[drawn.meaning]
     )
     physical = [drawn for drawn in shown if drawn.meaning != "virtual"]
-    wall = clearance(orbits.rotor.scales)
+    scales = orbits.rotor.system.scales_at(plane, orbits.rotor.scales)
+    wall = clearance(scales)
     places = [wall * complex(e.places[plane]) for e in equilibria]
     crowded = closeups([drawn.path for drawn in physical], places, wall) if axes is None else []
     figure, whole, panels = _panels(axes, len(crowded))
     hidden = [physical[i] for closeup in crowded for i in closeup.members]
     clearance_circle(whole, 1.36, wall)
-    label_frame(whole, "rotating", orbits.rotor.scales, f"plane {plane + 1}" if planes > 1 else "")
+    label_frame(whole, "rotating", scales, f"plane {plane + 1}" if planes > 1 else "")
     named = shown if len(shown) - len(physical) <= _MOST_VIRTUAL else physical
     _draw(whole, equilibria, shown, wall, plane, without_arrow=hidden)
     tags = [(f"({letter})", closeup.middle) for letter, closeup in zip("bc", crowded, strict=False)]
     _name(whole, [drawn for drawn in named if drawn not in hidden], _LABEL_RING, wall, gap=0.14, tags=tags)
     for (tag, _), closeup, panel in zip(tags, crowded, panels, strict=True):
-        _enlarge(whole, panel, closeup, tag, orbits.rotor.scales)
+        _enlarge(whole, panel, closeup, tag, scales)
         _draw(panel, equilibria, shown, wall, plane)
         half = closeup.half / wall
         _name(panel, [physical[i] for i in closeup.members], 1.0 + 0.33 * half, wall, gap=0.24 * half)
@@ -198,8 +199,7 @@ def equilibria(found: EquilibriumSet, title: str | None = None) -> Figure:
 
     Virtual equilibria that lie far outside are left out.
     """
-    count, scales = len(found[0].places), found.rotor.scales
-    wall = clearance(scales)
+    count = len(found[0].places)
     size = (
         (0.7 * TWO_COLUMNS, 0.75 * TWO_COLUMNS)
         if count == 1
@@ -208,6 +208,8 @@ def equilibria(found: EquilibriumSet, title: str | None = None) -> Figure:
     figure = StyledFigure(figsize=size)
     panels = figure.subplots(1, count, squeeze=False)[0]
     for plane, drawn in enumerate(panels):
+        scales = found.rotor.system.scales_at(plane, found.rotor.scales)
+        wall = clearance(scales)
         shown = [entry for entry in found if abs(entry.places[plane]) <= _FARTHEST]
         reach = max(1.12, *(1.06 * abs(entry.places[plane]) for entry in shown)) if shown else 1.12
         clearance_circle(drawn, reach, wall)

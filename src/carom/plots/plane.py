@@ -160,7 +160,8 @@ def orbit_path(orbit: Orbit, periods: int, plane: int | None = None) -> tuple[Fl
     """
     seen = orbit.word[0].plane if plane is None else plane
     times = np.linspace(0.0, periods * orbit.period, periods * max(400, int(60.0 * orbit.period)) + 1)
-    return times, orbit.path(times, seen) * complex(clearance(orbit.rotor.scales))
+    scales = orbit.rotor.system.scales_at(seen, orbit.rotor.scales)
+    return times, orbit.path(times, seen) * complex(clearance(scales))
 
 
 def plane_note(orbit: Orbit, note: str = "") -> str:

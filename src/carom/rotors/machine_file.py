@@ -29,7 +29,6 @@ from carom.parameters.fields import by_name, unknown_name
 from carom.parameters.machine import LEAST_RADIUS
 from carom.parameters.machine_file import split_settings
 from carom.parameters.toml_reader import MachineTables, read_machine_tables
-from carom.parameters.touchdown_bearing import BALL_FIELDS
 from carom.rotors.attachments import PLANE_FIELDS, UNBALANCE_FIELDS, TouchdownPlane, Unbalance
 from carom.rotors.controllers import PID, PID_FIELDS, TransferFunction
 from carom.rotors.damping import MODAL_FIELDS, PROPORTIONAL_FIELDS, ModalDamping, ProportionalDamping
@@ -55,15 +54,13 @@ ROTOR_ENTRIES: Mapping[str, Any] = {
     "accuracy": Field("accuracy", "", "error of contact forces by reduction", "a number", "", 1e-9, 1.0, "0.02"),
     **dict.fromkeys(_RENAMED),
 }
-BEARING_ENTRIES = {name: field for name, field in TOUCHDOWN_FIELDS.items() if name not in BALL_FIELDS}
-"""Entries of a touchdown bearing: the pressure of its balls is known for the planar rotor alone."""
 _MATRICES = ("A", "B", "C", "D")
 _QUOTIENT = ("numerator", "denominator")
 PART_ENTRIES: Mapping[str, Mapping[str, Any]] = {
     "section": {**SECTION_FIELDS, **MATERIAL_FIELDS},
     "disc": {"node": None, **DISC_FIELDS, "width": None, **by_name(*(SECTION_FIELDS[name] for name in ("outer_diameter", "inner_diameter"))), **MATERIAL_FIELDS},
     "magnetic_bearing": {"node": None, "sensor_nodes": None, **BEARING_FIELDS, **PID_FIELDS, **dict.fromkeys((*_QUOTIENT, *_MATRICES))},
-    "touchdown": {"node": None, "law": None, **PLANE_FIELDS, **BEARING_ENTRIES},
+    "touchdown": {"node": None, "law": None, **PLANE_FIELDS, **TOUCHDOWN_FIELDS},
     "unbalance": {"node": None, **UNBALANCE_FIELDS},
 }  # fmt: skip
 """Entries of the tables of parts."""
@@ -87,13 +84,12 @@ def read_flexible_case(name: str, tables: MachineTables, settings: Mapping[str, 
             InputError("drive", shown(dict(tables.drive)), "not allowed beside [rotor]: its speed stays as it is")
         )
     limits = problems.attempt(LoadLimits.of, tables.limits) or LoadLimits()
-    if limits.pressure is not None:
-        allowed = "no limit of a flexible machine: the pressure of balls is known for the planar rotor"
-        problems.errors.append(InputError("pressure", limits.pressure, allowed))
     zones = problems.attempt(Zones, tables.zones["limits"]) if "limits" in tables.zones else Zones()
     accuracy, text = ROTOR_ENTRIES["accuracy"], settings.get("accuracy", tables.values.get("accuracy", ACCURACY))
     wanted = problems.attempt(read_quantity, accuracy, text)
     machine = _read_machine(tables, settings, problems)
+    if limits.pressure is not None and any(each.bearing.balls is None for each in machine.touchdowns):
+        raise InputError("pressure", limits.pressure, "a limit needs balls in all tables [[touchdown]]")
     model = machine.reduce(wanted or ACCURACY).linear
     scales = model.scales or Scales(1.0, 1.0, 1.0)
     requirement = Requirement.of_table(tables.survive, scales)
@@ -300,7 +296,7 @@ def _bearing(entry: dict[str, Any]) -> MagneticBearing:
 
 def _plane(entry: dict[str, Any]) -> TouchdownPlane:
     _needed(entry, ("node", "law", *PLANE_FIELDS))
-    bearing = TouchdownBearing(**_of(entry, ("law", *BEARING_ENTRIES)))
+    bearing = TouchdownBearing(**_of(entry, ("law", *TOUCHDOWN_FIELDS)))
     return TouchdownPlane(entry["node"], bearing, **_of(entry, PLANE_FIELDS))
 
 

@@ -186,4 +186,5 @@ class ReducedMachine(Result):
         wide, ratio = clearance / whole.length, plane.rotor_radius / clearance
         scales = Scales(whole.mass / wide**2, clearance, whole.speed)
         law, race = law_of(bearing, scales), race_of(bearing, ratio, scales)
-        return Touchdown(row / wide, law, plane.friction, ratio + 1.0, race, wide)
+        told = None if plane.bearing.balls is None else plane.bearing
+        return Touchdown(row / wide, law, plane.friction, ratio + 1.0, race, wide, told)

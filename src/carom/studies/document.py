@@ -229,9 +229,10 @@ def _equilibrium(entry: SteadyMotion, rotor: Model) -> dict[str, Any]:
 def _orbit(entry: Orbit, scales: Scales | None) -> dict[str, Any]:
     document = fields_of(entry, "name", "impacts", "period", "radial_speed", "angle", "angular_speed")
     document |= fields_of(entry, multipliers="multipliers.values") | fields_of(entry, "stable", "admissible", "reason")
-    if scales is not None:
-        document |= in_si(document, scales, "period", "radial_speed")
-        document |= {"normal_impulse_si": entry.impulse * scales.impulse}
+    own = entry.rotor.system.scales_at(entry.word[0].plane, scales)
+    if own is not None:
+        document |= in_si(document, own, "period", "radial_speed")
+        document |= {"normal_impulse_si": entry.impulse * own.impulse}
         document |= _wall(indentation_of_hit(in_rigid_wall(entry.rotor), entry.radial_speed))
     return document
 
