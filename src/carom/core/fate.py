@@ -28,8 +28,10 @@ import numpy as np
 from carom.compiling.decorators import inlined, kernel
 from carom.core.block import basis_amplitudes
 from carom.core.flow import squared_modulus
-from carom.core.layout import NEAR, record
+from carom.core.layout import NEAR
+from carom.core.limits import FREE
 from carom.core.planar_proofs import planar_proofs
+from carom.core.records import record
 
 NO_TURN, SET_OUT, ROUND = 0, 1, 2
 NO_CONTACT = -1.0
@@ -54,6 +56,7 @@ def memory(
     contact_time: float = np.inf,
     contact_gap: float = 0.0,
     impact_speed: float = np.inf,
+    limits: int = 0,
 ) -> np.record:
     """Memory of the criteria for one motion, and the options on how far to follow it.
 
@@ -77,6 +80,8 @@ def memory(
         End with ``TRIGGERED`` when contact has persisted for that long, interrupted by flights of at most ``contact_gap``.
     impact_speed : float
         End with ``TRIGGERED`` at an impact with that speed or more.
+    limits : int
+        Number of limited quantities: ``clock`` then is the time, and ``limited`` the states of their axes, at the start of the motion.
     """
     return record(
         reference=np.zeros(modes, np.complex128),
@@ -113,6 +118,13 @@ def memory(
         touching=np.asarray(NO_CONTACT),
         flown=np.asarray(0.0),
         parted=np.asarray(0, np.int64),
+        clock=np.asarray(0.0),
+        limited=np.full(2 * limits, FREE, np.int64),
+        limited_steps=np.asarray(0, np.int64),
+        reference_clock=np.asarray(0.0),
+        reference_limited=np.asarray(0, np.int64),
+        turn_clock=np.asarray(0.0),
+        turn_limited=np.asarray(0, np.int64),
     )
 
 
@@ -148,7 +160,8 @@ def recurs(memory, amplitudes):
     memory.events += 1
     if memory.events > 1:
         memory.since += 1
-        if same_state(memory.reference, amplitudes, NEAR):
+        recurred = same_state(memory.reference, amplitudes, NEAR)
+        if recurred and in_step(memory, memory.reference_clock, memory.reference_limited):
             if memory.candidate == memory.since:
                 memory.period = memory.since
                 return True
@@ -178,6 +191,7 @@ def impacts_until_noted(memory):
 @kernel
 def _renew(memory, amplitudes):
     memory.since, memory.parted = 0, 0
+    memory.reference_clock, memory.reference_limited = memory.clock, memory.limited_steps
     for k in range(amplitudes.shape[0]):
         memory.reference[k] = amplitudes[k]
 
@@ -187,6 +201,15 @@ def same_state(first, second, tolerance):
     """Whether the distance of two states, relative to one plus their size, is within a tolerance."""
     size, distance = _size_and_distance(first, second)
     return distance <= tolerance * size
+
+
+@inlined
+def in_step(memory, clock, limited_steps):
+    """Whether limits act as at an earlier instant: they have not been in reach since, or their axes are turned by quarters of a turn."""
+    if memory.limited_steps == limited_steps:
+        return True
+    quarters = (memory.clock - clock) * 2.0 / math.pi
+    return abs(quarters - math.floor(quarters + 0.5)) <= NEAR
 
 
 @inlined
@@ -246,6 +269,7 @@ def approaches_turn(memory, position, amplitudes, speed):
         memory.turn_position = position
         memory.turn_time = 0.0
         memory.turn_slipped = 0
+        memory.turn_clock, memory.turn_limited = memory.clock, memory.limited_steps
         for k in range(amplitudes.shape[0]):
             memory.turn_state[k] = amplitudes[k]
         memory.turning = SET_OUT

@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from carom.core.flow import fly_all
-from carom.core.layout import copy_of
+from carom.core.records import copy_of
 from carom.core.table import flight_table
 from carom.core.wall import Wall
 from carom.models.nodes import Nodes
@@ -115,6 +115,11 @@ class System(Result):
         """Number ``N`` of amplitudes."""
         return len(self.arrays["exponents"])
 
+    @property
+    def limits(self) -> int:
+        """Number of quantities of controllers that have limits."""
+        return len(self.arrays["limit_bounds"])
+
     @cached_property
     def free(self) -> np.ndarray:
         """Which modes are free, shape (N,)."""
@@ -149,6 +154,8 @@ class System(Result):
             return "a race that turns", "races that stand still, or carom.simulate and carom.settle"
         if self.shaft is not None:
             return "a shaft whose speed changes", "one at constant speed, or carom.simulate and carom.settle"
+        if self.limits:
+            return "limits of its magnetic bearings", "bearings without limits, or carom.simulate and carom.settle"
         if self.shaken:
             return "forces that change in the fixed frame", "forces that turn with the shaft, or weight"
         return None
@@ -349,6 +356,7 @@ class System(Result):
             and arrays["rows"].tolist() == [[0.0, 1.0]]
             and bool(arrays["driven"][1])
             and arrays["law"].tolist() == [0]
+            and not self.limits
         )
 
     def at_planes(self, amplitudes: np.ndarray, planes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -362,6 +370,23 @@ class System(Result):
         arrays = self.arrays
         position = np.einsum("...k,k->...", amplitudes, arrays["rows"][plane]) + arrays["offsets"][plane]
         return position, np.einsum("...k,k->...", amplitudes, arrays["rate_rows"][plane])
+
+    def excess(self, amplitudes: np.ndarray, times: np.ndarray) -> np.ndarray:
+        """What is asked for beyond each limit, complex, shape (..., L), in the frame of the rotor, in states (..., N) at times (...)."""
+        arrays, turn = self.arrays, np.exp(1j * np.asarray(times))[..., None]
+        found = np.zeros((*turn.shape[:-1], self.limits), complex)
+        for each, bound in enumerate(arrays["limit_bounds"].tolist()):
+            asked = amplitudes @ arrays["limit_rows"][each] + arrays["limit_offsets"][each]
+            asked = (asked + found @ arrays["limit_couplings"][each]) * turn[..., 0]
+            given = np.clip(asked.real, -bound, bound) + 1j * np.clip(asked.imag, -bound, bound)
+            found[..., each] = (asked - given) / turn[..., 0]
+        return found
+
+    @cached_property
+    def excess_accelerations(self) -> np.ndarray:
+        """Accelerations of the coordinates per unit of what is asked for beyond each limit, shape (n, L)."""
+        found: np.ndarray = self.rates @ self.arrays["limit_columns"]
+        return found
 
     def fly(self, amplitudes: np.ndarray, times: np.ndarray) -> np.ndarray:
         """Mode amplitudes after free flights, shape (..., N).

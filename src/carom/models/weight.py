@@ -15,6 +15,7 @@ import numpy as np
 from carom.models.forcing import Force
 from carom.models.in_bearing import InBearing
 from carom.models.jeffcott import Jeffcott
+from carom.models.limited import Limited
 from carom.models.linear import LinearRotor
 from carom.models.model import Model
 from carom.models.stages import Forced, forces_of
@@ -100,6 +101,8 @@ def without_levitation(model: Model) -> Model:
     """
     if isinstance(model, Forced):
         return Forced(without_levitation(model.rotor), model.forces)
+    if isinstance(model, Limited):
+        return without_levitation(model.rotor)
     if isinstance(model, InBearing):
         return replace(model, levitates=False)
     if isinstance(model, Jeffcott):
