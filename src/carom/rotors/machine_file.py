@@ -86,7 +86,7 @@ def read_flexible_case(name: str, tables: MachineTables, settings: Mapping[str, 
     accuracy, text = ROTOR_ENTRIES["accuracy"], settings.get("accuracy", tables.values.get("accuracy", ACCURACY))
     wanted = problems.attempt(read_quantity, accuracy, text)
     machine = _read_machine(tables, settings, problems)
-    model = machine.reduce(wanted or ACCURACY).linear
+    model = machine.reduce(wanted or ACCURACY).limited
     scales = model.scales or Scales(1.0, 1.0, 1.0)
     requirement = Requirement.of_table(tables.survive, scales)
     return Case(name, model, None, zones or Zones(), limits, requirement, machine.gravity)

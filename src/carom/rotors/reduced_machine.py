@@ -9,14 +9,15 @@ from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
-from carom.models import LinearRotor, Model, Touchdown
+from carom.models import Limited, LinearRotor, Model, Touchdown
 from carom.models.in_bearing import law_of, race_of
 from carom.models.weight import weighted
 from carom.outcome import InputError
 from carom.parameters import Scales
 from carom.results import Result
 from carom.rotors.attachments import TouchdownPlane
-from carom.rotors.equations import Equations, equations_of
+from carom.rotors.bearing_limits import limits_of_bearings
+from carom.rotors.equations import Equations, equations_of, loops_of
 from carom.rotors.reduction import Basis
 
 if TYPE_CHECKING:
@@ -91,6 +92,21 @@ class ReducedMachine(Result):
         return rotor
 
     @cached_property
+    def limited(self) -> LinearRotor | Limited:
+        """The levitating rotor without weight, with the limits of its magnetic bearings if these have any.
+
+        Raises
+        ------
+        InputError
+            As for :attr:`linear`.
+        """
+        at, given = self.machine, self.equations
+        pulls = np.zeros_like(given.currents)
+        pulls[:, : self.vectors] = loops_of(at.rotor, at.bearings, at.touchdowns).bearings @ self.basis.shapes
+        limits = limits_of_bearings(given, tuple(at.bearings), pulls, self.scales)
+        return Limited(self.linear, limits) if limits else self.linear
+
+    @cached_property
     def model(self) -> Model:
         """The levitating rotor with its weight, if it has one, as all verbs take it; ``carom.drop`` takes its levitation away.
 
@@ -102,7 +118,7 @@ class ReducedMachine(Result):
             As for :attr:`linear`.
         """
         gravity = self.machine.gravity
-        return self.linear if gravity is None or not gravity.acceleration else weighted(self.linear, gravity)
+        return self.limited if gravity is None or not gravity.acceleration else weighted(self.limited, gravity)
 
     def _rotor(self) -> LinearRotor:
         given, scales, at = self.equations, self.scales, self.machine
