@@ -9,6 +9,7 @@
 - The same, but never repeating: twice :data:`TURNS` full turns without an impact, in the later of which the state changes from turn
   to turn on average at least half as much as in the earlier, and by a thousandth at least.  Stick and slip of a rotor with
   several coordinates need not keep time with its turns.
+- At the limits of magnetic bearings also: contact that lasts, whose state after a whole turn of the shaft is that of the turn before.
 - *Periodic*: the state at an impact recurs to within ``NEAR`` twice in a row after the same number of impacts.  The
   reference state is replaced after 1, 2, 4, 8 … impacts (Brent 1980), so no period is too long.  A motion that has
   recurred close to a repelling orbit only passes by it and is followed further (:mod:`carom.core.closing`).
@@ -36,6 +37,8 @@ from carom.core.records import record
 NO_TURN, SET_OUT, ROUND = 0, 1, 2
 NO_CONTACT = -1.0
 """Instead of the time for which contact has persisted: there has been none."""
+PATIENCE_AT_LIMITS = 2000
+"""Most impacts without recurrence of a motion at the limits of its bearings: a whirl beside axes that stand still seldom repeats."""
 TURNS = 512
 """Full turns along the wall whose changes are added up, to compare them with those of as many before."""
 UNLIKE = 1e-3
@@ -125,6 +128,8 @@ def memory(
         reference_limited=np.asarray(0, np.int64),
         turn_clock=np.asarray(0.0),
         turn_limited=np.asarray(0, np.int64),
+        rounds=np.asarray(0, np.int64),
+        round_state=np.zeros(modes, np.complex128),
     )
 
 
@@ -171,12 +176,20 @@ def recurs(memory, amplitudes):
         if memory.candidate > 0 and memory.since >= memory.candidate:
             memory.candidate = 0
         if memory.since < memory.renewal:
-            return memory.events >= memory.patience
+            return memory.events >= _patience(memory)
         memory.renewal *= 2
     memory.candidate = 0
     _renew(memory, amplitudes)
     memory.rubbed = 0
-    return memory.events >= memory.patience
+    return memory.events >= _patience(memory)
+
+
+@inlined
+def _patience(memory):
+    """Impacts without recurrence after which a motion counts as aperiodic: fewer if bearings come to their limits, which slow it down."""
+    if memory.limited_steps > 0:
+        return min(memory.patience, PATIENCE_AT_LIMITS)
+    return memory.patience
 
 
 @kernel
@@ -286,7 +299,7 @@ def forget(memory):
     """Reset a memory for another motion of the same rotor."""
     memory.events, memory.renewal, memory.since = 0, 1, 0
     memory.candidate, memory.period, memory.rubbed, memory.lifting = 0, 0, 0, 0
-    memory.turning, memory.turns = NO_TURN, 0
+    memory.turning, memory.turns, memory.rounds, memory.limited_steps = NO_TURN, 0, 0, 0
     memory.stalled, memory.stood, memory.lap = 0, 0.0, math.inf
     memory.struck, memory.touching, memory.flown, memory.parted = 0.0, NO_CONTACT, 0.0, 0
 
@@ -329,5 +342,15 @@ def doubt(memory):
 
 @kernel
 def forget_rub(memory):
-    """Restart the search for full turns along the wall."""
-    memory.turning = NO_TURN
+    """Restart the search for full turns along the wall, and for turns of the shaft."""
+    memory.turning, memory.rounds = NO_TURN, 0
+
+
+@kernel
+def keeps_step(memory, amplitudes):
+    """Note the state after a whole turn of the shaft in lasting contact; return whether it is that of the turn before."""
+    same = memory.rounds > 0 and same_state(memory.round_state, amplitudes, NEAR)
+    memory.rounds += 1
+    for k in range(amplitudes.shape[0]):
+        memory.round_state[k] = amplitudes[k]
+    return same

@@ -7,10 +7,10 @@ import math
 from carom.compiling.decorators import inlined, kernel
 from carom.core.compliance import next_form, stay_in_wall
 from carom.core.contact_series import rub_series
-from carom.core.fate import approaches_turn, at_rest, forget_rub, in_step, near_rub, never_repeats, same_state
+from carom.core.fate import approaches_turn, at_rest, forget_rub, in_step, keeps_step, near_rub, never_repeats, same_state
 from carom.core.layout import NEAR
 from carom.core.limits import FREE as FREE_AXIS
-from carom.core.limits import WHOLE, change_limits, first_limit, pass_time
+from carom.core.limits import TURN, WHOLE, change_limits, first_limit, pass_time
 from carom.core.phases import AWAY, FLIGHT, FORWARD_SLIP, ROLLING, lasts, stays
 from carom.core.planar_proofs import absorbed, hastens, runs_away
 from carom.core.rub import first_contact, first_transition, next_phase, rest_on_wall, turn_ahead
@@ -51,7 +51,7 @@ def rub_step(rotor, contact, amplitudes, horizon, memory, rub):
         met, axis, at_bound = first_limit(rotor, duration, rub)
         if met < duration:
             duration, changed = met, NOWHERE
-    turned, speed = False, 0.0
+    turned, whole, speed = False, False, 0.0
     # Contact that would end a stage when it has persisted for a time is followed until then.
     if memory.patience > 0 and memory.contact_time == math.inf and leading != NOWHERE:
         position = unit(rub.position[leading, 0])
@@ -63,14 +63,21 @@ def rub_step(rotor, contact, amplitudes, horizon, memory, rub):
             turn = turn_ahead(leading, memory.turn_position, math.copysign(1.0, speed), duration, rub)
             if turn < duration:
                 duration, changed, turned, axis = turn, NOWHERE, True, WHOLE
+        if rotor.limit_bounds.shape[0] > 0 and TURN - rub.clock <= duration:
+            duration, changed, turned, axis, whole = TURN - rub.clock, NOWHERE, False, WHOLE, True
     sum_series(rub, duration, amplitudes)
     if rotor.limit_bounds.shape[0] > 0:
         pass_time(duration, memory, rub)
+        if whole:
+            memory.clock, rub.clock = 0.0, 0.0
         change_limits(rotor, axis, at_bound, amplitudes, memory, rub)
     memory.turn_time += duration
     _remove_rounding(rotor, contact, changed, following, undecided, duration > 0.0, amplitudes, memory)
     if changed != NOWHERE:
         _change_contact(rotor, contact, changed, following, undecided, amplitudes, memory, rub)
+    if whole and keeps_step(memory, amplitudes):
+        backward = ROLLS_ON if memory.turn_slipped == 0 else BACKWARD_WHIRL
+        return (backward if speed < -1.0 else FORWARD_RUB), duration, leading
     if turned:
         recurred = same_state(memory.turn_state, amplitudes, NEAR * min(1.0, memory.turn_time))
         recurred = recurred and in_step(memory, memory.turn_clock, memory.turn_limited)

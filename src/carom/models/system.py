@@ -150,12 +150,17 @@ class System(Result):
     @property
     def unrepeated(self) -> tuple[str, str] | None:
         """What keeps motions from repeating in a way that is known here, and what is allowed instead; ``None`` if nothing does."""
+        if self.limits and self.unsteady is None:
+            return "limits of its magnetic bearings", "bearings without limits, or carom.simulate and carom.settle"
+        return self.unsteady
+
+    @property
+    def unsteady(self) -> tuple[str, str] | None:
+        """What keeps levitation from being a whirl about a place that stays, and what is allowed instead; ``None`` if nothing does."""
         if self.races is not None:
             return "a race that turns", "races that stand still, or carom.simulate and carom.settle"
         if self.shaft is not None:
             return "a shaft whose speed changes", "one at constant speed, or carom.simulate and carom.settle"
-        if self.limits:
-            return "limits of its magnetic bearings", "bearings without limits, or carom.simulate and carom.settle"
         if self.shaken:
             return "forces that change in the fixed frame", "forces that turn with the shaft, or weight"
         return None
@@ -170,9 +175,14 @@ class System(Result):
         if self.unrepeated is not None:
             raise InputError("machine", *self.unrepeated)
 
+    def refuse_unsteady(self) -> None:
+        """Refuse a rotor that does not levitate in a whirl about a place that stays."""
+        if self.unsteady is not None:
+            raise InputError("machine", *self.unsteady)
+
     def refuse_forces(self) -> None:
         """Refuse a rotor that never is at rest in its frame: forces change with time there, a race turns or the speed changes."""
-        self.refuse_unrepeated()
+        self.refuse_unsteady()
         if self.forced is not None:
             raise InputError("machine", "forces that change with time", "a rotor whose forces turn with its frame")
 
@@ -381,6 +391,17 @@ class System(Result):
             given = np.clip(asked.real, -bound, bound) + 1j * np.clip(asked.imag, -bound, bound)
             found[..., each] = (asked - given) / turn[..., 0]
         return found
+
+    def asks_beyond(self, amplitudes: np.ndarray, forced: np.ndarray | None = None) -> bool:
+        """Whether a whirl with the shaft about a place that stays asks for more than a limit along an axis.
+
+        Amplitudes (N,) are those of the whirl, at rest in the frame of the rotor, and those of weight at time zero.
+        """
+        rows, bounds = self.arrays["limit_rows"], self.arrays["limit_bounds"]
+        whirl, sag = np.abs(rows @ amplitudes + self.arrays["limit_offsets"]), np.zeros(self.limits, complex)
+        if forced is not None:
+            sag = rows @ forced
+        return bool((np.maximum(np.abs(sag.real), np.abs(sag.imag)) + whirl >= bounds).any())
 
     @cached_property
     def excess_accelerations(self) -> np.ndarray:

@@ -71,7 +71,7 @@ def refuse_forces(model: Model) -> None:
 def refuse_unsteady(model: Model) -> None:
     """Refuse a rotor that levitates neither at rest nor in a circle: its speed changes, or a force changes in the fixed frame."""
     if model.system.shaft is not None or model.system.shaken:
-        model.system.refuse_unrepeated()
+        model.system.refuse_unsteady()
 
 
 def levitation_of(model: Model) -> tuple[np.ndarray, np.ndarray]:
