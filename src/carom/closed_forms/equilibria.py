@@ -173,7 +173,9 @@ def find_equilibria(machine: Subject) -> EquilibriumSet:
     system = model.system
     refuse_forces(model)
     rubs = [
-        _rub(model, *balance) for balance in rub_forces(system) if not system.asks_beyond(static_state(system, *balance))
+        _rub(model, *balance)
+        for balance in rub_forces(system)
+        if not system.asks_beyond(static_state(system, *balance))
     ]
     found = (_contact_free(model), *sorted(rubs, key=lambda rub: (not rub.stable, rub.status)))
     return EquilibriumSet(model, found, complete=all_found(system))

@@ -7,7 +7,16 @@ import math
 from carom.compiling.decorators import inlined, kernel
 from carom.core.compliance import next_form, stay_in_wall
 from carom.core.contact_series import rub_series
-from carom.core.fate import approaches_turn, at_rest, forget_rub, in_step, keeps_step, near_rub, never_repeats, same_state
+from carom.core.fate import (
+    approaches_turn,
+    at_rest,
+    forget_rub,
+    in_step,
+    keeps_step,
+    near_rub,
+    never_repeats,
+    same_state,
+)
 from carom.core.layout import NEAR
 from carom.core.limits import FREE as FREE_AXIS
 from carom.core.limits import TURN, WHOLE, change_limits, first_limit, pass_time
@@ -38,11 +47,7 @@ def rub_step(rotor, contact, amplitudes, horizon, memory, rub):
     in lasting contact.
     """
     rub_series(rotor, contact, amplitudes, rub)
-    step, leading = series_step(rub), leading_plane(rotor, contact)
-    for plane in range(rotor.rows.shape[0]):
-        if yields(rotor, plane) and stays(contact[plane]):
-            # The distance from the centre is a root: its series may reach less far than those of the amplitudes.
-            step = min(step, margin_step(rub.depth[plane]))
+    step, leading = _longest_step(rotor, contact, rub), leading_plane(rotor, contact)
     if step == 0.0:  # forces at several planes have grown without bound, until there are none (Painlevé)
         return GRAZING, 0.0, leading
     duration, changed, following, undecided = _first_change(rotor, contact, min(step, horizon), rub)
@@ -75,19 +80,41 @@ def rub_step(rotor, contact, amplitudes, horizon, memory, rub):
     _remove_rounding(rotor, contact, changed, following, undecided, duration > 0.0, amplitudes, memory)
     if changed != NOWHERE:
         _change_contact(rotor, contact, changed, following, undecided, amplitudes, memory, rub)
-    if whole and keeps_step(memory, amplitudes):
-        backward = ROLLS_ON if memory.turn_slipped == 0 else BACKWARD_WHIRL
-        return (backward if speed < -1.0 else FORWARD_RUB), duration, leading
-    if turned:
-        recurred = same_state(memory.turn_state, amplitudes, NEAR * min(1.0, memory.turn_time))
-        recurred = recurred and in_step(memory, memory.turn_clock, memory.turn_limited)
-        # Of a shaft that loses its speed the state changes in each turn until it stands.
-        if recurred or (rotor.shaft.shape[0] == 0 and never_repeats(memory, amplitudes)):
-            backward = speed < 0.0 and memory.turn_time < 2.0 * math.pi
-            rub_outcome = BACKWARD_WHIRL if backward else FORWARD_RUB
-            return (rub_outcome if memory.turn_slipped > 0 else ROLLS_ON), duration, leading
-        forget_rub(memory)
+    if turned or whole:
+        end = _end_by_turns(rotor, whole, speed, amplitudes, memory)
+        if end != CONTACT:
+            return end, duration, leading
     return (TIME_REACHED if duration >= horizon else CONTACT), duration, leading if changed == NOWHERE else changed
+
+
+@inlined
+def _longest_step(rotor, contact, rub):
+    """Longest step of the series; zero if they are not finite."""
+    step = series_step(rub)
+    for plane in range(rotor.rows.shape[0]):
+        if yields(rotor, plane) and stays(contact[plane]):
+            # The distance from the centre is a root: its series may reach less far than those of the amplitudes.
+            step = min(step, margin_step(rub.depth[plane]))
+    return step
+
+
+@inlined
+def _end_by_turns(rotor, whole, speed, amplitudes, memory):
+    """What contact settles to after a turn along the wall, or a whole turn of the shaft; CONTACT if it goes on."""
+    if whole:
+        if not keeps_step(memory, amplitudes):
+            return CONTACT
+        backward = ROLLS_ON if memory.turn_slipped == 0 else BACKWARD_WHIRL
+        return backward if speed < -1.0 else FORWARD_RUB
+    recurred = same_state(memory.turn_state, amplitudes, NEAR * min(1.0, memory.turn_time))
+    recurred = recurred and in_step(memory, memory.turn_clock, memory.turn_limited)
+    # Of a shaft that loses its speed the state changes in each turn until it stands.
+    if recurred or (rotor.shaft.shape[0] == 0 and never_repeats(memory, amplitudes)):
+        backward = speed < 0.0 and memory.turn_time < 2.0 * math.pi
+        rub_outcome = BACKWARD_WHIRL if backward else FORWARD_RUB
+        return rub_outcome if memory.turn_slipped > 0 else ROLLS_ON
+    forget_rub(memory)
+    return CONTACT
 
 
 @inlined

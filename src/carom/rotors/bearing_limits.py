@@ -52,8 +52,7 @@ def limits_of_bearings(
     for number, bearing in enumerate(bearings):
         last += bearing.loop.states
         place = _Place(pulls[number], equations.currents[number], -equations.stiffness[last], last)
-        for limit in _in_si(bearing, place, len(found)):
-            found.append(_in_units(limit, scales))
+        found += [_in_units(limit, scales) for limit in _in_si(bearing, place, len(found))]
     return tuple(found)
 
 
