@@ -11,7 +11,7 @@ import pytest
 
 from carom.compiling.cache import KernelCache
 from carom.compiling.decorators import inlined, kernel
-from carom.core.layout import record
+from carom.core.records import record
 
 pytestmark = pytest.mark.jit_only
 
@@ -94,7 +94,7 @@ def test_a_kernel_is_linked_although_its_first_caller_never_calls_it(tmp_path):
 MODULE = """
 import numpy as np
 from carom.compiling.decorators import kernel, separate
-from carom.core.layout import record
+from carom.core.records import record
 
 @separate
 def length(values):

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from carom.compiling.decorators import expanded, kernel
-from carom.core.layout import record
+from carom.core.records import record
 
 pytestmark = pytest.mark.jit_only
 

@@ -90,7 +90,9 @@ def test_what_keeps_a_plane_on_its_wall_depends_on_the_contact_at_the_other():
     alone, _ = press(SYSTEM.arrays, np.array([FLIGHT, AWAY]), 0, amplitudes, work)
     assert abs(alone - push) > 1e-3
     contact = np.array([FLIGHT, FORWARD_SLIP])
-    later = fly_or_rub_all(SYSTEM.arrays, amplitudes[None], contact[None], np.array([1e-5]), work)[0]
+    later = fly_or_rub_all(
+        SYSTEM.arrays, amplitudes[None], contact[None], np.zeros((1, 0), np.int64), np.zeros(1), np.array([1e-5]), work
+    )[0]
     changed, _ = press(SYSTEM.arrays, contact, 0, later, work)
     assert (changed - push) / 1e-5 == pytest.approx(rate, rel=1e-3, abs=1e-3)
 
@@ -109,7 +111,7 @@ def test_a_plane_that_does_not_slip_rolls_within_the_cone_of_friction_and_slips_
         else:
             assert found == (FORWARD_SLIP if along < 0.0 else BACKWARD_SLIP)
         decided.add(found)
-        forces = forces_all(SYSTEM.arrays, amplitudes[None], np.array([[ROLLING, FORWARD_SLIP]]), work)[0]
+        forces = forces_all(SYSTEM.arrays, amplitudes[None], np.array([[ROLLING, FORWARD_SLIP]]), np.zeros(1), work)[0]
         assert forces[0] * ROTOR.felt[0] == pytest.approx((normal, along), abs=1e-10)
     assert decided
 

@@ -144,7 +144,9 @@ def test_motions_in_different_phases_are_moved_each_in_its_own():
     for row in amplitudes:
         rub.rest_on_wall(ARRAYS, 0, row, True)
     times, phases = np.array([2e-3, 3.0, 3e-3, 4e-3]), np.array([FORWARD, FLIGHT, ROLLING, BACKWARD])
-    moved = rub.fly_or_rub_all(ARRAYS, amplitudes, phases[:, None], times, rub_workspace(2))
+    moved = rub.fly_or_rub_all(
+        ARRAYS, amplitudes, phases[:, None], np.zeros((len(times), 0), np.int64), times, times, rub_workspace(2)
+    )
     for i, phase in enumerate(phases):
         if phase == FLIGHT:
             expected = fly_all(ARRAYS, amplitudes[i : i + 1], times[i : i + 1])[0]

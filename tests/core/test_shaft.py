@@ -14,8 +14,9 @@ from carom.core.contact_series import rub_series
 from carom.core.event_log import EventLog
 from carom.core.fate import memory
 from carom.core.flow import acceleration, displacement, velocity
-from carom.core.layout import copy_of, rub_workspace, workspace
+from carom.core.layout import rub_workspace, workspace
 from carom.core.phases import AWAY, BACKWARD_SLIP, FLIGHT, FORWARD_SLIP, ROLLING, lasts
+from carom.core.records import copy_of
 from carom.core.rub import next_phase, press, rest_on_wall, wall_push
 from carom.core.shaft import change_speed, enter_flight, leave_flight, lever_of_shaft, surface_excess
 from carom.core.taylor import series_step, sum_series

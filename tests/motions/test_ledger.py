@@ -99,7 +99,7 @@ def test_energies_in_joules():
     table, plain = replace(ledger, scales=scales).to_dataset(), ledger.to_dataset()
     works = ("unbalance", "damping", "circulatory", "forces", "impacts", "friction", "drive")
     of_walls = ("wall", "wall_damping", "parting", "races", "race_drag", "shaft", "drive_left_out")
-    names = ("kinetic", "spring", *works, *of_walls)
+    names = ("kinetic", "spring", "limits", *works, *of_walls)
     assert {name: table[name].attrs["units"] for name in table} == dict.fromkeys(names, "J")
     assert table["times"].attrs["units"] == "s"
     joules = 50.0 * (0.7e-3 * 184.2) ** 2

@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 
 import carom as cm
+from carom.core.fate import memory
 from carom.models import Force, Forced, Jeffcott
 from carom.motions import touchdown_loads
 from carom.motions.resting import lies
@@ -111,14 +112,17 @@ def test_whirl_that_goes_round_does_not_lie():
     rotor, _ = cm.drop(cm.State(0.0)).stages(HEAVY)
     place, contact = leaning().position, np.array([Phase.FORWARD_SLIP])
     for rate, expected in ((-1.0, True), (-1.05, True), (-3.0, False)):
-        assert lies(rotor, rotor.system.amplitudes(place, 1j * rate * place), contact) is expected
+        assert (
+            lies(rotor, rotor.system.amplitudes(place, 1j * rate * place), contact, memory(rotor.system.modes))
+            is expected
+        )
 
 
 def test_without_weight_nothing_lies():
     rotor = Jeffcott(HEAVY.parameters)
     for model in (rotor, Forced(rotor, (Force(0.3j, np.array([0.1])),))):
         amplitudes = model.system.amplitudes(-1j, -1.0)
-        assert not lies(model, amplitudes, np.array([Phase.FORWARD_SLIP]))
+        assert not lies(model, amplitudes, np.array([Phase.FORWARD_SLIP]), memory(model.system.modes))
 
 
 def test_a_rub_that_keeps_in_step_with_the_shaft_is_forward_rub():

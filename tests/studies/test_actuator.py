@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import dataclasses
 import json
-import math
 
 import numpy as np
 import pytest
@@ -23,15 +22,14 @@ from carom.orbits import orbits_within_reach
 from carom.outcome import Phase
 from carom.parameters import Case, Machine, Parameters, Scales, Zones
 from carom.parameters.told import number
-from carom.studies.actuator import Centre, actuator_words, bearing_demand, largest_along, largest_jumps, limits_of
+from carom.studies.actuator import Centre, actuator_words, bearing_demand, largest_along, largest_jump, slew_limit_of
 
 KEOGH = "examples/keogh-cole.toml"
 BEARINGS = ["magnetic_bearings=2", "force_current_factor=70 N/A", "negative_stiffness=210 N/mm"]
 
 
-def limited(*settings, force="500 N", current="10 A", slew="5 A/ms"):
-    limits = [f"force_limit={force}", f"current_limit={current}", f"slew_rate_limit={slew}"]
-    return load(KEOGH, [*BEARINGS, *limits, *settings])
+def rated(*settings, slew="5 A/ms"):
+    return load(KEOGH, [*BEARINGS, f"slew_rate_limit={slew}", *settings])
 
 
 def demand_of(case, found):
@@ -40,9 +38,9 @@ def demand_of(case, found):
 
 
 def by_integration(machine, place, speed, until, count=20_001):
-    """Force, current and rate of the current of one bearing while the rotor flies, and its largest distance, in SI units.
+    """Rate of the current of one bearing while the rotor flies, by differences, and its largest distance, in SI units.
 
-    From a state in the fixed frame at the time zero; the rate is that of differences.
+    From a state in the fixed frame at the time zero.
     """
 
     def rate(time, state):
@@ -56,55 +54,47 @@ def by_integration(machine, place, speed, until, count=20_001):
     z, w = run.y
     gains = machine.controller_gains
     current = gains["proportional_gain"] * z + gains["derivative_gain"] * w
-    force = machine.force_current_factor * -current + machine.negative_stiffness * z
-    rates = np.abs(np.gradient(current, times, edge_order=2))
-    return np.abs(force), np.abs(current), rates, np.abs(z).max()
+    return np.abs(np.gradient(current, times, edge_order=2)), np.abs(z).max()
 
 
 @pytest.mark.parametrize(("place", "kick"), [(0.05 + 0.1j, 0.1), (-0.2j, 0.05j)])
-def test_force_and_current_of_a_flight_are_those_of_the_equations_in_si_units(place, kick):
-    case = limited("eccentricity=0.02 mm")
+def test_the_rate_of_the_current_of_a_flight_is_that_of_the_equations_in_si_units(place, kick):
+    case = rated("eccentricity=0.02 mm")
     machine, scales = case.machine, case.parameters.scales
     until = 60.0
     motion = simulate(case, State(place, kick), until)
-    forces, currents, rates, farthest = by_integration(
+    rates, farthest = by_integration(
         machine, place * scales.length, (kick + 1j * place) * scales.velocity, until * scales.time
     )
     assert farthest < machine.clearance  # it does not touch
 
-    force, current, rate = largest_along(motion, limits_of(case))
+    rate = largest_along(motion, slew_limit_of(case))
 
     # The instants are so close that the largest value is missed by less than 0.1 %.
-    assert forces.max() * (1 - 1e-3) <= force <= forces.max() * (1 + 1e-9)
-    assert currents.max() * (1 - 1e-3) <= current <= currents.max() * (1 + 1e-9)
     # Differences over 0.003 of the fastest period are wrong by the square of that times some number of order 10.
     assert rates.max() * (1 - 1e-3) <= rate <= rates.max() * (1 + 1e-4)
-    assert largest_jumps(motion, limits_of(case)) == (0.0, 0.0, 0.0)
+    assert largest_jump(motion, slew_limit_of(case)) == 0.0
 
 
 def test_a_bouncing_orbit_asks_for_what_its_flight_does():
-    case = limited("damping=1200 N s/m")
+    case = rated("damping=1200 N s/m")
     machine, scales = case.machine, case.parameters.scales
     (orbit,) = [orbit for orbit in orbits_within_reach(Jeffcott(case.parameters)) if orbit.admissible and orbit.stable]
     state = orbit.departure
-    forces, currents, rates, _ = by_integration(
+    rates, _ = by_integration(
         machine,
         state.position * scales.length,
         (state.velocity + 1j * state.position) * scales.velocity,
         orbit.period * scales.time,
     )
 
-    motion, limits = orbit.trajectory(), limits_of(case)
-    force, current, rate = largest_along(motion, limits)
+    motion, limit = orbit.trajectory(), slew_limit_of(case)
 
-    assert force == pytest.approx(forces.max(), rel=1e-3)
-    assert current == pytest.approx(currents.max(), rel=1e-3)
-    assert rate == pytest.approx(rates.max(), rel=1e-3)
+    assert largest_along(motion, limit) == pytest.approx(rates.max(), rel=1e-3)
     log = motion.contacts
     impulse = float(np.hypot(log.normal_impulse, log.tangential_impulse).max()) * scales.impulse
-    *others, jump = largest_jumps(motion, limits)
-    assert others == [0.0, 0.0]
-    assert jump == pytest.approx(machine.controller_gains["derivative_gain"] * impulse / machine.mass, rel=1e-9)
+    jump = machine.controller_gains["derivative_gain"] * impulse / machine.mass
+    assert largest_jump(motion, limit) == pytest.approx(jump, rel=1e-9)
 
 
 def test_accelerations_are_those_of_differences_also_in_lasting_contact():
@@ -129,41 +119,43 @@ def test_accelerations_are_those_of_differences_also_in_lasting_contact():
     assert error <= (20 * step) ** 2 * np.abs(centre.acceleration).max()
 
 
+def test_the_acceleration_at_a_limit_is_that_of_differences():
+    case = load(KEOGH, ["force_limit=400 N"])
+    motion = simulate(case, State(0.3, 0.4 + 0.3j), 4.0)
+    assert (motion.segment_limits > 1).any()
+    step = 1e-5
+    times = np.random.default_rng(1).uniform(step, motion.time - step, 2000)
+    times = times[np.abs(times[:, None] - motion.segment_starts[None, :]).min(axis=1) > 2 * step]
+
+    before, after = (Centre.along(motion, times + shift).velocity for shift in (-step, step))
+    turned = after * np.exp(1j * step) - before * np.exp(-1j * step)
+
+    assert np.abs(turned / (2 * step) - Centre.along(motion, times).acceleration).max() < 1e-8
+
+
 def test_steady_motions_are_exact():
-    case = limited()
+    case = rated()
     machine = case.machine
     demand = demand_of(case, find_attractors(case, Sample(KickPlane(0.01), 4), known=False))
-    by_name = {(each.motion, each.limit.kind): each for each in demand.motions}
+    by_name = {each.motion: each for each in demand.motions}
 
-    whirl = abs(machine.stiffness + 1j * machine.damping * machine.speed) / 2
-    rub = by_name["synchronous rub", "force"]
-    assert rub.largest == pytest.approx(whirl * machine.clearance, rel=1e-12)
-    assert rub.share == pytest.approx(whirl * machine.clearance / 500.0, rel=1e-12)
+    gains = machine.controller_gains
     unbalance = machine.mass * machine.eccentricity * machine.speed**2
     dynamic = machine.stiffness - machine.mass * machine.speed**2 + 1j * machine.damping * machine.speed
-    levitation = by_name["levitation", "force"]
-    assert levitation.largest == pytest.approx(whirl * unbalance / abs(dynamic), rel=1e-10)
-    gains = machine.controller_gains
+    whirl = abs(gains["proportional_gain"] + 1j * gains["derivative_gain"] * machine.speed)
+    # In a circular whirl the rate is the current times the speed of the whirl.
+    assert by_name["synchronous rub"].largest == pytest.approx(whirl * machine.clearance * machine.speed, rel=1e-12)
+    levitation = whirl * machine.speed * unbalance / abs(dynamic)
+    assert by_name["levitation"].largest == pytest.approx(levitation, rel=1e-10)
+    assert by_name["levitation"].share == pytest.approx(levitation / 5000.0, rel=1e-10)
     backward = machine.speed * machine.rotor_radius / machine.clearance
     current = abs(gains["proportional_gain"] - 1j * gains["derivative_gain"] * backward) * machine.clearance
-    assert by_name["rolling backward whirl", "current"].largest == pytest.approx(current, rel=1e-12)
-    # In a circular whirl the rate is the current times the speed of the whirl.
-    assert by_name["rolling backward whirl", "slew rate"].largest == pytest.approx(current * backward, rel=1e-12)
-    rate = by_name["levitation", "current"].largest * machine.speed
-    assert by_name["levitation", "slew rate"].largest == pytest.approx(rate, rel=1e-12)
-
-
-def test_one_bearing_of_two_bears_half():
-    shares = []
-    for count in (1, 2):
-        case = load(KEOGH, [f"magnetic_bearings={count}", "force_limit=500 N"] if count > 1 else ["force_limit=500 N"])
-        (limit,) = limits_of(case)
-        shares.append(float(limit.asked(Centre(1.0, 0.0, 0.0))))
-    assert shares[0] == pytest.approx(2 * shares[1], rel=1e-15)
+    assert by_name["rolling backward whirl"].largest == pytest.approx(current * backward, rel=1e-12)
 
 
 def test_without_limits_nothing_is_said_and_a_dimensionless_machine_has_none():
-    assert limits_of(load(KEOGH)) == limits_of(load("examples/source-paper.toml")) == ()
+    assert slew_limit_of(load(KEOGH)) is None
+    assert slew_limit_of(load("examples/source-paper.toml")) is None
     assert demand_of(load(KEOGH), find_attractors(KEOGH_PARAMETERS, Sample(KickPlane(0.01), 2), known=False)) is None
 
 
@@ -173,44 +165,29 @@ BEARING_NUMBERS = {"magnetic_bearings": 2, "force_current_factor": 70.0, "negati
 
 
 @pytest.mark.jit_only
-def test_a_study_says_what_the_bearings_cannot_give():
-    """The study of a machine without limits, which other tests look at too, with the limits of its bearings."""
-    free = study_once(QUIET)
-    machine = Machine.from_parameters(QUIET).replace(force_limit="500 N", **BEARING_NUMBERS, current_limit="1 kA")
+def test_disturbances_that_come_to_a_limit_are_counted_and_whether_they_come_back():
+    machine = Machine.from_parameters(QUIET).replace(force_limit="500 N", **BEARING_NUMBERS)
     case = Case("limited", QUIET, machine, Zones())
-    result = dataclasses.replace(free, case=case)
-    demand = result.bearing_demand
+    found = find_attractors(case, Sample(KickPlane(1.0), 12), known=False)
 
-    beyond = demand.disturbances[0] > 1.0
-    assert 0 < beyond.sum() < len(beyond)
-    assert not (demand.disturbances[1] > 1.0).any()
-    assert demand.doubtful == beyond.sum()
-    text = next(fact.text for fact in result.facts if fact.topic == "Magnetic bearings")
-    assert "at most 500 N of force and 1,000 A of current" in text
-    assert f"{beyond.sum()} of {len(beyond)} disturbances ask for more force than that" in text
-    assert f"None of {len(beyond)} disturbances ask for more current than that" in text
-    (levitation,) = [each for each in demand.motions if (each.motion, each.limit.kind) == ("levitation", "force")]
-    assert (
-        f"In levitation the bearing force reaches {levitation.share:.3g} times its limit of 500 N and the bearing"
-        in text
-    )
-    assert f"{demand.doubtful} of the {len(beyond)} that came back are among them" in text
-    assert f"{demand.doubtful} disturbances ask for more than its magnetic bearings can give" in result.verdict.headline
-    document = json.loads(as_json(result.to_dict()))["bearing_demand"]
-    assert document["came_back_beyond"] == demand.doubtful
-    assert document["disturbances"][0]["beyond"] == beyond.sum()
-    assert math.isclose(document["motions"][0]["share"], document["motions"][0]["largest_si"] / 500.0, rel_tol=1e-12)
+    demand = bearing_demand(case, find_equilibria(case).members, (), None, found)
 
-    # The worst disturbance, followed again at random instants.
-    rng = np.random.default_rng(1)
-    worst = int(np.argmax(demand.disturbances[0]))
-    ending = result.attractors.disturbances[worst]
-    motion = simulate(case, ending.start.state, ending.time)
-    position, velocity = motion.at(np.sort(rng.uniform(0.0, min(ending.time, 20.0), 200_000)))
-    machine, scales = case.machine, case.parameters.scales
-    z, w = position * scales.length, (velocity + 1j * position) * scales.velocity
-    forces = np.abs(machine.stiffness * z + machine.damping * w) / machine.magnetic_bearings
-    assert forces.max() / 500.0 == pytest.approx(demand.disturbances[0][worst], rel=2e-3)
+    assert demand.control.force == 1000.0
+    assert demand.slew is None
+    asked = []
+    for ending in found.disturbances:
+        motion = simulate(case, ending.start.state, ending.time)
+        position, velocity = motion.at(motion.sample(5000))
+        place = position * np.exp(1j * motion.sample(5000))
+        speed = (velocity + 1j * position) * np.exp(1j * motion.sample(5000))
+        pull = machine.negative_stiffness * 2 / case.parameters.scales.stiffness
+        force = ((QUIET.omega**2 + pull) * place + QUIET.gamma * speed) * case.parameters.scales.force
+        asked.append(max(np.abs(force.real).max(), np.abs(force.imag).max()) > 1000.0)
+    assert demand.at_limit.tolist() == asked
+    text = actuator_words(demand)
+    assert "a control force of at most 1,000 N along each axis against a negative stiffness of 420,000 N/m" in text
+    assert f"{sum(asked)} of 12 disturbances bring them to this limit" in text
+    assert json.loads(as_json(demand.document()))["disturbances"]["at_limit"] == sum(asked)
 
 
 @pytest.mark.jit_only
@@ -219,20 +196,19 @@ def test_jumps_of_the_current_are_told_apart_from_its_rate():
     result = dataclasses.replace(study_once(QUIET), case=Case("limited", QUIET, machine, Zones()))
     demand = result.bearing_demand
 
-    (limit,) = demand.limits
-    assert (limit.kind, limit.most) == ("slew rate", 4e4)
+    assert demand.slew.most == 4e4
     struck = np.array(
         [len(simulate(e.rotor, e.start.state, e.time).contacts) > 0 for e in result.attractors.disturbances]
     )
-    assert (demand.jumps[0] > 0.0).tolist() == struck.tolist()
-    assert (demand.disturbances[0] > 0.0).all()
+    assert (demand.jumps > 0.0).tolist() == struck.tolist()
+    assert (demand.shares > 0.0).all()
     text = actuator_words(demand)
-    assert "one magnetic bearing gives at most 40,000 A/s of slew rate" in text
-    largest = demand.jumps[0].max()
+    assert "The current of one magnetic bearing changes by at most 40,000 A/s" in text
+    largest = demand.jumps.max()
     assert f"At an impact the controller asks at once for a current that differs by up to {number(largest)} A." in text
     assert f"The bearing takes {number(largest / 40)} ms for that" in text
     document = json.loads(as_json(demand.document()))
-    assert document["disturbances"][0]["largest_jump_si"] == pytest.approx(largest)
+    assert document["disturbances"]["largest_jump_si"] == pytest.approx(largest)
 
 
 @pytest.mark.deep
@@ -240,9 +216,9 @@ def test_no_instant_of_fresh_motions_asks_for_more_than_the_largest_value_found(
     rng = np.random.default_rng(20)
     for _ in range(300):
         numbers = {"gamma": rng.uniform(0.01, 1.5), "omega": 10 ** rng.uniform(-0.7, 1.0), "mu": rng.uniform(0.0, 0.4)}
-        case = limited("eccentricity=0.1 mm", *(f"{name}={value!r}" for name, value in numbers.items()))
+        case = rated("eccentricity=0.1 mm", *(f"{name}={value!r}" for name, value in numbers.items()))
         start = State(rng.uniform(0, 0.9) * np.exp(1j * rng.uniform(0, 7)), complex(*rng.normal(0.0, 0.5, 2)))
         motion = simulate(case, start, 40.0)
         centre = Centre.along(motion, np.sort(rng.uniform(0.0, motion.time, 50_000)))
-        for limit, largest in zip(limits_of(case), largest_along(motion, limits_of(case)), strict=True):
-            assert limit.asked(centre).max() <= largest * (1 + 1e-3)
+        limit = slew_limit_of(case)
+        assert limit.asked(centre).max() <= largest_along(motion, limit) * (1 + 1e-3)

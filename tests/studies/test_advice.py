@@ -10,7 +10,7 @@ import carom as cm
 from carom.models import Jeffcott
 from carom.motions import settle, simulate
 from carom.parameters import Case, Machine, Zones, in_terms_of
-from carom.studies.actuator import Centre, asked_by, largest_along, limits_of
+from carom.studies.actuator import Centre, asked_by, largest_along, slew_limit_of
 from carom.studies.advice import with_setting
 from carom.studies.facts import about
 from carom.studies.survives import required_disturbances
@@ -99,16 +99,16 @@ def test_gains_are_advised_where_the_file_has_gains():
 
 
 def test_no_advice_beyond_the_limits_of_the_bearings():
-    """Currents that the present machine keeps, and every change that helps exceeds."""
+    """Rates of the current that every change keeps, and rates that every change that helps exceeds."""
     free = cm.study(case_of(machine_of()))
     assert all(change.demand is None and change.buildable for change in free.recommendation.changes)
-    ample = cm.study(case_of(machine_of(current_limit="5000 A")))
+    ample = cm.study(case_of(machine_of(slew_rate_limit="5000 kA/s")))
     assert ample.recommendation.kind == "change"
     assert all(change.demand <= 1.0 for change in ample.recommendation.changes)
     asked = [fact.text for fact in about(ample.facts, "Recommendation") if fact.label == "Bearings"]
     assert asked
     assert all("asked at this value" in text and "values beyond it may ask for more" in text for text in asked)
-    scarce = cm.study(case_of(machine_of(current_limit="1 A")))
+    scarce = cm.study(case_of(machine_of(slew_rate_limit="1 A/s")))
     assert scarce.recommendation.kind == "nothing-buildable"
     assert all(change.demand > 1.0 for change in scarce.recommendation.changes)
     told = [fact.text for fact in about(scarce.facts, "Recommendation") if fact.label == "Change"]
@@ -116,18 +116,18 @@ def test_no_advice_beyond_the_limits_of_the_bearings():
 
 
 def test_what_a_change_asks_for_is_the_largest_along_fresh_motions():
-    case = case_of(machine_of(current_limit="10 A"))
+    case = case_of(machine_of(slew_rate_limit="10 kA/s"))
     case = with_setting(case, in_terms_of(case, "gamma", 0.6))
     required = case.requirement.own(case.parameters.scales)
     asked = asked_by(case, required_disturbances(required, 100))
-    rotor, limits = Jeffcott(case.parameters), limits_of(case)
-    whirl = limits[0].asked(Centre.whirling(abs(rotor.equilibrium), 1.0)) / limits[0].most
+    rotor, limit = Jeffcott(case.parameters), slew_limit_of(case)
+    whirl = limit.asked(Centre.whirling(abs(rotor.equilibrium), 1.0)) / limit.most
     assert asked >= whirl
     largest = 0.0
     for angle in np.linspace(0.1, 6.2, 12):
         kick = required.kick * np.exp(1j * angle)
         motion = simulate(rotor, cm.State(rotor.equilibrium, kick), settle=True)
-        largest = max(largest, largest_along(motion, limits)[0] / limits[0].most)
+        largest = max(largest, largest_along(motion, limit) / limit.most)
     # Both samples have the largest kicks, in other directions.
     assert asked == pytest.approx(largest, rel=0.25) or asked > largest
 

@@ -91,7 +91,10 @@ class Path:
     def _states(self, pieces: np.ndarray, times: np.ndarray) -> np.ndarray:
         """States (m, 2n) at times since the beginning of pieces."""
         room = rub_workspace(self.begins.shape[1], self.phases.shape[1])
-        moved = fly_or_rub_all(self.rotor.system.arrays, self.begins[pieces], self.phases[pieces], times, room)
+        free, clocks = np.zeros((len(times), 0), np.int64), np.zeros(len(times))
+        moved = fly_or_rub_all(
+            self.rotor.system.arrays, self.begins[pieces], self.phases[pieces], free, clocks, times, room
+        )
         return self.rotor.system.nodes.of(moved)
 
 

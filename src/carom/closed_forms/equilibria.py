@@ -154,6 +154,9 @@ def find_equilibria(machine: Subject) -> EquilibriumSet:
     without damping and friction, the planar rotor may rub at every angle, otherwise at none.  Rubs at two planes that
     always touch together are not listed either: statics does not determine their separate forces.
 
+    Rubs that ask for more than the limits of magnetic bearings are no motions and are not listed; where levitation does, it does not count as
+    stable.
+
     See Also
     --------
     carom.find_orbits : periodic motions
@@ -169,7 +172,11 @@ def find_equilibria(machine: Subject) -> EquilibriumSet:
     model = model_of(machine)
     system = model.system
     refuse_forces(model)
-    rubs = [_rub(model, *balance) for balance in rub_forces(system)]
+    rubs = [
+        _rub(model, *balance)
+        for balance in rub_forces(system)
+        if not system.asks_beyond(static_state(system, *balance))
+    ]
     found = (_contact_free(model), *sorted(rubs, key=lambda rub: (not rub.stable, rub.status)))
     return EquilibriumSet(model, found, complete=all_found(system))
 
@@ -187,7 +194,7 @@ def _contact_free(model: Model) -> Equilibrium:
         (),
         _status(1.0 - float(np.abs(places).max())),
         system.exponents,
-        _dies_out(system.exponents, margin),
+        _dies_out(system.exponents, margin) and not system.asks_beyond(np.zeros(system.modes)),
         model.scales,
     )
 

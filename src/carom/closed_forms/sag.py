@@ -75,8 +75,10 @@ class Levitation(Result):
 
     @property
     def stable(self) -> bool:
-        """Whether small disturbances die out."""
-        return bool(self.eigenvalues.real.max() < 0.0)
+        """Whether small disturbances die out; not where the magnetic bearings would have to give more than their limits."""
+        system = self.rotor.system
+        kept = not system.asks_beyond(np.zeros(system.modes), system.forced)
+        return kept and bool(self.eigenvalues.real.max() < 0.0)
 
     @checked
     def path(self, times: Reals) -> np.ndarray:
@@ -112,7 +114,7 @@ def levitation(machine: Subject) -> Levitation:
     0.3924 + 0.0088 = 0.4012
     """
     model = model_of(machine)
-    model.system.refuse_unrepeated()
+    model.system.refuse_unsteady()
     system, arrays = model.system, model.system.arrays
     if system.rest_radius == np.inf:
         raise InputError("levitation", "none, nothing holds the rotor", "a rotor that is held against its weight")

@@ -9,6 +9,7 @@ from carom.core.arrivals import LANDING, rests, touch
 from carom.core.events import INSIDE, LEAVING, search
 from carom.core.fate import levitates, triggers, until_triggered
 from carom.core.flow import acceleration, copy, displacement, velocity
+from carom.core.limits import FREE, WITHIN, at_limits, pass_time
 from carom.core.phases import AWAY, FLIGHT, stays
 from carom.core.planar_proofs import stays_inside
 from carom.core.rounding import RESTING, push_rounding, speed_rounding
@@ -49,7 +50,8 @@ def advance(rotor, table, amplitudes, until, contacts, log, memory, work, rub):
     Parameters
     ----------
     rotor, table : records of :mod:`carom.core.layout`
-        Of a shaft whose speed changes they have to be copies of the motion's own: each flight sets entries of them.
+        Of a shaft whose speed changes they have to be copies of the motion's own: each flight sets entries of them.  Of one with limits the
+        memory holds the time and the states of these limits at time zero, and on return those at the returned time.
     amplitudes : complex array, shape (N,)
         State at time zero; on return the state at the returned time.
     until : float
@@ -73,13 +75,16 @@ def advance(rotor, table, amplitudes, until, contacts, log, memory, work, rub):
     state, contact = work.current, rub.contact
     copy(amplitudes, state)
     copy(contacts, contact)
+    if rotor.limit_bounds.shape[0] > 0:
+        copy(memory.limited, rub.limited)
+        rub.clock = memory.clock
     time = 0.0
     events, most_stalled = 0, STALLED_TOGETHER
     if rotor.rows.shape[0] == 1:
         memory.stalled, most_stalled = 0, STALLED
     outcome = CONTACT
     while outcome == CONTACT and events < log.times.shape[0]:
-        slides, rubs, horizon, left = _slides(rotor, contact, state), False, until - time, math.inf
+        slides, rubs, horizon, left = _slides(rotor, contact, state, rub), False, until - time, math.inf
         if memory.watches > 0:
             rubs = leading_plane(rotor, contact) != NOWHERE
             left = until_triggered(memory, rubs)
@@ -93,12 +98,7 @@ def advance(rotor, table, amplitudes, until, contacts, log, memory, work, rub):
         time = until if outcome == TIME_REACHED else time + duration
         memory.lap += duration
         if outcome == CONTACT:
-            log.times[events], log.planes[events] = time, plane
-            for p in range(rotor.rows.shape[0]):
-                log.phases[events, p] = FLIGHT if contact[p] == AWAY else contact[p]
-            for k in range(state.shape[0]):
-                log.before[events, k] = work.arrival[k]
-                log.after[events, k] = state[k]
+            _note(rotor, contact, events, time, plane, log, work, rub)
             events += 1
             stands = duration <= SHORTEST
             if rotor.rows.shape[0] > 1:
@@ -108,19 +108,36 @@ def advance(rotor, table, amplitudes, until, contacts, log, memory, work, rub):
             memory.stood = memory.stood if stands else 0.0
             if memory.stalled >= most_stalled:
                 outcome = GRAZING
-            touches = not slides or duration == 0.0
+            touches = (not slides or duration == 0.0) and plane != NOWHERE
             if memory.watches > 0 and triggers(memory, rubs, touches, duration):
                 outcome = TRIGGERED
     copy(state, amplitudes)
     copy(contact, contacts)
+    if rotor.limit_bounds.shape[0] > 0:
+        copy(rub.limited, memory.limited)
     return (EVENT_LIMIT if outcome == CONTACT else outcome), time, events
 
 
 @inlined
-def _slides(rotor, contact, amplitudes):
-    """Whether the motion is followed by Taylor series: in lasting contact, or next to a wall beside other planes."""
-    if rotor.rows.shape[0] == 1:
+def _note(rotor, contact, event, time, plane, log, work, rub):
+    """Write an event into the log."""
+    log.times[event], log.planes[event] = time, plane
+    for p in range(rotor.rows.shape[0]):
+        log.phases[event, p] = FLIGHT if contact[p] == AWAY else contact[p]
+    for k in range(work.current.shape[0]):
+        log.before[event, k] = work.arrival[k]
+        log.after[event, k] = work.current[k]
+    for axis in range(rub.limited.shape[0]):
+        log.limited[event, axis] = rub.limited[axis]
+
+
+@inlined
+def _slides(rotor, contact, amplitudes, rub):
+    """Whether the motion is followed by Taylor series: in lasting contact, next to a wall beside other planes, or near a limit of a bearing."""
+    if rotor.rows.shape[0] == 1 and rotor.limit_bounds.shape[0] == 0:
         return stays(contact[0])
+    if rotor.limit_bounds.shape[0] > 0 and at_limits(rub):
+        return True
     for plane in range(rotor.rows.shape[0]):
         if stays(contact[plane]) or (contact[plane] == FLIGHT and rests(rotor, plane, amplitudes)):
             return True
@@ -148,15 +165,19 @@ def _fly(rotor, table, horizon, contact, memory, work, rub):
             return LEVITATED, elapsed, plane
         if settle and unproven >= memory.recheck:
             unproven = 0.0
-            if stays_inside(rotor, state):
+            if stays_inside(rotor, state) and _keeps_limits(rotor, state, work):
                 return LEVITATED, elapsed, plane
         leap = min(horizon - elapsed, span) if settle else horizon - elapsed
         reaction, duration, plane = _leap(rotor, table, leap, contact, resting, work, rub)
         elapsed, unproven = elapsed + duration, unproven + duration
         span = min(2.0 * span, memory.recheck)
+        if rotor.limit_bounds.shape[0] > 0:
+            pass_time(duration, memory, rub)
         if reaction != CLEAR:
             break
         copy(work.arrival, state)
+        if rotor.limit_bounds.shape[0] > 0 and at_limits(rub):
+            return CONTACT, elapsed, NOWHERE
         if elapsed >= horizon:
             return TIME_REACHED, horizon, plane
     return touch(rotor, contact, plane, reaction, elapsed, memory, work, rub), elapsed, plane
@@ -167,10 +188,18 @@ def _levitates(rotor, table, amplitudes, work):
     """:func:`~carom.core.fate.levitates`, at the speed that the shaft has."""
     if rotor.shaft.shape[0] > 0:
         enter_flight(rotor, table, amplitudes)
-    found = levitates(rotor, amplitudes, work)
+    found = levitates(rotor, amplitudes, work) and _keeps_limits(rotor, amplitudes, work)
     if rotor.shaft.shape[0] > 0:
         leave_flight(rotor, amplitudes)
     return found
+
+
+@inlined
+def _keeps_limits(rotor, amplitudes, work):
+    """Whether a flight provably never reaches a limit of a bearing."""
+    if rotor.limit_bounds.shape[0] > 0:
+        return levitates(rotor.reach, amplitudes, work)
+    return True
 
 
 @expanded
@@ -200,7 +229,28 @@ def _leap(rotor, table, horizon, contact, resting, work, rub):
             return LANDING, duration, 0
         contact[0] = FLIGHT if returned else AWAY
         return CLEAR, duration, 0
+    if rotor.limit_bounds.shape[0] > 0:
+        return _next_contact_or_limit(rotor, table, horizon, contact, work, rub)
     return _next_contact(rotor, table, horizon, contact, work)
+
+
+@kernel
+def _next_contact_or_limit(rotor, table, horizon, contact, work, rub):
+    """:func:`_next_contact`, unless a bearing comes to its limit first: then without a plane, and with its axes no longer free."""
+    copy(work.current, rub.series[0])
+    outcome, time, plane = _next_contact(rotor, table, horizon, contact, work)
+    copy(work.arrival, rub.series[1])
+    for each in range(rotor.limit_bounds.shape[0]):
+        copy(rub.series[0], work.current)
+        found, met = search(rotor.reach, table, each, time, INSIDE, work)
+        if found != CLEAR and met < time:
+            outcome, time, plane = CLEAR, met, NOWHERE
+            copy(work.arrival, rub.series[1])
+            for other in range(each):
+                rub.limited[2 * other], rub.limited[2 * other + 1] = FREE, FREE
+            rub.limited[2 * each], rub.limited[2 * each + 1] = WITHIN, WITHIN
+    copy(rub.series[1], work.arrival)
+    return outcome, time, plane
 
 
 @expanded
@@ -244,7 +294,7 @@ def _next_contact_of_several(rotor, table, horizon, contact, work):
 def _slide(rotor, contact, horizon, memory, work, rub):
     """One step of lasting contact from ``work.current``, in place; returns outcome, duration and plane as :func:`_fly`."""
     reaction, plane = CLEAR, NOWHERE
-    if rotor.rows.shape[0] > 1:
+    if rotor.rows.shape[0] > 1 or rotor.limit_bounds.shape[0] > 0:
         reaction, _, plane = _reaction(rotor, contact, memory, work, rub)
     if reaction != CLEAR:
         copy(work.current, work.arrival)
@@ -275,9 +325,10 @@ def _wall_reaction(rotor, contact, plane, amplitudes, lifting, rub):
     rest = RESTING * speed_rounding(rotor, plane, amplitudes)
     position, speed = displacement(rotor, plane, amplitudes), velocity(rotor, plane, amplitudes)
     # Nearly all states just fly: for them this saves a root, a division and the rest.
-    if rotor.rows.shape[0] == 1 and flies(
-        position, speed, acceleration(rotor, plane, amplitudes), 2.0 * rest, CHATTER_HEIGHT
-    ):
+    alone = rotor.rows.shape[0] == 1
+    if rotor.limit_bounds.shape[0] > 0:
+        alone = alone and not at_limits(rub)
+    if alone and flies(position, speed, acceleration(rotor, plane, amplitudes), 2.0 * rest, CHATTER_HEIGHT):
         return CLEAR, False
     normal = unit(position)
     local = normal.conjugate() * speed
@@ -287,8 +338,10 @@ def _wall_reaction(rotor, contact, plane, amplitudes, lifting, rub):
     beside = False
     if rotor.rows.shape[0] > 1:
         beside = leading_plane(rotor, contact) != NOWHERE
+    if rotor.limit_bounds.shape[0] > 0:
+        beside = beside or at_limits(rub)
     push, rate = 0.0, 0.0
-    if rotor.rows.shape[0] > 1 and beside:
+    if (rotor.rows.shape[0] > 1 or rotor.limit_bounds.shape[0] > 0) and beside:
         push, rate = press(rotor, contact, plane, amplitudes, rub)
     else:
         push = (normal.conjugate() * acceleration(rotor, plane, amplitudes)).real + local.imag * local.imag

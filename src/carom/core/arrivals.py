@@ -7,6 +7,7 @@ from carom.core.fate import doubt, forget_rub, persists, recurs
 from carom.core.flow import copy, displacement, squared_modulus, velocity
 from carom.core.friction import arrival, landing
 from carom.core.joint import join, land_together, strike_together
+from carom.core.limits import set_limits
 from carom.core.phases import AWAY, FLIGHT, lasts
 from carom.core.planar_proofs import fades_to_rolling
 from carom.core.rounding import RESTING, speed_rounding
@@ -42,6 +43,8 @@ def touch(rotor, contact, plane, reaction, elapsed, memory, work, rub):
         outcome = _enter(rotor, contact, plane, elapsed, memory, work, rub)
     elif reaction == CONTACT:
         outcome = _meet(rotor, contact, plane, elapsed, memory, work, rub)
+        if rotor.limit_bounds.shape[0] > 0:
+            set_limits(rotor, work.current, rub)
         if rotor.rows.shape[0] > 1 and outcome == CONTACT:
             _loosen(rotor, contact, plane, work.current, rub)
     else:
@@ -61,6 +64,8 @@ def _end_flight(rotor, contact, plane, reaction, memory, work, rub):
     if memory.stop_at_landing:
         return CHATTER
     _land(rotor, contact, plane, state, rub)
+    if rotor.limit_bounds.shape[0] > 0:
+        set_limits(rotor, state, rub)
     memory.rubbed = 1
     forget_rub(memory)
     contact[plane] = next_phase(rotor, contact, plane, state, rub)

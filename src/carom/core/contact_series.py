@@ -18,7 +18,7 @@ mobility ``G = WMB``.  Staying on all walls then needs, at each plane ``p`` in c
 and the second equation of a plane is ``F_p = −μ N_p sgn v_p`` where it slips and
 ``Im(ȳ_p a_p) + Σ_q Im(ȳ_p G_pq (−N_q + iF_q) y_q) = 0`` where it rolls: linear equations for each coefficient in turn.
 
-A shaft whose speed changes adds to these equations (:mod:`carom.core.shaft`).
+A shaft whose speed changes adds to these equations (:mod:`carom.core.shaft`), and so do bearings at their limits (:mod:`carom.core.limits`).
 
 A wall that gives way has a normal force of its own, and ``n = y/|y|`` takes the place of ``y`` there (:mod:`carom.core.compliance`).
 """
@@ -30,6 +30,7 @@ from carom.core.compliance import force_in_wall, indent, rolling_grip
 from carom.core.equations import solve
 from carom.core.friction import friction_ratio, rolling_force
 from carom.core.layout import ORDER
+from carom.core.limits import drive_by_excess, saturate
 from carom.core.phases import ROLLING, lasts, sense_of_phase, stays
 from carom.core.shaft import brake_shaft, couple_by_shaft, sweep_unbalance, turn_shaft
 from carom.core.surfaces import may_change, race_grip, relative_coefficient
@@ -63,6 +64,8 @@ def rub_series(rotor, contact, amplitudes, work):
                     work.series[k + 1, rotor.race[plane]] -= rotor.race_gain[plane] * work.grip[plane, k] / (k + 1)
             if rotor.shaft.shape[0] > 0:
                 turn_shaft(rotor, contact, k, work)
+            if rotor.limit_bounds.shape[0] > 0:
+                drive_by_excess(rotor, k, work)
 
 
 @kernel
@@ -79,6 +82,8 @@ def _contact(rotor, contact, k, work):
     planes = rotor.columns.shape[1]
     if rotor.shaft.shape[0] > 0:
         sweep_unbalance(rotor, k, work)
+    if rotor.limit_bounds.shape[0] > 0:
+        saturate(rotor, k, work)
     for plane in range(planes):
         _free_motion(rotor, plane, k, work)
         if yields(rotor, plane) and stays(contact[plane]):
@@ -101,6 +106,9 @@ def _free_motion(rotor, plane, k, work):
         free += rotor.acceleration_rows[plane, m] * work.series[k, m]
     if rotor.shaft.shape[0] > 0:
         free += rotor.unbalance_rows[plane] * work.whirl[k]
+    if rotor.limit_bounds.shape[0] > 0:
+        for each in range(rotor.limit_bounds.shape[0]):
+            free += rotor.limit_pulls[plane, each] * work.excess[each, k]
     work.position[plane, k] = position + rotor.offsets[plane] if k == 0 else position
     work.speed[plane, k] = speed
     work.free[plane, k] = free

@@ -9,7 +9,7 @@ from llvmlite import ir
 from numba.core import types
 from numba.extending import lower_builtin, type_callable
 
-from carom.core.layout import record
+from carom.core.records import record
 
 _LOCK = threading.Lock()
 

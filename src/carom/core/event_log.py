@@ -21,6 +21,8 @@ class EventLog(NamedTuple):
         Plane of the event.
     before, after : complex arrays, shape (L, N)
         Amplitudes just before and just after it.
+    limited : int array, shape (L, A)
+        State of each limited axis that follows (:mod:`carom.core.limits`).
     """
 
     times: np.ndarray
@@ -28,12 +30,14 @@ class EventLog(NamedTuple):
     planes: np.ndarray
     before: np.ndarray
     after: np.ndarray
+    limited: np.ndarray
 
     @classmethod
-    def empty(cls, size: int, modes: int, planes: int = 1) -> EventLog:
+    def empty(cls, size: int, modes: int, planes: int = 1, limits: int = 0) -> EventLog:
         """Allocate a log for this many events."""
         phases, places = np.empty((size, planes), np.int64), np.empty(size, np.int64)
-        return cls(np.empty(size), phases, places, *np.empty((2, size, modes), complex))
+        before, after = np.empty((2, size, modes), complex)
+        return cls(np.empty(size), phases, places, before, after, np.empty((size, 2 * limits), np.int64))
 
     def first(self, count: int) -> EventLog:
         """The first events."""

@@ -9,6 +9,7 @@
 - The same, but never repeating: twice :data:`TURNS` full turns without an impact, in the later of which the state changes from turn
   to turn on average at least half as much as in the earlier, and by a thousandth at least.  Stick and slip of a rotor with
   several coordinates need not keep time with its turns.
+- At the limits of magnetic bearings also: contact that lasts, whose state after a whole turn of the shaft is that of the turn before.
 - *Periodic*: the state at an impact recurs to within ``NEAR`` twice in a row after the same number of impacts.  The
   reference state is replaced after 1, 2, 4, 8 … impacts (Brent 1980), so no period is too long.  A motion that has
   recurred close to a repelling orbit only passes by it and is followed further (:mod:`carom.core.closing`).
@@ -28,12 +29,16 @@ import numpy as np
 from carom.compiling.decorators import inlined, kernel
 from carom.core.block import basis_amplitudes
 from carom.core.flow import displacement, squared_modulus
-from carom.core.layout import NEAR, record
+from carom.core.layout import NEAR
+from carom.core.limits import FREE
 from carom.core.planar_proofs import planar_proofs
+from carom.core.records import record
 
 NO_TURN, SET_OUT, ROUND = 0, 1, 2
 NO_CONTACT = -1.0
 """Instead of the time for which contact has persisted: there has been none."""
+PATIENCE_AT_LIMITS = 2000
+"""Most impacts without recurrence of a motion at the limits of its bearings: a whirl beside axes that stand still seldom repeats."""
 TURNS = 512
 """Full turns along the wall whose changes are added up, to compare them with those of as many before."""
 BLOCK = 64
@@ -56,6 +61,7 @@ def memory(
     contact_time: float = np.inf,
     contact_gap: float = 0.0,
     impact_speed: float = np.inf,
+    limits: int = 0,
 ) -> np.record:
     """Memory of the criteria for one motion, and the options on how far to follow it.
 
@@ -79,6 +85,8 @@ def memory(
         End with ``TRIGGERED`` when contact has persisted for that long, interrupted by flights of at most ``contact_gap``.
     impact_speed : float
         End with ``TRIGGERED`` at an impact with that speed or more.
+    limits : int
+        Number of limited quantities: ``clock`` then is the time, and ``limited`` the states of their axes, at the start of the motion.
     """
     return record(
         reference=np.zeros(modes, np.complex128),
@@ -117,6 +125,15 @@ def memory(
         touching=np.asarray(NO_CONTACT),
         flown=np.asarray(0.0),
         parted=np.asarray(0, np.int64),
+        clock=np.asarray(0.0),
+        limited=np.full(2 * limits, FREE, np.int64),
+        limited_steps=np.asarray(0, np.int64),
+        reference_clock=np.asarray(0.0),
+        reference_limited=np.asarray(0, np.int64),
+        turn_clock=np.asarray(0.0),
+        turn_limited=np.asarray(0, np.int64),
+        rounds=np.asarray(0, np.int64),
+        round_state=np.zeros(modes, np.complex128),
     )
 
 
@@ -152,7 +169,8 @@ def recurs(memory, amplitudes):
     memory.events += 1
     if memory.events > 1:
         memory.since += 1
-        if same_state(memory.reference, amplitudes, NEAR):
+        recurred = same_state(memory.reference, amplitudes, NEAR)
+        if recurred and in_step(memory, memory.reference_clock, memory.reference_limited):
             if memory.candidate == memory.since:
                 memory.period = memory.since
                 return True
@@ -162,12 +180,20 @@ def recurs(memory, amplitudes):
         if memory.candidate > 0 and memory.since >= memory.candidate:
             memory.candidate = 0
         if memory.since < memory.renewal:
-            return memory.events >= memory.patience
+            return memory.events >= _patience(memory)
         memory.renewal *= 2
     memory.candidate = 0
     _renew(memory, amplitudes)
     memory.rubbed = 0
-    return memory.events >= memory.patience
+    return memory.events >= _patience(memory)
+
+
+@inlined
+def _patience(memory):
+    """Impacts without recurrence after which a motion counts as aperiodic: fewer if bearings come to their limits, which slow it down."""
+    if memory.limited_steps > 0:
+        return min(memory.patience, PATIENCE_AT_LIMITS)
+    return memory.patience
 
 
 @kernel
@@ -182,6 +208,7 @@ def impacts_until_noted(memory):
 @kernel
 def _renew(memory, amplitudes):
     memory.since, memory.parted = 0, 0
+    memory.reference_clock, memory.reference_limited = memory.clock, memory.limited_steps
     for k in range(amplitudes.shape[0]):
         memory.reference[k] = amplitudes[k]
 
@@ -191,6 +218,15 @@ def same_state(first, second, tolerance):
     """Whether the distance of two states, relative to one plus their size, is within a tolerance."""
     size, distance = _size_and_distance(first, second)
     return distance <= tolerance * size
+
+
+@inlined
+def in_step(memory, clock, limited_steps):
+    """Whether limits act as at an earlier instant: they have not been in reach since, or their axes are turned by quarters of a turn."""
+    if memory.limited_steps == limited_steps:
+        return True
+    quarters = (memory.clock - clock) * 2.0 / math.pi
+    return abs(quarters - math.floor(quarters + 0.5)) <= NEAR
 
 
 @inlined
@@ -266,6 +302,7 @@ def approaches_turn(memory, position, amplitudes, speed):
         memory.turn_position = position
         memory.turn_time = 0.0
         memory.turn_slipped = 0
+        memory.turn_clock, memory.turn_limited = memory.clock, memory.limited_steps
         for k in range(amplitudes.shape[0]):
             memory.turn_state[k] = amplitudes[k]
         memory.turning = SET_OUT
@@ -282,7 +319,7 @@ def forget(memory):
     """Reset a memory for another motion of the same rotor."""
     memory.events, memory.renewal, memory.since = 0, 1, 0
     memory.candidate, memory.period, memory.rubbed, memory.lifting = 0, 0, 0, 0
-    memory.turning, memory.turns = NO_TURN, 0
+    memory.turning, memory.turns, memory.rounds, memory.limited_steps = NO_TURN, 0, 0, 0
     memory.stalled, memory.stood, memory.lap = 0, 0.0, math.inf
     memory.struck, memory.touching, memory.flown, memory.parted = 0.0, NO_CONTACT, 0.0, 0
 
@@ -325,5 +362,15 @@ def doubt(memory):
 
 @kernel
 def forget_rub(memory):
-    """Restart the search for full turns along the wall."""
-    memory.turning = NO_TURN
+    """Restart the search for full turns along the wall, and for turns of the shaft."""
+    memory.turning, memory.rounds = NO_TURN, 0
+
+
+@kernel
+def keeps_step(memory, amplitudes):
+    """Note the state after a whole turn of the shaft in lasting contact; return whether it is that of the turn before."""
+    same = memory.rounds > 0 and same_state(memory.round_state, amplitudes, NEAR)
+    memory.rounds += 1
+    for k in range(amplitudes.shape[0]):
+        memory.round_state[k] = amplitudes[k]
+    return same

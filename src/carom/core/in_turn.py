@@ -5,6 +5,7 @@ from __future__ import annotations
 from carom.compiling.decorators import kernel
 from carom.core.advance import advance
 from carom.core.fate import forget
+from carom.core.limits import set_limits
 from carom.outcome import Outcome
 
 EVENT_LIMIT = int(Outcome.EVENT_LIMIT)
@@ -30,6 +31,10 @@ def advance_in_turn(rotor, table, motions, duration, most_events, contacts, log,
     """
     for i in range(motions.shape[0]):
         forget(memory)
+        if rotor.limit_bounds.shape[0] > 0:
+            memory.clock, rub.clock = 0.0, 0.0
+            set_limits(rotor, motions[i], rub)
+            memory.limited[:] = rub.limited
         outcomes[i], events[i], time = EVENT_LIMIT, 0, 0.0
         while outcomes[i] == EVENT_LIMIT and events[i] < most_events:
             outcome, passed, count = advance(

@@ -19,7 +19,8 @@ from carom.core.events import MARGIN
 from carom.core.flow import acceleration, displacement, squared_modulus, velocity
 from carom.core.friction import arrival
 from carom.core.lane_search import departure, examine, halley_ratio, look_up, travel
-from carom.core.layout import DEGREE, LANES, LEVELS, WIDTH, record
+from carom.core.layout import DEGREE, LANES, LEVELS, WIDTH
+from carom.core.records import record
 from carom.core.vector import align_stack, fma, join, lanes_of, load, store, where
 from carom.core.wall import rigid_wall
 

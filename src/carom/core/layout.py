@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from functools import cache
 
 import numpy as np
 
 from carom.compiling.target import has_wide_registers
+from carom.core.records import blank, filled, layout_of, record
 
 NEAR = 1e-9
 """Distance, relative to one plus the size of the state, below which two states are the same."""
@@ -26,7 +28,6 @@ NODES = 64
 """Intervals of the longest block at whose ends the basis functions are tabulated."""
 TERMS = 8
 """Terms of the Taylor series of the basis functions."""
-CACHE_LINE = 64
 COMPLEX, REAL = np.dtype(np.complex128), np.dtype(np.float64)
 OCTET = 8
 """Number of doubles in the widest vector registers."""
@@ -67,6 +68,7 @@ def rotor_record(
     unbalance: np.ndarray | None = None,
     shaft_gain: np.ndarray | None = None,
     drive: np.ndarray | None = None,
+    limits: Mapping[str, np.ndarray] | None = None,
 ) -> np.record:
     """A linear rotor with ``N`` moving modes and ``P`` contact planes, as the kernels see it.
 
@@ -113,6 +115,10 @@ def rotor_record(
         Change of its speed by a friction impulse along growing angle that changes the velocity of the plane by one.
     drive : ndarray, shape (1,), optional
         Rate of its speed by the torque of its drive, which acts in contact.
+    limits : mapping, optional
+        Of ``L`` quantities with a limit along each of two axes of the fixed frame (:mod:`carom.core.limits`): ``limit_rows`` (L, N) and
+        ``limit_offsets`` (L,), complex, by which they follow from the amplitudes; ``limit_bounds`` (L,); ``limit_columns`` (N, L), rates of
+        the amplitudes by what lies beyond; ``limit_couplings`` (L, L), by which what lies beyond one adds to those after it.
 
     Returns
     -------
@@ -121,8 +127,10 @@ def rotor_record(
         ``largest_response`` (bound of their ``|φ|`` over all later time), ``rate_rows``, ``acceleration_rows`` and
         ``jerk_rows`` (first three derivatives of the displacement at the planes per amplitude), ``mobility`` (change of
         velocity at the planes per unit impulse at each, shape (P, P), ones on its diagonal), ``weights``
-        (``Σ_k |rows|²`` over the free modes), and of a shaft ``unbalance_rows`` (acceleration of the planes by its unbalance at the nominal speed).
-        The fields of a shaft have no entries without one: kernels for such rotors are compiled without it.  A record is passed by address and its shapes are known at compile time: kernels run six
+        (``Σ_k |rows|²`` over the free modes), of a shaft ``unbalance_rows`` (acceleration of the planes by its unbalance at the nominal speed), and of
+        limits ``limit_pulls`` (P, L) (acceleration of the planes by what lies beyond) and ``reach``, a record in which the quantities are planes, in
+        units of their bounds.
+        The fields of a shaft and of limits have no entries without them: kernels for such rotors are compiled without them.  A record is passed by address and its shapes are known at compile time: kernels run six
         times as fast as with a tuple of arrays.
     """
     modes, planes = len(exponents), len(rows)
@@ -134,22 +142,22 @@ def rotor_record(
         if follows:
             generator[k, k - 1] = 1.0
             gaps[k] = values[k] - values[k - 1]
-    # For so few numbers, dot takes half the time of @.
-    rate_rows = rows.dot(generator)
-    acceleration_rows = rate_rows.dot(generator)
-    fields = {
+    own = {
         "exponents": exponents,
         "driven": driven,
         "gaps": gaps,
         "inverse_gaps": [1.0 / np.complex128(gap) if gap else 0j for gap in gaps],
         "largest_response": _largest_response(values, gaps),
-        "offsets": offsets,
-        "rows": rows,
-        "rate_rows": rate_rows,
-        "acceleration_rows": acceleration_rows,
-        "jerk_rows": acceleration_rows.dot(generator),
+    }
+    seen = _seen(generator, rows, offsets)
+    given, number = (_no_limits(modes), 0) if limits is None else (limits, len(limits["limit_bounds"]))
+    scale = 1.0 / given["limit_bounds"]
+    reach = own | _seen(generator, given["limit_rows"] * scale[:, None], given["limit_offsets"] * scale) | {"shaft": []}
+    fields = {
+        **own,
+        **seen,
         "columns": columns,
-        "mobility": rate_rows.dot(columns),
+        "mobility": seen["rate_rows"].dot(columns),
         "weights": (np.abs(rows) ** 2).sum(axis=1) if free is None else (np.abs(rows) ** 2).dot(free),
         "friction": friction,
         "restitution": restitution,
@@ -164,28 +172,69 @@ def rotor_record(
         "free": np.ones(modes) if free is None else free,
         "shaft": [] if shaft is None else shaft,
         "unbalance": [] if unbalance is None else unbalance,
-        "unbalance_rows": [] if unbalance is None else rate_rows.dot(unbalance),
+        "unbalance_rows": [] if unbalance is None else seen["rate_rows"].dot(unbalance),
         "response": [] if unbalance is None else np.zeros(modes),
         "shaft_gain": [] if shaft_gain is None else shaft_gain,
         "drive": [] if drive is None else drive,
+        **given,
+        "limit_pulls": seen["rate_rows"].dot(given["limit_columns"]),
+        "reach": tuple(reach[name] for name in _flight_layout(modes, number).names or ()),
     }
-    layout = _rotor_layout(modes, planes, shaft is not None)
-    return _filled(layout, tuple(fields[name] for name in layout.names or ()))
+    layout = _rotor_layout(modes, planes, shaft is not None, number)
+    return filled(layout, tuple(fields[name] for name in layout.names or ()))
+
+
+def _seen(generator: np.ndarray, rows: np.ndarray, offsets: np.ndarray) -> dict[str, np.ndarray]:
+    """Rows of what follows from the amplitudes, and of its first three derivatives."""
+    # For so few numbers, dot takes half the time of @.
+    rate_rows = rows.dot(generator)
+    acceleration_rows = rate_rows.dot(generator)
+    return {
+        "offsets": offsets,
+        "rows": rows,
+        "rate_rows": rate_rows,
+        "acceleration_rows": acceleration_rows,
+        "jerk_rows": acceleration_rows.dot(generator),
+    }
 
 
 @cache
-def _rotor_layout(modes: int, planes: int, with_shaft: bool) -> np.dtype:
+def _no_limits(modes: int) -> Mapping[str, np.ndarray]:
+    return {
+        "limit_rows": np.zeros((0, modes), COMPLEX),
+        "limit_offsets": np.zeros(0, COMPLEX),
+        "limit_bounds": np.zeros(0),
+        "limit_columns": np.zeros((modes, 0), COMPLEX),
+        "limit_couplings": np.zeros((0, 0), COMPLEX),
+    }
+
+
+@cache
+def _flight_fields(modes: int, planes: int) -> tuple[tuple[str, np.dtype, tuple[int, ...]], ...]:
+    """Fields of what the search of a flight needs to know."""
     of_both = ("rows", "rate_rows", "acceleration_rows", "jerk_rows")
+    return (
+        ("exponents", COMPLEX, (modes,)),
+        ("driven", np.dtype(np.int8), (modes,)),
+        ("gaps", COMPLEX, (modes,)),
+        ("inverse_gaps", COMPLEX, (modes,)),
+        ("largest_response", REAL, (modes,)),
+        ("offsets", COMPLEX, (planes,)),
+        *((name, COMPLEX, (planes, modes)) for name in of_both),
+    )
+
+
+@cache
+def _flight_layout(modes: int, planes: int) -> np.dtype:
+    return layout_of((*_flight_fields(modes, planes), ("shaft", np.dtype(np.int64), (0,))))
+
+
+@cache
+def _rotor_layout(modes: int, planes: int, with_shaft: bool, limits: int) -> np.dtype:
     shafts = int(with_shaft)
-    return _layout(
+    return layout_of(
         (
-            ("exponents", COMPLEX, (modes,)),
-            ("driven", np.dtype(np.int8), (modes,)),
-            ("gaps", COMPLEX, (modes,)),
-            ("inverse_gaps", COMPLEX, (modes,)),
-            ("largest_response", REAL, (modes,)),
-            ("offsets", COMPLEX, (planes,)),
-            *((name, COMPLEX, (planes, modes)) for name in of_both),
+            *_flight_fields(modes, planes),
             ("columns", COMPLEX, (modes, planes)),
             ("mobility", COMPLEX, (planes, planes)),
             ("weights", REAL, (planes,)),
@@ -199,6 +248,13 @@ def _rotor_layout(modes: int, planes: int, with_shaft: bool) -> np.dtype:
             ("unbalance_rows", COMPLEX, (shafts * planes,)),
             ("shaft_gain", REAL, (shafts * planes,)),
             ("drive", REAL, (shafts,)),
+            ("limit_rows", COMPLEX, (limits, modes)),
+            ("limit_offsets", COMPLEX, (limits,)),
+            ("limit_bounds", REAL, (limits,)),
+            ("limit_columns", COMPLEX, (modes, limits)),
+            ("limit_couplings", COMPLEX, (limits, limits)),
+            ("limit_pulls", COMPLEX, (planes, limits)),
+            ("reach", _flight_layout(modes, limits), ()),
         )
     )
 
@@ -289,13 +345,13 @@ def table_record(
 
 def workspace(modes: int) -> np.record:
     """Scratch arrays of a kernel call for this number of modes; no value is kept from one call to the next."""
-    return _blank(_workspace_layout(modes))
+    return blank(_workspace_layout(modes))
 
 
 @cache
 def _workspace_layout(modes: int) -> np.dtype:
     vectors = ("current", "arrival", "departure", "nearest", "increments", "at_node", "amplitudes")
-    return _layout(
+    return layout_of(
         (
             *((name, COMPLEX, (modes,)) for name in vectors),
             ("products", REAL, (2 * modes + modes**2,)),
@@ -304,14 +360,14 @@ def _workspace_layout(modes: int) -> np.dtype:
     )
 
 
-def rub_workspace(modes: int, planes: int = 1) -> np.record:
-    """Scratch arrays of contact: Taylor coefficients at the contact planes, impulses of joint impacts, states of contact."""
-    return _blank(_rub_workspace_layout(modes, planes))
+def rub_workspace(modes: int, planes: int = 1, limits: int = 0) -> np.record:
+    """Scratch arrays of contact: Taylor coefficients at the contact planes and of limits, impulses of joint impacts, states of contact."""
+    return blank(_rub_workspace_layout(modes, planes, limits))
 
 
 @cache
-def _rub_workspace_layout(modes: int, planes: int) -> np.dtype:
-    return _layout(
+def _rub_workspace_layout(modes: int, planes: int, limits: int) -> np.dtype:
+    return layout_of(
         (
             ("series", COMPLEX, (ORDER + 1, modes)),
             *((name, COMPLEX, (planes, ORDER + 1)) for name in ("position", "speed", "free", "force")),
@@ -333,46 +389,10 @@ def _rub_workspace_layout(modes: int, planes: int) -> np.dtype:
             *((name, REAL, (planes,)) for name in ("aims", "least")),
             ("joined", np.dtype(np.int8), (planes,)),
             ("contact", np.dtype(np.int64), (planes,)),
+            *((name, COMPLEX, (limits, ORDER + 1)) for name in ("asked", "turned", "beyond", "excess")),
+            ("turn", COMPLEX, (ORDER + 1,)),
+            ("clock", REAL, ()),
+            ("limited", np.dtype(np.int64), (2 * limits,)),
+            ("reached", np.dtype(np.int64), (limits,)),
         )
     )
-
-
-def record(**fields: np.ndarray | np.record) -> np.record:
-    """Pack arrays and scalars into one record that kernels take by address."""
-    layout = _layout(tuple([(name, values.dtype, values.shape) for name, values in fields.items()]))
-    return _filled(layout, tuple(fields.values()))
-
-
-def _filled(layout: np.dtype, values: tuple[object, ...]) -> np.record:
-    """A record of these values.  All at once: to set one takes as long as to compute it."""
-    room = _room(layout)
-    room[0] = values
-    filled: np.record = room[0]
-    return filled
-
-
-def _blank(layout: np.dtype) -> np.record:
-    """A record of zeros."""
-    blank: np.record = _room(layout)[0]
-    return blank
-
-
-def _room(layout: np.dtype) -> np.ndarray:
-    """Array of one record of zeros aligned to a cache line, so that arrays of that length never extend over two of them."""
-    room = np.zeros(layout.itemsize + CACHE_LINE, np.uint8)
-    first = -room.__array_interface__["data"][0] % CACHE_LINE
-    return np.ndarray(1, layout, room, first)
-
-
-def copy_of(original: np.record) -> np.record:
-    """A copy of a record, aligned as records are."""
-    room = _room(original.dtype)
-    room[0] = original
-    copied: np.record = room[0]
-    return copied
-
-
-@cache
-def _layout(fields: tuple[tuple[str, np.dtype, tuple[int, ...]], ...]) -> np.dtype:
-    """Type of a record with fields of these names, types and shapes."""
-    return np.dtype((np.record, np.dtype(list(fields), align=True)))

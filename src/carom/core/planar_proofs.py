@@ -18,7 +18,8 @@ import numpy as np
 from carom.compiling.decorators import kernel
 from carom.core.flow import displacement, squared_modulus, velocity
 from carom.core.friction import spare_friction
-from carom.core.layout import NEAR, record
+from carom.core.layout import NEAR
+from carom.core.records import record
 from carom.core.wall import wall_of
 
 TURNS = 32

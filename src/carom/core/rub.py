@@ -20,6 +20,7 @@ from carom.core.flow import acceleration, displacement, fly, squared_modulus, un
 from carom.core.friction import BACKWARD, FORWARD, STOPPED, arrival_in_sense, friction_ratio, slip_of, spare_grip
 from carom.core.laws.choice import force
 from carom.core.layout import ORDER
+from carom.core.limits import FREE, set_limits
 from carom.core.phases import (
     BACKWARD_SLIP,
     FLIGHT,
@@ -41,12 +42,17 @@ NO_TURN = 1e-15
 
 
 @kernel
-def fly_or_rub_all(rotor, amplitudes, phases, times, work):
-    """Amplitudes (M, N) after given times (M,), each in its own phases (M, P) from its own amplitudes (M, N)."""
+def fly_or_rub_all(rotor, amplitudes, phases, limited, clocks, times, work):
+    """Amplitudes (M, N) after given times (M,), each from its own amplitudes (M, N), phases (M, P), states of limits (M, 2L) and instants (M,)."""
     moved = np.empty_like(amplitudes)
     for i in range(times.shape[0]):
-        if _stays(phases[i]):
-            if i == 0 or not (_same(phases[i], phases[i - 1]) and _same(amplitudes[i], amplitudes[i - 1])):
+        if _stays(phases[i]) or _limited(limited[i]):
+            begins = i == 0 or not (_same(phases[i], phases[i - 1]) and _same(amplitudes[i], amplitudes[i - 1]))
+            if rotor.limit_bounds.shape[0] > 0:
+                begins = begins or not (_same(limited[i], limited[i - 1]) and clocks[i] == clocks[i - 1])
+                work.clock = clocks[i]
+                work.limited[:] = limited[i]
+            if begins:
                 rub_series(rotor, phases[i], amplitudes[i], work)
             sum_series(work, times[i], moved[i])
         else:
@@ -55,12 +61,15 @@ def fly_or_rub_all(rotor, amplitudes, phases, times, work):
 
 
 @kernel
-def forces_all(rotor, amplitudes, phases, work):
-    """Normal and friction force of lasting contact (M, P, 2) of states (M, N) in given phases (M, P); zero in flight."""
+def forces_all(rotor, amplitudes, phases, clocks, work):
+    """Normal and friction force of lasting contact (M, P, 2) of states (M, N) in given phases (M, P) at instants (M,); zero in flight."""
     forces = np.zeros((*phases.shape, 2))
     for i in range(amplitudes.shape[0]):
         if not _stays(phases[i]):
             continue
+        if rotor.limit_bounds.shape[0] > 0:
+            work.clock = clocks[i]
+            set_limits(rotor, amplitudes[i], work)
         contact_forces(rotor, phases[i], amplitudes[i], work)
         for plane in range(phases.shape[1]):
             if lasts(phases[i, plane]):
@@ -86,6 +95,15 @@ def _stays(contact):
     found = False
     for plane in range(contact.shape[0]):
         found = found or stays(contact[plane])
+    return found
+
+
+@inlined
+def _limited(states):
+    """Whether any axis of a magnetic bearing may be at its bound."""
+    found = False
+    for axis in range(states.shape[0]):
+        found = found or states[axis] != FREE
     return found
 
 
@@ -283,7 +301,8 @@ def next_phase(rotor, contact, plane, amplitudes, work):
         slip += relative_excess(rotor, plane, amplitudes)
     if abs(slip) > speed_rounding(rotor, plane, amplitudes):
         return FORWARD_SLIP if slip > 0.0 else BACKWARD_SLIP
-    if rotor.rows.shape[0] == 1 and not may_change(rotor, plane) and not gives_way:
+    alone = rotor.rows.shape[0] == 1 and not may_change(rotor, plane) and not gives_way
+    if alone and rotor.limit_bounds.shape[0] == 0:
         push, _ = wall_push(rotor, plane, amplitudes)
         pull = (position.conjugate() * acceleration(rotor, plane, amplitudes)).imag
     else:

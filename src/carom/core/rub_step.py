@@ -7,8 +7,20 @@ import math
 from carom.compiling.decorators import inlined, kernel
 from carom.core.compliance import next_form, stay_in_wall
 from carom.core.contact_series import rub_series
-from carom.core.fate import approaches_turn, at_rest, forget_rub, near_rub, never_repeats, note_turn, same_state
+from carom.core.fate import (
+    approaches_turn,
+    at_rest,
+    forget_rub,
+    in_step,
+    keeps_step,
+    near_rub,
+    never_repeats,
+    note_turn,
+    same_state,
+)
 from carom.core.layout import NEAR
+from carom.core.limits import FREE as FREE_AXIS
+from carom.core.limits import TURN, WHOLE, change_limits, first_limit, pass_time
 from carom.core.phases import AWAY, FLIGHT, FORWARD_SLIP, ROLLING, lasts, stays
 from carom.core.planar_proofs import absorbed, hastens, runs_away
 from carom.core.rub import first_contact, first_transition, next_phase, rest_on_wall, turn_ahead
@@ -36,15 +48,16 @@ def rub_step(rotor, contact, amplitudes, horizon, memory, rub):
     in lasting contact.
     """
     rub_series(rotor, contact, amplitudes, rub)
-    step, leading = series_step(rub), leading_plane(rotor, contact)
-    for plane in range(rotor.rows.shape[0]):
-        if yields(rotor, plane) and stays(contact[plane]):
-            # The distance from the centre is a root: its series may reach less far than those of the amplitudes.
-            step = min(step, margin_step(rub.depth[plane]))
+    step, leading = _longest_step(rotor, contact, rub), leading_plane(rotor, contact)
     if step == 0.0:  # forces at several planes have grown without bound, until there are none (Painlevé)
         return GRAZING, 0.0, leading
     duration, changed, following, undecided = _first_change(rotor, contact, min(step, horizon), rub)
-    turned, speed = False, 0.0
+    axis, at_bound = WHOLE, FREE_AXIS
+    if rotor.limit_bounds.shape[0] > 0:
+        met, axis, at_bound = first_limit(rotor, duration, rub)
+        if met < duration:
+            duration, changed = met, NOWHERE
+    turned, whole, speed = False, False, 0.0
     # Contact that would end a stage when it has persisted for a time is followed until then.
     if memory.patience > 0 and memory.contact_time == math.inf and leading != NOWHERE:
         position = unit(rub.position[leading, 0])
@@ -55,22 +68,55 @@ def rub_step(rotor, contact, amplitudes, horizon, memory, rub):
         if approaches_turn(memory, position, amplitudes, speed):
             turn = turn_ahead(leading, memory.turn_position, math.copysign(1.0, speed), duration, rub)
             if turn < duration:
-                duration, changed, turned = turn, NOWHERE, True
+                duration, changed, turned, axis = turn, NOWHERE, True, WHOLE
+        if rotor.limit_bounds.shape[0] > 0 and TURN - rub.clock <= duration:
+            duration, changed, turned, axis, whole = TURN - rub.clock, NOWHERE, False, WHOLE, True
     sum_series(rub, duration, amplitudes)
+    if rotor.limit_bounds.shape[0] > 0:
+        pass_time(duration, memory, rub)
+        if whole:
+            memory.clock, rub.clock = 0.0, 0.0
+        change_limits(rotor, axis, at_bound, amplitudes, memory, rub)
     memory.turn_time += duration
     _remove_rounding(rotor, contact, changed, following, undecided, duration > 0.0, amplitudes, memory)
     if changed != NOWHERE:
         _change_contact(rotor, contact, changed, following, undecided, amplitudes, memory, rub)
-    if turned:
-        note_turn(rotor, memory, amplitudes)
-        recurred = same_state(memory.turn_state, amplitudes, NEAR * min(1.0, memory.turn_time))
-        # Of a shaft that loses its speed the state changes in each turn until it stands.
-        if recurred or (rotor.shaft.shape[0] == 0 and never_repeats(memory, amplitudes)):
-            backward = speed < 0.0 and memory.turn_time < 2.0 * math.pi
-            rub_outcome = BACKWARD_WHIRL if backward else FORWARD_RUB
-            return (rub_outcome if memory.turn_slipped > 0 else ROLLS_ON), duration, leading
-        forget_rub(memory)
+    if turned or whole:
+        end = _end_by_turns(rotor, whole, speed, amplitudes, memory)
+        if end != CONTACT:
+            return end, duration, leading
     return (TIME_REACHED if duration >= horizon else CONTACT), duration, leading if changed == NOWHERE else changed
+
+
+@inlined
+def _longest_step(rotor, contact, rub):
+    """Longest step of the series; zero if they are not finite."""
+    step = series_step(rub)
+    for plane in range(rotor.rows.shape[0]):
+        if yields(rotor, plane) and stays(contact[plane]):
+            # The distance from the centre is a root: its series may reach less far than those of the amplitudes.
+            step = min(step, margin_step(rub.depth[plane]))
+    return step
+
+
+@inlined
+def _end_by_turns(rotor, whole, speed, amplitudes, memory):
+    """What contact settles to after a turn along the wall, or a whole turn of the shaft; CONTACT if it goes on."""
+    if whole:
+        if not keeps_step(memory, amplitudes):
+            return CONTACT
+        backward = ROLLS_ON if memory.turn_slipped == 0 else BACKWARD_WHIRL
+        return backward if speed < -1.0 else FORWARD_RUB
+    note_turn(rotor, memory, amplitudes)
+    recurred = same_state(memory.turn_state, amplitudes, NEAR * min(1.0, memory.turn_time))
+    recurred = recurred and in_step(memory, memory.turn_clock, memory.turn_limited)
+    # Of a shaft that loses its speed the state changes in each turn until it stands.
+    if recurred or (rotor.shaft.shape[0] == 0 and never_repeats(memory, amplitudes)):
+        backward = speed < 0.0 and memory.turn_time < 2.0 * math.pi
+        rub_outcome = BACKWARD_WHIRL if backward else FORWARD_RUB
+        return rub_outcome if memory.turn_slipped > 0 else ROLLS_ON
+    forget_rub(memory)
+    return CONTACT
 
 
 @inlined
@@ -120,7 +166,7 @@ def _first_change(rotor, contact, step, rub):
                 if form < duration:
                     duration, changed, following, undecided = form, NOWHERE, FLIGHT, False
             time, after, unsure = first_transition(rotor, plane, contact[plane], duration, rub)
-        elif rotor.rows.shape[0] > 1:
+        elif rotor.rows.shape[0] > 1 or rotor.limit_bounds.shape[0] > 0:
             time = first_contact(rotor, plane, contact[plane] == FLIGHT, duration, rub)
         else:
             time = duration

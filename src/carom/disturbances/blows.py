@@ -167,12 +167,13 @@ class BaseShock(Disturbance):
         peaks, directions = np.broadcast_arrays(*values)
         if rotor.system.rest_radius >= 1.0:
             return displaced(rotor, np.zeros(peaks.shape, complex), np.zeros(peaks.shape), False)
-        rotor.system.refuse_unrepeated()
+        rotor.system.refuse_unsteady()
         positions, velocities, undecided, touched = states_after_shocks(
             stages_of(rotor)[0].rotor, peaks, self.duration, directions
         )
-        # Without forces that change with time nothing depends on it.
-        begins = np.full(peaks.shape, self.duration if rotor.system.outer.any() else 0.0)
+        # Without forces that change with time, and axes of bearings, nothing depends on it.
+        depends = rotor.system.outer.any() or rotor.system.limits
+        begins = np.full(peaks.shape, self.duration if depends else 0.0)
         return Starts(positions, velocities, np.ones(peaks.shape, bool), undecided, touched, begins)
 
     def stages(self, machine: Subject, direction: float = 0.0) -> tuple[Staged, State]:

@@ -68,11 +68,11 @@ def states_after_shocks(
     contacts = np.full((len(motions), planes), AWAY)
     outcomes, events = np.zeros((2, len(motions)), np.int64)
     log, work, rub = (
-        EventLog.empty(LOGGED, system.modes, planes),
+        EventLog.empty(LOGGED, system.modes, planes, system.limits),
         workspace(system.modes),
-        rub_workspace(system.modes, planes),
+        rub_workspace(system.modes, planes, system.limits),
     )
-    tools = log, memory(system.modes), work, rub
+    tools = log, memory(system.modes, limits=system.limits), work, rub
     advance_in_turn(system.arrays, system.table, motions, duration, MOST_EVENTS, contacts, *tools, outcomes, events)
     positions, velocities = np.split(_states(system.basis, motions) + at_rest, 2, axis=1)
     if rotor.system.is_planar:

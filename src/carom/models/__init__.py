@@ -11,7 +11,7 @@
 ``linear``                :class:`LinearRotor`: any linear isotropic rotor, by its matrices
 ``linear_parameters``     its named parameters
 ``in_bearing``            :class:`InBearing`: the planar rotor in a touchdown bearing that gives way
-``race``                  :class:`Race`: the inner race of a touchdown bearing, which turns
+``limited``               :class:`Limited`: a rotor on magnetic bearings that have limits
 ``touchdown``             :class:`Touchdown`: a contact plane, and the laws of its wall
 ``race``                  :class:`Race`: a race that turns
 ``shaft``                 :class:`Shaft`: a shaft whose speed changes
@@ -28,6 +28,7 @@ from carom.models.forcing import Force
 from carom.models.from_modes import second_order_system
 from carom.models.in_bearing import InBearing
 from carom.models.jeffcott import Jeffcott
+from carom.models.limited import Limit, Limited
 from carom.models.linear import LinearRotor
 from carom.models.model import Matrices, Model, Rates
 from carom.models.race import Race
@@ -48,6 +49,8 @@ __all__ = [
     "InBearing",
     "Jeffcott",
     "KelvinVoigt",
+    "Limit",
+    "Limited",
     "LinearRotor",
     "Matrices",
     "Model",

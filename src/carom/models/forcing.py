@@ -53,25 +53,31 @@ def with_forces(system: System, forces: Sequence[Force]) -> System:
     InputError
         A force is nearly in resonance with two modes that nearly coincide, or with a mode that another force drives.
     """
-    n, planes = system.shapes.shape[0], len(system.arrays["rows"])
+    n, planes, arrays = system.shapes.shape[0], len(system.arrays["rows"]), system.arrays
+    first = planes + system.limits
     modes = _Modes.of(system)
     for force in _merged(forces):
-        modes = modes.driven_by(complex(force.exponent), modes.left[:, planes + n :] @ force.accelerations)
+        modes = modes.driven_by(complex(force.exponent), modes.left[:, first + n :] @ force.accelerations)
     return modal_system(
         exponents=modes.exponents,
         driven=modes.driven,
         free=modes.free,
         forced=modes.forced,
         rest=system.rest,
-        shapes=modes.right[planes:],
-        inverse=modes.left[:, planes:],
+        shapes=modes.right[first:],
+        inverse=modes.left[:, first:],
         translation=system.translation,
         races=system.races,
         shaft=system.shaft,
         clearances=system.clearances,
         rows=modes.right[:planes],
         columns=modes.left[:, :planes],
-        **{name: system.arrays[name] for name in ("offsets", "masses", *Wall._fields)},
+        limits={
+            "limit_rows": modes.right[planes:first],
+            "limit_columns": modes.left[:, planes:first],
+            **{name: arrays[name] for name in ("limit_offsets", "limit_bounds", "limit_couplings")},
+        },
+        **{name: arrays[name] for name in ("offsets", "masses", *Wall._fields)},
     )
 
 
@@ -108,8 +114,8 @@ class _Modes:
             kept[arrays["race"][system.races.planes]] = False
         for place in arrays["shaft"].tolist():
             kept[place : place + 2] = False
-        right = np.concatenate([arrays["rows"], system.shapes])
-        left = np.concatenate([arrays["columns"], system.to_modes], axis=1)
+        right = np.concatenate([arrays["rows"], arrays["limit_rows"], system.shapes])
+        left = np.concatenate([arrays["columns"], arrays["limit_columns"], system.to_modes], axis=1)
         return cls(
             exponents=arrays["exponents"][kept],
             driven=arrays["driven"].astype(bool)[kept],

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
@@ -37,13 +37,14 @@ def modal_system(
     races: RaceModes | None = None,
     shaft: ShaftModes | None = None,
     clearances: tuple[float, ...] | None = None,
+    limits: Mapping[str, np.ndarray] | None = None,
     **planes: np.ndarray,
 ) -> System:
     """System of these modes, in arrays of one of few sizes: each size of the kernels takes seconds to compile.
 
     Parameters
     ----------
-    exponents, driven, free, rows, columns, **planes
+    exponents, driven, free, rows, columns, limits, **planes
         See :func:`~carom.core.layout.rotor_record`.
     rest, shapes, inverse, forced, translation, clearances
         See :class:`System`.
@@ -77,7 +78,14 @@ def modal_system(
             "shaft_gain": shaft.gains(planes["masses"], planes["surface_speed"] - 1.0),
             "drive": np.array([shaft.drive]),
         }
+    if limits is not None:
+        limits = {
+            **limits,
+            "limit_rows": filled(limits["limit_rows"], 1),
+            "limit_columns": filled(limits["limit_columns"]),
+        }
     arrays = rotor_record(
+        limits=limits,
         exponents=filled(exponents, filler=exponents[-1]),
         driven=filled(driven),
         free=filled(np.ones(modes, bool) if free is None else free),
@@ -119,6 +127,7 @@ def second_order_system(
         offsets=offsets,
         rows=rows,
         columns=np.array([[1.0], [0.0]], np.complex128),
+        limits=None,
         **walls_as_arrays([wall]),
         masses=np.array([mass]),
     )

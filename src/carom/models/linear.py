@@ -212,6 +212,7 @@ class LinearRotor(Result):
             columns=inverse[:, n:] @ (moved / mobilities),
             races=RaceModes.of(races, masses),
             shaft=turning,
+            limits=None,
             **walls_as_arrays([each.wall(mass) for each, mass in zip(self.touchdowns, masses, strict=True)]),
             masses=masses,
             translation=self.translation,

@@ -13,6 +13,7 @@ from carom.arguments import checked
 from carom.models.forcing import Force
 from carom.models.in_bearing import InBearing
 from carom.models.jeffcott import Jeffcott
+from carom.models.limited import Limited, limits_from
 from carom.models.linear import LinearRotor
 from carom.models.model import Model
 from carom.models.stages import Forced, Stage, Staged, Trigger
@@ -47,6 +48,9 @@ def model_of(subject: Subject) -> Model:
         model = model_of(subject.parameters)
         if isinstance(subject, Case) and (subject.touchdown or subject.drive) and isinstance(model, Jeffcott):
             model = InBearing(model, subject.touchdown or TouchdownBearing(), drive=subject.drive)
+        machine = subject.machine if isinstance(subject, Case) else subject
+        if machine is not None and machine.control_limit is not None:
+            model = Limited(model, machine.control_limit)
         return weighted(model, subject.gravity) if isinstance(subject, Case) and subject.gravity else model
     if isinstance(subject, Model):
         return subject
@@ -65,6 +69,9 @@ def jeffcott_of(subject: Subject) -> Jeffcott:
     if isinstance(model, Jeffcott):
         return model
     refuse_other_rotors(subject)
+    if isinstance(model, Limited):
+        allowed = "none: this result is known for magnetic bearings without limits alone; carom.simulate, carom.settle and others work"
+        raise InputError("limits", model.words, allowed)
     if isinstance(model, Forced):
         refuse_forces(model)
     if isinstance(model, InBearing):
@@ -76,13 +83,15 @@ def jeffcott_of(subject: Subject) -> Jeffcott:
 def refuse_other_rotors(subject: Subject) -> None:
     """Refuse what is no planar rotor, whatever forces act on it; a rotor of several stages is left to others."""
     model = model_of(subject)
-    if isinstance(model.rotor if isinstance(model, Forced) else model, LinearRotor):
+    for kind in Forced, Limited:
+        model = model.rotor if isinstance(model, kind) else model
+    if isinstance(model, LinearRotor):
         raise InputError("machine", shown(subject), _PLANAR)
 
 
 def parameters_of(model: Model) -> Parameters | None:
     """Parameters of the planar rotor, whatever forces act on it; ``None`` of other models, whose numbers are matrices."""
-    if isinstance(model, Forced):
+    if isinstance(model, Forced | Limited):
         return parameters_of(model.rotor)
     return model.parameters if isinstance(model, Jeffcott | InBearing) else None
 
@@ -127,6 +136,8 @@ def model_from(attributes: Mapping[str, Any]) -> Model:
         numbers = [[complex(*each) for each in force] for force in json.loads(attributes["forces"])]
         forces = tuple(Force(exponent, np.array(accelerations)) for exponent, *accelerations in numbers)
         return Forced(model_from(json.loads(attributes["rotor"])), forces)
+    if "limits" in attributes:
+        return Limited(model_from(json.loads(attributes["rotor"])), limits_from(attributes["limits"]))
     if "touchdown_bearing" in attributes:
         bearing = json.loads(attributes["touchdown_bearing"])
         levitates, drive = bearing.pop("levitates"), bearing.pop("drive")

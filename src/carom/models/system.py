@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from carom.core.flow import fly_all
-from carom.core.layout import copy_of
+from carom.core.records import copy_of
 from carom.core.table import flight_table
 from carom.core.wall import Wall
 from carom.models.nodes import Nodes
@@ -119,6 +119,11 @@ class System(Result):
         """Number ``N`` of amplitudes."""
         return len(self.arrays["exponents"])
 
+    @property
+    def limits(self) -> int:
+        """Number of quantities of controllers that have limits."""
+        return len(self.arrays["limit_bounds"])
+
     @cached_property
     def free(self) -> np.ndarray:
         """Which modes are free, shape (N,)."""
@@ -149,6 +154,13 @@ class System(Result):
     @property
     def unrepeated(self) -> tuple[str, str] | None:
         """What keeps motions from repeating in a way that is known here, and what is allowed instead; ``None`` if nothing does."""
+        if self.limits and self.unsteady is None:
+            return "limits of its magnetic bearings", "bearings without limits, or carom.simulate and carom.settle"
+        return self.unsteady
+
+    @property
+    def unsteady(self) -> tuple[str, str] | None:
+        """What keeps levitation from being a whirl about a place that stays, and what is allowed instead; ``None`` if nothing does."""
         if self.races is not None:
             return "a race that turns", "races that stand still, or carom.simulate and carom.settle"
         if self.shaft is not None:
@@ -167,9 +179,14 @@ class System(Result):
         if self.unrepeated is not None:
             raise InputError("machine", *self.unrepeated)
 
+    def refuse_unsteady(self) -> None:
+        """Refuse a rotor that does not levitate in a whirl about a place that stays."""
+        if self.unsteady is not None:
+            raise InputError("machine", *self.unsteady)
+
     def refuse_forces(self) -> None:
         """Refuse a rotor that never is at rest in its frame: forces change with time there, a race turns or the speed changes."""
-        self.refuse_unrepeated()
+        self.refuse_unsteady()
         if self.forced is not None:
             raise InputError("machine", "forces that change with time", "a rotor whose forces turn with its frame")
 
@@ -358,6 +375,7 @@ class System(Result):
             and arrays["rows"].tolist() == [[0.0, 1.0]]
             and bool(arrays["driven"][1])
             and arrays["law"].tolist() == [0]
+            and not self.limits
         )
 
     def scales_at(self, plane: int, scales: Scales | None) -> Scales | None:
@@ -383,6 +401,34 @@ class System(Result):
         arrays = self.arrays
         position = np.einsum("...k,k->...", amplitudes, arrays["rows"][plane]) + arrays["offsets"][plane]
         return position, np.einsum("...k,k->...", amplitudes, arrays["rate_rows"][plane])
+
+    def excess(self, amplitudes: np.ndarray, times: np.ndarray) -> np.ndarray:
+        """What is asked for beyond each limit, complex, shape (..., L), in the frame of the rotor, in states (..., N) at times (...)."""
+        arrays, turn = self.arrays, np.exp(1j * np.asarray(times))[..., None]
+        found = np.zeros((*turn.shape[:-1], self.limits), complex)
+        for each, bound in enumerate(arrays["limit_bounds"].tolist()):
+            asked = amplitudes @ arrays["limit_rows"][each] + arrays["limit_offsets"][each]
+            asked = (asked + found @ arrays["limit_couplings"][each]) * turn[..., 0]
+            given = np.clip(asked.real, -bound, bound) + 1j * np.clip(asked.imag, -bound, bound)
+            found[..., each] = (asked - given) / turn[..., 0]
+        return found
+
+    def asks_beyond(self, amplitudes: np.ndarray, forced: np.ndarray | None = None) -> bool:
+        """Whether a whirl with the shaft about a place that stays asks for more than a limit along an axis.
+
+        Amplitudes (N,) are those of the whirl, at rest in the frame of the rotor, and those of weight at time zero.
+        """
+        rows, bounds = self.arrays["limit_rows"], self.arrays["limit_bounds"]
+        whirl, sag = np.abs(rows @ amplitudes + self.arrays["limit_offsets"]), np.zeros(self.limits, complex)
+        if forced is not None:
+            sag = rows @ forced
+        return bool((np.maximum(np.abs(sag.real), np.abs(sag.imag)) + whirl >= bounds).any())
+
+    @cached_property
+    def excess_accelerations(self) -> np.ndarray:
+        """Accelerations of the coordinates per unit of what is asked for beyond each limit, shape (n, L)."""
+        found: np.ndarray = self.rates @ self.arrays["limit_columns"]
+        return found
 
     def fly(self, amplitudes: np.ndarray, times: np.ndarray) -> np.ndarray:
         """Mode amplitudes after free flights, shape (..., N).

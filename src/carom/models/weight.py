@@ -15,6 +15,7 @@ import numpy as np
 from carom.models.forcing import Force
 from carom.models.in_bearing import InBearing
 from carom.models.jeffcott import Jeffcott
+from carom.models.limited import Limited
 from carom.models.linear import LinearRotor
 from carom.models.model import Model
 from carom.models.stages import Forced, forces_of
@@ -70,7 +71,7 @@ def refuse_forces(model: Model) -> None:
 def refuse_unsteady(model: Model) -> None:
     """Refuse a rotor that levitates neither at rest nor in a circle: its speed changes, or a force changes in the fixed frame."""
     if model.system.shaft is not None or model.system.shaken:
-        model.system.refuse_unrepeated()
+        model.system.refuse_unsteady()
 
 
 def levitation_of(model: Model) -> tuple[np.ndarray, np.ndarray]:
@@ -100,6 +101,8 @@ def without_levitation(model: Model) -> Model:
     """
     if isinstance(model, Forced):
         return Forced(without_levitation(model.rotor), model.forces)
+    if isinstance(model, Limited):
+        return without_levitation(model.rotor)
     if isinstance(model, InBearing):
         return replace(model, levitates=False)
     if isinstance(model, Jeffcott):

@@ -54,6 +54,11 @@ class EnergyLedger(Table):
     damping: np.ndarray = field(metadata=column("energy", "work of damping since the start"))
     circulatory: np.ndarray = field(metadata=column("energy", "work of circulatory forces since the start"))
     forces: np.ndarray = field(metadata=column("energy", "work of weight and other outer forces since the start"))
+    limits: np.ndarray = field(
+        metadata=column(
+            "energy", "work that bearings at their limits do not do as their controllers ask for, since the start"
+        )
+    )
     impacts: np.ndarray = field(metadata=column("energy", "work at the contact point in impacts since the start"))
     friction: np.ndarray = field(metadata=column("energy", "work of friction in lasting contact since the start"))
     drive: np.ndarray = field(metadata=column("energy", "work of the shaft's drive since the start"))
@@ -85,7 +90,7 @@ class EnergyLedger(Table):
     def works(self) -> tuple[np.ndarray, ...]:
         """All works since the start."""
         contact = self.impacts, self.friction, self.drive, self.wall_damping, self.parting, self.race_drag
-        return self.unbalance, self.damping, self.circulatory, self.forces, *contact
+        return self.unbalance, self.damping, self.circulatory, self.forces, self.limits, *contact
 
     @property
     def supplied(self) -> np.ndarray:
@@ -108,7 +113,7 @@ def energy_ledger(trajectory: Trajectory) -> EnergyLedger:
     With ``w = U̇ + iU`` (velocities in the fixed frame, seen in the co-rotating one) and ``K = K₀ + K₁``, Hermitian and
     skew-Hermitian, the energy ``(wᴴMw + UᴴK₀U)/2`` changes by the power ``Re(wᴴF)`` of the unbalance, ``−wᴴDw`` of the
     damping, ``−Re(wᴴK₁U)`` of the circulatory forces, ``Re(wᴴMa(t))`` of forces that accelerate the coordinates by ``a(t)``, such
-    as weight, and that of the contact forces.  A friction force ``F`` does the work ``F v`` on the contact point, which slips with
+    as weight, what bearings at their limits do not give, and that of the contact forces.  A friction force ``F`` does the work ``F v`` on the contact point, which slips with
     ``v = s + r(1 + θ̇) − q``, and the drive gives ``−F s``: the centre moves along the wall with ``r(1 + θ̇)``, and a race that turns, whose
     surface moves with ``q``, takes ``−F q``.  A shaft whose speed ``σ`` changes takes ``sσF`` itself, its drive gives ``Tσ`` in contact, and its
     unbalance pushes with ``F(σ² − iσ̇)e^{i(ϑ−t)}`` (:mod:`carom.core.shaft`), also in the instant of an impact.  The normal force ``N`` of a wall that gives way takes ``Nδ̇`` at the depth ``δ = r − 1``, which
@@ -177,6 +182,7 @@ def energy_ledger(trajectory: Trajectory) -> EnergyLedger:
         damping=work(-_form(fixed, matrices.damping, fixed)),
         circulatory=work(-_form(fixed, skew, position)),
         forces=work(_power_of_forces(trajectory, times, fixed)),
+        limits=work(_power_of_excess(trajectory, times, fixed)),
         impacts=at_events(impact, impacts.contact_work),
         # A landing stands for the last bounces of a chatter; its work is a correction to their friction.
         friction=work(slides) + at_events(landing, landings.contact_work),
@@ -207,6 +213,17 @@ def _power_of_forces(trajectory: Trajectory, times: np.ndarray, velocity: np.nda
     return power
 
 
+def _power_of_excess(trajectory: Trajectory, times: np.ndarray, velocity: np.ndarray) -> np.ndarray:
+    """Power of what controllers ask for beyond the limits of their bearings, with its sign changed; velocities (..., n) in the fixed frame."""
+    system = trajectory.rotor.system
+    if not system.limits:
+        return np.zeros(times.shape)
+    excess = system.excess(trajectory.amplitudes_at(times)[0], trajectory.begins + times)
+    push = excess @ (trajectory.rotor.matrices.mass @ system.excess_accelerations).T
+    power: np.ndarray = (velocity.conj() * push).sum(axis=-1).real
+    return power
+
+
 def _form(left: np.ndarray, matrix: np.ndarray, right: np.ndarray) -> np.ndarray:
     """``Re(aᴴAb)`` of vectors along the last axis."""
     form: np.ndarray = np.einsum("...i,ij,...j->...", left.conj(), matrix, right, optimize=True).real
@@ -225,7 +242,7 @@ def contact_power(motion: Trajectory, times: np.ndarray) -> tuple[np.ndarray, np
     system = motion.rotor.system
     amplitudes, phases = motion.amplitudes_at(times)
     slip = slip_velocity(system, motion.plane, amplitudes)
-    _, grip = motion.forces_of(amplitudes, phases)
+    _, grip = motion.forces_of(amplitudes, phases, times)
     return grip * slip, -(float(system.arrays.surface_speed[motion.plane]) - 1.0) * grip
 
 

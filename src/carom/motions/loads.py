@@ -171,8 +171,9 @@ def _lasting(trajectory: Trajectory) -> tuple[float, float, float]:
         return 0.0, 0.0, 0.0
     nodes, ends = (starts + half)[:, None] + half[:, None] * NODES, np.nextafter(edges[1:][rubs], 0.0)
     # In the order of time the series of each step is needed once.
-    amplitudes, phases = trajectory.amplitudes_at(np.column_stack([starts, nodes, ends]))
-    normal, grip = trajectory.forces_of(amplitudes, phases)
+    times = np.column_stack([starts, nodes, ends])
+    amplitudes, phases = trajectory.amplitudes_at(times)
+    normal, grip = trajectory.forces_of(amplitudes, phases, times)
     lost = -grip * slip_velocity(trajectory.rotor.system, trajectory.plane, amplitudes)
     return float((half * (lost[:, 1:-1] @ WEIGHTS)).sum()), float(normal.max()), max(float(lost.max()), 0.0)
 

@@ -17,7 +17,7 @@ from carom.core.lanes import lanes_record
 from carom.core.layout import rub_workspace, workspace
 from carom.core.phases import AWAY, FLIGHT
 from carom.models import Stage
-from carom.motions.settling import fresh_memory, settled, time_limit
+from carom.motions.settling import begin_limits, fresh_memory, settled, time_limit
 from carom.motions.simulation import follow, tools
 from carom.motions.starts import WALL_TOLERANCE, State, amplitudes_of, time_until
 from carom.outcome import Outcome, Phase
@@ -121,7 +121,8 @@ def _follow_singly(part: Part, until: float, limits: Limits, memory: np.record) 
     """Follow the motions that this call takes from the counter, one after another: for any rotor and trigger."""
     rotor, taken, rubs_known = part.stage.rotor, 0, not memory.resting
     yields = rotor.system.arrays["stiffness"] > 0.0
-    scratch, room = tools(rotor), EventLog.empty(LOGGED, rotor.system.modes, len(rotor.system.arrays["rows"]))
+    planes, limits_of_bearings = len(rotor.system.arrays["rows"]), rotor.system.limits
+    scratch, room = tools(rotor), EventLog.empty(LOGGED, rotor.system.modes, planes, limits_of_bearings)
     while (number := int(next_number(part.counter.numbers))) < len(part.motions):
         motion = part.motions[number]
         elapsed = 0.0 if limits.until is None else float(part.elapsed[number])
@@ -130,6 +131,7 @@ def _follow_singly(part: Part, until: float, limits: Limits, memory: np.record) 
         amplitudes, contact = amplitudes_of(rotor, start)
         forget(memory)
         memory.resting = not rubs_known
+        begin_limits(rotor.system, amplitudes, start.time, memory)
         motion.time, motion.impacts, events, outcome = 0.0, 0, 0, Outcome.EVENT_LIMIT
         while outcome is Outcome.EVENT_LIMIT and events < limits.max_events:
             log = room.first(min(LOGGED, limits.max_events - events))

@@ -26,7 +26,9 @@ GROWS, ROUNDING = 2.0, 1e-12
 FOLLOWED_TIME, LOGGED, MOST_EVENTS = 1e5, 256, 100_000
 
 
-def least_recurrence(system: System, amplitudes: np.ndarray, contact: np.ndarray, impacts: int) -> int:
+def least_recurrence(
+    system: System, amplitudes: np.ndarray, contact: np.ndarray, impacts: int, recollection: np.record
+) -> int:
     """Number of impacts after which a motion repeats that has recurred after ``impacts`` of them; PASSES if it leaves.
 
     The motion begins just before an impact.  Impacts at several planes in one instant count as one.  That it does not
@@ -35,7 +37,7 @@ def least_recurrence(system: System, amplitudes: np.ndarray, contact: np.ndarray
     if not impacts:
         return 0
     further = max(1, min(FOLLOWED, MOST_IMPACTS // impacts))
-    states = _states_at_impacts(system, amplitudes, contact, further * impacts)
+    states = _states_at_impacts(system, amplitudes, contact, further * impacts, recollection)
     size = 1.0 + np.abs(amplitudes).sum()
     changes = np.abs(np.diff(states[::impacts], axis=0)).sum(axis=1)
     early, late = np.array_split(changes, 2)
@@ -49,12 +51,15 @@ def least_recurrence(system: System, amplitudes: np.ndarray, contact: np.ndarray
     return impacts
 
 
-def _states_at_impacts(system: System, amplitudes: np.ndarray, contact: np.ndarray, count: int) -> np.ndarray:
+def _states_at_impacts(
+    system: System, amplitudes: np.ndarray, contact: np.ndarray, count: int, before: np.record
+) -> np.ndarray:
     """Amplitudes just before an impact and the ``count`` following ones, fewer if the motion does something else."""
     (arrays, table), (planes, modes) = system.own_records(), system.arrays.rows.shape
-    state, touching, recollection = amplitudes.copy(), contact.copy(), memory(modes)
-    log = EventLog.empty(LOGGED, modes, planes)
-    tools = workspace(modes), rub_workspace(modes, planes)
+    state, touching, recollection = amplitudes.copy(), contact.copy(), memory(modes, limits=system.limits)
+    recollection.clock, recollection.limited[:] = before.clock, before.limited
+    log = EventLog.empty(LOGGED, modes, planes, system.limits)
+    tools = workspace(modes), rub_workspace(modes, planes, system.limits)
     found: list[np.ndarray] = []
     passed, last, events, outcome = 0.0, -np.inf, 0, Outcome.EVENT_LIMIT
     while outcome == Outcome.EVENT_LIMIT and len(found) <= count and events < MOST_EVENTS:

@@ -41,7 +41,7 @@ def goes_round(rotor: Model, amplitudes: np.ndarray, contact: np.ndarray, recoll
         return None
     in_step = recollection.turning != NO_TURN and recollection.turn_time >= 2 * TURNS * 2.0 * math.pi
     lasts_on = recollection.turns >= 2 * TURNS or _steady(recollection)
-    if not (in_step or lasts_on) or weight_of(rotor) is None:
+    if not (in_step or lasts_on) or (weight_of(rotor) is None and not rotor.system.limits):
         return None
     plane = next((place for place, each in enumerate(contact.tolist()) if lasts(each)), None)
     if plane is None:
@@ -64,7 +64,7 @@ def _steady(recollection: np.record) -> bool:
     return bool(blocks[-1, 0] < 2.0 * math.pi and steady.all())
 
 
-def lies(rotor: Model, amplitudes: np.ndarray, contact: np.ndarray) -> bool:
+def lies(rotor: Model, amplitudes: np.ndarray, contact: np.ndarray, recollection: np.record) -> bool:
     """Whether every contact that lasts goes on, within half the wall, for 64 turns of the shaft.
 
     Parameters
@@ -72,13 +72,16 @@ def lies(rotor: Model, amplitudes: np.ndarray, contact: np.ndarray) -> bool:
     amplitudes : ndarray of complex, shape (N,)
     contact : ndarray of int, shape (P,)
         State of contact at each plane.
+    recollection : record of :func:`carom.core.fate.memory`
     """
     touching = np.array([lasts(int(each)) for each in contact])
     if weight_of(rotor) is None or not touching.any():
         return False
     (arrays, table), (planes, modes) = rotor.system.own_records(), rotor.system.arrays["rows"].shape
-    log, state, contact = EventLog.empty(LOGGED, modes, planes), amplitudes.copy(), contact.copy()
-    tools = memory(modes), workspace(modes), rub_workspace(modes, planes)
+    limits, state, contact = rotor.system.limits, amplitudes.copy(), contact.copy()
+    log, own = EventLog.empty(LOGGED, modes, planes, limits), memory(modes, limits=limits)
+    own.clock, own.limited[:] = recollection.clock, recollection.limited
+    tools = own, workspace(modes), rub_workspace(modes, planes, limits)
     passed, until = 0.0, 2.0 * math.pi * FOLLOWED_TURNS
     reached = np.zeros((0, np.count_nonzero(touching)))
     for _ in range(MOST_LOGS):

@@ -12,8 +12,9 @@ from carom.core.closing import PASSES, least_period
 from carom.core.event_log import EventLog
 from carom.core.fate import doubt, memory
 from carom.core.layout import rub_workspace, workspace
+from carom.core.limits import set_limits
 from carom.core.planar_proofs import fades_to_rolling, planar_proofs
-from carom.models import Model
+from carom.models import Model, System
 from carom.models.stages import NEVER, Trigger
 from carom.motions.recurrence import least_recurrence
 from carom.motions.resting import goes_round, lies
@@ -72,7 +73,18 @@ def fresh_memory(
         contact_time=trigger.contact_time,
         contact_gap=trigger.contact_gap,
         impact_speed=trigger.impact_speed,
+        limits=rotor.system.limits,
     )
+
+
+def begin_limits(system: System, amplitudes: np.ndarray, time: float, recollection: np.record) -> np.ndarray:
+    """Note in the memory of a motion when it begins, and the states of limits there, which are returned, shape (2L,)."""
+    work = rub_workspace(system.modes, len(system.arrays["rows"]), system.limits)
+    if system.limits:
+        work.clock = math.fmod(time, 2.0 * math.pi)
+        set_limits(system.arrays, amplitudes, work)
+        recollection.clock, recollection.limited[:] = work.clock, work.limited
+    return np.array(work.limited)
 
 
 def settled(
@@ -106,7 +118,7 @@ def settled(
         return Outcome.EVENT_LIMIT, 0
     if outcome is Outcome.EVENT_LIMIT:
         outcome = goes_round(rotor, amplitudes, contact, recollection) or outcome
-    if outcome in WHIRLING and lies(rotor, amplitudes, contact):
+    if outcome in WHIRLING and lies(rotor, amplitudes, contact, recollection):
         return Outcome.AT_REST, 0
     if outcome not in REPEATING:
         return outcome, 0
@@ -119,7 +131,7 @@ def settled(
     if rotor.system.is_planar:
         count = int(least_period(rotor.system.arrays, rotor.system.table, amplitudes, recurred, *_tools()))
     else:
-        count = least_recurrence(rotor.system, amplitudes, contact, recurred)
+        count = least_recurrence(rotor.system, amplitudes, contact, recurred, recollection)
     if count != PASSES:
         return outcome, count
     doubt(recollection)

@@ -19,6 +19,7 @@ from carom.motions.settling import (
     LOW_FOR,
     PATIENCE,
     REPEATING,
+    begin_limits,
     fresh_memory,
     low_interval,
     may_be_low,
@@ -124,11 +125,13 @@ def _follow_stage(rotor: Model, start: State, longest: float, trigger: Trigger, 
     amplitudes, contact = amplitudes_of(rotor, start)
     phases = np.where(contact == AWAY, FLIGHT, contact)[None]
     recollection = fresh_memory(rotor, patience if settle else 0, stop_at_chatter, trigger=trigger)
+    limited = begin_limits(rotor.system, amplitudes, begins, recollection)[None]
     first = amplitudes.copy()
     logs: list[EventLog] = []
     reached, events, outcome, multiplicity = 0.0, 0, Outcome.EVENT_LIMIT, 0
     while outcome is Outcome.EVENT_LIMIT and events < max_events:
-        log = EventLog.empty(min(CHUNK, max_events - events), len(amplitudes), len(contact))
+        room = min(CHUNK, max_events - events)
+        log = EventLog.empty(room, len(amplitudes), len(contact), rotor.system.limits)
         outcome, time, count = follow(rotor, amplitudes, until - reached, contact, log, recollection)
         logs.append(log.first(count)._replace(times=reached + log.times[:count]))
         reached, events = reached + time, events + count
@@ -151,7 +154,7 @@ def _follow_stage(rotor: Model, start: State, longest: float, trigger: Trigger, 
             velocity,
             rotor.system.race_speeds(amplitudes),
             rotor.system.shaft_turn(amplitudes),
-            begins + reached if rotor.system.outer.any() else 0.0,
+            begins + reached if rotor.system.outer.any() or rotor.system.limits else 0.0,
         ),
         multiplicity=multiplicity,
         segment_starts=np.concatenate([np.zeros(1), *(log.times for log in logs)]),
@@ -159,6 +162,7 @@ def _follow_stage(rotor: Model, start: State, longest: float, trigger: Trigger, 
         event_planes=np.concatenate([log.planes for log in logs]),
         segment_amplitudes=np.concatenate([first[None], *(log.after for log in logs)]),
         arrivals=np.concatenate([log.before for log in logs]),
+        segment_limits=np.concatenate([limited, *(log.limited for log in logs)]),
         begins=begins,
     )
 
@@ -166,7 +170,7 @@ def _follow_stage(rotor: Model, start: State, longest: float, trigger: Trigger, 
 def tools(rotor: Model) -> tuple[np.record, ...]:
     """Rotor, table and scratch arrays for :func:`follow`."""
     modes, planes = rotor.system.arrays["columns"].shape
-    return *rotor.system.own_records(), workspace(modes), rub_workspace(modes, planes)
+    return *rotor.system.own_records(), workspace(modes), rub_workspace(modes, planes, rotor.system.limits)
 
 
 def follow(

@@ -42,7 +42,7 @@ def spin_of(trajectory: Trajectory, times: np.ndarray) -> Spin:
     speed, direction = shaft_speed(system, amplitudes), amplitudes[..., place]
     braking = np.zeros(times.shape)
     for plane, radius in enumerate(system.arrays.surface_speed - 1.0):
-        braking += radius / shaft.inertia * trajectory.seen_at(plane).forces_of(amplitudes, phases)[1]
+        braking += radius / shaft.inertia * trajectory.seen_at(plane).forces_of(amplitudes, phases, times)[1]
     held = presses(phases).any(axis=-1)
     torque = shaft.torque * speed
     turns = shaft_speed(system, np.concatenate([trajectory.segment_amplitudes, trajectory.segment_ends[-1:]]))

@@ -172,7 +172,11 @@ def amplitudes_of(rotor: Model, state: State) -> tuple[np.ndarray, np.ndarray]:
         radius = abs(state.position if system.is_planar else system.at_plane(amplitudes, plane)[0])
         if radius > 1.0 + WALL_TOLERANCE and system.arrays["stiffness"][plane] > 0.0:
             contact[plane] = phase_in_wall(
-                system.arrays, contact, plane, amplitudes, rub_workspace(*system.arrays["columns"].shape)
+                system.arrays,
+                contact,
+                plane,
+                amplitudes,
+                rub_workspace(system.modes, len(contact), system.limits),
             )
         elif radius > 1.0 + WALL_TOLERANCE:
             where = "" if len(contact) == 1 else f" at plane {plane + 1}"

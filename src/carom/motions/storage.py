@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     import xarray
 
 COMPLEX = ("segment_amplitudes", "arrivals")
-SEGMENTS = ("segment_starts", "segment_phases", "event_planes", *COMPLEX)
+SEGMENTS = ("segment_starts", "segment_phases", "segment_limits", "event_planes", *COMPLEX)
 
 
 def trajectory_dataset(motion: Trajectory, times: np.ndarray | None = None) -> xarray.Dataset:
@@ -55,6 +55,7 @@ def save_trajectory(motion: Trajectory, path: str | os.PathLike[str]) -> None:
         "event_planes": ("event", motion.event_planes),
         "segment_amplitudes": (("segment", "mode", "part"), _parts(motion.segment_amplitudes)),
         "arrivals": (("event", "mode", "part"), _parts(motion.arrivals)),
+        "segment_limits": (("segment", "axis"), motion.segment_limits),
     }
     attributes = _provenance(motion) | {
         "start": json.dumps(_numbers(motion.start)),
@@ -90,6 +91,7 @@ def load_trajectory(path: str | os.PathLike[str]) -> Trajectory:
         event_planes=dataset["event_planes"].values,
         segment_amplitudes=amplitudes,
         arrivals=arrivals,
+        segment_limits=dataset["segment_limits"].values,
         plane=int(attributes["plane"]),
         begins=float(attributes["begins"]),
     )

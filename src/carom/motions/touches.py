@@ -103,7 +103,7 @@ def in_wall(motion: Trajectory, segments: np.ndarray, elapsed: np.ndarray) -> In
     system, plane = motion.rotor.system, motion.plane
     amplitudes, phases = motion.amplitudes_in(np.broadcast_to(segments[:, None], elapsed.shape), elapsed)
     position, velocity = system.at_plane(amplitudes, plane)
-    normal, friction = motion.forces_of(amplitudes, phases)
+    normal, friction = motion.forces_of(amplitudes, phases, motion.segment_starts[segments][:, None] + elapsed)
     radius, held = np.abs(position), presses(phases[..., plane])
     rate = (position.conj() * velocity).real / radius
     slip = np.where(held, slip_velocity(system, plane, amplitudes), 0.0)

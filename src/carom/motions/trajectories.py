@@ -58,6 +58,8 @@ class Trajectory(Result):
         Mode amplitudes at the start of each segment.
     arrivals : ndarray of complex, shape (n, N)
         Mode amplitudes at the end of each segment except the last.
+    segment_limits : ndarray of int, shape (n + 1, 2L)
+        State of both axes of each limited quantity (:mod:`carom.core.limits`).
     plane : int
         Contact plane that positions, contacts and forces refer to; :meth:`seen_at` gives the motion at another.
     begins : float
@@ -91,6 +93,7 @@ class Trajectory(Result):
     event_planes: np.ndarray
     segment_amplitudes: np.ndarray
     arrivals: np.ndarray
+    segment_limits: np.ndarray
     plane: int = 0
     begins: float = 0.0
     earlier: tuple[Trajectory, ...] = ()
@@ -142,7 +145,7 @@ class Trajectory(Result):
     def is_impact(self) -> np.ndarray:
         """Which of the ``n`` events are impacts, bool, shape (n,)."""
         followed = self.segment_starts[1:], self.segment_phases[1:], self.event_planes
-        log = EventLog(*followed, self.arrivals, self.segment_amplitudes[1:])
+        log = EventLog(*followed, self.arrivals, self.segment_amplitudes[1:], self.segment_limits[1:])
         return log.impacts(self.segment_phases[0])
 
     @cached_property
@@ -247,6 +250,8 @@ class Trajectory(Result):
             self.rotor.system.arrays,
             self.segment_amplitudes[at],
             self.segment_phases[at],
+            self.segment_limits[at],
+            np.fmod(self.begins + self.segment_starts[at], 2.0 * np.pi),
             elapsed.ravel(),
             self._workspace(),
         )
@@ -260,7 +265,8 @@ class Trajectory(Result):
         return np.concatenate([self.arrivals, end])
 
     def _workspace(self) -> np.record:
-        return rub_workspace(self.segment_amplitudes.shape[1], self.segment_phases.shape[1])
+        modes, planes = self.segment_amplitudes.shape[1], self.segment_phases.shape[1]
+        return rub_workspace(modes, planes, self.rotor.system.limits)
 
     @checked
     def forces(self, times: Reals) -> tuple[np.ndarray, np.ndarray]:
@@ -271,13 +277,18 @@ class Trajectory(Result):
         normal, friction : ndarray
             The normal force presses the rotor inward; friction is positive along growing angle.
         """
-        return self.forces_of(*self.amplitudes_at(np.asarray(times, float)))
+        times = np.asarray(times, float)
+        return self.forces_of(*self.amplitudes_at(times), times)
 
-    def forces_of(self, amplitudes: np.ndarray, phases: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Normal and friction force at the plane in given amplitudes (..., N) and phases (..., P)."""
+    def forces_of(self, amplitudes: np.ndarray, phases: np.ndarray, times: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Normal and friction force at the plane in given amplitudes (..., N) and phases (..., P) at times (...)."""
         flat, shape = amplitudes.reshape(-1, amplitudes.shape[-1]), amplitudes.shape[:-1]
-        arrays = self.rotor.system.arrays
-        found = forces_all(arrays, flat, phases.reshape(len(flat), phases.shape[-1]), self._workspace())[:, self.plane]
+        arrays, phases, clocks = (
+            self.rotor.system.arrays,
+            phases.reshape(len(flat), phases.shape[-1]),
+            self.begins + times.ravel(),
+        )
+        found = forces_all(arrays, flat, phases, clocks, self._workspace())[:, self.plane]
         normal, friction = arrays.masses[self.plane] * found.T
         return normal.reshape(shape), friction.reshape(shape)
 
@@ -286,7 +297,7 @@ class Trajectory(Result):
         """Forces, slip and powers of lasting contact at given times, by default those of :meth:`sample`."""
         times = self.sample() if times is None else np.asarray(times, float)
         amplitudes, phases = self.amplitudes_at(times)
-        forces = self.forces_of(amplitudes, phases)
+        forces = self.forces_of(amplitudes, phases, times)
         return ContactHistory.from_states(self.rotor, self.plane, times, phases[..., self.plane], amplitudes, forces)
 
     @checked

@@ -13,7 +13,7 @@ import numpy as np
 from carom.arguments import Count, Positive, Reals, Seed, checked
 from carom.closed_forms.periods import PeriodCondition, PeriodRoots
 from carom.core.planar import impact_jacobian
-from carom.models import Jeffcott, Subject, jeffcott_of, model_of
+from carom.models import Jeffcott, Model, Subject, jeffcott_of, model_of
 from carom.orbits.admissibility import slip_stays_forward, why_virtual
 from carom.orbits.maps import Section
 from carom.orbits.names import OrbitName, Slip
@@ -74,6 +74,11 @@ class OrbitSet(Members[Orbit]):
     complete: bool
     slip_stays_forward: bool
 
+    @classmethod
+    def none(cls, rotor: Model) -> OrbitSet:
+        """No orbits, and none searched: of a rotor whose magnetic bearings have limits."""
+        return cls(rotor, (), 1, None, np.empty(0), 0.0, complete=False, slip_stays_forward=False)
+
     def rows(self) -> list[tuple[str, str]]:
         """Each orbit, and whether the list is complete or how much was searched."""
         told = []
@@ -92,6 +97,8 @@ class OrbitSet(Members[Orbit]):
         """Why no orbit is missing, in one sentence; or how much was searched, in a few."""
         if self.search is not None:
             return self.search.words
+        if self.rotor.system.limits:
+            return "Orbits were not searched: they are known for magnetic bearings without limits alone."
         count = len(self.periods)
         found = f"F1 has {count or 'no'} root{'' if count == 1 else 's'} for 0 < T ≤ {self.longest_period:.4g}/Ω"
         search = f"{found}, isolated by a bound of its second derivative"

@@ -16,6 +16,7 @@
 ``machine``               :class:`Machine`, conversion to parameters and back
 ``load_limits``           :class:`LoadLimits` of a touchdown bearing
 ``gravity``               :class:`Gravity`: where the rotor falls
+``control_limit``         :class:`ControlLimit`: the largest control force of magnetic bearings
 ``drive``                 :class:`Drive`: what turns with the shaft, and the torque of its drive
 ``touchdown_bearing``     :class:`TouchdownBearing`: a touchdown bearing that gives way
 ``settings``              what a setting, or an axis of a sweep, may change
@@ -28,6 +29,7 @@
 ========================  =================================================================
 """
 
+from carom.parameters.control_limit import ControlLimit
 from carom.parameters.drive import DRIVE_FIELDS, Drive
 from carom.parameters.fields import (
     DIMENSIONLESS_FIELDS,
@@ -81,6 +83,7 @@ __all__ = [
     "UNITS",
     "WALL_FIELDS",
     "Case",
+    "ControlLimit",
     "Drive",
     "Field",
     "Gravity",

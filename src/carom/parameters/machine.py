@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import re
 import warnings
 from collections.abc import Mapping
@@ -12,6 +13,7 @@ import pydantic
 
 from carom.arguments import checked
 from carom.outcome import CaromWarning, InputError, shown
+from carom.parameters.control_limit import ControlLimit
 from carom.parameters.conversions import CONVERSIONS
 from carom.parameters.fields import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, PHYSICAL_PARTNER
 from carom.parameters.numbers import Parameters
@@ -219,6 +221,16 @@ class Machine(Tabular, pydantic.BaseModel):
         if self.negative_stiffness is None:
             return derivative
         return {"proportional_gain": (self.stiffness / count + self.negative_stiffness) / factor, **derivative}
+
+    @property
+    def control_limit(self) -> ControlLimit | None:
+        """Largest control force of all magnetic bearings together; ``None`` without a limit of force or current."""
+        factor = self.force_current_factor or 0.0
+        of_current = math.inf if self.current_limit is None else factor * self.current_limit
+        force = min(math.inf if self.force_limit is None else self.force_limit, of_current)
+        if force == math.inf:
+            return None
+        return ControlLimit(self.magnetic_bearings * force, self.magnetic_bearings * (self.negative_stiffness or 0.0))
 
     def replace(self, /, **changes: Any) -> Machine:
         """Return a copy with other values, physical or dimensionless.

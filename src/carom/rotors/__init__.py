@@ -9,6 +9,7 @@
 ``free_modes``            modes of a free body
 ``state_spaces``          :class:`StateSpace`: linear systems with one input and one output
 ``controllers``           :class:`PID`, :class:`TransferFunction`, and those of other libraries
+``bearing_limits``        limits of magnetic bearings as those of a model
 ``magnetic_bearing``      :class:`MagneticBearing`: magnet, sensors, and what is between both
 ``free_rotor``            what all rotors have in common, however their matrices are made
 ``flexible_rotor``        :class:`FlexibleRotor`: a shaft with discs as finite elements

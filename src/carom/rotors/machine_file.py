@@ -90,7 +90,7 @@ def read_flexible_case(name: str, tables: MachineTables, settings: Mapping[str, 
     machine = _read_machine(tables, settings, problems)
     if limits.pressure is not None and any(each.bearing.balls is None for each in machine.touchdowns):
         raise InputError("pressure", limits.pressure, "a limit needs balls in all tables [[touchdown]]")
-    model = machine.reduce(wanted or ACCURACY).linear
+    model = machine.reduce(wanted or ACCURACY).limited
     scales = model.scales or Scales(1.0, 1.0, 1.0)
     requirement = Requirement.of_table(tables.survive, scales)
     return Case(name, model, None, zones or Zones(), limits, requirement, machine.gravity)

@@ -10,6 +10,7 @@ from typing import Any
 from carom.outcome import InputError, shown
 from carom.parameters import Field
 from carom.parameters.fields import by_name
+from carom.parameters.terms import HELPER_FIELDS
 from carom.rotors.controllers import state_space_of
 from carom.rotors.entries import read_entries, read_node
 from carom.rotors.state_spaces import StateSpace, delay, lag
@@ -21,18 +22,21 @@ BEARING_FIELDS: Mapping[str, Field] = by_name(
     Field("ks", "k_s", "stiffness of the bearing at constant current", "a stiffness", "N/m", -1e15, -1e-9, '"-1e5 N/m"', True),
     Field("delay", "", "delay of the controller", "a time", "s", 1e-9, 1.0, '"50 us"', True),
     Field("amplifier_bandwidth", "", "bandwidth of the amplifier", "an angular frequency", "rad/s", 1e-3, 1e9, '"1 kHz"'),
+    *(HELPER_FIELDS[name] for name in ("force_limit", "current_limit", "slew_rate_limit")),
+    Field("axis_angle", "", "angle of one of its two axes in the fixed frame, for its limits", "an angle", "rad", -10.0, 10.0, '"45 deg"', True),
 )  # fmt: skip
 
 
 @dataclass(frozen=True, eq=False)
 class MagneticBearing:
-    """An active magnetic bearing that acts in both directions alike.
+    """An active magnetic bearing that acts in both directions alike, up to its limits along each of its two axes.
 
     With the displacements ``z`` at the bearing and ``y`` at the sensors it pulls with
 
         f = −ki i − ks z,      i = C(s) e^{−sT} ω_b/(s + ω_b) y.
 
-    Every number is in the SI unit below, or text with a unit.
+    Along each axis the current that the controller asks for, the rate of the current of the amplifier and the force ``ki i`` are no larger than the limits;
+    states of the controller, such as integrators, wind up then.  Every number is in the SI unit below, or text with a unit.
 
     Parameters
     ----------
@@ -50,11 +54,16 @@ class MagneticBearing:
         ``T`` of sampling and computing, s, by Padé's approximation.
     amplifier_bandwidth : float or str, optional
         ``ω_b``, rad/s or such as ``"1 kHz"``; by default the amplifier is not in the way.
+    force_limit, current_limit, slew_rate_limit : float or str, optional
+        Largest force by the current, N, control current, A, and rate of the current, A/s; that of the rate needs an amplifier.  By default there
+        are none.
+    axis_angle : float or str, optional
+        Angle of one of its axes in the fixed frame, rad; 0 by default.
 
     Raises
     ------
     InputError
-        A value is not of this kind or out of range, or the controller no such system.
+        A value is not of this kind or out of range, the controller no such system, or the rate is limited without an amplifier.
     """
 
     node: int
@@ -64,6 +73,10 @@ class MagneticBearing:
     sensor_nodes: tuple[int, ...] = ()
     delay: float = 0.0
     amplifier_bandwidth: float | None = None
+    force_limit: float | None = None
+    current_limit: float | None = None
+    slew_rate_limit: float | None = None
+    axis_angle: float = 0.0
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "node", read_node("bearing node", self.node))
@@ -73,6 +86,9 @@ class MagneticBearing:
             raise InputError("sensor_nodes", shown(given), "a sequence of numbers of nodes")
         nodes = tuple(read_node("sensor node", each) for each in given)
         object.__setattr__(self, "sensor_nodes", nodes or (self.node,))
+        if self.slew_rate_limit is not None and self.amplifier_bandwidth is None:
+            allowed = "none without amplifier_bandwidth: it is the amplifier whose current changes no faster"
+            raise InputError("slew_rate_limit", self.slew_rate_limit, allowed)
         _ = self.loop
 
     @cached_property

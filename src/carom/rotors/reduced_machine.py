@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
-from carom.models import Model, Touchdown
+from carom.models import Limited, Model, Touchdown
 from carom.models.in_bearing import law_of, race_of
 from carom.models.weight import weighted
 from carom.outcome import InputError
@@ -17,7 +17,8 @@ from carom.parameters import Scales
 from carom.parameters.restitution import damping_ratio_of
 from carom.results import Result
 from carom.rotors.attachments import TouchdownPlane
-from carom.rotors.equations import Equations, equations_of
+from carom.rotors.bearing_limits import limits_of_bearings
+from carom.rotors.equations import Equations, equations_of, loops_of
 from carom.rotors.flexible_model import FlexibleModel
 from carom.rotors.reduction import Basis
 
@@ -139,6 +140,21 @@ class ReducedMachine(Result):
         raise InputError("levitation", told, f"controllers that hold the rotor{self._weak}")
 
     @cached_property
+    def limited(self) -> FlexibleModel | Limited:
+        """The levitating rotor without weight, with the limits of its magnetic bearings if these have any.
+
+        Raises
+        ------
+        InputError
+            As for :attr:`linear`.
+        """
+        at, given = self.machine, self.equations
+        pulls = np.zeros_like(given.currents)
+        pulls[:, : self.vectors] = loops_of(at.rotor, at.bearings, at.touchdowns).bearings @ self.basis.shapes
+        limits = limits_of_bearings(given, tuple(at.bearings), pulls, self.scales)
+        return Limited(self.linear, limits) if limits else self.linear
+
+    @cached_property
     def model(self) -> Model:
         """The levitating rotor with its weight, if it has one, as all verbs take it; ``carom.drop`` takes its levitation away.
 
@@ -150,7 +166,7 @@ class ReducedMachine(Result):
             As for :attr:`linear`.
         """
         gravity = self.machine.gravity
-        return self.linear if gravity is None or not gravity.acceleration else weighted(self.linear, gravity)
+        return self.limited if gravity is None or not gravity.acceleration else weighted(self.limited, gravity)
 
     @cached_property
     def unchecked(self) -> FlexibleModel:

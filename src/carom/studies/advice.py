@@ -2,7 +2,7 @@
 
 The ranges of recovery (:mod:`carom.studies.recovery`) say where to look.  A value is tried a little beyond the near end of a
 range, in the terms and digits in which the machine file states the gain, by fresh disturbances; if one of them is lost, or the
-magnetic bearings are asked for more than they can give, the next value farther inside is tried.
+current of magnetic bearings would have to change faster than it can, the next value farther inside is tried.
 """
 
 from __future__ import annotations
@@ -93,7 +93,8 @@ class Change:
         Speeds from which backward whirl runs away to rolling at the value; ``None`` if rolling does not sustain itself, or no closed
         form says.
     demand : float or None
-        Largest multiple of a limit of the magnetic bearings that a disturbance asked for; ``None`` if no limit is stated.
+        Largest multiple of the largest rate of their current that a disturbance asked of the magnetic bearings; ``None`` if none is stated.
+        Limits of force and current act in the motions themselves.
     """
 
     parameter: str

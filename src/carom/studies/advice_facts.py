@@ -127,9 +127,9 @@ def _details(study: StudyData, change: Change) -> Iterator[Fact]:
         yield _fact("Not nearer", _forced(study, change.parameter, check), "sampled", detail=True)
     if change.demand is not None:
         most = (
-            f"{number(change.demand, 3)} times the limit"
+            f"{number(change.demand, 3)} times the largest rate of the current"
             if change.demand > 1.0
-            else f"{number(100.0 * change.demand, 3)} % of the limit"
+            else f"{number(100.0 * change.demand, 3)} % of the largest rate of the current"
         )
         beyond = "; values beyond it may ask for more" if change.beyond else ""
         asked = f"asked at this value for at most {most} of the magnetic bearings{beyond}"

@@ -18,7 +18,7 @@ from carom.closed_forms.sag import steady_motions
 from carom.closed_forms.thresholds import Gain
 from carom.disturbances import Disturbance, Plan, Sample
 from carom.models import Model, Subject, case_of, model_of
-from carom.orbits.single_impact import find_orbits, orbits_within_reach
+from carom.orbits.single_impact import OrbitSet, find_orbits, orbits_within_reach
 from carom.outcome import InputError
 from carom.parameters import Case, Requirement, Zones
 from carom.progress import Reporter, ShowProgress, shows_progress
@@ -134,7 +134,7 @@ def study(
         proof, tell = prove(rotor, progress=tell.part(0.0, 0.2)), tell.part(0.2, 1.0)
     tell(0.0, "equilibria and periodic orbits (the kernels are compiled on first use)")
     steady = steady_motions(rotor)
-    orbits = orbits_within_reach(rotor) if known else find_orbits(rotor, impacts=1)
+    orbits = _orbits(rotor, known)
     tell(0.1, "disturbances")
     described = disturbances or DisturbanceSet(fastest=required.kick)
     found = find_attractors(rotor, described, progress=tell.part(0.1, 0.2, "disturbances"))
@@ -170,6 +170,13 @@ def _case_of(machine: Subject) -> Case:
     if known_of(model).orbits:
         return case_of(machine)
     return Case("rotor", model, None, Zones())
+
+
+def _orbits(rotor: Model, known: bool) -> OrbitSet:
+    """Orbits with one impact a period; none where magnetic bearings have limits, at which no orbits are known."""
+    if rotor.system.limits:
+        return OrbitSet.none(rotor)
+    return orbits_within_reach(rotor) if known else find_orbits(rotor, impacts=1)
 
 
 def _gains(rotor: Model, known: bool) -> tuple[Gain, ...]:

@@ -144,6 +144,8 @@ def _bouncing(study: StudyData) -> str:
             f"{counted(len(virtual), 'orbit')} solve{'s' if len(virtual) == 1 else ''} the equations but not the contact law, "
             "and so cannot happen."
         )
+    if study.rotor.system.limits:
+        return orbits.argument
     if not len(orbits):
         none = "No orbit with one impact a period was found."
         sentences.append(none if orbits.search else "There is no orbit with one impact a period.")

@@ -132,9 +132,7 @@ class StudyData(Result):
 
     @cached_property
     def bearing_demand(self) -> BearingDemand | None:
-        """What the motions ask of the magnetic bearings; ``None`` if the machine has no limits of these, or they bear its weight too."""
-        if self.heavy:
-            return None
+        """What the motions have to do with the limits of the magnetic bearings; ``None`` if the machine has none of these."""
         return bearing_demand(self.case, self.equilibria, self.orbits, self.known.rolls, self.attractors)
 
     @cached_property

@@ -43,10 +43,14 @@ NOT_COVERED_UNDER_WEIGHT = (
         f"What rests on the symmetry of a turn: {STEADY_WORDS['rub']}s, orbits in closed form, and that a kick does the same whatever the angle of the "
         "unbalance is as it strikes. Here that is the angle in the machine file; with others some kicks may end elsewhere."
     ),
-    "What the weight asks of the magnetic bearings, and their limits.",
     NOT_COVERED_OF_MATRICES[-1],
 )
 """The same of a rotor that weighs something."""
+NOT_COVERED_AT_LIMITS = (
+    "Other angles of the unbalance to the axes of the magnetic bearings, along which their limits act, as a disturbance strikes than that of the "
+    "machine file. Saturation of the iron and limits of the voltage are not modelled."
+)
+"""What is added where magnetic bearings have limits."""
 WALL, NOT_COVERED_OF_WALLS = (
     2,
     "Wear, heat and axial motion of the touchdown bearing: its law is taken as it is stated.",
@@ -113,6 +117,8 @@ def not_covered(study: StudyData) -> tuple[str, ...]:
     covered = list(NOT_COVERED if study.known.orbits else (*NOT_COVERED[:-1], *of_model))
     if (study.rotor.system.arrays["stiffness"] > 0.0).any():
         covered[WALL] = NOT_COVERED_OF_WALLS
+    if study.rotor.system.limits:
+        covered.append(NOT_COVERED_AT_LIMITS)
     return tuple(covered)
 
 

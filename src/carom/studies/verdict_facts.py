@@ -178,6 +178,9 @@ def judged(study: StudyData) -> tuple[Level, str, str]:
             f"its {'sag and whirl' if study.heavy else 'whirl from unbalance'} {what} the wall of the touchdown bearing"
         )
         return "no-contact-free-motion", "Cannot run without contact", why
+    if not levitation.stable and study.rotor.system.limits:
+        why = "its levitation asks for more than its magnetic bearings can give, or is not damped"
+        return "no-contact-free-motion", f"Does not stay in levitation, zone {study.zone}", why
     if not levitation.stable:
         why = "its levitation is not damped, so that a disturbance does not die out"
         return "no-contact-free-motion", f"Does not stay in levitation, zone {study.zone}", why
@@ -196,7 +199,9 @@ def _reservations(study: StudyData) -> str:
     """What has to be said where all that must be survived came back."""
     parts = ["no guarantee, as disturbances are samples"]
     if study.bearing_demand is not None and study.bearing_demand.doubtful:
-        parts.append(f"{study.bearing_demand.doubtful} disturbances ask for more than its magnetic bearings can give")
+        parts.append(
+            f"{study.bearing_demand.doubtful} disturbances ask for a faster current than its magnetic bearings have"
+        )
     elsewhere = study.present.returned[1] if study.present else None
     if elsewhere is not None and elsewhere.count < elsewhere.total:
         lost = elsewhere.total - elsewhere.count

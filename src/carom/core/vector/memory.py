@@ -6,7 +6,8 @@ from llvmlite import ir
 from numba.core import types
 from numba.extending import lower_builtin, type_callable
 
-from carom.core.layout import CACHE_LINE, LANE_NODES, LEVELS, OCTET, WIDE
+from carom.core.layout import LANE_NODES, LEVELS, OCTET, WIDE
+from carom.core.records import CACHE_LINE
 from carom.core.vector.kinds import COUNT, DOUBLES, REAL, Condition, RealLanes, are_numbers, common
 from carom.core.vector.parts import all_of, each, parts, spread
 from carom.core.vector.uncompiled import align_stack, choose, lanes_of, load, store, take

@@ -1,0 +1,93 @@
+"""Limits of the magnetic bearings of a flexible machine, in the units of its model (:mod:`carom.models.limited`).
+
+Without an amplifier the controller asks for the current ``i``, and what is beyond a limit is missing in the force ``−ki i``.  With one of bandwidth ``ω_b``
+it asks for ``u``, and the current of the amplifier follows,
+
+    di/dt = ω_b (u − i),
+
+where ``u`` is cut off at the limit of the current and then ``di/dt`` at that of its rate.  The states of controller and amplifier are those of
+the loop (:attr:`MagneticBearing.loop`), of which the last one is the amplifier's.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import NamedTuple
+
+import numpy as np
+
+from carom.models import Limit
+from carom.parameters import Scales
+from carom.rotors.equations import Equations
+from carom.rotors.magnetic_bearing import MagneticBearing
+
+
+class _Place(NamedTuple):
+    """Where a bearing is in the equations."""
+
+    pulls: np.ndarray
+    """Displacement at it per coordinate, shape (n,)."""
+    current: np.ndarray
+    """Its current, A, per coordinate, shape (n,)."""
+    rate: np.ndarray
+    """Rate of the last state of its loop per coordinate, shape (n,)."""
+    last: int
+    """Coordinate of that state."""
+
+
+def limits_of_bearings(
+    equations: Equations, bearings: tuple[MagneticBearing, ...], pulls: np.ndarray, scales: Scales
+) -> tuple[Limit, ...]:
+    """All limits that are stated.
+
+    Parameters
+    ----------
+    pulls : ndarray, shape (B, n)
+        Displacement at each bearing per coordinate.
+    scales : Scales
+        Units of the model.
+    """
+    found: list[Limit] = []
+    last = len(equations.mass) - sum(each.loop.states for each in bearings) - 1
+    for number, bearing in enumerate(bearings):
+        last += bearing.loop.states
+        place = _Place(pulls[number], equations.currents[number], -equations.stiffness[last], last)
+        found += [_in_units(limit, scales) for limit in _in_si(bearing, place, len(found))]
+    return tuple(found)
+
+
+def _in_si(bearing: MagneticBearing, place: _Place, before: int) -> Iterator[Limit]:
+    """Limits of a bearing after so many of others, for coordinates in m √kg."""
+    none = np.zeros(len(place.current))
+    of_force = np.inf if bearing.force_limit is None else bearing.force_limit / bearing.ki
+    of_current = np.inf if bearing.current_limit is None else bearing.current_limit
+    push = bearing.ki * place.pulls
+    if bearing.amplifier_bandwidth is None:
+        if min(of_force, of_current) < np.inf:
+            yield Limit(min(of_force, of_current), place.current, none, push, angle=bearing.axis_angle)
+        return
+    bandwidth, out = bearing.amplifier_bandwidth, float(bearing.loop.C[-1])
+    state = np.eye(len(none))[place.last] / out
+    changing, follows = out * place.rate, (0.0,) * before
+    if of_current < np.inf:
+        asked = place.current + changing / bandwidth
+        yield Limit(of_current, asked, none, none, -bandwidth * state, bearing.axis_angle)
+        follows = (*follows, -bandwidth)
+    if bearing.slew_rate_limit is not None:
+        yield Limit(bearing.slew_rate_limit, changing, none, none, -state, bearing.axis_angle, follows)
+    if of_force < of_current:
+        yield Limit(of_force, place.current, none, push, angle=bearing.axis_angle)
+
+
+def _in_units(limit: Limit, scales: Scales) -> Limit:
+    """The same for the coordinates and the time of the model."""
+    unit = scales.length * np.sqrt(scales.mass)
+    return Limit(
+        limit.bound,
+        limit.displacement * unit,
+        limit.velocity,
+        limit.accelerations / (unit * scales.speed**2),
+        np.asarray(limit.rates) / (unit * scales.speed),
+        limit.angle,
+        limit.follows,
+    )
