@@ -180,7 +180,6 @@ def small_cycles(machine: Subject, plane: Whole | None = None, longest: Positive
 
     See Also
     --------
-    carom.closed_forms.non_smooth_hopf : the planar rotor, along a parameter
     carom.bifurcations.boundary_equilibria : the same, with the orbits
 
     Examples
@@ -189,7 +188,7 @@ def small_cycles(machine: Subject, plane: Whole | None = None, longest: Positive
     >>> machine = cm.load("examples/source-paper.toml", ["gamma=0.0724686787"])
     >>> meeting = cm.closed_forms.small_cycles(machine)
     >>> meeting.kind, [(f"{cycle.period:.4f}", cycle.criticality) for cycle in meeting.cycles]
-    ('non-smooth fold', [('0.7534', 'subcritical'), ('3.0209', 'subcritical')])
+    ('non-smooth fold', [('0.6668', 'subcritical'), ('3.0765', 'subcritical')])
     """
     model = model_of(machine)
     system = model.system
