@@ -16,6 +16,7 @@ from carom.outcome import InputError
 from carom.proofs import check, prove
 from carom.proofs.balls import at_precision
 from carom.proofs.hypotheses import hypotheses_of
+from carom.proofs.proving import proof_of
 from carom.proofs.rotor import Rotor
 from carom.proofs.whirl import whirl_claims
 from carom.proofs.whirl_lines import whirl_line_claims
@@ -348,3 +349,22 @@ def test_forged_claims_are_refused():
         del forged["claims"][place]
         with pytest.raises(InputError, match="is refused"):
             check(forged)
+
+
+def test_forged_claims_along_a_parameter_are_refused():
+    options = {"along": "friction", "from": "0.15", "to": "0.1500001", "blocks": 2, "narrowest": "1/2"}
+    proof = proof_of("along a parameter", hypotheses_of("examples/keogh-cole.toml"), options)
+    document = json.loads(json.dumps(proof.document()))
+    assert check(document)["whirl rolls"].status == "proven"
+    for place, claim in enumerate(document["claims"]):
+        if claim["about"] != "whirl":
+            continue
+        for change in (
+            {"status": "undecided"},
+            {"reason": "open"},
+            {"enclosures": {"from": ["0", "0"], "to": ["1", "1"]}},
+        ):
+            forged = copy.deepcopy(document)
+            forged["claims"][place] = {**claim, **change}
+            with pytest.raises(InputError, match="is refused"):
+                check(forged)

@@ -9,6 +9,10 @@
 ``single_impact``   orbits with one impact a period: existence, course, stability
 ``slip``            no orbit stops its slip
 ``steady``          levitation, rubs, harmless kicks
+``rub_balls``       a ball around a rub from which slides and bounces decay to it
+``whirl``           rolling and slides in backward whirl, and where there are none
+``whirl_lines``     the same for an interval of a parameter
+``runs``            parts of such an interval as a claim
 ``series``          functions of balls and of power series of balls
 ``courses``         orbits with one impact a period with their derivatives
 ``krawczyk``        zeros of systems, enclosed and unique

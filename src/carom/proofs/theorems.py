@@ -114,7 +114,7 @@ THEOREMS: Mapping[str, Theorem] = {
     "single-impact orbits": Theorem(
         _single_impact,
         (
-            "that there are no orbits with several impacts a period, with lasting contact, or irregular motions",
+            "that there are no orbits with several impacts a period, with impacts and lasting contact, or irregular motions",
             "which disturbances lead to an orbit or to levitation: basins, and recovery from kicks above the harmless speed",
             "that a rub attracts what begins outside of the ball that is told",
             "which slides and whirls repeat that are not told, or that there is no whirl that bounces",

@@ -36,7 +36,7 @@ from carom.proofs.rotor import Rotor
 
 _NAMES = ("gamma", "omega_squared", "rho", "mu", "radius_ratio")
 _NEGATIVE, _NEITHER = "the argument needs damping that is not negative", "there is neither damping nor friction"
-_BACKWARD = "no motion on the wall that whirls backward all the time repeats after a turn"
+BACKWARD = "no motion that is pressed on the wall and whirls backward all the time repeats after a turn"
 _AT_SPEEDS = "With its damping and stiffness, at every speed of the shaft"
 _BELOW = "below the lower end of share times the present one, "
 
@@ -249,7 +249,7 @@ def _slide_claims(rotor: Rotor, exact: Numbers) -> list[Claim]:
 
 
 def _absence_claim(rotor: Rotor, exact: Numbers, rolls: bool, slips: bool) -> Claim:
-    statement = f"Dry-friction whirl in lasting contact is absent: {_BACKWARD}."
+    statement = f"Dry-friction whirl in lasting contact is absent: {BACKWARD}."
     if rolls or slips:
         return _claim(rotor, "absent", statement, -1, "the rotor can roll" if rolls else "one slide repeats")
     sign = drag_sign(exact)
@@ -261,7 +261,7 @@ def _speed_claims(rotor: Rotor, exact: Numbers) -> list[Claim]:
     """Claims for all speeds of the shaft below or above one."""
     n, damping, friction = rotor.numbers, sign_of(exact.gamma), sign_of(exact.mu)
     words = {
-        "absent below": f"{_BACKWARD}.",
+        "absent below": f"{BACKWARD}.",
         "only rubs below": "every motion on the wall that repeats, pressed all the time, is a synchronous rub.",
     }
     above = _rolls_above_claim(rotor, exact)

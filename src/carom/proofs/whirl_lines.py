@@ -15,7 +15,7 @@ from carom.proofs.claims import Claim
 from carom.proofs.lines import Line, Numbers, line_of
 from carom.proofs.rotor import Rotor
 from carom.proofs.runs import Runs, claim_of_runs
-from carom.proofs.whirl import drag_sign, rolling_sign
+from carom.proofs.whirl import BACKWARD, drag_sign, rolling_sign
 
 _HALVINGS = 12
 """How often a part is halved before it is left open."""
@@ -29,7 +29,7 @@ def whirl_line_claims(rotor: Rotor, options: Mapping[str, Any]) -> list[Claim]:
     line = line_of(rotor.hypotheses, str(options["along"]), str(options["from"]), str(options["to"]))
     kinds: dict[str, tuple[str, Callable[[Numbers], bool | None]]] = {
         "rolls": ("the rotor can roll on the wall without slip, backward, for ever", _rolls),
-        "absent": ("no motion on the wall that whirls backward all the time repeats after a turn", _absent),
+        "absent": (BACKWARD, _absent),
     }
     return [
         claim_of_runs("whirl", kind, f"For all {line.words}, {words}.", _runs(line, holds))
