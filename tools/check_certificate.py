@@ -80,7 +80,6 @@ MACHINE = {  # SI unit of each entry of a [machine] table
     "speed": "rad/s", "unbalance_phase": "rad", "friction": "", "restitution": "",
 }  # fmt: skip
 DIMENSIONLESS = ("gamma", "omega", "rho", "phi", "mu", "d", "radius_ratio")
-PARTNER = {"mu": "friction", "d": "restitution", "phi": "unbalance_phase"}
 
 
 class Exact:
