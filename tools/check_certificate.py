@@ -80,7 +80,6 @@ MACHINE = {  # SI unit of each entry of a [machine] table
     "speed": "rad/s", "unbalance_phase": "rad", "friction": "", "restitution": "",
 }  # fmt: skip
 DIMENSIONLESS = ("gamma", "omega", "rho", "phi", "mu", "d", "radius_ratio")
-PARTNER = {"mu": "friction", "d": "restitution", "phi": "unbalance_phase"}
 
 
 class Exact:
@@ -1235,7 +1234,7 @@ POINTS = {  # kind: statement, numbers in the order of the unknowns
     "fold": ("two periods of orbits meet: F1 = 0 and dF1/dT = 0", ("period", "value")),
     "period-doubling": ("an orbit has a multiplier -1", ("period", "radial_speed", "value")),
     "neimark-sacker": (
-        "an orbit has two multipliers on the unit circle that are a complex pair",
+        "the product of two multipliers of an orbit is 1",
         ("period", "radial_speed", "value"),
     ),
     "grazing": (
@@ -1597,6 +1596,14 @@ def multiplier_facts(kind: str, along: Along, m: Machine, x: list, slopes: list)
         ),
         "motion": Fact(MOTION, is_motion(m, period, speed), {}, NO_MOTION),
     }
+    if kind == "neimark-sacker":
+        total = trace - det  # the product of the pair is 1, so that the third one is the determinant
+        strong = [total.contains(k) for k in (-1, 0)]
+        facts["complex"] = Fact(
+            "A conjugate pair of multipliers lies on the unit circle, with this sum; it is at no resonance 1:1, 1:2, 1:3 or 1:4.",
+            True if abs(total) < 2 and not any(strong) else None,
+            {"pair_sum": total},
+        )
     if kind == "period-doubling":
         total, pair = trace + 1, -det  # sum and product of the other two
         simple = (
@@ -1775,17 +1782,24 @@ class Block:
         """Four numbers whose signs say where the multipliers are; the second one is det(1 + J)."""
         return self.over_each(margins_of)
 
-    def stability(self) -> str:
+    def stability(self) -> set[str]:
+        """What may be said of the multipliers."""
         at_one, at_minus, second, pairs = self.margins()
-        if at_one < 0:
-            return "unstable (a multiplier is above 1)"
-        if at_minus < 0:
-            return "unstable (a multiplier is below -1)"
-        if at_one > 0 and at_minus > 0 and pairs < 0:
-            return f"unstable ({TWO})"
+        true = {
+            f"unstable ({word})"
+            for word, shown in (
+                ("a multiplier is above 1", at_one < 0),
+                ("a multiplier is below -1", at_minus < 0),
+                ("the product of two multipliers is above 1", pairs < 0),
+                (TWO, at_one > 0 and at_minus > 0 and pairs < 0),
+            )
+            if shown
+        }
         if all(v > 0 for v in (at_one, at_minus, second, pairs)):
-            return "stable"
-        raise OpenError
+            true = {"stable"}
+        if not true:
+            raise OpenError
+        return true
 
     def course(self) -> str:
         if self.speed < 0:
@@ -1889,6 +1903,34 @@ def named(cells_found: list) -> dict[str, tuple[tuple, bool]]:
     return found
 
 
+def no_speeds(along: Along, low: Fraction, high: Fraction, cell: tuple[Fraction, Fraction, int]) -> bool:
+    """Whether the radial speeds at a period are not real, for all values of a block."""
+    half, centre = ball(high - low) / 2, ball(low + high) / 2
+    period = root(along.at(centre), *cell)
+
+    def rate(value: arb, about: arb) -> arb:
+        ctx.cap = 2
+        by_value = term(along.at(series(value, arb(1))).period_function(about), 1)
+        return -by_value / along.at(value).period_function(series(about, arb(1)))[1]
+
+    wide = period + arb(0, (abs(rate(centre, period)) * half * 2 + arb("1e-30")).upper())
+    block = centre + arb(0, half)
+    if not wide.contains_interior(period + rate(block, wide) * arb(0, half)):
+        raise OpenError
+    m = along.at(block)
+    a12, _ = m.levers(wide)
+    return bool(a12.re * a12.re - a12.norm() * (1 - m.far2) < 0)
+
+
+def differs(found: tuple[str, set[str]], said: tuple[str, str], name: str) -> None:
+    """Refuse what is said of an orbit on a block, if it is false, or leave it open."""
+    goes, may = found
+    if goes != said[0] or (said[1] == "stable") != ("stable" in may):
+        raise RefusedError(f"it is false: {name} is {goes}, {' or '.join(sorted(may))}")
+    if said[1] not in may:
+        raise OpenError
+
+
 def check_stretch(along: Along, claim: dict) -> str:
     """The list of all orbits for an interval, with what each of them is."""
     said, stated = parts(claim["statement"]), numbers_of(claim)
@@ -1902,10 +1944,7 @@ def check_stretch(along: Along, claim: dict) -> str:
     def count(a: Fraction, b: Fraction) -> None:
         names = named(isolated_on(along, a, b))
         for name in set(names) - set(said):
-            cell, _ = names[name]
-            m = along.at(ball(a + b) / 2 + arb(0, ball(b - a) / 2))
-            a12, _ = m.levers(ball(cell[0] + cell[1]) / 2 + arb(0, ball(cell[1] - cell[0]) / 2))
-            if not a12.re * a12.re - a12.norm() * (1 - m.far2) < 0:
+            if not no_speeds(along, a, b, names[name][0]):
                 raise OpenError
         if set(said) - set(names):
             raise RefusedError("it is false: there are not so many periods")
@@ -1915,9 +1954,7 @@ def check_stretch(along: Along, claim: dict) -> str:
         names = next(n for p, q, n in periods if p <= a and b <= q)
         for name, (course_of, stable) in said.items():
             block = Block(along, a, b, *names[name])
-            found = (block.course(), block.stability())
-            if found != (course_of, stable):
-                raise RefusedError(f"it is false: {name} is {found[0]}, {found[1]}")
+            differs((block.course(), block.stability()), (course_of, stable), name)
             for what, true in (("period", block.period), ("radial_speed", block.speed)):
                 start, end = map(ball, stated[f"{name} {what}"])
                 if true < start or true > end:
@@ -1933,7 +1970,8 @@ def check_stretch(along: Along, claim: dict) -> str:
 
 def check_change(along: Along, claim: dict, name: str) -> str:
     """One change of an orbit on an interval: where its radial speed, or a margin of its stability, has its only zero."""
-    birth = claim["kind"].startswith("birth")
+    birth, margin = claim["kind"].startswith("birth"), 3 if claim["kind"].startswith("neimark") else 1
+    which = "the product of 1 - lambda_j lambda_k over the pairs of multipliers" if margin == 3 else "det(1 + J)"
     low, high = (decimal_of(v) for v in re.fullmatch(rf"{along.name} in \[(\S+), (\S+)\]", claim["about"]).groups())
     stated = numbers_of(claim)
     if set(stated) != {"value"}:
@@ -1945,7 +1983,7 @@ def check_change(along: Along, claim: dict, name: str) -> str:
         if name not in names:
             raise RefusedError("it is false: there is no such orbit")
         block = Block(along, a, b, *names[name])
-        function = (lambda m, t, r: r) if birth else (lambda m, t, r: margins_of(m, t, r)[1])
+        function = (lambda m, t, r: r) if birth else (lambda m, t, r: margins_of(m, t, r)[margin])
         value, slope = block.over(function), block.slope(function)
         if b <= zero[0] or a >= zero[1]:
             if not (value > 0 or value < 0):
@@ -1960,7 +1998,7 @@ def check_change(along: Along, claim: dict, name: str) -> str:
                 if block.inside() is not True:
                     raise OpenError
                 block.slip()
-        elif not value < 0 and not all(v > 0 for k, v in enumerate(block.margins()) if k != 1):
+        elif not value < 0 and not all(v > 0 for k, v in enumerate(block.margins()) if k != margin):
             raise OpenError
 
     edges = [low, *sorted(v for v in zero if low < v < high), high]
@@ -1974,7 +2012,7 @@ def check_change(along: Along, claim: dict, name: str) -> str:
         f"{name} exists for all values of this interval, and its radial speed has exactly one zero there, at this value: for all {larger} values of "
         f"the interval {name} is a motion of the machine, and for no {smaller} one."
         if birth
-        else f"{name} exists for all values of this interval, and det(1 + J) has exactly one zero there, at this value: for all {larger} values of "
+        else f"{name} exists for all values of this interval, and {which} has exactly one zero there, at this value: for all {larger} values of "
         f"the interval {name} is stable, and for no {smaller} one."
     )
     return judge(claim, Fact(words, True, {"value": None}))
@@ -2041,14 +2079,15 @@ class Intervals:
             names = named(isolated_on(self.along, a, b))
             for name, kind in wanted.items():
                 if name == "all":
-                    courses = {n: Block(self.along, a, b, *names[n]).course() for n in names}
+                    real = [n for n in names if not no_speeds(self.along, a, b, names[n][0])]
+                    courses = {n: Block(self.along, a, b, *names[n]).course() for n in real}
                     found[name].add(tuple(sorted((n for n, v in courses.items() if v == MOVES), key=in_order)))
                 elif name in names:
                     block = Block(self.along, a, b, *names[name])
                     good = {
                         "exists": lambda of: True,
                         "admissible": lambda of: of.course() == MOVES,
-                        "stable": lambda of: of.stability() == "stable",
+                        "stable": lambda of: of.stability() == {"stable"},
                     }
                     found[name].add(good[kind](block))
                 else:
@@ -2125,7 +2164,7 @@ def decide_interval(claim: dict, intervals: Intervals | None, along: Along) -> s
     if re.fullmatch(rf"{along.name} in \[\S+, \S+\]", about):
         if kind == "orbits" and claim["status"] == "proven" and claim["reason"] == "":
             return check_stretch(along, claim)
-        change = re.fullmatch(r"(?:birth|period doubling) of (B\d+,[a-d])", kind)
+        change = re.fullmatch(r"(?:birth|period doubling|neimark-sacker) of (B\d+,[a-d])", kind)
         if change:
             return check_change(along, claim, change[1])
     return "not covered|a claim of a kind that this program does not know"
