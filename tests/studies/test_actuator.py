@@ -176,7 +176,7 @@ def test_disturbances_that_come_to_a_limit_are_counted_and_whether_they_come_bac
     assert demand.slew is None
     asked = []
     for ending in found.disturbances:
-        motion = simulate(case, ending.start.state, ending.time)
+        motion = simulate(case, ending.start.state, max(ending.time, 1e-6))
         position, velocity = motion.at(motion.sample(5000))
         place = position * np.exp(1j * motion.sample(5000))
         speed = (velocity + 1j * position) * np.exp(1j * motion.sample(5000))

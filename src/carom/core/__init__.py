@@ -4,6 +4,7 @@ Nothing here knows units, files or results.  A kernel sees a rotor as the arrays
 :func:`~carom.core.layout.rotor_record` and works for any number of modes and contact planes.
 
 =====================  ===========================================================
+``records``            arrays and scalars that kernels take by one address
 ``layout``             the data that kernels work on
 ``flow``               exact flight: sums of exponentials and their derivatives
 ``table``              constants of a block of flight, for the search of crossings
@@ -19,6 +20,7 @@ Nothing here knows units, files or results.  A kernel sees a rotor as the arrays
 ``contact_series``     lasting contact as Taylor series
 ``compliance``         contact with a wall that gives way, as Taylor series
 ``shaft``              the speed of the shaft as a state, in contact and from flight to flight
+``limits``             limits of magnetic bearings: what is asked for beyond them
 ``surfaces``           speeds of the two surfaces that touch, where they change
 ``rounding``           rounding errors of sums over the modes
 ``taylor``             length of a step, sums and zeros of Taylor series

@@ -53,6 +53,8 @@ STEP = 0.05
 """Largest step of phase between two instants, in rad of the fastest oscillation."""
 MOST_INSTANTS = 200_000
 """Largest number of instants of one motion."""
+SHORTEST = 1e-6
+"""Time for which a disturbance is followed whose end is known at once."""
 LARGEST = 24
 """Number of disturbances of each kind that are followed to see what a change asks of the bearings."""
 
@@ -215,7 +217,7 @@ def bearing_demand(
         return None
     tried = found.disturbances
     motions = [
-        simulate(ending.rotor, ending.start.state, ending.time) for ending in tried
+        simulate(ending.rotor, ending.start.state, max(ending.time, SHORTEST)) for ending in tried
     ]  # until their ends are known
     came_back = np.array([ending.recovered for ending in tried], bool)
     at_limit = np.array([bool((motion.segment_limits > WITHIN).any()) for motion in motions], bool)
