@@ -19,6 +19,8 @@ if TYPE_CHECKING:
 
 _HERTZ = 2.0 * math.pi
 _LINES = ("-", "--", "-.", ":")
+MARKS = 15
+"""Marks along a whirl, so that its sense is seen."""
 _ROOM = 1.15
 """Height of the axes over what is drawn."""
 
@@ -28,31 +30,40 @@ _ROOM = 1.15
 def campbell(found: Campbell) -> Figure:
     """Draw the frequencies of free whirls over the speed of the shaft, with the line on which unbalance excites them.
 
-    Forward whirls are triangles that point up, backward ones point down; whirls that grow are hollow.
+    Each whirl is a line: solid and with triangles that point up where it goes forward, broken and with triangles that point down where it
+    goes backward.  Where it grows the triangles are hollow.
     """
     figure, axes = one_axes(None, (TWO_COLUMNS, 0.62 * TWO_COLUMNS))
-    speeds = np.broadcast_to(found.speeds[:, None] / RPM, found.exponents.shape)
-    for name, goes in (("forward", found.frequencies > 0.0), ("backward", found.frequencies <= 0.0)):
-        for grows in (False, True):
-            those = goes & ((found.exponents.real >= 0.0) == grows)
-            if not those.any():
-                continue
-            colour, words = LOOKS[name].colour, f"{name} whirl{' that grows' if grows else ''}"
-            axes.plot(
-                speeds[those],
-                np.abs(found.frequencies[those]),
-                linestyle="none",
-                marker=LOOKS[name].marker,
-                markersize=4.0,
-                color=colour,
-                markerfacecolor="none" if grows else colour,
-                label=words,
-                gid=words,
-            )
+    order = np.argsort(found.speeds)
+    speeds, exponents = found.speeds[order] / RPM, found.exponents[order]
+    every = max(1, len(speeds) // MARKS)
+    shown: set[str] = set()
+    for branch in exponents.T:
+        for name, line, goes in (("forward", "-", branch.imag > 0.0), ("backward", "--", branch.imag <= 0.0)):
+            heights = np.where(goes, np.abs(branch.imag) / _HERTZ, np.nan)
+            for grows in (False, True):
+                words = f"{name} whirl{' that grows' if grows else ''}"
+                those = np.where((branch.real >= 0.0) == grows, heights, np.nan)
+                if np.isnan(those).all():
+                    continue
+                axes.plot(
+                    speeds,
+                    those,
+                    linestyle=line,
+                    lw=0.9,
+                    marker=LOOKS[name].marker,
+                    markersize=4.0,
+                    markevery=every,
+                    color=LOOKS[name].colour,
+                    markerfacecolor="none" if grows else LOOKS[name].colour,
+                    label=None if words in shown else words,
+                    gid=words,
+                )
+                shown.add(words)
     ends = np.array([0.0, found.speeds.max()])
     axes.plot(ends / RPM, ends / _HERTZ, color="#1a1a1a", lw=0.9, label="speed of the shaft", gid="synchronous")
     axes.set_xlim(0.0, found.speeds.max() / RPM)
-    axes.set_ylim(0.0, _ROOM * float(np.nanmax(np.abs(found.frequencies))))
+    axes.set_ylim(0.0, _ROOM * float(np.nanmax(np.abs(found.frequencies), initial=0.0)))
     axes.set_xlabel("speed of the shaft (rpm)")
     axes.set_ylabel("frequency of the free whirl (Hz)")
     key(figure, [axes], columns=3)
