@@ -1,6 +1,6 @@
 """How much to try: whether the kernels are compiled, and whether this is a deep run.
 
-Without the compiler (``make coverage``) a kernel takes some hundred times as long: tests that try many cases try fewer
+Without the compiler (``make test-plain``) a kernel takes some hundred times as long: tests that try many cases try fewer
 then, enough to go through every line.  Tests that make no sense with few are marked ``jit_only``.
 
 The daily run (``make test``) is one that people wait for.  ``make test-deep`` tries many more cases, and runs the tests

@@ -308,7 +308,7 @@ def test_all_errors_of_a_file_are_objects_of_json(carom, tmp_path):
     ],
 )
 def test_other_failures_are_objects_of_json(monkeypatch, carom, machine, problem, code, message):
-    monkeypatch.setattr("carom.parameters.load", _raise(problem))
+    monkeypatch.setattr("carom.loading.load", _raise(problem))
     answer, out, err = carom("study", machine, "--json")
     error = json.loads(out)["error"]
 
@@ -405,7 +405,7 @@ def test_no_control_character_of_an_option_is_told(carom, machine, arguments):
 
 
 def test_no_control_character_of_an_error_nobody_thought_of_is_told(monkeypatch, carom, machine):
-    monkeypatch.setattr("carom.parameters.load", _raise(ZeroDivisionError(EVIL)))
+    monkeypatch.setattr("carom.loading.load", _raise(ZeroDivisionError(EVIL)))
 
     assert carom("study", machine)[2][:-1].isprintable()
 
@@ -439,7 +439,7 @@ def _raise(error):
 
 
 def test_unexpected_error_is_one_line(monkeypatch, carom, machine):
-    monkeypatch.setattr("carom.parameters.load", _raise(ZeroDivisionError("first\nsecond")))
+    monkeypatch.setattr("carom.loading.load", _raise(ZeroDivisionError("first\nsecond")))
 
     code, out, err = carom("study", machine)
 
@@ -448,7 +448,7 @@ def test_unexpected_error_is_one_line(monkeypatch, carom, machine):
 
 
 def test_end_of_data_is_no_interruption(monkeypatch, carom, machine):
-    monkeypatch.setattr("carom.parameters.load", _raise(EOFError("Ran out of input")))
+    monkeypatch.setattr("carom.loading.load", _raise(EOFError("Ran out of input")))
 
     code, out, err = carom("study", machine)
 
@@ -461,7 +461,7 @@ def test_warning_is_one_line_and_no_error(monkeypatch, carom, machine):
         warnings.warn("the disk\nis full", CaromWarning, stacklevel=1)
         raise InputError("machine file", "m.toml", "must be another one")
 
-    monkeypatch.setattr("carom.parameters.load", warn)
+    monkeypatch.setattr("carom.loading.load", warn)
     with warnings.catch_warnings():
         warnings.simplefilter("default")
         _, _, err = carom("study", machine)
@@ -470,7 +470,7 @@ def test_warning_is_one_line_and_no_error(monkeypatch, carom, machine):
 
 
 def test_unexpected_error_shows_more_on_demand(monkeypatch, machine):
-    monkeypatch.setattr("carom.parameters.load", _raise(ZeroDivisionError("why")))
+    monkeypatch.setattr("carom.loading.load", _raise(ZeroDivisionError("why")))
     monkeypatch.setenv("CAROM_DEBUG", "1")
 
     with pytest.raises(ZeroDivisionError, match="why"):
@@ -478,7 +478,7 @@ def test_unexpected_error_shows_more_on_demand(monkeypatch, machine):
 
 
 def test_interrupt(monkeypatch, carom, machine):
-    monkeypatch.setattr("carom.parameters.load", _raise(KeyboardInterrupt))
+    monkeypatch.setattr("carom.loading.load", _raise(KeyboardInterrupt))
 
     assert carom("study", machine) == (INTERRUPTED, "", "carom: interrupted\n")
 
@@ -497,7 +497,7 @@ def test_interrupt_in_a_place_that_hands_nothing_on(monkeypatch, carom, machine)
             time.sleep(0.01)
         return reference
 
-    monkeypatch.setattr("carom.parameters.load", interrupted)
+    monkeypatch.setattr("carom.loading.load", interrupted)
     hook = sys.unraisablehook
 
     assert carom("study", machine)[:2] == (INTERRUPTED, "")
@@ -505,7 +505,7 @@ def test_interrupt_in_a_place_that_hands_nothing_on(monkeypatch, carom, machine)
 
 
 def test_file_system_error_is_one_line(monkeypatch, carom, machine):
-    monkeypatch.setattr("carom.parameters.load", _raise(OSError(28, "No space left on device")))
+    monkeypatch.setattr("carom.loading.load", _raise(OSError(28, "No space left on device")))
 
     code, _, err = carom("study", machine)
 

@@ -14,8 +14,8 @@ from carom.basins import Basin, GainChange, GainMap, map_basins, map_gains
 from carom.basins.document import basin_document
 from carom.cli.basin_tables import print_gains
 from carom.disturbances import Grid, VelocityKick
+from carom.loading import load
 from carom.outcome import Outcome
-from carom.parameters import load
 
 pytestmark = pytest.mark.jit_only
 

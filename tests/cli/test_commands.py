@@ -12,11 +12,11 @@ from studies import QUICK
 from carom import __version__
 from carom.closed_forms.equilibria import find_equilibria
 from carom.disturbances import BaseShock, BladeLoss
+from carom.loading import load
 from carom.models import Jeffcott
 from carom.motions import simulate
 from carom.motions.starts import kick
 from carom.orbits.single_impact import find_orbits
-from carom.parameters import load
 
 pytestmark = pytest.mark.jit_only
 

@@ -15,8 +15,9 @@ import typer
 from compilation import sized
 
 from carom.cli import main
+from carom.loading import load
 from carom.outcome import InputError
-from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, Machine, load
+from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, Machine
 from carom.sweeps import load_sweep
 
 EXAMPLES = Path(__file__).parents[2] / "examples"

@@ -18,10 +18,11 @@ from carom.cli.starts import (
     with_requirement,
 )
 from carom.disturbances import BladeLoss
+from carom.loading import load
 from carom.models import axis
 from carom.motions.starts import Kick, State
 from carom.outcome import InputError
-from carom.parameters import Parameters, Requirement, Scales, Shock, load
+from carom.parameters import Parameters, Requirement, Scales, Shock
 
 SCALES = Scales(mass=50.0, clearance=0.7e-3, speed=184.2)
 

@@ -12,9 +12,10 @@ from machines import PAPER
 from scipy.optimize import minimize_scalar
 
 from carom.closed_forms import find_equilibria, rolling, speed_response
+from carom.loading import load
 from carom.models import Jeffcott
 from carom.outcome import InputError
-from carom.parameters import Machine, Parameters, load
+from carom.parameters import Machine, Parameters
 
 MACHINES = sized(compiled=100, interpreted=20, deep=2000)
 SWEPT = sized(compiled=8, interpreted=3, deep=100)

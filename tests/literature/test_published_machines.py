@@ -9,10 +9,11 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
 from carom.closed_forms.equilibria import find_equilibria
+from carom.loading import load
 from carom.models import Jeffcott
 from carom.motions import State, simulate
 from carom.outcome import Outcome
-from carom.parameters import ENTRIES, Machine, load, read_quantity
+from carom.parameters import ENTRIES, Machine, read_quantity
 from carom.rotors import Material, find_whirls
 
 EXAMPLES = Path(__file__).parents[2] / "examples"

@@ -8,9 +8,10 @@ import numpy as np
 import pytest
 from compilation import sized
 
+from carom.loading import load
 from carom.models import case_of
 from carom.outcome import InputError
-from carom.parameters import Case, Machine, Zones, in_terms_of, load
+from carom.parameters import Case, Machine, Zones, in_terms_of
 
 REAL, PAPER, RIG = (f"examples/{name}.toml" for name in ("keogh-cole", "source-paper", "tum-test-rig"))
 REST = {"mass": "50 kg", "speed": "1759 rpm", "friction": 0.15, "restitution": 0.95}

@@ -4,8 +4,9 @@ from pathlib import Path
 
 import pytest
 
+from carom.loading import load
 from carom.outcome import InputError
-from carom.parameters import LoadLimits, load
+from carom.parameters import LoadLimits
 
 REAL = "examples/keogh-cole.toml"
 

@@ -6,9 +6,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from carom.loading import load
 from carom.models import Jeffcott
 from carom.outcome import InputError
-from carom.parameters import GRAVITY, Case, Required, Requirement, Scales, Shock, Zones, load, usual_kick
+from carom.parameters import GRAVITY, Case, Required, Requirement, Scales, Shock, Zones, usual_kick
 
 REAL, PAPER = "examples/keogh-cole.toml", "examples/source-paper.toml"
 FIVE_G = 49.03325

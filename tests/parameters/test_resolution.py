@@ -6,8 +6,9 @@ from pathlib import Path
 
 import pytest
 
+from carom.loading import load
 from carom.outcome import InputError
-from carom.parameters import MACHINE_FIELDS, TERMS, Machine, load
+from carom.parameters import MACHINE_FIELDS, TERMS, Machine
 
 REAL = Path(__file__).parents[2] / "examples" / "keogh-cole.toml"
 

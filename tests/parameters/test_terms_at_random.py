@@ -7,8 +7,9 @@ import numpy as np
 import pytest
 from compilation import sized
 
+from carom.loading import load
 from carom.outcome import InputError
-from carom.parameters import Machine, load
+from carom.parameters import Machine
 
 CASES = sized(40, 40, 2000)
 TAU = "tau"

@@ -4,8 +4,8 @@ from pathlib import Path
 
 import pytest
 
+from carom.loading import load
 from carom.outcome import InputError, MultipleInputError
-from carom.parameters import load
 from carom.parameters.toml_reader import _PARTS, _first_deep_line
 
 REAL = (Path(__file__).parents[2] / "examples" / "keogh-cole.toml").read_text(encoding="utf-8")

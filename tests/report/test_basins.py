@@ -9,7 +9,8 @@ from studies import study_once
 
 from carom.basins import map_basins
 from carom.disturbances import BladeLoss, KickPlane
-from carom.parameters import Parameters, Requirement, load
+from carom.loading import load
+from carom.parameters import Parameters, Requirement
 from carom.report import basins, report_page
 from carom.report.figures import pictures
 from carom.studies import study

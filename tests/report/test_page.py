@@ -9,7 +9,8 @@ from pathlib import Path
 import pytest
 from studies import study_once
 
-from carom.parameters import Parameters, load
+from carom.loading import load
+from carom.parameters import Parameters
 from carom.report import report_page, write_report
 from carom.report.figures import pictures
 from carom.report.html import with_subscripts

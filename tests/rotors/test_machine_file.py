@@ -147,12 +147,8 @@ def without(text, line):
         (without(SMALL, "ki = 50\n"), r"\[\[magnetic_bearing\]\] 1: ki = nothing given: must be stated"),
         (SMALL.replace("friction = 0.1", "friction = -1"), r"^\[\[touchdown\]\] 1: friction = -1: must be a number"),
         (SMALL.replace('law = "kelvin-voigt"', 'law = "rigid"'), r"^\[\[touchdown\]\] 1: damping = "),
-        (SMALL.replace('"0.2 mm"', '"-0.2 mm"'), r"^clearance = -0.2 mm: must be a length"),
+        (SMALL.replace('"0.2 mm"', '"-0.2 mm"'), r"^\[\[touchdown\]\] 1: clearance = -0.2 mm: must be a length"),
         (SMALL[: SMALL.index("[[touchdown]]")], r"^\[\[touchdown\]\] = nothing given: one or more tables"),
-        (
-            SMALL + SMALL[SMALL.index("[[touchdown]]") :].replace("0.2 mm", "0.3 mm"),
-            r"^clearance = 0.2 mm, 0.3 mm: the same in all tables \[\[touchdown\]\]$",
-        ),
         (
             SMALL[: SMALL.index("[[section]]")] + SMALL[SMALL.index("[[disc]]") :],
             r"^\[\[section\]\] = nothing given: one",

@@ -16,11 +16,12 @@ from carom.closed_forms.equilibria import find_equilibria
 from carom.closed_forms.whirl import rolling
 from carom.disturbances import KickPlane, Sample
 from carom.files import as_json
+from carom.loading import load
 from carom.models import Jeffcott
 from carom.motions import State, simulate
 from carom.orbits import orbits_within_reach
 from carom.outcome import Phase
-from carom.parameters import Case, Machine, Parameters, Scales, Zones, load
+from carom.parameters import Case, Machine, Parameters, Scales, Zones
 from carom.parameters.told import number
 from carom.studies.actuator import Centre, actuator_words, bearing_demand, largest_along, largest_jumps, limits_of
 

@@ -9,8 +9,9 @@ import pytest
 from studies import study_once
 
 from carom.files import as_json
+from carom.loading import load
 from carom.outcome import InputError, Outcome
-from carom.parameters import Case, Machine, Parameters, Requirement, Scales, Zones, load
+from carom.parameters import Case, Machine, Parameters, Requirement, Scales, Zones
 from carom.studies import NOT_COVERED, study
 from carom.studies.facts import about
 from carom.studies.summaries import machine_rows, motion_rows, range_rows, threshold_rows

@@ -12,12 +12,13 @@ from machines import random_parameters
 from carom.closed_forms.equilibria import find_equilibria
 from carom.closed_forms.thresholds import ranges_of
 from carom.closed_forms.whirl import rolling
+from carom.loading import load
 from carom.models import Edge, Jeffcott, Span, axis
 from carom.motions.simulation import simulate
 from carom.motions.starts import State
 from carom.orbits.single_impact import orbits_within_reach
 from carom.outcome import Outcome
-from carom.parameters import Machine, Parameters, load
+from carom.parameters import Machine, Parameters
 from carom.studies.ranges import MotionRange, motion_ranges
 
 SOURCE = Parameters(gamma=0.1, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7)

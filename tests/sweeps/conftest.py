@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from carom.parameters import load
+from carom.loading import load
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 

@@ -11,8 +11,8 @@ import pytest
 
 import carom
 from carom.disturbances import MODELS
+from carom.loading import load
 from carom.outcome import InputError
-from carom.parameters import load
 from carom.sweeps import load_sweep
 
 EXAMPLES = Path(__file__).parents[2] / "examples"

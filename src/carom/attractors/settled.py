@@ -163,7 +163,7 @@ def _last_times(settled: SettledMotion) -> np.ndarray:
 
 
 def forces_on(settled: SettledMotion) -> tuple[float, float]:
-    """Largest normal impulse (``m c_r Ω``) and largest lasting normal force (``m c_r Ω²``) on the attractor, at any plane.
+    """Largest normal impulse (``m c_r Ω``) and largest lasting normal force (``m c_r Ω²``) on the attractor, at any plane, in units of the rotor.
 
     A contact with a wall that gives way has both.
     """
@@ -176,14 +176,15 @@ def forces_on(settled: SettledMotion) -> tuple[float, float]:
     # Of irregular bouncing only the later half is used: the first half may be a transient.
     first = first_of_period(motion, settled.multiplicity) if settled.multiplicity else len(hits) // 2
     late = np.isin(np.arange(len(motion.is_impact)), hits[first:])
-    last = motion.log_of(late & motion.is_impact).normal_impulse
+    log, widths = motion.log_of(late & motion.is_impact), motion.rotor.system.widths
+    last = log.normal_impulse / widths[log.plane]
     touching = settled.outcome in (Outcome.FORWARD_RUB, Outcome.BACKWARD_WHIRL, Outcome.ROLLING)
     impulse = float(last.max()) if len(last) and not touching else 0.0
     if (motion.segment_phases == Phase.FLIGHT).all():
         return impulse, 0.0
     times = _last_times(settled)
     planes = range(motion.segment_phases.shape[1])
-    force = max(float(motion.seen_at(plane).forces(times)[0].max()) for plane in planes)
+    force = max(float(motion.seen_at(plane).forces(times)[0].max() / widths[plane]) for plane in planes)
     if touching or not len(hits):
         return impulse, force
     since = int(hits[min(first, len(hits) - 1)]) + 1
@@ -194,9 +195,9 @@ def forces_on(settled: SettledMotion) -> tuple[float, float]:
 def _with_touches(motion: Trajectory, impulse: float, force: float) -> tuple[float, float]:
     """Largest impulse and force, with those of the contacts with walls that give way; samples miss brief ones."""
     for plane in np.flatnonzero(motion.rotor.system.arrays["stiffness"] > 0.0).tolist():
-        touches = motion.seen_at(plane).touches
-        impulse = max(impulse, float(touches.normal_impulse.max(initial=0.0)))
-        force = max(force, float(touches.peak_force.max(initial=0.0)))
+        touches, width = motion.seen_at(plane).touches, float(motion.rotor.system.widths[plane])
+        impulse = max(impulse, float(touches.normal_impulse.max(initial=0.0)) / width)
+        force = max(force, float(touches.peak_force.max(initial=0.0)) / width)
     return impulse, force
 
 

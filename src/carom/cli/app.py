@@ -23,6 +23,7 @@ from carom.cli.basins import basins
 from carom.cli.bifurcations import bifurcations, regions
 from carom.cli.drop import drop
 from carom.cli.explore import explore
+from carom.cli.import_rotor import import_rotor
 from carom.cli.orbits import orbits
 from carom.cli.paper import paper
 from carom.cli.prove import prove
@@ -30,6 +31,7 @@ from carom.cli.response import response
 from carom.cli.simulate import simulate
 from carom.cli.study import study
 from carom.cli.sweep import sweep
+from carom.cli.template import template
 from carom.cli.terminal import InterruptionError
 from carom.outcome import CaromError, CaromWarning, InputError, printable, shown
 
@@ -43,7 +45,7 @@ UsageError: type[Exception] = typer.BadParameter.__bases__[0]
 app = typer.Typer(
     name="carom",
     help="A rotor on magnetic bearings that touches its touchdown bearing: does it come back?",
-    epilog="A machine file is TOML with a [machine] table of values with units, or a [dimensionless] table.",
+    epilog="A machine file is TOML with a [machine] table of values with units, a [dimensionless] table, or a [rotor] table.",
     add_completion=False,
     rich_markup_mode=None,
     pretty_exceptions_enable=False,
@@ -63,9 +65,13 @@ for each in (
     sweep,
     paper,
     explore,
+    template,
+    import_rotor,
 ):
     # The list of commands shows the first line of each whole, not its beginning.
-    app.command(each.__name__, help=each.__doc__, short_help=str(each.__doc__).partition("\n")[0])(each)
+    app.command(each.__name__.replace("_", "-"), help=each.__doc__, short_help=str(each.__doc__).partition("\n")[0])(
+        each
+    )
 
 
 def _print_version(wanted: bool) -> None:

@@ -33,7 +33,7 @@ def attractors(
     Each kind comes with its evidence.  Irregular bouncing is followed further to measure how long it lasts: it may be a
     transient.  A sample of disturbances proves nothing about motions that none of them reaches.
     """
-    from carom.parameters import load
+    from carom.loading import load
 
     case = load(machine, settings or ())
     check_output(out)

@@ -45,7 +45,7 @@ def basins(
     dimensionless. With --gains the share that comes back is mapped against P and D gain, or any two parameters.
     """
     with progress("loading") as tell:
-        from carom.parameters import load
+        from carom.loading import load
 
         case = load(machine, settings or ())
         sizes = {

@@ -93,9 +93,9 @@ def bifurcations(
         from carom.bifurcations import find_bifurcations
         from carom.bifurcations.documents import diagram_document
         from carom.cli.starts import read_ends
+        from carom.loading import load
         from carom.models import axis, case_of, model_of
         from carom.models.subjects import refuse_other_rotors
-        from carom.parameters import load
 
         case = load(machine, settings or ())
         refuse_other_rotors(case)
@@ -158,8 +158,8 @@ def regions(
     with progress("loading") as tell:
         from carom.bifurcations import Plane, map_regions
         from carom.bifurcations.documents import regions_document
+        from carom.loading import load
         from carom.models import axis, case_of
-        from carom.parameters import load
 
         case = case_of(load(machine, settings or ()))
         parameters = case.parameters

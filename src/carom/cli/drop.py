@@ -46,7 +46,7 @@ def drop(
     from carom.cli.drop_map import map_plane, read_plane
     from carom.cli.drops import read_release
     from carom.cli.starts import read_time
-    from carom.parameters import load
+    from carom.loading import load
 
     case = load(machine, settings or ())
     check_output(out)

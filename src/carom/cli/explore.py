@@ -27,8 +27,8 @@ def explore(
     The page is served on this machine alone, at the address that is printed first, until Ctrl-C. It needs the extra
     carom[explore].
     """
+    from carom.loading import load
     from carom.models import planar_case_of
-    from carom.parameters import load
 
     if find_spec("bokeh") is None:
         raise CaromError("carom explore needs Bokeh: pip install 'carom[explore]'")

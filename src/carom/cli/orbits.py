@@ -38,9 +38,9 @@ def orbits(
     Lists all orbits with one impact a period, with the argument that there are no more; or, with --impacts N, the
     orbits with at most N impacts that are known or that a search finds, with what it tried.
     """
+    from carom.loading import load
     from carom.models import case_of
     from carom.models.subjects import refuse_other_rotors
-    from carom.parameters import load
 
     given = load(machine, settings or ())
     refuse_other_rotors(given)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -11,10 +12,11 @@ from carom.cli.terminal import AsJson, Settings, check_output, console, print_do
 from carom.outcome import InputError, shown
 
 if TYPE_CHECKING:
+    from carom.progress import Reporter
     from carom.proofs import Claim, Proof
 
-CERTIFICATE = "proof.json"
-"""Name of the certificate in the directory given."""
+CERTIFICATE, CELLS = "proof.json", "cells.json"
+"""Names of the certificate, and of the cells of kicks found so far, in the directory given."""
 
 
 def prove(
@@ -38,6 +40,16 @@ def prove(
         typer.Option("--from", metavar="A", help="First value of the parameter, dimensionless or with a unit."),
     ] = None,
     stop: Annotated[str | None, typer.Option("--to", metavar="B", help="Last value of the parameter.")] = None,
+    kicks_up_to: Annotated[
+        str | None,
+        typer.Option(metavar="SPEED", help="Prove instead which kicks out of levitation up to SPEED come back."),
+    ] = None,
+    most_impacts: Annotated[
+        int | None, typer.Option(metavar="N", help="Leave kicks open that may have more than N impacts; by default 12.")
+    ] = None,
+    time_limit: Annotated[
+        str | None, typer.Option(metavar="T", help="End the search after T, such as '2 h'; by default 10 min.")
+    ] = None,
     out: Annotated[
         str | None, typer.Option(metavar="DIR", help=f"Write the certificate, {CERTIFICATE}, to this directory.")
     ] = None,
@@ -46,7 +58,7 @@ def prove(
     ] = None,
     as_json: AsJson = False,
 ) -> None:
-    """Prove equilibria and all orbits with one impact a period, in ball arithmetic; or along a parameter.
+    """Prove equilibria and all orbits with one impact a period, in ball arithmetic; or along a parameter; or which kicks come back.
 
     The numbers of the machine file are taken exactly as they are written. Each claim is proven, refuted or undecided, with the
     reason. A certificate can be verified by itself, without any search. Needs the extra carom[proof].
@@ -57,13 +69,21 @@ def prove(
         from carom.proofs import prove as prove_machine
 
         if check is not None:
-            others = (machine, longest_period, out, along, start, stop)
+            others = (machine, longest_period, out, along, start, stop, kicks_up_to, most_impacts, time_limit)
             if settings or impacts != 1 or any(other is not None for other in others):
                 raise InputError("--check", shown(check), "must stand alone: a certificate holds its machine")
             proof = verify(check, progress=tell)
         elif machine is None:
             raise InputError("MACHINE.toml", None, "give a machine file, or a certificate with --check")
+        elif kicks_up_to is not None:
+            if impacts != 1 or any(other is not None for other in (longest_period, along, start, stop)):
+                raise InputError(
+                    "--kicks-up-to", shown(kicks_up_to), "cannot be combined with options of other theorems"
+                )
+            proof = _prove_kicks(machine, kicks_up_to, settings or (), most_impacts, time_limit, out, tell)
         else:
+            if most_impacts is not None or time_limit is not None:
+                raise InputError("--kicks-up-to", None, "is needed by --most-impacts and --time-limit")
             if (start is None or stop is None) and not (along is start is stop is None):
                 raise InputError("--along", shown(along), "needs --from and --to, and these need --along")
             check_output(out)
@@ -89,6 +109,27 @@ def prove(
     _print_proof(proof, checked=check is not None)
     if out is not None:
         console().print(f"Certificate: {Path(out) / CERTIFICATE}", soft_wrap=True)
+
+
+def _prove_kicks(
+    machine: str,
+    kicks_up_to: str,
+    settings: Iterable[str],
+    most_impacts: int | None,
+    time_limit: str | None,
+    out: str | None,
+    tell: Reporter,
+) -> Proof:
+    """Prove kicks; with a directory go on from the cells in it."""
+    from carom.proofs import prove_kicks
+
+    check_output(out)
+    if out is not None:
+        Path(out).mkdir(parents=True, exist_ok=True)
+    limits = {"most_impacts": most_impacts, "time_limit": time_limit}
+    given = {name: value for name, value in limits.items() if value is not None}
+    store = None if out is None else Path(out) / CELLS
+    return prove_kicks(machine, kicks_up_to, settings, store=store, progress=tell, **given)  # type: ignore[arg-type]
 
 
 def _print_proof(proof: Proof, checked: bool) -> None:

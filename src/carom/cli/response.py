@@ -45,7 +45,7 @@ def response(
     Compared with the vibration limit and the separation margin of API 617 and the zones of ISO 14839-2.  Where the rotor
     touches, the synchronous rubs that are possible are shown too.  Stiffness and damping are the same at every speed.
     """
-    from carom.parameters import load
+    from carom.loading import load
 
     case = load(machine, settings or ())
     interval, run = _read(case, start, end, operating)

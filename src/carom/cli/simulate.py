@@ -41,7 +41,7 @@ def simulate(
     """
     from carom.cli.drops import read_release, taken
     from carom.cli.starts import read_time
-    from carom.parameters import load
+    from carom.loading import load
 
     case = load(machine, settings or ())
     check_output(out)

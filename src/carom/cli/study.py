@@ -45,7 +45,7 @@ def study(
     in place of the table [survive] of its file. With --out it also writes figures, study.json and report.html.
     """
     from carom.cli.starts import with_requirement
-    from carom.parameters import load
+    from carom.loading import load
 
     case = with_requirement(load(machine, settings or ()), kick=kick, shock=shock, blade_loss=blade_loss)
     with progress("loading") as tell:

@@ -112,7 +112,7 @@ class EquilibriumSet(Members[Equilibrium]):
         """Each equilibrium in a line."""
         lines = [
             (
-                f"{at.kind}{f' at plane {in_a_line(at.planes)}' if len(at.places) > 1 and at.planes else ''}",
+                f"{at.kind}{_at_planes(at)}",
                 f"{at.status}, {'stable' if at.stable else 'not stable'}, normal force {self.line_of('normal_force', at.normal_force)}",
             )
             for at in self.members
@@ -231,3 +231,10 @@ def _rub(model: Model, planes: tuple[int, ...], forces: np.ndarray, touching: np
 def _dies_out(eigenvalues: np.ndarray, margin: float = NEUTRAL) -> bool:
     """Whether disturbances die out, with a margin above the rounding errors."""
     return bool(eigenvalues.real.max() < -margin * np.abs(eigenvalues).max())
+
+
+def _at_planes(at: Equilibrium) -> str:
+    """At which of several planes it is, counted from 1."""
+    if len(at.places) == 1 or not at.planes:
+        return ""
+    return f" at plane {in_a_line(tuple(plane + 1 for plane in at.planes))}"

@@ -68,6 +68,7 @@ def with_forces(system: System, forces: Sequence[Force]) -> System:
         translation=system.translation,
         races=system.races,
         shaft=system.shaft,
+        clearances=system.clearances,
         rows=modes.right[:planes],
         columns=modes.left[:, :planes],
         **{name: system.arrays[name] for name in ("offsets", "masses", *Wall._fields)},

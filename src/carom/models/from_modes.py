@@ -36,6 +36,7 @@ def modal_system(
     translation: np.ndarray | None = None,
     races: RaceModes | None = None,
     shaft: ShaftModes | None = None,
+    clearances: tuple[float, ...] | None = None,
     **planes: np.ndarray,
 ) -> System:
     """System of these modes, in arrays of one of few sizes: each size of the kernels takes seconds to compile.
@@ -44,7 +45,7 @@ def modal_system(
     ----------
     exponents, driven, free, rows, columns, **planes
         See :func:`~carom.core.layout.rotor_record`.
-    rest, shapes, inverse, forced, translation
+    rest, shapes, inverse, forced, translation, clearances
         See :class:`System`.
     races : RaceModes, optional
         Further modes, of races that turn.
@@ -85,7 +86,7 @@ def modal_system(
         **planes,
     )
     moved = None if forced is None else filled(forced)
-    return System(arrays, rest, filled(shapes, 1), filled(inverse), translation, moved, races, shaft)
+    return System(arrays, rest, filled(shapes, 1), filled(inverse), translation, moved, races, shaft, clearances)
 
 
 @checked

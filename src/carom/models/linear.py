@@ -53,7 +53,7 @@ class LinearRotor(Result):
     translation : array_like of complex, shape (n,), optional
         Coordinates when the rotor as a whole is displaced by one: the direction of kicks.  Ones by default.
     scales : Scales, optional
-        Unit of the mass matrix, clearance of the planes, and speed: they convert results to SI units.
+        Unit of the mass matrix, unit of length (the clearance of planes that state none of their own), and speed: they convert results to SI units.
     shaft : Shaft, optional
         Shaft whose speed changes in contact, from the nominal one on; by default the speed is constant.  Of a rotor without gyroscopic
         matrix: otherwise the modes would change with the speed.
@@ -215,6 +215,7 @@ class LinearRotor(Result):
             **walls_as_arrays([each.wall(mass) for each, mass in zip(self.touchdowns, masses, strict=True)]),
             masses=masses,
             translation=self.translation,
+            clearances=tuple(each.clearance for each in self.touchdowns),
         )
 
     def _check_inverses(self) -> None:

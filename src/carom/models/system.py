@@ -17,6 +17,7 @@ from carom.models.nodes import Nodes
 from carom.models.race import RaceModes
 from carom.models.shaft import ShaftModes
 from carom.outcome import InputError
+from carom.parameters import Scales
 from carom.results import Result
 
 TABLES = 32
@@ -77,6 +78,8 @@ class System(Result):
         The modes of races that turn: they are not free, but friction changes them.
     shaft : ShaftModes, optional
         Those of a shaft whose speed changes.  The frame turns at its nominal speed.
+    clearances : tuple of float, optional
+        Clearance of each plane in the unit of length of the rotor's scales; ones by default.
     """
 
     arrays: np.record
@@ -87,6 +90,7 @@ class System(Result):
     forced: np.ndarray | None = None
     races: RaceModes | None = None
     shaft: ShaftModes | None = None
+    clearances: tuple[float, ...] | None = None
 
     @cached_property
     def table(self) -> np.record:
@@ -355,6 +359,18 @@ class System(Result):
             and bool(arrays["driven"][1])
             and arrays["law"].tolist() == [0]
         )
+
+    def scales_at(self, plane: int, scales: Scales | None) -> Scales | None:
+        """Scales of what is told of a contact plane: its own clearance is the unit of length, the unit of energy is that of the rotor."""
+        wide = float(self.widths[plane])
+        if scales is None or wide == 1.0:
+            return scales
+        return Scales(scales.mass / wide**2, scales.clearance * wide, scales.speed)
+
+    @cached_property
+    def widths(self) -> np.ndarray:
+        """Clearance of each plane in the unit of length of the rotor's scales, shape (P,): a force at a plane is so many times smaller in its own unit."""
+        return np.ones(len(self.arrays["offsets"])) if self.clearances is None else np.array(self.clearances)
 
     def at_planes(self, amplitudes: np.ndarray, planes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Displacement and its rate, shape (m,), for each of the mode amplitudes (m, N) at its own contact plane."""

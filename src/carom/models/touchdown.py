@@ -160,6 +160,8 @@ class Touchdown:
         Slip velocity of a rotor at rest in the co-rotating frame: ``s + 1``, with the rotor radius ``s`` at the plane in clearances.
     race : Race, optional
         Inner race that turns; by default it stands still.
+    clearance : float, optional
+        Clearance there in the unit of length of the rotor's scales, 1 by default: results at the plane in SI units need it, the equations do not.
 
     Raises
     ------
@@ -172,6 +174,7 @@ class Touchdown:
     friction: NotNegative
     surface_speed: _Forward
     race: Race | None = None
+    clearance: Positive = 1.0
 
     def __post_init__(self) -> None:
         row = np.array(self.plane, complex) if _are_numbers(self.plane) else np.empty(0)
@@ -215,6 +218,7 @@ class Touchdown:
             "friction": self.friction,
             "surface_speed": self.surface_speed,
             "race": race,
+            "clearance": self.clearance,
         }
 
     @classmethod
@@ -224,7 +228,7 @@ class Touchdown:
         (law,) = (each for each in get_args(Law) if each.law == name)
         plane = [complex(*number) for number in given["plane"]]
         race = Race(**given["race"]) if given["race"] is not None else None
-        return cls(plane, law(**numbers), given["friction"], given["surface_speed"], race)
+        return cls(plane, law(**numbers), given["friction"], given["surface_speed"], race, given.get("clearance", 1.0))
 
     def wall(self, mass: float) -> Wall:
         """The numbers of its wall, as the kernels take them, if the plane resists impulses with this mass."""

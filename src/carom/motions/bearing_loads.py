@@ -234,7 +234,7 @@ def _at_plane(parts: list[Trajectory]) -> PlaneLoads:
         fastest_race=fastest,
         in_contact_since=_in_contact_since(parts),
         whirl=_last_whirl(parts),
-        scales=last.rotor.scales,
+        scales=last.scales,
     )
 
 

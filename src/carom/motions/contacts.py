@@ -154,8 +154,9 @@ class ContactLog(Table):
         blows: Blows,
         before: np.ndarray,
         after: np.ndarray,
+        scales: Scales | None,
     ) -> ContactLog:
-        """Log of impacts from their impulses, and amplitudes just before and just after, shape (n, N)."""
+        """Log of impacts from their impulses, amplitudes just before and just after, shape (n, N), and the scales of the plane."""
         system, planes = rotor.system, blows.planes
         arrays = system.arrays
         angle, radial, angular = polar(*system.at_planes(before, planes))
@@ -189,7 +190,7 @@ class ContactLog(Table):
             by_poisson=np.isin(blows.events, blows.events[unlike & (-blows.impulses.real > UNLIKE)]),
             contact_work=normal_work + 0.5 * tangential * (slip + slip_after),
             drive_work=-radius * (0.5 * (spin + spin_after)) * tangential,
-            scales=rotor.scales,
+            scales=scales,
         )
 
     def __len__(self) -> int:
@@ -248,7 +249,7 @@ class ContactHistory(Table):
             slip=slip,
             friction_power=friction * slip,
             drive_power=-(surface_speed - 1.0) * shaft_speed(rotor.system, amplitudes) * friction,
-            scales=rotor.scales,
+            scales=rotor.system.scales_at(plane, rotor.scales),
         )
 
     def to_dataset(self) -> xarray.Dataset:

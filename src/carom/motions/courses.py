@@ -112,7 +112,7 @@ def course_of(motion: Trajectory, until: float, samples: int = EVEN) -> Course:
         blows=None if yields(system, motion.plane) else _blows(parts, until),
         stages=tuple(part.begins for part in parts[1:] if part.begins < until),
         down=direction_of_fall(motion.rotor),
-        scales=motion.rotor.scales,
+        scales=motion.scales,
     )
 
 

@@ -100,16 +100,16 @@ def touchdown_loads(trajectory: Trajectory) -> TouchdownLoads:
     impulse on the mean of the slip velocities before and after.  The largest force and power of lasting contact on a rigid wall are those
     at the ends of its steps and at 16 nodes in each.  Loads on a wall that gives way are those of :attr:`Trajectory.touches`.
     """
-    rotor = trajectory.rotor
+    rotor, scales = trajectory.rotor, trajectory.scales
     loads = (_in_wall if yields(rotor.system, trajectory.plane) else _on_wall)(trajectory)
     bearing, pressure = bearing_of(rotor), None
-    if bearing is not None and rotor.scales is not None:
-        pressure = ball_pressure(bearing, loads["force"] * rotor.scales.force)
+    if bearing is not None and scales is not None:
+        pressure = ball_pressure(bearing, loads["force"] * scales.force)
     return TouchdownLoads(
         outcome=trajectory.outcome,
         **loads,
         contact_time=sum(contact.end - contact.start for contact in trajectory.lasting_contacts),
-        scales=rotor.scales,
+        scales=scales,
         pressure=pressure,
     )
 

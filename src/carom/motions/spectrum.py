@@ -91,4 +91,4 @@ def full_spectrum(
     amplitudes = amplitudes * np.exp(-1j * orders * (trajectory.begins + times[0]))
     kept = np.argsort(orders)
     kept = kept[np.abs(orders[kept]) <= highest_order]
-    return FullSpectrum(orders[kept], amplitudes[kept], 4.0 / turns, trajectory.rotor.scales)
+    return FullSpectrum(orders[kept], amplitudes[kept], 4.0 / turns, trajectory.scales)

@@ -175,7 +175,7 @@ def amplitudes_of(rotor: Model, state: State) -> tuple[np.ndarray, np.ndarray]:
                 system.arrays, contact, plane, amplitudes, rub_workspace(*system.arrays["columns"].shape)
             )
         elif radius > 1.0 + WALL_TOLERANCE:
-            where = "" if len(contact) == 1 else f" at plane {plane}"
+            where = "" if len(contact) == 1 else f" at plane {plane + 1}"
             raise InputError(
                 "start position", state.position, f"inside the wall, |U| <= 1 (here |U| = {radius:.12g}{where})"
             )

@@ -39,7 +39,7 @@ def trajectory_dataset(motion: Trajectory, times: np.ndarray | None = None) -> x
         ("velocity_y", velocity.imag, "velocity", "velocity"),
     ):
         words = f"{what} along {name[-1]}, co-rotating frame"
-        dataset[name] = in_units("time", values, quantity, words, motion.rotor.scales)
+        dataset[name] = in_units("time", values, quantity, words, motion.scales)
     return dataset.assign_coords(time=dataset["time"]).assign_attrs(_provenance(motion), begins=motion.begins)
 
 

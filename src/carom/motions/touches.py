@@ -172,5 +172,5 @@ def touches_of(motion: Trajectory) -> TouchLog:
         heat=-total(at.friction * at.slip),
         normal_loss=total(at.lost) + parted[np.minimum(after, len(parted) - 1)] - parted[first],
         drive_work=-(system.contacts[plane].wall.surface_speed - 1.0) * total(at.friction * at.shaft),
-        scales=motion.rotor.scales,
+        scales=motion.scales,
     )

@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     import xarray
 
     from carom.motions.touches import TouchLog
+    from carom.parameters import Scales
 
 ROUNDING = 1e-12
 """Excess over the range of times, relative to its length, that counts as rounding."""
@@ -93,6 +94,11 @@ class Trajectory(Result):
     plane: int = 0
     begins: float = 0.0
     earlier: tuple[Trajectory, ...] = ()
+
+    @property
+    def scales(self) -> Scales | None:
+        """Scales of what is told of the contact plane: lengths there are in its own clearance."""
+        return self.rotor.system.scales_at(self.plane, self.rotor.scales)
 
     @property
     def parts(self) -> tuple[Trajectory, ...]:
@@ -176,7 +182,7 @@ class Trajectory(Result):
 
     def _log(self, blows: Blows) -> ContactLog:
         times, after = self.segment_starts[1:][blows.events], self.segment_amplitudes[1:][blows.events]
-        return ContactLog.from_states(self.rotor, times, blows, self.arrivals[blows.events], after)
+        return ContactLog.from_states(self.rotor, times, blows, self.arrivals[blows.events], after, self.scales)
 
     @cached_property
     def lasting_contacts(self) -> tuple[LastingContact, ...]:

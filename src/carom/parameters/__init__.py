@@ -22,7 +22,7 @@
 ``indentation``           whether a rigid wall is a valid model under a load
 ``restitution``           restitution and what a wall that gives way dissipates
 ``requirement``           :class:`Requirement`: what a machine must survive
-``machine_file``          :func:`load`: file and settings -> :class:`Case`
+``machine_file``          :class:`Case`: what the tables of a planar rotor and settings describe
 ``told``                  sizes and numbers as people write them: mm/s, g, degrees
 ``in_terms``              :func:`in_terms_of`: values in the terms of the file
 ========================  =================================================================
@@ -42,7 +42,7 @@ from carom.parameters.gravity import GRAVITY_FIELDS, Gravity
 from carom.parameters.in_terms import InTerms, in_terms_of
 from carom.parameters.load_limits import LIMIT_FIELDS, LoadLimits
 from carom.parameters.machine import Machine
-from carom.parameters.machine_file import Case, Zones, load
+from carom.parameters.machine_file import Case, Zones
 from carom.parameters.numbers import Numbers, Parameters
 from carom.parameters.quantities import read_quantity
 from carom.parameters.requirement import (
@@ -99,7 +99,6 @@ __all__ = [
     "field_to_set",
     "field_to_vary",
     "in_terms_of",
-    "load",
     "own_size",
     "read_quantity",
     "read_size",

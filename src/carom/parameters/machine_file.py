@@ -1,17 +1,14 @@
-"""Read a machine file, and settings on the command line, as the case to study."""
+"""Case to study: what the tables of a machine file and settings on the command line make of a planar rotor."""
 
 from __future__ import annotations
 
-import os
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
-from importlib import import_module
 from numbers import Real
-from pathlib import Path
 from typing import Any, cast
 
 from carom.arguments import checked
-from carom.outcome import InputError, Problems, printable, shown, together
+from carom.outcome import InputError, Problems, shown, together
 from carom.parameters.drive import Drive
 from carom.parameters.fields import DIMENSIONLESS_FIELDS, PHYSICAL_PARTNER, name_errors, unknown_names
 from carom.parameters.gravity import Gravity, refused
@@ -25,7 +22,7 @@ from carom.parameters.scaling import Scales
 from carom.parameters.settings import GRAVITY_NAME
 from carom.parameters.terms import ENTRIES, SETTABLE, check_names, set_by
 from carom.parameters.told import number, shown_in, told
-from carom.parameters.toml_reader import MachineTables, read_machine_tables
+from carom.parameters.toml_reader import MachineTables
 from carom.parameters.touchdown_bearing import PREFIX, TOUCHDOWN_FIELDS, TouchdownBearing
 from carom.tabular import Tabular
 
@@ -216,54 +213,19 @@ class Case(Tabular):
         return replace(self, parameters=machine.parameters.replace(**numbers), machine=machine)
 
 
-@checked
-def load(path: str | os.PathLike[str], settings: Iterable[str] = ()) -> Case:
-    """Read a machine file and apply settings to it.
-
-    Parameters
-    ----------
-    path : path
-        TOML file with a ``[machine]`` or a ``[dimensionless]`` table, and perhaps ``[zones]``, ``[limits]``,
-        ``[survive]``, ``[gravity]``, ``[touchdown]`` and ``[drive]``; or with a ``[rotor]`` table and those of the parts of a flexible
-        machine, whose case holds a model.
-    settings : iterable of str
-        Texts ``"name=value"`` as in ``--set``; the name is a machine field, a dimensionless parameter, or ``gravity``
-        for its acceleration, or an entry of the touchdown bearing, such as ``touchdown_stiffness``.
-        Physical values are set first. A dimensionless one set on a machine keeps mass, speed and clearance and
-        changes its partner: ``gamma`` the damping, ``omega`` the stiffness, ``rho`` the eccentricity, ``phi`` the
-        unbalance phase, ``mu`` the friction, ``d`` the restitution, ``radius_ratio`` the rotor radius.
+def read_planar_case(name: str, tables: MachineTables, texts: dict[str, str], problems: Problems) -> Case:
+    """Case of a file with a ``[machine]`` or a ``[dimensionless]`` table and these settings.
 
     Raises
     ------
     InputError
-        If the file cannot be used, or a setting has no value, has an unknown name, has a value that is not allowed,
-        sets the same quantity as another one, or sets a physical value of a file without scales.  It reports all
-        errors at once.
+        Errors of the tables and the settings, together with those found before.
 
     Warns
     -----
     CaromWarning
         The rotor radius is less than 5 clearances: a unit was probably forgotten.
-
-    See Also
-    --------
-    carom.parameters.Machine : the same values, given in Python
-    carom.models.LinearRotor : any linear rotor, from its matrices
-
-    Examples
-    --------
-    >>> import carom as cm
-    >>> case = cm.load("examples/keogh-cole.toml", ["speed=1500 rpm", "gamma=0.1"])
-    >>> case.parameters.gamma
-    0.1
     """
-    problems = Problems()
-    tables = read_machine_tables(path, problems)
-    texts = split_settings(settings, problems)
-    if tables.kind == "rotor":
-        # The layers forbid imports from above; who reads a planar rotor does not wait for models and kernels to load.
-        read = import_module("carom.rotors.machine_file").read_flexible_case
-        return cast("Case", read(printable(Path(path).stem), tables, texts, problems))
     zones = problems.attempt(_read_zones, tables.zones)
     limits = problems.attempt(LoadLimits.of, tables.limits, tables.kind == "machine") or LoadLimits()
     of_machine = tables.kind == "machine"
@@ -290,7 +252,6 @@ def load(path: str | os.PathLike[str], settings: Iterable[str] = ()) -> Case:
         physical = {name: text for name, text in texts.items() if name in SETTABLE and name not in DIMENSIONLESS_FIELDS}
         problems.attempt(_refuse_physical, physical)
     problems.raise_all()
-    name = printable(Path(path).stem)
     rest = (zones or Zones(), limits, requirement or Requirement(), gravity, touchdown, drive)
     if isinstance(base, Machine):
         case = Case(name, base.parameters, base, *rest).replace(**texts)

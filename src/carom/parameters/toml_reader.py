@@ -54,6 +54,8 @@ class MachineTables:
     """Entries of the optional table ``[drive]``."""
     parts: Mapping[str, list[Mapping[str, Any]]] = field(default_factory=dict)
     """Tables for each part of a flexible rotor by their name, such as ``[[section]]``."""
+    folder: Path = Path()
+    """Where the file lies: paths in it start there."""
 
 
 def read_machine_tables(path: str | os.PathLike[str], problems: Problems) -> MachineTables:
@@ -88,7 +90,7 @@ def read_machine_tables(path: str | os.PathLike[str], problems: Problems) -> Mac
         for name in lists
         if isinstance(content.get(name, ()), list | tuple)
     }
-    return MachineTables(kinds[0], content[kinds[0]], **optional, parts=parts)
+    return MachineTables(kinds[0], content[kinds[0]], **optional, parts=parts, folder=Path(name).parent)
 
 
 def _is_table(value: object) -> bool:

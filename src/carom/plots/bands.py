@@ -51,7 +51,7 @@ def bands_over_time(axes: Axes, trajectory: Trajectory) -> None:
     for kind in _KINDS:
         spans = [span for span in trajectory.lasting_contacts if span.kind == kind]
         times = np.array([moment for span in spans for moment in (span.start, span.end, np.nan)])
-        scales = trajectory.rotor.scales
+        scales = trajectory.scales
         wall = np.where(np.isnan(times), np.nan, clearance(scales))
         _band(axes, kind, told_in("time", scales)[0] * times, wall)
 
@@ -64,7 +64,7 @@ def bands_on_the_circle(axes: Axes, trajectory: Trajectory, frame: Frame, since:
             for span in trajectory.lasting_contacts
             if span.kind == kind and span.end > since
         ]
-        line = clearance(trajectory.rotor.scales) * np.concatenate(arcs) if arcs else np.zeros(0, complex)
+        line = clearance(trajectory.scales) * np.concatenate(arcs) if arcs else np.zeros(0, complex)
         _band(axes, kind, line.real, line.imag)
 
 

@@ -164,7 +164,7 @@ def _of_orbit(orbit: Orbit, periods: int) -> History:
 
 
 def _of_trajectory(trajectory: Trajectory, since: float = 0.0) -> History:
-    scales = trajectory.rotor.scales
+    scales = trajectory.scales
     unit, times, contacts = told_in("time", scales)[0], drawing_times(trajectory, since), trajectory.contacts
     times = np.unique(np.concatenate([[since], times, [trajectory.time]]))  # contact may last over both ends
     shown = contacts.time >= since

@@ -152,20 +152,20 @@ def motion(
     last = trajectory.time - turns * math.tau if long else since
     sides: tuple[tuple[Frame, Axes], ...] = (("rotating", frames[0]), ("fixed", frames[1]))
     for frame, drawn in sides:
-        clearance_circle(drawn, wall=clearance(trajectory.rotor.scales))
-        label_frame(drawn, frame, trajectory.rotor.scales)
+        clearance_circle(drawn, wall=clearance(trajectory.scales))
+        label_frame(drawn, frame, trajectory.scales)
         if long:
             _before(drawn, trajectory, frame, since, last, _FIRST * turns * math.tau)
         words = f"{LOOKS['path'].words}, last {counted(turns, 'turn')}" if long else LOOKS["path"].words
         _stretch(drawn, trajectory, frame, (last, trajectory.time), replace(LOOKS["path"], words=words))
         bands_on_the_circle(drawn, trajectory, frame, since)
-        ends = clearance(trajectory.rotor.scales) * trajectory.position(np.array([since, trajectory.time]), frame)
+        ends = clearance(trajectory.scales) * trajectory.position(np.array([since, trajectory.time]), frame)
         point(drawn, complex(ends[0]), "start", size=3.5)
         point(drawn, complex(ends[1]), "end", size=5.5, label=f"end: {trajectory.outcome.words}")
-    wall = clearance(trajectory.rotor.scales)
+    wall = clearance(trajectory.scales)
     _levitation(frames[0], complex(trajectory.rotor.system.arrays.offsets[trajectory.plane]), wall)
     if axes is None:
-        time = time_in_words(trajectory.time, trajectory.rotor.scales)
+        time = time_in_words(trajectory.time, trajectory.scales)
         words = f"{counted(len(trajectory.contacts), 'impact')} in {time} \N{EM DASH} {trajectory.outcome.words}"
         figure.suptitle(title or words)
         key(figure, frames, columns=4)
@@ -176,7 +176,7 @@ def _stretch(axes: Axes, trajectory: Trajectory, frame: Frame, ends: tuple[float
     """Draw the path and the impacts of a stretch of a motion."""
     times = drawing_times(trajectory, *ends)
     times = np.append(ends[0], times[times > ends[0]])
-    wall = clearance(trajectory.rotor.scales)
+    wall = clearance(trajectory.scales)
     line = wall * trajectory.position(times, frame)
     flight = np.where(flying(trajectory, times), line, complex(np.nan, np.nan))
     path(axes, flight, look, wall=wall)
@@ -196,7 +196,7 @@ def _before(axes: Axes, trajectory: Trajectory, frame: Frame, since: float, last
         look = replace(_BEGINNING, words=f"its first {number(beginning / math.tau)} turns")
         _stretch(axes, trajectory, frame, (since, since + beginning), look)
     times = np.arange(since, last, math.tau)
-    places = clearance(trajectory.rotor.scales) * trajectory.position(times, frame)
+    places = clearance(trajectory.scales) * trajectory.position(times, frame)
     axes.plot(places.real, places.imag, ls="none", **_ONCE, label="before: once a turn of the shaft", gid="once a turn")
 
 

@@ -70,7 +70,7 @@ def touchdown(trajectory: Trajectory, ledger: EnergyLedger | None = None, title:
 def regimes(trajectory: Trajectory, *, axes: Axes | None = None) -> Figure:
     """Draw two ribbons over time: the regime (flight, sliding, rolling) and the direction of whirl."""
     figure, drawn = one_axes(axes, (TWO_COLUMNS, 0.2 * TWO_COLUMNS))
-    scales = trajectory.rotor.scales
+    scales = trajectory.scales
     unit = told_in("time", scales)[0]
     ends = unit * np.append(trajectory.segment_starts, trajectory.time)
     shown = {}
@@ -122,7 +122,7 @@ def forces(trajectory: Trajectory, *, axes: Axes | None = None) -> Figure:
     Without lasting contact there is no force to draw, and the panel says so.
     """
     figure, drawn = one_axes(axes, (TWO_COLUMNS, 0.4 * TWO_COLUMNS))
-    scales = trajectory.rotor.scales
+    scales = trajectory.scales
     if trajectory.lasting_contacts:
         _contact_forces(drawn, trajectory)
     else:
@@ -139,7 +139,7 @@ def forces(trajectory: Trajectory, *, axes: Axes | None = None) -> Figure:
 
 def _contact_forces(axes: Axes, trajectory: Trajectory) -> None:
     """Draw normal and friction force over the intervals of lasting contact."""
-    scales = trajectory.rotor.scales
+    scales = trajectory.scales
     times = _contact_times(trajectory)
     gaps = np.isnan(times)
     forces = np.full((2, len(times)), np.nan)
@@ -179,7 +179,7 @@ def _contact_times(trajectory: Trajectory) -> Floats:
 def _impulses(axes: Axes, trajectory: Trajectory) -> None:
     """Draw the normal impulses as stems, on a separate axis at the right."""
     beside = axes.twinx()
-    log, scales = trajectory.contacts, trajectory.rotor.scales
+    log, scales = trajectory.contacts, trajectory.scales
     unit, name = told_in("impulse", scales)
     times, heights = told_in("time", scales)[0] * log.time, unit * log.normal_impulse
     look = LOOKS["path"]

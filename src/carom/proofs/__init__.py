@@ -28,6 +28,15 @@
 ``evidence``        what a search found, so that a check need not search
 ``theorems``        the theorems by name
 ``proving``         prove, at a precision that rises by itself
+``patches``         patches of states, and the flights that leave them
+``passages``        what happens next on all flights of a patch
+``strikes``         states after an impact
+``recoveries``      whether all states of a patch return
+``kick_cells``      the disc of kicks as cells that halve one another
+``kick_discs``      what is proven of a cell
+``kick_search``     the search for cells, in several processes
+``kick_claims``     claims about kicks
+``kicks``           prove_kicks, as far as a time allows
 ``certificates``    proofs as JSON, and their check
 ==================  ==============================================================
 """
@@ -43,6 +52,7 @@ from carom.proofs.balls import Enclosure
 from carom.proofs.certificates import check
 from carom.proofs.claims import Claim, Proof
 from carom.proofs.hypotheses import Hypotheses, hypotheses_of
+from carom.proofs.kicks import prove_kicks
 from carom.proofs.proving import prove
 
-__all__ = ["Claim", "Enclosure", "Hypotheses", "Proof", "check", "hypotheses_of", "prove"]
+__all__ = ["Claim", "Enclosure", "Hypotheses", "Proof", "check", "hypotheses_of", "prove", "prove_kicks"]

@@ -120,6 +120,12 @@ class Enclosure:
         return self.low if self.low == self.high else f"[{self.low}, {self.high}]"
 
 
+def enclosure_of_fraction(number: Fraction) -> Enclosure:
+    """Decimal enclosure of a rational number: the number itself, if it has few enough digits."""
+    low, high = (_decimal(number, _MOST_DIGITS, rounding) for rounding in (ROUND_FLOOR, ROUND_CEILING))
+    return Enclosure(low, high, (number, number))
+
+
 def enclosures_of(**balls: Any) -> dict[str, Enclosure]:
     """Decimal enclosures of those real balls that are bounded."""
     return {name: enclosure_of(ball) for name, ball in balls.items() if ball.is_finite()}

@@ -17,9 +17,10 @@ from pathlib import Path
 from typing import Any, Literal, cast
 
 from carom.arguments import checked
+from carom.loading import load
 from carom.models import Subject, jeffcott_of
 from carom.outcome import InputError, Problems, shown, together
-from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, PARAMETERS, Machine, load
+from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, PARAMETERS, Machine
 from carom.parameters.exact import ExactNumber, read_exact
 from carom.parameters.fields import name_errors, unknown_name
 from carom.parameters.terms import DEFAULTS, check_names

@@ -11,6 +11,7 @@ from typing import Any
 
 from carom.proofs.claims import Claim, claim_of
 from carom.proofs.evidence import Evidence, rational_of
+from carom.proofs.kick_claims import NOT_CLAIMED, OPTIONS, THEOREM, kick_claims
 from carom.proofs.periods import Periods, all_periods
 from carom.proofs.points import point_claims
 from carom.proofs.ranges import range_claims
@@ -139,5 +140,6 @@ THEOREMS: Mapping[str, Theorem] = {
         ),
         ("along", "from", "to", "blocks", "narrowest"),
     ),
+    THEOREM: Theorem(kick_claims, NOT_CLAIMED, OPTIONS),
 }
 """Theorems by their names in certificates."""

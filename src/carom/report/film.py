@@ -271,7 +271,7 @@ def film_of(motion: Trajectory) -> Film:
     race = races_of(motion.rotor)[motion.plane]
     return Film(
         course=course_of(motion, until, samples),
-        units=Units.of(motion.rotor.scales),
+        units=Units.of(motion.scales),
         magnified=CLEARANCE / ROTOR * (float(motion.rotor.system.arrays.surface_speed[motion.plane]) - 1.0),
         race_radius=None if race is None else race.radius,
         whole=until == shown,

@@ -10,7 +10,11 @@
 ``state_spaces``          :class:`StateSpace`: linear systems with one input and one output
 ``controllers``           :class:`PID`, :class:`TransferFunction`, and those of other libraries
 ``magnetic_bearing``      :class:`MagneticBearing`: magnet, sensors, and what is between both
+``free_rotor``            what all rotors have in common, however their matrices are made
 ``flexible_rotor``        :class:`FlexibleRotor`: a shaft with discs as finite elements
+``matrix_checks``         what matrices of a rotor must be
+``matrix_rotor``          :class:`MatrixRotor`: a rotor by its matrices
+``rotor_files``           :func:`read_rotor`, :func:`write_rotor`: files of matrices
 ``attachments``           :class:`Unbalance`, :class:`TouchdownPlane`
 ``reduction``             few vectors in place of all coordinates
 ``equations``             equations of motion in SI units
@@ -36,7 +40,9 @@ from carom.rotors.flexible_rotor import FlexibleRotor
 from carom.rotors.loop_sensitivity import Sensitivity, sensitivity
 from carom.rotors.machine_file import load_machine
 from carom.rotors.magnetic_bearing import MagneticBearing
+from carom.rotors.matrix_rotor import MatrixRotor
 from carom.rotors.reduced_machine import ReducedMachine
+from carom.rotors.rotor_files import read_rotor, write_rotor
 from carom.rotors.sections import Material, Section
 from carom.rotors.state_spaces import StateSpace
 from carom.rotors.unbalance import FlexibleResponse, unbalance_response
@@ -52,6 +58,7 @@ __all__ = [
     "FlexibleRotor",
     "MagneticBearing",
     "Material",
+    "MatrixRotor",
     "ModalDamping",
     "ProportionalDamping",
     "ReducedMachine",
@@ -65,6 +72,8 @@ __all__ = [
     "campbell",
     "find_whirls",
     "load_machine",
+    "read_rotor",
     "sensitivity",
     "unbalance_response",
+    "write_rotor",
 ]

@@ -14,7 +14,7 @@ UNBALANCE_FIELDS: Mapping[str, Field] = by_name(
     Field("size", "", "unbalance", "an unbalance", "kg m", 1e-15, 1e6, '"10 g mm"', True),
     Field("angle", "", "angle of the unbalance", "an angle", "rad", -1e6, 1e6, '"90 deg"'),
 )
-PLANE_FIELDS: Mapping[str, Field] = {name: MACHINE_FIELDS[name] for name in ("rotor_radius", "friction")}
+PLANE_FIELDS: Mapping[str, Field] = {name: MACHINE_FIELDS[name] for name in ("rotor_radius", "friction", "clearance")}
 
 
 @dataclass(frozen=True)
@@ -57,6 +57,8 @@ class TouchdownPlane:
     rotor_radius : float or str
         Radius of the rotor there, m.
     friction : float or str
+    clearance : float or str, optional
+        Radial clearance there, m; by default that of the machine.
 
     Raises
     ------
@@ -68,6 +70,7 @@ class TouchdownPlane:
     bearing: TouchdownBearing
     rotor_radius: float
     friction: float
+    clearance: float | None = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "node", read_node("touchdown node", self.node))

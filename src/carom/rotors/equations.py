@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from carom.rotors.attachments import TouchdownPlane, Unbalance
-from carom.rotors.flexible_rotor import FlexibleRotor
+from carom.rotors.free_rotor import FreeRotor
 from carom.rotors.magnetic_bearing import MagneticBearing
 from carom.rotors.reduction import RIGID, Basis
 
@@ -62,7 +62,7 @@ class Loops(NamedTuple):
     """Shape (P, n)."""
 
 
-def loops_of(rotor: FlexibleRotor, bearings: Sequence[MagneticBearing], planes: Sequence[TouchdownPlane]) -> Loops:
+def loops_of(rotor: FreeRotor, bearings: Sequence[MagneticBearing], planes: Sequence[TouchdownPlane]) -> Loops:
     """Where forces act and displacements are measured."""
     none = np.empty((0, len(rotor.mass_matrix)))
     return Loops(
@@ -74,7 +74,7 @@ def loops_of(rotor: FlexibleRotor, bearings: Sequence[MagneticBearing], planes: 
     )
 
 
-def row_of(rotor: FlexibleRotor, node: int) -> np.ndarray:
+def row_of(rotor: FreeRotor, node: int) -> np.ndarray:
     """Displacement at a node per coordinate of the finite elements, shape (n,)."""
     row = np.zeros(len(rotor.mass_matrix))
     row[rotor.displacement_at(node)] = 1.0
@@ -82,7 +82,7 @@ def row_of(rotor: FlexibleRotor, node: int) -> np.ndarray:
 
 
 def equations_of(
-    rotor: FlexibleRotor,
+    rotor: FreeRotor,
     basis: Basis,
     bearings: Sequence[MagneticBearing],
     touchdowns: Sequence[TouchdownPlane],
@@ -129,16 +129,16 @@ def equations_of(
     return Equations(mass, damping, gyroscopic, stiffness, forcing, left, planes, currents)
 
 
-def _damping(rotor: FlexibleRotor, basis: Basis) -> np.ndarray:
-    """Damping of the vectors: of each mode its own, which couples it with nothing."""
+def _damping(rotor: FreeRotor, basis: Basis) -> np.ndarray:
+    """Damping of the vectors: of each mode its own, which couples it with nothing, unless a matrix of damping is given."""
     matrix = basis.shapes.T @ rotor.damping_matrix @ basis.shapes
-    matrix[: basis.modes], matrix[:, : basis.modes] = 0.0, 0.0
-    rates = [rotor.damping.rate(each) for each in basis.frequencies[: basis.modes].tolist()]
-    matrix[range(basis.modes), range(basis.modes)] = rates
+    if rotor.damping_rates is not None:
+        matrix[: basis.modes], matrix[:, : basis.modes] = 0.0, 0.0
+        matrix[range(basis.modes), range(basis.modes)] = rotor.damping_rates[: basis.modes]
     return 0.5 * (matrix + matrix.T)
 
 
-def _gyroscopic(rotor: FlexibleRotor, basis: Basis) -> np.ndarray:
+def _gyroscopic(rotor: FreeRotor, basis: Basis) -> np.ndarray:
     """Gyroscopic matrix of the vectors: none of the translation, to the last digit."""
     matrix = basis.shapes.T @ rotor.gyroscopic_matrix @ basis.shapes
     matrix[: RIGID - 1], matrix[:, : RIGID - 1] = 0.0, 0.0

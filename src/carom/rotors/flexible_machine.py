@@ -16,7 +16,7 @@ from carom.parameters import Field, Gravity
 from carom.rotors.attachments import TouchdownPlane, Unbalance
 from carom.rotors.entries import read_entries
 from carom.rotors.equations import loops_of
-from carom.rotors.flexible_rotor import FlexibleRotor
+from carom.rotors.free_rotor import FreeRotor
 from carom.rotors.machine_parameters import (
     WHOLE,
     Entry,
@@ -47,11 +47,11 @@ class FlexibleMachine:
 
     Attributes
     ----------
-    rotor : FlexibleRotor
+    rotor : FlexibleRotor or MatrixRotor
     speed : float or str
         Rotational speed, rad/s, or text such as ``"3000 rpm"``.
     clearance : float or str
-        Radial clearance at all touchdown bearings, m.
+        Radial clearance, m, at touchdown bearings that state none of their own; lengths of the model are in this unit.
     bearings : sequence of MagneticBearing
         Without any the rotor is free.
     touchdowns : sequence of TouchdownPlane
@@ -66,7 +66,7 @@ class FlexibleMachine:
         A part is of another kind, a value is out of range, a part sits at a node that the shaft does not have, or two bearings of one kind at one node.
     """
 
-    rotor: FlexibleRotor
+    rotor: FreeRotor
     speed: float
     clearance: float
     bearings: Sequence[MagneticBearing]
@@ -76,8 +76,8 @@ class FlexibleMachine:
 
     def __post_init__(self) -> None:
         rotor: Any = self.rotor
-        if not isinstance(rotor, FlexibleRotor):
-            raise InputError("rotor", shown(rotor), "carom.rotors.FlexibleRotor")
+        if not isinstance(rotor, FreeRotor):
+            raise InputError("rotor", shown(rotor), "carom.rotors.FlexibleRotor or MatrixRotor")
         if not isinstance(self.gravity, Gravity | None):
             raise InputError("gravity", shown(self.gravity), "carom.parameters.Gravity, or None")
         for name, kind in _KINDS.items():
@@ -100,6 +100,11 @@ class FlexibleMachine:
             if twice := [node for place, node in enumerate(nodes) if node in nodes[:place]]:
                 allowed = "a node of its own for each: several at one node are one with the sum of their forces"
                 raise InputError(f"{name.removesuffix('s')} node", twice[0], allowed)
+
+    @property
+    def clearances(self) -> tuple[float, ...]:
+        """Radial clearance at each touchdown bearing, m."""
+        return tuple(each.clearance or self.clearance for each in self.touchdowns)
 
     @cached_property
     def entries(self) -> Mapping[str, Entry]:
@@ -151,10 +156,9 @@ class FlexibleMachine:
             return 0.0
         vectors = len(basis.frequencies)
         finer = self.basis(min(total, basis.modes + round((MORE - 1.0) * vectors)))
-        energy = self.rotor.mass * FALL * self.clearance
-        loops = loops_of(self.rotor, (), self.touchdowns)
-        planes = zip(loops.touchdowns, self.touchdowns, strict=True)
-        return max(contact_error(basis, finer, row, plane.stiffness(energy)) for row, plane in planes)
+        weight, loops = self.rotor.mass * FALL, loops_of(self.rotor, (), self.touchdowns)
+        planes = zip(loops.touchdowns, self.touchdowns, self.clearances, strict=True)
+        return max(contact_error(basis, finer, row, plane.stiffness(weight * room)) for row, plane, room in planes)
 
     @checked
     def reduce(self, accuracy: Positive = ACCURACY) -> ReducedMachine:

@@ -101,7 +101,9 @@ class FlexibleModel(LinearRotor):
         if own == "mu":
             return self._made(**{f"friction{plane}": value})
         if own == "radius_ratio":
-            return self._made(**{f"rotor_radius{plane}": value * reduced.machine.clearance})
+            rooms = dict(enumerate(reduced.machine.clearances, start=1))
+            planes = [int(number)] if number else list(rooms)
+            return self._made(**{f"rotor_radius_{plane}": value * rooms[plane] for plane in planes})
         turn, factor = 0.0, 1.0
         if own == "rho":
             present = self.value(own)

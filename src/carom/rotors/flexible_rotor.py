@@ -16,7 +16,7 @@ from carom.parameters.fields import length_field
 from carom.rotors.beams import beam_element
 from carom.rotors.damping import Damping
 from carom.rotors.discs import Disc
-from carom.rotors.free_modes import FreeModes, free_modes
+from carom.rotors.free_rotor import FreeRotor, RotorMatrices
 from carom.rotors.sections import Section
 
 ELEMENTS = 32
@@ -27,14 +27,11 @@ LONGEST = length_field("longest_element", "", "longest element", 1e-6, 1e3, '"20
 
 
 @dataclass(frozen=True, eq=False)
-class FlexibleRotor:
+class FlexibleRotor(FreeRotor):
     """A shaft of cylindrical sections with discs, by finite elements of Timoshenko's beam, in SI units.
 
     Nodes are the boundaries of the sections: 0 is the beginning of the first one.  Each section is divided into elements.
-    Coordinates are a complex displacement ``x + iy``, m, and a complex tilt ``dx/ds + i dy/ds`` at the ends of all elements in turn; with the speed
-    ``Ω`` of the shaft in the fixed frame
-
-        M z̈ + (D − iΩG) ż + K z = f.
+    Coordinates are a complex displacement ``x + iy``, m, and a complex tilt ``dx/ds + i dy/ds`` at the ends of all elements in turn.
 
     Attributes
     ----------
@@ -75,12 +72,6 @@ class FlexibleRotor:
         for disc in self.discs:
             self.check_node("disc node", disc.node)
 
-    def check_node(self, name: str, node: int) -> None:
-        """Refuse a node that the shaft does not have."""
-        if node > len(self.sections):
-            length = f"{1e3 * self.length:.6g} mm"
-            raise InputError(name, node, f"a node of the shaft: 0 to {len(self.sections)}, its end at {length}")
-
     @property
     def length(self) -> float:
         """Length of the shaft, m."""
@@ -107,8 +98,14 @@ class FlexibleRotor:
         """Number of the coordinate that is the displacement of a node."""
         return 2 * sum(self.divisions[:node])
 
+    @property
+    def node_places(self) -> np.ndarray:
+        """Where its nodes are, from node 0 on, m."""
+        return np.append(0.0, np.cumsum([section.length for section in self.sections]))
+
     @cached_property
-    def _matrices(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    def matrices(self) -> RotorMatrices:
+        """``M``, ``K`` and ``G``."""
         matrices = np.zeros((3, 2 * len(self.places), 2 * len(self.places)))
         first = 0
         for section, count in zip(self.sections, self.divisions, strict=True):
@@ -116,70 +113,19 @@ class FlexibleRotor:
             for _ in range(count):
                 matrices[:, first : first + 4, first : first + 4] += element
                 first += 2
-        mass, stiffness, gyroscopic = matrices
+        found = RotorMatrices(*matrices)
         for disc in self.discs:
-            place = self.displacement_at(disc.node)
-            mass[place, place] += disc.mass
-            mass[place + 1, place + 1] += disc.diametral_inertia
-            gyroscopic[place + 1, place + 1] += disc.polar_inertia
-        matrices.flags.writeable = False
-        return mass, stiffness, gyroscopic
+            found.add_disc(disc, self.displacement_at(disc.node))
+        for each in found:
+            each.flags.writeable = False
+        return found
 
     @property
-    def mass_matrix(self) -> np.ndarray:
-        """``M``, shape (n, n): kg, kg m, kg m²."""
-        return self._matrices[0]
-
-    @property
-    def stiffness_matrix(self) -> np.ndarray:
-        """``K``, shape (n, n): N/m, N, N m."""
-        return self._matrices[1]
-
-    @property
-    def gyroscopic_matrix(self) -> np.ndarray:
-        """``G``, shape (n, n): kg, kg m, kg m²; it is multiplied by the speed of the shaft."""
-        return self._matrices[2]
-
-    @cached_property
-    def damping_matrix(self) -> np.ndarray:
-        """``D``, shape (n, n): N s/m, N s, N m s."""
-        modes = self.free_modes
-        pushed = self.mass_matrix @ modes.shapes
-        matrix: np.ndarray = (pushed * [self.damping.rate(each) for each in modes.frequencies.tolist()]) @ pushed.T
-        return matrix
-
-    @cached_property
-    def free_modes(self) -> FreeModes:
-        """All modes of the rotor at rest, free in space: translation, tilt, and bending from the lowest on."""
-        return free_modes(self.mass_matrix, self.stiffness_matrix, self.translation, self.tilt)
-
-    @cached_property
-    def translation(self) -> np.ndarray:
-        """Coordinates of the rotor displaced by 1 m, shape (n,)."""
-        return np.tile([1.0, 0.0], len(self.places))
-
-    @cached_property
-    def tilt(self) -> np.ndarray:
-        """Coordinates of the rigid rotor tilted by 1 about its centre of mass, shape (n,)."""
-        return np.stack([self.places - self.centre, np.ones(len(self.places))], axis=1).ravel()
+    def own_damping(self) -> Damping:
+        """What damps each mode by itself."""
+        return self.damping
 
     @property
     def mass(self) -> float:
         """Mass, kg."""
         return math.fsum([section.mass for section in self.sections] + [disc.mass for disc in self.discs])
-
-    @cached_property
-    def centre(self) -> float:
-        """Where its centre of mass lies along the shaft, m."""
-        along = np.stack([self.places, np.ones(len(self.places))], axis=1).ravel()
-        return float(self.translation @ self.mass_matrix @ along / self.mass)
-
-    @property
-    def diametral_inertia(self) -> float:
-        """Moment of inertia about a diameter through its centre of mass, kg m²."""
-        return float(self.tilt @ self.mass_matrix @ self.tilt)
-
-    @property
-    def polar_inertia(self) -> float:
-        """Moment of inertia about its axis, kg m²."""
-        return float(self.tilt @ self.gyroscopic_matrix @ self.tilt)

@@ -5,7 +5,10 @@ from __future__ import annotations
 import os
 import warnings
 from collections.abc import Callable, Iterable, Mapping
+from dataclasses import replace
 from typing import Any, TypeVar
+
+import numpy as np
 
 from carom.arguments import checked
 from carom.outcome import CaromWarning, InputError, Problems, shown
@@ -33,8 +36,11 @@ from carom.rotors.damping import MODAL_FIELDS, PROPORTIONAL_FIELDS, ModalDamping
 from carom.rotors.discs import DISC_FIELDS, Disc
 from carom.rotors.flexible_machine import ACCURACY, FlexibleMachine
 from carom.rotors.flexible_rotor import LONGEST, FlexibleRotor
+from carom.rotors.free_rotor import FreeRotor
 from carom.rotors.machine_parameters import unknown
 from carom.rotors.magnetic_bearing import BEARING_FIELDS, MagneticBearing
+from carom.rotors.matrix_rotor import MatrixRotor
+from carom.rotors.rotor_files import read_rotor
 from carom.rotors.sections import MATERIAL_FIELDS, SECTION_FIELDS, Material, Section
 from carom.rotors.state_spaces import StateSpace
 
@@ -45,6 +51,7 @@ ROTOR_ENTRIES: Mapping[str, Any] = {
     "speed": MACHINE_FIELDS["speed"],
     **MATERIAL_FIELDS,
     "longest_element": LONGEST,
+    "source": None,
     "accuracy": Field("accuracy", "", "error of contact forces by reduction", "a number", "", 1e-9, 1.0, "0.02"),
     **dict.fromkeys(_RENAMED),
 }
@@ -56,7 +63,7 @@ PART_ENTRIES: Mapping[str, Mapping[str, Any]] = {
     "section": {**SECTION_FIELDS, **MATERIAL_FIELDS},
     "disc": {"node": None, **DISC_FIELDS, "width": None, **by_name(*(SECTION_FIELDS[name] for name in ("outer_diameter", "inner_diameter"))), **MATERIAL_FIELDS},
     "magnetic_bearing": {"node": None, "sensor_nodes": None, **BEARING_FIELDS, **PID_FIELDS, **dict.fromkeys((*_QUOTIENT, *_MATRICES))},
-    "touchdown": {"node": None, "law": None, "clearance": MACHINE_FIELDS["clearance"], **PLANE_FIELDS, **BEARING_ENTRIES},
+    "touchdown": {"node": None, "law": None, **PLANE_FIELDS, **BEARING_ENTRIES},
     "unbalance": {"node": None, **UNBALANCE_FIELDS},
 }  # fmt: skip
 """Entries of the tables of parts."""
@@ -140,23 +147,35 @@ def _read_machine(tables: MachineTables, settings: Mapping[str, str], problems: 
         for each, given in whole.items()
         if each not in ROTOR_ENTRIES
     ]
-    steel = problems.attempt(_material, whole, Material())
-    parts = {
-        "discs": _each(tables, "disc", problems, lambda entry: _disc(entry, steel or Material())),
-        "bearings": _each(tables, "magnetic_bearing", problems, _bearing),
-        "touchdowns": _each(tables, "touchdown", problems, _plane),
-        "unbalances": _each(tables, "unbalance", problems, _unbalance),
+    steel = problems.attempt(_material, whole, Material()) or Material()
+    discs = _each(tables, "disc", problems, lambda entry: _disc(entry, steel))
+    rotor: FreeRotor | None = None
+    if "source" in whole:
+        rotor = problems.attempt(_of_source, tables, whole, discs)
+    else:
+        sections = _each(tables, "section", problems, lambda entry: _section(entry, steel))
+        if not tables.parts.get("section"):
+            allowed = (
+                "one or more tables, each with its length and outer_diameter; or [rotor] source = a file of matrices"
+            )
+            problems.errors.append(InputError("[[section]]", None, allowed))
+        damping = problems.attempt(_damping, whole)
+        if not problems.errors:
+            rotor = FlexibleRotor(sections, discs, damping, whole.get("longest_element"))  # type: ignore[arg-type]
+    parts: dict[str, list[Any]] = {
+        "bearings": _each(tables, "magnetic_bearing", problems, lambda entry: _bearing(_numbered(entry, rotor))),
+        "touchdowns": _each(tables, "touchdown", problems, lambda entry: _plane(_numbered(entry, rotor))),
+        "unbalances": _each(tables, "unbalance", problems, lambda entry: _unbalance(_numbered(entry, rotor))),
     }
-    sections = _each(tables, "section", problems, lambda entry: _section(entry, steel or Material()))
-    if not tables.parts.get("section"):
-        problems.errors.append(
-            InputError("[[section]]", None, "one or more tables, each with its length and outer_diameter")
-        )
-    damping = problems.attempt(_damping, whole)
-    clearance = problems.attempt(_clearance, tables.parts.get("touchdown", []))
+    if not tables.parts.get("touchdown"):
+        allowed = "one or more tables, each with its node, clearance, rotor_radius, friction and law"
+        problems.errors.append(InputError("[[touchdown]]", None, allowed))
     problems.raise_all()
-    rotor = FlexibleRotor(sections, parts.pop("discs"), damping, whole.get("longest_element"))  # type: ignore[arg-type]
-    machine = FlexibleMachine(rotor, whole.get("speed"), clearance, gravity=gravity, **parts)  # type: ignore[arg-type]
+    rooms = {each.clearance for each in parts["touchdowns"]}
+    narrowest = min(rooms)
+    if len(rooms) == 1:
+        parts["touchdowns"] = [replace(each, clearance=None) for each in parts["touchdowns"]]
+    machine = FlexibleMachine(rotor, whole.get("speed"), narrowest, gravity=gravity, **parts)  # type: ignore[arg-type]
     others = {name: text for name, text in settings.items() if name not in ROTOR_ENTRIES}
     problems.errors += [
         unknown(machine, each, others[each], ROTOR_ENTRIES) for each in others if each not in machine.varied
@@ -167,18 +186,47 @@ def _read_machine(tables: MachineTables, settings: Mapping[str, str], problems: 
     return machine
 
 
+def _of_source(tables: MachineTables, whole: Mapping[str, Any], discs: list[Disc]) -> MatrixRotor:
+    """The rotor of a file of matrices, beside which there are no sections."""
+    given = whole["source"]
+    if not isinstance(given, str) or not given:
+        raise InputError(
+            "source", shown(given), "the path of a file of matrices, .npz or .mat, seen from the machine file"
+        )
+    if tables.parts.get("section") or "longest_element" in whole:
+        found = "[[section]]" if tables.parts.get("section") else "longest_element"
+        raise InputError("source", shown(given), f"not allowed beside {found}: the file holds the whole shaft")
+    stated = any(name in whole for name in _RENAMED)
+    return read_rotor(tables.folder / given, _damping(whole) if stated else None, discs)
+
+
+def _numbered(entry: Mapping[str, Any], rotor: FreeRotor | None) -> dict[str, Any]:
+    """The table of a part with numbers in place of the names of nodes, which a rotor of matrices may have."""
+    if not isinstance(rotor, MatrixRotor):
+        return dict(entry)
+
+    def number(given: Any) -> Any:
+        return rotor.node_of(given) if isinstance(given, str) else given
+
+    sensors = entry.get("sensor_nodes")
+    numbers = {"sensor_nodes": list(map(number, sensors))} if isinstance(sensors, list) else {}
+    return {**entry, **({"node": number(entry["node"])} if "node" in entry else {}), **numbers}
+
+
 def _warn_of_proportions(machine: FlexibleMachine) -> None:
     """Warn of what no rotor looks like: a number without a unit is in metres, not in millimetres."""
-    length, least = machine.rotor.length, LEAST_RADIUS * machine.clearance
+    rotor, rooms = machine.rotor, machine.clearances
+    sections = rotor.sections if isinstance(rotor, FlexibleRotor) else ()
+    length = float(np.ptp(rotor.places))
     told = [
         f"[[section]] {number}: outer_diameter = {each.outer_diameter:g} m: thicker than the shaft is long, {length:.4g} m"
-        for number, each in enumerate(machine.rotor.sections, start=1)
+        for number, each in enumerate(sections, start=1)
         if each.outer_diameter > length
     ]
     told += [
-        f"[[touchdown]] {number}: rotor_radius = {each.rotor_radius:g} m: less than {LEAST_RADIUS:g} clearances of {machine.clearance:g} m"
-        for number, each in enumerate(machine.touchdowns, start=1)
-        if each.rotor_radius < least
+        f"[[touchdown]] {number}: rotor_radius = {each.rotor_radius:g} m: less than {LEAST_RADIUS:g} clearances of {room:g} m"
+        for number, (each, room) in enumerate(zip(machine.touchdowns, rooms, strict=True), start=1)
+        if each.rotor_radius < LEAST_RADIUS * room
     ]
     if told:
         text = f"{'; '.join(told)}: check the units (a number without a unit is in m)"
@@ -251,7 +299,7 @@ def _bearing(entry: dict[str, Any]) -> MagneticBearing:
 
 
 def _plane(entry: dict[str, Any]) -> TouchdownPlane:
-    _needed(entry, ("node", "law", "clearance", *PLANE_FIELDS))
+    _needed(entry, ("node", "law", *PLANE_FIELDS))
     bearing = TouchdownBearing(**_of(entry, ("law", *BEARING_ENTRIES)))
     return TouchdownPlane(entry["node"], bearing, **_of(entry, PLANE_FIELDS))
 
@@ -271,15 +319,3 @@ def _damping(whole: Mapping[str, Any]) -> ModalDamping | ProportionalDamping:
         allowed = "damping_ratio (of all bending modes, such as 0.005), or damping_of_mass and damping_of_stiffness"
         raise InputError("damping", None if not modal else "both", f"one of: {allowed}")
     return ModalDamping(**modal) if modal else ProportionalDamping(**proportional)
-
-
-def _clearance(entries: Iterable[Mapping[str, Any]]) -> Any:
-    """The clearance, which is the same at all touchdown bearings."""
-    given = [entry["clearance"] for entry in entries if "clearance" in entry]
-    if not given:
-        raise InputError(
-            "[[touchdown]]", None, "one or more tables, each with its node, clearance, rotor_radius, friction and law"
-        )
-    if any(each != given[0] for each in given):
-        raise InputError("clearance", shown(", ".join(map(str, given))), "the same in all tables [[touchdown]]")
-    return given[0]

@@ -139,8 +139,10 @@ def varied_in_model(machine: FlexibleMachine) -> dict[str, Field]:
 
 def value_of_machine(machine: FlexibleMachine, name: str) -> float:
     """Value of a parameter in SI units; refuse an unknown name, and one whose values differ between parts."""
+    if name == "clearance" and len(set(machine.clearances)) > 1:
+        raise InputError(name, list(machine.clearances), "the same at all here; each touchdown bearing has its own")
     if name in WHOLE:
-        return float(getattr(machine, name))
+        return machine.clearances[0] if name == "clearance" else machine.speed
     if name == GRAVITY_NAME:
         return machine.gravity.acceleration if machine.gravity else 0.0
     if name not in machine.entries:
@@ -164,6 +166,9 @@ def changed_machine(machine: FlexibleMachine, changes: Mapping[str, Any]) -> Fle
 
 
 def _with(machine: FlexibleMachine, name: str, given: Any) -> FlexibleMachine:
+    if name == "clearance":
+        planes = [replace(each, clearance=None) for each in machine.touchdowns]
+        return replace(machine, clearance=given, touchdowns=planes)
     if name in WHOLE:
         return replace(machine, **{name: given})
     if name == GRAVITY_NAME:

@@ -14,6 +14,7 @@ from carom.models.in_bearing import law_of, race_of
 from carom.models.weight import weighted
 from carom.outcome import InputError
 from carom.parameters import Scales
+from carom.parameters.restitution import damping_ratio_of
 from carom.results import Result
 from carom.rotors.attachments import TouchdownPlane
 from carom.rotors.equations import Equations, equations_of
@@ -22,6 +23,11 @@ from carom.rotors.reduction import Basis
 
 if TYPE_CHECKING:
     from carom.rotors.flexible_machine import FlexibleMachine
+
+SLOWEST = 3e-7
+"""Rate of an integrator, in ``Ω``, up to which its motion and the steady one under weight are one mode but for rounding."""
+SINGULAR, ROUNDED = 1e12, 1e-6
+"""Condition of the matrix of a controller above which it integrates, and share of its stiffness up to which a bearing has none."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -68,7 +74,7 @@ class ReducedMachine(Result):
 
     @cached_property
     def scales(self) -> Scales:
-        """Mass of the rotor, clearance and speed: the units of the model."""
+        """Mass of the rotor, clearance of the machine and speed: the units of the model."""
         machine = self.machine
         return Scales(machine.rotor.mass, machine.clearance, machine.speed)
 
@@ -89,7 +95,7 @@ class ReducedMachine(Result):
         Raises
         ------
         InputError
-            There are magnetic bearings, and a motion on them grows.
+            There are magnetic bearings, and a motion on them grows; or an integrator is so slow that under weight it cannot be told from none.
         """
         rotor = self.unchecked
         if self.machine.bearings and (rate := rotor.system.decay) <= 0.0:
@@ -97,8 +103,40 @@ class ReducedMachine(Result):
             speed = self.machine.speed
             hertz = worst.imag * speed / (2.0 * math.pi)
             grows = f"unstable: a whirl of {hertz:.4g} Hz grows with {-rate * speed:.4g} 1/s"
-            raise InputError("levitation", grows, "controllers that hold the rotor at this speed")
+            raise InputError("levitation", grows, f"controllers that hold the rotor at this speed{self._weak}")
+        if self.machine.gravity is not None:
+            self._check_integrators(rotor)
         return rotor
+
+    @property
+    def _weak(self) -> str:
+        """Which bearings push a steady displacement further, in words; empty if none does."""
+        found = []
+        for number, each in enumerate(self.machine.bearings, start=1):
+            loop = each.loop
+            if loop.states and np.linalg.cond(loop.A) > SINGULAR:
+                continue  # an integrator
+            stiffness = each.ki * float(loop.at(np.array(0.0)).real) + each.ks
+            if stiffness <= ROUNDED * abs(each.ks):
+                found.append(f"{number}: {stiffness:.3g} N/m")
+        return f"; static stiffness ki C(0) + ks of bearing {', '.join(found)}" if found else ""
+
+    def _check_integrators(self, rotor: FlexibleModel) -> None:
+        """Refuse an integrator so slow that what weight does to it has no digits left, and a rotor that nothing holds."""
+        slowest = float(np.abs(rotor.system.exponents + 1j).min())
+        if slowest > SLOWEST:
+            return
+        for number, bearing in enumerate(self.machine.bearings, start=1):
+            if np.abs(np.linalg.eigvals(bearing.loop.A)).min(initial=1.0) <= SLOWEST * self.machine.speed:
+                gain = getattr(bearing.controller, "integral", None)
+                name, told, faster = "controller", "a slow integrator", SLOWEST / max(slowest, 1e-300)
+                allowed = f"none, or one {faster:.2g} times as fast: this one cannot be told from none under weight"
+                if gain is not None:
+                    name, told = "integral", f"{gain:g} A/m/s"
+                    allowed = f"0, or at least {faster * gain:.2g} A/m/s: less cannot be told from none under weight"
+                raise InputError(f"[[magnetic_bearing]] {number}: {name}", told, allowed)
+        told = f"none under weight: a motion comes back with {slowest * self.machine.speed:.2g} 1/s"
+        raise InputError("levitation", told, f"controllers that hold the rotor{self._weak}")
 
     @cached_property
     def model(self) -> Model:
@@ -123,7 +161,7 @@ class ReducedMachine(Result):
         once = np.where(heavy, 1.0 / scales.speed, 1.0)[:, None]
         twice = np.where(heavy, 1.0 / scales.speed**2, 1.0 / scales.speed)[:, None]
         size = math.sqrt(scales.mass)
-        planes = zip(at.touchdowns, size * given.planes, strict=True)
+        planes = zip(at.touchdowns, at.clearances, size * given.planes, strict=True)
         return FlexibleModel.in_fixed_frame(
             reduced=self,
             mass=given.mass,
@@ -131,13 +169,21 @@ class ReducedMachine(Result):
             stiffness=twice * given.stiffness,
             gyroscopic=given.gyroscopic,
             forcing=given.forcing / (scales.length * size),
-            touchdowns=[self._touchdown(plane, row) for plane, row in planes],
+            touchdowns=[self._touchdown(*each) for each in planes],
             translation=np.eye(len(given.mass))[0],
             scales=scales,
             unlevitated=np.stack([once * given.unlevitated[0], twice * given.unlevitated[1]]),
         )
 
-    def _touchdown(self, plane: TouchdownPlane, row: np.ndarray) -> Touchdown:
-        scales, bearing = self.scales, plane.bearing
-        ratio = plane.rotor_radius / scales.length
-        return Touchdown(row, law_of(bearing, scales), plane.friction, ratio + 1.0, race_of(bearing, ratio, scales))
+    def _touchdown(self, plane: TouchdownPlane, clearance: float, row: np.ndarray) -> Touchdown:
+        """A touchdown bearing, in units in which its own clearance is the length and energies are those of the rotor."""
+        whole, bearing = self.scales, plane.bearing
+        if bearing.law == "kelvin-voigt" and bearing.restitution is not None:
+            # That of the whole mass, which is not the unit of masses at a plane.
+            ratio = damping_ratio_of(bearing.restitution)
+            damper = 2.0 * ratio * math.sqrt((bearing.stiffness or 0.0) * whole.mass)
+            bearing = bearing.replace(restitution=None, damping=damper)
+        wide, ratio = clearance / whole.length, plane.rotor_radius / clearance
+        scales = Scales(whole.mass / wide**2, clearance, whole.speed)
+        law, race = law_of(bearing, scales), race_of(bearing, ratio, scales)
+        return Touchdown(row / wide, law, plane.friction, ratio + 1.0, race, wide)

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from carom.rotors.flexible_rotor import FlexibleRotor
+from carom.rotors.free_rotor import FreeRotor
 
 DEPENDENT = 1e-10
 """Share of the elastic energy of the largest of the vectors up to which another one is counted as a sum of the others."""
@@ -34,7 +34,7 @@ class Basis(NamedTuple):
     """How many are modes of the free rotor."""
 
 
-def rubin_basis(rotor: FlexibleRotor, rows: Sequence[np.ndarray], modes: int) -> Basis:
+def rubin_basis(rotor: FreeRotor, rows: Sequence[np.ndarray], modes: int) -> Basis:
     """Vectors of a rotor: its first modes, and one for each row (n,) of what forces act on or sensors measure."""
     free = rotor.free_modes
     modes = min(modes, len(free.frequencies))

@@ -39,7 +39,7 @@ class StateSpace:
     D: float
 
     def __post_init__(self) -> None:
-        matrices = {name: _real(f"controller {name}", getattr(self, name)) for name in "ABCD"}
+        matrices = {name: real_numbers(f"controller {name}", getattr(self, name)) for name in "ABCD"}
         size = matrices["A"].shape[0] if matrices["A"].ndim == 2 else -1
         size = 0 if not matrices["A"].size else size
         for name, count in {"A": size * size, "B": size, "C": size, "D": 1}.items():
@@ -99,7 +99,7 @@ class StateSpace:
 def of_polynomials(numerator: Any, denominator: Any) -> StateSpace:
     """System of a transfer function, with coefficients from the highest power of ``s`` on; one whose numerator has the higher degree is refused."""
     above, below = (
-        np.trim_zeros(_real(f"controller {name}", given).ravel(), "f")
+        np.trim_zeros(real_numbers(f"controller {name}", given).ravel(), "f")
         for name, given in (("numerator", numerator), ("denominator", denominator))
     )
     if not len(below):
@@ -136,7 +136,7 @@ def lag(bandwidth: float) -> StateSpace:
     return StateSpace(np.array([[-bandwidth]]), np.array([bandwidth]), np.array([1.0]), 0.0)
 
 
-def _real(name: str, given: Any) -> np.ndarray:
+def real_numbers(name: str, given: Any) -> np.ndarray:
     """Finite real numbers; of a complex type too, as those of a library."""
     try:
         values = np.array(given, dtype=complex if np.iscomplexobj(given) else float)

@@ -45,12 +45,12 @@ class FlexibleResponse(Result):
     @property
     def room(self) -> np.ndarray:
         """Clearance that is left at each touchdown bearing, as a share, shape (m, P); below 0 it touches."""
-        return np.asarray(1.0 - np.abs(self.touchdowns) / self.machine.clearance)
+        return np.asarray(1.0 - np.abs(self.touchdowns) / self.machine.clearances)
 
     @property
     def zones(self) -> tuple[str, ...]:
         """Zone of ISO 14839-2 at each speed: the worst of all touchdown bearings."""
-        largest = np.abs(self.touchdowns).max(axis=1) / self.machine.clearance
+        largest = (np.abs(self.touchdowns) / self.machine.clearances).max(axis=1)
         return tuple(Zones().zone(float(each)) for each in largest)
 
 

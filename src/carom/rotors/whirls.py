@@ -29,8 +29,8 @@ class Whirl(Result):
     ----------
     exponent : complex
         ``λ``, 1/s.
-    shape : ndarray of complex, shape (E + 1,)
-        Displacement at the ends of all elements (:attr:`FlexibleRotor.places`), of which the largest is 1; the angle is where the rotor is at time zero.
+    shape : ndarray of complex, shape (N,)
+        Displacement at all places of the rotor (:attr:`FlexibleRotor.places`: the ends of all elements), of which the largest is 1; the angle is where the rotor is at time zero.
     """
 
     exponent: complex

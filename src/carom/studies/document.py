@@ -118,7 +118,7 @@ def trajectory_document(trajectory: Trajectory, limits: LoadLimits | None = None
     }
     if limits is not None and limits.stated:
         document["limits"] = [loads_entry(check) for check in check_loads(touchdown_loads(trajectory), limits)]
-    scales = trajectory.rotor.scales
+    scales = trajectory.scales
     if scales is not None:
         document["scales_si"] = _scales(scales)
     return document

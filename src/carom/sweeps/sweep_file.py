@@ -12,6 +12,7 @@ import pydantic
 
 from carom.arguments import checked
 from carom.disturbances import MODELS, Sample
+from carom.loading import load
 from carom.outcome import InputError, Problems, shown, together
 from carom.parameters import (
     DIMENSIONLESS_FIELDS,
@@ -21,7 +22,6 @@ from carom.parameters import (
     Parameters,
     Scales,
     Zones,
-    load,
     read_size,
     unknown_name,
     usual_kick,

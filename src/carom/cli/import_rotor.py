@@ -1,0 +1,65 @@
+"""``carom import-rotor``: a rotor of another program as a file of matrices."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from carom.cli.terminal import AsJson, print_document, progress
+
+
+def import_rotor(
+    source: Annotated[
+        str,
+        typer.Argument(
+            metavar="SOURCE",
+            help="A Python program that makes a rotor with ROSS (.py), what ROSS has saved (.toml, .json), or matrices (.npz, .mat).",
+        ),
+    ],
+    out: Annotated[str, typer.Option("--out", "-o", metavar="ROTOR.npz", help="Write the matrices to this file.")],
+    name: Annotated[
+        str | None,
+        typer.Option(metavar="NAME", help="Name of the rotor in the program, or of a function that returns it."),
+    ] = None,
+    python: Annotated[
+        str | None,
+        typer.Option(metavar="PYTHON", help="Python of an environment with ROSS, by default the present one."),
+    ] = None,
+    as_json: AsJson = False,
+) -> None:
+    """Import a rotor of ROSS, or matrices, and print a machine file to start from.
+
+    ROSS is started in a process of its own, which takes seconds. Written are mass, stiffness and gyroscopic matrix of the shaft with its
+    discs; bearings are in the machine file that is printed, and what it marks as ASSUMED is for you to state:
+    carom import-rotor model.py -o rotor.npz > machine.toml
+    """
+    from carom.rotors.ross_import import import_rotor as read
+    from carom.rotors.rotor_files import check_target, write_rotor
+    from carom.rotors.starter import starter_text
+
+    check_target(out)
+    with progress("reading the rotor (ROSS takes seconds to start)"):
+        found = read(source, name, python)
+    write_rotor(found.rotor, out)
+    text = starter_text(found, Path(out).name)
+    if not as_json:
+        typer.echo(text, nl=False)
+        return
+    rotor = found.rotor
+    print_document(
+        {
+            "file": out,
+            "nodes_si": rotor.nodes.tolist(),
+            "names": list(rotor.names),
+            "mass_si": rotor.mass,
+            "polar_inertia_si": rotor.polar_inertia,
+            "diametral_inertia_si": rotor.diametral_inertia,
+            "free_frequencies_si": (rotor.free_modes.frequencies[2:8] / 6.283185307179586).tolist(),
+            "damped": found.is_damped,
+            "bearings": [dict(each) for each in found.bearings],
+            "remarks": list(found.remarks),
+            "machine_file": text,
+        }
+    )

@@ -1,0 +1,33 @@
+"""``carom template``: a machine file with all its entries, to be filled in."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from carom.outcome import InputError, shown
+
+TEMPLATES = {"flexible": "flexible rotor on magnetic bearings"}
+"""Kinds of machines, of which each has a file in the folder ``templates``."""
+
+
+def template(
+    kind: Annotated[str, typer.Argument(metavar="KIND", help="Kind of machine: flexible.")],
+    out: Annotated[
+        str | None, typer.Option("--out", "-o", metavar="FILE", help="Write it to this new file, not to the screen.")
+    ] = None,
+) -> None:
+    """Print a machine file with every entry explained, which loads as it is: copy it, and replace what is yours."""
+    if kind not in TEMPLATES:
+        raise InputError("KIND", shown(kind), f"one of {', '.join(TEMPLATES)}")
+    text = Path(__file__).with_name("templates").joinpath(f"{kind}.toml").read_text(encoding="utf-8")
+    if out is None:
+        typer.echo(text, nl=False)
+        return
+    try:
+        with Path(out).open("x", encoding="utf-8") as stream:
+            stream.write(text)
+    except FileExistsError:
+        raise InputError("--out", shown(out), "a file that does not exist yet: nothing is overwritten") from None

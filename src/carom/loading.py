@@ -1,0 +1,64 @@
+"""Read a machine file, of whatever rotor, as the case to study."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable
+from pathlib import Path
+
+from carom.arguments import checked
+from carom.outcome import Problems, printable
+from carom.parameters.machine_file import Case, read_planar_case, split_settings
+from carom.parameters.toml_reader import read_machine_tables
+
+
+@checked
+def load(path: str | os.PathLike[str], settings: Iterable[str] = ()) -> Case:
+    """Read a machine file and apply settings to it.
+
+    Parameters
+    ----------
+    path : path
+        TOML file with a ``[machine]`` or a ``[dimensionless]`` table, and perhaps ``[zones]``, ``[limits]``,
+        ``[survive]``, ``[gravity]``, ``[touchdown]`` and ``[drive]``; or with a ``[rotor]`` table and those of the parts of a flexible
+        machine, whose case holds a model.
+    settings : iterable of str
+        Texts ``"name=value"`` as in ``--set``; the name is a machine field, a dimensionless parameter, or ``gravity``
+        for its acceleration, or an entry of the touchdown bearing, such as ``touchdown_stiffness``.
+        Physical values are set first. A dimensionless one set on a machine keeps mass, speed and clearance and
+        changes its partner: ``gamma`` the damping, ``omega`` the stiffness, ``rho`` the eccentricity, ``phi`` the
+        unbalance phase, ``mu`` the friction, ``d`` the restitution, ``radius_ratio`` the rotor radius.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be used, or a setting has no value, has an unknown name, has a value that is not allowed,
+        sets the same quantity as another one, or sets a physical value of a file without scales.  It reports all
+        errors at once.
+
+    Warns
+    -----
+    CaromWarning
+        The rotor radius is less than 5 clearances: a unit was probably forgotten.
+
+    See Also
+    --------
+    carom.parameters.Machine : the same values, given in Python
+    carom.models.LinearRotor : any linear rotor, from its matrices
+
+    Examples
+    --------
+    >>> import carom as cm
+    >>> case = cm.load("examples/keogh-cole.toml", ["speed=1500 rpm", "gamma=0.1"])
+    >>> case.parameters.gamma
+    0.1
+    """
+    problems = Problems()
+    tables = read_machine_tables(path, problems)
+    texts, name = split_settings(settings, problems), printable(Path(path).stem)
+    if tables.kind != "rotor":
+        return read_planar_case(name, tables, texts, problems)
+    # Who reads a planar rotor does not wait for models and kernels to load.
+    from carom.rotors.machine_file import read_flexible_case
+
+    return read_flexible_case(name, tables, texts, problems)

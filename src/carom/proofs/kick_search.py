@@ -1,0 +1,149 @@
+"""The search for cells that are proven to return, the largest first, in several processes."""
+
+from __future__ import annotations
+
+import heapq
+import signal
+import time
+from collections.abc import Callable, Iterator
+from concurrent.futures import FIRST_COMPLETED, Future, wait
+from contextlib import contextmanager
+from typing import Any, TypeVar
+
+from carom.progress import Reporter
+from carom.proofs.balls import at_precision
+from carom.proofs.evidence import NotShownError
+from carom.proofs.kick_cells import IMPACTS, LOST, OPEN, Cell, Tree, leaves, share_of
+from carom.proofs.kick_discs import Disc, Found, disc_of
+from carom.proofs.passages import LeftOpenError
+
+BITS = 64
+"""Precision of the balls.  What is left open is so because cells are wide, not because digits are few."""
+BATCH = 32
+"""Cells that a process tests at a time."""
+ALONE = 2.0
+"""Seconds after which other processes are asked to help."""
+PAUSE = 15.0
+"""Seconds between two records of the search."""
+_LAST = 2.0**-50
+"""Share of the disc below which a cell is not halved."""
+_LOST_COUNTS = 1 / 64
+"""How much the area of a cell whose middle does not return counts beside others."""
+
+_Result = TypeVar("_Result")
+
+
+def search(
+    disc: Disc, tree: Tree, limit: float, workers: int, tell: Reporter, record: Callable[[Tree], None] | None = None
+) -> None:
+    """Halve and prove cells of a tree until none is open, or for so many seconds.
+
+    ``record`` receives the tree from time to time, also when the search is interrupted.
+    """
+    heap: list[tuple[float, Cell]] = []
+    for cell, letter in leaves(tree):
+        _push(heap, cell, letter)
+    proven, began = share_of(cell for cell, letter in leaves(tree) if letter in IMPACTS), time.monotonic()
+    recorded = began
+
+    def batches() -> Iterator[list[Cell]]:
+        while heap and time.monotonic() - began < limit:
+            size = min(BATCH, max(1, len(heap) // (2 * workers)))
+            yield [heapq.heappop(heap)[1] for _ in range(size)]
+
+    try:
+        for cells, found in _each(disc, _tried, batches, workers):
+            for cell, (letter, by) in zip(cells, found, strict=True):
+                tree[cell] = by or letter
+                proven += cell.share if not by else 0
+                for half in cell.halves(by) if by else ():
+                    tree[half] = letter
+                    _push(heap, half, letter)
+            now = time.monotonic()
+            words = f"{100 * float(proven):.4g} % of the area proven, {len(heap)} cells open"
+            tell(max(float(proven), min(1.0, (now - began) / limit)), words)
+            if record is not None and now - recorded > PAUSE:
+                record(tree)
+                recorded = now
+    finally:
+        if record is not None:
+            record(tree)
+
+
+def show_all(disc: Disc, tree: Tree, workers: int, tell: Reporter) -> None:
+    """Show what is said of all cells that are proven; :class:`~carom.proofs.evidence.NotShownError` if it is not so."""
+    told = [(cell, letter) for cell, letter in leaves(tree) if letter in IMPACTS]
+    done = 0
+    ahead = iter(range(0, len(told), BATCH))
+
+    def batches() -> Iterator[list[tuple[Cell, str]]]:
+        for first in ahead:
+            yield told[first : first + BATCH]
+
+    for cells, problem in _each(disc, _shown, batches, workers):
+        if problem:
+            raise NotShownError(problem)
+        done += len(cells)
+        tell(done / len(told), f"{done} of {len(told)} cells verified")
+
+
+def _push(heap: list[tuple[float, Cell]], cell: Cell, letter: str) -> None:
+    if letter in OPEN and cell.share > _LAST:
+        heapq.heappush(heap, (-float(cell.share) * (_LOST_COUNTS if letter == LOST else 1.0), cell))
+
+
+def _tried(data: tuple[str, str, int], cells: list[Cell]) -> list[Found]:
+    with at_precision(BITS):
+        return disc_of(data).tried(cells)
+
+
+def _shown(data: tuple[str, str, int], cells: list[tuple[Cell, str]]) -> str:
+    """What is wrong with some cells; nothing if all is shown."""
+    with at_precision(BITS):
+        for cell, letter in cells:
+            most = IMPACTS.index(letter)
+            try:
+                disc_of(data).show(cell, most)
+            except LeftOpenError as problem:
+                speeds, angles = ("..".join(map(str, ends)) for ends in (cell.speeds, cell.angles))
+                return f"not all kicks of the cell {speeds}, {angles} return with at most {most} impacts: {problem}"
+    return ""
+
+
+def _each(
+    disc: Disc,
+    function: Callable[[Any, Any], _Result],
+    batches: Callable[[], Iterator[Any]],
+    workers: int,
+) -> Iterator[tuple[Any, _Result]]:
+    """Apply a function to batches of cells, as they are asked for: here at first, then in several processes."""
+    data, ahead, began = disc.data(), batches(), time.monotonic()
+    for batch in ahead:
+        yield batch, function(data, batch)
+        if workers > 1 and time.monotonic() - began > ALONE:
+            break
+    else:
+        return
+    with _processes(workers) as pool:
+        waiting: dict[Future[_Result], Any] = {}
+        while True:
+            # Results make further cells: ask anew whenever some have come.
+            ahead = batches()
+            while len(waiting) < 2 * workers and (batch := next(ahead, None)) is not None:
+                waiting[pool.submit(function, data, batch)] = batch
+            if not waiting:
+                return
+            for future in wait(waiting, return_when=FIRST_COMPLETED).done:
+                yield waiting.pop(future), future.result()
+
+
+@contextmanager
+def _processes(workers: int) -> Iterator[Any]:
+    """Processes that another program need not be written for, and that leave Ctrl-C to this one."""
+    from loky import ProcessPoolExecutor
+
+    pool = ProcessPoolExecutor(workers, initializer=signal.signal, initargs=(signal.SIGINT, signal.SIG_IGN))
+    try:
+        yield pool
+    finally:
+        pool.shutdown(wait=True, kill_workers=True)

@@ -1,0 +1,141 @@
+"""Prove which kicks out of levitation come back through contact, as far as a time allows."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import math
+import os
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from typing import Annotated, Any
+
+from carom.arguments import Count, checked, whole
+from carom.core.processors import available_cores
+from carom.files import write_whole
+from carom.models import Subject
+from carom.outcome import InputError, shown
+from carom.parameters import Field, read_quantity
+from carom.progress import Reporter, ShowProgress, shows_progress
+from carom.proofs.balls import at_precision
+from carom.proofs.claims import Proof
+from carom.proofs.evidence import NotShownError
+from carom.proofs.hypotheses import Given, Hypotheses, hypotheses_of, written_exactly
+from carom.proofs.kick_cells import AHEAD, DISC, IMPACTS, Tree, read, written
+from carom.proofs.kick_claims import NOT_CLAIMED, THEOREM, claims_of
+from carom.proofs.kick_discs import Disc
+from carom.proofs.kick_search import BITS, search
+
+_STORE = "carom cells of kicks 1"
+_TIME = Field("time_limit", "", "time to search", "a time", "s", 1e-3, 1e9, '"10 min"')
+USUAL_TIME = "10 min"
+USUAL_IMPACTS = 12
+
+
+@checked
+@shows_progress
+def prove_kicks(
+    machine: Subject | Hypotheses | str | os.PathLike[str] | Mapping[str, Given],
+    kicks_up_to: Given,
+    settings: Iterable[str] = (),
+    *,
+    most_impacts: Annotated[int, whole(0, len(IMPACTS) - 1)] = USUAL_IMPACTS,
+    time_limit: str | float | None = USUAL_TIME,
+    store: str | os.PathLike[str] | None = None,
+    workers: Count | None = None,
+    progress: ShowProgress = None,
+) -> Proof:
+    """Prove which kicks out of levitation return to it, through contact.
+
+    The disc of kick velocities, seen in the fixed frame, is covered with cells.  All flights of a cell are followed together in ball
+    arithmetic, through impacts, until none reaches the wall any more.  What cannot be shown of a cell is tried on both halves of it,
+    until nothing is open or time is up.  The proof has two claims: which share of the disc surely returns, up to which speed all kicks do,
+    and with how many impacts at most; and whether all of it does, with the reasons of what is open.
+
+    Parameters
+    ----------
+    machine : Machine, Case, Parameters, model, path, mapping or Hypotheses
+        As for :func:`~carom.prove`.
+    kicks_up_to : str or number
+        Radius of the disc: text with a unit for a machine file in SI units, a number in ``c_r Ω`` for all others.
+    settings : iterable of str
+        As for :func:`~carom.prove`.
+    most_impacts : int
+        A kick that may have more of them is left open; at most 35.
+    time_limit : str or float
+        When to end the search, in s or with a unit; with ``None`` when nothing is open.
+    store : path, optional
+        File for the cells: an interrupted search goes on from there, and one that was ended by its time does with further time.
+        The cells in it are taken as they are; :func:`~carom.proofs.check` verifies all.
+    workers : int, optional
+        Processes; by default as many as there are cores.
+
+    Raises
+    ------
+    InputError
+        A number cannot be used, or the store is that of other kicks.
+
+    See Also
+    --------
+    carom.closed_forms.harmless_kick : kicks that never reach the wall
+    carom.map_basins : the same disc, sampled
+
+    Examples
+    --------
+    >>> from carom.proofs import prove_kicks
+    >>> proof = prove_kicks("examples/spindle.toml", "120 mm/s")
+    >>> proof["kicks all recover"].status
+    'proven'
+    """
+    hypotheses, tell = hypotheses_of(machine, settings), Reporter.of(progress, "proving")
+    disc = Disc(hypotheses, written_exactly(kicks_up_to).removeprefix("double "), most_impacts)
+    seconds = math.inf if time_limit is None else read_quantity(_TIME, time_limit)
+    try:
+        with at_precision(BITS):
+            disc.held  # noqa: B018  (raises if there is no levitation)
+    except NotShownError as problem:
+        raise InputError("machine", shown(hypotheses.values), str(problem)) from None
+    place = None if store is None else Path(store)
+    tree = {DISC: AHEAD} if place is None or not place.exists() else _stored(place, disc)
+    with at_precision(BITS):
+        search(
+            disc,
+            tree,
+            seconds,
+            workers or available_cores(),
+            tell,
+            None if place is None else lambda now: _store(place, disc, now),
+        )
+        claims = claims_of(disc, tree)
+    tell(1.0)
+    options = {"kicks_up_to": disc.largest, "most_impacts": most_impacts}
+    return Proof(THEOREM, hypotheses, options, tuple(claims), BITS, NOT_CLAIMED, {"cells": written(tree)})
+
+
+def _content(disc: Disc) -> dict[str, Any]:
+    document, largest, most = disc.data()
+    return {"format": _STORE, "hypotheses": document, "kicks_up_to": largest, "most_impacts": most}
+
+
+def _store(place: Path, disc: Disc, tree: Tree) -> None:
+    """Write the cells so far, with a checksum against damage."""
+    cells = written(tree)
+    digest = hashlib.sha256(cells.encode()).hexdigest()
+    write_whole(place, json.dumps({**_content(disc), "sha256": digest, "cells": cells}).encode())
+
+
+def _stored(place: Path, disc: Disc) -> Tree:
+    """Read cells of an earlier search."""
+    try:
+        found = json.loads(place.read_bytes())
+        cells = found.pop("cells")
+        if found.pop("sha256") != hashlib.sha256(cells.encode()).hexdigest():
+            raise ValueError("damaged")
+        tree = read(cells)
+    except OSError as problem:
+        raise InputError("store", shown(place), f"cannot be read: {problem.strerror or problem}") from None
+    except (AttributeError, KeyError, NotShownError, TypeError, ValueError):
+        raise InputError("store", shown(place), "is no complete record of cells; remove it to begin anew") from None
+    if found != _content(disc):
+        raise InputError("store", shown(place), "belongs to another machine, speed or number of impacts")
+    return tree

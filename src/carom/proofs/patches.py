@@ -1,0 +1,304 @@
+"""Patches of states, and the flights that leave them, in the fixed frame turned such that the flight begins on the real axis.
+
+Levitation turns: ``Λ e^{it}`` with ``|Λ| = |U*| = ℓ``.  With the response ``h₁`` of the rotor to an impulse and ``h₀`` to a displacement,
+``h₀'' + γh₀' + ω²h₀ = 0``, ``h₀(0) = 1``, ``h₀'(0) = 0``, every flight is
+
+    z(t) = c(t) + V h₁(t) + Λ k(t) .
+
+*From the wall*, at ``z(0) = 1`` with the velocity ``V = a + ib``: ``c = h₀`` and ``k = e^{it} − h₀ − i h₁``.  Its state has the three
+coordinates ``a``, ``b``, ``ψ = arg Λ``: turns of the whole plane change nothing.
+
+*From levitation*, kicked by ``V = v > 0`` along the real axis: ``c = 0`` and ``k = e^{it}``, with the two coordinates ``v`` and ``ψ``.
+
+A patch holds the states ``x₀ + Σ_g s_g ξ_g``, ``|ξ_g| ≤ 1``: two spans that it inherits from the cell of kicks, and one for each coordinate
+that holds all else.  A function ``f`` of the state lies in ``f(x₀) + Σ_g f'(X)s_g [−1, 1]`` there, ``X`` the box of the patch
+(mean value form).
+"""
+
+from __future__ import annotations
+
+import cmath
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, NamedTuple
+
+from flint import acb, arb
+
+from carom.proofs.lines import Numbers
+from carom.proofs.series import hyperbolic
+
+UNIT = arb(0, 1)
+"""All numbers from −1 to 1."""
+
+
+Wave = tuple[Any, Any, Any]
+
+
+class Waves(NamedTuple):
+    """``c``, ``h₁`` and ``k`` of a flight with their first two derivatives, at a time or on an interval of times."""
+
+    place: Wave
+    rate: Wave
+    bend: Wave
+
+
+class Held:
+    """What flights need to know of a rotor, at the precision at hand.
+
+    Parameters
+    ----------
+    numbers : Numbers
+    """
+
+    def __init__(self, numbers: Numbers) -> None:
+        self.numbers = numbers
+        self.half, self.split = numbers.gamma / 2, numbers.split
+        self.radius = numbers.levitation
+        self.radius_squared = self.radius * self.radius
+        self.room = 1 - self.radius
+        self.rub = numbers.mu * (1 + numbers.d)
+        self._plain = tuple(float(x.mid()) for x in (self.half, self.split, numbers.omega_squared, self.radius))
+
+    def waves(self, time: Any, from_wall: bool) -> Waves:
+        """Waves of flights from the wall or from levitation."""
+        n = self.numbers
+        even, odd = hyperbolic(self.split, time)
+        fade = (-self.half * time).exp()
+        h = fade * odd
+        dh = fade * (even - self.half * odd)
+        d2h = -n.gamma * dh - n.omega_squared * h
+        sine, cosine = time.sin_cos()
+        turn, way = acb(cosine, sine), acb(-sine, cosine)
+        if not from_wall:
+            zero = arb(0)
+            return Waves((zero, h, turn), (zero, dh, way), (zero, d2h, -turn))
+        c, dc = fade * (even + self.half * odd), -n.omega_squared * h
+        d2c = -n.omega_squared * dh
+        return Waves((c, h, turn - acb(c, h)), (dc, dh, way - acb(dc, dh)), (d2c, d2h, -turn - acb(d2c, d2h)))
+
+    def plain_waves(self, time: float, from_wall: bool) -> tuple[tuple[complex, complex, complex], ...]:
+        """The same in doubles."""
+        half, split, stiff, _ = self._plain
+        root = cmath.sqrt(split) or 1e-9
+        fade = cmath.exp(-half * time).real
+        h = fade * (cmath.sinh(root * time) / root).real
+        dh = fade * cmath.cosh(root * time).real - half * h
+        d2h = -2 * half * dh - stiff * h
+        turn = cmath.exp(1j * time)
+        if not from_wall:
+            return (0, h, turn), (0, dh, 1j * turn), (0, d2h, -turn)
+        c, dc, d2c = dh + 2 * half * h, -stiff * h, -stiff * dh
+        return (
+            (c, h, turn - c - 1j * h),
+            (dc, dh, 1j * turn - dc - 1j * dh),
+            (d2c, d2h, -turn - d2c - 1j * d2h),
+        )
+
+
+@dataclass(frozen=True)
+class Patch:
+    """States of one flight each.
+
+    Attributes
+    ----------
+    centre : list of arb
+        Exact numbers: ``v, ψ`` from levitation, ``a, b, ψ`` from the wall.
+    spans : list of list of arb
+        Exact vectors of the coordinates, two of them.
+    rest : list of arb
+        Exact half widths of the coordinates.
+    """
+
+    centre: list[Any]
+    spans: list[list[Any]]
+    rest: list[Any]
+
+    @property
+    def from_wall(self) -> bool:
+        """Whether its flights begin at the wall."""
+        return len(self.centre) > 2
+
+    @cached_property
+    def box(self) -> list[Any]:
+        """Balls of the coordinates."""
+        return [
+            x + UNIT * (abs(one) + abs(other) + rest)
+            for x, one, other, rest in zip(self.centre, *self.spans, self.rest, strict=True)
+        ]
+
+
+class Departure:
+    """The flights of a patch.
+
+    Attributes
+    ----------
+    velocity, levitation : acb
+        ``V`` and ``Λ`` of the centre.
+    wide_velocity, wide_levitation : acb
+        Those of all states.
+    columns : list of pairs
+        ``V`` and ``ψ`` differentiated along the spans and then along what holds the rest; exact.
+    """
+
+    def __init__(self, held: Held, patch: Patch) -> None:
+        self.held, self.patch, self.from_wall = held, patch, patch.from_wall
+        self.velocity, self.levitation = _parts(held, patch.centre)
+        self.wide_velocity, self.wide_levitation = _parts(held, patch.box)
+        directions = [*patch.spans]
+        for j, rest in enumerate(patch.rest):
+            if not rest.is_zero():
+                directions.append([rest if i == j else arb(0) for i in range(len(patch.rest))])
+        self.columns = [(_speed(along), along[-1]) for along in directions]
+        middle = [float(x) for x in patch.centre]
+        self._velocity = complex(*middle[:-1])
+        self._levitation = held._plain[3] * cmath.exp(1j * middle[-1])
+        self._columns = [(complex(v), 1j * self._levitation * float(turn)) for v, turn in self.columns]
+
+    # -------------------------------------------------------------------------------------- balls
+
+    def at(self, time: Any) -> Moment:
+        """The flights at a time, as mean value forms."""
+        return Moment(self, self.held.waves(time, self.from_wall))
+
+    # -------------------------------------------------------------------------------------- doubles
+
+    def plain(self, time: float) -> tuple[float, float, float]:
+        """``|z|²`` and its first two derivatives on the flight of the centre, in doubles."""
+        z, dz, d2z = (
+            c + self._velocity * h + self._levitation * k for c, h, k in self.held.plain_waves(time, self.from_wall)
+        )
+        return (
+            abs(z) ** 2,
+            2 * (z.conjugate() * dz).real,
+            2 * (abs(dz) ** 2 + (z.conjugate() * d2z).real),
+        )
+
+    def plain_spread(self, time: float) -> tuple[list[float], list[float]]:
+        """By how much ``|z|²`` and its rate change along each column, in doubles."""
+        (c, h, k), (dc, dh, dk), _ = self.held.plain_waves(time, self.from_wall)
+        z, dz = (
+            c + self._velocity * h + self._levitation * k,
+            dc + self._velocity * dh + self._levitation * dk,
+        )
+        places, rates = [], []
+        for v, lift in self._columns:
+            along, rate = v * h + lift * k, v * dh + lift * dk
+            places.append(2 * (z.conjugate() * along).real)
+            rates.append(2 * (z.conjugate() * rate + dz.conjugate() * along).real)
+        return places, rates
+
+    def weights(self, time: float) -> tuple[float, float]:
+        """How much each span has to do with ``|z|²`` and its rate at a time."""
+        places, rates = self.plain_spread(time)
+        return abs(places[0]) + abs(rates[0]), abs(places[1]) + abs(rates[1])
+
+
+def _speed(coordinates: list[Any]) -> Any:
+    """Velocity of coordinates, or of changes of them."""
+    return acb(coordinates[0], coordinates[1] if len(coordinates) > 2 else 0)
+
+
+def _parts(held: Held, coordinates: list[Any]) -> tuple[Any, Any]:
+    sine, cosine = coordinates[-1].sin_cos()
+    return _speed(coordinates), acb(held.radius * cosine, held.radius * sine)
+
+
+class Moment:
+    """All flights of a patch at a time or on an interval of times.
+
+    With ``z = p + q``, ``p = c + V h₁`` and ``q = Λk``, nothing but products of ``p`` and ``q`` depends on ``ψ`` in ``|z|²`` and its rates:
+    ``|q|² = ℓ²|k|²``.  All are evaluated so that this is not lost in the width of ``Λ``.
+    """
+
+    def __init__(self, departure: Departure, waves: Waves) -> None:
+        self.departure, self.waves = departure, waves
+
+    def centre(self, wave: Wave) -> Any:
+        """Place or rate on the flight of the centre."""
+        d = self.departure
+        return wave[0] + d.velocity * wave[1] + d.levitation * wave[2]
+
+    @cached_property
+    def _p(self) -> list[Any]:
+        return [wave[0] + self.departure.wide_velocity * wave[1] for wave in self.waves]
+
+    @cached_property
+    def _q(self) -> list[Any]:
+        return [self.departure.wide_levitation * wave[2] for wave in self.waves]
+
+    @cached_property
+    def wide(self) -> list[Any]:
+        """``z``, ``ż`` and ``z̈`` of all flights."""
+        return [p + q for p, q in zip(self._p, self._q, strict=True)]
+
+    def _products(self, one: int, other: int) -> Any:
+        """``Re(z̄ w)`` of two of them."""
+        (p, q), (u, w) = ((self._p[j], self._q[j]) for j in (one, other))
+        turning = dot(self.waves[one][2], self.waves[other][2])
+        return dot(p, u) + dot(p, w) + dot(q, u) + self.departure.held.radius_squared * turning
+
+    @cached_property
+    def slope(self) -> Any:
+        """``Re(z̄ż)`` on all flights, as wide as the patch and the times are."""
+        return self._products(0, 1)
+
+    @cached_property
+    def height_along(self) -> list[Any]:
+        """``|z|²/2`` differentiated along the columns."""
+        turned, h = cross(self._p[0], self._q[0]), self.waves.place[1]
+        return [dot(self.wide[0], v) * h - turned * turn for v, turn in self.departure.columns]
+
+    @cached_property
+    def height(self) -> Any:
+        """``|z|²`` of all flights, a mean value form."""
+        z = self.centre(self.waves.place)
+        return dot(z, z) + spread(self.height_along) * 2
+
+    @cached_property
+    def rise_along(self) -> list[Any]:
+        """``Re(z̄ż)`` differentiated along the columns."""
+        (p, dp, _), (q, dq, _), (z, dz, _) = self._p, self._q, self.wide
+        turned, h, dh = cross(p, dq) + cross(dp, q), self.waves.place[1], self.waves.rate[1]
+        return [dot(dz, v) * h + dot(z, v) * dh - turned * turn for v, turn in self.departure.columns]
+
+    @cached_property
+    def rise(self) -> Any:
+        """The rate of ``|z|²`` on all flights, a mean value form."""
+        centre = dot(self.centre(self.waves.place), self.centre(self.waves.rate))
+        return (centre + spread(self.rise_along)) * 2
+
+    @cached_property
+    def curve(self) -> Any:
+        """The second derivative of ``|z|²`` on all flights."""
+        return (self._products(1, 1) + self._products(0, 2)) * 2
+
+    @cached_property
+    def twist_along(self) -> list[Any]:
+        """``Im(z̄ż)`` differentiated along the columns."""
+        (p, dp, _), (q, dq, _), (z, dz, _) = self._p, self._q, self.wide
+        turned, h, dh = dot(p, dq) - dot(dp, q), self.waves.place[1], self.waves.rate[1]
+        return [cross(v, dz) * h + cross(z, v) * dh + turned * turn for v, turn in self.departure.columns]
+
+    def angle_along(self, square: Any) -> list[Any]:
+        """``ψ − arg z`` differentiated along the columns, from a ball of ``|z|²``."""
+        z, h = self.wide[0], self.waves.place[1]
+        turned = dot(z, self._p[0])
+        return [(turned * turn - cross(z, v) * h) / square for v, turn in self.departure.columns]
+
+
+def dot(one: Any, other: Any) -> Any:
+    """``Re(z̄ w)``."""
+    return one.real * other.real + one.imag * other.imag
+
+
+def cross(one: Any, other: Any) -> Any:
+    """``Im(z̄ w)``."""
+    return one.real * other.imag - one.imag * other.real
+
+
+def spread(columns: list[Any]) -> Any:
+    """All sums of numbers of the columns, each with a factor from −1 to 1."""
+    total: Any = arb(0)
+    for column in columns:
+        total = total + abs(column)
+    return UNIT * total

@@ -1,0 +1,123 @@
+"""States after an impact, by mean value forms, from a patch of flights and the times at which they strike.
+
+At the wall ``a = Re(z̄ż)``, ``b = Im(z̄ż)`` and ``ψ⁺ = ψ + t − arg z``.  An impact changes them to
+
+    a⁺ = −d a,      b⁺ = b − clip(s + b, ±f),      f = μ(1 + d)a :
+
+slip ``s + b`` keeps its direction while it exceeds ``f``, else it stops.  ``clip`` has the slopes ``(∂/∂b, ∂/∂f)``
+``(0, 1)``, ``(1, 0)`` and ``(0, −1)`` where slip goes on forward, stops, and goes on backward; on a patch whose case is not
+decided it lies in the hull of those that are possible, as a mean value form of a Lipschitz function may take.
+
+*Strike.*  With the crossing time ``t(x)``, ``|z(t(x), x)| = 1``, derivatives along a column are total ones, ``t' = −Re(z̄z')/Re(z̄ż)``.
+
+*Brush.*  Time is one more column, and of ``a`` only ``0 ≤ a ≤ p`` is known.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from flint import arb
+
+from carom.proofs.passages import GRAZE, Brush, LeftOpenError, Strike
+from carom.proofs.patches import UNIT, Departure, Moment, Patch, cross, dot, spread
+from carom.proofs.series import hull
+
+Columns = list[list[Any]]
+
+
+def after_strike(departure: Departure, strike: Strike) -> Patch:
+    """Patch after the impact; :class:`LeftOpenError` where the radial speed is not known to be positive."""
+    window = hull(strike.begin, strike.end)
+    moment = departure.at(window)
+    if not moment.slope > 0:
+        raise LeftOpenError(GRAZE, departure.weights(strike.end))
+    place, rate, bend = moment.wide
+    rates = moment.curve / 2, cross(place, bend), 1 - cross(place, rate)
+    columns: Columns = []
+    along = moment.height_along, moment.rise_along, moment.twist_along, moment.angle_along(arb(1))
+    for height, *fixed in zip(*along, strict=True):
+        late = -height / moment.slope
+        columns.append([x + late * y for x, y in zip(fixed, rates, strict=True)])
+    time = _crossing(departure, window)
+    centre = _at_wall(departure, departure.at(time), time)
+    if not centre[0] + spread([column[0] for column in columns]) > 0:
+        raise LeftOpenError(GRAZE, departure.weights(strike.end))
+    return _reset(departure, centre, columns, [arb(0)] * 3)
+
+
+def after_brush(departure: Departure, brush: Brush) -> Patch:
+    """Patch after a touch."""
+    window = hull(brush.begin, brush.last)
+    moment, middle = departure.at(window), window.mid()
+    place, rate, bend = moment.wide
+    square = dot(place, place)
+    along = moment.twist_along, moment.angle_along(square)
+    columns: Columns = [[arb(0), twist, angle] for twist, angle in zip(*along, strict=True)]
+    late = window - middle
+    drift = [brush.fastest * UNIT / 2, cross(place, bend) * late, (1 - cross(place, rate) / square) * late]
+    centre = _at_wall(departure, departure.at(middle), middle)
+    return _reset(departure, [brush.fastest / 2, *centre[1:]], columns, drift)
+
+
+def _crossing(departure: Departure, window: Any) -> Any:
+    """Time at which the flight of the centre crosses, by one step of Newton's method on an interval."""
+    guess = float(window.mid())
+    for _ in range(8):
+        height, rise, _ = departure.plain(guess)
+        guess -= (height - 1) / rise
+    guess = min(max(guess, float(window.lower())), float(window.upper()))
+    near = departure.at(arb(guess))
+    z = near.centre(near.waves.place)
+    far = departure.at(window)
+    slope = dot(far.centre(far.waves.place), far.centre(far.waves.rate)) * 2
+    return (arb(guess) - (dot(z, z) - 1) / slope).intersection(window)
+
+
+def _at_wall(departure: Departure, moment: Moment, time: Any) -> list[Any]:
+    """``a``, ``b`` and ``ψ`` of the flight of the centre."""
+    z, dz = moment.centre(moment.waves.place), moment.centre(moment.waves.rate)
+    # Away from the cut of the argument on the negative axis.
+    angle = z.log().imag if z.real > 0 else (-z).log().imag + arb.pi()
+    return [dot(z, dz), cross(z, dz), departure.patch.centre[-1] + time - angle]
+
+
+def _reset(departure: Departure, centre: list[Any], columns: Columns, drift: list[Any]) -> Patch:
+    """Patch after the impact of states ``a, b, ψ`` before it."""
+    n, rub = departure.held.numbers, departure.held.rub
+    wide = [x + spread([column[j] for column in columns]) + drift[j] for j, x in enumerate(centre)]
+    stops, goes = _slip_slopes(n.radius_ratio + wide[1], rub * wide[0])
+    slip, grip = n.radius_ratio + centre[1], rub * centre[0]
+    kept = slip - slip.min(grip).max(-grip)
+    start = [-n.d * centre[0], kept - n.radius_ratio, centre[2]]
+
+    def through(x: list[Any]) -> list[Any]:
+        return [-n.d * x[0], (1 - stops) * x[1] - goes * rub * x[0], x[2]]
+
+    return _patch(start, [through(column) for column in columns], through(drift))
+
+
+def _slip_slopes(slip: Any, grip: Any) -> tuple[Any, Any]:
+    """Slopes of ``clip`` by the slip and by what friction can take of it."""
+    if slip > grip:
+        return arb(0), arb(1)
+    if slip < -grip:
+        return arb(0), arb(-1)
+    if abs(slip) < grip:
+        return arb(1), arb(0)
+    return hull(0, 1), UNIT
+
+
+def _patch(centre: list[Any], columns: Columns, drift: list[Any]) -> Patch:
+    """Patch with exact numbers that holds all states of mean value forms."""
+    spans = [[x.mid() for x in column] for column in columns[:2]]
+    rest = []
+    for j, x in enumerate(centre):
+        # Half widths of the balls of the spans count once for each: a factor of at most 1 stands before them.
+        total = arb(x.rad()) + abs(drift[j])
+        for column in columns[:2]:
+            total = total + arb(column[j].rad())
+        for column in columns[2:]:
+            total = total + abs(column[j])
+        rest.append(total.upper().mid())
+    return Patch([x.mid() for x in centre], spans, rest)

@@ -1,0 +1,223 @@
+"""A rotor by its matrices, as another program has made them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from carom.outcome import InputError, shown
+from carom.rotors.damping import Damping
+from carom.rotors.discs import Disc
+from carom.rotors.free_rotor import FreeRotor, RotorMatrices
+from carom.rotors.matrix_checks import check_damping, check_free, check_gyroscopic, check_mass, checked_matrix
+from carom.rotors.state_spaces import real_numbers
+
+MOST_NODES = 500
+"""With more, matrices take gigabytes; a shaft needs dozens."""
+ORDERS = {4: ("x", "y", "alpha", "beta"), 6: ("x", "y", "z", "alpha", "beta", "theta")}
+"""Order of real coordinates of a node by their number, unless another one is stated: that of ROSS."""
+SIGNS = {"x": 1.0, "beta": 1.0, "y": 1.0, "alpha": -1.0}
+"""``x`` and ``β = dx/ds``, and ``y`` and ``−α = dy/ds``, are alike: ``α`` and ``β`` turn about the axes of ``x`` and ``y``."""
+ALIKE = 1e-6
+"""Difference of both planes, relative to the largest number, up to which they are alike; files are rounded."""
+
+
+@dataclass(frozen=True, eq=False)
+class MatrixRotor(FreeRotor):
+    """A rotor free in space by its matrices, in SI units.
+
+    At each node, of which 0 is the first one, there are a complex displacement ``x + iy``, m, and a complex tilt
+    ``dx/ds + i dy/ds``, in turn; with the speed ``Ω`` of the shaft in the fixed frame ``M z̈ + (D − iΩG) ż + K z = f``.
+
+    Attributes
+    ----------
+    M, K, G : array_like, shape (2N, 2N)
+        Masses, stiffness and gyroscopic matrix (polar inertias), symmetric.  Bearings are no part of them: nothing holds the rotor.
+    nodes : sequence of float, length N
+        Where the nodes are along the shaft, m, increasing.
+    damping : ProportionalDamping, ModalDamping, or array_like, shape (2N, 2N)
+        Or the matrix ``D``, symmetric, as seen in the fixed frame.
+    names : sequence of str, optional
+        A name for each node; empty ones have none.
+    discs : sequence of Disc, optional
+        What is put on the shaft beside what the matrices hold.
+
+    Raises
+    ------
+    InputError
+        A matrix has another size, is not symmetric, or holds what is no finite real number; masses are indefinite, stiffness holds the rotor or pushes it
+        away, or both planes of bending differ; or a disc sits at a node that the shaft does not have.
+    """
+
+    M: np.ndarray
+    K: np.ndarray
+    G: np.ndarray
+    nodes: np.ndarray
+    damping: Damping | np.ndarray
+    names: Sequence[str] = ()
+    discs: Sequence[Disc] = ()
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "nodes", _nodes(self.nodes))
+        size = 2 * len(self.nodes)
+        for name in ("M", "K", "G"):
+            object.__setattr__(self, name, checked_matrix(name, getattr(self, name), size))
+        check_mass(self.M)
+        check_free(self.K, self.nodes)
+        check_gyroscopic(self.G, self.nodes)
+        if not isinstance(self.damping, Damping):
+            if self.damping is None:
+                allowed = "carom.rotors.ModalDamping, such as ModalDamping(0.005), ProportionalDamping, or a matrix"
+                raise InputError("damping", None, allowed)
+            object.__setattr__(self, "damping", checked_matrix("D", self.damping, size))
+            check_damping(self.damping)
+        object.__setattr__(self, "names", _names(self.names, len(self.nodes)))
+        given: Any = self.discs
+        listed = tuple(given) if isinstance(given, Iterable) else (None,)
+        if not all(isinstance(each, Disc) for each in listed):
+            raise InputError("discs", shown(given), "a sequence of carom.rotors.Disc")
+        object.__setattr__(self, "discs", listed)
+        for disc in self.discs:
+            self.check_node("disc node", disc.node)
+
+    @classmethod
+    def of_planes(
+        cls, M: Any, K: Any, G: Any, nodes: Any, damping: Any, coordinates: Sequence[str] | None = None, **others: Any
+    ) -> MatrixRotor:
+        """Rotor by real matrices, with four or more coordinates at each node, in ``M q̈ + (D + ΩG) q̇ + K q = f``.
+
+        Parameters
+        ----------
+        M, K, G : array_like, shape (kN, kN)
+            ``G`` is skew.
+        nodes : sequence of float, length N
+        damping : ProportionalDamping, ModalDamping, or array_like, shape (kN, kN)
+        coordinates : sequence of str, optional
+            The ``k`` coordinates of each node: ``"x"``, ``"y"``, and rotations ``"alpha"`` and ``"beta"`` about these axes, so that ``β = dx/ds`` and
+            ``α = −dy/ds``; others, such as those of torsion, are left out.  By default x, y, alpha, beta, or x, y, z, alpha, beta, theta of six.
+        **others
+            Further attributes of :class:`MatrixRotor`.
+
+        Raises
+        ------
+        InputError
+            Both planes are not alike, or coupled by other than gyroscopic moments, or see :class:`MatrixRotor`.
+        """
+        count = len(_nodes(nodes))
+        given = {"M": M, "K": K, "G": G} | ({} if isinstance(damping, Damping | None) else {"D": damping})
+        read = {name: real_numbers(name, matrix) for name, matrix in given.items()}
+        order = _order(coordinates, read["M"], count)
+        found: dict[str, Any] = {}
+        for name, matrix in read.items():
+            if matrix.shape != (count * len(order),) * 2:
+                shape = f"a square matrix of {len(order)} coordinates at each of {count} nodes"
+                raise InputError(name, f"an array of shape {matrix.shape}", shape)
+            found[name] = _of_both_planes(name, matrix, order, count)
+        return cls(**{name: found[name] for name in "MKG"}, nodes=nodes, damping=found.get("D", damping), **others)
+
+    @cached_property
+    def matrices(self) -> RotorMatrices:
+        """``M``, ``K`` and ``G``."""
+        found = RotorMatrices(self.M.copy(), self.K, self.G.copy())
+        for disc in self.discs:
+            found.add_disc(disc, self.displacement_at(disc.node))
+        return found
+
+    @property
+    def own_damping(self) -> Damping | None:
+        """What damps each mode by itself; ``None`` of a matrix."""
+        return self.damping if isinstance(self.damping, Damping) else None
+
+    @cached_property
+    def damping_matrix(self) -> np.ndarray:
+        """``D``, shape (n, n): N s/m, N s, N m s."""
+        return self.damping_of_modes() if isinstance(self.damping, Damping) else self.damping
+
+    @property
+    def places(self) -> np.ndarray:
+        """Where its coordinates are, along the shaft, m, shape (N,)."""
+        return self.nodes
+
+    @property
+    def node_places(self) -> np.ndarray:
+        """Where its nodes are, from node 0 on, m."""
+        return self.nodes
+
+    def displacement_at(self, node: int) -> int:
+        """Number of the coordinate that is the displacement of a node."""
+        return 2 * node
+
+    def node_of(self, name: str) -> int:
+        """Return the number of the node with this name.
+
+        Raises
+        ------
+        InputError
+            No node has it.
+        """
+        if name in self.names and name:
+            return self.names.index(name)
+        known = ", ".join(shown(each) for each in self.names if each)
+        allowed = (
+            f"a number, or the name of a node: {known}" if known else "a number: nodes of this rotor have no names"
+        )
+        raise InputError("node", shown(name), allowed)
+
+
+def _nodes(given: Any) -> np.ndarray:
+    found = real_numbers("nodes", given).ravel()
+    if not 2 <= len(found) <= MOST_NODES or not (np.diff(found) > 0.0).all():
+        raise InputError("nodes", shown(given), f"increasing numbers in m, 2 to {MOST_NODES}, one for each node")
+    return found
+
+
+def _names(given: Any, count: int) -> tuple[str, ...]:
+    listed = tuple(given) if isinstance(given, Iterable) and not isinstance(given, str) else (given,)
+    named = [each for each in listed if each]
+    if (
+        not all(isinstance(each, str) for each in listed)
+        or len(listed) not in (0, count)
+        or len(set(named)) < len(named)
+    ):
+        raise InputError("names", shown(given), f"{count} texts, one for each node, no name twice")
+    return listed
+
+
+def _order(coordinates: Sequence[str] | None, mass: np.ndarray, count: int) -> tuple[str, ...]:
+    """The coordinates of each node."""
+    each = len(mass) // count if mass.ndim == 2 else 0
+    found = tuple(ORDERS.get(each, ())) if coordinates is None else tuple(coordinates)
+    if not set(SIGNS) <= set(found) or len(set(found)) < len(found):
+        told = f"an array of shape {mass.shape}" if coordinates is None else shown(", ".join(map(str, found)))
+        field = "M" if coordinates is None else "coordinates"
+        allowed = (
+            f"2 (complex), 4 or 6 coordinates at each of {count} nodes, or coordinates that name x, y, alpha and beta"
+        )
+        raise InputError(field, told, allowed)
+    return found
+
+
+def _of_both_planes(name: str, matrix: np.ndarray, order: tuple[str, ...], count: int) -> np.ndarray:
+    """One matrix (2N, 2N) of two planes alike."""
+    at = len(order) * np.arange(count)
+    planes = []
+    for pair in (("x", "beta"), ("y", "alpha")):
+        places = np.stack([at + order.index(each) for each in pair], axis=1).ravel()
+        planes.append((places, np.tile([SIGNS[each] for each in pair], count)))
+    blocks = [[matrix[np.ix_(i, j)] * np.outer(p, q) for j, q in planes] for i, p in planes]
+    (same, across), (back, other) = blocks
+    if name == "G":
+        same, other, across, back = across, -back, same, other
+    size = np.abs(matrix).max() or 1.0
+    if max(np.abs(across).max(), np.abs(back).max()) > ALIKE * size:
+        words = "G is skew, from one plane to the other" if name == "G" else "nothing but G couples both planes"
+        raise InputError(
+            name, "both planes of bending are coupled" if name != "G" else "couples a plane with itself", words
+        )
+    if np.abs(same - other).max() > ALIKE * size:
+        raise InputError(name, "the planes of x and of y differ", "a round shaft, alike in both planes")
+    return 0.5 * (same + other)

@@ -1,0 +1,149 @@
+"""Rotors by their matrices in files: ``.npz`` of NumPy, and ``.mat`` of MATLAB."""
+
+from __future__ import annotations
+
+import io
+import os
+import zipfile
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from carom.arguments import checked
+from carom.files import write_whole
+from carom.outcome import InputError, shown
+from carom.rotors.discs import Disc
+from carom.rotors.matrix_rotor import MatrixRotor
+
+KEYS: Mapping[str, str] = {
+    "M": "mass matrix",
+    "K": "stiffness matrix, without bearings",
+    "G": "gyroscopic matrix, by which the speed is multiplied",
+    "nodes": "where the nodes are along the shaft, m",
+    "D": "damping matrix, which may be left out",
+    "coordinates": "names of the coordinates of each node, of real matrices in another order",
+    "names": "a name for each node, which may be left out",
+}
+"""Arrays of a file, and what they are."""
+NEEDED = ("M", "K", "G", "nodes")
+
+
+@checked
+def read_rotor(path: str | os.PathLike[str], damping: Any = None, discs: Sequence[Disc] = ()) -> MatrixRotor:
+    """Read a rotor from a file of matrices.
+
+    Parameters
+    ----------
+    path : path
+        An ``.npz`` or ``.mat`` file with ``M``, ``K``, ``G`` and ``nodes``, and perhaps ``D``, ``coordinates`` and ``names``.  Matrices with two rows for each node
+        are those of :class:`MatrixRotor`, others those of :meth:`MatrixRotor.of_planes`.
+    damping : ProportionalDamping or ModalDamping, optional
+        In place of ``D``, where the file has none.
+    discs : sequence of Disc, optional
+        What is put on the shaft beside what the matrices hold.
+
+    Raises
+    ------
+    InputError
+        The file cannot be read, an array is missing or is not what it must be, or damping is stated twice or not at all.
+    """
+    name = os.fspath(path)
+    arrays = _arrays(Path(name))
+    if missing := [key for key in NEEDED if key not in arrays]:
+        held = ", ".join(sorted(arrays)) or "nothing"
+        raise InputError(
+            f"{name}: {missing[0]}", None, f"an array of this name ({KEYS[missing[0]]}); the file holds {held}"
+        )
+    matrix = arrays.get("D")
+    if (damping is None) == (matrix is None):
+        allowed = "damping_ratio, or damping_of_mass and damping_of_stiffness; or an array D in the file of the rotor"
+        raise InputError("damping", None if matrix is None else "both", f"one of: {allowed}")
+    given: dict[str, Any] = {key: arrays[key] for key in NEEDED}
+    given |= {"damping": matrix if damping is None else damping, "discs": discs}
+    if "names" in arrays:
+        given["names"] = _texts(arrays["names"])
+    try:
+        if "coordinates" in arrays:
+            return MatrixRotor.of_planes(**given, coordinates=_texts(arrays["coordinates"]))
+        is_complex = arrays["M"].shape == (2 * arrays["nodes"].size,) * 2
+        return MatrixRotor(**given) if is_complex else MatrixRotor.of_planes(**given)
+    except InputError as problem:
+        raise InputError(f"{name}: {problem.field}", problem.value, problem.allowed) from None
+
+
+@checked
+def write_rotor(rotor: MatrixRotor, path: str | os.PathLike[str]) -> None:
+    """Write a rotor to an ``.npz`` file, which :func:`read_rotor` and ``source`` of a machine file read.
+
+    Parameters
+    ----------
+    rotor : MatrixRotor
+    path : path
+
+    Raises
+    ------
+    InputError
+        The name does not end in ``.npz``.
+    OSError
+        The file cannot be written.
+    """
+    check_target(path)
+    own = rotor.matrices
+    arrays: dict[str, Any] = {"M": own.mass, "K": own.stiffness, "G": own.gyroscopic, "nodes": rotor.nodes}
+    if rotor.own_damping is None:
+        arrays["D"] = rotor.damping_matrix
+    if any(rotor.names):
+        arrays["names"] = np.array(rotor.names)
+    packed = io.BytesIO()
+    np.savez_compressed(packed, **arrays)
+    write_whole(Path(path), packed.getvalue())
+
+
+def check_target(path: str | os.PathLike[str]) -> None:
+    """Refuse the name of a file that is no ``.npz`` file."""
+    if Path(path).suffix != ".npz":
+        raise InputError("rotor file", shown(path), "a name that ends in .npz")
+
+
+def _arrays(path: Path) -> dict[str, np.ndarray]:
+    """Arrays of a file that are known here."""
+    readers = {".npz": _of_numpy, ".mat": _of_matlab}
+    if path.suffix.lower() not in readers:
+        raise InputError("rotor file", shown(str(path)), "a file of matrices, .npz or .mat")
+    try:
+        return readers[path.suffix.lower()](path)
+    except FileNotFoundError:
+        raise InputError("rotor file", shown(str(path)), "there is no such file") from None
+    except (OSError, ValueError, TypeError, KeyError, NotImplementedError, zipfile.BadZipFile, EOFError) as problem:
+        told = str(problem).partition("\n")[0] or type(problem).__name__
+        allowed = "a file of numpy.savez, or of MATLAB's save -v7 with plain arrays"
+        raise InputError("rotor file", shown(str(path)), f"{allowed}; it cannot be read ({told})") from None
+
+
+def _of_numpy(path: Path) -> dict[str, np.ndarray]:
+    with np.load(path, allow_pickle=False) as archive:
+        return {key: archive[key] for key in archive.files if key in KEYS}
+
+
+def _of_matlab(path: Path) -> dict[str, np.ndarray]:
+    from scipy.io import loadmat, matlab  # type: ignore[import-untyped]
+
+    try:
+        found = loadmat(path, variable_names=list(KEYS))
+    except matlab.MatReadError as problem:
+        raise ValueError(problem) from None
+    return {key: _full(found[key]) for key in KEYS if key in found}
+
+
+def _full(matrix: Any) -> np.ndarray:
+    """A matrix with its zeros, of a sparse one too."""
+    return np.asarray(matrix.toarray() if hasattr(matrix, "toarray") else matrix)
+
+
+def _texts(given: np.ndarray) -> tuple[str, ...]:
+    """Texts of an array, or of a cell array of MATLAB; one text alone holds words with spaces between them."""
+    listed = [str(np.asarray(each).ravel()[0]) if np.size(each) else "" for each in np.ravel(given).tolist()]
+    texts = [each.strip() for each in listed]
+    return tuple(texts[0].split()) if len(texts) == 1 else tuple(texts)
