@@ -15,7 +15,7 @@ from carom.plots.style import LOOKS, TWO_COLUMNS, ZONE_SHADES, styled
 from carom.plots.words import number
 
 if TYPE_CHECKING:
-    from carom.rotors import Campbell, Sensitivity
+    from carom.rotors import Campbell, FlexibleResponse, Sensitivity
 
 _HERTZ = 2.0 * math.pi
 _LINES = ("-", "--", "-.", ":")
@@ -83,7 +83,7 @@ def sensitivity(found: Sensitivity) -> Figure:
         axes.axhspan(low, high, color=shade, lw=0.0)
         axes.text(0.995, (low + high) / 2.0, zone, transform=axes.get_yaxis_transform(), ha="right", va="center")
     for bearing, (peak, frequency) in enumerate(zip(found.peaks, found.peak_frequencies, strict=True)):
-        words = f"bearing {bearing}: {number(float(peak), 3)} at {number(float(frequency) / _HERTZ, 3)} Hz"
+        words = f"bearing {bearing + 1}: {number(float(peak), 3)} at {number(float(frequency) / _HERTZ, 3)} Hz"
         (line,) = axes.plot(
             found.frequencies / _HERTZ,
             np.abs(found.values[:, bearing]),
@@ -99,4 +99,33 @@ def sensitivity(found: Sensitivity) -> Figure:
     axes.set_xlabel("frequency (Hz)")
     axes.set_ylabel("sensitivity (no unit)")
     key(figure, [axes], columns=2)
+    return figure
+
+
+@checked
+@styled
+def flexible_response(found: FlexibleResponse) -> Figure:
+    """Draw the radii of the whirl by unbalance over the speed: at the touchdown bearings and at the sensors, with the speed of the machine.
+
+    What reaches the clearance is virtual: there the rotor touches before.
+    """
+    figure, axes = one_axes(None, (TWO_COLUMNS, 0.62 * TWO_COLUMNS))
+    speeds, machine = found.speeds / RPM, found.machine
+    kinds = (("touchdown bearing", "stable", found.touchdowns), ("sensors of bearing", "unstable", found.sensors))
+    for words, look, values in kinds:
+        for number_of, radii in enumerate(np.abs(values).T, start=1):
+            name = f"{words} {number_of}"
+            line = _LINES[(number_of - 1) % len(_LINES)]
+            axes.plot(speeds, 1e6 * radii, linestyle=line, color=LOOKS[look].colour, label=name, gid=name)
+    top = 1e6 * max(float(np.abs(found.touchdowns).max()), float(np.abs(found.sensors).max()))
+    least = 1e6 * min(machine.clearances)
+    if top > 0.5 * least:
+        axes.axhline(least, color="#1a1a1a", lw=0.9, ls=":", label="clearance", gid="clearance")
+        top = max(top, least)
+    axes.axvline(machine.speed / RPM, color="#1a1a1a", lw=0.9, label="speed of the machine", gid="operating")
+    axes.set_xlim(speeds[0], speeds[-1])
+    axes.set_ylim(0.0, _ROOM * top)
+    axes.set_xlabel("speed of the shaft (rpm)")
+    axes.set_ylabel("radius of the whirl (µm)")
+    key(figure, [axes], columns=3)
     return figure

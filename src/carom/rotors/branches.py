@@ -45,7 +45,8 @@ def _at(equations: Equations, speed: float) -> Motions:
     exponents, coordinates = equations.exponents(speed)
     heavy = equations.mass.any(axis=1)
     states = np.concatenate([coordinates, exponents * coordinates[heavy]])
-    return Motions(exponents, states, np.linalg.inv(states))
+    # Motions of a free rotor that stay where they are may be one and the same: no inverse.
+    return Motions(exponents, states, np.linalg.pinv(states))
 
 
 def _step(equations: Equations, here: Motions, before: float, after: float, halvings: int) -> Motions:
@@ -55,7 +56,5 @@ def _step(equations: Equations, here: Motions, before: float, after: float, halv
     _, order = linear_sum_assignment(-np.minimum(alike, 1.0))
     if halvings and alike[np.arange(len(order)), order].min() < ALIKE:
         middle = 0.5 * (before + after)
-        return _step(
-            equations, _step(equations, here, before, middle, halvings - 1), middle, after, halvings - 1
-        )
+        return _step(equations, _step(equations, here, before, middle, halvings - 1), middle, after, halvings - 1)
     return Motions(there.exponents[order], there.states[:, order], there.duals[order])
