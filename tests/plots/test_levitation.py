@@ -51,5 +51,5 @@ def test_sensitivity_has_its_peaks_and_zones():
         assert np.array_equal(lines(axes)[f"bearing-{bearing}"].get_ydata(), np.abs(found.values[:, bearing]))
     assert [text.get_text() for text in axes.texts] == list("ABCD")
     assert axes.get_ylim()[1] > max(found.peaks.max(), 5.0)
-    assert any(words.startswith("bearing 0: 2.4") for words in legend_words(figure))
+    assert any(words.startswith("bearing 1: 2.4") for words in legend_words(figure))
     assert fits(figure)

@@ -121,5 +121,5 @@ def test_a_node_between_sensor_and_magnet(sensor, magnet, opposed, hardly):
 
 
 def test_a_plan_of_ones_own_is_refused_in_a_line():
-    with pytest.raises(InputError, match=r"^proofs = True: left out for a flexible machine$"):
+    with pytest.raises(InputError, match=r"^proofs = true: left out for a flexible machine$"):
         cm.study(cm.load(FILE), proofs=True)

@@ -19,7 +19,7 @@ def machine_document(study: FlexibleStudy) -> dict[str, Any]:
         **rotor_document(study.rotor),
         "verdict": {"level": verdict.level, "outcome": verdict.outcome, "reason": verdict.reason, "headline": verdict.headline},
         "reduction": {"vectors": reduced.vectors, "modes": reduced.modes, "error": reduced.error, "error_is": "an estimate, no bound"},
-        "levitation": study.levitation.document(),
+        "levitating": study.levitation.document(),
         "attractors": [
             {
                 "name": entry.name,

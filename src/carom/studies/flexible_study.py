@@ -114,7 +114,7 @@ class FlexibleStudy(Result):
 def study_of_machine(case: Case, rotor: Model, reduced: ReducedMachine, tell: Reporter) -> FlexibleStudy:
     """Study a flexible machine."""
     required = case.requirement.own(rotor.scales)
-    tell(0.0, "levitation")
+    tell(0.0, "whirls, response and sensitivity of all modes")
     levitation = levitation_of_machine(reduced.machine)
     tell(0.1, "where disturbances end (the kernels are compiled on first use)")
     disturbances = DisturbanceSet(count=DRAWN, fastest=required.kick)

@@ -141,7 +141,7 @@ def trials_of(case: Case, rotor: Model, required: Required, count: int, tell: Re
         part = tell.part(place / len(kinds), (place + 1) / len(kinds))
         part(0.0, f"disturbances: {KINDS[kind].lower()}")  # type: ignore[index]
         if kind == "blade_loss" and model.machine_after(rotor).system.rest_radius >= 1.0:
-            allowed = "an unbalance with which the rotor still levitates without contact"
+            allowed = "an unbalance with which the rotor still levitates inside the clearance"
             raise InputError("blade_loss_after", size, allowed)
         basin = map_basins(rotor, Sample(model, count, SEED))
         ends = Counter({name: basin.share_of(name).count for name in basin.motions})
