@@ -10,7 +10,7 @@ import carom
 
 SOURCE = Path(carom.__file__).parent
 PROJECT = SOURCE.parents[1] / "pyproject.toml"
-MODULES = {"google-crc32c": "google_crc32c", "python-flint": "flint"}
+MODULES = {"google-crc32c": "google_crc32c", "python-flint": "flint", "ross-rotordynamics": "ross"}
 BROUGHT = {
     "markupsafe": "jinja2",
     "tornado": "bokeh",

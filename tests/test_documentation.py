@@ -103,15 +103,15 @@ def command_lines() -> list[str]:
     found = []
     for page in PAGES:
         text = page.read_text(encoding="utf-8")
-        found += re.findall(r"^ *(?:\$ )?(carom [a-z]+ [^\n]*)$", text, flags=re.MULTILINE)
-        found += re.findall(r"`(carom [a-z]+ [^`\n]*)`", text)
+        found += re.findall(r"^ *(?:\$ )?(carom [a-z-]+ [^\n]*)$", text, flags=re.MULTILINE)
+        found += re.findall(r"`(carom [a-z-]+ [^`\n]*)`", text)
         found += re.findall(r"""(?:run|terminal)\(\s*'(carom [^'\n]*)'""", text)
     whole = [
         line
         for line in found
         if (".toml" in line or line.startswith("carom paper")) and not re.search("…|[.]{3}", line)
     ]
-    return sorted({re.sub(r" +# .*$", "", line).strip() for line in whole})
+    return sorted({re.sub(r" +[#>] .*$", "", line).strip() for line in whole})
 
 
 @pytest.mark.parametrize("line", command_lines())
@@ -135,7 +135,7 @@ def test_command_lines_are_found_on_many_pages():
 
 def test_every_command_has_a_heading():
     page = (DOCS / "reference" / "command-line.md").read_text(encoding="utf-8")
-    headings = re.findall(r"^## carom (\w+)$", page, flags=re.MULTILINE)
+    headings = re.findall(r"^## carom ([\w-]+)$", page, flags=re.MULTILINE)
     assert sorted(headings) == sorted(get_command(app).commands)
 
 

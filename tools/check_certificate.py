@@ -32,6 +32,8 @@ import re
 import sys
 from collections import Counter
 from fractions import Fraction
+from itertools import pairwise
+from pathlib import Path
 
 from flint import arb, arb_series, ctx, fmpq
 
@@ -40,17 +42,32 @@ ORDER = 10  # of the Taylor polynomials on cells
 MOST_CELLS = 20_000
 
 
-class Refused(Exception):
+class RefusedError(Exception):
     """A claim, or the whole certificate, is not accepted; the text says why."""
 
 
 # ------------------------------------------------------------------------------------------- numbers of the hypotheses
 
 PI_POWER = {"deg": 1, "°": 1, "rpm": 1, "r/min": 1, "rev/min": 1, "U/min": 1, "Hz": 1, "kHz": 1, "rev/s": 1}
-_METRE = {"m": 1, "km": 10**3, "cm": "1e-2", "mm": "1e-3", "um": "1e-6", "µm": "1e-6", "μm": "1e-6", "nm": "1e-9", "in": "0.0254", "inch": "0.0254", "mil": "2.54e-5"}
+_METRE = {
+    "m": 1,
+    "km": 10**3,
+    "cm": "1e-2",
+    "mm": "1e-3",
+    "um": "1e-6",
+    "µm": "1e-6",
+    "μm": "1e-6",
+    "nm": "1e-9",
+    "in": "0.0254",
+    "inch": "0.0254",
+    "mil": "2.54e-5",
+}
 UNITS = {  # factor, and powers of kg, m, s
     **{name: (Fraction(size), (0, 1, 0)) for name, size in _METRE.items()},
-    **{name: (Fraction(size), (1, 0, 0)) for name, size in {"kg": 1, "g": "1e-3", "mg": "1e-6", "t": 1000, "lb": "0.45359237"}.items()},
+    **{
+        name: (Fraction(size), (1, 0, 0))
+        for name, size in {"kg": 1, "g": "1e-3", "mg": "1e-6", "t": 1000, "lb": "0.45359237"}.items()
+    },
     **{name: (Fraction(size), (0, 0, 1)) for name, size in {"s": 1, "ms": "1e-3", "us": "1e-6", "min": 60}.items()},
     **{name: (Fraction(size), (1, 1, -2)) for name, size in {"N": 1, "kN": 1000, "MN": 10**6, "mN": "1e-3"}.items()},
     **{name: (Fraction(size), (0, 0, 0)) for name, size in {"rad": 1, "mrad": "1e-3", "%": "1e-2"}.items()},
@@ -92,7 +109,7 @@ class Exact:
         """From a text such as ``7500/1637 pi^-1``."""
         found = re.fullmatch(r"(-?\d+(?:/\d+)?)(?: pi\^(-?\d+)| (pi))?", text)
         if not found:
-            raise Refused(f"no exact number: {text!r}")
+            raise RefusedError(f"no exact number: {text!r}")
         return Exact(Fraction(found[1]), int(found[2] or bool(found[3])))
 
 
@@ -103,10 +120,12 @@ def ball(value: Fraction | float | int) -> arb:
 
 def decimal_of(text: str) -> Fraction:
     """A rational or decimal number with spaces, apostrophes or commas between thousands."""
-    plain = re.sub(r"[×x]10([⁺⁻⁰¹²³⁴-⁹]+)", lambda m: "e" + m[1].translate(str.maketrans("⁺⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "+-0123456789")), text)
+    plain = re.sub(
+        r"[×x]10([⁺⁻⁰¹²³⁴-⁹]+)", lambda m: "e" + m[1].translate(str.maketrans("⁺⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "+-0123456789")), text
+    )
     plain = re.sub(r"(?<=\d)[  ’',](?=\d{3}(?!\d))", "", plain).strip()
     if not re.fullmatch(r"[+-]?(\d+/\d+|(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?)", plain):
-        raise Refused(f"no number: {text!r}")
+        raise RefusedError(f"no number: {text!r}")
     return Fraction(plain)
 
 
@@ -122,7 +141,7 @@ def unit_of(text: str) -> tuple[Exact, tuple[int, ...]]:
                 continue
             name, _, exponent = token.replace("²", "^2").partition("^")
             if name not in UNITS:
-                raise Refused(f"the unit {token!r} is not known to this program")
+                raise RefusedError(f"the unit {token!r} is not known to this program")
             for _ in range(int(exponent or 1)):
                 one = Exact(UNITS[name][0], PI_POWER.get(name, 0))
                 size = size * one if sign > 0 else size / one
@@ -136,13 +155,13 @@ def quantity(text: str, unit: str) -> Exact:
         return Exact(Fraction(float(text[7:])))
     found = re.fullmatch(r"\s*([+-]?[\d.][\d.,'’ / ]*(?:[eE][+-]?\d+|[×x]10[⁺⁻⁰¹²³⁴-⁹]+)?)\s*([^\d\s].*)?", text)
     if not found:
-        raise Refused(f"no number with a unit: {text!r}")
+        raise RefusedError(f"no number with a unit: {text!r}")
     number, written = decimal_of(found[1]), found[2]
     if written is None:
         return Exact(number)
     size, powers = unit_of(written.strip())
     if powers != unit_of(unit)[1]:
-        raise Refused(f"{text!r} is not in {unit or 'plain numbers'}")
+        raise RefusedError(f"{text!r} is not in {unit or 'plain numbers'}")
     return Exact(number) * size
 
 
@@ -154,8 +173,12 @@ def exact_numbers(hypotheses: dict) -> dict[str, Exact]:
     """The numbers of the equations, from the values and settings as they are written."""
     table, values, settings = hypotheses["table"], hypotheses["values"], hypotheses["settings"]
     wanted = {"machine": set(MACHINE), "dimensionless": set(DIMENSIONLESS)}.get(table)
-    if wanted is None or set(values) | {"unbalance_phase", "phi"} & wanted != wanted or not set(settings) <= set(DIMENSIONLESS):
-        raise Refused("the table of hypotheses has entries missing, or some that are not known")
+    if (
+        wanted is None
+        or set(values) | {"unbalance_phase", "phi"} & wanted != wanted
+        or not set(settings) <= set(DIMENSIONLESS)
+    ):
+        raise RefusedError("the table of hypotheses has entries missing, or some that are not known")
     if table == "machine":
         v = {"unbalance_phase": Exact(0), **si_values(hypotheses)}
         momentum = v["mass"] * v["speed"]
@@ -252,7 +275,10 @@ class Machine:
     @staticmethod
     def of(exact: dict[str, Exact]) -> Machine:
         machine = Machine(**{name: value.ball() for name, value in exact.items()})
-        if 4 * exact["omega_squared"].rational == exact["gamma"].rational ** 2 and 2 * exact["gamma"].power == exact["omega_squared"].power:
+        if (
+            4 * exact["omega_squared"].rational == exact["gamma"].rational ** 2
+            and 2 * exact["gamma"].power == exact["omega_squared"].power
+        ):
             machine.w2 = arb(0)
         return machine
 
@@ -266,7 +292,7 @@ class Machine:
             w = self.w2.sqrt()
             return swing, (w * t).cos(), (w * t).sin() / w
         if not constant(self.w2) < 0:
-            raise Refused("could not be shown: too close to critical damping")
+            raise RefusedError("could not be shown: too close to critical damping")
         k = (-self.w2).sqrt()
         grow, fall = (k * t).exp(), (-(k * t)).exp()
         return swing, (grow + fall) / 2, (grow - fall) / (2 * k)
@@ -313,7 +339,7 @@ def solve(matrix: list[list], right: list[list]) -> list[list]:
         best = max(range(k, size), key=lambda i: float(abs(constant(rows[i][k]).mid())))
         rows[k], rows[best] = rows[best], rows[k]
         if constant(rows[k][k]).contains(0):
-            raise Refused("could not be shown: equations that cannot be solved")
+            raise RefusedError("could not be shown: equations that cannot be solved")
         rows[k] = [x / rows[k][k] for x in rows[k]]
         for i in range(size):
             if i != k:
@@ -327,7 +353,9 @@ def identity(size: int) -> list[list]:
 
 
 def product(a: list[list], b: list[list]) -> list[list]:
-    return [[sum((x * y for x, y in zip(row, column, strict=True)), arb(0)) for column in zip(*b, strict=True)] for row in a]
+    return [
+        [sum((x * y for x, y in zip(row, column, strict=True)), arb(0)) for column in zip(*b, strict=True)] for row in a
+    ]
 
 
 def krawczyk(system, start: list[arb], radius: str = "1e-25") -> list[arb]:
@@ -342,7 +370,7 @@ def krawczyk(system, start: list[arb], radius: str = "1e-25") -> list[arb]:
         if all(abs(s[0]) < arb("1e-60") * (1 + abs(v)) for v, s in zip(x, step, strict=True)):
             break
     else:
-        raise Refused("could not be shown: Newton's method finds no solution next to the numbers claimed")
+        raise RefusedError("could not be shown: Newton's method finds no solution next to the numbers claimed")
     box = [spread(v, arb(radius)) for v in x]
     residual, slope = system(x)
     guess = [[middle(v) for v in row] for row in solve([[middle(v) for v in row] for row in slope], identity(len(x)))]
@@ -351,9 +379,11 @@ def krawczyk(system, start: list[arb], radius: str = "1e-25") -> list[arb]:
     for _ in range(4):
         rest = product(guess, system(box)[1])
         rest = [[(int(i == j)) - v for j, v in enumerate(row)] for i, row in enumerate(rest)]
-        image = [c + m[0] for c, m in zip(centre, product(rest, [[b - v] for b, v in zip(box, x, strict=True)]), strict=True)]
+        image = [
+            c + m[0] for c, m in zip(centre, product(rest, [[b - v] for b, v in zip(box, x, strict=True)]), strict=True)
+        ]
         if not proven and not all(b.contains_interior(i) for b, i in zip(box, image, strict=True)):
-            raise Refused("could not be shown: Krawczyk's operator does not shrink the box")
+            raise RefusedError("could not be shown: Krawczyk's operator does not shrink the box")
         proven, box = True, [i.intersection(b) for i, b in zip(image, box, strict=True)]
     return box
 
@@ -397,13 +427,18 @@ class Orbit:
         """Of the map over a period, in angle, radial and angular speed before an impact."""
         total = identity(3)
         for k, state in enumerate(self.states):
-            total = product(impact_derivative(self.machine, self.far, state, self.states[(k + 1) % len(self.states)]), total)
+            total = product(
+                impact_derivative(self.machine, self.far, state, self.states[(k + 1) % len(self.states)]), total
+            )
         return total
 
     def inside(self) -> bool | None:
         """Whether |U| < 1 strictly between the impacts."""
         ends = [self.states[(k + 1) % len(self.states)][1] for k in range(len(self.states))]
-        verdicts = [stays_inside(self.machine, self.far, *self.leave(s), s[3], s[1], e) for s, e in zip(self.states, ends, strict=True)]
+        verdicts = [
+            stays_inside(self.machine, self.far, *self.leave(s), s[3], s[1], e)
+            for s, e in zip(self.states, ends, strict=True)
+        ]
         return every(verdicts)
 
     def outward(self) -> bool | None:
@@ -468,7 +503,9 @@ def invariants(j: list[list]) -> tuple:
     """Trace, sum of the principal minors, determinant."""
     trace = j[0][0] + j[1][1] + j[2][2]
     minors = sum((j[a][a] * j[b][b] - j[a][b] * j[b][a] for a, b in ((0, 1), (0, 2), (1, 2))), arb(0))
-    det = sum((j[0][a] * (j[1][b] * j[2][c] - j[1][c] * j[2][b]) for a, b, c in ((0, 1, 2), (1, 2, 0), (2, 0, 1))), arb(0))
+    det = sum(
+        (j[0][a] * (j[1][b] * j[2][c] - j[1][c] * j[2][b]) for a, b, c in ((0, 1, 2), (1, 2, 0), (2, 0, 1))), arb(0)
+    )
     return trace, minors, det
 
 
@@ -571,12 +608,9 @@ def longest_period(m: Machine) -> Fraction:
     |C e^(-at)| <= e^(-kt); |det(1 - M)| >= (1 - e^(-kt))^2.
     """
     half = m.a.re
-    if surely_zero(m.w2) or m.w2 > 0:
-        rate = half
-    else:
-        rate = half - (-m.w2).sqrt()
+    rate = half if surely_zero(m.w2) or m.w2 > 0 else half - (-m.w2).sqrt()
     if not rate > 0:
-        raise Refused("not covered: without damping there is no longest period")
+        raise RefusedError("not covered: without damping there is no longest period")
     size, kick, t = m.a.norm().sqrt(), m.q.norm().sqrt(), Fraction(8)
     while True:
         fall = (-(rate * ball(t))).exp()
@@ -586,10 +620,29 @@ def longest_period(m: Machine) -> Fraction:
         t = t * 5 / 4
         t = Fraction(int(t) + 1)
         if t > 10**6:
-            raise Refused("could not be shown: damping too weak")
+            raise RefusedError("could not be shown: damping too weak")
 
 
-def isolated(m: Machine, wide: Machine | None = None, by=None, budget: int = MOST_CELLS) -> list[tuple[Fraction, Fraction, int]]:
+def first_period(m: Machine) -> Fraction:
+    """A time up to which F1 has no zero.
+
+    det(1 - M) = b t^2 + ..., and the numerator of a22 is -b t^2/2 + ...: the terms of |det|^2 F1 below t^4 vanish, and that of t^4 is
+    |b|^2 (1 - d)/2.
+    """
+    skip, edge = 5 if surely_zero(m.d - 1) else 4, Fraction(1, 4)
+    while edge > Fraction(1, 2**40):
+        half = ball(edge) / 2
+        terms = taylor(lambda t: m.period_function(series(t, arb(1))), arb(0), half, half)
+        value = horner(terms[skip:], half + arb(0, half))
+        if value > 0 or value < 0:
+            return edge
+        edge /= 2
+    raise RefusedError("could not be shown: periods next to zero")
+
+
+def isolated(
+    m: Machine, wide: Machine | None = None, by=None, budget: int = MOST_CELLS
+) -> list[tuple[Fraction, Fraction, int]]:
     """Intervals that hold one T > 0 with F1(T) = 0 each, simple, and the sign of its slope; outside them there is none.
 
     With `wide`, balls that hold the numbers of many machines, it is shown for all of them; `by` gives bounds on a cell of T of
@@ -601,23 +654,15 @@ def isolated(m: Machine, wide: Machine | None = None, by=None, budget: int = MOS
 
     every_machine = wide or m
     end = longest_period(every_machine)
-    # det(1 - M) = b t^2 + ..., and the numerator of a22 is -b t^2/2 + ...: the terms below t^4 vanish, and that is |b|^2 (1 - d)/2.
-    skip, edge = 5 if surely_zero(m.d - 1) else 4, Fraction(1, 4)
-    while True:
-        half = ball(edge) / 2
-        value = horner(taylor(lambda t: function(t, every_machine), arb(0), half, half)[skip:], half + arb(0, half))
-        if value > 0 or value < 0:
-            break
-        edge /= 2
-        if edge < Fraction(1, 2**40):
-            raise Refused("could not be shown: periods next to zero")
-    open_cells, stack, work = [], [(edge, end)], 0
+    open_cells, stack, work = [], [(first_period(every_machine), end)], 0
     while stack:
         low, high = stack.pop()
         if high - low < 4:
             half, work = ball(high - low) / 2, work + 1
             if work > budget or high - low < Fraction(1, 2**60):
-                raise Refused("could not be shown: a double zero of F1, one that is nearly double, or too many cells")
+                raise RefusedError(
+                    "could not be shown: a double zero of F1, one that is nearly double, or too many cells"
+                )
             terms = taylor(function, ball(low + high) / 2, half)
             value = horner(terms, arb(0, half))
             if value.contains(0) is False and by:
@@ -633,24 +678,29 @@ def isolated(m: Machine, wide: Machine | None = None, by=None, budget: int = MOS
                 continue
         cut = low + (high - low) * Fraction(61, 128)
         stack += [(cut, high), (low, cut)]
-    groups: list[list] = []
-    for low, high, sign in open_cells:
-        if groups and groups[-1][1] == low:
-            if groups[-1][2] != sign:
-                raise Refused("could not be shown: the slope of F1 between two cells")
-            groups[-1][1] = high
-        else:
-            groups.append([low, high, sign])
     found = []
-    for low, high, sign in groups:
+    for low, high, sign in joined(open_cells):
         ctx.cap = 2
         ends = [function(ball(at))[0] + (by(ball(at), 0) if by else 0) for at in (low, high)]
         signs = [positive(value) for value in ends]
         if None in signs:
-            raise Refused("could not be shown: a zero of F1 next to the border of a cell")
+            raise RefusedError("could not be shown: a zero of F1 next to the border of a cell")
         if signs[0] != signs[1]:
             found.append((low, high, sign))
     return found
+
+
+def joined(cells_of_slopes: list[list]) -> list[list]:
+    """Neighbours of one slope as one cell."""
+    groups: list[list] = []
+    for low, high, sign in cells_of_slopes:
+        if groups and groups[-1][1] == low:
+            if groups[-1][2] != sign:
+                raise RefusedError("could not be shown: the slope of F1 between two cells")
+            groups[-1][1] = high
+        else:
+            groups.append([low, high, sign])
+    return groups
 
 
 def root(m: Machine, low: Fraction, high: Fraction, sign: int) -> arb:
@@ -662,7 +712,7 @@ def root(m: Machine, low: Fraction, high: Fraction, sign: int) -> arb:
         return [value[0]], [[value[1]]]
 
     a, b = low, high
-    for _ in range(40):
+    for _ in range(12):
         cut = (a + b) / 2
         value = equation([ball(cut)])[0][0]
         if not (value > 0 or value < 0):
@@ -670,7 +720,7 @@ def root(m: Machine, low: Fraction, high: Fraction, sign: int) -> arb:
         a, b = (a, cut) if (value > 0) == (sign > 0) else (cut, b)
     found = krawczyk(equation, [ball((a + b) / 2)])[0]
     if not (found > ball(low) and found < ball(high)):
-        raise Refused("could not be shown: a zero of F1")
+        raise RefusedError("could not be shown: a zero of F1")
     return found
 
 
@@ -696,11 +746,11 @@ def single_orbits(m: Machine) -> dict[str, Orbit | None]:
             found[f"B{number},{names[0]}/{names[1]}"] = None
             continue
         if not (inner > 0 and a > 0):
-            raise Refused("could not be shown: radial speeds of a period that are nearly one")
+            raise RefusedError("could not be shown: radial speeds of a period that are nearly one")
         for name, sign_of in zip(names, (-1, 1), strict=True):
             orbit = Orbit(m, [start_of(m, period, (-b + sign_of * inner.sqrt()) / a)])
             if not orbit.states[0][3].overlaps(period):
-                raise Refused("could not be shown: an orbit by two ways")
+                raise RefusedError("could not be shown: an orbit by two ways")
             found[f"B{number},{name}"] = orbit
     return found
 
@@ -807,7 +857,10 @@ def rub_facts(m: Machine) -> dict:
             pressed, {"normal_force": force}, {"the wall would have to pull, or does not push"},
         )  # fmt: skip
         found[rub, "attracts sliding"] = Fact(
-            "It is a motion of the machine, and small disturbances along the wall die out.", every([pressed, damped, sign > 0]), {}, reasons
+            "It is a motion of the machine, and small disturbances along the wall die out.",
+            every([pressed, damped, sign > 0]),
+            {},
+            reasons,
         )
     return found
 
@@ -819,7 +872,11 @@ def orbit_facts(name: str, orbit: Orbit) -> dict:
     stable, why = multipliers(trace, minors, det)
     outward, slip = orbit.outward(), orbit.slip()
     inside = orbit.inside()
-    failing = [word for word, verdict in ((OUT, outward), (CROSSES, inside if outward else None), (STOPS, slip)) if verdict is False]
+    failing = [
+        word
+        for word, verdict in ((OUT, outward), (CROSSES, inside if outward else None), (STOPS, slip))
+        if verdict is False
+    ]
     truths = {
         "solution": (True, {"period": state[3], "radial_speed": state[1], "angular_speed": state[2]}, ()),
         "outward": (outward, {}, {OUT}),
@@ -833,7 +890,11 @@ def orbit_facts(name: str, orbit: Orbit) -> dict:
 
 def subsets(true: set[str]) -> set[str]:
     """All texts that name some of the true words, in any order they are written in."""
-    words = [w for w in ("a multiplier is above 1", "a multiplier is below -1", "the product of two multipliers is above 1") if w in true]
+    words = [
+        w
+        for w in ("a multiplier is above 1", "a multiplier is below -1", "the product of two multipliers is above 1")
+        if w in true
+    ]
     return {"; ".join(w for k, w in enumerate(words) if pick >> k & 1) for pick in range(1, 1 << len(words))}
 
 
@@ -847,11 +908,15 @@ def numbers_of(claim: dict) -> dict[str, tuple[Fraction, Fraction]]:
     """The intervals stated, as rational numbers."""
     found = {}
     for name, pair in claim["enclosures"].items():
-        if not (isinstance(pair, list) and len(pair) == 2 and all(re.fullmatch(r"-?\d+(\.\d+)?([eE][+-]?\d+)?", v) for v in pair)):
-            raise Refused(f"no interval: {name}")
+        if not (
+            isinstance(pair, list)
+            and len(pair) == 2
+            and all(re.fullmatch(r"-?\d+(\.\d+)?([eE][+-]?\d+)?", v) for v in pair)
+        ):
+            raise RefusedError(f"no interval: {name}")
         low, high = map(Fraction, pair)
         if low > high:
-            raise Refused(f"the ends of {name} are in the wrong order")
+            raise RefusedError(f"the ends of {name} are in the wrong order")
         found[name] = (low, high)
     return found
 
@@ -861,24 +926,28 @@ def holds(stated: tuple[Fraction, Fraction], true: arb) -> None:
     low, high = map(ball, stated)
     if not (true >= low and true <= high):
         apart = true < low or true > high
-        raise Refused(f"a number stated {'is wrong' if apart else 'could not be confirmed'}: it is {true.str(20)}")
+        raise RefusedError(f"a number stated {'is wrong' if apart else 'could not be confirmed'}: it is {true.str(20)}")
 
 
 def judge(claim: dict, fact: Fact, matched: bool = True) -> str:
     """Compare a claim with what is found here."""
     if not (claim["statement"] == fact.statement if matched else re.fullmatch(fact.statement, claim["statement"])):
-        raise Refused("its statement is not known to this program")
+        raise RefusedError("its statement is not known to this program")
     stated = numbers_of(claim)
     if claim["status"] == "undecided":
         return "claims nothing"
     if fact.true is None:
-        raise Refused("could not be shown by this program")
+        raise RefusedError("could not be shown by this program")
     if claim["status"] != STATUS[fact.true]:
-        raise Refused(f"it is {'true' if fact.true else 'false'}")
-    if claim["status"] == "proven" and claim["reason"] or claim["status"] == "refuted" and claim["reason"] not in fact.reasons:
-        raise Refused(f"its reason is not: {claim['reason']!r}")
+        raise RefusedError(f"it is {'true' if fact.true else 'false'}")
+    if (claim["status"] == "proven" and claim["reason"]) or (
+        claim["status"] == "refuted" and claim["reason"] not in fact.reasons
+    ):
+        raise RefusedError(f"its reason is not: {claim['reason']!r}")
     if set(stated) != set(fact.numbers):
-        raise Refused(f"the numbers stated are {', '.join(stated) or 'none'}, not {', '.join(fact.numbers) or 'none'}")
+        raise RefusedError(
+            f"the numbers stated are {', '.join(stated) or 'none'}, not {', '.join(fact.numbers) or 'none'}"
+        )
     for name, interval in stated.items():
         if fact.numbers[name] is not None:  # else it is a box, looked at before, or its scale is not in the statement
             holds(interval, fact.numbers[name])
@@ -905,7 +974,7 @@ class Report:
             try:
                 verdict, _, why = decide(claim).partition("|")
                 self.add(verdict, what, why)
-            except Refused as problem:
+            except RefusedError as problem:
                 self.add("refused", what, str(problem))
             except (ZeroDivisionError, ValueError, ArithmeticError) as problem:
                 self.add("refused", what, f"could not be shown: {problem}")
@@ -916,33 +985,37 @@ def loaded(text: str) -> dict:
 
     def once(pairs):
         if len({name for name, _ in pairs}) != len(pairs):
-            raise Refused("an entry of the file is there twice")
+            raise RefusedError("an entry of the file is there twice")
         return dict(pairs)
 
     try:
         document = json.loads(text, object_pairs_hook=once)
     except (ValueError, RecursionError) as problem:
-        raise Refused(f"no JSON: {problem}") from None
+        raise RefusedError(f"no JSON: {problem}") from None
     if not isinstance(document, dict) or document.get("format") != "carom proof 1":
-        raise Refused("this program reads the format 'carom proof 1' only")
+        raise RefusedError("this program reads the format 'carom proof 1' only")
     needed = {"format", "theorem", "options", "hypotheses", "bits", "claims", "not_claimed", "evidence"}
     if set(document) != needed:
-        raise Refused(f"entries missing, or not known: {', '.join(sorted(set(document) ^ needed))}")
+        raise RefusedError(f"entries missing, or not known: {', '.join(sorted(set(document) ^ needed))}")
     hypotheses = document["hypotheses"]
     if not isinstance(hypotheses, dict) or set(hypotheses) != {"table", "values", "settings", "exact"}:
-        raise Refused("the hypotheses have entries missing, or some that are not known")
+        raise RefusedError("the hypotheses have entries missing, or some that are not known")
     for name in ("values", "settings", "exact"):
         if not isinstance(hypotheses[name], dict) or not all(isinstance(v, str) for v in hypotheses[name].values()):
-            raise Refused(f"the hypotheses have {name} that are no texts")
+            raise RefusedError(f"the hypotheses have {name} that are no texts")
     for claim in document["claims"] if isinstance(document["claims"], list) else [None]:
-        if not isinstance(claim, dict) or not set(claim) >= CLAIM_KEYS or not set(claim) <= CLAIM_KEYS | {"interval", "motions"}:
-            raise Refused("a claim has entries missing, or some that are not known")
+        if (
+            not isinstance(claim, dict)
+            or not set(claim) >= CLAIM_KEYS
+            or not set(claim) <= CLAIM_KEYS | {"interval", "motions"}
+        ):
+            raise RefusedError("a claim has entries missing, or some that are not known")
         if not all(isinstance(claim[k], str) for k in ("about", "kind", "statement", "status", "reason")):
-            raise Refused("a claim has texts that are none")
+            raise RefusedError("a claim has texts that are none")
         if claim["status"] not in ("proven", "refuted", "undecided") or not isinstance(claim["enclosures"], dict):
-            raise Refused(f"a claim has the status {claim['status']!r}")
+            raise RefusedError(f"a claim has the status {claim['status']!r}")
         if not all(isinstance(p, list) and all(isinstance(v, str) for v in p) for p in claim["enclosures"].values()):
-            raise Refused("a claim has numbers that are no texts")
+            raise RefusedError("a claim has numbers that are no texts")
     return document
 
 
@@ -956,7 +1029,7 @@ def check(text: str) -> Report:
             report.add("refused", f"{key[0]}: {key[1]}", "it is there twice")
     theorem = THEOREMS.get(document["theorem"])
     if theorem is None:
-        raise Refused(f"the theorem {document['theorem']!r} is not known to this program")
+        raise RefusedError(f"the theorem {document['theorem']!r} is not known to this program")
     if any(value.startswith("[") for value in hypotheses["exact"].values()):
         for claim in claims:
             report.add("not covered", f"{claim['about']}: {claim['kind']}", "the hypotheses are a box of machines")
@@ -965,7 +1038,7 @@ def check(text: str) -> Report:
     stated = {name: Exact.read(value) for name, value in hypotheses["exact"].items()}
     wrong = sorted(name for name in set(exact) | set(stated) if exact.get(name) != stated.get(name))
     if wrong:
-        raise Refused(f"the exact numbers do not follow from the values: {', '.join(wrong)}")
+        raise RefusedError(f"the exact numbers do not follow from the values: {', '.join(wrong)}")
     report.add("checked", "hypotheses: exact numbers")
     theorem(document, exact, report)
     return report
@@ -993,7 +1066,7 @@ def check_machine(document: dict, exact: dict[str, Exact], report: Report) -> No
         count = len({name.split(",")[0] + ("ac" if name[-1] in "ac" else "bd") for name in orbits})
         if open_periods:
             orbits = {name: orbit for name, orbit in orbits.items() if (name, "solution") in by_key}
-    except Refused as refusal:
+    except RefusedError as refusal:
         problem = str(refusal)
         orbits = claimed_orbits(m, claims, report)
     for name, orbit in orbits.items():
@@ -1018,7 +1091,13 @@ def check_machine(document: dict, exact: dict[str, Exact], report: Report) -> No
             slip_stays_forward(m),
         )
     known = [facts.get((name, "admissible")) for name in orbits if orbits[name]]
-    complete = every([facts["machine", "periods"].true, facts["machine", "slip"].true, *(None if f.true is None else True for f in known)])
+    complete = every(
+        [
+            facts["machine", "periods"].true,
+            facts["machine", "slip"].true,
+            *(None if f.true is None else True for f in known),
+        ]
+    )
     motions = sorted((n for n in orbits if orbits[n] and facts[n, "admissible"].true), key=in_order)
     facts["machine", "orbits"] = Fact(
         f"The machine has exactly these motions with one impact a period, synchronous with the shaft: {', '.join(motions)}."
@@ -1033,13 +1112,15 @@ def check_machine(document: dict, exact: dict[str, Exact], report: Report) -> No
     def decide(claim: dict) -> str:
         fact = facts.get((claim["about"], claim["kind"]))
         if fact is None:
-            if claim["about"] in ("machine", "levitation", "kick") or re.fullmatch(r"(rub|orbit) \d+|B\d+,\S+", claim["about"]):
-                raise Refused("there is no such thing, or no such claim about it")
+            if claim["about"] in ("machine", "levitation", "kick") or re.fullmatch(
+                r"(rub|orbit) \d+|B\d+,\S+", claim["about"]
+            ):
+                raise RefusedError("there is no such thing, or no such claim about it")
             return "not covered|a claim of a kind that this program does not know"
         if claim["status"] == "undecided":
             return "claims nothing"
         if fact.true is None and problem:
-            raise Refused(problem)
+            raise RefusedError(problem)
         return judge(claim, fact)
 
     report.each(claims, decide)
@@ -1059,10 +1140,12 @@ def claimed_orbits(m: Machine, claims: list[dict], report: Report) -> dict[str, 
         if claim["status"] != "proven":
             found[claim["about"]] = None
             continue
-        period, speed = (ball(sum(stated[name]) / 2) if name in stated else arb(1) for name in ("period", "radial_speed"))
+        period, speed = (
+            ball(sum(stated[name]) / 2) if name in stated else arb(1) for name in ("period", "radial_speed")
+        )
         try:
             found[claim["about"]] = orbit = Orbit(m, [start_of(m, period, speed)])
-        except Refused as problem:
+        except RefusedError as problem:
             report.add("refused", f"{claim['about']}: solution", str(problem))
             continue
         for other, known in found.items():
@@ -1095,24 +1178,34 @@ def several_facts(m: Machine, claims: list[dict], report: Report) -> dict:
             report.add("refused", f"{about}: exists", "its statement is not known to this program")
             continue
         impacts = int(match[1])
-        names = [f"{name} {k + 1}" for k in range(impacts) for name in ("angle", "radial_speed", "angular_speed", "duration")]
+        names = [
+            f"{name} {k + 1}" for k in range(impacts) for name in ("angle", "radial_speed", "angular_speed", "duration")
+        ]
         if set(stated) != {"period", *names} or impacts < 2:
             report.add("refused", f"{about}: exists", "its numbers are not those of such an orbit")
             continue
         flat = [ball(sum(stated[name]) / 2) for name in names]
         try:
             orbit = Orbit(m, [tuple(flat[k : k + 4]) for k in range(0, len(flat), 4)])
-        except Refused as problem:
+        except RefusedError as problem:
             report.add("refused", f"{about}: exists", str(problem))
             continue
         true = dict(zip(names, [v for state in orbit.states for v in state], strict=True))
         true["period"] = sum((state[3] for state in orbit.states), arb(0))
-        shorter = any(same(orbit.states[:k] * (impacts // k), orbit.states) and repeats(orbit.states, k) for k in range(1, impacts) if impacts % k == 0)
+        shorter = any(
+            same(orbit.states[:k] * (impacts // k), orbit.states) and repeats(orbit.states, k)
+            for k in range(1, impacts)
+            if impacts % k == 0
+        )
         positive_times = every([positive(state[3]) for state in orbit.states])
         facts[about, "exists"] = Fact(claim["statement"], positive_times if not shorter else None, true)
         stable, why = multipliers(*invariants(orbit.derivative()))
         outward, inside, slip = orbit.outward(), orbit.inside(), orbit.slip()
-        failing = [word for word, verdict in ((OUT, outward), (CROSSES, inside if outward else None), (STOPS, slip)) if verdict is False]
+        failing = [
+            word
+            for word, verdict in ((OUT, outward), (CROSSES, inside if outward else None), (STOPS, slip))
+            if verdict is False
+        ]
         reasons = {"; ".join(failing), OUT if outward is False else CROSSES}
         facts[about, "admissible"] = Fact(plain(SEVERAL["admissible"]), every([outward, inside, slip]), {}, reasons)
         facts[about, "stable"] = Fact(plain(SEVERAL["stable"]), stable, {}, subsets(why))
@@ -1137,8 +1230,14 @@ def plain(pattern: str) -> str:
 POINTS = {  # kind: statement, numbers in the order of the unknowns
     "fold": ("two periods of orbits meet: F1 = 0 and dF1/dT = 0", ("period", "value")),
     "period-doubling": ("an orbit has a multiplier -1", ("period", "radial_speed", "value")),
-    "neimark-sacker": ("an orbit has two multipliers on the unit circle that are a complex pair", ("period", "radial_speed", "value")),
-    "grazing": ("an orbit touches the wall between its impacts without radial speed", ("touch", "period", "radial_speed", "value")),
+    "neimark-sacker": (
+        "an orbit has two multipliers on the unit circle that are a complex pair",
+        ("period", "radial_speed", "value"),
+    ),
+    "grazing": (
+        "an orbit touches the wall between its impacts without radial speed",
+        ("touch", "period", "radial_speed", "value"),
+    ),
     "non-smooth-hopf": ("an orbit shrinks into the equilibrium on the wall, |U*| = 1", ("period", "value")),
     "boundary-equilibrium": ("the contact-free equilibrium is on the wall, |U*| = 1", ("value",)),
     "rub-fold": ("the two synchronous rubs meet", ("value",)),
@@ -1151,10 +1250,11 @@ class Along:
 
     def __init__(self, hypotheses: dict, exact: dict[str, Exact], name: str) -> None:
         self.name, self.numbers = name, {key: value.ball() for key, value in exact.items()}
+        self.known: dict[tuple[Fraction, Fraction], list] = {}  # cells of F1 on blocks
         self.si = {}
         if name not in DIMENSIONLESS:
             if hypotheses["table"] != "machine" or name not in MACHINE or hypotheses["settings"]:
-                raise Refused("not covered|along such a parameter")
+                raise RefusedError("not covered|along such a parameter")
             self.si = {key: value.ball() for key, value in si_values(hypotheses).items()}
 
     def at(self, p) -> Machine:
@@ -1236,10 +1336,13 @@ def linearised(kind: str, along: Along, x: list) -> tuple[list, list]:
     if kind == "fold":
         of = partials(along, x)
         return [of[0, 0], of[1, 0]], [[of[1, 0], of[0, 1]], [of[2, 0], of[1, 1]]]
-    ctx.cap, columns = 2, []
-    for i in range(len(x)):
-        columns.append(residuals(kind, along, [series(v, arb(1)) if j == i else v for j, v in enumerate(x)]))
-    return [constant(v) for v in columns[0]], [list(row) for row in zip(*[[term(v, 1) for v in column] for column in columns], strict=True)]
+    ctx.cap = 2
+    columns = [
+        residuals(kind, along, [series(v, arb(1)) if j == i else v for j, v in enumerate(x)]) for i in range(len(x))
+    ]
+    return [constant(v) for v in columns[0]], [
+        list(row) for row in zip(*[[term(v, 1) for v in column] for column in columns], strict=True)
+    ]
 
 
 def partials(along: Along, x: list) -> dict[tuple[int, int], arb]:
@@ -1287,21 +1390,28 @@ def only_zero(kind: str, along: Along, box: list[arb]) -> list[arb]:
 
     found = krawczyk(system, [b.mid() for b in box])
     if not all(b.contains_interior(f) for b, f in zip(box, found, strict=True)):
-        raise Refused("the zero of the equations is not in the box that is given")
+        raise RefusedError("the zero of the equations is not in the box that is given")
     guess = solve([[v.mid() for v in row] for row in system(found)[1]], identity(len(box)))
     guess = [[v.mid() for v in row] for row in guess]
     for pieces in (1, 2, 4, 16) if len(box) < 3 else (1, 2, 4):
         hull = None
         for cell in cells(box, pieces):
             slope = slopes_on(kind, along, cell)
-            hull = slope if hull is None else [[a.union(b) for a, b in zip(r, s, strict=True)] for r, s in zip(hull, slope, strict=True)]
+            hull = (
+                slope
+                if hull is None
+                else [[a.union(b) for a, b in zip(r, s, strict=True)] for r, s in zip(hull, slope, strict=True)]
+            )
         if kind == "non-smooth-hopf" and not hull[0][0].contains(0) and not hull[1][1].contains(0):
             return found
         rest = [[int(i == j) - v for j, v in enumerate(row)] for i, row in enumerate(product(guess, hull))]
         widths = [b.rad() for b in box]
-        if all(sum((abs(v) * w for v, w in zip(row, widths, strict=True)), arb(0)) < width for row, width in zip(rest, widths, strict=True)):
+        if all(
+            sum((abs(v) * w for v, w in zip(row, widths, strict=True)), arb(0)) < width
+            for row, width in zip(rest, widths, strict=True)
+        ):
             return found
-    raise Refused("could not be shown: that it is the only one in its box")
+    raise RefusedError("could not be shown: that it is the only one in its box")
 
 
 def cells(box: list[arb], pieces: int):
@@ -1321,17 +1431,21 @@ def point_facts(kind: str, label: str, along: Along, claim: dict) -> dict[str, F
     words, names = POINTS[kind]
     stated = numbers_of(claim)
     if set(stated) != {*names, *(f"{name} box" for name in names)}:
-        raise Refused("its numbers are not those of such a point")
+        raise RefusedError("its numbers are not those of such a point")
     box = []
     for name in names:
         low, high = stated[f"{name} box"]
         if not low < stated[name][0] <= stated[name][1] < high:
-            raise Refused(f"the {name} is not in its box")
+            raise RefusedError(f"the {name} is not in its box")
         box.append(ball((low + high) / 2) + arb(0, ball((high - low) / 2)))
     x = only_zero(kind, along, box)
     numbers = dict(zip(names, x, strict=True)) | {f"{name} box": None for name in names}
     start = f"Along {along.name}, "
-    facts = {"": Fact(f"{start}{words}, at exactly one point of the box that is given, and there at these values.", True, numbers)}
+    facts = {
+        "": Fact(
+            f"{start}{words}, at exactly one point of the box that is given, and there at these values.", True, numbers
+        )
+    }
     _, slopes = linearised(kind, along, x)
     m = along.at(x[-1])
     if kind == "fold":
@@ -1339,7 +1453,9 @@ def point_facts(kind: str, label: str, along: Along, claim: dict) -> dict[str, F
     elif kind in ("boundary-equilibrium", "rub-fold"):
         slope = slopes[0][0]
         facts["transversal"] = Fact(
-            f"The condition vanishes with this slope by {along.name}, which is not zero.", not slope.contains(0) or None, {"slope": slope}
+            f"The condition vanishes with this slope by {along.name}, which is not zero.",
+            not slope.contains(0) or None,
+            {"slope": slope},
         )
         if kind == "boundary-equilibrium":
             facts |= boundary_facts(m)
@@ -1371,7 +1487,7 @@ NO_MOTION = {CROSSES, OUT, STOPS, "it would meet the wall from outside"}
 def fold_facts(label: str, along: Along, m: Machine, x: list, slopes: list) -> dict[str, Fact]:
     curvature, slope = slopes[1][0], slopes[0][1]
     if curvature.contains(0) or slope.contains(0):
-        raise Refused("could not be shown: that the fold is quadratic")
+        raise RefusedError("could not be shown: that the fold is quadratic")
     exist, none = ("smaller", "larger") if curvature * slope > 0 else ("larger", "smaller")
     a12, _ = m.levers(x[0])
     a, b, c = a12.norm(), a12.re, 1 - m.far2
@@ -1436,7 +1552,9 @@ def slope_along(x: list, equations: list, condition: list):
 
 def grazing_facts(along: Along, m: Machine, x: list, slopes: list) -> dict[str, Fact]:
     touch, period, speed, _ = x
-    slope = slope_along(x, [slopes[0][1:], slopes[1][1:]], slopes[2][1:])  # the touch is a maximum: its move adds nothing
+    slope = slope_along(
+        x, [slopes[0][1:], slopes[1][1:]], slopes[2][1:]
+    )  # the touch is a maximum: its move adds nothing
     share = float(touch.mid()) / float(period.mid())
     gap, near = Fraction(1, 64), None
     while gap > Fraction(1, 2**20):
@@ -1477,37 +1595,56 @@ def multiplier_facts(kind: str, along: Along, m: Machine, x: list, slopes: list)
     }
     if kind == "period-doubling":
         total, pair = trace + 1, -det  # sum and product of the other two
-        simple = True if abs(pair) < 1 and abs(total) < 1 + pair else False if abs(pair) > 1 or abs(total) > 1 + pair else None
-        facts["simple"] = Fact("The other two multipliers lie inside the unit circle.", simple, {}, {"one of them is outside"})
+        simple = (
+            True
+            if abs(pair) < 1 and abs(total) < 1 + pair
+            else False
+            if abs(pair) > 1 or abs(total) > 1 + pair
+            else None
+        )
+        facts["simple"] = Fact(
+            "The other two multipliers lie inside the unit circle.", simple, {}, {"one of them is outside"}
+        )
         b = cubic_term(m, period, speed)
         born = "with this b, not zero. Orbits of twice the period next to it are born"
         words = "It is {}critical: on the centre manifold the impact map is x -> -x + b x^3 " + born + " {}"
         facts["supercritical"] = Fact(
-            words.format("super", "stable, as the other two multipliers lie inside the unit circle, as far as they stay inside the wall."),
+            words.format(
+                "super",
+                "stable, as the other two multipliers lie inside the unit circle, as far as they stay inside the wall.",
+            ),
             positive(b) if simple else None,
             {"b": None},
         )
-        facts["subcritical"] = Fact(words.format("sub", "unstable, as far as they stay inside the wall."), positive(-b), {"b": None})
+        facts["subcritical"] = Fact(
+            words.format("sub", "unstable, as far as they stay inside the wall."), positive(-b), {"b": None}
+        )
     return facts
 
 
 def cubic_term(m: Machine, period, speed) -> arb:
-    """b of the map x -> -x + b x^3 on the centre manifold, up to a positive factor: the third derivative along the parabola of the manifold."""
+    """Give b of the map x -> -x + b x^3 on the centre manifold, up to a positive factor: the third derivative along the parabola of the manifold."""
     far, state = course(m, period, speed)
     ctx.cap = 4
     j = impact_derivative(m, far, state, state)
     plus = [[v + int(i == k) for k, v in enumerate(row)] for i, row in enumerate(j)]
     adjoint = [
-        [plus[(k + 1) % 3][(i + 1) % 3] * plus[(k + 2) % 3][(i + 2) % 3] - plus[(k + 1) % 3][(i + 2) % 3] * plus[(k + 2) % 3][(i + 1) % 3] for k in range(3)]
+        [
+            plus[(k + 1) % 3][(i + 1) % 3] * plus[(k + 2) % 3][(i + 2) % 3]
+            - plus[(k + 1) % 3][(i + 2) % 3] * plus[(k + 2) % 3][(i + 1) % 3]
+            for k in range(3)
+        ]
         for i in range(3)
     ]
-    row, column = max(((i, k) for i in range(3) for k in range(3)), key=lambda at: float(abs(adjoint[at[0]][at[1]].mid())))
+    row, column = max(
+        ((i, k) for i in range(3) for k in range(3)), key=lambda at: float(abs(adjoint[at[0]][at[1]].mid()))
+    )
     right, left = [adjoint[i][column] for i in range(3)], adjoint[row]
     scale = sum((a * b for a, b in zip(left, right, strict=True)), arb(0))
 
     def image(shift: list) -> list[arb_series]:
         """The map at the state plus a series, by corrections of which each adds an order."""
-        begin = tuple(s + d for s, d in zip(state[:3], shift, strict=True)) + (series(period),)
+        begin = (*tuple(s + d for s, d in zip(state[:3], shift, strict=True)), series(period))
         follow = [series(v) for v in state[:3]]
         _, own, end = segment(m, far, state, state)
         matrix = [[*r, own[i][3]] for i, r in enumerate(end)]
@@ -1532,14 +1669,16 @@ MOVES, MEETS = "motion of the machine", "it would meet the wall from outside"
 TWO = "two multipliers are outside the unit circle"
 
 
-class Open(Exception):
+class OpenError(Exception):
     """A block of the parameter is too wide."""
 
 
 class Block:
     """An orbit with one impact for all values of a parameter in a block: functions of it as Taylor polynomials of two terms and a remainder."""
 
-    def __init__(self, along: Along, low: Fraction, high: Fraction, cell: tuple[Fraction, Fraction, int], upper: bool) -> None:
+    def __init__(
+        self, along: Along, low: Fraction, high: Fraction, cell: tuple[Fraction, Fraction, int], upper: bool
+    ) -> None:
         self.along, self.half = along, ball(high - low) / 2
         self.centre = ball(low + high) / 2
         centre = along.at(self.centre)
@@ -1549,7 +1688,7 @@ class Block:
         wide = period + arb(0, width.upper())
         self.wide = self.branch(self.centre + arb(0, self.half), wide, wide, upper)
         if not wide.contains_interior(period + term(self.wide[1], 1) * arb(0, self.half)):
-            raise Open
+            raise OpenError
         self.period, self.speed = self.over(lambda m, t, r: t), self.over(lambda m, t, r: r)
 
     def branch(self, value: arb, period: arb, about: arb, upper: bool) -> tuple:
@@ -1557,7 +1696,7 @@ class Block:
         ctx.cap = 2
         slope = self.along.at(value).period_function(series(about, arb(1)))[1]
         if slope.contains(0):
-            raise Open
+            raise OpenError
         ctx.cap = 3
         m, terms = self.along.at(series(value, arb(1))), [period]
         for k in (1, 2):
@@ -1567,15 +1706,17 @@ class Block:
         a, b, c = a12.norm(), a12.re, 1 - m.far2
         inner = b * b - a * c
         if not constant(inner) > 0:
-            raise Open
+            raise OpenError
         return m, t, (-b + (inner.sqrt() if upper else -inner.sqrt())) / a
 
     def over(self, function) -> arb:
         """The values of a function of machine, period and radial speed on the block."""
+        return self.over_each(lambda m, t, r: (function(m, t, r),))[0]
+
+    def over_each(self, functions) -> list[arb]:
         ctx.cap = 3
-        near, far = function(*self.narrow), function(*self.wide)
-        away = arb(0, self.half)
-        return term(near, 0) + term(near, 1) * away + term(far, 2) * away * away
+        near, far, away = functions(*self.narrow), functions(*self.wide), arb(0, self.half)
+        return [term(n, 0) + term(n, 1) * away + term(f, 2) * away * away for n, f in zip(near, far, strict=True)]
 
     def slope(self, function) -> arb:
         ctx.cap = 3
@@ -1587,7 +1728,7 @@ class Block:
 
     def inside(self) -> bool | None:
         """Whether the path is inside between impacts that meet the wall from inside, for all values; None where it differs or is open."""
-        narrow, wide = (Machine_of(v) for v in (self.narrow, self.wide))
+        narrow, wide = (balls_of(v) for v in (self.narrow, self.wide))
 
         def height(numbers):
             m, t, r = numbers
@@ -1603,7 +1744,7 @@ class Block:
                     break
                 edge /= 2
                 if edge < Fraction(1, 2**12):
-                    raise Open
+                    raise OpenError
             edges.append(edge)
         stack, work = [(edges[0], 1 - edges[1])], 0
         while stack:
@@ -1618,7 +1759,7 @@ class Block:
                 return False
             work += 1
             if work > 40:
-                raise Open
+                raise OpenError
             cut = (low + high) / 2
             stack += [(low, cut), (cut, high)]
         return True
@@ -1627,23 +1768,15 @@ class Block:
         after = self.over(lambda m, t, r: m.s + 1 - m.levers(t)[1].im * r - m.mu * (1 + m.d) * r)
         before = self.over(lambda m, t, r: m.s + 1 - m.levers(t)[1].im * r)
         if not (surely_zero(self.narrow[0].mu) or (after > 0 and before > 0)):
-            raise Open
+            raise OpenError
         return True
 
-    def margins(self) -> tuple:
-        """The functions whose signs say where the multipliers are."""
-
-        def of(pick):
-            def value(m, t, r):
-                trace, minors, det = orbit_invariants(m, t, r)
-                return (1 - trace + minors - det, 1 + trace + minors + det, 3 + trace - minors - 3 * det, 1 - minors + trace * det - det * det)[pick]
-
-            return value
-
-        return tuple(of(k) for k in range(4))
+    def margins(self) -> list[arb]:
+        """Four numbers whose signs say where the multipliers are; the second one is det(1 + J)."""
+        return self.over_each(margins_of)
 
     def stability(self) -> str:
-        at_one, at_minus, second, pairs = (self.over(f) for f in self.margins())
+        at_one, at_minus, second, pairs = self.margins()
         if at_one < 0:
             return "unstable (a multiplier is above 1)"
         if at_minus < 0:
@@ -1652,20 +1785,30 @@ class Block:
             return f"unstable ({TWO})"
         if all(v > 0 for v in (at_one, at_minus, second, pairs)):
             return "stable"
-        raise Open
+        raise OpenError
 
     def course(self) -> str:
         if self.speed < 0:
             return f"no motion ({MEETS})"
         if not self.speed > 0:
-            raise Open
+            raise OpenError
         if self.inside():
             self.slip()
             return MOVES
         return f"no motion ({CROSSES})"
 
 
-def Machine_of(branch: tuple) -> tuple:
+def margins_of(m: Machine, period, speed) -> tuple:
+    trace, minors, det = orbit_invariants(m, period, speed)
+    return (
+        1 - trace + minors - det,
+        1 + trace + minors + det,
+        3 + trace - minors - 3 * det,
+        1 - minors + trace * det - det * det,
+    )
+
+
+def balls_of(branch: tuple) -> tuple:
     """The terms of order zero of a branch: balls that hold all its values."""
     m, t, r = branch
     plain_machine = Machine(*(constant(v) for v in (m.gamma, m.omega2, m.rho, m.mu, m.d, m.s)))
@@ -1674,6 +1817,8 @@ def Machine_of(branch: tuple) -> tuple:
 
 def isolated_on(along: Along, low: Fraction, high: Fraction) -> list:
     """The cells of F1 for all values of a block."""
+    if (low, high) in along.known:
+        return along.known[low, high]
     centre, half = ball(low + high) / 2, ball(high - low) / 2
     block = centre + arb(0, half)
     size = ball(Fraction(float(abs(centre.mid())) or 1.0))
@@ -1685,12 +1830,15 @@ def isolated_on(along: Along, low: Fraction, high: Fraction) -> list:
         if order == 0:
             slope = term(along.at(series(block, arb(1))).period_function(cell), 1)
         else:
-            up, down = (term(along.at(series(block, sign * size)).period_function(series(cell, arb(1))), 2) for sign in (1, -1))
+            up, down = (
+                term(along.at(series(block, sign * size)).period_function(series(cell, arb(1))), 2) for sign in (1, -1)
+            )
             slope = (up - down) / 2 / size
         ctx.cap = keep
         return slope * away
 
-    return isolated(along.at(centre), along.at(block), change, 600)
+    along.known[low, high] = isolated(along.at(centre), along.at(block), change, 600)
+    return along.known[low, high]
 
 
 def parts(statement: str) -> dict[str, tuple[str, str]]:
@@ -1698,36 +1846,36 @@ def parts(statement: str) -> dict[str, tuple[str, str]]:
     found: dict[str, tuple[str, str]] = {}
     start = "The closing conditions have exactly these solutions, and each keeps its properties: "
     if not statement.startswith(start):
-        raise Refused("its statement is not known to this program")
+        raise RefusedError("its statement is not known to this program")
     listed = statement[len(start) :]
     for text in [] if listed == "none" else listed.split("; "):
         match = re.fullmatch(rf"(B\d+,[a-d]): ({MOVES}|no motion \([^()]*\)), (stable|unstable \([^()]*\))", text)
         if not match or match[1] in found:
-            raise Refused(f"not known to this program: {text!r}")
+            raise RefusedError(f"not known to this program: {text!r}")
         found[match[1]] = (match[2], match[3])
     return found
 
 
 def stretch(along: Along, low: Fraction, high: Fraction, judge_block, most: int = MOST_BLOCKS) -> None:
-    """Ask `judge_block` on blocks that cover an interval, narrower ones where it raises Open."""
+    """Ask `judge_block` on blocks that cover an interval, narrower ones where it raises OpenError."""
     stack, work = [(low, high)], 0
     while stack:
         a, b = stack.pop()
         work += 1
         if work > most:
-            raise Refused("could not be shown: too many blocks")
+            raise RefusedError("could not be shown: too many blocks")
         try:
             judge_block(a, b)
-        except (Open, ZeroDivisionError) as problem:
+        except (OpenError, ZeroDivisionError) as problem:
             words = f"{problem} " if str(problem) else ""
-        except Refused as problem:
+        except RefusedError as problem:
             if not str(problem).startswith("could not"):
                 raise
             words = ""
         else:
             continue
         if b - a < (high - low) / 2**24:
-            raise Refused(f"could not be shown: {words}next to {along.name} = {float(a):.8g}")
+            raise RefusedError(f"could not be shown: {words}next to {along.name} = {float(a):.8g}")
         stack += [((a + b) / 2, b), (a, (a + b) / 2)]
 
 
@@ -1746,9 +1894,9 @@ def check_stretch(along: Along, claim: dict) -> str:
     said, stated = parts(claim["statement"]), numbers_of(claim)
     low, high = (decimal_of(v) for v in claim["interval"])
     if set(stated) != {f"{name} {what}" for name in said for what in ("period", "radial_speed")}:
-        raise Refused("its numbers are not those of such an interval")
+        raise RefusedError("its numbers are not those of such an interval")
     if claim["motions"] != [name for name, (course_of, _) in said.items() if course_of == MOVES]:
-        raise Refused("its list of motions does not follow from its statement")
+        raise RefusedError("its list of motions does not follow from its statement")
     periods: list = []
 
     def count(a: Fraction, b: Fraction) -> None:
@@ -1758,9 +1906,9 @@ def check_stretch(along: Along, claim: dict) -> str:
             m = along.at(ball(a + b) / 2 + arb(0, ball(b - a) / 2))
             a12, _ = m.levers(ball(cell[0] + cell[1]) / 2 + arb(0, ball(cell[1] - cell[0]) / 2))
             if not a12.re * a12.re - a12.norm() * (1 - m.far2) < 0:
-                raise Open
+                raise OpenError
         if set(said) - set(names):
-            raise Refused("it is false: there are not so many periods")
+            raise RefusedError("it is false: there are not so many periods")
         periods.append((a, b, names))
 
     def each(a: Fraction, b: Fraction) -> None:
@@ -1769,13 +1917,13 @@ def check_stretch(along: Along, claim: dict) -> str:
             block = Block(along, a, b, *names[name])
             found = (block.course(), block.stability())
             if found != (course_of, stable):
-                raise Refused(f"it is false: {name} is {found[0]}, {found[1]}")
+                raise RefusedError(f"it is false: {name} is {found[0]}, {found[1]}")
             for what, true in (("period", block.period), ("radial_speed", block.speed)):
                 start, end = map(ball, stated[f"{name} {what}"])
                 if true < start or true > end:
-                    raise Refused(f"a number stated is wrong: {name} {what}")
+                    raise RefusedError(f"a number stated is wrong: {name} {what}")
                 if not (true >= start and true <= end):
-                    raise Open
+                    raise OpenError
 
     stretch(along, low, high, count)
     for a, b, _ in list(periods) if said else []:
@@ -1789,38 +1937,38 @@ def check_change(along: Along, claim: dict, name: str) -> str:
     low, high = (decimal_of(v) for v in re.fullmatch(rf"{along.name} in \[(\S+), (\S+)\]", claim["about"]).groups())
     stated = numbers_of(claim)
     if set(stated) != {"value"}:
-        raise Refused("its numbers are not those of such a change")
+        raise RefusedError("its numbers are not those of such a change")
     zero, slopes = stated["value"], []
 
     def each(a: Fraction, b: Fraction) -> None:
         names = named(isolated_on(along, a, b))
         if name not in names:
-            raise Refused("it is false: there is no such orbit")
+            raise RefusedError("it is false: there is no such orbit")
         block = Block(along, a, b, *names[name])
-        function = (lambda m, t, r: r) if birth else block.margins()[1]
+        function = (lambda m, t, r: r) if birth else (lambda m, t, r: margins_of(m, t, r)[1])
         value, slope = block.over(function), block.slope(function)
         if b <= zero[0] or a >= zero[1]:
             if not (value > 0 or value < 0):
-                raise Open
+                raise OpenError
         elif slope.contains(0):
-            raise Open
-        slopes.append((a, 1 if (value > 0) == (a >= zero[1]) else -1) if not value.contains(0) else (a, 1 if slope > 0 else -1))
+            raise OpenError
+        slopes.append(
+            (a, 1 if (value > 0) == (a >= zero[1]) else -1) if not value.contains(0) else (a, 1 if slope > 0 else -1)
+        )
         if birth:
             if not block.speed < 0:
                 if block.inside() is not True:
-                    raise Open
+                    raise OpenError
                 block.slip()
-        elif not value < 0:
-            rest = [block.over(f) for k, f in enumerate(block.margins()) if k != 1]
-            if not all(v > 0 for v in rest):
-                raise Open
+        elif not value < 0 and not all(v > 0 for k, v in enumerate(block.margins()) if k != 1):
+            raise OpenError
 
     edges = [low, *sorted(v for v in zero if low < v < high), high]
-    for a, b in zip(edges, edges[1:], strict=False):
+    for a, b in pairwise(edges):
         stretch(along, a, b, each)
     signs = {s for _, s in slopes}
     if len(signs) != 1 or not low < zero[0] or not zero[1] < high:
-        raise Refused("could not be shown: one zero only")
+        raise RefusedError("could not be shown: one zero only")
     larger, smaller = ("larger", "smaller") if signs == {1} else ("smaller", "larger")
     words = (
         f"{name} exists for all values of this interval, and its radial speed has exactly one zero there, at this value: for all {larger} values of "
@@ -1832,10 +1980,15 @@ def check_change(along: Along, claim: dict, name: str) -> str:
     return judge(claim, Fact(words, True, {"value": None}))
 
 
+def one(verdicts: set):
+    """The verdict of a set that holds one."""
+    return next(iter(verdicts)) if len(verdicts) == 1 else None
+
+
 def check_slip_on(along: Along, low: Fraction, high: Fraction) -> bool:
     def each(a: Fraction, b: Fraction) -> None:
         if not slip_stays_forward(along.at(ball(a + b) / 2 + arb(0, ball(b - a) / 2))):
-            raise Open
+            raise OpenError
 
     stretch(along, low, high, each)
     return True
@@ -1848,70 +2001,113 @@ class Intervals:
         unit = "" if along.name in DIMENSIONLESS else MACHINE[along.name]
         ends = [quantity(options[key], unit) for key in ("from", "to")]
         if any(end.power for end in ends):
-            raise Refused("not covered|ends of the interval that hold pi")
+            raise RefusedError("not covered|ends of the interval that hold pi")
         self.along, self.low, self.high = along, ends[0].rational, ends[1].rational
         self.words = f"For all {options['from']} <= {along.name} <= {options['to']}, "
         self.listed, self.trusted = [], True
         for claim in claims:
             if claim["kind"] == "orbits" and claim["about"].startswith(f"{along.name} in ["):
-                a, b = (decimal_of(v) for v in re.fullmatch(rf"{along.name} in \[(\S+), (\S+)\]", claim["about"]).groups())
+                a, b = (
+                    decimal_of(v) for v in re.fullmatch(rf"{along.name} in \[(\S+), (\S+)\]", claim["about"]).groups()
+                )
                 shown = claim["status"] == "proven"
                 if shown and (claim.get("interval") is None or [decimal_of(v) for v in claim["interval"]] != [a, b]):
-                    raise Refused("an interval has other ends in its name")
-                self.listed.append((a, b, parts(claim["statement"]) if shown else None, claim["about"].partition(" in ")[2]))
+                    raise RefusedError("an interval has other ends in its name")
+                self.listed.append(
+                    (a, b, parts(claim["statement"]) if shown else None, claim["about"].partition(" in ")[2])
+                )
         edges = [a for a, _, _, _ in self.listed] + [self.high]
-        if not self.listed or self.listed[0][0] != self.low or any(b != e for (_, b, _, _), e in zip(self.listed, edges[1:], strict=True)):
-            raise Refused("the stretches do not cover the interval in order")
+        if (
+            not self.listed
+            or self.listed[0][0] != self.low
+            or any(b != e for (_, b, _, _), e in zip(self.listed, edges[1:], strict=True))
+        ):
+            raise RefusedError("the stretches do not cover the interval in order")
 
-    def tried(self, low: Fraction, high: Fraction, name: str, kind: str) -> bool | None:
-        """What is true of an orbit on a stretch that is left open, if it is the same for all values."""
-        verdicts = set()
+    def refuse_missing(self, claims: list[dict], report: Report) -> None:
+        """Refuse what is not told of the machine, or of an orbit that a stretch has."""
+        there = {(c["about"], c["kind"]) for c in claims}
+        names = {name for _, _, said, _ in self.listed for name in said or {}}
+        wanted = {(name, kind) for name in names for kind in ("exists", "admissible", "stable")}
+        for about, kind in sorted(wanted | {("machine", "slip"), ("machine", "all-single-impact-orbits")}):
+            if (about, kind) not in there:
+                report.add("refused", f"{about}: {kind}", "it is missing")
+
+    def tried(self, low: Fraction, high: Fraction, wanted: dict[str, str]) -> dict[str, set]:
+        """What is found of orbits on a stretch that is left open, by their names; all of them for the name "all"."""
+        found: dict[str, set] = {name: set() for name in wanted}
 
         def each(a: Fraction, b: Fraction) -> None:
             names = named(isolated_on(self.along, a, b))
-            if name not in names:
-                verdicts.add(False)
-                return
-            block = Block(self.along, a, b, *names[name])
-            verdicts.add(kind == "exists" or (block.course() == MOVES if kind == "admissible" else block.stability() == "stable"))
+            for name, kind in wanted.items():
+                if name == "all":
+                    courses = {n: Block(self.along, a, b, *names[n]).course() for n in names}
+                    found[name].add(tuple(sorted((n for n, v in courses.items() if v == MOVES), key=in_order)))
+                elif name in names:
+                    block = Block(self.along, a, b, *names[name])
+                    good = {
+                        "exists": lambda of: True,
+                        "admissible": lambda of: of.course() == MOVES,
+                        "stable": lambda of: of.stability() == "stable",
+                    }
+                    found[name].add(good[kind](block))
+                else:
+                    found[name].add(False)
 
         try:
             stretch(self.along, low, high, each, 40)
-        except Refused:
-            return None
-        return verdicts.pop() if len(verdicts) == 1 else None
+        except RefusedError:
+            return {name: {None} for name in wanted}
+        return found
 
     def follows(self, claim: dict) -> str:
         """A claim about the whole interval, from what is stated on the stretches."""
         about, kind, stated = claim["about"], claim["kind"], numbers_of(claim)
-        whole = all(said is not None for _, _, said, _ in self.listed)
         if (about, kind) == ("machine", "all-single-impact-orbits"):
-            lists = {tuple(sorted((n for n, v in said.items() if v[0] == MOVES), key=in_order)) for _, _, said, _ in self.listed if said is not None}
-            if not (whole and len(lists) == 1):
-                raise Refused("it does not follow from the stretches")
+            lists = set()
+            for low, high, said, _ in self.listed:
+                if said is None:
+                    lists |= self.tried(low, high, {"all": ""})["all"]
+                else:
+                    lists.add(tuple(sorted((n for n, v in said.items() if v[0] == MOVES), key=in_order)))
+            if one(lists) is None:
+                raise RefusedError("it does not follow from the stretches")
             names = ", ".join(next(iter(lists)))
             text = f"{self.words}motions of the machine with one impact a period, synchronous with the shaft, are {f'exactly these: {names}' if names else 'none'}."
             return judge(claim, Fact(text, True))
-        texts = {"exists": "its closing conditions have a solution.", "admissible": "it is a motion of the machine.", "stable": "all its multipliers lie inside the unit circle."}
-        good = {"exists": lambda v: True, "admissible": lambda v: v[0] == MOVES, "stable": lambda v: v[1] == "stable"}[kind]
-        verdicts = [self.tried(a, b, about, kind) if said is None else about in said and good(said[about]) for a, b, said, _ in self.listed]
+        texts = {
+            "exists": "its closing conditions have a solution.",
+            "admissible": "it is a motion of the machine.",
+            "stable": "all its multipliers lie inside the unit circle.",
+        }
+        good = {"exists": lambda v: True, "admissible": lambda v: v[0] == MOVES, "stable": lambda v: v[1] == "stable"}[
+            kind
+        ]
+        verdicts = [
+            one(self.tried(a, b, {about: kind})[about]) if said is None else about in said and good(said[about])
+            for a, b, said, _ in self.listed
+        ]
         true = every(verdicts)
         if all(end in stated for end in ("from", "to")):
             a, b = stated.pop("from")[0], stated.pop("to")[1]
             inner = [v for (p, q, _, _), v in zip(self.listed, verdicts, strict=True) if p < b and q > a]
             if not a < b or not all(inner) or not inner:
-                raise Refused("between the numbers stated it is not shown")
+                raise RefusedError("between the numbers stated it is not shown")
         if stated or claim["statement"] != self.words + texts[kind] or claim["status"] != STATUS.get(true):
-            raise Refused("it does not follow from the stretches")
+            raise RefusedError("it does not follow from the stretches")
         if (claim["reason"] == "") != (true is True):
-            raise Refused("its reason does not follow from the stretches")
+            raise RefusedError("its reason does not follow from the stretches")
         for word, verdict in (("shown on", True), ("the contrary on", False), ("open on", None)):
             told = re.search(rf"{word} ([^;]*)", claim["reason"])
-            spans = [tuple(decimal_of(v) for v in pair) for pair in re.findall(r"\[(\S+), (\S+)\]", told[1])] if told else []
+            spans = (
+                [tuple(decimal_of(v) for v in pair) for pair in re.findall(r"\[(\S+), (\S+)\]", told[1])]
+                if told
+                else []
+            )
             for a, b in spans:
                 inner = [v for (p, q, _, _), v in zip(self.listed, verdicts, strict=True) if p < b and q > a]
                 if any(v is not verdict for v in inner):
-                    raise Refused("its reason does not follow from the stretches")
+                    raise RefusedError("its reason does not follow from the stretches")
         return "checked"
 
 
@@ -1922,7 +2118,9 @@ def decide_interval(claim: dict, intervals: Intervals | None, along: Along) -> s
     if (about, kind) == ("machine", "slip"):
         text = f"{intervals.words}no orbit with one impact a period stops its slip or slips backward."
         return judge(claim, Fact(text, check_slip_on(along, intervals.low, intervals.high)))
-    if (about, kind) == ("machine", "all-single-impact-orbits") or (re.fullmatch(r"B\d+,[a-d]", about) and kind in ("exists", "admissible", "stable")):
+    if (about, kind) == ("machine", "all-single-impact-orbits") or (
+        re.fullmatch(r"B\d+,[a-d]", about) and kind in ("exists", "admissible", "stable")
+    ):
         return intervals.follows(claim)
     if re.fullmatch(rf"{along.name} in \[\S+, \S+\]", about):
         if kind == "orbits" and claim["status"] == "proven" and claim["reason"] == "":
@@ -1933,55 +2131,72 @@ def decide_interval(claim: dict, intervals: Intervals | None, along: Along) -> s
     return "not covered|a claim of a kind that this program does not know"
 
 
+def points_of(along: Along, claims: list[dict], report: Report) -> dict[tuple[str, str], dict[str, Fact] | str]:
+    """What is true of each point that is claimed, or the reason to refuse it; one zero listed twice is refused."""
+    points: dict[tuple[str, str], dict[str, Fact] | str] = {}
+    zeros: list[tuple[tuple, list]] = []
+    for claim in claims:
+        label = re.fullmatch(r"of (\S+)(?: \(\d+\))?", claim["kind"])
+        if claim["about"] not in POINTS or not label or claim["status"] == "undecided":
+            continue
+        key = (claim["about"], claim["kind"])
+        try:
+            points[key] = facts = point_facts(claim["about"], label[1], along, claim)
+        except RefusedError as problem:
+            points[key] = str(problem)
+            continue
+        # At a fold, and where orbits are born at the wall, two orbits of one pair of names share the numbers.
+        sort = (claim["about"], label[1][-1] if claim["about"] in ("fold", "non-smooth-hopf") else "")
+        values = [v for v in facts[""].numbers.values() if v is not None]
+        if any(k == sort and all(x.overlaps(y) for x, y in zip(v, values, strict=True)) for k, v in zeros):
+            report.add("refused", f"{key[0]}: {key[1]}", "this zero is listed twice")
+        zeros.append((sort, values))
+        if (key[0], f"{key[1]} transversal") not in {(c["about"], c["kind"]) for c in claims}:
+            report.add("refused", f"{key[0]}: {key[1]} transversal", "it is missing")
+    return points
+
+
 def check_along(document: dict, exact: dict[str, Exact], report: Report) -> None:
     """Claims about points and intervals of a parameter."""
     options, claims = document["options"], document["claims"]
     along = Along(document["hypotheses"], exact, options["along"])
     try:
         intervals = Intervals(along, options, claims)
-    except Refused as problem:
+        intervals.refuse_missing(claims, report)
+    except RefusedError as problem:
         if not str(problem).startswith("not covered"):
             raise
         intervals = None
-    points: dict[tuple[str, str], dict[str, Fact] | str] = {}
-    zeros: list[tuple[str, str, dict]] = []
-    for claim in claims:
-        if claim["about"] not in POINTS:
-            continue
-        label = re.fullmatch(r"of (\S+)(?: \d+)?", claim["kind"])
-        if not label:
-            continue
-        key = (claim["about"], claim["kind"])
-        try:
-            points[key] = point_facts(claim["about"], label[1], along, claim)
-            values = [v for v in points[key][""].numbers.values() if v is not None]
-            letter = label[1][-1] if claim["about"] in ("fold", "non-smooth-hopf") else ""
-            if any(about == key[0] and old_letter == letter and all(a.overlaps(b) for a, b in zip(old, values, strict=True)) for about, old_letter, old in zeros):
-                report.add("refused", f"{key[0]}: {key[1]}", "this zero is listed twice")
-            zeros.append((key[0], letter, values))
-        except Refused as problem:
-            points[key] = str(problem)
+    points = points_of(along, claims, report)
 
     def decide(claim: dict) -> str:
         about, kind = claim["about"], claim["kind"]
         if claim["status"] == "undecided":
             return "claims nothing"
-        if about in POINTS:
-            for (of, first), facts in points.items():
-                if of == about and (kind == first or kind.startswith(f"{first} ")):
-                    if isinstance(facts, str):
-                        raise Refused(facts)
-                    fact = facts.get(kind[len(first) :].strip())
-                    if fact is None:
-                        return "not covered|a claim of a kind that this program does not know"
-                    return judge(claim, fact)
-            raise Refused("the point itself is missing")
-        return decide_interval(claim, intervals, along)
+        if about not in POINTS:
+            return decide_interval(claim, intervals, along)
+        for (of, first), facts in points.items():
+            if of == about and (kind == first or kind.startswith(f"{first} ")):
+                if isinstance(facts, str):
+                    raise RefusedError(facts)
+                fact = facts.get(kind[len(first) :].strip())
+                return judge(claim, fact) if fact else "not covered|a claim of a kind that this program does not know"
+        raise RefusedError("the point itself is missing")
 
     report.each(claims, decide)
 
 
-THEOREMS = {"single-impact orbits": check_machine, "orbits of several impacts": check_machine, "along a parameter": check_along}
+def check_nothing(document: dict, _: dict[str, Exact], report: Report) -> None:
+    """Claims about kicks, of which this program knows the hypotheses only."""
+    report.each(document["claims"], lambda claim: "not covered|kicks")
+
+
+THEOREMS = {
+    "single-impact orbits": check_machine,
+    "orbits of several impacts": check_machine,
+    "along a parameter": check_along,
+    "kicks": check_nothing,
+}
 
 
 def main(arguments: list[str]) -> int:
@@ -1989,9 +2204,8 @@ def main(arguments: list[str]) -> int:
         print(__doc__)
         return int(len(arguments) != 1)
     try:
-        with open(arguments[0], encoding="utf-8") as file:
-            report = check(file.read())
-    except (Refused, OSError, UnicodeDecodeError) as problem:
+        report = check(Path(arguments[0]).read_text(encoding="utf-8"))
+    except (RefusedError, OSError, UnicodeDecodeError) as problem:
         print(f"refused: {problem}")
         return 1
     for verdict, what, why in report.lines:

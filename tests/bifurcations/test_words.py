@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import cache
 
 import mpmath
@@ -276,3 +277,16 @@ def test_neimark_sacker_points_have_a_pair_of_multipliers_on_the_unit_circle():
     assert turning
     for values in turning:
         assert np.abs(np.abs(values) - 1.0).min() < 1e-7
+
+
+def test_an_orbit_of_very_many_unknowns_is_refused():
+    """Each step would invert a matrix of thousands of rows."""
+    orbit = find_orbits(PAPER)["B1,d"]
+    many = replace(
+        orbit,
+        word=orbit.word.repeated(400),
+        nodes=np.tile(orbit.nodes, (400, 1)),
+        durations=np.tile(orbit.durations, 400),
+    )
+    with pytest.raises(InputError, match=r"^orbit = 400 segments with 5 unknowns each: at most 1500 unknowns"):
+        continue_orbit(many, "gamma", (0.05, 0.2))

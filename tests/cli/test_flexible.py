@@ -44,7 +44,6 @@ def test_without_weight_other_disturbances_work(carom, options):
 
 PLANAR = [
     ("orbits",),
-    ("orbits", "--impacts", "2"),
     ("response",),
     ("prove",),
     ("explore",),
@@ -59,7 +58,7 @@ def test_what_takes_the_planar_rotor_refuses_it_in_one_line(carom, command, sett
     code, out, err = carom(command[0], MACHINE, *command[1:], *settings)
     assert (code, out) == (2, "")
     assert err.startswith("carom: machine = Case tum-flexible-rotor: the planar rotor")
-    assert "the commands study, simulate, drop, attractors and basins" in err
+    assert "the commands study, simulate, drop, attractors, basins, orbits --impacts, and sweep with [basins]" in err
     assert err.count("\n") == 1
 
 
@@ -84,6 +83,71 @@ def test_a_sweep_refuses_it_too(carom, tmp_path):
     code, out, err = carom("sweep", str(path), "--out", str(tmp_path / "sweep.zarr"))
     assert (code, out, err.count("\n")) == (2, "", 1)
     assert "the planar rotor" in err
+
+
+SWEEP = f"""machine = "{Path(MACHINE).absolute()}"
+set = ["gravity=0"]
+[axes.proportional]
+values = ["1000 A/m", "5500 A/m"]
+[axes.touchdown_stiffness_2]
+from = "1e7 N/m"
+to = "2e7 N/m"
+count = 2
+[basins]
+starts = 2
+disturbance = {{kind = "kick", fastest = "20 mm/s"}}
+"""
+
+
+def test_a_sweep_of_basins_over_gains_is_resumed(carom, tmp_path):
+    path, store = tmp_path / "sweep.toml", str(tmp_path / "sweep.zarr")
+    path.write_text(SWEEP)
+    code, _, err = carom("sweep", str(path), "--out", store, "--threads", "--workers", "2")
+    assert (code, err) == (0, "")
+    found = cm.open_sweep(store)
+    assert found.levitates.values.tolist() == [[0, 0], [1, 1]]
+    assert found.possible.values.tolist() == [[0, 0], [2, 2]]
+    assert (found.recovered.values[1] == 1.0).all()
+    _, out, _ = carom("sweep", str(path), "--out", store)
+    assert "Nothing was left to compute." in out
+
+
+@pytest.mark.parametrize(
+    ("changes", "says"),
+    [
+        (("axes.proportional", "axes.propotional"), "axes.propotional = propotional: unknown name"),
+        (("1000 A/m", "1000 N/m"), "axes.proportional.values = 1000 N/m: must be a gain in A/m"),
+        (('"gravity=0"', '"proportional=5000 A/m"'), "axes.proportional = varied: is set too"),
+    ],
+)
+def test_a_sweep_over_what_is_no_parameter_gets_one_line(carom, tmp_path, changes, says):
+    path = tmp_path / "sweep.toml"
+    path.write_text(SWEEP.replace(*changes))
+    code, out, err = carom("sweep", str(path), "--out", str(tmp_path / "store"))
+    assert (code, out, err.count("\n")) == (2, "", 1)
+    assert says in err
+
+
+def test_gains_are_mapped_by_their_names(carom, tmp_path):
+    small = ("--grid", "1x2", "--fastest", "10 mm/s", "--set", "gravity=0", "--gains", "2x2")
+    code, out, err = carom("basins", MACHINE, *small, "--x", "1000 A/m,5500 A/m", "--out", str(tmp_path / "out"))
+    words = " ".join(out.split())
+    assert code == 0
+    assert err.startswith("Written to ")
+    assert "Map: proportional gain 1,000 A/m to 5,500 A/m; derivative gain 2.5 A s/m to 10 A s/m." in words
+    assert "50 % cannot levitate" in words
+    found = cm.basins.GainMap.load(tmp_path / "out" / "gains.nc")
+    assert found.dataset.levitates.values.tolist() == [[0.0, 0.0], [1.0, 1.0]]
+    assert found.present == (5000.0, 5.0)
+    assert [each.name for each in found.axes] == ["proportional", "derivative"]
+
+
+def test_an_unstable_levitation_is_one_line(carom):
+    code, out, err = carom(
+        "simulate", MACHINE, "--kick", "5 mm/s", "--until", "20 ms", "--set", "proportional=1000 A/m"
+    )
+    assert (code, out, err.count("\n")) == (2, "", 1)
+    assert err.startswith("carom: levitation = unstable: a whirl of ")
 
 
 @pytest.mark.parametrize("settings", [(), ("--set", "gravity=0")])

@@ -10,7 +10,7 @@ import pytest
 
 from carom.cli import main
 
-PAPER = "examples/source-paper.toml"
+PAPER, SPINDLE = "examples/source-paper.toml", "examples/spindle.toml"
 
 
 def test_proof_is_printed_written_and_verified(capsys, tmp_path):
@@ -39,6 +39,11 @@ def test_json_is_the_certificate(capsys, tmp_path):
         ([PAPER, "--longest-period", "1e999999999"], "a time above 0"),
         ([PAPER, "--along", "gamma", "--from", "[0.1, 0.2]", "--to", "0.3"], "must be one number"),
         ([PAPER, "--check", "proof.json"], "must stand alone"),
+        ([PAPER, "--time-limit", "3 s"], "is needed by --most-impacts and --time-limit"),
+        ([PAPER, "--kicks-up-to", "0.2", "--impacts", "2"], "cannot be combined"),
+        ([PAPER, "--kicks-up-to", "0.2", "--most-impacts", "36"], "most_impacts"),
+        ([PAPER, "--kicks-up-to", "0.2", "--time-limit", "soon"], "time_limit"),
+        ([SPINDLE, "--kicks-up-to", "110"], "this has no unit: write 110 m/s"),
         (["--check", "absent.json"], "cannot be read"),
         (["absent.toml"], "there is no such file"),
         ([PAPER, "--set", "stiffness=1"], "unknown name in the settings; did you mean omega?"),
@@ -52,6 +57,21 @@ def test_bad_input_is_one_line(capsys, arguments, words):
     error = capsys.readouterr().err
     assert words in error
     assert error.count("\n") == 1
+
+
+def test_kicks_are_proven_gone_on_with_and_verified(capsys, tmp_path):
+    command = ["prove", SPINDLE, "--kicks-up-to", "105 mm/s", "--most-impacts", "1", "--out", str(tmp_path)]
+    assert main([*command, "--time-limit", "1 ms"]) == 0
+    assert "time was up" in capsys.readouterr().out
+    assert main(command) == 0
+    printed = capsys.readouterr().out
+    assert "share proven 1," in printed
+    assert "undecided" not in printed
+
+    assert main(["prove", "--check", str(tmp_path / "proof.json"), "--json"]) == 0
+    recover, _ = json.loads(capsys.readouterr().out)["claims"]
+    assert (recover["about"], recover["kind"], recover["status"]) == ("kicks", "recover", "proven")
+    assert recover["enclosures"]["speed_si"] == ["0.105", "0.105"]
 
 
 def test_changed_certificate_is_refused(capsys, tmp_path):

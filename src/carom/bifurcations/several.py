@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from functools import reduce
 
@@ -15,7 +16,7 @@ from carom.models import Model
 from carom.models.axes import Axis
 from carom.orbits.names import CountedName
 from carom.orbits.orbit import Orbit, orbit_near
-from carom.orbits.search import Search, Searched
+from carom.orbits.search import Search, Searched, usual_share
 from carom.orbits.shooting import pack_free
 from carom.outcome import CaromError
 from carom.progress import Reporter
@@ -77,7 +78,7 @@ def searched_branches(
         rotor = along.move(model, value)
         search = Search(rotor, impacts[1], _known(rotor, value, [*singles, *found]))
         part = tell.part(place / VALUES, (place + 1) / VALUES)
-        done.append(search.run(SETTLED, GUESSES, FRESH, [0, place], part))
+        done.append(search.run(SETTLED, math.ceil(usual_share(rotor) * GUESSES), FRESH, [0, place], part))
         for orbit in search.found:
             wanted = orbit.admissible and orbit.impacts >= impacts[0]
             if wanted and not any(lies_on(orbit, value, branch) for branch in found):

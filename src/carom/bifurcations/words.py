@@ -61,6 +61,10 @@ BEYOND = 0.2
 """Half of the range, relative to the parameter, in which a branch is followed that is switched to without a range."""
 
 
+MOST_UNKNOWNS = 1500
+"""Most unknowns of an orbit that is followed: inverting their matrix takes a third of a second, a hundred times a branch."""
+
+
 def renamed(branch: OrbitBranch, name: CountedName) -> OrbitBranch:
     """A branch followed by multiple shooting, with another name."""
     special = tuple(
@@ -95,7 +99,7 @@ def continue_orbit(
     Raises
     ------
     InputError
-        Unknown parameter, or an interval without the orbit.
+        Unknown parameter, an interval without the orbit, or an orbit of very many unknowns.
 
     See Also
     --------
@@ -113,6 +117,10 @@ def continue_orbit(
     along = axis(orbit.rotor, parameter)
     present, limits = interval_around(along, along.value(orbit.rotor), interval)
     start = pack_free(orbit.word, orbit.start)
+    if len(start) > MOST_UNKNOWNS:
+        each = f"{len(orbit.word)} segments with {len(start) // len(orbit.word)} unknowns each"
+        allowed = f"at most {MOST_UNKNOWNS} unknowns: each step of a branch solves for all of them; follow a shorter orbit, or a rotor of fewer states"
+        raise InputError("orbit", each, allowed)
     family = Family(orbit.rotor, along, orbit.word, limits)
     return _follow(family, start, present, steps, orbit.name, virtual=virtual)
 

@@ -1,7 +1,7 @@
 """The command line.
 
 A module for each command (``study``, ``simulate``, ``drop``, ``orbits``, ``attractors``, ``prove``, ``response``, ``bifurcations``
-with ``regions``, ``basins``, ``sweep``, ``paper``, ``explore``), and what they share:
+with ``regions``, ``basins``, ``sweep``, ``paper``, ``explore``, ``template``, ``import_rotor``), and what they share:
 
 ===================  ==========================================================
 ``app``              all commands, and how errors are reported

@@ -29,7 +29,11 @@ def orbits(
     ] = None,
     guesses: Annotated[
         int | None,
-        typer.Option(metavar="N", min=1, help="Guesses of that search for each number of impacts; 1500 by default."),
+        typer.Option(
+            metavar="N",
+            min=1,
+            help="Guesses of that search for each number of impacts; 1500 by default, fewer for a rotor of many states.",
+        ),
     ] = None,
     as_json: AsJson = False,
 ) -> None:
@@ -43,10 +47,10 @@ def orbits(
     from carom.models.subjects import refuse_other_rotors
 
     given = load(machine, settings or ())
-    refuse_other_rotors(given)
     if impacts is not None:
         _search(given, impacts, guesses, as_json)
         return
+    refuse_other_rotors(given)
     case = case_of(given)
     longest = None
     if longest_period is not None:
@@ -74,11 +78,10 @@ def orbits(
 def _search(case: Case, impacts: int, guesses: int | None, as_json: bool) -> None:
     """Print the orbits with at most a number of impacts."""
     with progress("orbits (the kernels are compiled on first use)") as tell:
-        from carom.orbits.search import GUESSES
         from carom.orbits.single_impact import find_orbits
         from carom.studies import found_orbits_document
 
-        found = find_orbits(case, impacts=impacts, guesses=GUESSES if guesses is None else guesses, progress=tell)
+        found = find_orbits(case, impacts=impacts, guesses=guesses, progress=tell)
     if as_json:
         print_document(found_orbits_document(case.parameters, found))
         return

@@ -59,8 +59,11 @@ def study(
         if out is not None:
             from carom.report import write_flexible_report, write_report
 
-            write = write_flexible_report if isinstance(result, FlexibleStudy) else write_report
-            report = write(result, out, progress=tell.part(share_of_study, 1.0))
+            step = tell.part(share_of_study, 1.0)
+            if isinstance(result, FlexibleStudy):
+                report = write_flexible_report(result, out, progress=step)
+            else:
+                report = write_report(result, out, progress=step)
     if as_json:
         print_document(result.to_dict())
         if report is not None:

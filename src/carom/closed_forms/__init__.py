@@ -14,6 +14,8 @@
 ``absorbing``       neighbourhoods of the rub that sliding never leaves
 ``periods``         periods of all orbits with one impact a period
 ``local``           cycles that shrink into a boundary equilibrium
+``piecewise``       motion next to a point of a wall that levitation touches
+``wall_meetings``   what is born there, for any number of modes and both kinds of walls
 ``free_impact``     impacts of a free mass on walls that give way
 ``yielding_walls``  rubs and slipping whirl on walls that give way
 ``whirl_resonance`` speeds at which the whirls of a disc are in resonance
@@ -38,6 +40,7 @@ from carom.closed_forms.periods import PeriodCondition, PeriodRoots
 from carom.closed_forms.sag import Levitation, levitation
 from carom.closed_forms.thresholds import rub_limit
 from carom.closed_forms.unbalance import SpeedResponse, speed_response
+from carom.closed_forms.wall_meetings import SmallCycle, WallMeeting, small_cycles
 from carom.closed_forms.whirl import Rolling, Runaway, rolling, runaway_speed
 from carom.closed_forms.whirl_resonance import internal_resonance
 from carom.closed_forms.yielding_walls import SlippingWhirl, YieldingRub, slipping_whirls, yielding_rubs
@@ -57,7 +60,9 @@ __all__ = [
     "RubNeighbourhood",
     "Runaway",
     "SlippingWhirl",
+    "SmallCycle",
     "SpeedResponse",
+    "WallMeeting",
     "YieldingRub",
     "ball_pressure",
     "cycle_determinant",
@@ -78,6 +83,7 @@ __all__ = [
     "rub_neighbourhood",
     "runaway_speed",
     "slipping_whirls",
+    "small_cycles",
     "speed_response",
     "yielding_rubs",
 ]

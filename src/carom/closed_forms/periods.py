@@ -8,7 +8,7 @@ from typing import Literal
 
 import numpy as np
 
-from carom.arguments import Positive, Reals, checked
+from carom.arguments import Positive, Reals, Whole, checked
 from carom.core import periods
 from carom.core.friction import sliding_factor
 from carom.core.planar import planar_exponents
@@ -66,14 +66,14 @@ class PeriodCondition:
 
     @classmethod
     @checked
-    def of(cls, system: System, slip: Literal[-1, 1] = 1) -> PeriodCondition:
-        """Return the condition for orbits with impacts at the first plane of a system and this direction of slip."""
+    def of(cls, system: System, slip: Literal[-1, 1] = 1, plane: Whole = 0) -> PeriodCondition:
+        """Return the condition for orbits with impacts at a plane of a system and this direction of slip."""
         arrays, free = system.arrays, system.free
-        row, column = arrays.rows[0, free], arrays.columns[free, 0]
+        row, column = arrays.rows[plane, free], arrays.columns[free, plane]
         modes = np.zeros((len(row), 3), complex)
         modes[:, 0], modes[:, 1] = system.exponents, row * column
         modes[1:, 2] = row[1:] * column[:-1] * arrays.driven[free][1:]
-        return cls(modes, sliding_factor(slip * float(arrays.friction[0]), float(arrays.restitution[0])))
+        return cls(modes, sliding_factor(slip * float(arrays.friction[plane]), float(arrays.restitution[plane])))
 
     @classmethod
     @checked

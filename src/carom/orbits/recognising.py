@@ -30,6 +30,8 @@ SAMPLES = 200
 MOST_TURNS, REPEATS = 8, 1e-6
 """Most turns of the shaft after which whirl under weight is looked for again, and the distance, relative to one plus the size of the
 state, within which it repeats."""
+MOST_NUMBERS = 4000
+"""Numbers in the nodes of an orbit up to which Newton's method closes it: a step with as many takes seconds."""
 AROUND = 1e-3
 """Distance, relative to one plus the size of the nodes, within which the orbit of a settled motion is searched for."""
 
@@ -46,7 +48,8 @@ def orbit_of_motion(motion: Trajectory) -> Orbit | None:
     Returns
     -------
     Orbit or None
-        ``None`` if the motion has not settled to such an orbit, or if Newton's method closes none next to it.
+        ``None`` if the motion has not settled to such an orbit, if Newton's method closes none next to it, or if it has so many segments and states that
+        this would take minutes.
 
     See Also
     --------
@@ -178,7 +181,7 @@ def _closed(motion: Trajectory, first: int, last: int) -> Orbit | None:
 
 def _near(rotor: Model, word: Word, start: Start) -> Orbit | None:
     """Orbit next to a start, if it is the one that the motion has settled on."""
-    if rotor.system.unrepeated is not None:
+    if rotor.system.unrepeated is not None or start.nodes.size * 2 > MOST_NUMBERS:
         return None
     orbit, begun = orbit_near(rotor, word, start), start.nodes[0]
     if orbit is None or np.abs(orbit.nodes - begun).max(axis=1).min() > AROUND * (1.0 + np.abs(begun).max()):

@@ -6,6 +6,7 @@ stretch of a motion that is a few impacts long is a guess for Newton's method, w
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, fields, replace
 from typing import Annotated
@@ -35,6 +36,9 @@ EARLY, NEAREST = 3, 1
 that come back closest."""
 FRUITLESS = 200
 """Motions in a row without any guess, after which the search ends."""
+WHOLE_WIDTH, LEAST_SHARE = 21, 0.002
+"""Equations of a segment up to which a search tries all that it is meant to, and the least share of it: each guess solves equations whose work
+grows with the third power of their number."""
 IMPACTS = 4
 """Impacts of these motions, in multiples of the largest number of impacts a period."""
 FOLLOWED = 1000.0
@@ -126,8 +130,14 @@ class Searched:
         )
 
 
+def usual_share(rotor: Model) -> float:
+    """Share of the usual guesses and motions that a search tries: fewer for a rotor of many states, whose guesses take seconds each."""
+    width = 2 * len(rotor.system.nodes.rest) + 1
+    return max(LEAST_SHARE, min(1.0, (WHOLE_WIDTH / width) ** 3))
+
+
 def search_orbits(
-    rotor: Model, impacts: int, guesses: int, seed: int, known: Sequence[Orbit], tell: Reporter
+    rotor: Model, impacts: int, guesses: int | None, seed: int, known: Sequence[Orbit], tell: Reporter
 ) -> tuple[tuple[Orbit, ...], Searched]:
     """Search orbits with at most a number of impacts a period: the admissible ones known then, and what was tried.
 
@@ -136,13 +146,13 @@ def search_orbits(
 
     Parameters
     ----------
-    guesses : int
-        Stretches that are corrected, for each number of impacts.
+    guesses : int or None
+        Stretches that are corrected, for each number of impacts; ``None`` for as many as usual.
     known : sequence of Orbit
         Orbits that are known to exist.
     """
-    search = Search(rotor, impacts, known)
-    done = search.run(SETTLED, guesses, FRESH, [seed], tell)
+    search, share = Search(rotor, impacts, known), usual_share(rotor)
+    done = search.run(SETTLED, guesses or math.ceil(share * GUESSES), FRESH, [seed], tell)
     return search.named(), done
 
 
@@ -221,8 +231,10 @@ class Search:
 
         Fewer motions are followed until they settle, of both kinds, if they are not followed side by side.
         """
-        slower = 1 if self.rotor.system.is_planar else SLOWER
-        settled, fresh = -(-settled // slower), -(-fresh // slower)
+        slower = 1.0 if self.rotor.system.is_planar else 1.0 / SLOWER
+        # Following motions takes time in proportion to the states.
+        slower *= usual_share(self.rotor) ** (1.0 / 3.0)
+        settled, fresh = math.ceil(slower * settled), math.ceil(slower * fresh)
         for orbit, _ in _orbits_of_ends(self.rotor, settled, np.random.default_rng([*seed, 1])):
             self._add(orbit)
         tell(0.3)
@@ -248,7 +260,8 @@ class Search:
         """Correct stretches of motions from random starts and from beside known orbits, so many for each number of impacts."""
         tried = np.zeros(self.impacts + 1, int)
         fruitless = 0
-        while tried[1:].min() < guesses and fruitless < FRUITLESS:
+        most = max(1, round(FRUITLESS * usual_share(self.rotor) ** (1.0 / 3.0)))
+        while tried[1:].min() < guesses and fruitless < most:
             before = tried.sum()
             for count, word, guess in self._stretches(self._start(random), random.uniform() < LANDING):
                 if tried[count] < guesses and not self._is_known(word, guess, KNOWN):

@@ -19,7 +19,7 @@ from carom.orbits.maps import Section
 from carom.orbits.names import OrbitName, Slip
 from carom.orbits.orbit import Orbit
 from carom.orbits.rubbing import rubbing_orbits
-from carom.orbits.search import GUESSES, Impacts, Searched, search_orbits
+from carom.orbits.search import Impacts, Searched, search_orbits
 from carom.orbits.shooting import Start
 from carom.orbits.stability import Multipliers, multipliers_of_all
 from carom.orbits.word import Kind, Word
@@ -117,7 +117,7 @@ def find_orbits(
     longest_period: Positive | None = None,
     *,
     impacts: Impacts | None = None,
-    guesses: Count = GUESSES,
+    guesses: Count | None = None,
     seed: Seed = 0,
     progress: ShowProgress = None,
 ) -> OrbitSet:
@@ -140,7 +140,8 @@ def find_orbits(
         rotor, those from a lift-off to the next (:func:`~carom.orbits.rubbing_orbits`), and others by Newton's method from stretches
         of simulated motions; what is found is exact, but nothing proves that it is all.
     guesses, seed : int
-        Number of stretches that this search tries for each number of impacts, and the seed of the random starts.
+        Number of stretches that this search tries for each number of impacts, by default 1500 or, for a rotor of many states, as many as
+        take about a minute; and the seed of the random starts.
     progress : callable or bool, optional
         See :func:`~carom.motions.simulate`.
 

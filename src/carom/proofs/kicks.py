@@ -83,7 +83,7 @@ def prove_kicks(
     Examples
     --------
     >>> from carom.proofs import prove_kicks
-    >>> proof = prove_kicks("examples/spindle.toml", "120 mm/s")
+    >>> proof = prove_kicks("examples/spindle.toml", "111 mm/s")
     >>> proof["kicks all recover"].status
     'proven'
     """

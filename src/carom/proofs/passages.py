@@ -32,6 +32,8 @@ LONGEST, SHORTEST = 1.0, 1.0 / 64
 _START, _SCAN, _LATEST = 0.5, 0.1, 2000.0
 _HALVINGS = 9
 _ROUNDING = 1e-9
+_LATER = 1e-5
+"""What is added to the time at which energy is low enough: radii of balls have 30 bits."""
 
 
 class LeftOpenError(CaromError):
@@ -117,11 +119,13 @@ def next_event(departure: Departure, time: float) -> Event:
 
 def _inside(departure: Departure, time: float, width: float) -> bool:
     """Whether flights that are inside at a time remain so for a while."""
-    middle, curve = departure.at(arb(time + width / 2)), departure.at(hull(time, time + width)).curve
-    rise = curve * UNIT * (width / 2)
-    if middle.rise + rise < 0:
+    span, at = hull(time, time + width), arb(time + width / 2)
+    middle, curve = departure.at(at), departure.at(span).curve
+    # Not half the width: the ends are rounded.
+    reach = (span - at).abs_upper()
+    if middle.rise + curve * UNIT * reach < 0:
         return True
-    return bool(middle.height + middle.rise * UNIT * (width / 2) + curve * hull(0.0, width * width / 8) < 1)
+    return bool(middle.height + middle.rise * UNIT * reach + curve * hull(0, reach * reach / 2) < 1)
 
 
 def _end(departure: Departure) -> float:
@@ -134,7 +138,7 @@ def _end(departure: Departure) -> float:
         turned = speed + away * held.half
         energy = (dot(turned, turned) - held.split * dot(away, away)).upper()
         allowed = -held.split * held.room * held.room
-        time = float((energy / allowed).log().upper()) / float(n.gamma.lower()) + _ROUNDING
+        time = max(0.0, float((energy / allowed).log().upper()) / float(n.gamma.lower())) + _LATER
         if time < _LATEST and energy * (-n.gamma * arb(time)).exp() < allowed:
             return time
         raise LeftOpenError(LONG, departure.weights(LONGEST))

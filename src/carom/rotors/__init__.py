@@ -15,6 +15,9 @@
 ``matrix_checks``         what matrices of a rotor must be
 ``matrix_rotor``          :class:`MatrixRotor`: a rotor by its matrices
 ``rotor_files``           :func:`read_rotor`, :func:`write_rotor`: files of matrices
+``ross_reader``           the program that reads rotors with ROSS, in a process of its own
+``ross_import``           :func:`import_rotor`: a rotor of ROSS, or of matrices
+``starter``               a machine file to start from, for an imported rotor
 ``attachments``           :class:`Unbalance`, :class:`TouchdownPlane`
 ``reduction``             few vectors in place of all coordinates
 ``equations``             equations of motion in SI units
@@ -44,6 +47,7 @@ from carom.rotors.machine_file import load_machine
 from carom.rotors.magnetic_bearing import MagneticBearing
 from carom.rotors.matrix_rotor import MatrixRotor
 from carom.rotors.reduced_machine import ReducedMachine
+from carom.rotors.ross_import import ImportedRotor, import_rotor
 from carom.rotors.rotor_files import read_rotor, write_rotor
 from carom.rotors.sections import Material, Section
 from carom.rotors.state_spaces import StateSpace
@@ -58,6 +62,7 @@ __all__ = [
     "FlexibleModel",
     "FlexibleResponse",
     "FlexibleRotor",
+    "ImportedRotor",
     "MagneticBearing",
     "Material",
     "MatrixRotor",
@@ -73,6 +78,7 @@ __all__ = [
     "Whirl",
     "campbell",
     "find_whirls",
+    "import_rotor",
     "load_machine",
     "read_rotor",
     "sensitivity",

@@ -74,12 +74,12 @@ def read_rotor(path: str | os.PathLike[str], damping: Any = None, discs: Sequenc
 
 
 @checked
-def write_rotor(rotor: MatrixRotor, path: str | os.PathLike[str]) -> None:
+def write_rotor(matrices: MatrixRotor, path: str | os.PathLike[str]) -> None:
     """Write a rotor to an ``.npz`` file, which :func:`read_rotor` and ``source`` of a machine file read.
 
     Parameters
     ----------
-    rotor : MatrixRotor
+    matrices : MatrixRotor
     path : path
 
     Raises
@@ -90,12 +90,12 @@ def write_rotor(rotor: MatrixRotor, path: str | os.PathLike[str]) -> None:
         The file cannot be written.
     """
     check_target(path)
-    own = rotor.matrices
-    arrays: dict[str, Any] = {"M": own.mass, "K": own.stiffness, "G": own.gyroscopic, "nodes": rotor.nodes}
-    if rotor.own_damping is None:
-        arrays["D"] = rotor.damping_matrix
-    if any(rotor.names):
-        arrays["names"] = np.array(rotor.names)
+    own = matrices.matrices
+    arrays: dict[str, Any] = {"M": own.mass, "K": own.stiffness, "G": own.gyroscopic, "nodes": matrices.nodes}
+    if matrices.own_damping is None:
+        arrays["D"] = matrices.damping_matrix
+    if any(matrices.names):
+        arrays["names"] = np.array(matrices.names)
     packed = io.BytesIO()
     np.savez_compressed(packed, **arrays)
     write_whole(Path(path), packed.getvalue())

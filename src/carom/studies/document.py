@@ -65,10 +65,11 @@ def _orbits_of(
 
 
 @checked
-def found_orbits_document(parameters: Parameters, found: OrbitSet) -> dict[str, Any]:
+def found_orbits_document(parameters: Parameters | Model, found: OrbitSet) -> dict[str, Any]:
     """Return the document of orbits with at most a number of impacts."""
+    planar = parameters.as_dict() if isinstance(parameters, Parameters) else None
     return {
-        "parameters": parameters.as_dict(),
+        **(rotor_document(found.rotor) if planar is None else {"parameters": planar}),
         "impacts": found.impacts,
         "orbits": [
             {

@@ -218,7 +218,7 @@ def check_varied(case: Case | Model, name: str) -> None:
         try:
             axis(case, name)
         except InputError as problem:
-            raise InputError(f"axes.{name}", problem.value, problem.allowed) from None
+            raise InputError(f"axes.{name}", shown(name), problem.allowed) from None
     elif name not in DIMENSIONLESS_FIELDS and case.machine is None:
         allowed = "the machine is dimensionless; vary dimensionless parameters"
         raise InputError(f"axes.{name}", shown(name), allowed)

@@ -1,0 +1,85 @@
+"""``carom template``: a file that loads and drops as it is, whose entries are all there are."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+
+import carom as cm
+from carom.cli.app import BAD_INPUT, main
+from carom.rotors.machine_file import PART_ENTRIES, ROTOR_ENTRIES
+
+
+@pytest.fixture
+def text(capsys):
+    assert main(["template", "flexible"]) == 0
+    return capsys.readouterr().out
+
+
+@pytest.mark.jit_only
+def test_it_loads_and_drops(tmp_path, text):
+    path = tmp_path / "mine.toml"
+    assert main(["template", "flexible", "--out", str(path)]) == 0
+    assert path.read_text(encoding="utf-8") == text
+    loads = cm.motions.drop_loads(cm.simulate(cm.load(path), cm.drop(), "20 ms"))
+    assert all(plane.contacts > 0 for plane in loads.planes)
+
+
+def test_it_explains_every_entry(text):
+    """Of each table, in a line of its own or in one that begins with ``#``."""
+    named = set(re.findall(r"^(?:# )?(\w+) = ", text, flags=re.MULTILINE))
+    own = {*ROTOR_ENTRIES, *(name for entries in PART_ENTRIES.values() for name in entries)}
+    assert own - named == {"restitution", "restitution_speed", "offset", "offset_direction"}
+
+
+@pytest.mark.parametrize(
+    "block",
+    [
+        ("damping_ratio = 0.005", 'damping_of_mass = "10 1/s"\ndamping_of_stiffness = "10 us"'),
+        (
+            "numerator = [13.2, 12000]\ndenominator = [1e-4, 1]\n",
+            "A = [[-10000.0]]\nB = [[1.0]]\nC = [[-1.2e9]]\nD = [[132000.0]]\n",
+        ),
+    ],
+)
+def test_what_stands_beside_as_another_way_works(tmp_path, text, block):
+    path = tmp_path / "mine.toml"
+    assert block[0] in text
+    path.write_text(text.replace(*block, 1), encoding="utf-8")
+    assert cm.load(path).parameters.system.decay > 0.0
+
+
+def test_every_line_that_may_be_used_loads(tmp_path, text):
+    """Entries that go with all others, by taking their mark away one by one."""
+    path = tmp_path / "mine.toml"
+    others = (
+        "damping_of",
+        "source",
+        "A =",
+        "B =",
+        "C =",
+        "D =",
+        "damping =",
+        "race",
+        "mount",
+        "exponent",
+        "longest",
+        "accuracy",
+    )
+    parts = text.partition("# [survive]")[0]
+    lines = [each for each in re.findall(r"^# (\w+ = .*)$", parts, flags=re.MULTILINE) if not each.startswith(others)]
+    assert len(lines) > 8
+    for line in lines:
+        path.write_text(text.replace(f"# {line}", line, 1), encoding="utf-8")
+        cm.rotors.load_machine(path)
+
+
+def test_nothing_is_overwritten_and_other_kinds_are_refused(tmp_path, capsys):
+    path = tmp_path / "mine.toml"
+    path.write_text("mine")
+    assert main(["template", "flexible", "--out", str(path)]) == BAD_INPUT
+    assert "a file that does not exist yet" in capsys.readouterr().err
+    assert path.read_text() == "mine"
+    assert main(["template", "rigid"]) == BAD_INPUT
+    assert "KIND = rigid: one of flexible" in capsys.readouterr().err

@@ -1,0 +1,190 @@
+"""What is born where levitation meets a wall: against the planar theory, orbits on both sides, simulation, and degenerate limits."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from boundary_rotors import touching
+from yielding_rotors import Yielding
+
+import carom as cm
+from carom.closed_forms import ContactSystem, find_equilibria, non_smooth_hopf, small_cycles
+from carom.continuation.roots import bracketed_root
+from carom.models import HuntCrossley, KelvinVoigt
+from carom.models.touchdown import Rigid
+from carom.motions.starts import State
+from carom.orbits import Kind, Segment, Word, orbit_near
+from carom.orbits.recognising import arrives, segments_of
+from carom.orbits.shooting import Start
+from carom.outcome import InputError, Outcome
+
+PAPER = cm.load("examples/source-paper.toml").parameters
+STAR = float(np.sqrt(PAPER.rho**2 - (1.0 - PAPER.omega**2) ** 2))
+RIGID, SPRING, BALLS = Rigid(0.96), KelvinVoigt(3e3, 1.5), HuntCrossley(500.0, 0.3)
+
+
+def planar(law, omega=1.2, gamma=0.08, gap=0.0):
+    """The planar rotor in a wall that gives way, with levitation at a distance from it."""
+    return Yielding(law, gamma=gamma, omega=omega, rho=(1.0 + gap) * abs(complex(omega**2 - 1.0, gamma))).model
+
+
+def inside(cycle, gap):
+    """The gap on the side of a cycle."""
+    return -gap if cycle.levitating_side else gap
+
+
+def same(meeting, cycle):
+    return min((each for each in meeting.cycles if each.admissible), key=lambda each: abs(each.period - cycle.period))
+
+
+def closed(rotor, meeting, cycle):
+    """The exact orbit next to a cycle, by Newton's method from the local theory alone, or from its motion in a wall that gives way."""
+    position, velocity = meeting.coordinates(cycle)
+    if not cycle.contact:
+        start = Start(np.concatenate([position, velocity])[None], np.array([cycle.period]))
+        return orbit_near(rotor, Word((Segment(Kind.IMPACT_FORWARD, meeting.plane),)), start)
+    state = State(position, velocity) if len(position) > 1 else State(position[0], velocity[0])
+    motion = cm.simulate(rotor, state, 2.6 * cycle.period)
+    begins = np.flatnonzero(arrives(motion))
+    return orbit_near(rotor, *segments_of(motion, int(begins[0]), int(begins[1])))
+
+
+def test_the_planar_rotor_has_the_cycles_of_the_paper():
+    at = PAPER.replace(gamma=STAR)
+    found, system = small_cycles(at), ContactSystem.of_rotor(at)
+    known = non_smooth_hopf(system, -1j * system.equilibrium / system.stiffness)
+    assert found.complete
+    assert abs(found.gap) < 1e-12
+    for cycle, own in zip(found.cycles, known.cycles, strict=True):
+        assert cycle.period == pytest.approx(own.period, rel=1e-12)
+        assert cycle.speed_rate == pytest.approx(abs(own.radial_slope / known.leaving), rel=1e-10)
+        assert cycle.criticality == own.criticality
+    (boundary,) = cm.bifurcations.boundary_equilibria(PAPER)
+    assert found.kind == boundary.kind
+    assert found.force_rate == pytest.approx(-boundary.force_rate, rel=1e-10)
+    assert [cycle.admissible for cycle in found.cycles] == [orbit.admissible for orbit in boundary.orbits]
+
+
+@pytest.mark.parametrize(
+    ("law", "seed"), [*((RIGID, seed) for seed in (1, 2, 3, 4, 5)), *((SPRING, seed) for seed in (2, 3, 4))]
+)
+def test_orbits_of_two_coordinates_shrink_as_foretold(law, seed):
+    """Size and multipliers tend to the local theory in proportion to the gap, at fresh rotors of two planes."""
+    cycles = [cycle for cycle in small_cycles(touching(law, seed)).cycles if cycle.admissible]
+    assert cycles
+    for cycle in cycles:
+        errors = []
+        for gap in (1e-3, 1e-4):
+            rotor = touching(law, seed, inside(cycle, gap))
+            meeting = small_cycles(rotor)
+            local = same(meeting, cycle)
+            orbit = closed(rotor, meeting, local)
+            assert orbit.admissible
+            assert orbit.stable == local.stable
+            # The multiplier of the return to the wall, zero, has no place among those of an orbit.
+            own = np.sort(np.abs(local.multipliers))[-len(orbit.multipliers.values) :]
+            apart = np.abs(np.sort(np.abs(orbit.multipliers.values)) - own).max()
+            errors.append(
+                (
+                    abs(orbit.period / local.period - 1.0),
+                    abs(orbit.radial_speed / (local.speed_rate * gap) - 1.0),
+                    apart,
+                )
+            )
+        first, second = np.array(errors).T[:, 0], np.array(errors).T[:, 1]
+        # Proportional to the gap: ten times closer to it ten times smaller, above what rounding leaves of 1e-4.
+        assert (second <= 0.2 * first + 1e-8).all()
+        assert second.max() < 1e-2
+
+
+@pytest.mark.parametrize("law", [SPRING, BALLS, RIGID])
+@pytest.mark.parametrize("seed", [1, 3, 4, 5])
+def test_rubs_lie_on_the_side_and_have_the_stability_foretold(law, seed):
+    meeting = small_cycles(touching(law, seed))
+    for gap in (-1e-4, 1e-4):
+        rotor = touching(law, seed, gap)
+        rubs = [each for each in find_equilibria(rotor) if each.kind == "rub" and each.planes == (meeting.plane,)]
+        near = [each for each in rubs if each.status == "admissible" and each.normal_force < 1e-2]
+        assert bool(near) == (meeting.force_rate * gap > 0.0)
+        for rub in near:
+            assert rub.normal_force == pytest.approx(meeting.force_rate * gap, rel=1e-2)
+            if law is not RIGID:
+                assert rub.stable == meeting.rub_stable
+
+
+@pytest.mark.parametrize(("law", "seed"), [(RIGID, 1), (KelvinVoigt(1e4, 3.3), None)])
+def test_a_stable_cycle_takes_over_beyond_the_wall_and_nothing_before(law, seed):
+    """Supercritical and stable: simulated beyond the wall a disturbance ends on the bounces, before it on levitation."""
+
+    def rotor(gap):
+        return planar(law, gap=gap) if seed is None else touching(law, seed, gap)
+
+    (cycle,) = (each for each in small_cycles(rotor(0.0)).cycles if each.stable and each.admissible)
+    assert cycle.criticality == "supercritical"
+    sizes = []
+    for gap in (1e-3, 1e-4):
+        meeting = small_cycles(rotor(gap))
+        position, velocity = meeting.coordinates(same(meeting, cycle))
+        rest = rotor(gap).system.rest
+        # A fifth larger than the cycle: it is not begun on it.
+        beside = rest + 1.2 * (position - rest), 1.2 * velocity
+        beside = beside if len(rest) > 1 else (beside[0][0], beside[1][0])
+        there = cm.simulate(rotor(gap), State(*beside), settle=True)
+        assert there.outcome is Outcome.BOUNCING
+        assert there.multiplicity == 1
+        orbit = cm.orbits.orbit_of_motion(there)
+        sizes.append(orbit.radial_speed)
+        assert orbit.period == pytest.approx(cycle.period, rel=1e-2)
+        before = cm.simulate(rotor(-gap), State(*beside), settle=True)
+        assert before.outcome is Outcome.LEVITATED
+    assert sizes[0] / sizes[1] == pytest.approx(10.0, rel=1e-2)
+
+
+def test_a_stiff_wall_tends_to_a_rigid_one():
+    """With the damping of a restitution of 0.95; periods differ by the contact, which falls with the root of the stiffness."""
+    rigid = [each for each in small_cycles(PAPER.replace(gamma=STAR)).cycles if each.admissible]
+    apart = []
+    for stiffness in (1e4, 1e6):
+        law = KelvinVoigt(stiffness, 2.0 * 0.0164982 * stiffness**0.5)
+        rotor = Yielding(law, gamma=STAR, omega=PAPER.omega, rho=PAPER.rho, phi=PAPER.phi, mu=PAPER.mu).model
+        cycles = small_cycles(rotor).cycles
+        pairs = list(zip(cycles, rigid, strict=True))
+        apart.append([abs(one.speed_rate / other.speed_rate - 1.0) for one, other in pairs])
+        assert [one.criticality for one, _ in pairs] == [other.criticality for _, other in pairs]
+    ratios = np.array(apart[0]) / np.array(apart[1])
+    assert (ratios > 7.0).all()
+    assert (ratios < 14.0).all()
+
+
+def test_a_cycle_grows_without_bound_where_its_side_changes():
+    """``Re(q a₁₂)`` passes through zero: next to it the cycle is large on either side, and levers of both continue each other."""
+
+    def lever(friction):
+        cycle = small_cycles(touching(RIGID, 5, friction=friction)).cycles[-1]
+        return (-1.0 if cycle.levitating_side else 1.0) / cycle.speed_rate
+
+    low, high = 0.1, 0.14
+    assert lever(low) * lever(high) < 0.0
+    root = bracketed_root(lever, low, high)
+    below, above = lever(root - 1e-4), lever(root + 1e-4)
+    assert below * above < 0.0
+    # A straight line through zero, but for its bend over 1e-4.
+    assert below == pytest.approx(-above, rel=1e-2)
+    assert abs(above) < 2e-3
+
+
+def test_a_curved_wall_is_not_felt():
+    """Balls push with the power 3/2 of the depth: levitation goes on into the wall, as stable as it was."""
+    meeting = small_cycles(planar(HuntCrossley(1e4, 0.1, 1.5)))
+    assert (meeting.kind, meeting.rub_stable, meeting.cycles) == ("persistence", True, ())
+    beyond = find_equilibria(planar(HuntCrossley(1e4, 0.1, 1.5), gap=1e-8))
+    assert any(each.kind == "rub" and each.stable for each in beyond)
+
+
+def test_what_has_no_such_point_is_refused():
+    with pytest.raises(InputError, match=r"^plane = 2: a contact plane of the rotor, from 0 to 1"):
+        small_cycles(touching(RIGID, 1), 2)
+    with pytest.raises(InputError, match=r"^plane = 0: one that is off its centre at rest"):
+        small_cycles(PAPER.replace(rho=0.0))
+    with pytest.raises(InputError, match=r"^machine = a rotor under gravity|^machine = "):
+        small_cycles(cm.load("examples/dropped-rotor.toml"))

@@ -1,0 +1,290 @@
+"""Kicks that are proven to come back do, in programs that share nothing with the proof; certificates stand alone."""
+
+from __future__ import annotations
+
+import json
+import random
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from compilation import sized
+from scipy.integrate import solve_ivp
+
+from carom.models import Jeffcott
+from carom.motions import settle
+from carom.outcome import InputError
+from carom.proofs import check, hypotheses_of, prove_kicks
+from carom.proofs.kick_cells import BY_ANGLE, BY_SPEED, DISC, IMPACTS, OPEN, leaves, read, written
+from carom.proofs.seeds import doubles_of
+
+NAMES = ("gamma", "omega", "rho", "phi", "mu", "d", "radius_ratio")
+SPINDLE = "examples/spindle.toml"
+
+
+def dimensionless(text):
+    """A machine by its numbers in the order of their names."""
+    return dict(zip(NAMES, text.split(), strict=True))
+
+
+CASES = {
+    # What a machine is, the largest kick, and how many impacts are allowed; nothing is left open of any.
+    "spindle": (SPINDLE, "111 mm/s", 1),
+    "elastic wall, no unbalance": (dimensionless("1.66 1.86 0 0 0.26 1 1.6"), "6.7", 3),
+    "overdamped": (dimensionless("1.1 0.21 0 0.3 0.46 0.31 0.69"), "4", 2),
+    "slip that stops": (dimensionless("0.6 1.2 0.02 1 0.4 0.5 0.05"), "2", 2),
+    "wall without rebound": (dimensionless("0.38 2.7 0 0 0.16 0 0.86"), "3.3", 2),
+}
+
+
+@pytest.fixture(scope="module", params=CASES, ids=str)
+def proof(request):
+    machine, largest, most = CASES[request.param]
+    return prove_kicks(machine, largest, most_impacts=most, time_limit=None, workers=1)
+
+
+def drawn(proof, number):
+    """Kicks in proven cells, some of them on corners: of each its velocity in the fixed frame and the impacts allowed."""
+    cells = [
+        (cell, IMPACTS.index(letter)) for cell, letter in leaves(read(proof.evidence["cells"])) if letter in IMPACTS
+    ]
+    rotor, random_ = Jeffcott(doubles_of(proof.hypotheses)), np.random.default_rng(7)
+    largest = proof["kicks recover"].enclosures["speed"].value  # nothing is open
+    picked = random_.integers(0, len(cells), number)
+    ends = np.array([[float(end) for end in (*cell.speeds, *cell.angles)] for cell, _ in cells])[picked]
+    within = random_.random((2, number))
+    within[:, ::5] = np.round(within[:, ::5])
+    speeds, angles = (ends[:, k] + (ends[:, k + 1] - ends[:, k]) * within[k // 2] for k in (0, 2))
+    # On the rim, and on corners next to a graze, the last digit decides: stay inside by less than any width of a cell.
+    speeds *= 1 - 1e-12
+    ahead = np.exp(1j * np.angle(rotor.equilibrium)) if rotor.equilibrium else 1.0
+    return rotor, largest * speeds * np.exp(2j * np.pi * angles) * ahead, np.array([most for _, most in cells])[picked]
+
+
+def test_all_kicks_are_proven_to_return(proof):
+    numbers = proof["kicks recover"].enclosures
+
+    assert proof["kicks all recover"].status == proof["kicks recover"].status == "proven"
+    assert numbers["share_proven"].low == numbers["share_proven"].high == "1"
+    assert numbers["share_open"].high == "0"
+
+
+def test_simulated_kicks_return_with_at_most_as_many_impacts(proof):
+    rotor, kicks, most = drawn(proof, sized(10_000, 300, 100_000))
+    endings = settle(rotor, np.full(len(kicks), rotor.equilibrium), kicks)
+
+    assert endings.recovered.all()
+    assert (endings.impacts <= most).all()
+    assert endings.impacts.max() > 0
+
+
+def impacts_by_integration(p, kick):
+    """Impacts of one kick by a general integrator, in the fixed frame, followed until energy keeps it off the wall."""
+    levitation = p.rho * np.exp(1j * p.phi) / (p.omega**2 - 1 + 1j * p.gamma)
+
+    def rates(t, y):
+        z, v = complex(*y[:2]), complex(*y[2:])
+        a = -p.gamma * v - p.omega**2 * z + p.rho * np.exp(1j * (p.phi + t))
+        return [v.real, v.imag, a.real, a.imag]
+
+    def touches(_, y):
+        return np.hypot(y[0], y[1]) - 1
+
+    def is_held(t, y):
+        away = complex(*y[:2]) - levitation * np.exp(1j * t)
+        speed = complex(*y[2:]) - 1j * levitation * np.exp(1j * t)
+        return abs(speed) ** 2 + p.omega**2 * abs(away) ** 2 - 0.999 * (p.omega * (1 - abs(levitation))) ** 2
+
+    touches.terminal = is_held.terminal = True
+    touches.direction, is_held.direction = 1, -1
+    state, time, count, held = np.array([*_pair(levitation), *_pair(kick + 1j * levitation)]), 0.0, 0, False
+    while not held:
+        done = solve_ivp(
+            rates,
+            (time, time + 500),
+            state,
+            events=(touches, is_held),
+            rtol=1e-10,
+            atol=1e-12,
+            max_step=0.2,
+            method="DOP853",
+        )
+        time, state, held = done.t[-1], done.y[:, -1], bool(done.t_events[1].size)
+        if done.t_events[0].size:
+            count += 1
+            outward = complex(*state[:2]) / np.hypot(*state[:2])
+            velocity = complex(*state[2:]) * outward.conjugate()
+            slip, grip = p.radius_ratio + velocity.imag, p.mu * (1 + p.d) * velocity.real
+            after = complex(-p.d * velocity.real, velocity.imag - np.clip(slip, -grip, grip))
+            # A little inside, or the event of the next flight would be this one.
+            state = np.array([*_pair(outward * (1 - 1e-12)), *_pair(after * outward)])
+    return count
+
+
+def _pair(number):
+    return number.real, number.imag
+
+
+def test_a_general_integrator_agrees(proof):
+    rotor, kicks, most = drawn(proof, sized(6, 2, 100))
+    if rotor.parameters.d == 0:
+        pytest.skip("the integrator does not find its way off the wall without rebound")
+
+    assert all(impacts_by_integration(rotor.parameters, kick) <= n for kick, n in zip(kicks, most, strict=True))
+
+
+@pytest.fixture(scope="module")
+def document():
+    machine, largest, most = CASES["elastic wall, no unbalance"]
+    proof = prove_kicks(machine, largest, most_impacts=most, time_limit=None, workers=1)
+    return json.loads(json.dumps(proof.document()))
+
+
+def changed(document, cells):
+    return {**document, "evidence": {"cells": cells}}
+
+
+def test_certificate_is_verified_without_a_search(document, monkeypatch):
+    monkeypatch.setattr("carom.proofs.kick_discs.settle", None)
+    monkeypatch.setattr("carom.proofs.kicks.search", None)
+
+    assert check(document)["kicks all recover"].status == "proven"
+
+
+def test_forged_cells_are_refused(document):
+    """Cells missing, too many, swapped, of another kind, or said to need fewer impacts than they do."""
+    cells = document["evidence"]["cells"]
+    first, last = (find(letter) for find, letter in ((cells.index, "1"), (cells.rindex, "0")))
+    swapped = list(cells)
+    swapped[first], swapped[last] = swapped[last], swapped[first]
+    forged = [
+        cells[:-1],
+        cells + "0",
+        "".join(swapped),
+        cells.replace("1", "0"),
+        cells[:first] + "?" + cells[first + 1 :],
+        cells[:first] + "g" + cells[first + 1 :],
+        "0",
+        "",
+        None,
+    ]
+    for text in forged:
+        with pytest.raises(InputError, match="is refused"):
+            check(changed(document, text))
+
+
+def test_any_letter_that_matters_is_refused(document):
+    cells, picked = document["evidence"]["cells"], random.Random(3)
+    for place in picked.sample(range(len(cells)), sized(20, 4, len(cells))):
+        letter = picked.choice([other for other in "va012g" if other != cells[place]])
+        try:
+            proof = check(changed(document, cells[:place] + letter + cells[place + 1 :]))
+        except InputError:
+            continue
+        # A cell said to need more impacts than it does is no false claim.
+        assert "0" <= cells[place] < letter <= "2"
+        assert proof["kicks all recover"].statement == document["claims"][1]["statement"]
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"bits": 128},
+        {"options": {"kicks_up_to": "6.8", "most_impacts": 3}},
+        {"options": {"kicks_up_to": "6.7", "most_impacts": "3"}},
+        {"options": {"kicks_up_to": "6.7"}},
+    ],
+)
+def test_other_terms_are_refused(document, change):
+    with pytest.raises(InputError, match="is refused"):
+        check({**document, **change})
+
+
+def test_interrupted_search_goes_on_from_its_store(tmp_path, monkeypatch):
+    place, tried, batches = tmp_path / "cells.json", [], 4
+
+    def interrupted(self, cells):
+        tried.extend(cells)
+        if len(tried) > batches:
+            raise KeyboardInterrupt
+        return original(self, cells)
+
+    from carom.proofs.kick_discs import Disc
+
+    original = Disc.tried
+    with monkeypatch.context() as patched:
+        patched.setattr(Disc, "tried", interrupted)
+        with pytest.raises(KeyboardInterrupt):
+            prove_kicks(SPINDLE, "111 mm/s", most_impacts=1, store=place, workers=1)
+    found = len(json.loads(place.read_text())["cells"])
+    proof = prove_kicks(SPINDLE, "111 mm/s", most_impacts=1, store=place, workers=1, time_limit=None)
+
+    assert 1 < found < len(proof.evidence["cells"])
+    assert proof["kicks all recover"].status == "proven"
+    assert prove_kicks(SPINDLE, "111 mm/s", most_impacts=1, store=place, workers=1).claims == proof.claims
+    with pytest.raises(InputError, match="another machine, speed or number"):
+        prove_kicks(SPINDLE, "112 mm/s", most_impacts=1, store=place)
+    place.write_text(place.read_text().replace('"cells": "', '"cells": "v'))
+    with pytest.raises(InputError, match="no complete record"):
+        prove_kicks(SPINDLE, "111 mm/s", most_impacts=1, store=place)
+
+
+def test_time_that_is_up_leaves_cells_open_with_reasons():
+    proof = prove_kicks(SPINDLE, "220 mm/s", most_impacts=4, time_limit=0.2, workers=1)
+    all_of_it = proof["kicks all recover"]
+
+    assert all_of_it.status == "undecided"
+    assert "% of the area" in all_of_it.reason
+    shares = [Fraction(proof["kicks recover"].enclosures[name].low) for name in ("share_proven", "share_open")]
+    assert sum(shares) == 1
+
+
+@pytest.mark.parametrize(
+    ("machine", "largest", "words"),
+    [
+        (SPINDLE, "120", "has no unit"),
+        (SPINDLE, "0 mm/s", "kicks_up_to"),
+        (SPINDLE, "[100 mm/s, 120 mm/s]", "must be one speed"),
+        ({**dict.fromkeys(NAMES, "0.1"), "rho": "2"}, "1", "must levitate inside the wall"),
+        ({**dict.fromkeys(NAMES, "0.1"), "gamma": "0"}, "1", "must levitate inside the wall"),
+    ],
+)
+def test_what_cannot_be_proven_is_refused_at_once(machine, largest, words):
+    with pytest.raises(InputError, match=words):
+        prove_kicks(machine, largest)
+
+
+def test_intervals_of_a_machine_are_followed_at_once():
+    """All dampings of an interval together: the proof is of each."""
+    machine = {
+        **{name: str(hypotheses_of(SPINDLE).numbers[name].low) for name in ("mu", "d", "radius_ratio")},
+        "phi": "0",
+    }
+    machine |= {"gamma": ("0.0435", "0.04351"), "omega": "0.1407", "rho": "0"}
+    proof = prove_kicks(machine, "0.18", most_impacts=1, time_limit=1, workers=1)
+
+    assert check(proof.document()).claims == proof.claims
+    assert proof["kicks recover"].status == "proven"
+
+
+def test_cells_are_read_as_they_are_written():
+    tree = {DISC: BY_SPEED}
+    low, high = DISC.halves(BY_SPEED)
+    tree |= {low: "0", high: BY_ANGLE} | dict(zip(high.halves(BY_ANGLE), ("3", "g"), strict=True))
+
+    assert written(tree) == "v0a3g"
+    assert read("v0a3g") == tree
+    assert sum(cell.share for cell, _ in leaves(tree)) == 1
+    assert low.share == Fraction(1, 4)
+
+
+def test_letters_are_told_apart():
+    assert len(OPEN) + len(IMPACTS) + 2 == len({*OPEN, *IMPACTS, BY_SPEED, BY_ANGLE})
+
+
+def test_processes_find_and_verify_the_same(document, monkeypatch):
+    machine, largest, most = CASES["elastic wall, no unbalance"]
+    monkeypatch.setattr("carom.proofs.kick_search.ALONE", 0.0)
+    found = prove_kicks(machine, largest, most_impacts=most, time_limit=None, workers=2)
+
+    assert found.document() == document

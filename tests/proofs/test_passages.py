@@ -1,0 +1,181 @@
+"""The lemmas about flights of a patch, against single flights by the exponential of a matrix and the impact law in polar coordinates."""
+
+from __future__ import annotations
+
+import cmath
+import math
+
+import numpy as np
+import pytest
+from compilation import sized
+from flint import arb
+from machines import fly, path, strike
+from scipy.optimize import brentq
+
+from carom.parameters import Parameters
+from carom.proofs.balls import at_precision
+from carom.proofs.hypotheses import hypotheses_of
+from carom.proofs.passages import Brush, LeftOpenError, Return, Strike, begin, next_event
+from carom.proofs.patches import Departure, Held, Patch
+from carom.proofs.rotor import Rotor
+from carom.proofs.strikes import after_brush, after_strike
+
+ROUNDING = 1e-9
+"""Of states that single flights reach in double precision, next to grazes too."""
+MACHINES = {
+    "spindle": (0.0435, 0.1407, 0.004, 0.2, 0.7, 60.0),
+    "levitation next to the wall": (0.3, 0.76, 3 / 7, 0.15, 0.95, 57.0),
+    "overdamped, slip that may stop": (1.2, 0.5, 0.1, 0.4, 0.5, 0.3),
+}
+
+
+@pytest.fixture(params=MACHINES, ids=str)
+def held(request):
+    names = ("gamma", "omega", "rho", "mu", "d", "radius_ratio")
+    numbers = dict(zip(names, MACHINES[request.param], strict=True))
+    with at_precision(64):
+        yield Held(Rotor(hypotheses_of({**numbers, "phi": 0.0})).numbers), numbers
+
+
+class Single:
+    """One flight of a patch, in the frame in which it begins on the real axis."""
+
+    def __init__(self, numbers, state):
+        *velocity, self.psi = state
+        stiffness = complex(numbers["omega"] ** 2 - 1, numbers["gamma"])
+        self.parameters = Parameters(**numbers, phi=self.psi + cmath.phase(stiffness))
+        levitation = numbers["rho"] / abs(stiffness) * cmath.exp(1j * self.psi)
+        from_wall = len(velocity) > 1
+        self.start = 1.0 if from_wall else levitation
+        self.velocity = complex(*velocity) - 1j if from_wall else complex(velocity[0])
+
+    def at(self, time):
+        """Position and velocity in the fixed frame."""
+        place, speed = fly(self.parameters, self.start, self.velocity, time)
+        turned = cmath.exp(1j * time)
+        return place * turned, (speed + 1j * place) * turned
+
+    def height(self, time):
+        return abs(self.at(time)[0]) ** 2
+
+    def heights(self, times):
+        return abs(path(self.parameters, self.start, self.velocity, times)) ** 2
+
+    def after(self, time):
+        """``a``, ``b`` and ``ψ`` after an impact at a time."""
+        z, dz = self.at(time)
+        local = dz * (z / abs(z)).conjugate()
+        a, b = strike(self.parameters, local.real, local.imag - 1)
+        return np.array([a, b + 1, self.psi + time - cmath.phase(z)])
+
+
+def patch(random, from_wall, size):
+    """A patch of random states, and some of these."""
+    centre = np.array(
+        [-random.uniform(0.1, 0.5), random.uniform(-0.3, 0.3)] if from_wall else [10 ** random.uniform(-0.5, 0.5)]
+    )
+    centre = np.append(centre, random.uniform(-3, 3))
+    spans = size * random.uniform(-1, 1, (2, len(centre)))
+    rest = size * random.uniform(0, 0.3, len(centre)) * from_wall
+    shares, rests = random.uniform(-1, 1, (8, 2)), random.uniform(-1, 1, (8, len(centre)))
+    states = centre + shares @ spans + rests * rest
+    exact = Patch([arb(x) for x in centre], [[arb(x) for x in span] for span in spans], [arb(x) for x in rest])
+    return exact, states
+
+
+def holds(ball, number):
+    return bool((ball + arb(0, ROUNDING)).contains(arb(number)))
+
+
+@pytest.mark.parametrize("from_wall", [True, False])
+def test_mean_value_forms_hold_all_flights(held, from_wall):
+    numbers, random = held[1], np.random.default_rng(5)
+    for _ in range(sized(6, 2, 60)):
+        exact, states = patch(random, from_wall, 0.05)
+        departure, time = Departure(held[0], exact), float(random.uniform(0.1, 6))
+        moment = departure.at(arb(time))
+        for state in states:
+            z, dz = Single(numbers, state).at(time)
+            local, step = dz * z.conjugate(), 1e-4
+            later, earlier = (Single(numbers, state).at(time + sign * step)[1] for sign in (1, -1))
+            bend = (later - earlier) / (2 * step)
+            assert holds(moment.height, abs(z) ** 2)
+            assert holds(moment.rise, 2 * local.real)
+            assert holds(moment.slope, local.real)
+            # A difference of second order.
+            assert (moment.curve + arb(0, 1e-5)).contains(arb(2 * (abs(dz) ** 2 + (z.conjugate() * bend).real)))
+
+
+def test_events_happen_to_all_flights_and_none_before(held):
+    """Each single flight returns, strikes in the time stated or brushes the wall as it may, and lands in the patch after it."""
+    numbers, random, seen = held[1], np.random.default_rng(11), set()
+    for number in range(sized(60, 12, 600)):
+        exact, states = patch(random, bool(number % 2), 10 ** random.uniform(-4, -1.5))
+        departure = Departure(held[0], exact)
+        try:
+            event = next_event(departure, begin(departure))
+            after = _after(departure, event)
+        except LeftOpenError:
+            continue
+        seen.add(type(event))
+        for state in states:
+            _check(Single(numbers, state), event, after)
+    assert {Return, Strike} <= seen
+
+
+def _after(departure, event):
+    if isinstance(event, Strike):
+        return after_strike(departure, event)
+    return after_brush(departure, event) if isinstance(event, Brush) and event.touches else None
+
+
+def _check(flight, event, after):
+    end = {Return: 30.0, Strike: getattr(event, "end", 0), Brush: getattr(event, "end", 0)}[type(event)]
+    times = np.linspace(1e-3, end, 400)
+    heights = flight.heights(times)
+    above = np.flatnonzero(heights > 1)
+    if isinstance(event, Return):
+        assert not above.size
+        return
+    if not above.size:
+        assert isinstance(event, Brush)
+        assert event.misses
+        return
+    place = above[0]
+    crossing = brentq(lambda t: flight.height(t) - 1, times[place - 1], times[place])
+    last = event.end if isinstance(event, Strike) else event.last
+    assert event.begin - ROUNDING <= crossing <= last + ROUNDING
+    found = flight.after(crossing)
+    turned = float(after.centre[2])
+    found[2] += 2 * math.pi * round((turned - found[2]) / (2 * math.pi))
+    assert all(holds(ball, x) for ball, x in zip(after.box, found, strict=True))
+
+
+def test_a_patch_across_a_graze_has_two_outcomes():
+    """Kicks just below and above one that grazes: those that touch do so slowly, the others are inside at the end."""
+    numbers = dict(zip(("gamma", "omega", "rho", "mu", "d", "radius_ratio"), MACHINES["spindle"], strict=True))
+    whole = np.linspace(1e-3, 30, 4000)
+    graze = brentq(lambda speed: Single(numbers, (speed, -1.0)).heights(whole).max() - 1, 0.15, 0.2)
+    with at_precision(64):
+        held = Held(Rotor(hypotheses_of({**numbers, "phi": 0.0})).numbers)
+        exact = Patch([arb(graze), arb(-1)], [[arb(0.0006), arb(0)], [arb(0), arb(0.02)]], [arb(0), arb(0)])
+        departure = Departure(held, exact)
+        event = next_event(departure, begin(departure))
+        after = after_brush(departure, event)
+    assert isinstance(event, Brush)
+    assert event.touches
+    assert event.misses
+    speeds = []
+    for speed in np.linspace(graze - 0.0006, graze + 0.0006, 25):
+        flight = Single(numbers, (speed, -1.0))
+        times = np.linspace(event.begin, event.end, 2000)
+        heights = flight.heights(times)
+        if heights.max() <= 1:
+            continue
+        place = np.flatnonzero(heights > 1)[0]
+        crossing = brentq(lambda t, f=flight: f.height(t) - 1, times[place - 1], times[place])
+        z, dz = flight.at(crossing)
+        speeds.append((dz * z.conjugate()).real)
+        assert all(holds(ball, x) for ball, x in zip(after.box, flight.after(crossing), strict=True))
+    assert 0 < len(speeds) < 25
+    assert 0 < max(speeds) <= float(event.fastest) < 2 * max(speeds)
