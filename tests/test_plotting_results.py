@@ -43,6 +43,7 @@ EXAMPLES = {
     ),
     "UnbalanceResponse": lambda: carom.studies.unbalance_response(carom.load("examples/keogh-cole.toml")),
     "Campbell": lambda: carom.rotors.campbell(munich(0.06), [100.0, 300.0]),
+    "FlexibleResponse": lambda: carom.rotors.unbalance_response(munich(0.06), [100.0, 300.0]),
     "Sensitivity": lambda: carom.rotors.sensitivity(munich(0.06), [100.0, 300.0, 900.0]),
     "Study": lambda: study_once(PAPER.replace(gamma=0.65, mu=0.0)),
 }

@@ -46,7 +46,6 @@ PLANAR = [
     ("response",),
     ("prove",),
     ("explore",),
-    ("study",),
     ("bifurcations", "--along", "speed", "--from", "2000 rpm", "--to", "3000 rpm"),
     ("regions",),
 ]
@@ -58,8 +57,21 @@ def test_what_takes_the_planar_rotor_refuses_it_in_one_line(carom, command, sett
     code, out, err = carom(command[0], MACHINE, *command[1:], *settings)
     assert (code, out) == (2, "")
     assert err.startswith("carom: machine = Case tum-flexible-rotor: the planar rotor")
-    assert "the commands simulate, drop, attractors, basins, orbits, and sweep with [basins]" in err
+    assert "the commands study, simulate, drop, attractors, basins, orbits, and sweep with [basins]" in err
     assert err.count("\n") == 1
+
+
+def test_a_study_writes_its_report(carom, tmp_path, monkeypatch):
+    monkeypatch.setattr("carom.studies.flexible_study.DRAWN", 4)
+    code, out, _ = carom("study", MACHINE, "--set", "gravity=0", "--out", str(tmp_path))
+    assert code == 0
+    assert "What it survives" in out
+    assert "Without weight there is no drop" in out
+    document = json.loads((tmp_path / "study.json").read_text())
+    assert {"figures/campbell.svg", "figures/sensitivity.svg", "figures/kick-1.svg"} <= set(document["figures"])
+    page = (tmp_path / "report.html").read_text()
+    assert document["verdict"]["outcome"] in page
+    assert page.count("<svg") == len(document["figures"]) // 2
 
 
 def test_a_sweep_refuses_it_too(carom, tmp_path):

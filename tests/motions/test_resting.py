@@ -135,3 +135,17 @@ def test_a_rub_that_keeps_in_step_with_the_shaft_is_forward_rub():
     assert np.ptp(np.unwrap(np.angle(motion.position(last, "fixed")))) > 48.0
     ending = cm.settle(rotor, np.array([start.position]), np.array([start.velocity]))
     assert ending.outcomes.tolist() == [Outcome.FORWARD_RUB]
+
+
+def test_steady_whirl_is_known_earlier_and_ends_the_same(monkeypatch):
+    """Of random backward whirls: where the means of turns and radii stay, 1,024 turns lead to the same end."""
+    random = np.random.default_rng(5)
+    angles, speeds = 2.0 * np.pi * random.random(12), random.uniform(1.0, 80.0, 12)
+    positions = np.exp(1j * angles)
+    starts = positions, -1j * positions * speeds
+    early = cm.settle(HEAVY, *starts)
+    monkeypatch.setattr("carom.motions.resting.STEADY", -1.0)
+    late = cm.settle(HEAVY, *starts)
+    assert np.array_equal(early.outcomes, late.outcomes)
+    assert (early.times <= late.times).all()
+    assert (early.times < late.times).any()

@@ -74,8 +74,31 @@ def test_whirls_part_with_the_speed():
     assert standing[0] == pytest.approx(standing[1], rel=1e-6)
     assert faster[faster > 0.0].min() > standing[0] > -faster[faster < 0.0].max()
     assert found.levitates.all()
-    assert found.damping_ratios.shape == (3, 4)
+    # The slowest four are not the same ones at all speeds.
+    assert found.damping_ratios.shape == (3, 5)
     assert "Campbell" in repr(found)
+
+
+def test_a_column_is_one_whirl_over_all_speeds():
+    """Its shape stays alike from speed to speed, where another whirl crosses its frequency too."""
+    speeds = np.linspace(20.0, 900.0, 45)
+    found = campbell(MACHINE, speeds.tolist(), count=10)
+    assert not np.isnan(found.exponents).any()
+    for column in found.exponents.T:
+        # No jumps: second differences are small against the frequency.
+        assert np.abs(np.diff(column.imag, 2)).max() < 0.02 * np.abs(column.imag).max()
+        # Each is an exponent of the machine at every speed.
+        for speed, exponent in zip(speeds[::11].tolist(), column[::11], strict=True):
+            own = MACHINE.whole.equations.exponents(speed)[0]
+            assert np.abs(own - exponent).min() < 1e-9 * abs(exponent)
+    # Whirls cross: their order by frequency changes.
+    order = np.argsort(np.abs(found.frequencies), axis=1)
+    assert (order != order[0]).any()
+
+
+def test_speeds_may_come_in_any_order():
+    there, back = campbell(MACHINE, [100.0, 500.0, 900.0], count=6), campbell(MACHINE, [900.0, 500.0, 100.0], count=6)
+    assert np.array_equal(there.exponents, back.exponents[::-1])
 
 
 def test_a_shaft_with_few_whirls_has_all_of_them():

@@ -49,24 +49,29 @@ def study(
 
     case = with_requirement(load(machine, settings or ()), kick=kick, shock=shock, blade_loss=blade_loss)
     with progress("loading") as tell:
-        from carom.models.subjects import refuse_other_rotors
-
-        refuse_other_rotors(case)
         check_output(out)
+        from carom.studies import FlexibleStudy
         from carom.studies import study as study_case
 
         share_of_study = 1.0 if out is None else 0.4
         result = study_case(case, proofs=prove, progress=tell.part(0.0, share_of_study))
         report = None
         if out is not None:
-            from carom.report import write_report
+            from carom.report import write_flexible_report, write_report
 
-            report = write_report(result, out, progress=tell.part(share_of_study, 1.0))
+            step = tell.part(share_of_study, 1.0)
+            if isinstance(result, FlexibleStudy):
+                report = write_flexible_report(result, out, progress=step)
+            else:
+                report = write_report(result, out, progress=step)
     if as_json:
         print_document(result.to_dict())
         if report is not None:
             console(errors=True).print(f"Report: {report}", soft_wrap=True)
         return
-    from carom.cli.tables import print_study
+    from carom.cli.tables import print_flexible_study, print_study
 
-    print_study(console(), result, report)
+    if isinstance(result, FlexibleStudy):
+        print_flexible_study(console(), result, report)
+    else:
+        print_study(console(), result, report)

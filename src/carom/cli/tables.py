@@ -25,7 +25,7 @@ from carom.motions.contacts import yields
 from carom.outcome import Outcome, Phase
 from carom.parameters.indentation import indentation_of_hit
 from carom.parameters.told import number, told_angle
-from carom.studies import Study, Wording, check_loads
+from carom.studies import FlexibleStudy, Study, Wording, check_loads
 from carom.studies.advice_facts import CHANGES
 from carom.studies.facts import Topic, about, paragraphs
 from carom.studies.summaries import (
@@ -74,11 +74,7 @@ def print_study(console: Console, study: Study, report: Path | None) -> None:
     console.print(headline, width=min(console.width, TEXT_WIDTH))
     _print_facts(console, study, "Verdict", "What it survives")
     _print_facts(console, study, "Recommendation", "Recommendation")
-    for topic, texts in paragraphs(study.facts):
-        console.print()
-        console.print(Text(topic, style="bold"))
-        told = Padding(Text("\n".join(texts)), (0, 0, 0, 2), expand=False)
-        console.print(told, width=min(console.width, TEXT_WIDTH))
+    _print_topics(console, study)
     console.print()
     console.print(Text("For a closer look", style="bold"))
     console.print()
@@ -94,7 +90,28 @@ def print_study(console: Console, study: Study, report: Path | None) -> None:
         console.print(f"Report: {report}", soft_wrap=True)
 
 
-def _print_facts(console: Console, study: Study, topic: Topic, heading: str) -> None:
+def print_flexible_study(console: Console, study: FlexibleStudy, report: Path | None) -> None:
+    """Print the verdict and the facts of the study of a flexible machine."""
+    verdict = study.verdict
+    headline = Text(f"{study.case.name}: {verdict.lead}", style=_LEVELS[verdict.level])
+    console.print(headline, width=min(console.width, TEXT_WIDTH))
+    _print_facts(console, study, "Verdict", "What it survives")
+    _print_topics(console, study)
+    console.print()
+    told = "Figures, study.json and report.html: add --out DIR" if report is None else f"Report: {report}"
+    console.print(told, soft_wrap=True)
+
+
+def _print_topics(console: Console, study: Study | FlexibleStudy) -> None:
+    """Print the facts of all other topics as text."""
+    for topic, texts in paragraphs(study.facts):
+        console.print()
+        console.print(Text(topic, style="bold"))
+        told = Padding(Text("\n".join(texts)), (0, 0, 0, 2), expand=False)
+        console.print(told, width=min(console.width, TEXT_WIDTH))
+
+
+def _print_facts(console: Console, study: Study | FlexibleStudy, topic: Topic, heading: str) -> None:
     """Print the facts of a topic with their labels: a table without lines, details indented."""
     console.print()
     console.print(Text(heading, style="bold"))

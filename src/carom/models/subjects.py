@@ -26,8 +26,8 @@ Subject = Machine | Case | Parameters | Model
 _ALLOWED = "a Machine, a Case (as carom.load reads it from a file), Parameters or a model"
 _PLANAR = (
     "the planar rotor: this result is not known for other models, as of files with [rotor]; with these carom.simulate, carom.settle, "
-    "carom.drop, carom.find_attractors, carom.map_basins and carom.map_gains work, and the commands simulate, drop, attractors, basins, orbits, "
-    "and sweep with [basins]"
+    "carom.drop, carom.study, carom.find_attractors, carom.map_basins and carom.map_gains work, and the commands study, simulate, drop, attractors, basins, "
+    "orbits, and sweep with [basins]"
 )
 
 

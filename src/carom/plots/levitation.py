@@ -15,10 +15,12 @@ from carom.plots.style import LOOKS, TWO_COLUMNS, ZONE_SHADES, styled
 from carom.plots.words import number
 
 if TYPE_CHECKING:
-    from carom.rotors import Campbell, Sensitivity
+    from carom.rotors import Campbell, FlexibleResponse, Sensitivity
 
 _HERTZ = 2.0 * math.pi
 _LINES = ("-", "--", "-.", ":")
+MARKS = 15
+"""Marks along a whirl, so that its sense is seen."""
 _ROOM = 1.15
 """Height of the axes over what is drawn."""
 
@@ -28,31 +30,40 @@ _ROOM = 1.15
 def campbell(found: Campbell) -> Figure:
     """Draw the frequencies of free whirls over the speed of the shaft, with the line on which unbalance excites them.
 
-    Forward whirls are triangles that point up, backward ones point down; whirls that grow are hollow.
+    Each whirl is a line: solid and with triangles that point up where it goes forward, broken and with triangles that point down where it
+    goes backward.  Where it grows the triangles are hollow.
     """
     figure, axes = one_axes(None, (TWO_COLUMNS, 0.62 * TWO_COLUMNS))
-    speeds = np.broadcast_to(found.speeds[:, None] / RPM, found.exponents.shape)
-    for name, goes in (("forward", found.frequencies > 0.0), ("backward", found.frequencies <= 0.0)):
-        for grows in (False, True):
-            those = goes & ((found.exponents.real >= 0.0) == grows)
-            if not those.any():
-                continue
-            colour, words = LOOKS[name].colour, f"{name} whirl{' that grows' if grows else ''}"
-            axes.plot(
-                speeds[those],
-                np.abs(found.frequencies[those]),
-                linestyle="none",
-                marker=LOOKS[name].marker,
-                markersize=4.0,
-                color=colour,
-                markerfacecolor="none" if grows else colour,
-                label=words,
-                gid=words,
-            )
+    order = np.argsort(found.speeds)
+    speeds, exponents = found.speeds[order] / RPM, found.exponents[order]
+    every = max(1, len(speeds) // MARKS)
+    shown: set[str] = set()
+    for branch in exponents.T:
+        for name, line, goes in (("forward", "-", branch.imag > 0.0), ("backward", "--", branch.imag <= 0.0)):
+            heights = np.where(goes, np.abs(branch.imag) / _HERTZ, np.nan)
+            for grows in (False, True):
+                words = f"{name} whirl{' that grows' if grows else ''}"
+                those = np.where((branch.real >= 0.0) == grows, heights, np.nan)
+                if np.isnan(those).all():
+                    continue
+                axes.plot(
+                    speeds,
+                    those,
+                    linestyle=line,
+                    lw=0.9,
+                    marker=LOOKS[name].marker,
+                    markersize=4.0,
+                    markevery=every,
+                    color=LOOKS[name].colour,
+                    markerfacecolor="none" if grows else LOOKS[name].colour,
+                    label=None if words in shown else words,
+                    gid=words,
+                )
+                shown.add(words)
     ends = np.array([0.0, found.speeds.max()])
     axes.plot(ends / RPM, ends / _HERTZ, color="#1a1a1a", lw=0.9, label="speed of the shaft", gid="synchronous")
     axes.set_xlim(0.0, found.speeds.max() / RPM)
-    axes.set_ylim(0.0, _ROOM * float(np.nanmax(np.abs(found.frequencies))))
+    axes.set_ylim(0.0, _ROOM * float(np.nanmax(np.abs(found.frequencies), initial=0.0)))
     axes.set_xlabel("speed of the shaft (rpm)")
     axes.set_ylabel("frequency of the free whirl (Hz)")
     key(figure, [axes], columns=3)
@@ -72,7 +83,7 @@ def sensitivity(found: Sensitivity) -> Figure:
         axes.axhspan(low, high, color=shade, lw=0.0)
         axes.text(0.995, (low + high) / 2.0, zone, transform=axes.get_yaxis_transform(), ha="right", va="center")
     for bearing, (peak, frequency) in enumerate(zip(found.peaks, found.peak_frequencies, strict=True)):
-        words = f"bearing {bearing}: {number(float(peak), 3)} at {number(float(frequency) / _HERTZ, 3)} Hz"
+        words = f"bearing {bearing + 1}: {number(float(peak), 3)} at {number(float(frequency) / _HERTZ, 3)} Hz"
         (line,) = axes.plot(
             found.frequencies / _HERTZ,
             np.abs(found.values[:, bearing]),
@@ -88,4 +99,33 @@ def sensitivity(found: Sensitivity) -> Figure:
     axes.set_xlabel("frequency (Hz)")
     axes.set_ylabel("sensitivity (no unit)")
     key(figure, [axes], columns=2)
+    return figure
+
+
+@checked
+@styled
+def flexible_response(found: FlexibleResponse) -> Figure:
+    """Draw the radii of the whirl by unbalance over the speed: at the touchdown bearings and at the sensors, with the speed of the machine.
+
+    What reaches the clearance is virtual: there the rotor touches before.
+    """
+    figure, axes = one_axes(None, (TWO_COLUMNS, 0.62 * TWO_COLUMNS))
+    speeds, machine = found.speeds / RPM, found.machine
+    kinds = (("touchdown bearing", "stable", found.touchdowns), ("sensors of bearing", "unstable", found.sensors))
+    for words, look, values in kinds:
+        for number_of, radii in enumerate(np.abs(values).T, start=1):
+            name = f"{words} {number_of}"
+            line = _LINES[(number_of - 1) % len(_LINES)]
+            axes.plot(speeds, 1e6 * radii, linestyle=line, color=LOOKS[look].colour, label=name, gid=name)
+    top = 1e6 * max(float(np.abs(found.touchdowns).max()), float(np.abs(found.sensors).max()))
+    least = 1e6 * min(machine.clearances)
+    if top > 0.5 * least:
+        axes.axhline(least, color="#1a1a1a", lw=0.9, ls=":", label="clearance", gid="clearance")
+        top = max(top, least)
+    axes.axvline(machine.speed / RPM, color="#1a1a1a", lw=0.9, label="speed of the machine", gid="operating")
+    axes.set_xlim(speeds[0], speeds[-1])
+    axes.set_ylim(0.0, _ROOM * top)
+    axes.set_xlabel("speed of the shaft (rpm)")
+    axes.set_ylabel("radius of the whirl (µm)")
+    key(figure, [axes], columns=3)
     return figure

@@ -28,6 +28,8 @@
 ``flexible_model``        :class:`FlexibleModel`: that model, with the parameters of the machine
 ``documents``             a machine as plain data
 ``machine_file``          :func:`load_machine`; tables of a machine file -> its case
+``branches``              exponents followed over the speed of the shaft
+``collocation``           whether sensors see a whirl as the magnet moves it
 ``whirls``                :func:`find_whirls`, :func:`campbell`: free whirls, and how they change with the speed
 ``unbalance``             :func:`unbalance_response`: whirl by unbalance over the speed
 ``loop_sensitivity``      :func:`sensitivity`: of the loops of the bearings

@@ -10,7 +10,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from carom.arguments import checked
-from carom.models import LinearRotor, Rates
+from carom.models import Forced, LinearRotor, Model, Rates
 from carom.outcome import InputError, shown
 from carom.parameters import Field, read_quantity
 from carom.rotors.documents import document_of, part_from
@@ -145,3 +145,9 @@ class FlexibleModel(LinearRotor):
         plain = LinearRotor.from_attributes(attributes)
         own = {field.name: getattr(plain, field.name) for field in dataclasses.fields(LinearRotor)}
         return cls(**own, reduced=part_from(given["machine"]).with_modes(given["modes"]))
+
+
+def reduced_of(model: Model) -> ReducedMachine | None:
+    """The flexible machine behind a model, with its vectors, whatever forces act on it; ``None`` of models that were made of something else."""
+    linear = model.rotor if isinstance(model, Forced) else model
+    return linear.reduced if isinstance(linear, FlexibleModel) else None

@@ -40,6 +40,7 @@ class FlexibleResponse(Result):
     currents: np.ndarray
     machine: FlexibleMachine
 
+    figure: ClassVar[str] = "flexible_response"
     rests_on: ClassVar = ()
 
     @property

@@ -12,6 +12,7 @@ import numpy as np
 from carom.arguments import Count, Positive, checked
 from carom.outcome import InputError, shown
 from carom.results import Result
+from carom.rotors.branches import followed
 from carom.rotors.flexible_machine import FlexibleMachine
 
 SLOW = 12
@@ -46,7 +47,7 @@ class Whirl(Result):
     @property
     def sense(self) -> str:
         """``"forward"``, ``"backward"``, or ``"none"`` of a motion that fades before it goes round."""
-        if abs(self.exponent.imag) <= STANDING * abs(self.exponent):
+        if not turns(np.array(self.exponent)):
             return "none"
         return "forward" if self.exponent.imag > 0.0 else "backward"
 
@@ -86,14 +87,15 @@ def _largest(shape: np.ndarray) -> float:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Campbell(Result):
-    """Exponents of the slowest free whirls over the speed of the shaft.
+    """Exponents of the slowest free whirls over the speed of the shaft, each whirl followed over all speeds.
 
     Attributes
     ----------
     speeds : ndarray, shape (m,)
         rad/s.
     exponents : ndarray of complex, shape (m, k)
-        1/s; at each speed in the order of their imaginary parts, so backward whirls come first, and NaN at the end where there are fewer.
+        1/s; a column is a whirl (:mod:`carom.rotors.branches`), in the order of the imaginary parts at the first speed, so backward whirls come
+        first.  NaN where it fades before it goes round.
     machine : FlexibleMachine
     """
 
@@ -131,7 +133,7 @@ def campbell(flexible: FlexibleMachine, speeds: Sequence[float], count: Count = 
     speeds : sequence of float
         rad/s, above 0.
     count : int
-        How many whirls at each speed.
+        How many whirls: those that are among so many slowest ones at any of the speeds, so the list may be longer.
 
     Raises
     ------
@@ -143,11 +145,19 @@ def campbell(flexible: FlexibleMachine, speeds: Sequence[float], count: Count = 
     carom.rotors.find_whirls : their shapes at one speed
     """
     listed = speeds_of(speeds)
-    found = np.full((len(listed), count), np.nan, complex)
-    for row, speed in zip(found, listed.tolist(), strict=True):
-        exponents = np.array([each.exponent for each in find_whirls(flexible, speed, count)], complex)
-        row[: len(exponents)] = exponents[np.argsort(exponents.imag)]
-    return Campbell(listed, found[:, ~np.isnan(found).all(axis=0)], flexible)
+    order = np.argsort(listed, kind="stable")
+    found = np.empty((len(listed), flexible.whole.states), complex)
+    found[order] = followed(flexible.whole.equations, listed[order])
+    found[~turns(found)] = np.nan
+    slow = np.argsort(np.where(np.isnan(found), np.inf, np.abs(found.imag)), axis=1)[:, :count]
+    chosen = np.array([place for place in np.unique(slow).tolist() if not np.isnan(found[:, place]).all()], int)
+    chosen = chosen[np.argsort(found[order[0], chosen].imag)]
+    return Campbell(listed, found[:, chosen], flexible)
+
+
+def turns(exponents: np.ndarray) -> np.ndarray:
+    """Which motions go round before they fade."""
+    return np.asarray(np.abs(exponents.imag) > STANDING * np.abs(exponents))
 
 
 def speeds_of(given: Sequence[float]) -> np.ndarray:

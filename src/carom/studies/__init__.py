@@ -15,6 +15,11 @@ Read them in this order.
 ``load_tables``          what touchdown bearings bear in a motion, in rows and as JSON
 ``drops``                :class:`DropStudy`: what a drop asks of the touchdown bearing, in words and as JSON
 ``actuator``             what motions ask of the magnetic bearings, against the limits of these
+``flexible_levitation``  how a flexible machine levitates: whirls, response, sensitivity, separations
+``flexible_trials``      disturbances of a flexible machine, and what its touchdown bearings bear
+``flexible_study``       :class:`FlexibleStudy`, which :func:`study` makes of a flexible machine
+``flexible_facts``       what it has found, in words, and its verdict
+``flexible_document``    the same as JSON
 ``endings``              where simulated disturbances ended
 ``facts``                :class:`Fact`: what headline, page, report and JSON show
 ``verdict_facts``        what is survived, as facts
@@ -39,6 +44,7 @@ from carom.studies.assembly import Study, study
 from carom.studies.document import found_orbits_document, orbits_document, trajectory_document
 from carom.studies.drops import DropStudy
 from carom.studies.facts import Fact
+from carom.studies.flexible_study import FlexibleStudy
 from carom.studies.load_checks import LoadCheck, WorstLoads, check_loads, worst_loads
 from carom.studies.ranges import MotionRange, Threshold
 from carom.studies.recovery import Recovery, find_recovery
@@ -55,6 +61,7 @@ __all__ = [
     "Check",
     "DropStudy",
     "Fact",
+    "FlexibleStudy",
     "LoadCheck",
     "Lost",
     "Margin",

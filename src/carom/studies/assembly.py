@@ -19,13 +19,15 @@ from carom.closed_forms.thresholds import Gain
 from carom.disturbances import Disturbance, Plan, Sample
 from carom.models import Model, Subject, case_of, model_of
 from carom.orbits.single_impact import OrbitSet, find_orbits, orbits_within_reach
-from carom.outcome import InputError
+from carom.outcome import InputError, shown
 from carom.parameters import Case, Requirement, Zones
 from carom.progress import Reporter, ShowProgress, shows_progress
 from carom.results import in_a_line
+from carom.rotors.flexible_model import reduced_of
 from carom.studies.advice import recommend
 from carom.studies.document import study_document
 from carom.studies.facts import Fact
+from carom.studies.flexible_study import FlexibleStudy, study_of_machine
 from carom.studies.load_checks import worst_loads
 from carom.studies.recovery import find_recovery
 from carom.studies.study_data import StudyData
@@ -82,8 +84,11 @@ def study(
     requirement: Requirement | None = None,
     proofs: bool = False,
     progress: ShowProgress = None,
-) -> Study:
+) -> Study | FlexibleStudy:
     """Study a machine: its simple motions, where they exist, and where disturbances end.
+
+    A flexible machine has a study of its own (:class:`~carom.studies.FlexibleStudy`): how it levitates, from all its modes, and what it survives,
+    by simulation of the reduced rotor.
 
     A study of another model than the planar rotor rests on what a search and simulation find: it lacks what only closed forms say, and
     names it under *Not covered*.
@@ -126,6 +131,14 @@ def study(
     _refuse_another_machine(case, disturbances)
     tell = Reporter.of(progress, "study")
     rotor = model_of(case)
+    if (reduced := reduced_of(rotor)) is not None:
+        if disturbances is not None or proofs:
+            given, allowed = (
+                ("disturbances", disturbances) if disturbances is not None else ("proofs", proofs),
+                "left out for a flexible machine",
+            )
+            raise InputError(given[0], shown(given[1]), allowed)
+        return study_of_machine(case, rotor, reduced, tell)
     known, required = known_of(rotor).orbits, case.requirement.own(rotor.scales)
     proof = None
     if proofs:

@@ -14,6 +14,7 @@ Topic = Literal[
     "Verdict",
     "Recommendation",
     "Levitation",
+    "Critical speeds",
     "Rub",
     "Bouncing",
     "Backward whirl",
@@ -23,6 +24,8 @@ Topic = Literal[
     "Magnetic bearings",
     "Touchdown bearing",
     "Touchdown loads",
+    "Drop",
+    "Accuracy",
     "Not covered",
 ]
 

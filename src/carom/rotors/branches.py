@@ -1,0 +1,60 @@
+"""Exponents of free motion followed over the speed of the shaft: which at one speed is which at the next."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from scipy.optimize import linear_sum_assignment  # type: ignore[import-untyped]
+
+from carom.rotors.equations import Equations
+
+ALIKE = 0.7
+"""Least likeness of a motion at two speeds for it to count as the same; below, the speed between both is looked at too."""
+HALVINGS = 6
+"""Times that a step of the speed is halved at most; then the most alike motions are taken for the same."""
+
+
+class Motions(NamedTuple):
+    """Free motions at one speed."""
+
+    exponents: np.ndarray
+    """1/s, shape (N,)."""
+    states: np.ndarray
+    """Coordinates, then velocities of those with mass, of each, shape (N, N)."""
+    duals: np.ndarray
+    """Rows that give the share of each motion in a state, shape (N, N)."""
+
+
+def followed(equations: Equations, speeds: np.ndarray) -> np.ndarray:
+    """Exponents of all free motions at each of the speeds, 1/s, shape (m, N); each column is one motion, as far as it can be told.
+
+    Two motions are alike by ``|a b|``, where ``a`` is the share of the first in the second and ``b`` that of the second in the first: 1 of the
+    same motion, whatever its size.  Where two whirls come near each other their shapes mix, and a whirl keeps its shape rather than its
+    place.
+    """
+    here = _at(equations, float(speeds[0]))
+    rows = [here.exponents]
+    for before, after in zip(speeds[:-1].tolist(), speeds[1:].tolist(), strict=True):
+        here = _step(equations, here, before, after, HALVINGS)
+        rows.append(here.exponents)
+    return np.array(rows)
+
+
+def _at(equations: Equations, speed: float) -> Motions:
+    exponents, coordinates = equations.exponents(speed)
+    heavy = equations.mass.any(axis=1)
+    states = np.concatenate([coordinates, exponents * coordinates[heavy]])
+    # Motions of a free rotor that stay where they are may be one and the same: no inverse.
+    return Motions(exponents, states, np.linalg.pinv(states))
+
+
+def _step(equations: Equations, here: Motions, before: float, after: float, halvings: int) -> Motions:
+    """The motions at the speed after, in the order of those here."""
+    there = _at(equations, after)
+    alike = np.abs((here.duals @ there.states) * (there.duals @ here.states).T)
+    _, order = linear_sum_assignment(-np.minimum(alike, 1.0))
+    if halvings and alike[np.arange(len(order)), order].min() < ALIKE:
+        middle = 0.5 * (before + after)
+        return _step(equations, _step(equations, here, before, middle, halvings - 1), middle, after, halvings - 1)
+    return Motions(there.exponents[order], there.states[:, order], there.duals[order])

@@ -1,0 +1,39 @@
+"""The study of a flexible machine as JSON."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from carom.attractors import exact_interval
+from carom.models.subjects import rotor_document
+from carom.studies.flexible_study import FlexibleStudy
+from carom.studies.load_tables import load_entries
+
+
+def machine_document(study: FlexibleStudy) -> dict[str, Any]:
+    """Return the document of a study; planes and bearings count from 1 unless a field says otherwise."""
+    verdict, total = study.verdict, len(study.attractors.disturbances)
+    reduced = study.reduced
+    return {
+        "name": study.case.name,
+        **rotor_document(study.rotor),
+        "verdict": {"level": verdict.level, "outcome": verdict.outcome, "reason": verdict.reason, "headline": verdict.headline},
+        "reduction": {"vectors": reduced.vectors, "modes": reduced.modes, "error": reduced.error, "error_is": "an estimate, no bound"},
+        "levitating": study.levitation.document(),
+        "attractors": [
+            {
+                "name": entry.name,
+                "outcome": entry.name.outcome.label,
+                "words": entry.words,
+                "disturbances": entry.count,
+                "known_starts": entry.known,
+                "share": [entry.share_of_disturbances, *exact_interval(entry.count, total)],
+            }
+            for entry in study.attractors
+        ],
+        "complete": False,
+        "trials": [each.document() for each in study.trials],
+        "kicks_beyond": [{"times": times, "came_back": back} for times, back in study.beyond],
+        "drop": None if study.fall_loads is None else {"planes": load_entries(study.fall_loads, study.case.limits)},
+        "facts": [fact.document() for fact in study.facts],
+    }  # fmt: skip

@@ -1,0 +1,229 @@
+"""Disturbances of a flexible machine, followed with contact: what comes back, and what its touchdown bearings bear."""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, ClassVar
+
+import numpy as np
+
+from carom.attractors import MotionName
+from carom.basins import Share, map_basins
+from carom.disturbances import BaseShock, BladeLoss, Disturbance, Sample, VelocityKick
+from carom.models import Model
+from carom.motions import Trajectory, drop_loads, kick, simulate
+from carom.motions.bearing_loads import DropLoads, PlaneLoads
+from carom.outcome import InputError, Outcome
+from carom.parameters import Case, LoadLimits, Required, Scales
+from carom.progress import Reporter
+from carom.results import Result
+from carom.studies.load_checks import LoadCheck, check_loads
+from carom.studies.verdict_facts import KINDS
+
+DIRECTIONS = 12
+"""Directions of a kick or a shock, and phases of the unbalance after the loss of a blade, that are followed at their full size."""
+TIMES = (1.0, 2.0, 4.0, 8.0)
+"""Multiples of the required kick that are tried in these directions."""
+SEED = 1
+SAMPLES = 500
+"""Instants at which the radius of a motion without contact is looked at."""
+MOST_EVENTS = 20_000
+"""Events up to which one motion with loads is followed: what then still touches is lost."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class AtPlane(Result):
+    """What the touchdown bearing at a plane bears in the worst of several motions, in SI units.
+
+    Attributes
+    ----------
+    plane : int
+        From 1.
+    radius : float
+        Largest distance of the shaft from the centre, m; beyond the clearance it is pressed into the bearing.
+    force : float
+        N.
+    contact_time : float
+        s.
+    contacts : int
+    """
+
+    shown: ClassVar = ("plane", "radius", "force", "contact_time", "contacts")
+
+    plane: int
+    radius: float
+    force: float
+    contact_time: float
+    contacts: int
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class FlexibleTrial(Result):
+    """Disturbances of one kind of a flexible machine.
+
+    Attributes
+    ----------
+    kind : {"kick", "shock", "blade_loss"}
+    size : float
+        The largest, in units of the equations.
+    drawn : Share
+        Of those drawn up to this size, how many came back.
+    ends : tuple of tuple
+        Where those drawn ended: name and number.
+    largest : Share
+        Of those at this size in all directions, how many came back.
+    planes : tuple of AtPlane
+        The worst of these, until their ends were known.
+    whirls : tuple of str
+        In which directions the rotor went round at the end of those that stay in contact.
+    checks : tuple of LoadCheck
+        The worst of these against each limit that is stated.
+    worst : Trajectory
+        The one with the largest force.
+    """
+
+    shown: ClassVar = ("kind", "size", "drawn", "largest", "planes")
+
+    kind: str
+    size: float
+    drawn: Share
+    ends: tuple[tuple[MotionName, int], ...]
+    largest: Share
+    planes: tuple[AtPlane, ...]
+    whirls: tuple[str, ...]
+    checks: tuple[LoadCheck, ...]
+    worst: Trajectory
+
+    @property
+    def survived(self) -> bool:
+        """Whether all that were tried came back."""
+        return self.drawn.count == self.drawn.total and self.largest.count == self.largest.total
+
+    def document(self) -> dict[str, Any]:
+        """As plain data for JSON."""
+        return {
+            "kind": self.kind,
+            "size": self.size,
+            "drawn": self.drawn.document,
+            "ends": {str(name): count for name, count in self.ends},
+            "at_largest": {"came_back": self.largest.count, "total": self.largest.total},
+            "whirls": list(self.whirls),
+            "planes": [
+                {
+                    "plane": each.plane,
+                    "radius_si": each.radius,
+                    "force_si": each.force,
+                    "contact_time_si": each.contact_time,
+                    "contacts": each.contacts,
+                }
+                for each in self.planes
+            ],
+            "limits": [{"name": each.name, "value_si": each.value, "limit_si": each.limit, "exceeded": each.exceeded} for each in self.checks],
+        }  # fmt: skip
+
+
+def trials_of(case: Case, rotor: Model, required: Required, count: int, tell: Reporter) -> tuple[FlexibleTrial, ...]:
+    """Follow the kinds of disturbances that must be survived: drawn up to their size, and at it in all directions."""
+    kinds: list[tuple[str, float, Disturbance, Callable[[float], Trajectory]]] = []
+    kicks = VelocityKick(required.kick)
+    kinds.append(("kick", required.kick, kicks, lambda angle: _kicked(rotor, required.kick, angle)))
+    if required.shock is not None:
+        shock = BaseShock(required.shock.peak, required.shock.duration)
+        kinds.append(("shock", shock.peak, shock, lambda angle: _ended(*shock.stages(rotor, angle))))
+    if required.blade_loss is not None:
+        loss = BladeLoss(required.blade_loss)
+        kinds.append(("blade_loss", required.blade_loss, loss, lambda angle: _ended(*loss.release(rotor, angle))))
+    found = []
+    for place, (kind, size, model, at) in enumerate(kinds):
+        part = tell.part(place / len(kinds), (place + 1) / len(kinds))
+        part(0.0, f"disturbances: {KINDS[kind].lower()}")  # type: ignore[index]
+        if kind == "blade_loss" and model.machine_after(rotor).system.rest_radius >= 1.0:
+            allowed = "an unbalance with which the rotor still levitates inside the clearance"
+            raise InputError("blade_loss_after", size, allowed)
+        basin = map_basins(rotor, Sample(model, count, SEED))
+        ends = Counter({name: basin.share_of(name).count for name in basin.motions})
+        motions = [at(2.0 * math.pi * number / DIRECTIONS) for number in range(DIRECTIONS)]
+        found.append(_trial(kind, size, basin.share_recovered, ends, motions, case.limits))
+    return tuple(found)
+
+
+def kicks_beyond(rotor: Model, required: Required) -> tuple[tuple[float, int], ...]:
+    """Multiples of the required kick, and how many of those in all directions came back; up to the first of which some are lost."""
+    found = []
+    for times in TIMES:
+        back = sum(
+            _kicked(rotor, times * required.kick, 2.0 * math.pi * number / DIRECTIONS).outcome is Outcome.LEVITATED
+            for number in range(DIRECTIONS)
+        )
+        found.append((times, back))
+        if back < DIRECTIONS:
+            break
+    return tuple(found)
+
+
+def _kicked(rotor: Model, speed: float, angle: float) -> Trajectory:
+    return _ended(rotor, kick(speed, angle).state(rotor))
+
+
+def _ended(rotor: Model, start: Any) -> Trajectory:
+    return simulate(rotor, start, settle=True, max_events=MOST_EVENTS)
+
+
+def _trial(
+    kind: str, size: float, drawn: Share, ends: Counter[MotionName], motions: list[Trajectory], limits: LoadLimits
+) -> FlexibleTrial:
+    loads = [drop_loads(motion) for motion in motions]
+    back = sum(motion.outcome is Outcome.LEVITATED for motion in motions)
+    forces = [max(plane.loads.force for plane in each.planes) for each in loads]
+    whirls = {
+        plane.whirl.direction
+        for each in loads
+        if each.outcome is not Outcome.LEVITATED
+        for plane in each.planes
+        if plane.whirl is not None and plane.whirl.direction
+    }
+    return FlexibleTrial(
+        kind=kind,
+        size=size,
+        drawn=drawn,
+        ends=tuple(ends.most_common()),
+        largest=Share.of(back, len(motions), drawn=False),
+        planes=tuple(at_plane(motions, loads, plane) for plane in range(len(loads[0].planes))),
+        whirls=tuple(sorted(whirls)),
+        checks=worst_checks(loads, limits),
+        worst=motions[int(np.argmax(forces))],
+    )
+
+
+def at_plane(motions: list[Trajectory], loads: list[DropLoads], plane: int) -> AtPlane:
+    """The largest of each load at a plane, from 0."""
+    seen = [each.planes[plane] for each in loads]
+    scales = seen[0].scales or Scales(1.0, 1.0, 1.0)  # a flexible machine has some
+    return AtPlane(
+        plane=plane + 1,
+        radius=max(_reach(motion, each) for motion, each in zip(motions, seen, strict=True)) * scales.length,
+        force=max(each.loads.force for each in seen) * scales.force,
+        contact_time=max(each.loads.contact_time for each in seen) * scales.time,
+        contacts=max(each.contacts for each in seen),
+    )
+
+
+def _reach(motion: Trajectory, loads: PlaneLoads) -> float:
+    """Largest distance from the centre, in clearances of the plane: by the depth in the bearing, or as sampled of a motion without contact."""
+    if loads.loads.depth > 0.0:
+        return 1.0 + loads.loads.depth
+    times = np.linspace(0.0, motion.time, SAMPLES)
+    return float(motion.seen_at(loads.plane).radius(times).max())
+
+
+def worst_checks(loads: list[DropLoads], limits: LoadLimits) -> tuple[LoadCheck, ...]:
+    """The worst of many motions, at any plane, against each limit that is stated."""
+    checks = [check for each in loads for plane in each.planes for check in check_loads(plane.loads, limits)]
+    names = dict.fromkeys(each.name for each in checks)
+    return tuple(
+        max((each for each in checks if each.name == name), key=lambda each: (each.exceeded, each.value))
+        for name in names
+    )

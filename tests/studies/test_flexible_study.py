@@ -1,0 +1,125 @@
+"""The study of a flexible machine: its sentences against fresh simulations and independent numbers."""
+
+from __future__ import annotations
+
+import json
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import carom as cm
+from carom.outcome import InputError, Outcome
+from carom.rotors import Whirl, find_whirls, load_machine, unbalance_response
+from carom.rotors.collocation import Collocation
+from carom.studies import flexible_study
+from carom.studies.flexible_levitation import levitation_of_machine
+from carom.studies.flexible_trials import DIRECTIONS
+from carom.studies.standards import required_margin
+
+pytestmark = pytest.mark.jit_only
+
+FILE = "examples/tum-flexible-rotor.toml"
+MACHINE = load_machine(FILE)
+
+
+@pytest.fixture(scope="module")
+def studied():
+    case = cm.load(FILE)
+    case = replace(
+        case,
+        requirement=cm.parameters.Requirement.of(case, kick="300 mm/s"),
+        limits=cm.parameters.LoadLimits(force="300 N"),
+    )
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(flexible_study, "DRAWN", 20)
+        return cm.study(case)
+
+
+def test_the_verdict_promises_no_more_than_was_tried(studied):
+    (trial,) = studied.trials
+    assert studied.verdict.level == ("all-tried-came-back" if trial.survived else "may-not-come-back")
+    assert "no guarantee" in studied.verdict.reason or not trial.survived
+    assert f"{trial.drawn.count} of {trial.drawn.total} kicks" in studied.verdict.headline
+
+
+def test_fresh_kicks_fare_as_the_share_says(studied):
+    """By other seeds: the share of a fresh sample lies in the interval that is told."""
+    (trial,) = studied.trials
+    kicks = cm.disturbances.VelocityKick(studied.required.kick)
+    fresh = cm.map_basins(studied.rotor, cm.disturbances.Sample(kicks, 60, 77)).share_recovered
+    assert trial.drawn.low <= fresh.fraction <= trial.drawn.high
+
+
+def test_larger_kicks_were_followed_as_told(studied):
+    kick = studied.required.kick
+    for times, back in studied.beyond:
+        came = 0
+        for number in range(DIRECTIONS):
+            motion = cm.simulate(
+                studied.rotor, cm.kick(times * kick, 2.0 * math.pi * number / DIRECTIONS), max_events=20_000
+            )
+            came += motion.outcome is Outcome.LEVITATED
+        assert came == back
+        break  # one multiple is enough here: the others are followed alike
+
+
+def test_forces_are_those_of_the_worst_motion(studied):
+    (trial,) = studied.trials
+    loads = cm.motions.drop_loads(trial.worst)
+    largest = max(plane.loads.si()["force"] for plane in loads.planes)
+    assert max(each.force for each in trial.planes) == pytest.approx(largest)
+    for each in trial.planes:
+        clearance = MACHINE.clearances[each.plane - 1]
+        assert each.radius > clearance if each.contacts else each.radius < clearance
+    (check,) = trial.checks
+    assert check.exceeded == (largest > 300.0)
+
+
+def test_what_is_withheld_and_the_accuracy_are_told(studied):
+    topics = {fact.topic for fact in studied.facts}
+    assert {"Not covered", "Accuracy", "Drop", "Critical speeds", "Magnetic bearings"} <= topics
+    (accuracy,) = (fact for fact in studied.facts if fact.topic == "Accuracy")
+    assert "no bound" in accuracy.text
+    assert accuracy.values["error"] == studied.reduced.error
+    document = json.loads(json.dumps(studied.to_dict()))
+    assert document["complete"] is False
+    assert len(document["facts"]) == len(studied.facts)
+
+
+def test_critical_speeds_are_peaks_of_the_response():
+    found = levitation_of_machine(MACHINE)
+    assert found.criticals
+    for each in found.criticals:
+        step = 0.01 * each.speed
+        near = unbalance_response(MACHINE, [each.speed - step, each.speed, each.speed + step])
+        sizes = np.abs(near.sensors[:, each.bearing - 1])
+        assert sizes.argmax() == 1
+        assert sizes[1] == pytest.approx(each.amplitude, rel=1e-9)
+        assert each.separation.required == required_margin(each.factor, each.separation.side)
+
+
+def test_the_amplification_factor_is_that_of_the_damping_ratio():
+    """Of a single narrow peak, 1/(2ζ), to the next order in ζ and what other whirls add."""
+    found = levitation_of_machine(MACHINE)
+    lowest = min(found.criticals, key=lambda each: each.speed)
+    whirl = min(
+        (each for each in find_whirls(MACHINE, lowest.speed) if each.sense == "forward"),
+        key=lambda each: abs(2.0 * math.pi * each.frequency - lowest.speed),
+    )
+    assert lowest.factor == pytest.approx(0.5 / whirl.damping_ratio, rel=0.1)
+
+
+@pytest.mark.parametrize(
+    ("sensor", "magnet", "opposed", "hardly"),
+    [(0.5, 0.4, False, False), (0.5, -0.4, True, False), (0.5j, 0.4j, False, False), (0.01, -0.5, False, True)],
+)
+def test_a_node_between_sensor_and_magnet(sensor, magnet, opposed, hardly):
+    found = Collocation(1, Whirl(1j, np.ones(2, complex)), sensor, magnet)
+    assert (found.opposed, found.hardly) == (opposed, hardly)
+
+
+def test_a_plan_of_ones_own_is_refused_in_a_line():
+    with pytest.raises(InputError, match=r"^proofs = true: left out for a flexible machine$"):
+        cm.study(cm.load(FILE), proofs=True)
