@@ -17,6 +17,7 @@ Read them in this order.
 ``actuator``             what motions ask of the magnetic bearings, against the limits of these
 ``flexible_levitation``  how a flexible machine levitates: whirls, response, sensitivity, separations
 ``flexible_trials``      disturbances of a flexible machine, and what its touchdown bearings bear
+``flexible_data``        :class:`FlexibleData`: what a study has found of a flexible machine, before it is told
 ``flexible_study``       :class:`FlexibleStudy`, which :func:`study` makes of a flexible machine
 ``flexible_facts``       what it has found, in words, and its verdict
 ``flexible_document``    the same as JSON

@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 from carom.attractors import exact_interval
 from carom.models.subjects import rotor_document
-from carom.studies.flexible_study import FlexibleStudy
+from carom.studies.facts import Fact
+from carom.studies.flexible_data import FlexibleData
 from carom.studies.load_tables import load_entries
+from carom.studies.verdict import Verdict
 
 
-def machine_document(study: FlexibleStudy) -> dict[str, Any]:
+def machine_document(study: FlexibleData, verdict: Verdict, facts: Sequence[Fact]) -> dict[str, Any]:
     """Return the document of a study; planes and bearings count from 1 unless a field says otherwise."""
-    verdict, total = study.verdict, len(study.attractors.disturbances)
+    total = len(study.attractors.disturbances)
     reduced = study.reduced
     return {
         "name": study.case.name,
@@ -35,5 +38,5 @@ def machine_document(study: FlexibleStudy) -> dict[str, Any]:
         "trials": [each.document() for each in study.trials],
         "kicks_beyond": [{"times": times, "came_back": back} for times, back in study.beyond],
         "drop": None if study.fall_loads is None else {"planes": load_entries(study.fall_loads, study.case.limits)},
-        "facts": [fact.document() for fact in study.facts],
+        "facts": [fact.document() for fact in facts],
     }  # fmt: skip

@@ -9,8 +9,8 @@ from carom.outcome import Outcome
 from carom.parameters.told import number
 from carom.studies.endings import motion_words
 from carom.studies.facts import Fact, about
+from carom.studies.flexible_data import FlexibleData
 from carom.studies.flexible_levitation import Critical
-from carom.studies.flexible_study import FlexibleStudy
 from carom.studies.flexible_trials import DIRECTIONS, AtPlane, FlexibleTrial
 from carom.studies.load_tables import checks_of_planes, load_tables
 from carom.studies.response_words import micrometres, rpm
@@ -39,7 +39,7 @@ SENSITIVITY_LIMITS = "ISO 14839-3: zone A up to 3 (9.5 dB), B up to 4 (12 dB), C
 _HERTZ = 2.0 * math.pi
 
 
-def facts_of_machine(study: FlexibleStudy) -> Iterator[Fact]:
+def facts_of_machine(study: FlexibleData) -> Iterator[Fact]:
     """List all facts, in the order in which they are told."""
     yield from _survived(study)
     yield from _levitation(study)
@@ -56,7 +56,7 @@ def facts_of_machine(study: FlexibleStudy) -> Iterator[Fact]:
         yield Fact("Not covered", each)
 
 
-def verdict_of_machine(study: FlexibleStudy, facts: Sequence[Fact]) -> Verdict:
+def verdict_of_machine(study: FlexibleData, facts: Sequence[Fact]) -> Verdict:
     """The verdict; it never promises that the machine recovers."""
     survived = tuple(f"{fact.label}: {fact.text}." for fact in about(facts, "Verdict"))
     if not study.levitates:
@@ -71,7 +71,7 @@ def verdict_of_machine(study: FlexibleStudy, facts: Sequence[Fact]) -> Verdict:
     return Verdict("all-tried-came-back", outcome, "; ".join(doubts), survived)
 
 
-def _doubts(study: FlexibleStudy) -> list[str]:
+def _doubts(study: FlexibleData) -> list[str]:
     """What stands against the machine although all came back."""
     found = []
     loops = study.levitation.sensitivity
@@ -90,7 +90,7 @@ def _doubts(study: FlexibleStudy) -> list[str]:
     return found
 
 
-def _size(study: FlexibleStudy, trial: FlexibleTrial) -> str:
+def _size(study: FlexibleData, trial: FlexibleTrial) -> str:
     """A kind of disturbance with its size: ``kicks of up to 100 mm/s``."""
     say = study.wording
     if trial.kind == "shock" and study.required.shock is not None:
@@ -100,7 +100,7 @@ def _size(study: FlexibleStudy, trial: FlexibleTrial) -> str:
     return f"kicks of up to {say.velocity(trial.size)}"
 
 
-def _survived(study: FlexibleStudy) -> Iterator[Fact]:
+def _survived(study: FlexibleData) -> Iterator[Fact]:
     """For each kind what came back."""
     for trial in study.trials:
         drawn, largest = trial.drawn, trial.largest
@@ -121,7 +121,7 @@ def _survived(study: FlexibleStudy) -> Iterator[Fact]:
         yield Fact("Verdict", "; ".join(parts), "Larger kicks", "sampled", values, disturbances="kick")
 
 
-def _levitation(study: FlexibleStudy) -> Iterator[Fact]:
+def _levitation(study: FlexibleData) -> Iterator[Fact]:
     found, worst = study.levitation, study.levitation.least_damped
     text = (
         f"At {rpm(found.machine.speed)} the least damped of the {len(found.whirls)} slowest whirls is one of {number(worst.frequency, 3)} Hz, {worst.sense}, with a "
@@ -152,7 +152,7 @@ def _levitation(study: FlexibleStudy) -> Iterator[Fact]:
     )
 
 
-def _critical_speeds(study: FlexibleStudy) -> Iterator[Fact]:
+def _critical_speeds(study: FlexibleData) -> Iterator[Fact]:
     found = study.levitation
     if found.response is None:
         yield Fact("Critical speeds", "Without an unbalance there is no response whose peaks could be told.")
@@ -167,7 +167,7 @@ def _critical_speeds(study: FlexibleStudy) -> Iterator[Fact]:
     yield Fact("Critical speeds", f"{rule} Searched from {rpm(speeds[0])} to {rpm(speeds[-1])}.")
 
 
-def _separation(study: FlexibleStudy, critical: Critical) -> str:
+def _separation(study: FlexibleData, critical: Critical) -> str:
     margin, factor = critical.separation, critical.factor
     if factor is None:
         return "the peak is too flat for an amplification factor, so none is required."
@@ -179,7 +179,7 @@ def _separation(study: FlexibleStudy, critical: Critical) -> str:
     return f"{told}, {where}, required {number(100.0 * margin.required, 3)} %: {'met' if margin.met else 'not met'}."
 
 
-def _bearings(study: FlexibleStudy) -> Iterator[Fact]:
+def _bearings(study: FlexibleData) -> Iterator[Fact]:
     found = study.levitation
     loops = found.sensitivity
     if loops is not None:
@@ -207,7 +207,7 @@ def _bearings(study: FlexibleStudy) -> Iterator[Fact]:
         )
 
 
-def _holding(study: FlexibleStudy) -> Iterator[Fact]:
+def _holding(study: FlexibleData) -> Iterator[Fact]:
     found, scales = study.attractors, study.rotor.scales
     for entry in found:
         if entry.name.outcome is Outcome.LEVITATED:
@@ -228,7 +228,7 @@ def _holding(study: FlexibleStudy) -> Iterator[Fact]:
         yield Fact("Disturbances tried", text, evidence="sampled")
 
 
-def _tried(study: FlexibleStudy) -> Iterator[Fact]:
+def _tried(study: FlexibleData) -> Iterator[Fact]:
     for trial in study.trials:
         lines = [f"{KINDS[trial.kind]} ({_size(study, trial)}), the worst of {trial.largest.total} at the full size:"]  # type: ignore[index]
         lines += [f"plane {each.plane}: {_plane(each)}" for each in trial.planes]
@@ -246,7 +246,7 @@ def _plane(each: AtPlane) -> str:
     return f"{reach}, {counted(each.contacts, 'contact')}, {number(each.force, 3)} N, {number(1e3 * each.contact_time, 3)} ms in contact"
 
 
-def _fall(study: FlexibleStudy) -> Iterator[Fact]:
+def _fall(study: FlexibleData) -> Iterator[Fact]:
     loads = study.fall_loads
     if loads is None:
         yield Fact("Drop", "Without weight there is no drop: a table [gravity] in the machine file adds it.")

@@ -1,0 +1,78 @@
+"""What a study has found of a flexible machine, before it is told in words."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import ClassVar
+
+from carom.attractors import AttractorSet
+from carom.models import Model
+from carom.motions import DropLoads, Trajectory, drop_loads
+from carom.parameters import Case, Required
+from carom.results import Result
+from carom.rotors import ReducedMachine
+from carom.studies.flexible_levitation import FlexibleLevitation
+from carom.studies.flexible_trials import FlexibleTrial
+from carom.studies.wording import Wording
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class FlexibleData(Result):
+    """What a study has found of a flexible machine, before it is told in words.
+
+    Attributes
+    ----------
+    case : Case
+    rotor : Model
+        The reduced machine with its weight, in which motions with contact are followed.
+    reduced : ReducedMachine
+        The same with the machine behind it, and the error of the reduction.
+    levitation : FlexibleLevitation
+        From all modes.
+    attractors : AttractorSet
+        The motions in which kicks, starts elsewhere and starts in backward whirl end; others may exist.
+    trials : tuple of FlexibleTrial
+        What must be survived, one kind after another; empty where the rotor does not levitate without contact.
+    beyond : tuple of tuple
+        Multiples of the required kick, and how many of twelve directions came back.
+    fall : Trajectory or None
+        The drop after a loss of levitation; ``None`` of a rotor without weight.
+    """
+
+    shown: ClassVar = ("case", "levitates")
+    rests_on: ClassVar = ("api617", "iso14839")
+
+    case: Case
+    rotor: Model
+    reduced: ReducedMachine
+    levitation: FlexibleLevitation
+    attractors: AttractorSet
+    trials: tuple[FlexibleTrial, ...]
+    beyond: tuple[tuple[float, int], ...]
+    fall: Trajectory | None
+
+    @property
+    def levitates(self) -> bool:
+        """Whether it runs without contact; a machine whose controllers do not hold it is refused before."""
+        return self.rotor.system.rest_radius < 1.0
+
+    @property
+    def required(self) -> Required:
+        """What the machine must survive, in units of the equations."""
+        return self.case.requirement.own(self.rotor.scales)
+
+    @property
+    def zone(self) -> str:
+        """Zone of ISO 14839-2 of the whirl by unbalance and of the static sag together, at the worst plane."""
+        return self.case.zones.zone(min(self.rotor.system.rest_radius, 1.0))
+
+    @property
+    def wording(self) -> Wording:
+        """Formatter of the results of this study as text."""
+        return Wording(self.rotor.scales, in_terms=False)
+
+    @cached_property
+    def fall_loads(self) -> DropLoads | None:
+        """What the touchdown bearings bear in the drop."""
+        return None if self.fall is None else drop_loads(self.fall)
