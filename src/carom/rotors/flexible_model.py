@@ -10,7 +10,8 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from carom.arguments import checked
-from carom.models import Forced, LinearRotor, Model, Rates
+from carom.models import LinearRotor, Model, Rates
+from carom.models.stages import Around
 from carom.outcome import InputError, shown
 from carom.parameters import Field, read_quantity
 from carom.rotors.documents import document_of, part_from
@@ -148,6 +149,7 @@ class FlexibleModel(LinearRotor):
 
 
 def reduced_of(model: Model) -> ReducedMachine | None:
-    """The flexible machine behind a model, with its vectors, whatever forces act on it; ``None`` of models that were made of something else."""
-    linear = model.rotor if isinstance(model, Forced) else model
-    return linear.reduced if isinstance(linear, FlexibleModel) else None
+    """The flexible machine behind a model, with its vectors, whatever forces act on it and whatever limits its bearings have; ``None`` of other models."""
+    while isinstance(model, Around):
+        model = model.rotor
+    return model.reduced if isinstance(model, FlexibleModel) else None
