@@ -346,7 +346,8 @@ def _last_whirl(parts: list[Trajectory]) -> LastWhirl | None:
 def _angles(last: Trajectory, begins: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Times from a first one on, angles of the plane in the fixed frame and their rates, at nodes close enough to count its turns."""
     edges = np.append(last.segment_starts, last.time)
-    fastest = np.abs(last.rotor.system.arrays["exponents"]).max()
+    # What fades without turning, such as the state of a filter, may be faster by far and moves nothing round.
+    fastest = np.abs(last.rotor.system.arrays["exponents"].imag).max()
     pieces = []
     for first, end in pairwise(edges):
         if end > begins:
