@@ -63,6 +63,7 @@ def taken(case: Case, released: Drop) -> tuple[Model, State, Echo]:
     """The rotor that falls, its start, and what was taken of a release whose sizes are numbers."""
     from carom.disturbances.echo import echo_of_drop
     from carom.models import model_of
+    from carom.motions.starts import amplitudes_of
 
     rotor, state = released.stages(case)
     scales, back, turning = case.parameters.scales, released.regained_after, released.race_speed
@@ -70,7 +71,12 @@ def taken(case: Case, released: Drop) -> tuple[Model, State, Echo]:
         raise InputError("gravity", None, "a table [gravity] in the machine file")
     angle = released.unbalance_angle(model_of(case))
     regained, race = (None if each is None else float(each) for each in (back, turning))
-    return rotor, state, echo_of_drop(state, angle, regained, case.gravity, scales, race)
+    amplitudes, _ = amplitudes_of(rotor, state)
+    planes = []
+    for plane, width in enumerate(rotor.system.widths.tolist()):
+        place, rate = rotor.system.at_plane(amplitudes, plane)
+        planes.append((width * complex(place), width * complex(rate)))
+    return rotor, state, echo_of_drop(state, angle, regained, case.gravity, scales, race, planes)
 
 
 def motion_document(case: Case, motion: Trajectory) -> dict[str, Any]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import cmath
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -104,9 +104,13 @@ def echo_of_drop(
     gravity: Gravity,
     scales: Scales,
     race_speed: float | None = None,
+    planes: Sequence[tuple[complex, complex]] = (),
 ) -> Echo:
-    """Levitation lost at a state of the planar rotor, with the phase of the unbalance and a given speed of the race at the release."""
-    begun = _moving(state, scales)
+    """Levitation lost at a state, with the phase of the unbalance and a given speed of the race at the release.
+
+    Of a rotor in several touchdown bearings ``planes`` are displacement and rate at each: its coordinates are no places.
+    """
+    begun = _moving_in_planes(planes, scales) if len(planes) > 1 else _moving(state, scales)
     back = f"; levitation is back after {told(regained, 'time', scales)}" if regained is not None else ""
     if race_speed is not None:
         shown = MACHINE_FIELDS["speed"]
@@ -133,6 +137,19 @@ def _moving(state: State, scales: Scales | None) -> Echo:
     """A state of the planar rotor, its velocity in the fixed frame."""
     # On a mount the rotor is the first of two coordinates.
     place, rate = (complex(np.ravel(part)[0]) for part in (state.position, state.velocity))
+    return _moving_at(place, rate, scales)
+
+
+def _moving_in_planes(planes: Sequence[tuple[complex, complex]], scales: Scales | None) -> Echo:
+    """Displacement and rate at several touchdown bearings, which are counted from 1."""
+    found = [_moving_at(place, rate, scales) for place, rate in planes]
+    words = "; ".join(f"at touchdown bearing {number} {each.words}" for number, each in enumerate(found, 1))
+    sizes = {f"{name}_{number}": size for number, each in enumerate(found, 1) for name, size in each.sizes.items()}
+    return Echo("start", words, sizes)
+
+
+def _moving_at(place: complex, rate: complex, scales: Scales | None) -> Echo:
+    """A displacement and its rate in the frame that turns with the shaft; the velocity is told in the fixed frame."""
     speed = rate + 1j * place
     at = f"{told(abs(place), 'length', scales)} from the centre at {told_angle(cmath.phase(place))}"
     moves = f"{told(abs(speed), 'velocity', scales)} at {told_angle(cmath.phase(speed))} in the fixed frame"
