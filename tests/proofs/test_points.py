@@ -272,6 +272,13 @@ def test_one_point_twice_is_refused():
             point_claims(Rotor(hypotheses), Evidence(twice), options)
 
 
+def test_two_guesses_of_one_point_are_one():
+    """Around the fold a search comes to it from both sides, and both boxes hold the same zero."""
+    claims = points(DECIMAL, "gamma", "0.178", "0.1781")
+    assert [name for name in claims if name.startswith("fold of B1,d")].count("fold of B1,d transversal") == 1
+    assert not any("(2)" in name for name in claims)
+
+
 @pytest.mark.parametrize("name", KNOWN)
 def test_uniqueness_is_stated_with_its_box(paper, name):
     enclosures = paper[name].enclosures

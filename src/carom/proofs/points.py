@@ -126,8 +126,19 @@ def point_claims(rotor: Rotor, evidence: Evidence, options: Any) -> list[Claim]:
 
 
 def _all_searched(line: Line) -> list[dict[str, Any]]:
-    seeds = [seed for seed in point_seeds(line) if seed[0] in KINDS]
-    return [_searched(line, kind, label, [at[name] for name in KINDS[kind].unknowns]) for kind, label, at in seeds]
+    found: list[dict[str, Any]] = []
+    shown: dict[tuple[str, str], list[Point]] = {}
+    for kind, label, at in point_seeds(line):
+        if kind not in KINDS:
+            continue
+        entry = _searched(line, kind, label, [at[name] for name in KINDS[kind].unknowns])
+        if "centre" in entry:
+            point, others = _shown(line, label, entry), shown.setdefault((kind, label), [])
+            if any(point.may_be(other) for other in others):
+                continue  # two guesses lead to one point
+            others.append(point)
+        found.append(entry)
+    return found
 
 
 def _searched(line: Line, kind: str, label: str, guess: list[float]) -> dict[str, Any]:
