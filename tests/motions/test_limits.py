@@ -7,10 +7,11 @@ import pytest
 from limited_reference import clipped, follow, struck
 
 import carom as cm
+from carom.loading import load
 from carom.models import Forced, InBearing, Jeffcott, Limited, model_of
 from carom.motions import State, Trajectory, energy_ledger
 from carom.outcome import InputError, Outcome, Phase
-from carom.parameters import ControlLimit, TouchdownBearing, load
+from carom.parameters import ControlLimit, TouchdownBearing
 
 KEOGH = "examples/keogh-cole.toml"
 YIELDING = TouchdownBearing(law="kelvin-voigt", stiffness="200 N/um", damping="5 kN s/m")

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from carom.bifurcations import find_bifurcations
+from carom.loading import load
 from carom.models import model_of
 from carom.motions import State, settle, simulate
 from carom.orbits import find_orbits, rubbing_orbits
@@ -17,7 +18,6 @@ from carom.orbits.orbit import Orbit, same_orbit
 from carom.orbits.recognising import orbit_of_motion
 from carom.orbits.search import LEAST_SHARE, WHOLE_WIDTH, Search, Searched, random_starts, usual_share
 from carom.outcome import InputError, Outcome
-from carom.parameters import load
 from carom.progress import Reporter
 from tests.bifurcations.test_rubbing import CHATTERING
 from tests.bouncing_machines import bouncing_parameters, disc_points

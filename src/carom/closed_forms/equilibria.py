@@ -12,6 +12,7 @@ from carom.arguments import checked
 from carom.closed_forms.rub_stability import sliding_rates
 from carom.closed_forms.statics import COUNTED, all_found, depths, exponent_of, rub_forces, static_state
 from carom.models import Jeffcott, Model, Subject, model_of
+from carom.models.excess import asks_beyond
 from carom.models.weight import refuse_forces
 from carom.outcome import Phase
 from carom.parameters import Scales
@@ -175,7 +176,7 @@ def find_equilibria(machine: Subject) -> EquilibriumSet:
     rubs = [
         _rub(model, *balance)
         for balance in rub_forces(system)
-        if not system.asks_beyond(static_state(system, *balance))
+        if not asks_beyond(system, static_state(system, *balance))
     ]
     found = (_contact_free(model), *sorted(rubs, key=lambda rub: (not rub.stable, rub.status)))
     return EquilibriumSet(model, found, complete=all_found(system))
@@ -194,7 +195,7 @@ def _contact_free(model: Model) -> Equilibrium:
         (),
         _status(1.0 - float(np.abs(places).max())),
         system.exponents,
-        _dies_out(system.exponents, margin) and not system.asks_beyond(np.zeros(system.modes)),
+        _dies_out(system.exponents, margin) and not asks_beyond(system, np.zeros(system.modes)),
         model.scales,
     )
 

@@ -10,6 +10,7 @@ import numpy as np
 from carom.arguments import Reals, checked
 from carom.closed_forms.equilibria import BOUNDARY, Equilibrium, Status, find_equilibria
 from carom.models import Model, Subject, model_of
+from carom.models.excess import asks_beyond
 from carom.outcome import InputError
 from carom.results import Result
 
@@ -77,7 +78,7 @@ class Levitation(Result):
     def stable(self) -> bool:
         """Whether small disturbances die out; not where the magnetic bearings would have to give more than their limits."""
         system = self.rotor.system
-        kept = not system.asks_beyond(np.zeros(system.modes), system.forced)
+        kept = not asks_beyond(system, np.zeros(system.modes), system.forced)
         return kept and bool(self.eigenvalues.real.max() < 0.0)
 
     @checked

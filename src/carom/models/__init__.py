@@ -12,6 +12,7 @@
 ``linear_parameters``     its named parameters
 ``in_bearing``            :class:`InBearing`: the planar rotor in a touchdown bearing that gives way
 ``limited``               :class:`Limited`: a rotor on magnetic bearings that have limits
+``excess``                what is asked of bearings beyond their limits
 ``touchdown``             :class:`Touchdown`: a contact plane, and the laws of its wall
 ``race``                  :class:`Race`: a race that turns
 ``shaft``                 :class:`Shaft`: a shaft whose speed changes

@@ -402,34 +402,6 @@ class System(Result):
         position = np.einsum("...k,k->...", amplitudes, arrays["rows"][plane]) + arrays["offsets"][plane]
         return position, np.einsum("...k,k->...", amplitudes, arrays["rate_rows"][plane])
 
-    def excess(self, amplitudes: np.ndarray, times: np.ndarray) -> np.ndarray:
-        """What is asked for beyond each limit, complex, shape (..., L), in the frame of the rotor, in states (..., N) at times (...)."""
-        arrays, turn = self.arrays, np.exp(1j * np.asarray(times))[..., None]
-        found = np.zeros((*turn.shape[:-1], self.limits), complex)
-        for each, bound in enumerate(arrays["limit_bounds"].tolist()):
-            asked = amplitudes @ arrays["limit_rows"][each] + arrays["limit_offsets"][each]
-            asked = (asked + found @ arrays["limit_couplings"][each]) * turn[..., 0]
-            given = np.clip(asked.real, -bound, bound) + 1j * np.clip(asked.imag, -bound, bound)
-            found[..., each] = (asked - given) / turn[..., 0]
-        return found
-
-    def asks_beyond(self, amplitudes: np.ndarray, forced: np.ndarray | None = None) -> bool:
-        """Whether a whirl with the shaft about a place that stays asks for more than a limit along an axis.
-
-        Amplitudes (N,) are those of the whirl, at rest in the frame of the rotor, and those of weight at time zero.
-        """
-        rows, bounds = self.arrays["limit_rows"], self.arrays["limit_bounds"]
-        whirl, sag = np.abs(rows @ amplitudes + self.arrays["limit_offsets"]), np.zeros(self.limits, complex)
-        if forced is not None:
-            sag = rows @ forced
-        return bool((np.maximum(np.abs(sag.real), np.abs(sag.imag)) + whirl >= bounds).any())
-
-    @cached_property
-    def excess_accelerations(self) -> np.ndarray:
-        """Accelerations of the coordinates per unit of what is asked for beyond each limit, shape (n, L)."""
-        found: np.ndarray = self.rates @ self.arrays["limit_columns"]
-        return found
-
     def fly(self, amplitudes: np.ndarray, times: np.ndarray) -> np.ndarray:
         """Mode amplitudes after free flights, shape (..., N).
 

@@ -9,6 +9,7 @@ import numpy as np
 
 from carom.arguments import checked
 from carom.models import Matrices
+from carom.models.excess import excess_accelerations, excess_of
 from carom.models.in_bearing import pull_of
 from carom.models.stages import forces_of
 from carom.motions.contacts import Table, column, presses, race_speed, slip_velocity, yields
@@ -218,8 +219,8 @@ def _power_of_excess(trajectory: Trajectory, times: np.ndarray, velocity: np.nda
     system = trajectory.rotor.system
     if not system.limits:
         return np.zeros(times.shape)
-    excess = system.excess(trajectory.amplitudes_at(times)[0], trajectory.begins + times)
-    push = excess @ (trajectory.rotor.matrices.mass @ system.excess_accelerations).T
+    excess = excess_of(system, trajectory.amplitudes_at(times)[0], trajectory.begins + times)
+    push = excess @ (trajectory.rotor.matrices.mass @ excess_accelerations(system)).T
     power: np.ndarray = (velocity.conj() * push).sum(axis=-1).real
     return power
 

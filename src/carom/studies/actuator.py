@@ -36,6 +36,7 @@ from carom.closed_forms.whirl import Rolling
 from carom.core.limits import WITHIN
 from carom.disturbances import Sample
 from carom.models import model_of
+from carom.models.excess import excess_accelerations, excess_of
 from carom.models.limited import limits_of
 from carom.models.subjects import parameters_of
 from carom.motions.simulation import simulate
@@ -90,8 +91,8 @@ class Centre(NamedTuple):
         )
         system = motion.rotor.system
         if system.limits:
-            excess = system.excess(motion.amplitudes_at(times)[0], motion.begins + times)
-            acceleration = acceleration + excess @ system.excess_accelerations[0]
+            excess = excess_of(system, motion.amplitudes_at(times)[0], motion.begins + times)
+            acceleration = acceleration + excess @ excess_accelerations(system)[0]
         return cls(position, velocity, acceleration)
 
 
