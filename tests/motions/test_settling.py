@@ -15,6 +15,7 @@ from carom.attractors.naming import name_motions
 from carom.closed_forms.absorbing import rub_neighbourhood
 from carom.closed_forms.whirl import rolling, runaway_speed
 from carom.core.closing import PASSES
+from carom.core.fate import memory
 from carom.core.planar_proofs import absorbed
 from carom.models import LinearRotor
 from carom.motions.ensembles import settle
@@ -198,14 +199,15 @@ def test_a_motion_that_passes_by_a_repelling_orbit_goes_on():
         touchdowns=touchdowns([[1.0], [0.1]], [one.mu] * 2, [one.d] * 2, [one.radius_ratio + 1.0] * 2),
     )
     system, contact = rotor.system, np.array([0, -1])
+    own = memory(system.modes)
     before = saddle.section.state
     amplitudes = system.amplitudes(before.position, before.velocity * (1.0 + 1e-11))
-    assert least_recurrence(system, amplitudes, contact, 1) == PASSES
+    assert least_recurrence(system, amplitudes, contact, 1, own) == PASSES
     stable = carom.find_orbits(one)["B1,d"].section.state
     amplitudes = system.amplitudes(stable.position, stable.velocity)
-    assert least_recurrence(system, amplitudes, contact, 1) == 1
-    assert least_recurrence(system, amplitudes, contact, 6) == 1
-    assert least_recurrence(system, amplitudes, contact, 0) == 0
+    assert least_recurrence(system, amplitudes, contact, 1, own) == 1
+    assert least_recurrence(system, amplitudes, contact, 6, own) == 1
+    assert least_recurrence(system, amplitudes, contact, 0, own) == 0
 
 
 def test_a_whirl_that_never_repeats_is_known_for_what_it_is():

@@ -93,7 +93,7 @@ def test_motions_at_the_limits_are_those_of_a_general_integrator(limits):
 
 
 def test_integrators_wind_up_and_the_energy_ledger_closes():
-    reduced = machine(current_limit=0.8).with_modes(2)
+    reduced = machine(current_limit=0.3).with_modes(2)
     velocity = np.zeros(len(reduced.model.system.rest), complex)
     velocity[0] = 0.4
     motion = cm.simulate(reduced.model, State(np.zeros_like(velocity), velocity), 20.0)

@@ -66,6 +66,15 @@ def along():
     return prove(PAPER, along="rho", interval=("0.4340", "0.4341")).document()
 
 
+OTHERS = {"whirl", "ball at rub 1"}
+"""What the program knows no claims about."""
+
+
+def not_covered(document):
+    """Subjects of the claims that the program leaves alone."""
+    return {what.partition(":")[0] for verdict, what, _ in report_of(document).lines if verdict == "not covered"}
+
+
 def decimal(number):
     """A rational number with 80 digits behind the point."""
     sign, size = "-" if number < 0 else "", abs(number)
@@ -123,7 +132,7 @@ MACHINES = {
 def test_machines_of_every_sort_are_confirmed(name):
     document = prove(MACHINES[name], longest_period="12" if name == "no damping" else None).document()
     assert refused(document) == []
-    assert not any(verdict == "not covered" for verdict, _, _ in report_of(document).lines)
+    assert not_covered(document) <= OTHERS
 
 
 def test_a_machine_in_si_units_and_with_settings_is_confirmed():
@@ -141,7 +150,7 @@ def test_orbits_of_several_impacts_are_confirmed(doubled):
 def test_points_and_intervals_are_confirmed(along):
     found = report_of(along)
     assert not found.refused
-    assert all(verdict != "not covered" for verdict, _, _ in found.lines)
+    assert not_covered(along) <= OTHERS
     assert ("checked", "non-smooth-hopf: of B1,a", "") in found.lines
     assert any("birth of B1,a" in what for _, what, _ in found.lines)
 
@@ -185,7 +194,7 @@ def test_intervals_of_the_damping_are_confirmed(interval):
 
 def test_a_number_that_is_not_in_its_interval_is_refused(paper, doubled):
     for document, picks in ((paper, (0, 4, 7, 11, -1)), (doubled, (-1,))):
-        stating = [c for c in document["claims"] if c["enclosures"]]
+        stating = [c for c in document["claims"] if c["enclosures"] and c["about"] not in OTHERS]
         for pick in picks:
             claim = stating[pick]
             name, (low, high) = list(claim["enclosures"].items())[-1]
@@ -211,7 +220,9 @@ def test_a_status_turned_round_is_refused(paper, about, kind):
 
 
 def test_claims_missing_twice_and_swapped_are_refused(paper, doubled):
-    for k in (0, 5, 9, 12, 20, len(paper["claims"]) - 1):
+    for k, claim in enumerate(paper["claims"]):
+        if claim["about"] in OTHERS:
+            continue
         without = {**paper, "claims": paper["claims"][:k] + paper["claims"][k + 1 :]}
         assert any("missing" in line for line in refused(without))
     assert refused({**paper, "claims": [*paper["claims"], paper["claims"][3]]}) == ["rub 1: pressed: it is there twice"]

@@ -13,7 +13,7 @@ from carom.closed_forms.statics import exponent_of
 from carom.closed_forms.yielding_walls import slipping_whirls
 from carom.models import model_of
 from carom.models.subjects import rotor_document
-from carom.outcome import STEADY_WORDS
+from carom.outcome import STEADY_WORDS, Outcome
 from carom.parameters import Scales
 from carom.parameters.told import number, told
 from carom.results import in_si
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from carom.models import Model
     from carom.parameters import Case
 
-WHIRL = "sliding backward whirl"
+WHIRL = Outcome.BACKWARD_WHIRL.words
 
 
 class Steady(NamedTuple):
