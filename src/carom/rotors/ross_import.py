@@ -54,7 +54,7 @@ def import_rotor(source: str | os.PathLike[str], name: str | None = None, python
     Parameters
     ----------
     source : path
-        ``.npz`` or ``.mat``: matrices (:func:`read_rotor`).  ``.py``: a program that makes a rotor with ROSS; ``.toml`` or ``.json``: what ROSS has saved.
+        ``.npz`` or ``.mat``: matrices (:func:`carom.rotors.read_rotor`).  ``.py``: a program that makes a rotor with ROSS; ``.toml`` or ``.json``: what ROSS has saved.
     name : str, optional
         Name of the rotor in a program, or of a function that returns it; needed where there are several.
     python : str, optional

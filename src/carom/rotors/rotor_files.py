@@ -75,7 +75,7 @@ def read_rotor(path: str | os.PathLike[str], damping: Any = None, discs: Sequenc
 
 @checked
 def write_rotor(matrices: MatrixRotor, path: str | os.PathLike[str]) -> None:
-    """Write a rotor to an ``.npz`` file, which :func:`read_rotor` and ``source`` of a machine file read.
+    """Write a rotor to an ``.npz`` file, which :func:`carom.rotors.read_rotor` and ``source`` of a machine file read.
 
     Parameters
     ----------
