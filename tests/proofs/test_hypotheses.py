@@ -124,7 +124,7 @@ def test_numbers_given_in_other_terms_count_by_their_doubles(tmp_path):
     path = tmp_path / "terms.toml"
     text = Path(KEOGH).read_text(encoding="utf-8")
     text = text.replace('eccentricity = "0.3 mm"', 'unbalance = "15000 g mm"')
-    text = text.replace('unbalance_phase = "0.21 rad"', 'force_limit = "5 kN"')
+    text = text.replace('unbalance_phase = "0.21 rad"', "")
     path.write_text(text, encoding="utf-8")
 
     numbers = hypotheses_of(path)
@@ -135,3 +135,19 @@ def test_numbers_given_in_other_terms_count_by_their_doubles(tmp_path):
     assert numbers.document()["values"]["eccentricity"] == "double 0.0003"
     with_grade = hypotheses_of(path, ["balance_grade=G 6.3", "mu=0.2"])
     assert with_grade.numbers["rho"].rational == Fraction(0.0063 / 184.2) / Fraction("0.7e-3")
+
+
+@pytest.mark.parametrize(
+    ("tables", "says"),
+    [
+        ('[touchdown]\nlaw = "rigid"\nrace_inertia = "1e-4 kg m^2"', "touchdown = .*race"),
+        ('[drive]\npolar_inertia = "1e-3 kg m^2"', "touchdown = "),
+        ("", "limits = a control force of at most 300 N"),
+    ],
+)
+def test_what_moves_otherwise_than_the_theorems_assume_is_refused(tmp_path, tables, says):
+    """A race that turns, a shaft that is braked, and bearings that give no more than their limit."""
+    text = Path("examples/keogh-cole.toml").read_text(encoding="utf-8")
+    (tmp_path / "machine.toml").write_text(f"{text}\n{tables}\n", encoding="utf-8")
+    with pytest.raises(InputError, match=says):
+        hypotheses_of(tmp_path / "machine.toml", [] if tables else ["force_limit=300 N"])

@@ -64,7 +64,6 @@ def prove(
     reason. A certificate can be verified by itself, without any search. Needs the extra carom[proof].
     """
     with progress("loading") as tell:
-        from carom.cli.starts import check_exact
         from carom.proofs import check as verify
         from carom.proofs import prove as prove_machine
 
@@ -84,12 +83,8 @@ def prove(
         else:
             if most_impacts is not None or time_limit is not None:
                 raise InputError("--kicks-up-to", None, "is needed by --most-impacts and --time-limit")
-            if (start is None or stop is None) and not (along is start is stop is None):
-                raise InputError("--along", shown(along), "needs --from and --to, and these need --along")
+            interval = _interval(along, start, stop)
             check_output(out)
-            interval = None if start is None or stop is None else (start, stop)
-            for option, end in zip(("--from", "--to"), interval or (), strict=False):
-                check_exact(option, end, str(along))
             proof = prove_machine(
                 machine,
                 settings or (),
@@ -109,6 +104,19 @@ def prove(
     _print_proof(proof, checked=check is not None)
     if out is not None:
         console().print(f"Certificate: {Path(out) / CERTIFICATE}", soft_wrap=True)
+
+
+def _interval(along: str | None, start: str | None, stop: str | None) -> tuple[str, str] | None:
+    """Both ends of the values of a parameter, if these were asked for."""
+    from carom.cli.starts import check_exact
+
+    if along is start is stop is None:
+        return None
+    if start is None or stop is None or along is None:
+        raise InputError("--along", shown(along), "needs --from and --to, and these need --along")
+    for option, end in (("--from", start), ("--to", stop)):
+        check_exact(option, end, along)
+    return start, stop
 
 
 def _prove_kicks(

@@ -176,8 +176,13 @@ class Limited(Around):
     def words(self) -> str:
         """Its parameters and its limits in a line."""
         own: Any = self.rotor
-        words = self.limits.words if isinstance(self.limits, ControlLimit) else f"{len(self.limits)} limits"
+        words = self.words_of_limits
         return f"{own.words}; {words}" if hasattr(own, "words") else words
+
+    @property
+    def words_of_limits(self) -> str:
+        """The limits in words."""
+        return self.limits.words if isinstance(self.limits, ControlLimit) else f"{len(self.limits)} limits"
 
     @property
     def varied(self) -> Mapping[str, Field]:

@@ -70,8 +70,11 @@ def jeffcott_of(subject: Subject) -> Jeffcott:
         return model
     refuse_other_rotors(subject)
     if isinstance(model, Limited):
-        allowed = "none: this result is known for magnetic bearings without limits alone; carom.simulate, carom.settle and others work"
-        raise InputError("limits", model.words, allowed)
+        allowed = (
+            "none: this result is known for magnetic bearings without limits alone, so leave force_limit and current_limit out for it; "
+            "carom.simulate, carom.settle and others work"
+        )
+        raise InputError("limits", model.words_of_limits, allowed)
     if isinstance(model, Forced):
         refuse_forces(model)
     if isinstance(model, InBearing):

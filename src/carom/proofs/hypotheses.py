@@ -188,7 +188,8 @@ def _from_file(path: str | os.PathLike[str], settings: list[str]) -> Hypotheses:
     pull = texts.pop("gravity", None)
     problems.attempt(check_names, texts)
     problems.raise_all()
-    if tables.gravity is not None or pull is not None:  # what is proven is of rotors without weight
+    if tables.gravity is not None or pull is not None or tables.touchdown or tables.drive is not None:
+        # What is proven is of rotors without weight, in a rigid wall that stands still, at a constant speed.
         jeffcott_of(load(path, () if pull is None else [f"gravity={pull}"]))
     content = tomllib.loads(Path(path).read_text(encoding="utf-8-sig"), parse_float=Decimal)
     table: Literal["machine", "dimensionless"] = "machine" if "machine" in content else "dimensionless"
@@ -206,7 +207,9 @@ def _of_machine_file(
     terms = [name for name in texts if name not in PARAMETERS]
     if terms or not entries.keys() <= MACHINE_FIELDS.keys():
         settings = [f"{name}={text}" for name, text in texts.items()] if terms else []
-        machine = cast("Machine", load(path, settings).machine)
+        case = load(path, settings)
+        jeffcott_of(case)  # which refuses limits of magnetic bearings
+        machine = cast("Machine", case.machine)
         values |= {name: getattr(machine, name) for name, source in machine.given.items() if name not in source}
     read = Hypotheses("machine", {name: written_exactly(value) for name, value in values.items()}, {})
     return read.replace(**{name: text for name, text in texts.items() if name not in terms})

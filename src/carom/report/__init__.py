@@ -1,15 +1,16 @@
 """The reports of a study and of a drop: one self-contained HTML page, its figures as files, and the numbers as JSON.
 
-==============  ====================================================
-``basins``      where disturbances end now, and after the advised change
-``figures``     the figures of a study with their captions
-``page``        the HTML page of a study
-``flexible``    the HTML page of the study of a flexible machine
-``drop``        the HTML page of a drop
-``film``        a drop in slow motion on it
-``strips``      the curves beside the film
-``html``        what pages share
-==============  ====================================================
+==================  ============================================================
+``basins``          where disturbances end now, and after the advised change
+``figures``         the figures of a study with their captions
+``page``            the HTML page of a study
+``flexible``        the HTML page of the study of a flexible machine
+``drop``            the HTML page of a drop
+``film``            a drop in slow motion on it
+``strips``          the curves beside the film
+``figure_files``    figures drawn into files, and embedded in a page
+``html``            what pages share
+==================  ============================================================
 """
 
 from carom.report.drop import write_drop_report

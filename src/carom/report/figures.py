@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -16,6 +15,7 @@ from carom.orbits.orbit import Orbit
 from carom.orbits.single_impact import OrbitSet, period_condition
 from carom.parameters import Zones
 from carom.report import basins
+from carom.report.figure_files import Picture
 from carom.studies import Study
 from carom.studies.endings import ending_phrase, shown_example
 
@@ -27,28 +27,6 @@ LONGEST_SHOWN = 1000.0
 """Longest time that an example shows, in ``1/Ω``."""
 SHOWN_TAIL = 4.0
 """Time that an example shows after its last contact, in time constants of levitation."""
-
-
-@dataclass(frozen=True)
-class Picture:
-    """A figure to draw.
-
-    Attributes
-    ----------
-    name : str
-        File name without ending.
-    section : str
-        ``"basins"``, ``"motions"`` or ``"method"``.
-    caption : str
-        What to see, in a sentence.
-    draw : callable
-        Returns the figure.
-    """
-
-    name: str
-    section: str
-    caption: str
-    draw: Callable[[], Figure]
 
 
 def pictures(study: Study) -> list[Picture]:

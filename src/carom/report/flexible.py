@@ -10,16 +10,19 @@ from matplotlib.figure import Figure
 from carom import plots
 from carom.arguments import checked
 from carom.files import staged_directory, write_json
-from carom.files.directory import FIGURES, MANIFEST
+from carom.files.directory import MANIFEST
 from carom.motions import Trajectory
 from carom.plots.sheet import drawing
 from carom.progress import Reporter, ShowProgress, shows_progress
-from carom.report.html import InlineFigure, inline_figure, page_template, versions
+from carom.report.figure_files import Picture, draw_figures
+from carom.report.html import page_template, versions
 from carom.report.page import REPORT
 from carom.studies import FlexibleStudy
 from carom.studies.facts import about, paragraphs
 from carom.studies.verdict_facts import KINDS
 
+SECTION = "study"
+"""The one section of the page that has figures."""
 _MARKS = {
     "no-contact-free-motion": "var(--bad)",
     "may-not-come-back": "var(--warn)",
@@ -42,16 +45,9 @@ def write_flexible_report(study: FlexibleStudy, directory: str, *, progress: Sho
     InputError
         The directory cannot be written; nothing has been changed then.
     """
-    tell, inline, names = Reporter.of(progress, "drawing"), list[InlineFigure](), list[str]()
-    wanted = list(_pictures(study))
+    tell, wanted = Reporter.of(progress, "drawing"), list(_pictures(study))
     with staged_directory(directory, "--out") as place, drawing(), plots.heading(study.case.name):
-        (place / FIGURES).mkdir()
-        for done, (name, caption, draw) in enumerate(wanted):
-            tell(done / len(wanted), f"figure {done + 1} of {len(wanted)}")
-            paths = plots.save(draw(), place / FIGURES / name)
-            names += [f"{FIGURES}/{path.name}" for path in paths]
-            text = paths[0].read_text(encoding="utf-8")
-            inline.append(inline_figure("study", caption, text, f"f{done + 1}-"))
+        inline, names = draw_figures(wanted, place, tell)
         write_json(place / MANIFEST, {**study.to_dict(), "figures": names})
         page = page_template("flexible.html.jinja").render(
             study=study,
@@ -66,32 +62,32 @@ def write_flexible_report(study: FlexibleStudy, directory: str, *, progress: Sho
     return Path(directory) / REPORT
 
 
-def _pictures(study: FlexibleStudy) -> Iterator[tuple[str, str, Callable[[], Figure]]]:
-    """File name, caption and figure, in the order of the page."""
+def _pictures(study: FlexibleStudy) -> Iterator[Picture]:
+    """All figures, in the order of the page."""
     found = study.levitation
-    yield (
-        "campbell",
-        "Free whirls over the speed of the shaft, from all modes; unbalance excites forward whirls where they cross the line.",
-        found.campbell.plot,
-    )
+    whirls = "Free whirls over the speed of the shaft, from all modes; unbalance excites forward whirls where they cross the line."
+    yield Picture("campbell", SECTION, whirls, found.campbell.plot)
     if found.response is not None:
-        yield "unbalance", "Radii of the whirl by unbalance, levitating without contact.", found.response.plot
+        radii = "Radii of the whirl by unbalance, levitating without contact."
+        yield Picture("unbalance", SECTION, radii, found.response.plot)
     if found.sensitivity is not None:
-        yield "sensitivity", "Sensitivity of each loop, with the zones of ISO 14839-3.", found.sensitivity.plot
+        peaks = "Sensitivity of each loop, with the zones of ISO 14839-3."
+        yield Picture("sensitivity", SECTION, peaks, found.sensitivity.plot)
     planes = range(len(found.machine.touchdowns))
     for trial in study.trials:
+        what = KINDS[trial.kind].lower()  # type: ignore[index]
         for plane in planes:
-            what = KINDS[trial.kind].lower()  # type: ignore[index]
-            caption = f"Orbit of the shaft at plane {plane + 1} after the {what} with the largest force, in the fixed frame, and its gap to the touchdown bearing."
-            yield (
-                f"{trial.kind}-{plane + 1}",
-                caption,
-                _orbit(trial.worst, plane, f"After the {what}, plane {plane + 1}"),
-            )
+            after = f"after the {what} with the largest force"
+            draw = _orbit(trial.worst, plane, f"After the {what}, plane {plane + 1}")
+            yield Picture(f"{trial.kind}-{plane + 1}", SECTION, _caption(plane, after), draw)
     if study.fall is not None:
         for plane in planes:
-            caption = f"Orbit of the shaft at plane {plane + 1} after levitation is lost, in the fixed frame, and its gap to the touchdown bearing."
-            yield f"drop-{plane + 1}", caption, _orbit(study.fall, plane, f"Drop, plane {plane + 1}")
+            draw = _orbit(study.fall, plane, f"Drop, plane {plane + 1}")
+            yield Picture(f"drop-{plane + 1}", SECTION, _caption(plane, "after levitation is lost"), draw)
+
+
+def _caption(plane: int, when: str) -> str:
+    return f"Orbit of the shaft at plane {plane + 1} {when}, in the fixed frame, and its gap to the touchdown bearing."
 
 
 def _orbit(motion: Trajectory, plane: int, title: str) -> Callable[[], Figure]:

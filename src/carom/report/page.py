@@ -8,12 +8,13 @@ from pathlib import Path
 from carom import plots
 from carom.arguments import checked
 from carom.files import staged_directory, write_json
-from carom.files.directory import FIGURES, MANIFEST
+from carom.files.directory import MANIFEST
 from carom.plots.sheet import drawing
 from carom.progress import Reporter, ShowProgress, shows_progress
 from carom.report.basins import drawable
+from carom.report.figure_files import draw_figures
 from carom.report.figures import pictures
-from carom.report.html import InlineFigure, inline_figure, page_template, versions
+from carom.report.html import InlineFigure, page_template, versions
 from carom.studies import Study
 from carom.studies.advice_facts import BEYOND, CHANGES
 from carom.studies.facts import Fact, about, paragraphs
@@ -53,14 +54,7 @@ def write_report(study: Study, directory: str, *, progress: ShowProgress = None)
     wanted = pictures(study)
     named = plots.heading(machine_heading(study.case))
     with staged_directory(directory, "--out") as place, drawing(), named, plots.one_column():
-        (place / FIGURES).mkdir()
-        inline, names = [], []
-        for done, picture in enumerate(wanted):
-            tell(done / len(wanted), f"figure {done + 1} of {len(wanted)}")
-            paths = plots.save(picture.draw(), place / FIGURES / picture.name)
-            names += [f"{FIGURES}/{path.name}" for path in paths]
-            drawn = paths[0].read_text(encoding="utf-8")
-            inline.append(inline_figure(picture.section, picture.caption, drawn, f"f{done + 1}-"))
+        inline, names = draw_figures(wanted, place, tell)
         document = {**study.to_dict(), "figures": names}
         write_json(place / MANIFEST, document)
         (place / REPORT).write_text(report_page(study, inline), encoding="utf-8")
