@@ -99,3 +99,21 @@ def test_no_harmless_kick_brings_a_heavy_rotor_to_the_wall():
             places, speeds = rotor.system.kicked(size * harmless * np.exp(1j * np.linspace(0.0, 6.2, 60)))
             touched[size] += np.count_nonzero(cm.settle(rotor, places[:, 0], speeds[:, 0]).impacts)
     assert touched[0.99] == 0 < touched[1.4]
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("force", ["180 N", "250 N", "1 kN"])
+def test_no_harmless_disturbance_brings_bearings_to_their_limit(kind, force):
+    """The rotor then moves as the linear one, for which contact is excluded; a bound without the limits was passed by 18 of 40 kicks."""
+    case = cm.load("examples/keogh-cole.toml", ["eccentricity=0.05 mm", f"force_limit={force}"])
+    rotor = cm.models.model_of(case)
+
+    def ends(factor):
+        after, starts = of_size(rotor, kind, factor)
+        places = zip(np.ravel(starts.positions), np.ravel(starts.velocities), strict=True)
+        return [cm.simulate(after, cm.State(complex(place), complex(speed)), 400.0) for place, speed in places]
+
+    for motion in ends(1.0):
+        assert len(motion.event_planes) == 0
+        assert not motion.segment_limits.any()
+    assert any(len(motion.event_planes) for motion in ends(6.0))

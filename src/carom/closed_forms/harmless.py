@@ -5,6 +5,9 @@ In the fixed frame the deviation ``u`` from the levitation whirl obeys ``M ü + 
 displacement ``w u`` of a contact plane is never above ``√(E w K⁻¹ wᴴ)``, and contact is impossible while it is below the distance
 of levitation from the wall there.  After a kick of speed ``v`` along the translation ``t`` the energy is ``v² tᴴMt``.
 
+A limit of the magnetic bearings is like a wall: what is asked for, ``Q = d u + v u̇``, is never above ``√(E (d K⁻¹ dᴴ + v M⁻¹ vᴴ))``, and while that
+is below the bound less what levitation asks for, the rotor is linear.
+
 Of the planar rotor the largest deviation after a kick is known (:func:`~carom.closed_forms.thresholds.largest_response`).
 """
 
@@ -18,8 +21,8 @@ import numpy as np
 
 from carom.arguments import Positive, checked
 from carom.closed_forms.known import known_of
-from carom.models import Forced, Model, Subject, model_of
-from carom.models.stages import stages_of
+from carom.models import Forced, Limited, Model, Subject, model_of
+from carom.models.stages import Around, stages_of
 from carom.models.system import STEADY
 
 MARGIN = 1e-9
@@ -29,12 +32,12 @@ ROUNDING = 1e-12
 
 
 class _Levitation(NamedTuple):
-    """Levitation next to which energy does not grow."""
+    """Levitation next to which energy does not grow; what is watched are the displacements of P planes and what is asked of L limits."""
 
     rooms: np.ndarray
-    """Distance of each contact plane from its wall, less the margin, shape (P,)."""
+    """Distance of each contact plane from its wall, and of what is asked for from each limit, less the margin, shape (P + L,)."""
     yields: np.ndarray
-    """``√(w K⁻¹ wᴴ)`` of each plane: its largest displacement per root of the energy, shape (P,)."""
+    """``√(d K⁻¹ dᴴ + v M⁻¹ vᴴ)`` of each: its largest change per root of the energy, shape (P + L,)."""
 
 
 def _levitation(model: Model) -> _Levitation | None:
@@ -51,10 +54,33 @@ def _levitation(model: Model) -> _Levitation | None:
             return None
     sags = np.abs(model.system.arrays["rows"] @ model.system.forced_at(0.0)).tolist()
     places = model.system.arrays["offsets"].tolist()
-    rooms = np.array([1.0 - abs(place) - sag for place, sag in zip(places, sags, strict=True)]) * (1.0 - MARGIN)
-    planes = model.system.planes
-    yields = np.einsum("pn,np->p", planes, np.linalg.solve(stiffness, planes.conj().T)).real
+    rooms = np.array([1.0 - abs(place) - sag for place, sag in zip(places, sags, strict=True)])
+    rooms = np.concatenate([rooms, _rooms_of_limits(model)]) * (1.0 - MARGIN)
+    if (rooms <= 0.0).any():
+        return None
+    shown, rates = _watched(model)
+    yields = np.einsum("pn,np->p", shown, np.linalg.solve(stiffness, shown.conj().T)).real
+    yields += np.einsum("pn,np->p", rates, np.linalg.solve(mass, rates.conj().T)).real
     return _Levitation(rooms, np.sqrt(yields))
+
+
+def _rooms_of_limits(model: Model) -> np.ndarray:
+    """What is left of each limit of the magnetic bearings while the rotor levitates, whatever the directions of the axes, shape (L,)."""
+    if not model.system.limits:
+        return np.empty(0)
+    arrays = model.system.arrays
+    asked = np.abs(arrays["limit_offsets"]) + np.abs(arrays["limit_rows"] @ model.system.forced_at(0.0))
+    return np.asarray(arrays["limit_bounds"] - asked)
+
+
+def _watched(model: Model) -> tuple[np.ndarray, np.ndarray]:
+    """Displacements of the planes, then what is asked of each limit, per coordinate and per rate in the fixed frame, each (P + L, n)."""
+    planes = model.system.planes
+    while isinstance(model, Around) and not isinstance(model, Limited):
+        model = model.rotor
+    limits = model.listed if isinstance(model, Limited) else ()
+    shown = np.concatenate([planes, *(np.atleast_2d(each.displacement) for each in limits)])
+    return shown, np.concatenate([0.0 * planes, *(np.atleast_2d(each.velocity) for each in limits)])
 
 
 def _is_shaken(model: Model) -> bool:
@@ -69,6 +95,7 @@ def harmless_kick(machine: Subject) -> float:
 
     For the planar rotor this is the largest such speed; for other models it follows from a bound by energy, and is smaller.  Zero
     where the rotor cannot levitate inside the wall, its levitation is unstable, or no energy is known that does not grow.
+    Where magnetic bearings have limits, no such kick brings them there either.
 
     See Also
     --------
@@ -160,10 +187,11 @@ def _shift(model: Model, push: np.ndarray) -> np.ndarray:
 
 
 def _after_step(model: Model, levitation: _Levitation, push: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Shift of levitation at each plane by a change of the unbalance force, and the largest deviation from it after that step."""
+    """Shift of levitation at each plane and limit by a change of the unbalance force, and the largest deviation from it after that step."""
     shift = _shift(model, push)
     energy = _energy(model.matrices.stiffness, shift) + _energy(model.matrices.mass, shift)
-    return np.abs(model.system.planes @ shift), levitation.yields * math.sqrt(energy)
+    shown, rates = _watched(model)
+    return np.abs((shown + 1j * rates) @ shift), levitation.yields * math.sqrt(energy)
 
 
 def _energy(matrix: np.ndarray, state: np.ndarray) -> float:
