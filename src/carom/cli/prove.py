@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from carom.proofs import Claim, Proof
 
 CERTIFICATE, CELLS = "proof.json", "cells.json"
-"""Names of the certificate, and of the cells of kicks found so far, in the directory given."""
+"""Names of the certificate, and of the cells found so far, in the directory given."""
 
 
 def prove(
@@ -44,8 +44,22 @@ def prove(
         str | None,
         typer.Option(metavar="SPEED", help="Prove instead which kicks out of levitation up to SPEED come back."),
     ] = None,
+    shocks_up_to: Annotated[
+        str | None,
+        typer.Option(
+            metavar="PEAK,TIME",
+            help="The same of half-sine shocks of the base with peaks up to PEAK, such as '20 g, 0.5 ms'.",
+        ),
+    ] = None,
+    unbalance_up_to: Annotated[
+        str | None,
+        typer.Option(
+            metavar="CHANGE",
+            help="The same of steps to the unbalance of the machine, by changes up to CHANGE, such as '20 um' or '500 g mm'.",
+        ),
+    ] = None,
     most_impacts: Annotated[
-        int | None, typer.Option(metavar="N", help="Leave kicks open that may have more than N impacts; by default 12.")
+        int | None, typer.Option(metavar="N", help="Leave open what may have more than N impacts; by default 12.")
     ] = None,
     time_limit: Annotated[
         str | None, typer.Option(metavar="T", help="End the search after T, such as '2 h'; by default 10 min.")
@@ -58,31 +72,38 @@ def prove(
     ] = None,
     as_json: AsJson = False,
 ) -> None:
-    """Prove equilibria and all orbits with one impact a period, in ball arithmetic; or along a parameter; or which kicks come back.
+    """Prove equilibria and all orbits with one impact a period, in ball arithmetic; or along a parameter; or which kicks, shocks or steps of the unbalance come back.
 
     The numbers of the machine file are taken exactly as they are written. Each claim is proven, refuted or undecided, with the
     reason. A certificate can be verified by itself, without any search. Needs the extra carom[proof].
     """
+    sizes = {"--kicks-up-to": kicks_up_to, "--shocks-up-to": shocks_up_to, "--unbalance-up-to": unbalance_up_to}
+    given = [option for option, size in sizes.items() if size is not None]
     with progress("loading") as tell:
         from carom.proofs import check as verify
         from carom.proofs import prove as prove_machine
 
         if check is not None:
-            others = (machine, longest_period, out, along, start, stop, kicks_up_to, most_impacts, time_limit)
+            others = (machine, longest_period, out, along, start, stop, *sizes.values(), most_impacts, time_limit)
             if settings or impacts != 1 or any(other is not None for other in others):
                 raise InputError("--check", shown(check), "must stand alone: a certificate holds its machine")
             proof = verify(check, progress=tell)
         elif machine is None:
             raise InputError("MACHINE.toml", None, "give a machine file, or a certificate with --check")
-        elif kicks_up_to is not None:
-            if impacts != 1 or any(other is not None for other in (longest_period, along, start, stop)):
-                raise InputError(
-                    "--kicks-up-to", shown(kicks_up_to), "cannot be combined with options of other theorems"
-                )
-            proof = _prove_kicks(machine, kicks_up_to, settings or (), most_impacts, time_limit, out, tell)
+        elif given:
+            option, *more = given
+            if more or impacts != 1 or any(other is not None for other in (longest_period, along, start, stop)):
+                raise InputError(option, shown(sizes[option]), "cannot be combined with options of other theorems")
+            proof = _prove_cells(
+                machine, option, sizes[option] or "", settings or (), most_impacts, time_limit, out, tell
+            )
         else:
             if most_impacts is not None or time_limit is not None:
-                raise InputError("--kicks-up-to", None, "is needed by --most-impacts and --time-limit")
+                raise InputError(
+                    "--kicks-up-to",
+                    None,
+                    f"or {' or '.join(list(sizes)[1:])} is needed by --most-impacts and --time-limit",
+                )
             interval = _interval(along, start, stop)
             check_output(out)
             proof = prove_machine(
@@ -119,25 +140,31 @@ def _interval(along: str | None, start: str | None, stop: str | None) -> tuple[s
     return start, stop
 
 
-def _prove_kicks(
+def _prove_cells(
     machine: str,
-    kicks_up_to: str,
+    option: str,
+    largest: str,
     settings: Iterable[str],
     most_impacts: int | None,
     time_limit: str | None,
     out: str | None,
     tell: Reporter,
 ) -> Proof:
-    """Prove kicks; with a directory go on from the cells in it."""
-    from carom.proofs import prove_kicks
+    """Prove which disturbances return; with a directory go on from the cells in it."""
+    from carom.proofs import prove_kicks, prove_shocks, prove_unbalance_steps
 
+    provers = {
+        "--kicks-up-to": prove_kicks,
+        "--shocks-up-to": prove_shocks,
+        "--unbalance-up-to": prove_unbalance_steps,
+    }
     check_output(out)
     if out is not None:
         Path(out).mkdir(parents=True, exist_ok=True)
     limits = {"most_impacts": most_impacts, "time_limit": time_limit}
     given = {name: value for name, value in limits.items() if value is not None}
     store = None if out is None else Path(out) / CELLS
-    return prove_kicks(machine, kicks_up_to, settings, store=store, progress=tell, **given)  # type: ignore[arg-type]
+    return provers[option](machine, largest, settings, store=store, progress=tell, **given)  # type: ignore[arg-type]
 
 
 def _print_proof(proof: Proof, checked: bool) -> None:

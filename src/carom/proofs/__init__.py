@@ -36,11 +36,14 @@
 ``passages``        what happens next on all flights of a patch
 ``strikes``         states after an impact
 ``recoveries``      whether all states of a patch return
-``kick_cells``      the disc of kicks as cells that halve one another
+``starts``          how a disturbance takes a rotor out of levitation
+``families``        kicks, shocks and steps of the unbalance: sizes and words
+``kick_cells``      a disc of kicks, or of others, as cells that halve one another
 ``kick_discs``      what is proven of a cell
 ``kick_search``     the search for cells, in several processes
 ``kick_claims``     claims about kicks
 ``kicks``           prove_kicks, as far as a time allows
+``shocks``          the same for shocks and steps of the unbalance
 ``certificates``    proofs as JSON, and their check
 ==================  ==============================================================
 """
@@ -58,5 +61,17 @@ from carom.proofs.claims import Claim, Proof
 from carom.proofs.hypotheses import Hypotheses, hypotheses_of
 from carom.proofs.kicks import prove_kicks
 from carom.proofs.proving import prove
+from carom.proofs.shocks import prove_shocks, prove_unbalance_steps
 
-__all__ = ["Claim", "Enclosure", "Hypotheses", "Proof", "check", "hypotheses_of", "prove", "prove_kicks"]
+__all__ = [
+    "Claim",
+    "Enclosure",
+    "Hypotheses",
+    "Proof",
+    "check",
+    "hypotheses_of",
+    "prove",
+    "prove_kicks",
+    "prove_shocks",
+    "prove_unbalance_steps",
+]

@@ -19,7 +19,7 @@ IMPACTS = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZ"
 AHEAD, LOST = "t", "x"
 OPEN = {
     AHEAD: "time was up",
-    LOST: "a kick in the middle does not return in double precision",
+    LOST: "the one in the middle does not return in double precision",
     **{reason[0]: words for reason, words in REASONS.items()},
 }
 """Letters of cells that are open: why the cell that was halved into them was."""

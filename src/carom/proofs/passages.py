@@ -25,7 +25,7 @@ from flint import arb
 
 from carom.outcome import CaromError
 from carom.proofs.patches import UNIT, Departure, dot
-from carom.proofs.series import I, hull
+from carom.proofs.series import hull
 
 LONGEST, SHORTEST = 1.0, 1.0 / 64
 """Steps of time to begin with, and at which the wall is looked for, in ``1/Ω``."""
@@ -52,12 +52,15 @@ class LeftOpenError(CaromError):
         self.reason, self.weights = reason, weights
 
 
-GRAZE, SLOW, MANY, LONG = "graze", "slow impact", "too many impacts", "long flight"
+GRAZE, SLOW, MANY, LONG = "graze", "slow impact", "many impacts", "long flight"
+EARLY, OUTSIDE = "early contact", "outside"
 REASONS = {
     GRAZE: "whether flights graze the wall is not decided",
     SLOW: "an impact is slow and the wall pushes: it may be followed by chatter and lasting contact",
     MANY: "more impacts than were allowed may follow",
     LONG: "flights go on for longer than is followed",
+    EARLY: "the wall may be reached while the shock lasts",
+    OUTSIDE: "the rotor may not have levitated inside the wall before",
 }
 
 
@@ -92,7 +95,9 @@ Event = Return | Strike | Brush
 def begin(departure: Departure) -> float:
     """A time at which flights that leave the wall with ``g' ≤ 0`` are inside, as they were until then; zero for those from levitation."""
     if not departure.from_wall:
-        return 0.0
+        if departure.at(arb(0)).height < 1:
+            return 0.0
+        raise LeftOpenError(OUTSIDE, departure.weights(0.0))
     width, outward = _START, departure.wide_velocity.real * 2
     for _ in range(_HALVINGS):
         curve = departure.at(hull(0.0, width)).curve
@@ -106,11 +111,11 @@ def begin(departure: Departure) -> float:
 
 def next_event(departure: Departure, time: float) -> Event:
     """The next event after a time at which all flights are inside."""
-    end, width = _end(departure), LONGEST
+    end, width, shortest = _end(departure), LONGEST, _shortest(departure, time)
     while time < end:
         if _inside(departure, time, width):
             time, width = time + width, min(2 * width, LONGEST)
-        elif width > SHORTEST:
+        elif width > shortest:
             width /= 2
         else:
             return _meeting(departure, time)
@@ -128,26 +133,32 @@ def _inside(departure: Departure, time: float, width: float) -> bool:
     return bool(middle.height + middle.rise * UNIT * reach + curve * hull(0, reach * reach / 2) < 1)
 
 
+def _shortest(departure: Departure, time: float) -> float:
+    """The step at which the wall is looked for: a disturbance that lasts changes within a part of its time."""
+    lasts = float(departure.busy.mid())
+    return min(SHORTEST, lasts / 16) if time < lasts else SHORTEST
+
+
 def _end(departure: Departure) -> float:
     """A time after which no flight reaches the wall any more."""
     held = departure.held
     n = held.numbers
-    away = (1 if departure.from_wall else departure.wide_levitation) - departure.wide_levitation
-    speed = departure.wide_velocity - (departure.wide_levitation * I if departure.from_wall else 0)
+    away, speed = departure.deviation
+    free = float(departure.busy.upper())
     if held.split < 0:
         turned = speed + away * held.half
         energy = (dot(turned, turned) - held.split * dot(away, away)).upper()
         allowed = -held.split * held.room * held.room
         time = max(0.0, float((energy / allowed).log().upper()) / float(n.gamma.lower())) + _LATER
         if time < _LATEST and energy * (-n.gamma * arb(time)).exp() < allowed:
-            return time
+            return free + time
         raise LeftOpenError(LONG, departure.weights(LONGEST))
     for k in range(int(math.log2(_LATEST))):
         time = float(2**k)
-        (c, h, _), (dc, dh, _), _ = held.waves(arb(time), True)
+        (c, dc, _), (h, dh, _) = held.responses(arb(time))
         place, rate = away * c + speed * h, away * dc + speed * dh
         if dot(rate, rate) + n.omega_squared * dot(place, place) < n.omega_squared * held.room * held.room:
-            return time
+            return free + time
     raise LeftOpenError(LONG, departure.weights(LONGEST))
 
 

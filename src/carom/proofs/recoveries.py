@@ -7,7 +7,7 @@ from typing import Any
 
 from flint import arb
 
-from carom.proofs.passages import MANY, Brush, LeftOpenError, Strike, begin, next_event
+from carom.proofs.passages import EARLY, MANY, Brush, LeftOpenError, Return, Strike, begin, next_event
 from carom.proofs.patches import Departure, Held, Patch
 from carom.proofs.strikes import after_brush, after_strike
 
@@ -15,10 +15,10 @@ MOST_BRANCHES = 200
 """Patches followed for one cell."""
 
 
-def kicked(speed: tuple[Any, Any], angle: tuple[Any, Any]) -> Patch:
-    """Patch of kicks between two speeds and two angles from the direction in which the rotor levitates, as balls."""
+def disturbed(size: tuple[Any, Any], angle: tuple[Any, Any]) -> Patch:
+    """Patch of disturbances between two sizes and two angles from the direction in which the rotor levitates, as balls."""
     centre, spans = [], []
-    for j, (low, high) in enumerate((speed, angle)):
+    for j, (low, high) in enumerate((size, angle)):
         sign = -1 if j else 1
         middle = ((low + high) / 2 * sign).mid()
         half = abs(high * sign - middle).max(abs(low * sign - middle)).upper().mid()
@@ -50,6 +50,8 @@ def _struck(held: Held, patch: Patch) -> Iterator[Patch]:
     time = begin(departure)
     while True:
         event = next_event(departure, time)
+        if not isinstance(event, Return) and not departure.busy <= event.begin:
+            raise LeftOpenError(EARLY, departure.weights(event.begin))
         if isinstance(event, Strike):
             yield after_strike(departure, event)
         elif isinstance(event, Brush) and event.touches:
