@@ -131,7 +131,7 @@ class Patch:
     centre : list of arb
         Exact numbers: ``v, ψ`` from levitation, ``a, b, ψ`` from the wall.
     spans : list of list of arb
-        Exact vectors of the coordinates, two of them.
+        Exact vectors of the coordinates, first the two of the cell.
     rest : list of arb
         Exact half widths of the coordinates.
     """
@@ -148,14 +148,28 @@ class Patch:
     @cached_property
     def box(self) -> list[Any]:
         """Balls of the coordinates."""
-        return [
-            x + UNIT * (abs(one) + abs(other) + rest)
-            for x, one, other, rest in zip(self.centre, *self.spans, self.rest, strict=True)
-        ]
+        sizes = list(self.rest)
+        for span in self.spans:
+            sizes = [size + abs(x) for size, x in zip(sizes, span, strict=True)]
+        return [x + UNIT * size for x, size in zip(self.centre, sizes, strict=True)]
+
+    @cached_property
+    def directions(self) -> list[list[Any]]:
+        """The spans, and one for each coordinate whose rest is not zero."""
+        size = len(self.rest)
+        rests = [[rest if i == j else arb(0) for i in range(size)] for j, rest in enumerate(self.rest) if not rest.is_zero()]
+        return [*self.spans, *rests]
 
 
 class Departure:
     """The flights of a patch.
+
+    Parameters
+    ----------
+    held : Held
+    patch : Patch
+    alone : bool
+        Whether only the flight of the centre is meant, with its derivatives along the same columns.
 
     Attributes
     ----------
@@ -167,15 +181,11 @@ class Departure:
         ``V`` and ``ψ`` differentiated along the spans and then along what holds the rest; exact.
     """
 
-    def __init__(self, held: Held, patch: Patch) -> None:
+    def __init__(self, held: Held, patch: Patch, *, alone: bool = False) -> None:
         self.held, self.patch, self.from_wall = held, patch, patch.from_wall
         self.velocity, self.levitation = _parts(held, patch.centre)
-        self.wide_velocity, self.wide_levitation = _parts(held, patch.box)
-        directions = [*patch.spans]
-        for j, rest in enumerate(patch.rest):
-            if not rest.is_zero():
-                directions.append([rest if i == j else arb(0) for i in range(len(patch.rest))])
-        self.columns = [(_speed(along), along[-1]) for along in directions]
+        self.wide_velocity, self.wide_levitation = _parts(held, patch.centre if alone else patch.box)
+        self.columns = [(_speed(along), along[-1]) for along in patch.directions]
         middle = [float(x) for x in patch.centre]
         self._velocity = complex(*middle[:-1])
         self._levitation = float(held.radius.mid()) * cmath.exp(1j * middle[-1])
@@ -252,6 +262,11 @@ class Moment:
 
     def __init__(self, departure: Departure, waves: Waves) -> None:
         self.departure, self.waves = departure, waves
+
+    @property
+    def parts(self) -> tuple[list[Any], list[Any], list[Any]]:
+        """``p``, ``q`` and ``k`` with their first two derivatives."""
+        return self._p, self._q, [wave[2] for wave in self.waves]
 
     def centre(self, wave: Wave) -> Any:
         """Place or rate on the flight of the centre."""
