@@ -11,7 +11,7 @@ from carom.proofs.balls import enclosure_of_fraction, enclosures_of
 from carom.proofs.claims import Claim, claim_of
 from carom.proofs.evidence import Evidence, NotShownError
 from carom.proofs.families import Family
-from carom.proofs.kick_cells import IMPACTS, OPEN, Tree, leaves, read, share_of
+from carom.proofs.kick_cells import IMPACTS, OPEN, REFUTED, Tree, leaves, read, share_of
 from carom.proofs.kick_discs import Disc
 from carom.proofs.kick_search import BITS, show_all
 from carom.proofs.rotor import Rotor
@@ -54,16 +54,17 @@ def claims_of(disc: Disc, tree: Tree) -> list[Claim]:
     """Claims about a disc whose cells are known."""
     known = [(cell, letter) for cell, letter in leaves(tree)]
     proven = [(cell, IMPACTS.index(letter)) for cell, letter in known if letter in IMPACTS]
-    first = min((cell.speeds[0] for cell, letter in known if letter in OPEN), default=Fraction(1))
+    first = min((cell.speeds[0] for cell, letter in known if letter not in IMPACTS), default=Fraction(1))
     parts = {letter: share_of(cell for cell, other in known if other == letter) for letter in OPEN}
     open_ = {letter: part for letter, part in sorted(parts.items(), key=lambda entry: -entry[1]) if part}
     share, left = share_of(cell for cell, _ in proven), sum(open_.values(), Fraction(0))
+    refuted = share_of(cell for cell, letter in known if letter == REFUTED)
     most = max((impacts for _, impacts in proven), default=0)
     family = disc.family
     numbers = enclosures_of(**{family.size: disc.size(first)})
     if disc.physical and not disc.exact[1]:
         numbers[f"{family.size}_si"] = enclosure_of_fraction(disc.exact[0] * first)
-    exact = {"share_proven": share, "share_refuted": Fraction(0), "share_open": left, "impacts": Fraction(most)}
+    exact = {"share_proven": share, "share_refuted": refuted, "share_open": left, "impacts": Fraction(most)}
     numbers |= {name: enclosure_of_fraction(number) for name, number in exact.items()}
     told = f"{family.told} {disc.largest}"
     recover = claim_of(
@@ -75,12 +76,28 @@ def claims_of(disc: Disc, tree: Tree) -> list[Claim]:
         enclosures=numbers,
         limited=False,
     )
+    reasons = [f"{100 * float(part):.3g} % of the area: {OPEN[letter]}" for letter, part in open_.items()]
+    if refuted:
+        reasons.insert(0, f"{100 * float(refuted):.3g} % of the area does not return")
     whole = claim_of(
         family.about,
         "all recover",
         f"All {told}, return to levitation with at most {most} impacts.",
-        0 if open_ else 1,
-        reason="; ".join(f"{100 * float(part):.3g} % of the area: {OPEN[letter]}" for letter, part in open_.items()),
+        -1 if refuted else 0 if open_ else 1,
+        reason="; ".join(reasons),
         limited=False,
     )
-    return [recover, whole]
+    return [recover, whole, *([_refutation(family, told, refuted)] if refuted else [])]
+
+
+def _refutation(family: Family, told: str, refuted: Fraction) -> Claim:
+    """Claim about those that are shown not to return."""
+    return claim_of(
+        family.about,
+        "do not recover",
+        f"Of {told}, the share share_refuted of the area never returns to levitation: after bounces the rotor stays on the wall and decays to the "
+        "synchronous rub of the larger normal force.",
+        1,
+        enclosures={"share_refuted": enclosure_of_fraction(refuted)},
+        limited=False,
+    )

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property, lru_cache
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 from flint import arb
@@ -18,14 +19,15 @@ from carom.proofs.balls import rational
 from carom.proofs.evidence import NotShownError
 from carom.proofs.families import FAMILIES, Family, Scale
 from carom.proofs.hypotheses import Hypotheses
-from carom.proofs.kick_cells import BY_ANGLE, BY_SPEED, IMPACTS, LOST, Cell
+from carom.proofs.kick_cells import BY_ANGLE, BY_SPEED, IMPACTS, LOST, REFUTED, Cell
 from carom.proofs.passages import GRAZE, LeftOpenError
-from carom.proofs.patches import Held
-from carom.proofs.recoveries import disturbed, impacts_of
+from carom.proofs.patches import Held, Patch
+from carom.proofs.recoveries import disturbed, impacts_of, show_in_rub
 from carom.proofs.rotor import Rotor
 from carom.proofs.seeds import doubles_of
 
 DiscData = tuple[str, str, str, int]
+_Result = TypeVar("_Result")
 
 
 class Found(NamedTuple):
@@ -115,21 +117,33 @@ class Disc:
 
     def show(self, cell: Cell, most: int) -> int:
         """Impacts after which all of a cell return at most; :class:`LeftOpenError` if this is not shown."""
+        return self._followed(cell, lambda patch: impacts_of(self.held, patch, most))
+
+    def refute(self, cell: Cell) -> None:
+        """Show that all of a cell decay to the stable rub; :class:`LeftOpenError` if this is not shown."""
+        self._followed(cell, lambda patch: show_in_rub(self.held, patch))
+
+    def _followed(self, cell: Cell, follow: Callable[[Patch], _Result]) -> _Result:
         slow, fast = (self._reach(share) for share in cell.speeds)
         angles = tuple(2 * arb.pi() * rational(share) for share in cell.angles)
         try:
-            return impacts_of(self.held, disturbed((slow, fast), (angles[0], angles[1])), most)
+            return follow(disturbed((slow, fast), (angles[0], angles[1])))
         except (ArithmeticError, ValueError):
             # Balls of a wide cell that hold everything: numbers in double precision fail then.
             raise LeftOpenError(GRAZE) from None
 
-    def try_(self, cell: Cell) -> Found:
-        """What can be proven of a cell of which the disturbance in the middle returns."""
+    def try_(self, cell: Cell, returns: bool) -> Found:
+        """What can be proven of a cell, the disturbance in the middle of which returns or does not."""
         try:
-            return Found(IMPACTS[self.show(cell, self.most_impacts)])
+            if returns:
+                return Found(IMPACTS[self.show(cell, self.most_impacts)])
+            if not self.held.rub.exists:
+                return Found(LOST, self._wider(cell))
+            self.refute(cell)
+            return Found(REFUTED)
         except LeftOpenError as problem:
             by_speed, by_angle = problem.weights
-            return Found(problem.reason[0], BY_SPEED if by_speed >= by_angle else BY_ANGLE)
+            return Found(problem.reason[0] if returns else LOST, BY_SPEED if by_speed >= by_angle else BY_ANGLE)
 
     def come_back(self, cells: list[Cell]) -> list[bool]:
         """Whether the disturbance in the middle of each cell returns, in double precision: it decides what is tried."""
@@ -149,10 +163,7 @@ class Disc:
 
     def tried(self, cells: list[Cell]) -> list[Found]:
         """What is found of some cells."""
-        return [
-            self.try_(cell) if returns else Found(LOST, self._wider(cell))
-            for cell, returns in zip(cells, self.come_back(cells), strict=True)
-        ]
+        return [self.try_(cell, returns) for cell, returns in zip(cells, self.come_back(cells), strict=True)]
 
     def _wider(self, cell: Cell) -> str:
         """In which of the two a cell is the wider."""

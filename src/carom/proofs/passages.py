@@ -5,6 +5,9 @@ start at the wall, where ``g' ≤ 0``, it is enough that ``g' < 0`` or ``g'' < 0
 
 *Strike.*  ``g' > 0`` up to a time at which ``g > 1`` for all flights: each crosses exactly once, and none before.
 
+*Bounce.*  ``g'' > 0`` from the wall, where ``g = 1``, to a time at which ``g > 1``, with ``g < 1`` at one before it: as ``g`` is convex, each flight is inside
+until then and crosses exactly once after it.
+
 *Brush.*  ``g'' < 0`` on a window, before which ``g < 1``, and at whose end ``g < 1`` and ``g' < 0``.  A flight that touches in the window
 does so first with ``g' ≥ 0``, before the last maximum.  With ``−g'' ≤ C``, ``g`` rises above ``1`` by at least ``g'²/(2C)``, so that the radial speed
 ``ṙ = g'/2`` is at most ``√(C(max g − 1)/2)``.  All others go on from the end of the window.
@@ -53,7 +56,7 @@ class LeftOpenError(CaromError):
 
 
 GRAZE, SLOW, MANY, LONG = "graze", "slow impact", "many impacts", "long flight"
-EARLY, OUTSIDE = "early contact", "outside"
+EARLY, OUTSIDE, RETURNS = "early contact", "outside", "both"
 REASONS = {
     GRAZE: "whether flights graze the wall is not decided",
     SLOW: "an impact is slow and the wall pushes: it may be followed by chatter and lasting contact",
@@ -61,6 +64,7 @@ REASONS = {
     LONG: "flights go on for longer than is followed",
     EARLY: "the wall may be reached while the shock lasts",
     OUTSIDE: "the rotor may not have levitated inside the wall before",
+    RETURNS: "some may return and others not",
 }
 
 
@@ -107,6 +111,32 @@ def begin(departure: Departure) -> float:
             return width
         width /= 2
     raise LeftOpenError(SLOW, departure.weights(width))
+
+
+def bounce(departure: Departure) -> Strike | None:
+    """A strike before which the wall pushes all flights all the time; none if that is not shown, or they do not leave the wall."""
+    if not departure.from_wall:
+        return None
+    _, rise, curve = departure.plain(0.0)
+    if not (curve > 0 and rise < 0):
+        return None
+    crossing = -2 * rise / curve
+    for _ in range(_HALVINGS):
+        height, rate, _ = departure.plain(crossing)
+        if not rate > 0:
+            return None
+        crossing -= (height - 1) / rate
+    half = sum(map(abs, departure.plain_spread(crossing)[0])) / rate
+    for factor in (1.1, 1.5, 2.2):
+        low, high = crossing - factor * half - _ROUNDING, crossing + factor * half + _ROUNDING
+        if low > 0 and departure.at(arb(high)).height > 1 and departure.at(arb(low)).height < 1:
+            return Strike(low, high) if _holds(departure, 0.0, high, _bends, 4) else None
+    return None
+
+
+def _bends(departure: Departure, low: float, high: float) -> bool:
+    """Whether ``g'' > 0`` between two times."""
+    return bool(departure.at(hull(low, high)).curve > 0)
 
 
 def next_event(departure: Departure, time: float) -> Event:

@@ -11,8 +11,8 @@ coordinates ``a``, ``b``, ``ψ = arg Λ``: turns of the whole plane change nothi
 *From levitation*, disturbed by ``V = v > 0`` along the real axis: ``c = 0`` and ``k = e^{it}``, with the two coordinates ``v`` and ``ψ``, and in place of
 ``h₁`` the response to the disturbance (:mod:`carom.proofs.starts`).
 
-A patch holds the states ``x₀ + Σ_g s_g ξ_g``, ``|ξ_g| ≤ 1``: two spans that it inherits from the cell of kicks, and one for each coordinate
-that holds all else.  A function ``f`` of the state lies in ``f(x₀) + Σ_g f'(X)s_g [−1, 1]`` there, ``X`` the box of the patch
+A patch holds the states ``x₀ + s₁ξ₁ + s₂ξ₂ + s₃ξ₁² + s₄ξ₁ξ₂ + s₅ξ₂² + Σ_g s_g ξ_g``, ``|ξ_g| ≤ 1``: ``ξ₁`` and ``ξ₂`` say where in the cell a kick is, the other spans
+hold what earlier impacts have left out, and a rest for each coordinate what the last one has.  A function ``f`` of the state lies in ``f(x₀) + Σ_g f'(X)s_g [−1, 1]`` there, ``X`` the box of the patch
 (mean value form).
 """
 
@@ -26,11 +26,14 @@ from typing import Any, NamedTuple
 from flint import acb, arb
 
 from carom.proofs.lines import Numbers
+from carom.proofs.rub_balls import Rub
 from carom.proofs.series import I, hyperbolic
 from carom.proofs.starts import Blow, Plain, Response, Start
 
 UNIT = arb(0, 1)
 """All numbers from −1 to 1."""
+FORM = 5
+"""Spans by where in the cell a kick is, those of first and second order."""
 
 
 BLOW = Blow()
@@ -94,6 +97,11 @@ class Held:
         return (dh + 2 * half * h, -stiff * h, -stiff * dh), (h, dh, -2 * half * dh - stiff * h)
 
     @cached_property
+    def rub(self) -> Rub:
+        """The stable rub; its numbers are not finite where there is none."""
+        return Rub.of(self.numbers)
+
+    @cached_property
     def released(self) -> Response:
         """The response to the disturbance when motion becomes free."""
         return self.start.last(self)
@@ -131,7 +139,7 @@ class Patch:
     centre : list of arb
         Exact numbers: ``v, ψ`` from levitation, ``a, b, ψ`` from the wall.
     spans : list of list of arb
-        Exact vectors of the coordinates, first the two of the cell.
+        Exact vectors of the coordinates: two for a patch that is straight, else first those by ``ξ₁``, ``ξ₂``, ``ξ₁²``, ``ξ₁ξ₂`` and ``ξ₂²``.
     rest : list of arb
         Exact half widths of the coordinates.
     """
@@ -155,10 +163,13 @@ class Patch:
 
     @cached_property
     def directions(self) -> list[list[Any]]:
-        """The spans, and one for each coordinate whose rest is not zero."""
+        """The spans, where only the first two are given with those of second order, and one for each coordinate whose rest is not zero."""
         size = len(self.rest)
-        rests = [[rest if i == j else arb(0) for i in range(size)] for j, rest in enumerate(self.rest) if not rest.is_zero()]
-        return [*self.spans, *rests]
+        straight = [[arb(0)] * size] * (FORM - len(self.spans))
+        rests = [
+            [rest if i == j else arb(0) for i in range(size)] for j, rest in enumerate(self.rest) if not rest.is_zero()
+        ]
+        return [*self.spans, *straight, *rests]
 
 
 class Departure:

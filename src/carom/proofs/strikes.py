@@ -17,16 +17,16 @@ from __future__ import annotations
 
 from typing import Any
 
-from flint import acb, arb
+from flint import arb
 
-from carom.proofs.bends import remainders, second_derivatives
+from carom.proofs.bends import bent, remainder, second_derivatives
 from carom.proofs.passages import GRAZE, Brush, LeftOpenError, Strike
-from carom.proofs.patches import UNIT, Departure, Moment, Patch, cross, dot, spread
+from carom.proofs.patches import FORM, UNIT, Departure, Moment, Patch, cross, dot, spread
 from carom.proofs.series import hull
 
 Columns = list[list[Any]]
-MAIN, MOST_SPANS = 2, 14
-"""Spans of the cell, and those that a patch keeps at most."""
+MOST_SPANS = 14
+"""Spans that a patch keeps at most."""
 
 
 def after_strike(departure: Departure, strike: Strike) -> Patch:
@@ -35,16 +35,17 @@ def after_strike(departure: Departure, strike: Strike) -> Patch:
     moment = departure.at(window)
     if not moment.slope > 0:
         raise LeftOpenError(GRAZE, departure.weights(strike.end))
-    time = _crossing(departure, window)
+    time, directions = _crossing(departure, window), departure.patch.directions
     middle = Departure(departure.held, departure.patch, alone=True).at(time)
-    columns = _columns(middle)
-    sine, cosine = window.sin_cos()
-    directions = departure.patch.directions
-    bent = [remainders(directions, MAIN, squares) for squares in second_derivatives(moment, acb(cosine, sine))]
+    columns, drift = _columns(middle), []
+    for j, squares in enumerate(second_derivatives(departure, time, window)):
+        for column, term in zip(columns[2:FORM], bent(directions, squares), strict=True):
+            column[j] = column[j] + term
+        drift.append(remainder(directions, squares) * UNIT)
     centre = _at_wall(departure, middle, time)
-    if not centre[0] + spread([column[0] for column in columns]) - bent[0] > 0:
+    if not centre[0] + spread([column[0] for column in columns]) + drift[0] > 0:
         raise LeftOpenError(GRAZE, departure.weights(strike.end))
-    return _reset(departure, centre, columns, [UNIT * x for x in bent])
+    return _reset(departure, centre, columns, drift)
 
 
 def _columns(moment: Moment) -> Columns:
@@ -123,8 +124,8 @@ def _slip_slopes(slip: Any, grip: Any) -> tuple[Any, Any]:
 
 def _patch(centre: list[Any], columns: Columns, drift: list[Any]) -> Patch:
     """Patch with exact numbers that holds all states of mean value forms; small columns are taken together."""
-    kept, small = columns[:MAIN], sorted(columns[MAIN:], key=lambda column: -_length(column))
-    kept, small = kept + small[: MOST_SPANS - MAIN], small[MOST_SPANS - MAIN :]
+    kept, small = columns[:FORM], sorted(columns[FORM:], key=lambda column: -_length(column))
+    kept, small = kept + small[: MOST_SPANS - FORM], small[MOST_SPANS - FORM :]
     rest = []
     for j, x in enumerate(centre):
         # Half widths of the balls of the spans count once for each: a factor of at most 1 stands before them.
