@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import cmath
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -85,7 +85,11 @@ def _parts(axes: Axes, machine: FlexibleMachine) -> None:
         at = along[nodes[name]]
         if len(at):
             filled = "none" if name == "sensor" else look.colour
-            drawn = {"markerfacecolor": filled, "markersize": 8.0 if name == "touchdown" else 4.5, "clip_on": False}
+            drawn: dict[str, Any] = {
+                "markerfacecolor": filled,
+                "markersize": 8.0 if name == "touchdown" else 4.5,
+                "clip_on": False,
+            }
             axes.plot(
                 at, np.full(len(at), _MARKED), look.marker, color=look.colour, label=look.words, gid=name, **drawn
             )
