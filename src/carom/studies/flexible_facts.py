@@ -12,7 +12,8 @@ from carom.studies.facts import Fact, about
 from carom.studies.flexible_data import FlexibleData
 from carom.studies.flexible_levitation import Critical
 from carom.studies.flexible_trials import DIRECTIONS, AtPlane, FlexibleTrial
-from carom.studies.load_tables import checks_of_planes, load_tables
+from carom.studies.load_checks import checks_of_planes
+from carom.studies.load_tables import load_tables
 from carom.studies.response_words import micrometres, rpm
 from carom.studies.standards import CRITICALLY_DAMPED
 from carom.studies.verdict import Verdict
