@@ -70,11 +70,6 @@ class Origin:
     settings: tuple[str, ...]
     case: Case
 
-    @property
-    def mark(self) -> str:
-        """Text that differs from machine to machine: what is set on a page is not meant for another one."""
-        return hashlib.sha256(f"{self.case.name}\n{as_toml(self.case)}".encode()).hexdigest()[:10]
-
     def all_settings(self, changes: Mapping[str, str]) -> tuple[str, ...]:
         """``name=value`` for every parameter that differs from the file, those changed on the page last."""
         units = {control.name: control.unit for control in controls_of(self.case)}
@@ -99,6 +94,11 @@ class Origin:
             return setting
         field = MACHINE_FIELDS[set_by(name)]
         return f"{field.name}={getattr(machine, field.name)!r} {field.unit}".strip()
+
+
+def mark_of(name: str, text: str) -> str:
+    """Text that differs from machine to machine, by name and all numbers: what is set on a page is not meant for another one."""
+    return hashlib.sha256(f"{name}\n{text}".encode()).hexdigest()[:10]
 
 
 def _name(setting: str) -> str:
