@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -18,12 +18,13 @@ from carom.models import Model, model_of
 from carom.outcome import Outcome
 from carom.parameters import Case, Scales
 from carom.plots.style import OUTCOMES
-from carom.progress import ShowProgress
+from carom.progress import Reporter, ShowProgress
 
 CELLS = 36
 """Cells along each side of the picture: some 1,000 kicks."""
-STRIDES = (9, 3, 1)
-"""Cells along each side of the squares that one kick, that of their middle, stands for, from coarse to fine."""
+COARSE, FINE = (9, 3), (1,)
+"""Cells along each side of the squares that one kick, that of their middle, stands for: of the first picture, and of the fine one."""
+FOLLOWING = "following kicks"
 AT_ONCE = 1.0
 """Seconds after which what has been found is shown."""
 FEWEST, MOST = 8, 256
@@ -84,7 +85,8 @@ class KickPicture:
         """Index of the ending of each cell, as in :class:`~carom.explorer.computing.kicks.KickMap`, and the endings."""
         places, endings = np.full(self.outcomes.shape, NOWHERE, np.uint8), []
         exists = self.outcomes != NO_START
-        for place, code in enumerate(np.unique(self.outcomes[exists])):
+        codes = np.unique(self.outcomes[exists]).tolist()
+        for place, code in enumerate(sorted(codes, key=lambda code: (not Outcome(code).settled, code))):
             chosen, outcome = self.outcomes == code, Outcome(code)
             look, share = OUTCOMES[outcome.label], float(chosen.sum() / exists.sum())
             places[chosen] = place
@@ -97,21 +99,32 @@ def _middles(cells: int) -> np.ndarray:
     return np.asarray((np.arange(cells) + 0.5) * 2.0 / cells - 1.0)
 
 
-def fill_picture(rotor: Model, largest: float, progress: ShowProgress = None) -> Iterator[KickPicture]:
-    """Follow kicks up to a size in units of the equations, the coarse picture first; yield it about every second."""
-    tell = progress or (lambda found: None)
+def empty_picture(largest: float) -> KickPicture:
+    """The picture of kicks up to a size in units of the equations, before any is followed."""
     middles = _middles(CELLS)
-    exists = np.hypot(middles[:, None], middles[None, :]) <= 1.0
-    outcomes, followed = np.full((CELLS, CELLS), NO_START), ~exists
-    cost = AT_ONCE / FEWEST
-    for stride in STRIDES:
+    beyond = np.hypot(middles[:, None], middles[None, :]) > 1.0
+    return KickPicture(largest, np.full(beyond.shape, NO_START), beyond)
+
+
+def fill_picture(
+    rotor: Model, begun: KickPicture, strides: Sequence[int], progress: ShowProgress = None
+) -> Iterator[KickPicture]:
+    """Follow the kicks of a picture that are still missing, the middles of squares of these sizes; yield it about every second."""
+    middles, largest = begun.largest * _middles(CELLS), begun.largest
+    outcomes, followed = begun.outcomes.copy(), begun.followed.copy()
+    exists = np.hypot(middles[:, None], middles[None, :]) <= largest
+    cost, total = AT_ONCE / FEWEST, exists.sum()
+    tell = Reporter.of(progress, FOLLOWING)
+    for stride in strides:
         left = _middle_cells(stride, exists & ~followed)
         while len(left):
             count = int(min(max(AT_ONCE / cost, FEWEST), MOST))
             now, left = left[:count], left[count:]
             began = time.perf_counter()
             rows, columns = now.T
-            found = _ends(rotor, largest * middles[columns], largest * middles[rows], tell)
+            done = (followed & exists).sum()
+            part = tell.part(done / total, (done + len(now)) / total)
+            found = _ends(rotor, middles[columns], middles[rows], part)
             cost = (time.perf_counter() - began) / len(now)
             followed[rows, columns] = True
             for row, column, outcome in zip(rows.tolist(), columns.tolist(), found.tolist(), strict=True):

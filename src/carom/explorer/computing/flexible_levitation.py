@@ -118,7 +118,7 @@ def levitating(case: Case, reduced: ReducedMachine, top: float) -> Levitating:
         more=_more(machine.speed, listed, at_speed, share, zone, stable=stable),
         stable=stable,
         holds=stable and holds,
-        damping=number(worst.damping_ratio, 2),
+        damping=number(worst.damping_ratio, 3),
         damping_remark=f"of the {worst.sense} whirl of {number(worst.frequency, 3)} Hz",
         clearance=f"{number(100.0 * share, 3)} %" if stable and np.isfinite(share) else "–",
         clearance_remark=f"sag and whirl by unbalance at the worst plane: zone {zone} of ISO 14839-2" if stable else "a motion grows",
@@ -151,7 +151,7 @@ def _more(
 
 def _row(whirl: Whirl) -> WhirlRow:
     ratio = whirl.damping_ratio
-    return WhirlRow(f"{number(whirl.frequency, 3)} Hz", whirl.sense, number(ratio, 2), ratio)
+    return WhirlRow(f"{number(whirl.frequency, 3)} Hz", whirl.sense, number(ratio, 3), ratio)
 
 
 def _orbits(at_speed: FlexibleResponse) -> tuple[Orbit, ...]:

@@ -9,7 +9,6 @@ import numpy as np
 
 from carom.explorer.computing.flexible_kicks import MOST_EVENTS
 from carom.explorer.computing.kicked_motion import (
-    AFTERWARDS,
     LEAST_SAMPLES,
     LONGEST,
     LONGEST_BOUNCING,
@@ -101,16 +100,16 @@ def follow_flexible(rotor: Model, right: float, up: float, progress: ShowProgres
     count = len(rotor.system.planes)
     hits = [hits_of(motion.seen_at(plane)) for plane in range(count)]
     until = _shown_until(motion)
-    # A motion is settled once its end is known, which may be long before it has arrived there.
+    # That it comes back is known long before it is there; then there is no further contact.
     shown = motion if motion.time >= until else simulate(rotor, start, until, max_events=MOST_EVENTS)
     until = min(until, shown.time)
     times = shown.sample(max(LEAST_SAMPLES, min(MOST_SAMPLES, int(PER_TURN * until / math.tau))))
     times = times[times <= until]
-    times = times[:: max(1, len(times) // MOST_SAMPLES)]
+    times = times[:: math.ceil(len(times) / MOST_SAMPLES)]
     return FlexibleMotion(
         times=times.astype(np.float32),
         planes=tuple(
-            _at_plane(shown.seen_at(plane), times, every, f"plane {plane + 1}") for plane, every in enumerate(hits)
+            _at_plane(shown.seen_at(plane), times, every) for plane, every in enumerate(hits)
         ),
         whole=until >= motion.time or motion.outcome is Outcome.LEVITATED,
         outcome=motion.outcome.label,
@@ -122,32 +121,31 @@ def follow_flexible(rotor: Model, right: float, up: float, progress: ShowProgres
 def _shown_until(motion: Trajectory) -> float:
     """Time up to which a motion is drawn."""
     if motion.outcome is not Outcome.LEVITATED:
-        return min(motion.time + AFTERWARDS, LONGEST_BOUNCING if motion.outcome in REPEATING else LONGEST)
+        return min(motion.time, LONGEST_BOUNCING if motion.outcome in REPEATING else LONGEST)
     events = motion.segment_starts[1:]
     last = float(events[-1]) if len(events) else 0.0
     return min(last + AFTER_CONTACT, LONGEST)
 
 
-def _at_plane(shown: Trajectory, times: np.ndarray, every: Hits, name: str) -> AtPlane:
+def _at_plane(shown: Trajectory, times: np.ndarray, every: Hits) -> AtPlane:
     position, _ = shown.at_plane(times)
     force, _ = shown.forces(times)
-    log = hits_of(shown)
-    drawn = log.time <= times[-1]
-    angles = np.angle(np.exp(1j * log.angle[drawn]))
+    drawn = every.time <= times[-1]
+    angles = np.angle(np.exp(1j * every.angle[drawn]))
     say = Wording(shown.scales)
-    words = f"{name}: no contact"
+    words = "no contact"
     if every.count:
-        depth = say.length(every.deepest)
-        words = f"{name}: {counted(every.count, YIELDING.noun)}, up to {YIELDING.load(every.hardest, shown.scales)}, {depth} deep"
+        load, depth = YIELDING.load(every.hardest, shown.scales), say.length(every.deepest)
+        words = f"{counted(every.count, YIELDING.noun)}, up to {load}, {depth} deep"
     return AtPlane(
         x=position.real.astype(np.float32),
         y=position.imag.astype(np.float32),
         force=force.astype(np.float32),
-        impact_times=log.time[drawn].astype(np.float32),
+        impact_times=every.time[drawn].astype(np.float32),
         impact_angles=angles.astype(np.float32),
-        impact_speeds=log.radial_speed[drawn].astype(np.float32),
-        blows=log.blow[drawn].astype(np.float32),
-        forward=log.angular_speed[drawn] > -1.0,
+        impact_speeds=every.radial_speed[drawn].astype(np.float32),
+        blows=every.blow[drawn].astype(np.float32),
+        forward=every.angular_speed[drawn] > -1.0,
         spans=tuple(span_of(each) for each in shown.lasting_contacts if each.start <= times[-1]),
         hardest=every.hardest,
         deepest=every.deepest,

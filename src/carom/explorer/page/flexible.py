@@ -10,7 +10,15 @@ from carom.explorer.computing.controls import Control
 from carom.explorer.computing.exports import Origin, mark_of
 from carom.explorer.computing.flexible_controls import controls_of_machine, machine_with, values_of_machine
 from carom.explorer.computing.flexible_exports import as_program, as_set, as_simulate, settings_of
-from carom.explorer.computing.flexible_kicks import fill_picture, opening_size
+from carom.explorer.computing.flexible_kicks import (
+    COARSE,
+    FINE,
+    FOLLOWING,
+    KickPicture,
+    empty_picture,
+    fill_picture,
+    opening_size,
+)
 from carom.explorer.computing.flexible_levitation import levitating, told_more
 from carom.explorer.computing.flexible_motion import follow_flexible
 from carom.explorer.page.flexible_messages import flexible_motion_message, levitation_message, picture_message
@@ -20,7 +28,6 @@ from carom.explorer.page.view import View
 from carom.models import Model, model_of
 from carom.parameters import Case, Scales
 from carom.parameters.told import shown_in, told
-from carom.progress import Progress
 from carom.rotors import ReducedMachine
 from carom.rotors.documents import document_of
 from carom.rotors.flexible_model import reduced_of
@@ -47,9 +54,11 @@ class FlexibleKind:
         self.along = "speed"
         self.quick: Mapping[str, Work] = {"levitation": self._levitation, "motion": self._motion}
         self.long: Mapping[str, Task] = {
+            "basin": Task(FOLLOWING, self._basin(COARSE), "basin"),
             "told": Task("critical speeds and sensitivity", self._told, "told"),
-            "basin": Task("following kicks", self._basin, "basin"),
+            "fine": Task(FOLLOWING, self._basin(FINE), "basin"),
         }
+        self._picture: tuple[int, KickPicture] | None = None
 
     @property
     def _case(self) -> Case:
@@ -137,14 +146,22 @@ class FlexibleKind:
     def _told(self, shown: Shown, tell: Tell) -> Message:
         return {"told": told_more(shown.subject, tell)}
 
-    def _basin(self, shown: Shown, tell: Tell) -> Message:
+    def _basin(self, strides: tuple[int, ...]) -> Work:
         """The picture, shown again and again while it is filled in."""
-        rotor: Model = shown.subject.model
-        unit = self._shown_in[0] * shown.subject.scales.velocity
-        required, begun = self._required(shown.subject.scales), self._shown_in[0] * opening_size(self._case)
-        message: Message = {}
-        for picture in fill_picture(rotor, self._largest(shown) / unit):
-            message = picture_message(picture, rotor, required, begun)
-            tell(Progress(float(picture.followed.mean()), "following kicks"))
-            tell.show(message)
-        return message
+
+        def fill(shown: Shown, tell: Tell) -> Message:
+            rotor: Model = shown.subject.model
+            unit = self._shown_in[0] * shown.subject.scales.velocity
+            required, opening = self._required(shown.subject.scales), self._shown_in[0] * opening_size(self._case)
+            picture = self._begun(shown, self._largest(shown) / unit)
+            for picture in fill_picture(rotor, picture, strides, tell):
+                self._picture = shown.number, picture
+                tell.show(picture_message(picture, rotor, required, opening))
+            return picture_message(picture, rotor, required, opening)
+
+        return fill
+
+    def _begun(self, shown: Shown, largest: float) -> KickPicture:
+        """The picture as far as it is known of the machine shown."""
+        number, picture = self._picture or (0, None)
+        return picture if picture is not None and number == shown.number else empty_picture(largest)

@@ -21,6 +21,10 @@ from carom.results import fields_of
 
 Message = dict[str, Any]
 MICRON = 1e-6
+LITTLE = 0.4
+"""Share of the clearance up to which the figure of the response leaves the clearance out."""
+FEW = 5
+"""Kicks up to what must be survived below which the sentence tells of the whole picture."""
 
 
 def levitation_message(found: Levitating, speed: float) -> Message:
@@ -41,18 +45,26 @@ def levitation_message(found: Levitating, speed: float) -> Message:
         ],
         "walls": [each / MICRON for each in found.walls],
         "speed": speed / RPM,
-        "top": 1.1 * min(most, 1.6 * max(found.walls) / MICRON),
+        "top": _top(most, [each / MICRON for each in found.walls]),
     }
+
+
+def _top(most: float, walls: list[float]) -> float:
+    """End of the axis of the response: with the clearances, unless the whirl is much smaller."""
+    if most < LITTLE * min(walls):
+        return 1.15 * most or 1.0
+    return 1.1 * max(*walls, min(most, 1.6 * max(walls)))
 
 
 def picture_message(found: KickPicture, rotor: Model, required: float, begun: float) -> Message:
     """The picture of kicks as far as it is filled in; `required` is in units of the equations, `begun` is the first range in the unit that people are told."""
     factor, unit = shown_in("velocity", rotor.scales)
     cells, endings = found.cells
-    lost, inside = found.smallest_lost, required <= found.largest * (1.0 + 1e-9)
-    share = found.share_up_to(required * (1.0 + 1e-9) if inside else found.largest)
-    words = f"kicks up to {told(required if inside else found.largest, 'velocity', rotor.scales)}"
-    whole = found.share_up_to(np.inf)
+    lost, whole = found.smallest_lost, found.share_up_to(np.inf)
+    judged, share = required, found.share_up_to(required * (1.0 + 1e-9))
+    if required > found.largest * (1.0 + 1e-9) or share.total < FEW:
+        judged, share = found.largest, whole
+    words = f"kicks up to {told(judged, 'velocity', rotor.scales)}"
     return {
         "kind": "kick",
         "nouns": ["kick", "kicks"],

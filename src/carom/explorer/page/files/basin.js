@@ -177,7 +177,7 @@ export const basinPicture = (canvas, { onPoint = () => {}, onRing = () => {} } =
     if (dragging) { dragged = true; pull(event, false); return; }
     const held = holds(event);
     canvas.style.cursor = held ? "grab" : "";
-    if (!held && event.pointerType !== "touch" && event.buttons === 0) point(event, false);
+    if (!held && event.pointerType !== "touch" && event.buttons <= 1) point(event, false);
   });
   for (const end of ["pointerup", "pointercancel"]) {
     canvas.addEventListener(end, (event) => {

@@ -66,12 +66,14 @@ carom.follows = true; // a dragged slider waits for how the machine levitates, n
 carom.begin_plots = (parts, plots) => {
   const colours = [carom.looks.stable, carom.looks.unstable, carom.looks["contact-free"], carom.looks.rub];
   const colourOf = (place) => colours[place % colours.length];
-  const keys = (place, names) => place.replaceChildren(...names.flatMap(([words, ink, dashed]) => {
-    const key = document.createElement("i");
+  const keys = (place, names) => place.replaceChildren(...names.map(([words, ink, dashed]) => {
+    const entry = document.createElement("span"), key = document.createElement("i");
     key.className = `line${dashed ? " dashed" : ""}`;
     key.style.borderColor = ink;
-    return [key, `${words} `];
+    entry.append(key, words);
+    return entry;
   }));
+  for (const key of document.querySelectorAll("[data-colour]")) key.style.borderColor = colourOf(+key.dataset.colour);
   const theme = () => {
     const ink = carom.themed(plots);
     for (const name of ["now", "now_too"]) parts[name].line_color = ink;
@@ -100,7 +102,7 @@ carom.begin_plots = (parts, plots) => {
     parts.response_y.setv({ start: 0, end: message.top });
     parts.cursor.location = message.speed;
     const named = [false, true].flatMap((dashed) => curves.filter((one) => one.dashed === dashed).map((one, place) => [one.place, colourOf(place), dashed]));
-    keys(at("response-keys"), [...named, ...(many ? [["clearance", colour("wall"), false]] : [])]);
+    keys(at("response-keys"), [...named, ...(many ? [[`clearance${walls[0] > message.top ? `, ${walls.map((one) => short(one, 3)).join(" and ")} µm: above the picture` : ""}`, colour("wall"), false]] : [])]);
     at("response-words").textContent = curves.length ? "" : "There is none without an unbalance, or while a motion grows.";
   }));
 
