@@ -52,7 +52,11 @@ def facts_of_machine(study: FlexibleData) -> Iterator[Fact]:
     yield from _tried(study)
     yield from _fall(study)
     reduced = study.reduced
-    yield Fact("Accuracy", reduction_words(reduced), values={"error": reduced.error, "vectors": reduced.vectors, "modes": reduced.modes})
+    yield Fact(
+        "Accuracy",
+        reduction_words(reduced),
+        values={"error": reduced.error, "vectors": reduced.vectors, "modes": reduced.modes},
+    )
     for each in NOT_COVERED:
         yield Fact("Not covered", each)
 

@@ -28,7 +28,9 @@ def whirl_words(speed: float, whirls: Sequence[Whirl]) -> str:
 
 def response_words(at_speed: FlexibleResponse) -> str:
     """The whirl by unbalance at one speed."""
-    planes = [f"{micrometres(abs(each))} at plane {place}" for place, each in enumerate(at_speed.touchdowns[0], start=1)]
+    planes = [
+        f"{micrometres(abs(each))} at plane {place}" for place, each in enumerate(at_speed.touchdowns[0], start=1)
+    ]
     sensors = [
         f"{micrometres(abs(each))} at the sensors of bearing {place}"
         for place, each in enumerate(at_speed.sensors[0], start=1)

@@ -80,7 +80,9 @@ def _single(machine: FlexibleMachine) -> Iterator[Control]:
         if not value and own not in _ALWAYS:
             continue
         words = {SHAFT: "", MAGNETS: "magnetic bearing", TOUCHDOWNS: "touchdown bearing"}[kind.group]
-        named = replace(kind, words=f"{words or kind.words} {number}" + (f": {kind.words.partition(':')[0]}" if words else ""))
+        named = replace(
+            kind, words=f"{words or kind.words} {number}" + (f": {kind.words.partition(':')[0]}" if words else "")
+        )
         shared = own if own in fields and _value(machine, own) is not None else ""
         yield replace(_control(machine, name, named, value), group=SINGLE, among=shared)
 
@@ -101,7 +103,9 @@ def _size(field: Field, unit: str) -> float:
 def _control(machine: FlexibleMachine, name: str, kind: _Kind, value: float) -> Control:
     field, unit = machine.varied[name], kind.unit
     if name.startswith("touchdown_stiffness"):  # the unit of which depends on the exponent
-        unit = machine.touchdowns[int(name.rpartition("_")[2]) - 1 if name[-1].isdigit() else 0].bearing.unit("stiffness")
+        unit = machine.touchdowns[int(name.rpartition("_")[2]) - 1 if name[-1].isdigit() else 0].bearing.unit(
+            "stiffness"
+        )
     own = float(f"{value / _size(field, unit):.12g}")
     logarithmic = kind.logarithmic and own > 0.0
     high = max(kind.reach * own, kind.least)

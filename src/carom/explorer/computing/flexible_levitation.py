@@ -107,7 +107,9 @@ def levitating(case: Case, reduced: ReducedMachine, top: float) -> Levitating:
         grows = problem.field == "levitation"
         share, why = np.inf, str(problem.value).removeprefix("unstable: ") if grows else str(problem)
     stable, holds = not why and not growing, share < 1.0
-    at_speed, speeds, curves = None, np.empty(0), ()
+    told = stable or bool(growing)  # what grows without going round is no whirl
+    at_speed, speeds = None, np.empty(0)
+    curves: tuple[Curve, ...] = ()
     if machine.unbalances and stable:
         at_speed = unbalance_response(machine, [machine.speed])
         speeds = speeds_of_response(machine, every, max(top, FASTEST * machine.speed))
@@ -115,13 +117,15 @@ def levitating(case: Case, reduced: ReducedMachine, top: float) -> Levitating:
     zone = case.zones.zone(min(share, 1.0))
     return Levitating(
         lead=_lead(stable, holds, why),
-        more=_more(machine.speed, listed, at_speed, share, zone, stable=stable),
+        more=_more(machine.speed, listed if told else (), at_speed, share, zone, stable=stable),
         stable=stable,
         holds=stable and holds,
-        damping=number(worst.damping_ratio, 3),
-        damping_remark=f"of the {worst.sense} whirl of {number(worst.frequency, 3)} Hz",
+        damping=number(worst.damping_ratio, 3) if told else "–",
+        damping_remark=f"of the {worst.sense} whirl of {number(worst.frequency, 3)} Hz" if told else "a motion grows",
         clearance=f"{number(100.0 * share, 3)} %" if stable and np.isfinite(share) else "–",
-        clearance_remark=f"sag and whirl by unbalance at the worst plane: zone {zone} of ISO 14839-2" if stable else "a motion grows",
+        clearance_remark=f"sag and whirl by unbalance at the worst plane: zone {zone} of ISO 14839-2"
+        if stable
+        else "a motion grows",
         whirls=tuple(map(_row, listed)),
         orbits=() if at_speed is None else _orbits(at_speed),
         speeds=speeds,
@@ -141,7 +145,7 @@ def _lead(stable: bool, holds: bool, why: str) -> str:
 def _more(
     speed: float, whirls: tuple[Whirl, ...], at_speed: FlexibleResponse | None, share: float, zone: str, *, stable: bool
 ) -> str:
-    parts = [whirl_words(speed, whirls)]
+    parts = [whirl_words(speed, whirls)] if whirls else []
     if at_speed is not None:
         parts.append(response_words(at_speed))
     if stable and np.isfinite(share):
@@ -184,6 +188,6 @@ def told_more(reduced: ReducedMachine, progress: ShowProgress = None) -> dict[st
     found = levitation_of_machine(reduced.machine)
     tell(0.9)
     facts = [*critical_speed_facts(found), *bearing_facts(found)]
-    topics = dict.fromkeys(each.topic for each in facts)
+    topics = dict.fromkeys(str(each.topic) for each in facts)
     told = {topic: tuple(each.text for each in facts if each.topic == topic) for topic in topics}
     return {**told, "Accuracy": (reduction_words(reduced),)}

@@ -108,9 +108,7 @@ def follow_flexible(rotor: Model, right: float, up: float, progress: ShowProgres
     times = times[:: math.ceil(len(times) / MOST_SAMPLES)]
     return FlexibleMotion(
         times=times.astype(np.float32),
-        planes=tuple(
-            _at_plane(shown.seen_at(plane), times, every) for plane, every in enumerate(hits)
-        ),
+        planes=tuple(_at_plane(shown.seen_at(plane), times, every) for plane, every in enumerate(hits)),
         whole=until >= motion.time or motion.outcome is Outcome.LEVITATED,
         outcome=motion.outcome.label,
         colour=OUTCOMES[motion.outcome.label].colour,

@@ -1,5 +1,8 @@
-"""The figures with axes, which the browser fills: of the planar rotor radius over time, section of impacts, diagram along a slider;
-of a flexible machine the response to unbalance over the speed, distance and contact force at each touchdown bearing over time."""
+"""The figures with axes, which the browser fills.
+
+Of the planar rotor they are radius over time, section of impacts and diagram along a slider; of a flexible machine the response to
+unbalance over the speed, and distance and contact force at each touchdown bearing over time.
+"""
 
 from __future__ import annotations
 

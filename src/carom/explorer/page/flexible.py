@@ -26,6 +26,7 @@ from carom.explorer.page.kind import Message, Pairs, Shown, Task, Tell, Work
 from carom.explorer.page.scripts import FLEXIBLE
 from carom.explorer.page.view import View
 from carom.models import Model, model_of
+from carom.outcome import CaromError, InputError
 from carom.parameters import Case, Scales
 from carom.parameters.told import shown_in, told
 from carom.rotors import ReducedMachine
@@ -33,6 +34,7 @@ from carom.rotors.documents import document_of
 from carom.rotors.flexible_model import reduced_of
 from carom.studies.flexible_levitation import FASTEST
 
+NONE = "No kick is followed: with these values there is no levitation without contact that it could disturb."
 FIRST = 0.5, math.radians(30.0)
 """Size of the kick that is drawn first, over the range of the picture, and its direction."""
 
@@ -40,10 +42,13 @@ FIRST = 0.5, math.radians(30.0)
 class FlexibleKind:
     """A flexible machine; see :class:`carom.explorer.page.kind.Kind`.  A subject is the machine with its vectors."""
 
-    slots = ("motion",)
+    slots: tuple[str, ...] = ("motion",)
     apart: tuple[str, ...] = ("motion",)
     early: tuple[str, ...] = ("levitation", "told")
-    template, scripts, figures = "flexible.html.jinja", FLEXIBLE, ("response", "distances", "forces")
+    along = "speed"
+    template = "flexible.html.jinja"
+    scripts: tuple[str, ...] = FLEXIBLE
+    figures: tuple[str, ...] = ("response", "distances", "forces")
 
     def __init__(self, origin: Origin) -> None:
         found = reduced_of(model_of(origin.case))
@@ -51,7 +56,7 @@ class FlexibleKind:
             raise TypeError("no flexible machine")
         self.origin, self._reduced = origin, found
         self.controls: Mapping[str, Control] = {each.name: each for each in controls_of_machine(found.machine)}
-        self.along = "speed"
+        self.mark = mark_of(origin.case.name, json.dumps(document_of(found.machine), sort_keys=True))
         self.quick: Mapping[str, Work] = {"levitation": self._levitation, "motion": self._motion}
         self.long: Mapping[str, Task] = {
             "basin": Task(FOLLOWING, self._basin(COARSE), "basin"),
@@ -63,11 +68,6 @@ class FlexibleKind:
     @property
     def _case(self) -> Case:
         return self.origin.case
-
-    @property
-    def mark(self) -> str:
-        """Text that differs from machine to machine."""
-        return mark_of(self._case.name, json.dumps(document_of(self._reduced.machine), sort_keys=True))
 
     def subject(self, settings: Mapping[str, str]) -> ReducedMachine:
         """The machine with other values of its controls, by the same vectors."""
@@ -132,13 +132,23 @@ class FlexibleKind:
         unit = self._shown_in[0] * shown.subject.scales.velocity
         return right / unit, up / unit
 
+    def _levitating(self, shown: Shown) -> Model:
+        """The rotor, whose levitation kicks disturb."""
+        try:
+            rotor: Model = shown.subject.model
+        except InputError:
+            raise CaromError(NONE) from None
+        if rotor.system.rest_radius >= 1.0:
+            raise CaromError(NONE)
+        return rotor
+
     def _levitation(self, shown: Shown, tell: Tell) -> Message:
         reduced: ReducedMachine = shown.subject
         top = FASTEST * self._reduced.machine.speed
         return levitation_message(levitating(self._case, reduced, top), reduced.machine.speed)
 
     def _motion(self, shown: Shown, tell: Tell) -> Message:
-        rotor: Model = shown.subject.model
+        rotor = self._levitating(shown)
         right, up = self.kicks(shown)[0]
         motion = follow_flexible(rotor, *self._own(shown), tell)
         return {**flexible_motion_message(motion, rotor), "kick": {"first": right, "second": up}}
@@ -150,11 +160,11 @@ class FlexibleKind:
         """The picture, shown again and again while it is filled in."""
 
         def fill(shown: Shown, tell: Tell) -> Message:
-            rotor: Model = shown.subject.model
+            rotor = self._levitating(shown)
             unit = self._shown_in[0] * shown.subject.scales.velocity
             required, opening = self._required(shown.subject.scales), self._shown_in[0] * opening_size(self._case)
-            picture = self._begun(shown, self._largest(shown) / unit)
-            for picture in fill_picture(rotor, picture, strides, tell):
+            picture = begun = self._begun(shown, self._largest(shown) / unit)
+            for picture in fill_picture(rotor, begun, strides, tell):
                 self._picture = shown.number, picture
                 tell.show(picture_message(picture, rotor, required, opening))
             return picture_message(picture, rotor, required, opening)

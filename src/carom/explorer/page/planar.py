@@ -44,13 +44,15 @@ class PlanarSubject:
 class PlanarKind:
     """The planar rotor; see :class:`carom.explorer.page.kind.Kind`."""
 
-    slots = SLOTS
+    slots: tuple[str, ...] = SLOTS
     apart: tuple[str, ...] = ()
     early: tuple[str, ...] = ()
-    template, scripts, figures = "planar.html.jinja", PLANAR, ("history", "section", "diagram")
+    template = "planar.html.jinja"
+    scripts: tuple[str, ...] = PLANAR
+    figures: tuple[str, ...] = ("history", "section", "diagram")
 
     def __init__(self, origin: Origin) -> None:
-        self.origin = origin
+        self.origin, self.mark = origin, mark_of(origin.case.name, as_toml(origin.case))
         self.controls: Mapping[str, Control] = {control.name: control for control in controls_of(origin.case)}
         self.planes: dict[str, Plane] = {plane.name: plane for plane in planes_of(origin.case)}
         self.along = "damping" if "damping" in self.controls else "gamma"
@@ -70,11 +72,6 @@ class PlanarKind:
             "diagram": Task("following orbits along the slider", self._diagram, "diagram"),
             "verdict": Task("writing the verdict", self._verdict, "verdict"),
         }
-
-    @property
-    def mark(self) -> str:
-        """Text that differs from machine to machine."""
-        return mark_of(self.origin.case.name, as_toml(self.origin.case))
 
     def subject(self, settings: Mapping[str, str]) -> PlanarSubject:
         """The machine with other values of its controls."""

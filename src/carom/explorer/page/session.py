@@ -128,7 +128,7 @@ class Session:
     def kick(self, request: Mapping[str, Any]) -> None:
         """Show the motion after another disturbance; see :class:`carom.explorer.page.models.Requests`."""
         kick, slot = read_kick(request.get("first"), request.get("second")), request.get("slot")
-        if kick is None or slot not in range(len(self.kind.slots)):
+        if kick is None or not isinstance(slot, int) or slot not in range(len(self.kind.slots)):
             return
         kicks = list(self.kind.kicks(self._shown))
         kicks[slot] = kick

@@ -67,7 +67,7 @@ export const basinPicture = (canvas, { onPoint = () => {}, onRing = () => {} } =
       pen.fillStyle = place === picture.active ? "#fff" : "#e4e7ea"; pen.strokeStyle = "rgba(0,0,0,.75)"; pen.lineWidth = place === picture.active ? 2.5 : 1.2;
       pen.beginPath(); pen.arc(x, y, 8, 0, 7); pen.fill(); pen.stroke();
       pen.fillStyle = "#111"; pen.font = "700 11px system-ui, sans-serif"; pen.textAlign = "center"; pen.textBaseline = "middle";
-      pen.fillText(String(place + 1), x, y + 0.5);
+      if (picture.kicks.length > 1) pen.fillText(String(place + 1), x, y + 0.5);
     });
   };
 

@@ -8,10 +8,14 @@ carom.follows = true; // a dragged slider waits for how the machine levitates, n
   };
   const fill = (name, lines) => document.querySelector(`#${name} tbody`).replaceChildren(...lines);
 
+  const pale = (what, old) => {
+    carom.panels.pale(what, old);
+    if (what === "basin") for (const name of ["basin", "sentence", "legend", "ring-note"]) at(name).classList.toggle("old", old);
+  };
   carom.on("levitation", (message) => {
     carom.controls.arrived(message.number);
     // What contact does is pale until it is known of this machine.
-    for (const what of ["motion", "figures", "basin", "told"]) if ((carom.known[what] || 0) < message.number) carom.panels.pale(what, true);
+    for (const what of ["motion", "figures", "basin", "told"]) if ((carom.known[what] || 0) < message.number) pale(what, true);
     if (message.refused) { at("headline").textContent = message.refused; at("advice").textContent = ""; return; }
     at("headline").textContent = message.lead;
     at("advice").textContent = message.more;
@@ -35,10 +39,10 @@ carom.follows = true; // a dragged slider waits for how the machine levitates, n
   const know = (what, message) => {
     if (message.number < (carom.known[what] || 0)) return;
     carom.known[what] = message.number;
-    carom.panels.pale(what, message.number < (carom.seen || 0));
+    pale(what, message.number < (carom.seen || 0));
   };
   carom.on("basin", (message) => {
-    if (message.refused) return;
+    if (message.refused) { at("sentence").classList.remove("old"); return; }
     know("basin", message);
     carom.panels.tile("lost", message.lost, message.lost_remark);
   });
@@ -52,8 +56,8 @@ carom.follows = true; // a dragged slider waits for how the machine levitates, n
   });
   carom.on("told", (message) => {
     know("told", message);
-    const parts = Object.entries(message.told || { "Critical speeds": [message.refused] });
-    at("told").replaceChildren(...parts.flatMap(([heading, sentences]) => {
+    const told = Object.entries(message.told || { "Critical speeds": [message.refused] });
+    at("told").replaceChildren(...told.flatMap(([heading, sentences]) => {
       const title = document.createElement("h4"), list = document.createElement("ul");
       title.textContent = heading;
       list.append(...sentences.map((words) => { const item = document.createElement("li"); item.textContent = words; return item; }));
