@@ -133,8 +133,8 @@ carom.held = false;
       if (carom.held || reply.number < carom.number) continue;
       const value = reply.values[one.name];
       // Of all parts together, where they differ.
-      one.row.classList.toggle("differs", value === null);
-      if (value === null) continue;
+      if (value === null) { one.box.value = ""; one.box.placeholder = "differ"; continue; }
+      if (!one.box.value) one.box.value = typing(value);
       one.now = value;
       one.slider.value = place(one, one.now);
       // A box follows what was set of all parts together.
