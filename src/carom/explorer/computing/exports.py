@@ -19,6 +19,7 @@ from carom.explorer.computing.controls import Control, controls_of, term_of, uni
 from carom.explorer.computing.planes import Plane
 from carom.explorer.computing.rest import Rest, repeats
 from carom.models import Model, model_of
+from carom.models.limited import limits_of
 from carom.motions import State
 from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, Case, TouchdownBearing
 from carom.parameters.machine_file import UNUSED
@@ -165,7 +166,7 @@ motion.plot().savefig("motion.png")
 
 def _orbits(rotor: Model, along: Control) -> str:
     """The part of a program that finds orbits; none where there are none."""
-    if not repeats(rotor):
+    if not repeats(rotor) or limits_of(rotor) is not None:
         return ""
     searched = "" if known_of(rotor).orbits else ", impacts=1"
     unit = unit_of(along.name)
