@@ -37,35 +37,26 @@ def read_forms(listed: Any) -> list[Form]:
 
 
 def traps_of(wall: Surface, forms: Sequence[Form]) -> list[Bounded] | None:
-    """The traps of forms; ``None`` if there are none, one of them need not fall, or slip might stop in its trap."""
+    """The traps of forms; ``None`` if there are none, or one of them need not fall."""
     turns, traps = angles(), []
     for form in forms:
         if not form.falls(wall):
             return None
         trap = Bounded(form, level(form, wall, turns))
-        if not (trap.bound > 0 and _slips(wall, trap, turns)):
+        if not trap.bound > 0:
             return None
         traps.append(trap)
     return traps or None
 
 
-def _slips(wall: Surface, trap: Bounded, turns: list[tuple[Any, Any]]) -> bool:
-    """Whether slip stays forward through all impacts in a trap: ``s + b > μ(1 + d)a``."""
-    steep = (1 + wall.grip * wall.grip).sqrt() * trap.bound.sqrt()
-    centres = (trap.form.centre(wall, *turn) for turn in turns)
-    return all(bool(wall.ratio > wall.grip * a - b + steep) for a, b in centres)
-
-
 def limits_of(wall: Surface, speed: Any, forms: Sequence[Form]) -> list[Bounded] | None:
-    """Bounds of what arrives, that of energy first; ``None`` if a form may rise in flight, or slip might stop at the first impact."""
+    """Bounds of what arrives, that of energy first; ``None`` if a form may rise in flight."""
     turns = angles()
     zero = arb(0)
     energy = Form(zero, zero, wall.omega_squared)
     if not all(form.falls(wall) for form in forms):
         return None
-    limits = [Bounded(form, highest(form, wall, speed, turns)) for form in (energy, *forms)]
-    fastest = _fastest(wall, limits[0])
-    return limits if wall.ratio > (1 + wall.grip * wall.grip).sqrt() * fastest else None
+    return [Bounded(form, highest(form, wall, speed, turns)) for form in (energy, *forms)]
 
 
 def _fastest(wall: Surface, energy: Bounded) -> Any:

@@ -8,13 +8,14 @@ With ``u = z − Λe^{it}`` in the fixed frame, ``g = α − iβ`` and ``k > |g|
 ``|k − ω² − γg|² < 4α(γ − α)ω²``, and never positive where equality is allowed too.
 
 *Contact.*  Turn the plane such that the rotor touches at ``z = 1``, with ``Λ = ℓe^{iψ}`` and the velocity ``v = a + ib``.  There ``ξ = v − v₀`` with
-``v₀ = a₀ + ib₀ = −ḡ + (i + ḡ)Λ``.  A radial impulse ``p`` with forward slip changes ``Q`` by
+``v₀ = a₀ + ib₀ = −ḡ + (i + ḡ)Λ``.  An impact takes ``(1 + iτ)p``, ``p = (1 + d)a``, from the velocity, with ``|τ| ≤ μ`` whether slip goes on, stops, or is backward.  It changes
+``Q`` by
 
-    −2p(−a₀ + μ(b − b₀) + ea),      e = 1 − ½(1 + d)(1 + μ²),
+    −2p(−a₀ + τ(b − b₀) + ea),      e = 1 − ½(1 + d)(1 + τ²),
 
-and lasting contact by the same with ``a = 0`` and ``p = N dt``.  Where ``h = −a₀ > 0``, that is no rise for all ``a ≥ 0`` with
+and lasting contact of any kind by the same with ``a = 0`` and ``p = N dt``.  Where ``h = −a₀ > 0``, that is no rise for all ``a ≥ 0`` with
 
-    |ξ|² ≤ K h²,      K = 1 + 1/μ² if e ≥ 0, else (1 − e)²/(e² + μ²).
+    |ξ|² ≤ K h²,      K = 1 + 1/μ² if e ≥ 0 for τ = μ, else (1 − e)²/(e² + μ²) with that e.
 
 *Trap.*  So no motion leaves the set ``Q ≤ C`` if ``C < (k − |g|²)|1 − Λ|² + K max(h, 0)²`` at all angles ``ψ``; in it ``Q`` falls to zero.
 
@@ -25,6 +26,7 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
+import numpy as np
 from flint import arb
 
 from carom.proofs.lines import Numbers
@@ -76,8 +78,10 @@ class Surface(NamedTuple):
         return Surface(*(float(number.mid()) for number in self))
 
     def after(self, a: Any, b: Any) -> tuple[Any, Any]:
-        """Velocity after an impact with forward slip."""
-        return -self.d * a, b - self.grip * a
+        """Velocity after an impact, in all cases of slip."""
+        slip, most = self.ratio + b, self.grip * a
+        taken = slip.min(most).max(-most) if isinstance(slip, arb) else np.clip(slip, -most, most)
+        return -self.d * a, b - taken
 
 
 class Form(NamedTuple):
