@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from carom.cli.terminal import AsJson, Settings, check_output, console, print_document, progress
+from carom.files.directory import FIGURES
 from carom.outcome import InputError, shown
 
 if TYPE_CHECKING:
@@ -17,6 +18,10 @@ if TYPE_CHECKING:
 
 CERTIFICATE, CELLS = "proof.json", "cells.json"
 """Names of the certificate, and of the cells of kicks found so far, in the directory given."""
+PICTURE, SAMPLED = "proven-kicks", (160, 160)
+"""Name of the figure of kicks, and in how many of them the basin below it is sampled."""
+_DRAWING = 0.95
+"""Share of the bar after which it is drawn."""
 
 
 def prove(
@@ -51,7 +56,11 @@ def prove(
         str | None, typer.Option(metavar="T", help="End the search after T, such as '2 h'; by default 10 min.")
     ] = None,
     out: Annotated[
-        str | None, typer.Option(metavar="DIR", help=f"Write the certificate, {CERTIFICATE}, to this directory.")
+        str | None,
+        typer.Option(
+            metavar="DIR",
+            help=f"Write the certificate, {CERTIFICATE}, to this directory, and of kicks the figure; with --check the figure alone.",
+        ),
     ] = None,
     check: Annotated[
         str | None, typer.Option(metavar="FILE", help="Verify a certificate instead; no machine file is needed.")
@@ -68,10 +77,15 @@ def prove(
         from carom.proofs import prove as prove_machine
 
         if check is not None:
-            others = (machine, longest_period, out, along, start, stop, kicks_up_to, most_impacts, time_limit)
+            others = (machine, longest_period, along, start, stop, kicks_up_to, most_impacts, time_limit)
             if settings or impacts != 1 or any(other is not None for other in others):
                 raise InputError("--check", shown(check), "must stand alone: a certificate holds its machine")
-            proof = verify(check, progress=tell)
+            check_output(out)
+            proof = verify(check, progress=tell.part(0.0, _DRAWING))
+            if out is not None and proof.theorem != "kicks":
+                raise InputError(
+                    "--out", shown(out), "allowed with --check only for a proof of kicks, which has a figure"
+                )
         elif machine is None:
             raise InputError("MACHINE.toml", None, "give a machine file, or a certificate with --check")
         elif kicks_up_to is not None:
@@ -79,7 +93,9 @@ def prove(
                 raise InputError(
                     "--kicks-up-to", shown(kicks_up_to), "cannot be combined with options of other theorems"
                 )
-            proof = _prove_kicks(machine, kicks_up_to, settings or (), most_impacts, time_limit, out, tell)
+            proof = _prove_kicks(
+                machine, kicks_up_to, settings or (), most_impacts, time_limit, out, tell.part(0.0, _DRAWING)
+            )
         else:
             if most_impacts is not None or time_limit is not None:
                 raise InputError("--kicks-up-to", None, "is needed by --most-impacts and --time-limit")
@@ -92,18 +108,38 @@ def prove(
                 impacts=impacts,
                 along=along,
                 interval=interval,
-                progress=tell,
+                progress=tell.part(0.0, _DRAWING),
             )
-    if out is not None:
-        directory = Path(out)
-        directory.mkdir(parents=True, exist_ok=True)
-        proof.save(directory / CERTIFICATE)
+        if out is not None:
+            Path(out).mkdir(parents=True, exist_ok=True)
+            if check is None:
+                proof.save(Path(out) / CERTIFICATE)
+            if proof.theorem == "kicks":
+                tell(_DRAWING, "drawing")
+                _draw(proof, Path(machine or "certificate").stem, Path(out))
     if as_json:
         print_document(proof.document())
         return
     _print_proof(proof, checked=check is not None)
-    if out is not None:
+    if check is None and out is not None:
         console().print(f"Certificate: {Path(out) / CERTIFICATE}", soft_wrap=True)
+    if out is not None and proof.theorem == "kicks":
+        console().print(f"Figure: {Path(out) / FIGURES / PICTURE}.svg", soft_wrap=True)
+
+
+def _draw(proof: Proof, name: str, directory: Path) -> None:
+    """Write the figure of a proof of kicks, over the basin that simulation finds."""
+    from carom import plots
+    from carom.basins import map_cells
+    from carom.disturbances import Grid, KickPlane
+    from carom.proofs import ProvenKicks
+
+    kicks, given = ProvenKicks.of(proof), {**proof.hypotheses.values, **proof.hypotheses.settings}
+    names = ("damping", "stiffness", "speed") if proof.hypotheses.table == "machine" else tuple(given)
+    told = [f"{key} {given[key].removeprefix('double ')}" for key in names]
+    basin = map_cells(kicks.rotor, Grid(KickPlane(kicks.largest), SAMPLED))
+    with plots.heading(f"{name}: {', '.join(told)}"):
+        plots.save(kicks.plot(basin), directory / FIGURES / PICTURE)
 
 
 def _interval(along: str | None, start: str | None, stop: str | None) -> tuple[str, str] | None:
