@@ -94,8 +94,7 @@ def _panels(kicks: ProvenKicks, basin: Cells | None) -> tuple[Figure, list[Axes]
 
 def _title(kicks: ProvenKicks) -> str:
     unit = shown_in("velocity", kicks.rotor.scales)[1]
-    words = kicks.words.replace(unit, formula(unit))
-    return f"{words[0].upper()}{words[1:]}" if not kicks.share else f"Proven: {words}"
+    return f"Proven: {kicks.words.replace(unit, formula(unit))}"
 
 
 def _sampled(axes: Axes, kicks: ProvenKicks, basin: Cells) -> list[Artist]:

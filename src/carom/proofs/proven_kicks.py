@@ -9,13 +9,15 @@ from typing import ClassVar
 import numpy as np
 
 from carom.arguments import checked
-from carom.models import Jeffcott
+from carom.closed_forms import harmless_kick
+from carom.models import Jeffcott, Subject, jeffcott_of
 from carom.outcome import InputError
 from carom.parameters.told import number, rounded_down, shown_in
 from carom.proofs.claims import Proof
 from carom.proofs.kick_cells import BY_ANGLE, BY_SPEED, DISC, IMPACTS, OPEN, Cell, Tree, leaves, read, share_of
 from carom.proofs.kick_claims import THEOREM
 from carom.proofs.kick_discs import Disc
+from carom.proofs.proven_lines import check_machine
 from carom.proofs.seeds import doubles_of
 from carom.results import Result
 
@@ -62,13 +64,12 @@ class ProvenKicks(Result):
     largest : float
         Radius of the disc, in ``c_r Ω``, fixed frame.
     all_up_to : float
-        Every slower kick is proven to return.
+        Every slower kick is proven to return by its cells.
     share, open_share : float
         Shares of the area of the disc that are proven and open.
     parts : tuple of KickPart
         The proven ones by their impacts, then the open ones, the largest first.
-    tree : mapping
-        What is known of each cell (:mod:`carom.proofs.kick_cells`).
+    proof : Proof
 
     Examples
     --------
@@ -88,31 +89,41 @@ class ProvenKicks(Result):
     share: float
     open_share: float
     parts: tuple[KickPart, ...]
-    tree: Tree
+    proof: Proof
 
     @classmethod
     @checked
-    def of(cls, proof: Proof) -> ProvenKicks:
+    def of(cls, proof: Proof, machine: Subject | None = None) -> ProvenKicks:
         """What a proof shows.
+
+        Parameters
+        ----------
+        proof : Proof
+        machine : Machine, Case, Parameters or model, optional
+            The machine, in the units of which it is told; by default that of the hypotheses.
 
         Raises
         ------
         InputError
-            It is none of kicks.
+            It is none of kicks, or of another machine.
         """
         if proof.theorem != THEOREM:
             raise InputError("proof", proof.theorem, "a proof of kicks, as prove_kicks makes it")
+        if machine is None:
+            rotor = Jeffcott(doubles_of(proof.hypotheses))
+        else:
+            rotor = jeffcott_of(machine)
+            check_machine(proof.hypotheses, rotor)
         numbers = proof["kicks recover"].enclosures
-        tree = read(proof.evidence["cells"])
         disc = Disc(proof.hypotheses, proof.options["kicks_up_to"], proof.options["most_impacts"])
         return cls(
-            rotor=Jeffcott(doubles_of(proof.hypotheses)),
+            rotor=rotor,
             largest=float(disc.speed(DISC.speeds[1]).mid()),
             all_up_to=float(numbers["speed"].low),
             share=numbers["share_proven"].value,
             open_share=numbers["share_open"].value,
-            parts=_parts(tree),
-            tree=tree,
+            parts=_parts(read(proof.evidence["cells"])),
+            proof=proof,
         )
 
     @property
@@ -125,20 +136,35 @@ class ProvenKicks(Result):
         """What is proven to return does so with at most so many impacts."""
         return max((part.impacts for part in self.parts if part.impacts is not None), default=0)
 
+    @cached_property
+    def sure_up_to(self) -> float:
+        """Speed up to which every kick is proven to return, by its cells or because it never touches."""
+        return max(self.all_up_to, harmless_kick(self.rotor))
+
+    @property
+    def told_up_to(self) -> str:
+        """The same in the unit that people are told, rounded down."""
+        factor, unit = shown_in("velocity", self.rotor.scales)
+        return f"{number(rounded_down(factor * self.sure_up_to))} {unit}"
+
     @property
     def words(self) -> str:
         """What is proven, with numbers that say no more than that."""
         factor, unit = shown_in("velocity", self.rotor.scales)
         disc = f"{number(factor * self.largest)} {unit}"
-        after = f"after at most {self.impacts} impact{'' if self.impacts == 1 else 's'}"
+        most = f"after at most {self.impacts} impact{'' if self.impacts == 1 else 's'}"
+        after = most if self.impacts else "without an impact"
         if self.whole:
             return f"every kick up to {disc} comes back, {after}"
         if not self.share:
-            return f"of no kick up to {disc} is it proven that it comes back"
-        share = f"{number(rounded_down(100.0 * self.share))} % of the kicks up to {disc} come back, {after}"
-        if not self.all_up_to:
-            return share
-        return f"{share}, and every one up to {number(rounded_down(factor * self.all_up_to))} {unit}"
+            return f"every kick up to {self.told_up_to} comes back; of those up to {disc} no more is proven"
+        share = number(rounded_down(100.0 * self.share))
+        return f"{share} % of the kicks up to {disc} come back, {after}, and every one up to {self.told_up_to}"
+
+    @cached_property
+    def tree(self) -> Tree:
+        """What is known of each cell (:mod:`carom.proofs.kick_cells`)."""
+        return read(self.proof.evidence["cells"])
 
     @cached_property
     def edges(self) -> np.ndarray:
