@@ -111,7 +111,7 @@ def _sampled(axes: Axes, kicks: ProvenKicks, basin: Cells) -> list[Artist]:
     proven = np.array([*(part.proven for part in kicks.parts), False])[kicks.at(*np.meshgrid(line, line))]
     veil = np.ones((PIXELS, PIXELS, 4))
     veil[..., 3] = np.where(proven, 0.0, _VEIL)
-    place: dict[str, Any] = {"extent": (-reach, reach, -reach, reach), "origin": "lower", "zorder": 2.5}
+    place: dict[str, Any] = {"extent": (-reach, reach, -reach, reach), "origin": "lower", "zorder": 1.5}
     axes.imshow(veil, **place, interpolation="nearest", gid="veil")
     entries: list[Artist] = [look.named(look.words) for look in motions]
     return entries if kicks.whole else [*entries, Patch(fc="white", ec="#a6a6a6", lw=0.4, label="pale: not proven")]
