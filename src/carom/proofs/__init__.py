@@ -29,6 +29,7 @@
 ``seeds``           what is looked at, found in double precision
 ``claims``          claims and proofs
 ``proven_lines``    what a proof shows of a diagram or a plane, for figures
+``proven_kicks``    what a proof shows of a disc of kicks, for figures and studies
 ``evidence``        what a search found, so that a check need not search
 ``theorems``        the theorems by name
 ``proving``         prove, at a precision that rises by itself
@@ -64,6 +65,7 @@ from carom.proofs.certificates import check
 from carom.proofs.claims import Claim, Proof
 from carom.proofs.hypotheses import Hypotheses, hypotheses_of
 from carom.proofs.kicks import prove_kicks
+from carom.proofs.proven_kicks import ProvenKicks
 from carom.proofs.proving import prove
 from carom.proofs.states import prove_states
 
@@ -72,6 +74,7 @@ __all__ = [
     "Enclosure",
     "Hypotheses",
     "Proof",
+    "ProvenKicks",
     "check",
     "hypotheses_of",
     "prove",

@@ -16,7 +16,7 @@ from carom.proofs.passages import REASONS
 BY_SPEED, BY_ANGLE = "v", "a"
 IMPACTS = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZ"
 """Letters of cells that are proven to return with at most so many impacts."""
-AHEAD, LOST = "t", "x"
+AHEAD, LOST = "u", "x"
 OPEN = {
     AHEAD: "time was up",
     LOST: "a kick in the middle does not return in double precision",
