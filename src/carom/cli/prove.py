@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -18,6 +18,10 @@ if TYPE_CHECKING:
 
 CERTIFICATE, CELLS = "proof.json", "cells.json"
 """Names of the certificate, and of the cells of kicks found so far, in the directory given."""
+KICKS, STATES = "--kicks-up-to", "--states-up-to"
+"""Options of theorems about what comes back."""
+DRAWN = "kicks"
+"""Theorem that has a figure."""
 PICTURE, SAMPLED = "proven-kicks", (160, 160)
 """Name of the figure of kicks, and in how many of them the basin below it is sampled."""
 _DRAWING = 0.95
@@ -49,6 +53,10 @@ def prove(
         str | None,
         typer.Option(metavar="SPEED", help="Prove instead which kicks out of levitation up to SPEED come back."),
     ] = None,
+    states_up_to: Annotated[
+        str | None,
+        typer.Option(metavar="SPEED", help="Prove instead that all states inside the clearance up to SPEED come back."),
+    ] = None,
     most_impacts: Annotated[
         int | None, typer.Option(metavar="N", help="Leave kicks open that may have more than N impacts; by default 12.")
     ] = None,
@@ -67,64 +75,107 @@ def prove(
     ] = None,
     as_json: AsJson = False,
 ) -> None:
-    """Prove equilibria and all orbits with one impact a period, in ball arithmetic; or along a parameter; or which kicks come back.
+    """Prove equilibria and all orbits with one impact a period, in ball arithmetic; or along a parameter; or what comes back.
 
     The numbers of the machine file are taken exactly as they are written. Each claim is proven, refuted or undecided, with the
     reason. A certificate can be verified by itself, without any search. Needs the extra carom[proof].
     """
+    sizes = {KICKS: kicks_up_to, STATES: states_up_to}
+    limits = {"most_impacts": most_impacts, "time_limit": time_limit}
+    ranges = {"--longest-period": longest_period, "--along": along, "--from": start, "--to": stop}
     with progress("loading") as tell:
-        from carom.proofs import check as verify
-        from carom.proofs import prove as prove_machine
-
+        check_output(out)
+        part = tell.part(0.0, _DRAWING)
         if check is not None:
-            others = (machine, longest_period, along, start, stop, kicks_up_to, most_impacts, time_limit)
+            others = (machine, *sizes.values(), *limits.values(), *ranges.values())
             if settings or impacts != 1 or any(other is not None for other in others):
                 raise InputError("--check", shown(check), "must stand alone: a certificate holds its machine")
-            check_output(out)
-            proof = verify(check, progress=tell.part(0.0, _DRAWING))
-            if out is not None and proof.theorem != "kicks":
-                raise InputError(
-                    "--out", shown(out), "allowed with --check only for a proof of kicks, which has a figure"
-                )
+            proof = _checked(check, out, part)
         elif machine is None:
             raise InputError("MACHINE.toml", None, "give a machine file, or a certificate with --check")
-        elif kicks_up_to is not None:
-            if impacts != 1 or any(other is not None for other in (longest_period, along, start, stop)):
-                raise InputError(
-                    "--kicks-up-to", shown(kicks_up_to), "cannot be combined with options of other theorems"
-                )
-            proof = _prove_kicks(
-                machine, kicks_up_to, settings or (), most_impacts, time_limit, out, tell.part(0.0, _DRAWING)
-            )
+        elif asked := [option for option, size in sizes.items() if size is not None]:
+            if len(asked) > 1 or impacts != 1 or any(other is not None for other in ranges.values()):
+                raise InputError(asked[0], shown(sizes[asked[0]]), "cannot be combined with options of other theorems")
+            proof = _prove_return(machine, asked[0], sizes[asked[0]] or "", settings or (), limits, out, part)
         else:
-            if most_impacts is not None or time_limit is not None:
-                raise InputError("--kicks-up-to", None, "is needed by --most-impacts and --time-limit")
+            _refuse_limits(limits)
             interval = _interval(along, start, stop)
-            check_output(out)
-            proof = prove_machine(
-                machine,
-                settings or (),
-                longest_period=longest_period,
-                impacts=impacts,
-                along=along,
-                interval=interval,
-                progress=tell.part(0.0, _DRAWING),
-            )
+            proof = _prove_motions(machine, settings or (), longest_period, impacts, along, interval, part)
         if out is not None:
-            Path(out).mkdir(parents=True, exist_ok=True)
-            if check is None:
-                proof.save(Path(out) / CERTIFICATE)
-            if proof.theorem == "kicks":
-                tell(_DRAWING, "drawing")
-                _draw(proof, Path(machine or "certificate").stem, Path(out))
+            _write(proof, Path(out), None if check else machine, tell)
     if as_json:
         print_document(proof.document())
         return
     _print_proof(proof, checked=check is not None)
     if check is None and out is not None:
         console().print(f"Certificate: {Path(out) / CERTIFICATE}", soft_wrap=True)
-    if out is not None and proof.theorem == "kicks":
+    if out is not None and proof.theorem == DRAWN:
         console().print(f"Figure: {Path(out) / FIGURES / PICTURE}.svg", soft_wrap=True)
+
+
+def _checked(check: str, out: str | None, tell: Reporter) -> Proof:
+    """Verify a certificate; only of kicks there is something to write."""
+    from carom.proofs import check as verify
+
+    proof = verify(check, progress=tell)
+    if out is not None and proof.theorem != DRAWN:
+        raise InputError("--out", shown(out), "allowed with --check only for a proof of kicks, which has a figure")
+    return proof
+
+
+def _refuse_limits(limits: dict[str, Any]) -> None:
+    """Refuse limits of a search through cells where there is none."""
+    if any(limit is not None for limit in limits.values()):
+        raise InputError(KICKS, None, "is needed by --most-impacts and --time-limit")
+
+
+def _prove_motions(
+    machine: str,
+    settings: Iterable[str],
+    longest_period: str | None,
+    impacts: int,
+    along: str | None,
+    interval: tuple[str, str] | None,
+    tell: Reporter,
+) -> Proof:
+    """Prove equilibria and orbits, of one machine or along a parameter."""
+    from carom.proofs import prove as prove_machine
+
+    return prove_machine(
+        machine, settings, longest_period=longest_period, impacts=impacts, along=along, interval=interval, progress=tell
+    )
+
+
+def _prove_return(
+    machine: str,
+    option: str,
+    largest: str,
+    settings: Iterable[str],
+    limits: dict[str, Any],
+    out: str | None,
+    tell: Reporter,
+) -> Proof:
+    """Prove what returns to levitation; of cells, with a directory go on from those in it."""
+    from carom.proofs import prove_kicks, prove_states
+
+    if option == STATES:
+        _refuse_limits(limits)
+        return prove_states(machine, largest, settings, progress=tell)
+    store = None if out is None else Path(out) / CELLS
+    if out is not None:
+        Path(out).mkdir(parents=True, exist_ok=True)
+    given = {name: value for name, value in limits.items() if value is not None}
+    return prove_kicks(machine, largest, settings, store=store, progress=tell, **given)
+
+
+def _write(proof: Proof, directory: Path, machine: str | None, tell: Reporter) -> None:
+    """Write the certificate, unless it is what was checked, and the figure of kicks."""
+    directory.mkdir(parents=True, exist_ok=True)
+    if machine is not None:
+        proof.save(directory / CERTIFICATE)
+    if proof.theorem == DRAWN:
+        tell(_DRAWING, "drawing")
+        _draw(proof, Path(machine or "certificate").stem, directory)
 
 
 def _draw(proof: Proof, name: str, directory: Path) -> None:
@@ -153,27 +204,6 @@ def _interval(along: str | None, start: str | None, stop: str | None) -> tuple[s
     for option, end in (("--from", start), ("--to", stop)):
         check_exact(option, end, along)
     return start, stop
-
-
-def _prove_kicks(
-    machine: str,
-    kicks_up_to: str,
-    settings: Iterable[str],
-    most_impacts: int | None,
-    time_limit: str | None,
-    out: str | None,
-    tell: Reporter,
-) -> Proof:
-    """Prove kicks; with a directory go on from the cells in it."""
-    from carom.proofs import prove_kicks
-
-    check_output(out)
-    if out is not None:
-        Path(out).mkdir(parents=True, exist_ok=True)
-    limits = {"most_impacts": most_impacts, "time_limit": time_limit}
-    given = {name: value for name, value in limits.items() if value is not None}
-    store = None if out is None else Path(out) / CELLS
-    return prove_kicks(machine, kicks_up_to, settings, store=store, progress=tell, **given)  # type: ignore[arg-type]
 
 
 def _print_proof(proof: Proof, checked: bool) -> None:

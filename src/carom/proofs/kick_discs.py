@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property, lru_cache
 from typing import Any, NamedTuple
@@ -13,10 +13,9 @@ from flint import arb
 
 from carom.models import Jeffcott
 from carom.motions import settle
-from carom.outcome import InputError, Outcome
-from carom.parameters import MACHINE_FIELDS, Field
-from carom.parameters.exact import read_exact
-from carom.proofs.balls import ball_of, rational
+from carom.outcome import Outcome
+from carom.parameters import Field
+from carom.proofs.balls import rational
 from carom.proofs.evidence import NotShownError
 from carom.proofs.hypotheses import Hypotheses
 from carom.proofs.kick_cells import BY_ANGLE, BY_SPEED, IMPACTS, LOST, Cell
@@ -25,6 +24,7 @@ from carom.proofs.patches import Held
 from carom.proofs.recoveries import impacts_of, kicked
 from carom.proofs.rotor import Rotor
 from carom.proofs.seeds import doubles_of
+from carom.proofs.speeds import LargestSpeed
 
 _SPEED = Field("kicks_up_to", "V", "largest kick out of levitation", "a velocity", "m/s", 1e-9, 1e9, '"100 mm/s"')
 
@@ -67,36 +67,25 @@ class Disc:
     most_impacts: int
 
     def __post_init__(self) -> None:
-        self.exact  # noqa: B018  (raises if it is no speed)
+        self._limit  # noqa: B018  (raises if it is no speed)
+
+    @cached_property
+    def _limit(self) -> LargestSpeed:
+        return LargestSpeed(self.hypotheses, self.largest, _SPEED)
 
     @property
     def physical(self) -> bool:
         """Whether its speed has a unit."""
-        return self.hypotheses.table == "machine"
+        return self._limit.physical
 
-    @cached_property
+    @property
     def exact(self) -> tuple[Fraction, int]:
         """Its largest speed in m/s, or in ``c_r Ω``: a rational number, times π to a power."""
-        field = replace(_SPEED, needs_unit=True) if self.physical else replace(_SPEED, unit="", kind="a number")
-        number = read_exact(field, self.largest)
-        if number.low != number.high:
-            raise InputError("kicks_up_to", self.largest, "must be one speed")
-        return number.low, number.turns
+        return self._limit.exact
 
     def speed(self, share: Fraction) -> Any:
         """Ball of a share of the largest speed, in ``c_r Ω``."""
-        return rational(self.exact[0] * share) * self._unit
-
-    @cached_property
-    def _unit(self) -> Any:
-        """What the rational part of the largest speed counts in ``c_r Ω``."""
-        unit: Any = arb.pi() ** self.exact[1]
-        if self.physical:
-            values = self.hypotheses.values
-            sizes = (ball_of(read_exact(MACHINE_FIELDS[name], values[name])) for name in ("clearance", "speed"))
-            for size in sizes:
-                unit = unit / size
-        return unit
+        return self._limit.share(share)
 
     @cached_property
     def held(self) -> Held:

@@ -9,6 +9,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from carom.proofs import state_claims
 from carom.proofs.claims import Claim, claim_of
 from carom.proofs.evidence import Evidence, rational_of
 from carom.proofs.kick_claims import NOT_CLAIMED, OPTIONS, THEOREM, kick_claims
@@ -149,5 +150,6 @@ THEOREMS: Mapping[str, Theorem] = {
         ("along", "from", "to", "blocks", "narrowest"),
     ),
     THEOREM: Theorem(kick_claims, NOT_CLAIMED, OPTIONS),
+    state_claims.THEOREM: Theorem(state_claims.state_claims, state_claims.NOT_CLAIMED, state_claims.OPTIONS),
 }
 """Theorems by their names in certificates."""
