@@ -13,7 +13,6 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Circle, Patch
 
 from carom.arguments import checked
-from carom.closed_forms import harmless_kick
 from carom.outcome import InputError
 from carom.parameters.told import rounded_down, shown_in
 from carom.plots.cells import looks_of, paint
@@ -178,9 +177,8 @@ def _frame(axes: Axes, kicks: ProvenKicks) -> list[Line2D]:
     axes.set_aspect("equal")
     axes.set(xlim=(-reach, reach), ylim=(-reach, reach))
     axes.set(xlabel=f"kick outward ({unit})", ylabel=f"kick in the sense of rotation ({unit})")
-    harmless = harmless_kick(kicks.rotor)
-    marked = [(harmless, (4.0, 2.0), "none touches below")]
-    if not kicks.whole and kicks.all_up_to > harmless:  # else it says no more
+    marked = [(kicks.harmless, (4.0, 2.0), "none touches below")]
+    if not kicks.whole and kicks.all_up_to > kicks.harmless:  # else it says no more
         marked.append((kicks.all_up_to, (1.0, 1.5), "all proven to come back below"))
     lines = []
     for size, dashes, words in marked:

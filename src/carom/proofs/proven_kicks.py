@@ -157,9 +157,14 @@ class ProvenKicks(Result):
         return max((part.impacts for part in self.parts if part.impacts is not None), default=0)
 
     @cached_property
+    def harmless(self) -> float:
+        """Speed below which no kick touches (:func:`~carom.closed_forms.harmless_kick`)."""
+        return harmless_kick(self.rotor)
+
+    @property
     def sure_up_to(self) -> float:
         """Speed up to which every kick is proven to return, by its cells or because it never touches."""
-        return max(self.all_up_to, harmless_kick(self.rotor))
+        return max(self.all_up_to, self.harmless)
 
     @property
     def told_up_to(self) -> str:
