@@ -22,7 +22,7 @@ from typing import Any
 
 from flint import acb, arb
 
-from carom.proofs.forms import Form, Pair
+from carom.proofs.mean_values import Form, Pair
 from carom.proofs.patches import Departure, Held, cross, dot
 
 Jet = list[Any]

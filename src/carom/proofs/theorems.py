@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
+from carom.proofs import state_claims
 from carom.proofs.claims import Claim, claim_of
 from carom.proofs.evidence import Evidence, rational_of
 from carom.proofs.families import FAMILIES
@@ -154,5 +155,6 @@ THEOREMS: Mapping[str, Theorem] = {
         about: Theorem(partial(kick_claims, family), NOT_CLAIMED, options_of(family))
         for about, family in FAMILIES.items()
     },
+    state_claims.THEOREM: Theorem(state_claims.state_claims, state_claims.NOT_CLAIMED, state_claims.OPTIONS),
 }
 """Theorems by their names in certificates."""
