@@ -69,7 +69,7 @@ def _shape(axes: Axes, places: Floats, whirl: Whirl) -> None:
     axes.plot(places, turned.real, color=look.colour, lw=1.4, label=f"{whirl.sense} whirl", gid="along")
     if np.abs(turned.imag).max() > _ROUND:
         axes.plot(places, turned.imag, color=look.colour, lw=1.0, ls=":", label=f"{whirl.sense}, across", gid="across")
-    title = f"{number(whirl.frequency, 3)} Hz, {whirl.sense}, damping ratio {number(whirl.damping_ratio, 2)}"
+    title = f"{number(whirl.frequency, 4)} Hz, {whirl.sense}, damping ratio {number(whirl.damping_ratio, 2)}"
     axes.set_title(title, fontsize="small")
 
 
