@@ -50,6 +50,9 @@ class PlanarKind:
     template = "planar.html.jinja"
     scripts: tuple[str, ...] = PLANAR
     figures: tuple[str, ...] = ("history", "section", "diagram")
+    planes_shown = 1
+    frame = "rotating"
+    reading = "Point at a kick: what comes back flies as 1, what is lost as 2. Angles count from 0°, the x axis that turns with the shaft."
 
     def __init__(self, origin: Origin) -> None:
         self.origin, self.mark = origin, mark_of(origin.case.name, as_toml(origin.case))
