@@ -157,6 +157,7 @@ class PlanarKind:
 
     def _coarse(self, shown: Shown, tell: Tell) -> Message:
         """Picture that is computed fast enough to follow a dragged slider, as fine as that allows."""
+        self._largest(shown)  # which takes seconds the first time, and would be taken for the cost of the picture
         cells, began = self._cells(PATIENCE, COARSE), time.perf_counter()
         message = self._picture(shown, cells, tell)
         cost = (time.perf_counter() - began) / message["size"] ** 2
