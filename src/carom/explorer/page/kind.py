@@ -92,6 +92,12 @@ class Kind(Protocol):
         The control that counts as moved last at first.
     template, scripts, figures : str, tuple of str, tuple of str
         Parts of the page.
+    planes_shown : int
+        Touchdown bearings at which a motion is drawn.
+    frame : {"rotating", "fixed"}
+        In which it is drawn first.
+    reading : str
+        How the picture of kicks is read, in a figure without the page.
     """
 
     origin: Origin
@@ -106,6 +112,9 @@ class Kind(Protocol):
     template: str
     scripts: tuple[str, ...]
     figures: tuple[str, ...]
+    planes_shown: int
+    frame: str
+    reading: str
 
     def subject(self, settings: Mapping[str, str]) -> Any:
         """The machine with other values of its controls; refuse all that cannot be used at once."""

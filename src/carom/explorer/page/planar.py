@@ -50,6 +50,9 @@ class PlanarKind:
     template = "planar.html.jinja"
     scripts: tuple[str, ...] = PLANAR
     figures: tuple[str, ...] = ("history", "section", "diagram")
+    planes_shown = 1
+    frame = "rotating"
+    reading = "Point at a kick: what comes back flies as 1, what is lost as 2. Angles count from 0°, the x axis that turns with the shaft."
 
     def __init__(self, origin: Origin) -> None:
         self.origin, self.mark = origin, mark_of(origin.case.name, as_toml(origin.case))
@@ -154,6 +157,7 @@ class PlanarKind:
 
     def _coarse(self, shown: Shown, tell: Tell) -> Message:
         """Picture that is computed fast enough to follow a dragged slider, as fine as that allows."""
+        self._largest(shown)  # which takes seconds the first time, and would be taken for the cost of the picture
         cells, began = self._cells(PATIENCE, COARSE), time.perf_counter()
         message = self._picture(shown, cells, tell)
         cost = (time.perf_counter() - began) / message["size"] ** 2

@@ -48,14 +48,14 @@ class Session:
     ready : threading.Event
         Set when the kernels are compiled.
     wanted : collection of str, optional
-        What of all that takes long is done; by default everything.
+        Answers of what takes long that are wanted; by default all.
     """
 
     def __init__(
         self, origin: Origin, answer: Answer, ready: threading.Event, wanted: Collection[str] | None = None
     ) -> None:
         self.kind, self._answer, self._ready = kind_of(origin), answer, ready
-        self._wanted = tuple(self.kind.long) if wanted is None else wanted
+        self._wanted = {task.answer for task in self.kind.long.values()} if wanted is None else set(wanted)
         self._shown = Shown(0, self.kind.subject({}), {}, self.kind.along, View())
         self._reported = 0.0
         self._left: dict[str, Work] = {}
@@ -122,7 +122,7 @@ class Session:
     def _finish(self) -> None:
         """Start everything that takes longer than a moment."""
         self._answer("exports", self.kind.exports(self._shown))
-        self._left = {name: task.work for name, task in self.kind.long.items() if name in self._wanted}
+        self._left = {name: task.work for name, task in self.kind.long.items() if task.answer in self._wanted}
         self.resume()
 
     def kick(self, request: Mapping[str, Any]) -> None:
