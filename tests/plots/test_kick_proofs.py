@@ -16,7 +16,7 @@ from carom.disturbances import Grid, KickPlane, VelocityKick
 from carom.outcome import InputError
 from carom.proofs import ProvenKicks, hypotheses_of
 from carom.proofs.evidence import Evidence
-from carom.proofs.kick_claims import THEOREM
+from carom.proofs.families import KICKS
 from carom.proofs.kick_search import BITS
 from carom.proofs.proving import proof_at
 
@@ -27,7 +27,7 @@ pytestmark = pytest.mark.jit_only
 def kicks():
     """The slower half is proven, and nothing of the others."""
     machine, options = hypotheses_of("examples/spindle.toml"), {"kicks_up_to": "150 mm/s", "most_impacts": 2}
-    return ProvenKicks.of(proof_at(BITS, THEOREM, machine, options, Evidence({"cells": "v0vagtx"})))
+    return ProvenKicks.of(proof_at(BITS, KICKS.about, machine, options, Evidence({"cells": "v0vagmx"})))
 
 
 @pytest.fixture(scope="module")

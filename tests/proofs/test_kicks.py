@@ -249,7 +249,7 @@ def test_time_that_is_up_leaves_cells_open_with_reasons():
     [
         (SPINDLE, "120", "has no unit"),
         (SPINDLE, "0 mm/s", "kicks_up_to"),
-        (SPINDLE, "[100 mm/s, 120 mm/s]", "must be one speed"),
+        (SPINDLE, "[100 mm/s, 120 mm/s]", "must be one velocity"),
         ({**dict.fromkeys(NAMES, "0.1"), "rho": "2"}, "1", "must levitate inside the wall"),
         ({**dict.fromkeys(NAMES, "0.1"), "gamma": "0"}, "1", "must levitate inside the wall"),
     ],

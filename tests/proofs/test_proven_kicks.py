@@ -10,7 +10,7 @@ import pytest
 from carom.outcome import InputError
 from carom.proofs import ProvenKicks, hypotheses_of, prove, prove_kicks
 from carom.proofs.evidence import Evidence
-from carom.proofs.kick_claims import THEOREM
+from carom.proofs.families import KICKS
 from carom.proofs.kick_search import BITS
 from carom.proofs.proven_kicks import BEYOND
 from carom.proofs.proving import proof_at
@@ -33,7 +33,7 @@ def half():
 def proven(machine, largest, cells):
     """What cells show, which nothing is searched for."""
     options = {"kicks_up_to": largest, "most_impacts": 2}
-    return ProvenKicks.of(proof_at(BITS, THEOREM, hypotheses_of(machine), options, Evidence({"cells": cells})))
+    return ProvenKicks.of(proof_at(BITS, KICKS.about, hypotheses_of(machine), options, Evidence({"cells": cells})))
 
 
 @pytest.mark.parametrize("name", ["whole", "half"])

@@ -15,7 +15,7 @@ from carom.orbits import find_orbits
 from carom.parameters import Case, Requirement, Shock, Zones
 from carom.proofs import ProvenKicks, check, hypotheses_of, prove
 from carom.proofs.evidence import Evidence
-from carom.proofs.kick_claims import THEOREM
+from carom.proofs.families import KICKS
 from carom.proofs.kick_search import BITS
 from carom.proofs.proving import proof_at
 from carom.report import report_page, write_report
@@ -77,7 +77,7 @@ def proven_of(study, largest, cells):
     """What cells show of the kicks of a studied machine."""
     options = {"kicks_up_to": str(largest), "most_impacts": 2}
     evidence = Evidence({"cells": cells})
-    return ProvenKicks.of(proof_at(BITS, THEOREM, hypotheses_of(study.rotor), options, evidence), study.rotor)
+    return ProvenKicks.of(proof_at(BITS, KICKS.about, hypotheses_of(study.rotor), options, evidence), study.rotor)
 
 
 @pytest.fixture(scope="module")
@@ -136,7 +136,7 @@ def test_facts_say_what_is_proven_and_what_is_open(half):
     assert half.verdict.outcome == replace(half, kicks=None).verdict.outcome
     (text,) = (fact.text for fact in half.facts if fact.topic == "Proven")
     assert text.endswith(
-        "Left open: 43.8 % of the area (a kick in the middle does not return in double precision) and 31.2 % of the area (whether flights graze the wall is not decided)."
+        "Left open: 43.8 % of the area (the one in the middle does not return in double precision) and 31.2 % of the area (whether flights graze the wall is not decided)."
     )
     (first, *_) = (fact.text for fact in half.facts if fact.topic == "Not covered")
     assert "but for the kicks that are proven" in first

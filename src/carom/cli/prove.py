@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 CERTIFICATE, CELLS = "proof.json", "cells.json"
 """Names of the certificate, and of the cells of kicks found so far, in the directory given."""
-KICKS, STATES = "--kicks-up-to", "--states-up-to"
+KICKS, SHOCKS, STEPS, STATES = "--kicks-up-to", "--shocks-up-to", "--unbalance-up-to", "--states-up-to"
 """Options of theorems about what comes back."""
 DRAWN = "kicks"
 """Theorem that has a figure."""
@@ -53,12 +53,26 @@ def prove(
         str | None,
         typer.Option(metavar="SPEED", help="Prove instead which kicks out of levitation up to SPEED come back."),
     ] = None,
+    shocks_up_to: Annotated[
+        str | None,
+        typer.Option(
+            metavar="PEAK,TIME",
+            help="The same of half-sine shocks of the base with peaks up to PEAK, such as '20 g, 0.5 ms'.",
+        ),
+    ] = None,
+    unbalance_up_to: Annotated[
+        str | None,
+        typer.Option(
+            metavar="CHANGE",
+            help="The same of steps to the unbalance of the machine, by changes up to CHANGE, such as '20 um' or '500 g mm'.",
+        ),
+    ] = None,
     states_up_to: Annotated[
         str | None,
         typer.Option(metavar="SPEED", help="Prove instead that all states inside the clearance up to SPEED come back."),
     ] = None,
     most_impacts: Annotated[
-        int | None, typer.Option(metavar="N", help="Leave kicks open that may have more than N impacts; by default 12.")
+        int | None, typer.Option(metavar="N", help="Leave open what may have more than N impacts; by default 12.")
     ] = None,
     time_limit: Annotated[
         str | None, typer.Option(metavar="T", help="End the search after T, such as '2 h'; by default 10 min.")
@@ -80,7 +94,7 @@ def prove(
     The numbers of the machine file are taken exactly as they are written. Each claim is proven, refuted or undecided, with the
     reason. A certificate can be verified by itself, without any search. Needs the extra carom[proof].
     """
-    sizes = {KICKS: kicks_up_to, STATES: states_up_to}
+    sizes = {KICKS: kicks_up_to, SHOCKS: shocks_up_to, STEPS: unbalance_up_to, STATES: states_up_to}
     limits = {"most_impacts": most_impacts, "time_limit": time_limit}
     ranges = {"--longest-period": longest_period, "--along": along, "--from": start, "--to": stop}
     with progress("loading") as tell:
@@ -126,7 +140,7 @@ def _checked(check: str, out: str | None, tell: Reporter) -> Proof:
 def _refuse_limits(limits: dict[str, Any]) -> None:
     """Refuse limits of a search through cells where there is none."""
     if any(limit is not None for limit in limits.values()):
-        raise InputError(KICKS, None, "is needed by --most-impacts and --time-limit")
+        raise InputError(KICKS, None, f"or {SHOCKS} or {STEPS} is needed by --most-impacts and --time-limit")
 
 
 def _prove_motions(
@@ -156,7 +170,7 @@ def _prove_return(
     tell: Reporter,
 ) -> Proof:
     """Prove what returns to levitation; of cells, with a directory go on from those in it."""
-    from carom.proofs import prove_kicks, prove_states
+    from carom.proofs import prove_kicks, prove_shocks, prove_states, prove_unbalance_steps
 
     if option == STATES:
         _refuse_limits(limits)
@@ -165,7 +179,8 @@ def _prove_return(
     if out is not None:
         Path(out).mkdir(parents=True, exist_ok=True)
     given = {name: value for name, value in limits.items() if value is not None}
-    return prove_kicks(machine, largest, settings, store=store, progress=tell, **given)
+    search = {KICKS: prove_kicks, SHOCKS: prove_shocks, STEPS: prove_unbalance_steps}[option]
+    return search(machine, largest, settings, store=store, progress=tell, **given)
 
 
 def _write(proof: Proof, directory: Path, machine: str | None, tell: Reporter) -> None:

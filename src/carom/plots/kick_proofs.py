@@ -33,6 +33,8 @@ _TEALS = ("#d3f0ea", "#8fd3c5", "#4fae9f", "#2b857a", "#175e58", "#0b3b3a")
 """Of kicks with at most no, one, two, … impacts; the last one also of those with more."""
 _GREYS = ("#e9e5dc", "#d0cabb", "#b7b1a1", "#9f9989", "#868071")
 """Of open cells, that of the largest area first."""
+_RUB = "#a52f74"
+"""Of kicks that are proven to end in the rub."""
 _EDGES = 0.018
 """Least side of a proven cell whose edges are drawn, relative to the largest kick."""
 _CHORD = 1.0 / 120.0
@@ -107,7 +109,7 @@ def _sampled(axes: Axes, kicks: ProvenKicks, basin: Cells) -> list[Artist]:
     for cells in axes.collections:  # those on the rim
         cells.set_clip_path(Circle((0.0, 0.0), reach, transform=axes.transData))
     line = np.linspace(-kicks.largest, kicks.largest, PIXELS)
-    proven = np.array([*(part.proven for part in kicks.parts), False])[kicks.at(*np.meshgrid(line, line))]
+    proven = np.array([*(not part.open for part in kicks.parts), False])[kicks.at(*np.meshgrid(line, line))]
     veil = np.ones((PIXELS, PIXELS, 4))
     veil[..., 3] = np.where(proven, 0.0, _VEIL)
     place: dict[str, Any] = {"extent": (-reach, reach, -reach, reach), "origin": "lower", "zorder": 1.5}
@@ -124,29 +126,30 @@ def _proven(axes: Axes, kicks: ProvenKicks) -> list[Artist]:
     for place, (look, part) in enumerate(zip(looks, kicks.parts, strict=True)):
         cells = [outlines[cell] for cell in np.flatnonzero(kicks.places == place)]
         # Edges of their own colour, for no gap shows between cells then.
-        edge = {"edgecolor": look["facecolor"], "lw": 0.2, "gid": "proven" if part.proven else "open"}
+        edge = {"edgecolor": look["facecolor"], "lw": 0.2, "gid": "open" if part.open else "proven"}
         axes.add_collection(PolyCollection(cells, **look, **edge, rasterized=True))
-    proven = np.array([part.proven for part in kicks.parts])[kicks.places]
+    proven = np.array([not part.open for part in kicks.parts])[kicks.places]
     wide = [outlines[cell] for cell in np.flatnonzero(proven & (_sides(kicks.edges) > _EDGES))]
     axes.add_collection(PolyCollection(wide, fc="none", ec="#06402a", lw=0.15, rasterized=True))
     return [Patch(**look, lw=0.4, label=_words(part)) for look, part in zip(looks, kicks.parts, strict=True)]
 
 
 def _looks(kicks: ProvenKicks) -> list[dict[str, Any]]:
-    """Colours of the parts: green the darker the more impacts, grey where nothing is proven."""
+    """Colours of the parts: green the darker the more impacts, that of the rub, grey where nothing is proven."""
     left = iter(_GREYS)
-    return [
-        {
-            "facecolor": _TEALS[min(part.impacts, len(_TEALS) - 1)]
-            if part.impacts is not None
-            else next(left, _GREYS[-1])
-        }
-        for part in kicks.parts
-    ]
+
+    def colour(part: KickPart) -> str:
+        if part.impacts is not None:
+            return _TEALS[min(part.impacts, len(_TEALS) - 1)]
+        return _RUB if part.refuted else next(left, _GREYS[-1])
+
+    return [{"facecolor": colour(part)} for part in kicks.parts]
 
 
 def _words(part: KickPart) -> str:
     share = f"{number(100.0 * part.share, 3)} %"
+    if part.refuted:
+        return f"proven to end in the rub: {share}"
     if part.impacts is None:
         return f"open, {share}: {part.reason}"
     if part.impacts == 0:

@@ -36,12 +36,18 @@
 ``patches``         patches of states, and the flights that leave them
 ``passages``        what happens next on all flights of a patch
 ``strikes``         states after an impact
+``mean_values``     numbers with derivatives by a few unknowns, in balls
+``bends``           second derivatives of where flights reach the wall
+``rub_traps``       a region around a stable rub from which no bounce gets out
 ``recoveries``      whether all states of a patch return
-``kick_cells``      the disc of kicks as cells that halve one another
+``starts``          how a disturbance takes a rotor out of levitation
+``families``        kicks, shocks and steps of the unbalance: sizes and words
+``kick_cells``      a disc of kicks, or of others, as cells that halve one another
 ``kick_discs``      what is proven of a cell
 ``kick_search``     the search for cells, in several processes
 ``kick_claims``     claims about kicks
 ``kicks``           prove_kicks, as far as a time allows
+``shocks``          the same for shocks and steps of the unbalance
 ``speeds``          the largest speed that a theorem is about
 ``forms``           quadratic forms that fall in flight and in contact
 ``arrivals``        all states in which motions first meet the wall
@@ -67,6 +73,7 @@ from carom.proofs.hypotheses import Hypotheses, hypotheses_of
 from carom.proofs.kicks import prove_kicks
 from carom.proofs.proven_kicks import ProvenKicks
 from carom.proofs.proving import prove
+from carom.proofs.shocks import prove_shocks, prove_unbalance_steps
 from carom.proofs.states import prove_states
 
 __all__ = [
@@ -79,5 +86,7 @@ __all__ = [
     "hypotheses_of",
     "prove",
     "prove_kicks",
+    "prove_shocks",
     "prove_states",
+    "prove_unbalance_steps",
 ]

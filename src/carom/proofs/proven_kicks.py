@@ -14,8 +14,8 @@ from carom.models import Jeffcott, Subject, jeffcott_of
 from carom.outcome import InputError
 from carom.parameters.told import number, rounded_down, shown_in
 from carom.proofs.claims import Proof
-from carom.proofs.kick_cells import BY_ANGLE, BY_SPEED, DISC, IMPACTS, OPEN, Cell, Tree, leaves, read, share_of
-from carom.proofs.kick_claims import THEOREM
+from carom.proofs.families import KICKS
+from carom.proofs.kick_cells import BY_ANGLE, BY_SPEED, DISC, IMPACTS, OPEN, REFUTED, Cell, Tree, leaves, read, share_of
 from carom.proofs.kick_discs import Disc
 from carom.proofs.proven_lines import check_machine
 from carom.proofs.seeds import doubles_of
@@ -36,9 +36,9 @@ class KickPart:
     letter : str
         Of these cells in the certificate.
     impacts : int or None
-        Every kick is proven to return with at most so many; ``None`` where the cells are open.
+        Every kick is proven to return with at most so many; ``None`` where this is not so.
     reason : str
-        Why they are open; empty where they are proven.
+        Why they are open; empty where something is proven.
     share : float
         Share of the area of the disc.
     """
@@ -53,6 +53,16 @@ class KickPart:
         """Whether every kick is proven to return."""
         return self.impacts is not None
 
+    @property
+    def refuted(self) -> bool:
+        """Whether every kick is proven to end in the stable rub."""
+        return self.letter == REFUTED
+
+    @property
+    def open(self) -> bool:
+        """Whether nothing is proven."""
+        return not (self.proven or self.refuted)
+
 
 @dataclass(frozen=True, eq=False, repr=False)
 class ProvenKicks(Result):
@@ -65,10 +75,10 @@ class ProvenKicks(Result):
         Radius of the disc, in ``c_r Ω``, fixed frame.
     all_up_to : float
         Every slower kick is proven to return by its cells.
-    share, open_share : float
-        Shares of the area of the disc that are proven and open.
+    share, refuted_share, open_share : float
+        Shares of the area of the disc that are proven to return, proven to end in the stable rub, and open.
     parts : tuple of KickPart
-        The proven ones by their impacts, then the open ones, the largest first.
+        The proven ones by their impacts, those that end in the rub, then the open ones, the largest first.
     proof : Proof
 
     Examples
@@ -80,13 +90,22 @@ class ProvenKicks(Result):
     """
 
     figure: ClassVar[str] = "proven_kicks"
-    shown: ClassVar[tuple[str, ...]] = ("rotor", "largest", "all_up_to", "impacts", "share", "open_share")
+    shown: ClassVar[tuple[str, ...]] = (
+        "rotor",
+        "largest",
+        "all_up_to",
+        "impacts",
+        "share",
+        "refuted_share",
+        "open_share",
+    )
     rests_on: ClassVar[tuple[str, ...]] = Proof.rests_on
 
     rotor: Jeffcott
     largest: float
     all_up_to: float
     share: float
+    refuted_share: float
     open_share: float
     parts: tuple[KickPart, ...]
     proof: Proof
@@ -107,7 +126,7 @@ class ProvenKicks(Result):
         InputError
             It is none of kicks, or of another machine.
         """
-        if proof.theorem != THEOREM:
+        if proof.theorem != KICKS.about:
             raise InputError("proof", proof.theorem, "a proof of kicks, as prove_kicks makes it")
         if machine is None:
             rotor = Jeffcott(doubles_of(proof.hypotheses))
@@ -115,12 +134,13 @@ class ProvenKicks(Result):
             rotor = jeffcott_of(machine)
             check_machine(proof.hypotheses, rotor)
         numbers = proof["kicks recover"].enclosures
-        disc = Disc(proof.hypotheses, proof.options["kicks_up_to"], proof.options["most_impacts"])
+        disc = Disc(KICKS, proof.hypotheses, proof.options["kicks_up_to"], proof.options["most_impacts"])
         return cls(
             rotor=rotor,
-            largest=float(disc.speed(DISC.speeds[1]).mid()),
+            largest=float(disc.size(DISC.speeds[1]).mid()),
             all_up_to=float(numbers["speed"].low),
             share=numbers["share_proven"].value,
+            refuted_share=numbers["share_refuted"].value,
             open_share=numbers["share_open"].value,
             parts=_parts(read(proof.evidence["cells"])),
             proof=proof,
@@ -161,10 +181,11 @@ class ProvenKicks(Result):
         after = most if self.impacts else "without an impact"
         if self.whole:
             return f"every kick up to {disc} comes back, {after}"
+        lost = f"; {number(rounded_down(100.0 * self.refuted_share))} % end in the rub" if self.refuted_share else ""
         if not self.share:
-            return f"every kick up to {self.told_up_to} comes back; of those up to {disc} no more is proven"
+            return f"every kick up to {self.told_up_to} comes back; of those up to {disc} no more is proven{lost}"
         share = number(rounded_down(100.0 * self.share))
-        return f"{share} % of the kicks up to {disc} come back, {after}, and every one up to {self.told_up_to}"
+        return f"{share} % of the kicks up to {disc} come back, {after}, and every one up to {self.told_up_to}{lost}"
 
     @cached_property
     def tree(self) -> Tree:
@@ -233,11 +254,12 @@ class ProvenKicks(Result):
 
 
 def _parts(tree: Tree) -> tuple[KickPart, ...]:
-    """What is known of cells: proven with so many impacts, then open for a reason, the largest first."""
+    """What is known of cells: proven with so many impacts, that they end in the rub, then open for a reason, the largest first."""
     cells: dict[str, list[Cell]] = {}
     for cell, letter in leaves(tree):
         cells.setdefault(letter, []).append(cell)
     shares = {letter: float(share_of(alike)) for letter, alike in cells.items()}
     proven = [KickPart(letter, IMPACTS.index(letter), "", shares[letter]) for letter in IMPACTS if letter in shares]
+    proven += [KickPart(REFUTED, None, "", shares[REFUTED])] if REFUTED in shares else []
     left = [KickPart(letter, None, OPEN[letter], shares[letter]) for letter in shares if letter in OPEN]
     return (*proven, *sorted(left, key=lambda part: -part.share))

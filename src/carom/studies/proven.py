@@ -38,7 +38,7 @@ def proven_words(proof: Proof) -> str:
 def proven_kicks_words(kicks: ProvenKicks) -> str:
     """What is proven of kicks, and what is left open for which reasons."""
     text = f"Of kicks out of levitation: {kicks.words}."
-    left = [f"{number(100.0 * part.share, 3)} % of the area ({part.reason})" for part in kicks.parts if not part.proven]
+    left = [f"{number(100.0 * part.share, 3)} % of the area ({part.reason})" for part in kicks.parts if part.open]
     return f"{text} Left open: {listed(left)}." if left else text
 
 
@@ -51,9 +51,10 @@ def proven_kicks_document(kicks: ProvenKicks) -> dict[str, Any]:
         "impacts",
         kicks_up_to="largest",
         share_proven="share",
+        share_refuted="refuted_share",
         share_open="open_share",
     )
-    document["open"] = [fields_of(part, "reason", "share") for part in kicks.parts if not part.proven]
+    document["open"] = [fields_of(part, "reason", "share") for part in kicks.parts if part.open]
     return document | in_si(
         document, kicks.rotor.scales, all_up_to="velocity", sure_up_to="velocity", kicks_up_to="velocity"
     )
