@@ -37,12 +37,12 @@ def test_rows_are_the_second_component(monkeypatch):
 
     def upper(*given, **options):
         from carom.proofs.evidence import Evidence
-        from carom.proofs.kick_claims import THEOREM
+        from carom.proofs.families import KICKS
         from carom.proofs.kick_search import BITS
         from carom.proofs.proving import proof_at
 
         proof = prove_kicks(*given, **options | {"time_limit": 1e-3})
-        return proof_at(BITS, THEOREM, proof.hypotheses, proof.options, Evidence({"cells": "a0g"}))
+        return proof_at(BITS, KICKS.about, proof.hypotheses, proof.options, Evidence({"cells": "a0g"}))
 
     monkeypatch.setattr("carom.proofs.prove_kicks", upper)
     rotor = model_of(CASE)

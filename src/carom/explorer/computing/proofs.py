@@ -46,6 +46,6 @@ def find_proven(rotor: Model, plane: Plane, largest: float, progress: ShowProgre
     kicks = ProvenKicks.of(prove_kicks(known, largest, time_limit=LIMIT, progress=progress), known)
     middles = kicks.largest * ((np.arange(CELLS) + 0.5) * 2.0 / CELLS - 1.0)
     places = kicks.at(*np.meshgrid(middles, middles))
-    left = np.array([*(not part.proven for part in kicks.parts), True])[places]
+    left = np.array([*(part.open for part in kicks.parts), True])[places]
     share = number(rounded_down(100.0 * kicks.share)) if kicks.share else "0"
     return ProvenPicture(kicks.words, f"{share} %", left.astype(np.uint8))
