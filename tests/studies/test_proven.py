@@ -186,9 +186,10 @@ def test_states_that_are_not_all_proven_are_told_as_they_are(half):
 
 @pytest.mark.jit_only
 def test_study_proves_the_kicks_that_must_be_survived():
-    found = study(DAMPED, proofs=True, requirement=Requirement(kick=0.5), proof_time=20.0)
-    assert found.kicks.largest == 0.5
-    assert found.kicks.whole
+    found = study(DAMPED, proofs=True, requirement=Requirement(kick=0.5), proof_time=0.5)
+    # Those that must be survived never touch, so that faster ones are looked at.
+    assert found.kicks.largest == pytest.approx(2.0 * harmless_kick(DAMPED))
+    assert found.verdict.outcome.startswith("Comes back from every kick that it must survive")
     assert found.proof is not None
     assert found.states.options["states_up_to"] == "0.5"
     without = study(DAMPED.replace(rho=0.9), proofs=True, requirement=Requirement(kick=0.5), proof_time=20.0)

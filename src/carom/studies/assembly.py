@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, get_args
 from carom.arguments import checked
 from carom.attractors import DisturbanceSet, find_attractors
 from carom.bifurcations.boundary import boundary_equilibria
+from carom.closed_forms import harmless_kick
 from carom.closed_forms.known import known_of
 from carom.closed_forms.sag import steady_motions
 from carom.closed_forms.thresholds import Gain
@@ -44,6 +45,8 @@ FIRST, FRESH = 2000, 10_000
 """Fresh disturbances at the machine's own gains: at first, and if all of these came back."""
 PROOF_TIME = "30 s"
 """Time for the proof of kicks, if it is asked for."""
+BEYOND = 2.0
+"""Largest kick of this proof relative to the harmless one, where those that must be survived never touch."""
 SEED = 1
 """Seed of these; the search for recovery has its own."""
 
@@ -110,7 +113,7 @@ def study(
         diametral clearance.
     proofs : bool
         Prove equilibria and orbits too, by :func:`carom.prove`, which of the kicks that must be survived come back, by
-        :func:`carom.proofs.prove_kicks`, and whether all states as fast as these do, by :func:`carom.proofs.prove_states`; needs the extra
+        :func:`carom.proofs.prove_kicks` (of kicks up to twice the harmless one where these never touch), and whether all states as fast as these do, by :func:`carom.proofs.prove_states`; needs the extra
         ``carom[proof]``.
     proof_time : str or float
         Time for the proof of kicks, in s or with a unit.  What is proven in it depends on the computer.
@@ -202,14 +205,19 @@ def study(
 def _proven(
     rotor: Model, largest: float, time: str | float, tell: Reporter
 ) -> tuple[Proof, ProvenKicks | None, Proof | None]:
-    """Theorems about equilibria and orbits; about kicks and about all states where there is levitation to come back to."""
+    """Theorems about equilibria and orbits; about kicks and about all states where there is levitation to come back to.
+
+    ``largest`` is the kick that must be survived.
+    """
     from carom.proofs import ProvenKicks, prove, prove_kicks, prove_states  # only here: they need an extra
 
     proof = prove(rotor, progress=tell.part(0.0, 0.2))
     if not comes_to_rest(rotor):
         return proof, None, None
     states = prove_states(rotor, largest, progress=tell.part(0.2, 0.3))
-    kicks = prove_kicks(rotor, largest, time_limit=time, progress=tell.part(0.3, 1.0))
+    harmless = harmless_kick(rotor)
+    reach = largest if largest > harmless else BEYOND * harmless
+    kicks = prove_kicks(rotor, reach, time_limit=time, progress=tell.part(0.3, 1.0))
     return proof, ProvenKicks.of(kicks, rotor), states
 
 
