@@ -96,7 +96,7 @@ def test_claims_that_are_explained_are_made():
         for name in re.findall(r"\*([^*]+)\*", row)
     ]
     made = {claim.name for claim in carom.prove(ROOT / "examples" / "source-paper.toml")}
-    made |= {"kicks recover", "kicks all recover"}
+    made |= {f"{about} {kind}" for about in ("kicks", "states") for kind in ("recover", "all recover", "lost")}
     assert len(named) > 10
     assert set(named) <= made
 
