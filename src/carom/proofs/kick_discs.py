@@ -1,32 +1,37 @@
-"""A disc of kick velocities out of levitation, and what is proven of its cells one by one."""
+"""A disc of kick velocities out of levitation, of one machine or of a box of them, and what is proven of its cells one by one."""
 
 from __future__ import annotations
 
 import json
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property, lru_cache
 from typing import Any, NamedTuple
 
 import numpy as np
-from flint import arb
+from flint import arb, arb_series
 
 from carom.models import Jeffcott
 from carom.motions import settle
 from carom.outcome import InputError, Outcome
-from carom.parameters import MACHINE_FIELDS, Field
+from carom.parameters import DIMENSIONLESS_FIELDS, Field
 from carom.parameters.exact import read_exact
+from carom.parameters.terms import set_by
 from carom.proofs.balls import ball_of, rational
+from carom.proofs.boxes import Box, Part, box_of
 from carom.proofs.evidence import NotShownError
 from carom.proofs.hypotheses import Hypotheses
-from carom.proofs.kick_cells import BY_ANGLE, BY_SPEED, IMPACTS, LOST, Cell
+from carom.proofs.kick_cells import CUTS, IMPACTS, LOST, Cell, whole
 from carom.proofs.passages import GRAZE, LeftOpenError
 from carom.proofs.patches import Held
 from carom.proofs.recoveries import impacts_of, kicked
-from carom.proofs.rotor import Rotor
-from carom.proofs.seeds import doubles_of
+from carom.proofs.seeds import doubles_at
+from carom.proofs.series import terms
 
 _SPEED = Field("kicks_up_to", "V", "largest kick out of levitation", "a velocity", "m/s", 1e-9, 1e9, '"100 mm/s"')
+_KEPT = 4096
+"""Parts of a box that are kept."""
 
 
 class Found(NamedTuple):
@@ -55,19 +60,32 @@ class Disc:
         Speed of its rim: with a unit for a machine, in ``c_r Ω`` for a dimensionless one.
     most_impacts : int
         A kick that may have more of them is left open.
+    along : tuple of tuples of str
+        Parameters of a box of machines, each with both ends of its interval.
 
     Raises
     ------
     InputError
-        The speed is none.
+        The speed is none, or a parameter is not.
     """
 
     hypotheses: Hypotheses
     largest: str
     most_impacts: int
+    along: tuple[tuple[str, ...], ...] = ()
 
     def __post_init__(self) -> None:
-        self.exact  # noqa: B018  (raises if it is no speed)
+        self.exact, self.box  # noqa: B018  (raise if the speed or a parameter is none)
+
+    @cached_property
+    def box(self) -> Box:
+        """Its machines."""
+        return box_of(self.hypotheses, self.along)
+
+    @property
+    def whole(self) -> Cell:
+        """The cell that is all of it."""
+        return whole(len(self.along))
 
     @property
     def physical(self) -> bool:
@@ -84,83 +102,139 @@ class Disc:
         return number.low, number.turns
 
     def speed(self, share: Fraction) -> Any:
-        """Ball of a share of the largest speed, in ``c_r Ω``."""
-        return rational(self.exact[0] * share) * self._unit
+        """Ball of a share of the largest speed, in ``c_r Ω``, for all its machines."""
+        return rational(share) * self._part(self.whole.parts).units[1]
 
-    @cached_property
-    def _unit(self) -> Any:
-        """What the rational part of the largest speed counts in ``c_r Ω``."""
-        unit: Any = arb.pi() ** self.exact[1]
-        if self.physical:
-            values = self.hypotheses.values
-            sizes = (ball_of(read_exact(MACHINE_FIELDS[name], values[name])) for name in ("clearance", "speed"))
-            for size in sizes:
-                unit = unit / size
-        return unit
+    @property
+    def shares_unit(self) -> bool:
+        """Whether ``c_r Ω`` is the same velocity for all its machines."""
+        return not self.physical or not {"speed", "clearance"} & {set_by(name) for name, *_ in self.along}
 
-    @cached_property
-    def held(self) -> Held:
-        """The rotor, at the precision of its first use; :class:`NotShownError` if it may not levitate inside the wall."""
-        held = Held(Rotor(self.hypotheses).numbers)
+    def check_levitation(self) -> None:
+        """Check that one machine of it, that in the middle, levitates inside the wall, with damping; :class:`NotShownError` if not."""
+        held = self._part(self.whole.parts).held.middle
         if not (held.room > 0 and held.numbers.gamma > 0):
             raise NotShownError("the rotor must levitate inside the wall, with damping above 0, for kicks to come back")
-        return held
+
+    def _part(self, parts: tuple[Part, ...]) -> BoxPart:
+        """The machines of a part of the box, kept for the cells that share it."""
+        if parts not in self._known:
+            if len(self._known) >= _KEPT:
+                self._known.clear()
+            self._known[parts] = BoxPart.of(self, parts)
+        return self._known[parts]
 
     @cached_property
-    def _doubles(self) -> tuple[Jeffcott, complex, float]:
-        """The rotor, the direction in which it levitates, and the largest speed, in double precision."""
-        rotor = Jeffcott(doubles_of(self.hypotheses))
-        place = rotor.equilibrium
-        return rotor, place / abs(place) if place else 1.0, float(self.speed(Fraction(1)).mid())
+    def _known(self) -> dict[tuple[Part, ...], BoxPart]:
+        return {}
+
+    def unit(self, moved: Mapping[str, Any]) -> Any:
+        """The largest speed in ``c_r Ω`` at values of the parameters: a ball or a power series."""
+        speed: Any = rational(self.exact[0]) * arb.pi() ** self.exact[1]
+        if not self.physical:
+            return speed
+        table = self.box.machines.table({name: value for name, value in moved.items() if name not in DIMENSIONLESS_FIELDS})
+        return speed / (table["clearance"] * table["speed"])
 
     def show(self, cell: Cell, most: int) -> int:
         """Impacts after which all kicks of a cell return at most; :class:`LeftOpenError` if this is not shown."""
-        slow, fast = (self.speed(share) for share in cell.speeds)
-        angles = tuple(2 * arb.pi() * rational(share) for share in cell.angles)
+        part = self._part(cell.parts)
+        low, high = (rational(share) for share in cell.speeds)
+        first, last = (2 * arb.pi() * rational(share) for share in cell.angles)
         try:
-            return impacts_of(self.held, kicked((slow, fast), (angles[0], angles[1])), most)
+            if not (part.held.room > 0 and part.held.numbers.gamma > 0):
+                raise LeftOpenError(GRAZE, self._sizes(cell))
+            return impacts_of(part.held, kicked((low, high), (first, last), part.units, part.moves), most)
         except (ArithmeticError, ValueError):
             # Balls of a wide cell that hold everything: numbers in double precision fail then.
-            raise LeftOpenError(GRAZE) from None
+            raise LeftOpenError(GRAZE, self._sizes(cell)) from None
 
     def try_(self, cell: Cell) -> Found:
         """What can be proven of a cell of which the kick in the middle returns."""
         try:
             return Found(IMPACTS[self.show(cell, self.most_impacts)])
         except LeftOpenError as problem:
-            by_speed, by_angle = problem.weights
-            return Found(problem.reason[0], BY_SPEED if by_speed >= by_angle else BY_ANGLE)
+            weights = problem.weights if len(problem.weights) == len(self._sizes(cell)) else self._sizes(cell)
+            return Found(problem.reason[0], CUTS[max(range(len(weights)), key=weights.__getitem__)])
 
     def come_back(self, cells: list[Cell]) -> list[bool]:
         """Whether the kick in the middle of each cell returns, in double precision: it decides what is tried."""
-        rotor, ahead, largest = self._doubles
-        middles = [(float(sum(cell.speeds)) / 2, float(sum(cell.angles)) / 2) for cell in cells]
-        kicks = [largest * speed * np.exp(2j * np.pi * angle) * ahead for speed, angle in middles]
-        starts = np.full(len(cells), rotor.equilibrium)
-        endings = settle(rotor, starts, np.array(kicks), threads=1, progress=False)
-        returned: list[bool] = (endings.outcomes == Outcome.LEVITATED).tolist()
-        return returned
+        returned = dict.fromkeys(cells, False)
+        for parts in {cell.parts for cell in cells}:
+            rotor, ahead, largest = self._part(parts).doubles
+            alike = [cell for cell in cells if cell.parts == parts]
+            middles = [(float(sum(cell.speeds)) / 2, float(sum(cell.angles)) / 2) for cell in alike]
+            kicks = [largest * speed * np.exp(2j * np.pi * angle) * ahead for speed, angle in middles]
+            endings = settle(rotor, np.full(len(alike), rotor.equilibrium), np.array(kicks), threads=1, progress=False)
+            returned |= zip(alike, (endings.outcomes == Outcome.LEVITATED).tolist(), strict=True)
+        return [returned[cell] for cell in cells]
 
     def tried(self, cells: list[Cell]) -> list[Found]:
         """What is found of some cells."""
         return [
-            self.try_(cell) if returns else Found(LOST, self._wider(cell))
+            self.try_(cell) if returns else Found(LOST, CUTS[int(np.argmax(self._sizes(cell)))])
             for cell, returns in zip(cells, self.come_back(cells), strict=True)
         ]
 
-    def _wider(self, cell: Cell) -> str:
-        """In which of the two a cell is the wider."""
+    def _sizes(self, cell: Cell) -> tuple[float, ...]:
+        """How wide a cell is in each of its coordinates, in ``c_r Ω``: about by how much they move a flight."""
+        part = self._part(cell.parts)
         (slow, fast), turn = cell.speeds, cell.angles[1] - cell.angles[0]
-        around = 2 * np.pi * float(turn) * min(float(fast) * self._doubles[2], float(self.held.radius.mid()))
-        return BY_SPEED if float(fast - slow) * self._doubles[2] >= around else BY_ANGLE
+        largest, radius = part.doubles[2], part.held.middle.plain_radius
+        around = 2 * np.pi * float(turn) * min(float(fast) * largest, radius)
+        sides = [float((abs(side.gamma) + abs(side.omega_squared) + abs(side.radius)).mid()) for side in part.held.sides]
+        return float(fast - slow) * largest, around, *sides
 
-    def data(self) -> tuple[str, str, int]:
+    def data(self) -> Data:
         """Plain data of it, from which :func:`disc_of` makes it again in another process."""
-        return json.dumps(self.hypotheses.document()), self.largest, self.most_impacts
+        return json.dumps(self.hypotheses.document()), self.largest, self.most_impacts, self.along
+
+
+Data = tuple[str, str, int, tuple[tuple[str, ...], ...]]
 
 
 @lru_cache(maxsize=2)
-def disc_of(data: tuple[str, str, int]) -> Disc:
+def disc_of(data: Data) -> Disc:
     """A disc from plain data, once for all cells that a process looks at."""
-    document, largest, most = data
-    return Disc(Hypotheses.from_document(json.loads(document)), largest, most)
+    document, *rest = data
+    return Disc(Hypotheses.from_document(json.loads(document)), *rest)
+
+
+@dataclass(frozen=True)
+class BoxPart:
+    """The machines of a part of the box.
+
+    Attributes
+    ----------
+    held : Held
+    units : tuple of arb
+        The largest speed in ``c_r Ω`` of the machine in the middle, and of all.
+    moves : list of arb
+        Its derivatives by the parameters, times half their widths.
+    phase : float
+        Of the unbalance.
+    """
+
+    held: Held
+    units: tuple[Any, Any]
+    moves: list[Any]
+    phase: float
+
+    @cached_property
+    def doubles(self) -> tuple[Jeffcott, complex, float]:
+        """The rotor in the middle, the direction in which it levitates, and the largest speed, in double precision."""
+        rotor = Jeffcott(doubles_at(self.held.middle.numbers, self.phase))
+        place = rotor.equilibrium
+        return rotor, place / abs(place) if place else 1.0, float(self.units[0].mid())
+
+    @classmethod
+    def of(cls, disc: Disc, parts: tuple[Part, ...]) -> BoxPart:
+        """From a part of the box of a disc."""
+        box = disc.box
+        units = disc.unit(box.middles(parts)), disc.unit(box.values(parts))
+        with terms(2):
+            series = [disc.unit(moved) for moved in box.series(parts)]
+        moves = [x[1] if isinstance(x, arb_series) else arb(0) for x in series]
+        numbers = box.numbers(parts)
+        held = Held(numbers, box.middle(parts), box.sides(parts)) if parts else Held(numbers)
+        return cls(held, units, moves, float(ball_of(disc.hypotheses.numbers["phi"]).mid()))

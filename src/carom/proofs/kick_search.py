@@ -15,7 +15,7 @@ from carom.progress import Reporter
 from carom.proofs.balls import at_precision
 from carom.proofs.evidence import NotShownError
 from carom.proofs.kick_cells import IMPACTS, LOST, OPEN, Cell, Tree, leaves, share_of
-from carom.proofs.kick_discs import Disc, Found, disc_of
+from carom.proofs.kick_discs import Data, Disc, Found, disc_of
 from carom.proofs.passages import LeftOpenError
 
 BITS = 64
@@ -93,12 +93,12 @@ def _push(heap: list[tuple[float, Cell]], cell: Cell, letter: str) -> None:
         heapq.heappush(heap, (-float(cell.share) * (_LOST_COUNTS if letter == LOST else 1.0), cell))
 
 
-def _tried(data: tuple[str, str, int], cells: list[Cell]) -> list[Found]:
+def _tried(data: Data, cells: list[Cell]) -> list[Found]:
     with at_precision(BITS):
         return disc_of(data).tried(cells)
 
 
-def _shown(data: tuple[str, str, int], cells: list[tuple[Cell, str]]) -> str:
+def _shown(data: Data, cells: list[tuple[Cell, str]]) -> str:
     """What is wrong with some cells; nothing if all is shown."""
     with at_precision(BITS):
         for cell, letter in cells:
@@ -106,8 +106,8 @@ def _shown(data: tuple[str, str, int], cells: list[tuple[Cell, str]]) -> str:
             try:
                 disc_of(data).show(cell, most)
             except LeftOpenError as problem:
-                speeds, angles = ("..".join(map(str, ends)) for ends in (cell.speeds, cell.angles))
-                return f"not all kicks of the cell {speeds}, {angles} return with at most {most} impacts: {problem}"
+                sides = ", ".join("..".join(map(str, ends)) for ends in (cell.speeds, cell.angles, *cell.ends))
+                return f"not all kicks of the cell {sides} return with at most {most} impacts: {problem}"
     return ""
 
 

@@ -92,7 +92,7 @@ def prove_kicks(
     seconds = math.inf if time_limit is None else read_quantity(_TIME, time_limit)
     try:
         with at_precision(BITS):
-            disc.held  # noqa: B018  (raises if there is no levitation)
+            disc.check_levitation()
     except NotShownError as problem:
         raise InputError("machine", shown(hypotheses.values), str(problem)) from None
     place = None if store is None else Path(store)

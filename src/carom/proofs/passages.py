@@ -47,7 +47,7 @@ class LeftOpenError(CaromError):
         How much each span has to do with it.
     """
 
-    def __init__(self, reason: str, weights: tuple[float, float] = (1.0, 1.0)) -> None:
+    def __init__(self, reason: str, weights: tuple[float, ...] = (1.0, 1.0)) -> None:
         super().__init__(reason)
         self.reason, self.weights = reason, weights
 

@@ -18,6 +18,7 @@ that holds all else.  A function ``f`` of the state lies in ``f(x₀) + Σ_g f'(
 from __future__ import annotations
 
 import cmath
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, NamedTuple
@@ -26,9 +27,12 @@ from flint import acb, arb
 
 from carom.proofs.lines import Numbers
 from carom.proofs.series import hyperbolic
+from carom.proofs.sides import Side, responses_by
 
 UNIT = arb(0, 1)
 """All numbers from −1 to 1."""
+OF_KICKS = 2
+"""Spans of a cell of kicks; the others are those of the parameters of a box of rotors."""
 
 
 Wave = tuple[Any, Any, Any]
@@ -43,14 +47,21 @@ class Waves(NamedTuple):
 
 
 class Held:
-    """What flights need to know of a rotor, at the precision at hand.
+    """What flights need to know of a rotor, or of a box of rotors, at the precision at hand.
 
     Parameters
     ----------
     numbers : Numbers
+        Of all rotors.
+    middle : Numbers, optional
+        Of the rotor in the middle of the box.
+    sides : sequence of Side
+        By how much each parameter of the box moves them.
 
     Attributes
     ----------
+    middle : Held
+        The rotor in the middle.
     half, split : arb
         ``γ/2`` and ``γ²/4 − ω²``.
     radius, radius_squared, room : arb
@@ -59,14 +70,17 @@ class Held:
         ``μ(1 + d)``.
     """
 
-    def __init__(self, numbers: Numbers) -> None:
-        self.numbers = numbers
+    def __init__(self, numbers: Numbers, middle: Numbers | None = None, sides: Sequence[Side] = ()) -> None:
+        self.numbers, self.sides = numbers, sides
+        self.middle = self if middle is None else Held(middle)
         self.half, self.split = numbers.gamma / 2, numbers.split
         self.radius = numbers.levitation
         self.radius_squared = self.radius * self.radius
         self.room = 1 - self.radius
         self.grip = numbers.mu * (1 + numbers.d)
-        self._plain = tuple(float(x.mid()) for x in (self.half, self.split, numbers.omega_squared))
+        self.plain_radius = float(self.radius.mid())
+        self.plain = _plain_of(*(float(x.mid()) for x in (numbers.gamma, numbers.omega_squared)))
+        self._ends = [self._end_of(side) for side in sides]
 
     def waves(self, time: Any, from_wall: bool) -> Waves:
         """Waves of flights from the wall or from levitation."""
@@ -85,23 +99,73 @@ class Held:
         d2c = -n.omega_squared * dh
         return Waves((c, h, turn - acb(c, h)), (dc, dh, way - acb(dc, dh)), (d2c, d2h, -turn - acb(d2c, d2h)))
 
-    def plain_waves(self, time: float, from_wall: bool) -> tuple[tuple[complex, complex, complex], ...]:
-        """The same in doubles."""
-        half, split, stiff = self._plain
-        root = cmath.sqrt(split) or 1e-9
-        fade = cmath.exp(-half * time).real
-        h = fade * (cmath.sinh(root * time) / root).real
-        dh = fade * cmath.cosh(root * time).real - half * h
-        d2h = -2 * half * dh - stiff * h
-        turn = cmath.exp(1j * time)
-        if not from_wall:
-            return (0, h, turn), (0, dh, 1j * turn), (0, d2h, -turn)
-        c, dc, d2c = dh + 2 * half * h, -stiff * h, -stiff * dh
-        return (
-            (c, h, turn - c - 1j * h),
-            (dc, dh, 1j * turn - dc - 1j * dh),
-            (d2c, d2h, -turn - d2c - 1j * d2h),
+    def waves_by(self, time: Any, from_wall: bool) -> list[tuple[Wave, Wave]]:
+        """``c``, ``h₁`` and ``k`` and their rates, differentiated by each parameter of the box."""
+        found = []
+        for c, h, dc, dh in responses_by(self.numbers, self.sides, time) if self.sides else []:
+            place, rate = (c, h, -acb(c, h)), (dc, dh, -acb(dc, dh))
+            found.append((place, rate) if from_wall else ((arb(0), h, acb(0)), (arb(0), dh, acb(0))))
+        return found
+
+    def _end_of(self, side: Side) -> tuple[tuple[_Plain, float], ...]:
+        """Numbers in doubles, and ``ℓ``, of the rotors at both ends of a parameter."""
+        n, middle = self.numbers, self.middle
+        moves = [float(x.mid()) for x in (side.gamma, side.omega_squared, side.radius)]
+        return tuple(
+            (
+                _plain_of(float(n.gamma.mid()) + sign * moves[0], float(n.omega_squared.mid()) + sign * moves[1]),
+                middle.plain_radius + sign * moves[2],
+            )
+            for sign in (1.0, -1.0)
         )
+
+    def plain_by(self, time: float, from_wall: bool, velocity: complex, turn: complex) -> list[tuple[complex, complex]]:
+        """By how much place and rate change along each parameter, in doubles; ``turn`` is the direction of ``Λ``."""
+        found = []
+        for ends in self._ends:
+            (one, one_rate), (other, other_rate) = (
+                tuple(
+                    c + velocity * h + radius * turn * k
+                    for c, h, k in _plain_waves(plain, time, from_wall)[:2]
+                )
+                for plain, radius in ends
+            )
+            found.append(((one - other) / 2, (one_rate - other_rate) / 2))
+        return found
+
+    def plain_waves(self, time: float, from_wall: bool) -> tuple[tuple[complex, complex, complex], ...]:
+        """Waves of the rotor in the middle in doubles."""
+        return _plain_waves(self.middle.plain, time, from_wall)
+
+
+class _Plain(NamedTuple):
+    """``γ/2``, ``D`` and ``ω²`` in doubles."""
+
+    half: float
+    split: float
+    stiff: float
+
+
+def _plain_of(gamma: float, stiff: float) -> _Plain:
+    return _Plain(gamma / 2, gamma * gamma / 4 - stiff, stiff)
+
+
+def _plain_waves(plain: _Plain, time: float, from_wall: bool) -> tuple[tuple[complex, complex, complex], ...]:
+    half, split, stiff = plain
+    root = cmath.sqrt(split) or 1e-9
+    fade = cmath.exp(-half * time).real
+    h = fade * (cmath.sinh(root * time) / root).real
+    dh = fade * cmath.cosh(root * time).real - half * h
+    d2h = -2 * half * dh - stiff * h
+    turn = cmath.exp(1j * time)
+    if not from_wall:
+        return (0, h, turn), (0, dh, 1j * turn), (0, d2h, -turn)
+    c, dc, d2c = dh + 2 * half * h, -stiff * h, -stiff * dh
+    return (
+        (c, h, turn - c - 1j * h),
+        (dc, dh, 1j * turn - dc - 1j * dh),
+        (d2c, d2h, -turn - d2c - 1j * d2h),
+    )
 
 
 @dataclass(frozen=True)
@@ -113,7 +177,7 @@ class Patch:
     centre : list of arb
         Exact numbers: ``v, ψ`` from levitation, ``a, b, ψ`` from the wall.
     spans : list of list of arb
-        Exact vectors of the coordinates, two of them.
+        Exact vectors of the coordinates: two of the cell of kicks, and one for each parameter of the box of rotors.
     rest : list of arb
         Exact half widths of the coordinates.
     """
@@ -131,8 +195,8 @@ class Patch:
     def box(self) -> list[Any]:
         """Balls of the coordinates."""
         return [
-            x + UNIT * (abs(one) + abs(other) + rest)
-            for x, one, other, rest in zip(self.centre, *self.spans, self.rest, strict=True)
+            x + UNIT * (sum(map(abs, along), rest))
+            for x, *along, rest in zip(self.centre, *self.spans, self.rest, strict=True)
         ]
 
 
@@ -151,8 +215,9 @@ class Departure:
 
     def __init__(self, held: Held, patch: Patch) -> None:
         self.held, self.patch, self.from_wall = held, patch, patch.from_wall
-        self.velocity, self.levitation = _parts(held, patch.centre)
+        self.velocity, self.levitation = _parts(held.middle, patch.centre)
         self.wide_velocity, self.wide_levitation = _parts(held, patch.box)
+        self.wide_turn = _turn(patch.box)
         directions = [*patch.spans]
         for j, rest in enumerate(patch.rest):
             if not rest.is_zero():
@@ -160,14 +225,15 @@ class Departure:
         self.columns = [(_speed(along), along[-1]) for along in directions]
         middle = [float(x) for x in patch.centre]
         self._velocity = complex(*middle[:-1])
-        self._levitation = float(held.radius.mid()) * cmath.exp(1j * middle[-1])
+        self._turn = cmath.exp(1j * middle[-1])
+        self._levitation = held.middle.plain_radius * self._turn
         self._columns = [(complex(v), 1j * self._levitation * float(turn)) for v, turn in self.columns]
 
     # -------------------------------------------------------------------------------------- balls
 
     def at(self, time: Any) -> Moment:
         """The flights at a time, as mean value forms."""
-        return Moment(self, self.held.waves(time, self.from_wall))
+        return Moment(self, time)
 
     # -------------------------------------------------------------------------------------- doubles
 
@@ -194,12 +260,16 @@ class Departure:
             along, rate = v * h + lift * k, v * dh + lift * dk
             places.append(2 * (z.conjugate() * along).real)
             rates.append(2 * (z.conjugate() * rate + dz.conjugate() * along).real)
+        moved = self.held.plain_by(time, self.from_wall, self._velocity, self._turn)
+        for j, (along, rate) in enumerate(moved, OF_KICKS):
+            places[j] += 2 * (z.conjugate() * along).real
+            rates[j] += 2 * (z.conjugate() * rate + dz.conjugate() * along).real
         return places, rates
 
-    def weights(self, time: float) -> tuple[float, float]:
+    def weights(self, time: float) -> tuple[float, ...]:
         """How much each span has to do with ``|z|²`` and its rate at a time."""
-        places, rates = self.plain_spread(time)
-        return abs(places[0]) + abs(rates[0]), abs(places[1]) + abs(rates[1])
+        columns = zip(*self.plain_spread(time), strict=True)
+        return tuple(abs(place) + abs(rate) for place, rate in columns)[: len(self.patch.spans)]
 
 
 def _speed(coordinates: list[Any]) -> Any:
@@ -208,8 +278,13 @@ def _speed(coordinates: list[Any]) -> Any:
 
 
 def _parts(held: Held, coordinates: list[Any]) -> tuple[Any, Any]:
+    return _speed(coordinates), _turn(coordinates) * held.radius
+
+
+def _turn(coordinates: list[Any]) -> Any:
+    """Direction of ``Λ``."""
     sine, cosine = coordinates[-1].sin_cos()
-    return _speed(coordinates), acb(held.radius * cosine, held.radius * sine)
+    return acb(cosine, sine)
 
 
 class Moment:
@@ -219,13 +294,40 @@ class Moment:
     ``|q|² = ℓ²|k|²``.  All are evaluated so that this is not lost in the width of ``Λ``.
     """
 
-    def __init__(self, departure: Departure, waves: Waves) -> None:
-        self.departure, self.waves = departure, waves
+    def __init__(self, departure: Departure, time: Any) -> None:
+        self.departure, self.time = departure, time
+        self.waves = departure.held.waves(time, departure.from_wall)
 
-    def centre(self, wave: Wave) -> Any:
-        """Place or rate on the flight of the centre."""
-        d = self.departure
+    @cached_property
+    def _middle(self) -> Waves:
+        """Waves of the rotor in the middle of the box."""
+        held = self.departure.held
+        return self.waves if held.middle is held else held.middle.waves(self.time, self.departure.from_wall)
+
+    def centre(self, order: int) -> Any:
+        """Place (0) or rate (1) on the flight of the centre."""
+        d, wave = self.departure, self._middle[order]
         return wave[0] + d.velocity * wave[1] + d.levitation * wave[2]
+
+    @cached_property
+    def _moved(self) -> list[tuple[Any, Any]]:
+        """Place and rate differentiated along each parameter, the state at the start kept."""
+        d, found = self.departure, []
+        for waves, side in zip(d.held.waves_by(self.time, d.from_wall), d.held.sides, strict=True):
+            lift = d.wide_turn * side.radius
+            found.append(
+                tuple(
+                    by[0] + d.wide_velocity * by[1] + d.wide_levitation * by[2] + lift * wave[2]
+                    for by, wave in zip(waves, self.waves[:2], strict=True)
+                )
+            )
+        return found
+
+    def _with_moves(self, columns: list[Any], moves: Iterable[Any]) -> list[Any]:
+        """Derivatives along the columns, with what parameters do by themselves."""
+        for j, move in enumerate(moves, OF_KICKS):
+            columns[j] = columns[j] + move
+        return columns
 
     @cached_property
     def _p(self) -> list[Any]:
@@ -255,12 +357,13 @@ class Moment:
     def height_along(self) -> list[Any]:
         """``|z|²/2`` differentiated along the columns."""
         turned, h = cross(self._p[0], self._q[0]), self.waves.place[1]
-        return [dot(self.wide[0], v) * h - turned * turn for v, turn in self.departure.columns]
+        columns = [dot(self.wide[0], v) * h - turned * turn for v, turn in self.departure.columns]
+        return self._with_moves(columns, (dot(self.wide[0], place) for place, _ in self._moved))
 
     @cached_property
     def height(self) -> Any:
         """``|z|²`` of all flights, a mean value form."""
-        z = self.centre(self.waves.place)
+        z = self.centre(0)
         return dot(z, z) + spread(self.height_along) * 2
 
     @cached_property
@@ -268,12 +371,13 @@ class Moment:
         """``Re(z̄ż)`` differentiated along the columns."""
         (p, dp, _), (q, dq, _), (z, dz, _) = self._p, self._q, self.wide
         turned, h, dh = cross(p, dq) + cross(dp, q), self.waves.place[1], self.waves.rate[1]
-        return [dot(dz, v) * h + dot(z, v) * dh - turned * turn for v, turn in self.departure.columns]
+        columns = [dot(dz, v) * h + dot(z, v) * dh - turned * turn for v, turn in self.departure.columns]
+        return self._with_moves(columns, (dot(dz, place) + dot(z, rate) for place, rate in self._moved))
 
     @cached_property
     def rise(self) -> Any:
         """The rate of ``|z|²`` on all flights, a mean value form."""
-        centre = dot(self.centre(self.waves.place), self.centre(self.waves.rate))
+        centre = dot(self.centre(0), self.centre(1))
         return (centre + spread(self.rise_along)) * 2
 
     @cached_property
@@ -286,13 +390,15 @@ class Moment:
         """``Im(z̄ż)`` differentiated along the columns."""
         (p, dp, _), (q, dq, _), (z, dz, _) = self._p, self._q, self.wide
         turned, h, dh = dot(p, dq) - dot(dp, q), self.waves.place[1], self.waves.rate[1]
-        return [cross(v, dz) * h + cross(z, v) * dh + turned * turn for v, turn in self.departure.columns]
+        columns = [cross(v, dz) * h + cross(z, v) * dh + turned * turn for v, turn in self.departure.columns]
+        return self._with_moves(columns, (cross(place, dz) + cross(z, rate) for place, rate in self._moved))
 
     def angle_along(self, square: Any) -> list[Any]:
         """``ψ − arg z`` differentiated along the columns, from a ball of ``|z|²``."""
         z, h = self.wide[0], self.waves.place[1]
         turned = dot(z, self._p[0])
-        return [(turned * turn - cross(z, v) * h) / square for v, turn in self.departure.columns]
+        columns = [(turned * turn - cross(z, v) * h) / square for v, turn in self.departure.columns]
+        return self._with_moves(columns, (-cross(z, place) / square for place, _ in self._moved))
 
 
 def dot(one: Any, other: Any) -> Any:

@@ -2,29 +2,38 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from typing import Any
 
 from flint import arb
 
 from carom.proofs.passages import MANY, Brush, LeftOpenError, Strike, begin, next_event
 from carom.proofs.patches import Departure, Held, Patch
-from carom.proofs.strikes import after_brush, after_strike
+from carom.proofs.series import hull
+from carom.proofs.strikes import after_brush, after_strike, patch_of
 
 MOST_BRANCHES = 200
 """Patches followed for one cell."""
 
 
-def kicked(speed: tuple[Any, Any], angle: tuple[Any, Any]) -> Patch:
-    """Patch of kicks between two speeds and two angles from the direction in which the rotor levitates, as balls."""
-    centre, spans = [], []
-    for j, (low, high) in enumerate((speed, angle)):
-        sign = -1 if j else 1
-        middle = ((low + high) / 2 * sign).mid()
-        half = abs(high * sign - middle).max(abs(low * sign - middle)).upper().mid()
-        centre.append(middle)
-        spans.append([half if i == j else arb(0) for i in range(2)])
-    return Patch(centre, spans, [arb(0), arb(0)])
+def kicked(
+    speed: tuple[Any, Any], angle: tuple[Any, Any], units: tuple[Any, Any] = (1, 1), moves: Sequence[Any] = ()
+) -> Patch:
+    """Patch of kicks between two speeds and two angles from the direction in which the rotor levitates, as balls.
+
+    Rotors of a box may not share the unit of the speeds: ``units`` are those of the rotor in the middle and of all of them, and ``moves`` its
+    derivatives by the parameters, times half their widths.
+    """
+    middles = [(low + high) / 2 for low, high in (speed, angle)]
+    halves = [abs(high - x).max(abs(low - x)) for (low, high), x in zip((speed, angle), middles, strict=True)]
+    zero = arb(0)
+    columns = [[halves[0] * units[1], zero], [zero, halves[1]], *([hull(*speed) * move, zero] for move in moves)]
+    patch = patch_of([middles[0] * units[0], -middles[1]], columns, [zero, zero], len(columns))
+    # Nothing else moves along these two: they hold what was rounded too.
+    for j, rest in enumerate(patch.rest):
+        patch.spans[j][j] = (patch.spans[j][j] + rest).upper().mid()
+    return replace(patch, rest=[zero, zero])
 
 
 def impacts_of(held: Held, patch: Patch, most: int) -> int:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from typing import Any
 
@@ -16,7 +17,7 @@ from carom.parameters.exact import read_exact
 from carom.proofs.balls import ball_of
 from carom.proofs.courses import Course, Return
 from carom.proofs.hypotheses import Hypotheses
-from carom.proofs.lines import Line
+from carom.proofs.lines import Line, Numbers
 
 _SAMPLES = 400
 
@@ -33,6 +34,12 @@ def doubles_of(hypotheses: Hypotheses) -> Parameters:
         for name, text in hypotheses.settings.items()
     }
     return numbers.replace(**changes)
+
+
+def doubles_at(numbers: Numbers, phase: float) -> Parameters:
+    """Parameters next to numbers of the equations."""
+    values = {name: float(ball.mid()) for name, ball in numbers._asdict().items()}
+    return Parameters(omega=math.sqrt(values.pop("omega_squared")), phi=phase, **values)
 
 
 def point_seeds(line: Line) -> list[tuple[str, str, dict[str, float]]]:
