@@ -161,10 +161,7 @@ def _number(claim: Claim) -> str:
 
 
 def _assumed(proof: Proof) -> str:
-    given = {**proof.hypotheses.values, **proof.hypotheses.settings}
-    told = {name: f"{name} = {text}" for name, text in given.items()}
-    along = proof.options.get("along")
-    if along is not None:
-        # Its own value in the machine file is not assumed.
-        told[along] = f"{along} from {proof.options['from']} to {proof.options['to']}"
-    return ", ".join(told.values())
+    joined = {name: f"{name} = {text}" for name, text in proof.assumed.items()}
+    for name in (*([proof.options["along"]] if "along" in proof.options else ()), *(entry[0] for entry in proof.options.get("box", ()))):
+        joined[name] = f"{name} from {proof.assumed[name]}"
+    return ", ".join(joined.values())

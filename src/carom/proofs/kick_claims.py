@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from fractions import Fraction
 from typing import Any
 
@@ -10,7 +10,7 @@ from carom.core.processors import available_cores
 from carom.proofs.balls import enclosure_of_fraction, enclosures_of
 from carom.proofs.claims import Claim, claim_of
 from carom.proofs.evidence import Evidence, NotShownError
-from carom.proofs.kick_cells import IMPACTS, OPEN, Tree, leaves, read, share_of
+from carom.proofs.kick_cells import IMPACTS, OPEN, Cell, Tree, leaves, read, share_of
 from carom.proofs.kick_discs import Disc
 from carom.proofs.kick_search import BITS, show_all
 from carom.proofs.rotor import Rotor
@@ -37,13 +37,29 @@ def kick_claims(rotor: Rotor, evidence: Evidence, options: Mapping[str, Any]) ->
     if rotor.bits != BITS:
         raise NotShownError(f"cells of kicks are shown with {BITS} bits")
     disc = disc_from(rotor, options)
-    tree = read(evidence.take("cells", _nothing))
+    tree = read(evidence.take("cells", nothing_found))
     show_all(disc, tree, available_cores(), evidence.tell)
     return claims_of(disc, tree)
 
 
-def _nothing() -> str:
+def nothing_found() -> str:
+    """Stand for a search where cells are only read."""
     raise NotShownError("cells are found by a search of their own")
+
+
+def told_kicks(disc: Disc) -> str:
+    """The kicks of a disc in words."""
+    return f"kicks out of levitation, seen in the fixed frame, with velocities in the disc up to {disc.largest}"
+
+
+def reasons_of(known: Iterable[tuple[Cell, str]], of: str) -> str:
+    """How much of all cells is open, and why; nothing where all is proven."""
+    parts: dict[str, Fraction] = {}
+    for cell, letter in known:
+        if letter in OPEN:
+            parts[letter] = parts.get(letter, Fraction(0)) + cell.share
+    ordered = sorted(parts.items(), key=lambda entry: -entry[1])
+    return "; ".join(f"{100 * float(part):.3g} % of the {of}: {OPEN[letter]}" for letter, part in ordered)
 
 
 def claims_of(disc: Disc, tree: Tree) -> list[Claim]:
@@ -51,16 +67,14 @@ def claims_of(disc: Disc, tree: Tree) -> list[Claim]:
     known = [(cell, letter) for cell, letter in leaves(tree)]
     proven = [(cell, IMPACTS.index(letter)) for cell, letter in known if letter in IMPACTS]
     first = min((cell.speeds[0] for cell, letter in known if letter in OPEN), default=Fraction(1))
-    parts = {letter: share_of(cell for cell, other in known if other == letter) for letter in OPEN}
-    open_ = {letter: part for letter, part in sorted(parts.items(), key=lambda entry: -entry[1]) if part}
-    share, left = share_of(cell for cell, _ in proven), sum(open_.values(), Fraction(0))
+    share, left = share_of(cell for cell, _ in proven), share_of(cell for cell, letter in known if letter in OPEN)
     most = max((impacts for _, impacts in proven), default=0)
     numbers = enclosures_of(speed=disc.speed(first))
     if disc.physical and not disc.exact[1]:
         numbers["speed_si"] = enclosure_of_fraction(disc.exact[0] * first)
     exact = {"share_proven": share, "share_refuted": Fraction(0), "share_open": left, "impacts": Fraction(most)}
     numbers |= {name: enclosure_of_fraction(number) for name, number in exact.items()}
-    told = f"kicks out of levitation, seen in the fixed frame, with velocities in the disc up to {disc.largest}"
+    told = told_kicks(disc)
     recover = claim_of(
         "kicks",
         "recover",
@@ -75,8 +89,8 @@ def claims_of(disc: Disc, tree: Tree) -> list[Claim]:
         "kicks",
         "all recover",
         f"All {told}, return to levitation with at most {most} impacts.",
-        0 if open_ else 1,
-        reason="; ".join(f"{100 * float(part):.3g} % of the area: {OPEN[letter]}" for letter, part in open_.items()),
+        0 if left else 1,
+        reason=reasons_of(known, "area"),
         limited=False,
     )
     return [recover, whole]

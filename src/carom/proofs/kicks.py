@@ -1,4 +1,4 @@
-"""Prove which kicks out of levitation come back through contact, as far as a time allows."""
+"""Prove which kicks out of levitation come back through contact, of one machine or of a box of them, as far as a time allows."""
 
 from __future__ import annotations
 
@@ -21,7 +21,8 @@ from carom.proofs.balls import at_precision
 from carom.proofs.claims import Proof
 from carom.proofs.evidence import NotShownError
 from carom.proofs.hypotheses import Given, Hypotheses, hypotheses_of, written_exactly
-from carom.proofs.kick_cells import AHEAD, DISC, IMPACTS, Tree, read, written
+from carom.proofs.kick_box_claims import BOX_NOT_CLAIMED, BOX_THEOREM, box_claims_of
+from carom.proofs.kick_cells import AHEAD, IMPACTS, Tree, read, written
 from carom.proofs.kick_claims import NOT_CLAIMED, THEOREM, claims_of
 from carom.proofs.kick_discs import Disc
 from carom.proofs.kick_search import BITS, search
@@ -39,6 +40,7 @@ def prove_kicks(
     kicks_up_to: Given,
     settings: Iterable[str] = (),
     *,
+    along: Mapping[str, tuple[Given, Given]] | None = None,
     most_impacts: Annotated[int, whole(0, len(IMPACTS) - 1)] = USUAL_IMPACTS,
     time_limit: str | float | None = USUAL_TIME,
     store: str | os.PathLike[str] | None = None,
@@ -52,6 +54,9 @@ def prove_kicks(
     until nothing is open or time is up.  The proof has two claims: which share of the disc surely returns, up to which speed all kicks do,
     and with how many impacts at most; and whether all of it does, with the reasons of what is open.
 
+    With ``along`` all this is shown for all machines of a box at once, whose cells are halved in the parameters too.  Where something stays open,
+    further claims say for which parameters all kicks return all the same and, along one parameter, up to which speed on each stretch.
+
     Parameters
     ----------
     machine : Machine, Case, Parameters, model, path, mapping or Hypotheses
@@ -60,6 +65,9 @@ def prove_kicks(
         Radius of the disc: text with a unit for a machine file in SI units, a number in ``c_r Ω`` for all others.
     settings : iterable of str
         As for :func:`~carom.prove`.
+    along : mapping of str to pairs of numbers, optional
+        Up to three parameters with both ends of their intervals, such as ``{"damping": ("280 N s/m", "420 N s/m")}``: dimensionless numbers,
+        and for a machine file its entries, gains of magnetic bearings included.  A float is a double.
     most_impacts : int
         A kick that may have more of them is left open; at most 35.
     time_limit : str or float
@@ -87,8 +95,9 @@ def prove_kicks(
     >>> proof["kicks all recover"].status
     'proven'
     """
-    hypotheses, tell = hypotheses_of(machine, settings), Reporter.of(progress, "proving")
-    disc = Disc(hypotheses, written_exactly(kicks_up_to).removeprefix("double "), most_impacts)
+    hypotheses, tell = hypotheses_of(machine, settings, list(along or ())), Reporter.of(progress, "proving")
+    box = tuple((name, *map(written_exactly, ends)) for name, ends in (along or {}).items())
+    disc = Disc(hypotheses, written_exactly(kicks_up_to).removeprefix("double "), most_impacts, box)
     seconds = math.inf if time_limit is None else read_quantity(_TIME, time_limit)
     try:
         with at_precision(BITS):
@@ -96,7 +105,7 @@ def prove_kicks(
     except NotShownError as problem:
         raise InputError("machine", shown(hypotheses.values), str(problem)) from None
     place = None if store is None else Path(store)
-    tree = {DISC: AHEAD} if place is None or not place.exists() else _stored(place, disc)
+    tree = {disc.whole: AHEAD} if place is None or not place.exists() else _stored(place, disc)
     with at_precision(BITS):
         search(
             disc,
@@ -106,15 +115,20 @@ def prove_kicks(
             tell,
             None if place is None else lambda now: _store(place, disc, now),
         )
-        claims = claims_of(disc, tree)
+        claims = box_claims_of(disc, tree) if box else claims_of(disc, tree)
     tell(1.0)
-    options = {"kicks_up_to": disc.largest, "most_impacts": most_impacts}
-    return Proof(THEOREM, hypotheses, options, tuple(claims), BITS, NOT_CLAIMED, {"cells": written(tree)})
+    options: dict[str, Any] = {"kicks_up_to": disc.largest, "most_impacts": most_impacts}
+    theorem, not_claimed = THEOREM, NOT_CLAIMED
+    if box:
+        theorem, not_claimed = BOX_THEOREM, BOX_NOT_CLAIMED
+        options["box"] = [list(entry) for entry in box]
+    return Proof(theorem, hypotheses, options, tuple(claims), BITS, not_claimed, {"cells": written(tree)})
 
 
 def _content(disc: Disc) -> dict[str, Any]:
-    document, largest, most = disc.data()
-    return {"format": _STORE, "hypotheses": document, "kicks_up_to": largest, "most_impacts": most}
+    document, largest, most, box = disc.data()
+    told = {"box": [list(entry) for entry in box]} if box else {}
+    return {"format": _STORE, "hypotheses": document, "kicks_up_to": largest, "most_impacts": most, **told}
 
 
 def _store(place: Path, disc: Disc, tree: Tree) -> None:
@@ -131,11 +145,11 @@ def _stored(place: Path, disc: Disc) -> Tree:
         cells = found.pop("cells")
         if found.pop("sha256") != hashlib.sha256(cells.encode()).hexdigest():
             raise ValueError("damaged")
-        tree = read(cells)
+        tree = read(cells, len(disc.along))
     except OSError as problem:
         raise InputError("store", shown(place), f"cannot be read: {problem.strerror or problem}") from None
     except (AttributeError, KeyError, NotShownError, TypeError, ValueError):
         raise InputError("store", shown(place), "is no complete record of cells; remove it to begin anew") from None
     if found != _content(disc):
-        raise InputError("store", shown(place), "belongs to another machine, speed or number of impacts")
+        raise InputError("store", shown(place), "belongs to another machine, speed, number of impacts or box")
     return tree

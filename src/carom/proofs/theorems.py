@@ -11,6 +11,7 @@ from typing import Any
 
 from carom.proofs.claims import Claim, claim_of
 from carom.proofs.evidence import Evidence, rational_of
+from carom.proofs.kick_box_claims import BOX_NOT_CLAIMED, BOX_OPTIONS, BOX_THEOREM, kick_box_claims
 from carom.proofs.kick_claims import NOT_CLAIMED, OPTIONS, THEOREM, kick_claims
 from carom.proofs.periods import Periods, all_periods
 from carom.proofs.points import point_claims
@@ -149,5 +150,6 @@ THEOREMS: Mapping[str, Theorem] = {
         ("along", "from", "to", "blocks", "narrowest"),
     ),
     THEOREM: Theorem(kick_claims, NOT_CLAIMED, OPTIONS),
+    BOX_THEOREM: Theorem(kick_box_claims, BOX_NOT_CLAIMED, BOX_OPTIONS),
 }
 """Theorems by their names in certificates."""
