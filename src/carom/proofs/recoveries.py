@@ -8,7 +8,7 @@ from typing import Any
 
 from flint import arb
 
-from carom.proofs.passages import MANY, Brush, LeftOpenError, Strike, begin, next_event
+from carom.proofs.passages import MANY, Brush, Event, LeftOpenError, Strike, begin, brush_of, next_event
 from carom.proofs.patches import Departure, Held, Patch
 from carom.proofs.series import hull
 from carom.proofs.strikes import after_brush, after_strike, patch_of
@@ -58,10 +58,15 @@ def _struck(held: Held, patch: Patch) -> Iterator[Patch]:
     departure = Departure(held, patch)
     time = begin(departure)
     while True:
-        event = next_event(departure, time)
+        event: Event | None = next_event(departure, time)
         if isinstance(event, Strike):
-            yield after_strike(departure, event)
-        elif isinstance(event, Brush) and event.touches:
+            try:
+                yield after_strike(departure, event)
+            except LeftOpenError:
+                event = brush_of(departure, event)
+                if event is None:
+                    raise
+        if isinstance(event, Brush) and event.touches:
             yield after_brush(departure, event)
         if not (isinstance(event, Brush) and event.misses):
             return
