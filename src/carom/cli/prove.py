@@ -32,14 +32,18 @@ def prove(
         ),
     ] = 1,
     along: Annotated[
-        str | None,
-        typer.Option(metavar="NAME", help="Prove points and orbits along a parameter instead, --from A --to B."),
+        list[str] | None,
+        typer.Option(
+            metavar="NAME",
+            help="Prove points and orbits along a parameter instead, --from A --to B; with --kicks-up-to which kicks come back for all its "
+            "values, or for all of a box if all three are given two or three times.",
+        ),
     ] = None,
     start: Annotated[
-        str | None,
+        list[str] | None,
         typer.Option("--from", metavar="A", help="First value of the parameter, dimensionless or with a unit."),
     ] = None,
-    stop: Annotated[str | None, typer.Option("--to", metavar="B", help="Last value of the parameter.")] = None,
+    stop: Annotated[list[str] | None, typer.Option("--to", metavar="B", help="Last value of the parameter.")] = None,
     kicks_up_to: Annotated[
         str | None,
         typer.Option(metavar="SPEED", help="Prove instead which kicks out of levitation up to SPEED come back."),
@@ -68,29 +72,33 @@ def prove(
         from carom.proofs import prove as prove_machine
 
         if check is not None:
-            others = (machine, longest_period, out, along, start, stop, kicks_up_to, most_impacts, time_limit)
-            if settings or impacts != 1 or any(other is not None for other in others):
+            others = (machine, longest_period, out, kicks_up_to, most_impacts, time_limit)
+            if settings or along or start or stop or impacts != 1 or any(other is not None for other in others):
                 raise InputError("--check", shown(check), "must stand alone: a certificate holds its machine")
             proof = verify(check, progress=tell)
         elif machine is None:
             raise InputError("MACHINE.toml", None, "give a machine file, or a certificate with --check")
         elif kicks_up_to is not None:
-            if impacts != 1 or any(other is not None for other in (longest_period, along, start, stop)):
+            if impacts != 1 or longest_period is not None:
                 raise InputError(
                     "--kicks-up-to", shown(kicks_up_to), "cannot be combined with options of other theorems"
                 )
-            proof = _prove_kicks(machine, kicks_up_to, settings or (), most_impacts, time_limit, out, tell)
+            box = _intervals(along, start, stop)
+            proof = _prove_kicks(machine, kicks_up_to, settings or (), box, most_impacts, time_limit, out, tell)
         else:
             if most_impacts is not None or time_limit is not None:
                 raise InputError("--kicks-up-to", None, "is needed by --most-impacts and --time-limit")
-            interval = _interval(along, start, stop)
+            box = _intervals(along, start, stop)
+            if len(box) > 1:
+                raise InputError("--along", shown(list(box)), "must be one parameter, but with --kicks-up-to")
+            name, interval = next(iter(box.items()), (None, None))
             check_output(out)
             proof = prove_machine(
                 machine,
                 settings or (),
                 longest_period=longest_period,
                 impacts=impacts,
-                along=along,
+                along=name,
                 interval=interval,
                 progress=tell,
             )
@@ -106,23 +114,28 @@ def prove(
         console().print(f"Certificate: {Path(out) / CERTIFICATE}", soft_wrap=True)
 
 
-def _interval(along: str | None, start: str | None, stop: str | None) -> tuple[str, str] | None:
-    """Both ends of the values of a parameter, if these were asked for."""
+def _intervals(
+    along: list[str] | None, start: list[str] | None, stop: list[str] | None
+) -> dict[str, tuple[str, str]]:
+    """Both ends of the values of each parameter that was asked for."""
     from carom.cli.starts import check_exact
 
-    if along is start is stop is None:
-        return None
-    if start is None or stop is None or along is None:
-        raise InputError("--along", shown(along), "needs --from and --to, and these need --along")
-    for option, end in (("--from", start), ("--to", stop)):
-        check_exact(option, end, along)
-    return start, stop
+    names, starts, stops = along or [], start or [], stop or []
+    if not len(names) == len(starts) == len(stops):
+        raise InputError("--along", shown(names or None), "needs --from and --to, and these need --along")
+    if len(set(names)) < len(names):
+        raise InputError("--along", shown(names), "names each parameter once")
+    for name, first, last in zip(names, starts, stops, strict=True):
+        for option, end in (("--from", first), ("--to", last)):
+            check_exact(option, end, name)
+    return {name: (first, last) for name, first, last in zip(names, starts, stops, strict=True)}
 
 
 def _prove_kicks(
     machine: str,
     kicks_up_to: str,
     settings: Iterable[str],
+    box: dict[str, tuple[str, str]],
     most_impacts: int | None,
     time_limit: str | None,
     out: str | None,
@@ -137,7 +150,7 @@ def _prove_kicks(
     limits = {"most_impacts": most_impacts, "time_limit": time_limit}
     given = {name: value for name, value in limits.items() if value is not None}
     store = None if out is None else Path(out) / CELLS
-    return prove_kicks(machine, kicks_up_to, settings, store=store, progress=tell, **given)  # type: ignore[arg-type]
+    return prove_kicks(machine, kicks_up_to, settings, along=box or None, store=store, progress=tell, **given)  # type: ignore[arg-type]
 
 
 def _print_proof(proof: Proof, checked: bool) -> None:
@@ -161,7 +174,5 @@ def _number(claim: Claim) -> str:
 
 
 def _assumed(proof: Proof) -> str:
-    joined = {name: f"{name} = {text}" for name, text in proof.assumed.items()}
-    for name in (*([proof.options["along"]] if "along" in proof.options else ()), *(entry[0] for entry in proof.options.get("box", ()))):
-        joined[name] = f"{name} from {proof.assumed[name]}"
-    return ", ".join(joined.values())
+    moved = [proof.options["along"]] if "along" in proof.options else [name for name, *_ in proof.options.get("box", ())]
+    return ", ".join(f"{name} {'from' if name in moved else '='} {text}" for name, text in proof.assumed.items())

@@ -8,13 +8,15 @@ from typing import Any
 
 from flint import arb
 
-from carom.proofs.passages import MANY, Brush, Event, LeftOpenError, Strike, begin, brush_of, next_event
+from carom.proofs.passages import MANY, SLOW, Brush, Event, LeftOpenError, Strike, begin, brush_of, next_event
 from carom.proofs.patches import Departure, Held, Patch
 from carom.proofs.series import hull
 from carom.proofs.strikes import after_brush, after_strike, patch_of
 
 MOST_BRANCHES = 200
 """Patches followed for one cell."""
+_Ahead = tuple[Patch, int, tuple[float, ...] | None]
+"""A patch, the impacts before it, and how much each span had to do with the brush that it comes from."""
 
 
 def kicked(
@@ -41,33 +43,42 @@ def impacts_of(held: Held, patch: Patch, most: int) -> int:
 
     Each brush that some flights miss makes two patches of one.
     """
-    ahead, found, branches = [(patch, 0)], 0, 0
+    ahead: list[_Ahead] = [(patch, 0, None)]
+    found, branches = 0, 0
     while ahead:
-        start, before = ahead.pop()
-        for after in _struck(held, start):
-            branches += 1
-            if before == most or branches > MOST_BRANCHES:
-                raise LeftOpenError(MANY)
-            ahead.append((after, before + 1))
-            found = max(found, before + 1)
+        start, before, touched = ahead.pop()
+        try:
+            for after, weights in _struck(held, start):
+                branches += 1
+                if before == most or branches > MOST_BRANCHES:
+                    raise LeftOpenError(MANY)
+                ahead.append((after, before + 1, weights))
+                found = max(found, before + 1)
+        except LeftOpenError as problem:
+            # How slow a touch may be is a matter of how wide the patch was in it, which its spans do not tell any more.
+            weights = touched if touched and problem.reason == SLOW else problem.weights
+            raise LeftOpenError(problem.reason, weights) from None
     return found
 
 
-def _struck(held: Held, patch: Patch) -> Iterator[Patch]:
-    """Patches after the next impact of all flights of a patch that do not return without one."""
+def _struck(held: Held, patch: Patch) -> Iterator[tuple[Patch, tuple[float, ...] | None]]:
+    """Patches after the next impact of all flights of a patch that do not return without one.
+
+    After a brush with how much each span had to do with it.
+    """
     departure = Departure(held, patch)
     time = begin(departure)
     while True:
         event: Event | None = next_event(departure, time)
         if isinstance(event, Strike):
             try:
-                yield after_strike(departure, event)
+                yield after_strike(departure, event), None
             except LeftOpenError:
                 event = brush_of(departure, event)
                 if event is None:
                     raise
         if isinstance(event, Brush) and event.touches:
-            yield after_brush(departure, event)
+            yield after_brush(departure, event), departure.weights(event.last)
         if not (isinstance(event, Brush) and event.misses):
             return
         time = event.end
