@@ -170,6 +170,10 @@ class Line:
         """Numbers at a value of the parameter: a ball or a power series."""
         return self._machines.at({self.name: value})
 
+    def table(self, value: Any) -> dict[str, Any]:
+        """The machine's table in SI units at a value of the parameter; that of the file for a dimensionless one."""
+        return self._machines.table({} if self.name in DIMENSIONLESS_FIELDS else {self.name: value})
+
     @cached_property
     def _machines(self) -> Machines:
         return Machines(self.hypotheses)

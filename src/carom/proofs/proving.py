@@ -46,7 +46,8 @@ def prove(
 
     With ``impacts`` above 1 the claims are also about orbits with at most so many impacts a period that a search finds.
     With ``along`` they are instead about bifurcation points along a parameter, and about all orbits with one impact a
-    period for all its values in an interval: whether they are motions of the machine and whether they are stable.
+    period for all its values in an interval: whether they are motions of the machine and whether they are stable; and about
+    levitation, rubs, the harmless kick and whirl.
     An undecided claim says why.
 
     Parameters
@@ -59,7 +60,7 @@ def prove(
     impacts : int
         At most so many a period, 1 to 24.
     along : str, optional
-        A parameter, dimensionless or physical.
+        A parameter: dimensionless, an entry of the machine's table, or a term that sets one, such as ``derivative_gain``.
     interval : pair of numbers, optional
         Its ends, such as ``("0.084", "0.177")`` or ``("300 N s/m", "2000 N s/m")``; as with ``machine`` a float is a double.
 
@@ -80,7 +81,8 @@ def prove(
     >>> proof["B1,d stable"].status
     'proven'
     """
-    hypotheses, tell = hypotheses_of(machine, settings), Reporter.of(progress, "proving")
+    hypotheses = hypotheses_of(machine, settings, () if along is None else (along,))
+    tell = Reporter.of(progress, "proving")
     if (along is None) is not (interval is None):
         raise InputError("along", shown(along), "needs an interval, and an interval needs a parameter")
     if along is not None and interval is not None:

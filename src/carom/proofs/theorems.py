@@ -22,6 +22,7 @@ from carom.proofs.several_impacts import several_impact_claims
 from carom.proofs.single_impact import candidates, orbit_claims
 from carom.proofs.slip import slip_claim
 from carom.proofs.steady import steady_claims
+from carom.proofs.steady_lines import steady_line_claims
 from carom.proofs.whirl import whirl_claims
 from carom.proofs.whirl_lines import whirl_line_claims
 
@@ -139,6 +140,7 @@ THEOREMS: Mapping[str, Theorem] = {
             *point_claims(rotor, evidence, options),
             *range_claims(rotor, evidence, options),
             *whirl_line_claims(rotor, options),
+            *steady_line_claims(rotor, options),
         ],
         (
             "what is said to be open on an interval, but for the points listed there",
