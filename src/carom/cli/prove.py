@@ -52,7 +52,8 @@ def prove(
         int | None, typer.Option(metavar="N", help="Leave kicks open that may have more than N impacts; by default 12.")
     ] = None,
     time_limit: Annotated[
-        str | None, typer.Option(metavar="T", help="End the search after T, such as '2 h'; by default 10 min.")
+        str | None,
+        typer.Option(metavar="T", help="End the search after T, such as '2 h'; with --kicks-up-to by default 10 min."),
     ] = None,
     out: Annotated[
         str | None, typer.Option(metavar="DIR", help=f"Write the certificate, {CERTIFICATE}, to this directory.")
@@ -86,8 +87,10 @@ def prove(
             box = _intervals(along, start, stop)
             proof = _prove_kicks(machine, kicks_up_to, settings or (), box, most_impacts, time_limit, out, tell)
         else:
-            if most_impacts is not None or time_limit is not None:
-                raise InputError("--kicks-up-to", None, "is needed by --most-impacts and --time-limit")
+            if most_impacts is not None or (time_limit is not None and not along):
+                raise InputError(
+                    "--kicks-up-to", None, "is needed by --most-impacts, and by --time-limit without --along"
+                )
             box = _intervals(along, start, stop)
             if len(box) > 1:
                 raise InputError("--along", shown(list(box)), "must be one parameter, but with --kicks-up-to")
@@ -100,6 +103,7 @@ def prove(
                 impacts=impacts,
                 along=name,
                 interval=interval,
+                time_limit=time_limit,
                 progress=tell,
             )
     if out is not None:
@@ -114,9 +118,7 @@ def prove(
         console().print(f"Certificate: {Path(out) / CERTIFICATE}", soft_wrap=True)
 
 
-def _intervals(
-    along: list[str] | None, start: list[str] | None, stop: list[str] | None
-) -> dict[str, tuple[str, str]]:
+def _intervals(along: list[str] | None, start: list[str] | None, stop: list[str] | None) -> dict[str, tuple[str, str]]:
     """Both ends of the values of each parameter that was asked for."""
     from carom.cli.starts import check_exact
 
@@ -174,5 +176,7 @@ def _number(claim: Claim) -> str:
 
 
 def _assumed(proof: Proof) -> str:
-    moved = [proof.options["along"]] if "along" in proof.options else [name for name, *_ in proof.options.get("box", ())]
+    moved = (
+        [proof.options["along"]] if "along" in proof.options else [name for name, *_ in proof.options.get("box", ())]
+    )
     return ", ".join(f"{name} {'from' if name in moved else '='} {text}" for name, text in proof.assumed.items())

@@ -14,7 +14,6 @@ from typing import TYPE_CHECKING, cast
 from carom.outcome import InputError, together
 from carom.parameters import (
     DIMENSIONLESS_FIELDS,
-    MACHINE_FIELDS,
     Case,
     Field,
     Requirement,

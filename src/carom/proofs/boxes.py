@@ -51,7 +51,7 @@ class Box:
 
     def middles(self, parts: Sequence[Part]) -> dict[str, Any]:
         """Ball of the middle of each parameter on a part of the box."""
-        return {line.name: rational(sum(self.ends(j, parts[j])) / 2) for j, line in enumerate(self.lines)}
+        return {line.name: rational(sum(self.ends(j, parts[j]), Fraction(0)) / 2) for j, line in enumerate(self.lines)}
 
     def numbers(self, parts: Sequence[Part]) -> Numbers:
         """Numbers of all machines of a part of the box."""

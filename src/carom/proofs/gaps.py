@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from decimal import ROUND_CEILING, ROUND_FLOOR, Context, Decimal, localcontext
 from fractions import Fraction
 
@@ -38,7 +38,7 @@ def _outermost(open_parts: Iterable[Parts]) -> set[Parts]:
     return found
 
 
-def _pairs(found: set[Parts]) -> Iterable[tuple[Parts, Parts, Parts]]:
+def _pairs(found: set[Parts]) -> Iterator[tuple[Parts, Parts, Parts]]:
     for parts in found:
         for j, (k, n) in enumerate(parts):
             if n and k % 2 == 0 and (other := (*parts[:j], (k + 1, n), *parts[j + 1 :])) in found:
@@ -76,7 +76,9 @@ def told(box: Box, number: int, low: Fraction, high: Fraction, *, inward: bool) 
 
 def box_told(box: Box, parts: Parts) -> str:
     """A part of a box, rounded outward."""
-    sides = (told(box, j, Fraction(k, 2**n), Fraction(k + 1, 2**n), inward=False) for j, (k, n) in enumerate(parts) if n)
+    sides = (
+        told(box, j, Fraction(k, 2**n), Fraction(k + 1, 2**n), inward=False) for j, (k, n) in enumerate(parts) if n
+    )
     return " and ".join(sides)
 
 

@@ -114,7 +114,13 @@ class Hypotheses:
         """As plain data for JSON; ``exact`` holds what follows, for the reader."""
         exact = {name: str(self.numbers[name]) for name in (*NUMBERS, "phi")}
         told = {"helpers": dict(self.helpers)} if self.helpers else {}
-        return {"table": self.table, "values": dict(self.values), "settings": dict(self.settings), **told, "exact": exact}
+        return {
+            "table": self.table,
+            "values": dict(self.values),
+            "settings": dict(self.settings),
+            **told,
+            "exact": exact,
+        }
 
     @classmethod
     def from_document(cls, document: Mapping[str, Any]) -> Hypotheses:

@@ -100,8 +100,8 @@ def _all_claim(disc: Disc, known: list[tuple[Cell, str]], proven: list[tuple[Cel
 def _claims_outside(disc: Disc, proven: list[tuple[Cell, int]], open_: list[Cell]) -> list[Claim]:
     """That all kicks return for all parameters outside of gaps, if something is left outside."""
     gaps = gaps_of(cell.parts for cell in open_)
-    inside = [Fraction(1, 2 ** sum(n for _, n in parts)) for parts in gaps]
-    if sum(inside) >= 1:
+    inside = sum((Fraction(1, 2 ** sum(n for _, n in parts)) for parts in gaps), Fraction(0))
+    if inside >= 1:
         return []
     if len(disc.along) == 1:
         parts = outside(gaps)
@@ -109,16 +109,14 @@ def _claims_outside(disc: Disc, proven: list[tuple[Cell, int]], open_: list[Cell
     else:
         boxes = "; ".join(box_told(disc.box, parts) for parts in gaps)
         where = f"{disc.box.words} outside of these boxes: {boxes}"
-    most = max(
-        (impacts for cell, impacts in proven if not any(_inside(cell.parts, gap) for gap in gaps)), default=0
-    )
+    most = max((impacts for cell, impacts in proven if not any(_inside(cell.parts, gap) for gap in gaps)), default=0)
     return [
         claim_of(
             "kicks",
             "all recover outside of gaps",
             f"For all {where}: all {told_kicks(disc)}, return to levitation with at most {most} impacts.",
             1,
-            enclosures={"share_of_box": enclosure_of_fraction(1 - sum(inside))},
+            enclosures={"share_of_box": enclosure_of_fraction(1 - inside)},
             limited=False,
         )
     ]

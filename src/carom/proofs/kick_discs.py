@@ -133,7 +133,9 @@ class Disc:
         speed: Any = rational(self.exact[0]) * arb.pi() ** self.exact[1]
         if not self.physical:
             return speed
-        table = self.box.machines.table({name: value for name, value in moved.items() if name not in DIMENSIONLESS_FIELDS})
+        table = self.box.machines.table(
+            {name: value for name, value in moved.items() if name not in DIMENSIONLESS_FIELDS}
+        )
         return speed / (table["clearance"] * table["speed"])
 
     def show(self, cell: Cell, most: int) -> int:
@@ -180,9 +182,11 @@ class Disc:
         """How wide a cell is in each of its coordinates, in ``c_r Ω``: about by how much they move a flight."""
         part = self._part(cell.parts)
         (slow, fast), turn = cell.speeds, cell.angles[1] - cell.angles[0]
-        largest, radius = part.doubles[2], part.held.middle.plain_radius
+        largest, radius = part.doubles[2], part.held.middle.plain.radius
         around = 2 * np.pi * float(turn) * min(float(fast) * largest, radius)
-        sides = [float((abs(side.gamma) + abs(side.omega_squared) + abs(side.radius)).mid()) for side in part.held.sides]
+        sides = [
+            float((abs(side.gamma) + abs(side.omega_squared) + abs(side.radius)).mid()) for side in part.held.sides
+        ]
         return float(fast - slow) * largest, around, *sides
 
     def data(self) -> Data:
@@ -196,8 +200,8 @@ Data = tuple[str, str, int, tuple[tuple[str, ...], ...]]
 @lru_cache(maxsize=2)
 def disc_of(data: Data) -> Disc:
     """A disc from plain data, once for all cells that a process looks at."""
-    document, *rest = data
-    return Disc(Hypotheses.from_document(json.loads(document)), *rest)
+    document, largest, most, along = data
+    return Disc(Hypotheses.from_document(json.loads(document)), largest, most, along)
 
 
 @dataclass(frozen=True)

@@ -15,7 +15,7 @@ from carom.core.processors import available_cores
 from carom.files import write_whole
 from carom.models import Subject
 from carom.outcome import InputError, shown
-from carom.parameters import Field, read_quantity
+from carom.parameters import read_quantity
 from carom.progress import Reporter, ShowProgress, shows_progress
 from carom.proofs.balls import at_precision
 from carom.proofs.claims import Proof
@@ -26,9 +26,9 @@ from carom.proofs.kick_cells import AHEAD, IMPACTS, Tree, read, written
 from carom.proofs.kick_claims import NOT_CLAIMED, THEOREM, claims_of
 from carom.proofs.kick_discs import Disc
 from carom.proofs.kick_search import BITS, search
+from carom.proofs.proving import TIME
 
 _STORE = "carom cells of kicks 1"
-_TIME = Field("time_limit", "", "time to search", "a time", "s", 1e-3, 1e9, '"10 min"')
 USUAL_TIME = "10 min"
 USUAL_IMPACTS = 12
 
@@ -98,7 +98,7 @@ def prove_kicks(
     hypotheses, tell = hypotheses_of(machine, settings, list(along or ())), Reporter.of(progress, "proving")
     box = tuple((name, *map(written_exactly, ends)) for name, ends in (along or {}).items())
     disc = Disc(hypotheses, written_exactly(kicks_up_to).removeprefix("double "), most_impacts, box)
-    seconds = math.inf if time_limit is None else read_quantity(_TIME, time_limit)
+    seconds = math.inf if time_limit is None else read_quantity(TIME, time_limit)
     try:
         with at_precision(BITS):
             disc.check_levitation()
@@ -118,10 +118,9 @@ def prove_kicks(
         claims = box_claims_of(disc, tree) if box else claims_of(disc, tree)
     tell(1.0)
     options: dict[str, Any] = {"kicks_up_to": disc.largest, "most_impacts": most_impacts}
-    theorem, not_claimed = THEOREM, NOT_CLAIMED
     if box:
-        theorem, not_claimed = BOX_THEOREM, BOX_NOT_CLAIMED
         options["box"] = [list(entry) for entry in box]
+    theorem, not_claimed = (BOX_THEOREM, BOX_NOT_CLAIMED) if box else (THEOREM, NOT_CLAIMED)
     return Proof(theorem, hypotheses, options, tuple(claims), BITS, not_claimed, {"cells": written(tree)})
 
 

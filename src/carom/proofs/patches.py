@@ -26,6 +26,7 @@ from typing import Any, NamedTuple
 from flint import acb, arb
 
 from carom.proofs.lines import Numbers
+from carom.proofs.plain_flights import PlainRotor
 from carom.proofs.series import hyperbolic
 from carom.proofs.sides import Side, responses_by
 
@@ -78,9 +79,8 @@ class Held:
         self.radius_squared = self.radius * self.radius
         self.room = 1 - self.radius
         self.grip = numbers.mu * (1 + numbers.d)
-        self.plain_radius = float(self.radius.mid())
-        self.plain = _plain_of(*(float(x.mid()) for x in (numbers.gamma, numbers.omega_squared)))
-        self._ends = [self._end_of(side) for side in sides]
+        self.plain = PlainRotor.of(numbers.gamma, numbers.omega_squared, self.radius)
+        self._ends = [self.plain.ends(side) for side in sides]
 
     def waves(self, time: Any, from_wall: bool) -> Waves:
         """Waves of flights from the wall or from levitation."""
@@ -107,65 +107,17 @@ class Held:
             found.append((place, rate) if from_wall else ((arb(0), h, acb(0)), (arb(0), dh, acb(0))))
         return found
 
-    def _end_of(self, side: Side) -> tuple[tuple[_Plain, float], ...]:
-        """Numbers in doubles, and ``ℓ``, of the rotors at both ends of a parameter."""
-        n, middle = self.numbers, self.middle
-        moves = [float(x.mid()) for x in (side.gamma, side.omega_squared, side.radius)]
-        return tuple(
-            (
-                _plain_of(float(n.gamma.mid()) + sign * moves[0], float(n.omega_squared.mid()) + sign * moves[1]),
-                middle.plain_radius + sign * moves[2],
-            )
-            for sign in (1.0, -1.0)
-        )
+    def plain_waves(self, time: float, from_wall: bool) -> tuple[tuple[complex, complex, complex], ...]:
+        """Waves of the rotor in the middle in doubles."""
+        return self.middle.plain.waves(time, from_wall)
 
     def plain_by(self, time: float, from_wall: bool, velocity: complex, turn: complex) -> list[tuple[complex, complex]]:
         """By how much place and rate change along each parameter, in doubles; ``turn`` is the direction of ``Λ``."""
         found = []
         for ends in self._ends:
-            (one, one_rate), (other, other_rate) = (
-                tuple(
-                    c + velocity * h + radius * turn * k
-                    for c, h, k in _plain_waves(plain, time, from_wall)[:2]
-                )
-                for plain, radius in ends
-            )
-            found.append(((one - other) / 2, (one_rate - other_rate) / 2))
+            one, other = (end.flight(time, from_wall, velocity, turn) for end in ends)
+            found.append(((one[0] - other[0]) / 2, (one[1] - other[1]) / 2))
         return found
-
-    def plain_waves(self, time: float, from_wall: bool) -> tuple[tuple[complex, complex, complex], ...]:
-        """Waves of the rotor in the middle in doubles."""
-        return _plain_waves(self.middle.plain, time, from_wall)
-
-
-class _Plain(NamedTuple):
-    """``γ/2``, ``D`` and ``ω²`` in doubles."""
-
-    half: float
-    split: float
-    stiff: float
-
-
-def _plain_of(gamma: float, stiff: float) -> _Plain:
-    return _Plain(gamma / 2, gamma * gamma / 4 - stiff, stiff)
-
-
-def _plain_waves(plain: _Plain, time: float, from_wall: bool) -> tuple[tuple[complex, complex, complex], ...]:
-    half, split, stiff = plain
-    root = cmath.sqrt(split) or 1e-9
-    fade = cmath.exp(-half * time).real
-    h = fade * (cmath.sinh(root * time) / root).real
-    dh = fade * cmath.cosh(root * time).real - half * h
-    d2h = -2 * half * dh - stiff * h
-    turn = cmath.exp(1j * time)
-    if not from_wall:
-        return (0, h, turn), (0, dh, 1j * turn), (0, d2h, -turn)
-    c, dc, d2c = dh + 2 * half * h, -stiff * h, -stiff * dh
-    return (
-        (c, h, turn - c - 1j * h),
-        (dc, dh, 1j * turn - dc - 1j * dh),
-        (d2c, d2h, -turn - d2c - 1j * d2h),
-    )
 
 
 @dataclass(frozen=True)
@@ -226,7 +178,7 @@ class Departure:
         middle = [float(x) for x in patch.centre]
         self._velocity = complex(*middle[:-1])
         self._turn = cmath.exp(1j * middle[-1])
-        self._levitation = held.middle.plain_radius * self._turn
+        self._levitation = held.middle.plain.radius * self._turn
         self._columns = [(complex(v), 1j * self._levitation * float(turn)) for v, turn in self.columns]
 
     # -------------------------------------------------------------------------------------- balls

@@ -39,7 +39,7 @@ def doubles_of(hypotheses: Hypotheses) -> Parameters:
 
 def doubles_at(numbers: Numbers, phase: float) -> Parameters:
     """Parameters next to numbers of the equations."""
-    values = {name: float(ball.mid()) for name, ball in numbers._asdict().items()}
+    values: dict[str, Any] = {name: float(ball.mid()) for name, ball in numbers._asdict().items()}
     return Parameters(omega=math.sqrt(values.pop("omega_squared")), phi=phase, **values)
 
 

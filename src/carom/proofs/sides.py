@@ -10,6 +10,7 @@ written.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 from flint import arb, arb_series
@@ -58,7 +59,7 @@ class Responses(NamedTuple):
     push_rate: Any
 
 
-def responses_by(numbers: Numbers, sides: list[Side], time: Any) -> list[Responses]:
+def responses_by(numbers: Numbers, sides: Sequence[Side], time: Any) -> list[Responses]:
     """The derivatives by each parameter at a time, or on an interval of times."""
     half, split, gamma, stiff = numbers.gamma / 2, numbers.split, numbers.gamma, numbers.omega_squared
     even, odd = hyperbolic(split, time)

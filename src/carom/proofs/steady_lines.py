@@ -5,10 +5,11 @@ As in :mod:`carom.proofs.whirl_lines` the interval is halved until the signs of 
 
 from __future__ import annotations
 
+import heapq
+import math
 from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
 from functools import partial
-from itertools import pairwise
 from typing import Any
 
 from carom.parameters.terms import set_by
@@ -20,8 +21,10 @@ from carom.proofs.runs import claim_of_runs, in_brackets, runs_along, written
 from carom.proofs.series import hull
 from carom.proofs.steady import harmless_speed, rub_discriminant, rub_force, wall_condition
 
-_PARTS = 64
-"""Parts of an interval on which the harmless speed is enclosed."""
+_HALVED = 200
+"""Parts of an interval that are halved to enclose the least harmless speed."""
+_ROUNDING = 1e-15
+"""Of the lower ends in double precision."""
 
 
 def steady_line_claims(rotor: Rotor, options: Mapping[str, Any]) -> list[Claim]:
@@ -76,14 +79,23 @@ def _kick_claims(line: Line) -> list[Claim]:
     words = "the rotor levitates inside the wall, and no kick out of levitation slower than the lower number brings it to the wall"
     if not runs[None]:
         return [
-            claim_of("kick", "harmless", f"For all {line.words}, {words}.", 1, enclosures=_speeds(line, runs[True]), limited=False)
+            claim_of(
+                "kick",
+                "harmless",
+                f"For all {line.words}, {words}.",
+                1,
+                enclosures=_speeds(line, runs[True]),
+                limited=False,
+            )
         ]
     claims = [claim_of_runs("kick", "harmless", f"For all {line.words}, a speed of harmless kicks is shown.", runs)]
     if runs[True]:
         where = " or ".join(in_brackets(written(*run, inward=True)) for run in runs[True])
         statement = f"For all {line.name} in {where}, {words}."
         claims.append(
-            claim_of("kick", "harmless outside of gaps", statement, 1, enclosures=_speeds(line, runs[True]), limited=False)
+            claim_of(
+                "kick", "harmless outside of gaps", statement, 1, enclosures=_speeds(line, runs[True]), limited=False
+            )
         )
     return claims
 
@@ -100,14 +112,39 @@ def _speeds(line: Line, runs: Sequence[tuple[Fraction, Fraction]]) -> dict[str, 
 
 
 def _least(line: Line, runs: Sequence[tuple[Fraction, Fraction]], *, scaled: bool) -> Any:
-    """Ball of the least harmless speed on intervals: of each part it lies below the upper end, and above the lower end of one."""
-    balls = []
-    for low, high in runs:
-        cuts = [low + (high - low) * Fraction(k, _PARTS) for k in range(_PARTS + 1)] if high > low else [low, high]
-        for ends in pairwise(cuts):
-            value = interval(*ends)
-            speed = harmless_speed(line.at(value))
-            if speed is not None:
-                table = line.table(value) if scaled else {}
-                balls.append(speed * table["clearance"] * table["speed"] if scaled else speed)
-    return hull(min(ball.lower() for ball in balls), min(ball.upper() for ball in balls))
+    """Ball of the least harmless speed on intervals on each of which one is shown.
+
+    It is at most the upper end of that of any part, and at least the least of all lower ends; the part with that is halved next.
+    """
+    parts = [_Part(line, *run, scaled) for run in runs]
+    heap = [(part.least, part.low, part) for part in parts]
+    above = min(part.most for part in parts)
+    heapq.heapify(heap)
+    halved = 0
+    # Parts that are wider than those on which it is shown are halved in any case.
+    while halved < _HALVED or heap[0][0] == -math.inf:
+        part = heapq.heappop(heap)[-1]
+        for half in part.halves():
+            above = min(above, half.most)
+            heapq.heappush(heap, (half.least, half.low, half))
+        halved += 1
+    return hull(heap[0][0], above)
+
+
+class _Part:
+    """Part of an interval with bounds of the harmless speed on it, in double precision outward."""
+
+    def __init__(self, line: Line, low: Fraction, high: Fraction, scaled: bool) -> None:
+        self.line, self.low, self.high, self.scaled = line, low, high, scaled
+        value = interval(low, high)
+        speed = harmless_speed(line.at(value))
+        self.least, self.most = -math.inf, math.inf
+        if speed is not None:
+            table = line.table(value) if scaled else {}
+            speed = speed * table["clearance"] * table["speed"] if scaled else speed
+            self.least, self.most = float(speed.lower()) * (1 - _ROUNDING), float(speed.upper()) * (1 + _ROUNDING)
+
+    def halves(self) -> list[_Part]:
+        """Both halves."""
+        middle = (self.low + self.high) / 2
+        return [_Part(self.line, *ends, self.scaled) for ends in ((self.low, middle), (middle, self.high))]
