@@ -48,6 +48,10 @@ def prove(
         str | None,
         typer.Option(metavar="SPEED", help="Prove instead which kicks out of levitation up to SPEED come back."),
     ] = None,
+    states_up_to: Annotated[
+        str | None,
+        typer.Option(metavar="SPEED", help="Prove instead that all states inside the clearance up to SPEED come back."),
+    ] = None,
     most_impacts: Annotated[
         int | None, typer.Option(metavar="N", help="Leave kicks open that may have more than N impacts; by default 12.")
     ] = None,
@@ -63,7 +67,7 @@ def prove(
     ] = None,
     as_json: AsJson = False,
 ) -> None:
-    """Prove equilibria and all orbits with one impact a period, in ball arithmetic; or along a parameter; or which kicks come back.
+    """Prove equilibria and all orbits with one impact a period, in ball arithmetic; or along a parameter; or what comes back.
 
     The numbers of the machine file are taken exactly as they are written. Each claim is proven, refuted or undecided, with the
     reason. A certificate can be verified by itself, without any search. Needs the extra carom[proof].
@@ -71,16 +75,17 @@ def prove(
     with progress("loading") as tell:
         from carom.proofs import check as verify
         from carom.proofs import prove as prove_machine
+        from carom.proofs import prove_states
 
         if check is not None:
-            others = (machine, longest_period, out, kicks_up_to, most_impacts, time_limit)
+            others = (machine, longest_period, out, kicks_up_to, states_up_to, most_impacts, time_limit)
             if settings or along or start or stop or impacts != 1 or any(other is not None for other in others):
                 raise InputError("--check", shown(check), "must stand alone: a certificate holds its machine")
             proof = verify(check, progress=tell)
         elif machine is None:
             raise InputError("MACHINE.toml", None, "give a machine file, or a certificate with --check")
         elif kicks_up_to is not None:
-            if impacts != 1 or longest_period is not None:
+            if impacts != 1 or longest_period is not None or states_up_to is not None:
                 raise InputError(
                     "--kicks-up-to", shown(kicks_up_to), "cannot be combined with options of other theorems"
                 )
@@ -92,20 +97,27 @@ def prove(
                     "--kicks-up-to", None, "is needed by --most-impacts, and by --time-limit without --along"
                 )
             box = _intervals(along, start, stop)
-            if len(box) > 1:
-                raise InputError("--along", shown(list(box)), "must be one parameter, but with --kicks-up-to")
-            name, interval = next(iter(box.items()), (None, None))
             check_output(out)
-            proof = prove_machine(
-                machine,
-                settings or (),
-                longest_period=longest_period,
-                impacts=impacts,
-                along=name,
-                interval=interval,
-                time_limit=time_limit,
-                progress=tell,
-            )
+            if states_up_to is not None:
+                if impacts != 1 or longest_period is not None or box or time_limit is not None:
+                    raise InputError(
+                        "--states-up-to", shown(states_up_to), "cannot be combined with options of other theorems"
+                    )
+                proof = prove_states(machine, states_up_to, settings or (), progress=tell)
+            else:
+                if len(box) > 1:
+                    raise InputError("--along", shown(list(box)), "must be one parameter, but with --kicks-up-to")
+                name, interval = next(iter(box.items()), (None, None))
+                proof = prove_machine(
+                    machine,
+                    settings or (),
+                    longest_period=longest_period,
+                    impacts=impacts,
+                    along=name,
+                    interval=interval,
+                    time_limit=time_limit,
+                    progress=tell,
+                )
     if out is not None:
         directory = Path(out)
         directory.mkdir(parents=True, exist_ok=True)

@@ -41,6 +41,13 @@
 ``kick_search``     the search for cells, in several processes
 ``kick_claims``     claims about kicks
 ``kicks``           prove_kicks, as far as a time allows
+``speeds``          the largest speed that a theorem is about
+``forms``           quadratic forms that fall in flight and in contact
+``arrivals``        all states in which motions first meet the wall
+``form_search``     which forms show that all states return
+``lost_states``     motions that never return
+``state_claims``    claims about all states up to a speed
+``states``          prove_states
 ``certificates``    proofs as JSON, and their check
 ==================  ==============================================================
 """
@@ -58,5 +65,16 @@ from carom.proofs.claims import Claim, Proof
 from carom.proofs.hypotheses import Hypotheses, hypotheses_of
 from carom.proofs.kicks import prove_kicks
 from carom.proofs.proving import prove
+from carom.proofs.states import prove_states
 
-__all__ = ["Claim", "Enclosure", "Hypotheses", "Proof", "check", "hypotheses_of", "prove", "prove_kicks"]
+__all__ = [
+    "Claim",
+    "Enclosure",
+    "Hypotheses",
+    "Proof",
+    "check",
+    "hypotheses_of",
+    "prove",
+    "prove_kicks",
+    "prove_states",
+]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property, lru_cache
 from typing import Any, NamedTuple
@@ -14,9 +14,8 @@ from flint import arb, arb_series
 
 from carom.models import Jeffcott
 from carom.motions import settle
-from carom.outcome import InputError, Outcome
+from carom.outcome import Outcome
 from carom.parameters import DIMENSIONLESS_FIELDS, Field
-from carom.parameters.exact import read_exact
 from carom.parameters.terms import set_by
 from carom.proofs.balls import ball_of, rational
 from carom.proofs.boxes import Box, Part, box_of
@@ -28,6 +27,7 @@ from carom.proofs.patches import Held
 from carom.proofs.recoveries import impacts_of, kicked
 from carom.proofs.seeds import doubles_at
 from carom.proofs.series import terms
+from carom.proofs.speeds import LargestSpeed
 
 _SPEED = Field("kicks_up_to", "V", "largest kick out of levitation", "a velocity", "m/s", 1e-9, 1e9, '"100 mm/s"')
 _KEPT = 4096
@@ -75,7 +75,11 @@ class Disc:
     along: tuple[tuple[str, ...], ...] = ()
 
     def __post_init__(self) -> None:
-        self.exact, self.box  # noqa: B018  (raise if the speed or a parameter is none)
+        self._limit, self.box  # noqa: B018  (raise if the speed or a parameter is none)
+
+    @cached_property
+    def _limit(self) -> LargestSpeed:
+        return LargestSpeed(self.hypotheses, self.largest, _SPEED)
 
     @cached_property
     def box(self) -> Box:
@@ -90,16 +94,12 @@ class Disc:
     @property
     def physical(self) -> bool:
         """Whether its speed has a unit."""
-        return self.hypotheses.table == "machine"
+        return self._limit.physical
 
-    @cached_property
+    @property
     def exact(self) -> tuple[Fraction, int]:
         """Its largest speed in m/s, or in ``c_r Ω``: a rational number, times π to a power."""
-        field = replace(_SPEED, needs_unit=True) if self.physical else replace(_SPEED, unit="", kind="a number")
-        number = read_exact(field, self.largest)
-        if number.low != number.high:
-            raise InputError("kicks_up_to", self.largest, "must be one speed")
-        return number.low, number.turns
+        return self._limit.exact
 
     def speed(self, share: Fraction) -> Any:
         """Ball of a share of the largest speed, in ``c_r Ω``, for all its machines."""

@@ -9,6 +9,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from carom.proofs import state_claims
 from carom.proofs.claims import Claim, claim_of
 from carom.proofs.evidence import Evidence, rational_of
 from carom.proofs.kick_box_claims import BOX_NOT_CLAIMED, BOX_OPTIONS, BOX_THEOREM, kick_box_claims
@@ -153,5 +154,6 @@ THEOREMS: Mapping[str, Theorem] = {
     ),
     THEOREM: Theorem(kick_claims, NOT_CLAIMED, OPTIONS),
     BOX_THEOREM: Theorem(kick_box_claims, BOX_NOT_CLAIMED, BOX_OPTIONS),
+    state_claims.THEOREM: Theorem(state_claims.state_claims, state_claims.NOT_CLAIMED, state_claims.OPTIONS),
 }
 """Theorems by their names in certificates."""

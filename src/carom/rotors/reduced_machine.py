@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
-from carom.models import Limited, Model, Touchdown
+from carom.models import Limit, Limited, Model, Touchdown
 from carom.models.in_bearing import law_of, race_of
 from carom.models.weight import weighted
 from carom.outcome import InputError
@@ -148,11 +148,15 @@ class ReducedMachine(Result):
         InputError
             As for :attr:`linear`.
         """
+        return Limited(self.linear, self.limits) if self.limits else self.linear
+
+    @cached_property
+    def limits(self) -> tuple[Limit, ...]:
+        """Limits of its magnetic bearings, in units of the equations, on the gains of which they depend."""
         at, given = self.machine, self.equations
         pulls = np.zeros_like(given.currents)
         pulls[:, : self.vectors] = loops_of(at.rotor, at.bearings, at.touchdowns).bearings @ self.basis.shapes
-        limits = limits_of_bearings(given, tuple(at.bearings), pulls, self.scales)
-        return Limited(self.linear, limits) if limits else self.linear
+        return limits_of_bearings(given, tuple(at.bearings), pulls, self.scales)
 
     @cached_property
     def model(self) -> Model:

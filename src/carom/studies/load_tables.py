@@ -11,7 +11,7 @@ from carom.parameters import MACHINE_FIELDS, LoadLimits, Scales
 from carom.parameters.told import number
 from carom.results import fields_of, in_si
 from carom.studies.document import loads_document
-from carom.studies.load_checks import LoadCheck, check_loads, loads_entry
+from carom.studies.load_checks import check_loads, loads_entry
 from carom.studies.wording import Wording, counted
 
 
@@ -39,11 +39,6 @@ def _shaft_words(shaft: Braking) -> str:
 def load_entries(loads: DropLoads, limits: LoadLimits) -> list[dict[str, Any]]:
     """The loads of each plane as JSON, with the limits."""
     return [_entry(plane, limits) for plane in loads.planes]
-
-
-def checks_of_planes(loads: DropLoads, limits: LoadLimits) -> tuple[LoadCheck, ...]:
-    """The loads of all planes against the limits that are stated."""
-    return tuple(check for plane in loads.planes for check in check_loads(plane.loads, limits))
 
 
 def _rows(plane: PlaneLoads, outcome: Outcome, since: str) -> list[tuple[str, str]]:
