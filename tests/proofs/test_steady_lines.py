@@ -27,12 +27,13 @@ def case(request):
     options = {"along": name, "from": start, "to": stop}
     with at_precision(64):
         claims = steady_line_claims(Rotor(hypotheses_of(path)), options)
-    low, high = (
-        float(value.partition(" ")[0]) * (1e-3 if value.endswith(" mm") else 1.0) for value in (start, stop)
-    )
+    low, high = (float(value.partition(" ")[0]) * (1e-3 if value.endswith(" mm") else 1.0) for value in (start, stop))
     drawn = np.random.default_rng(2).uniform(low, high, sized(200, 30, 2000)).tolist()
     values = [low, *drawn, high]
-    yield {claim.name: claim for claim in claims}, [(x, carom.load(path, [f"{name}={x!r} {unit}".strip()])) for x in values]
+    return (
+        {claim.name: claim for claim in claims},
+        [(x, carom.load(path, [f"{name}={x!r} {unit}".strip()])) for x in values],
+    )
 
 
 def parts(claim, value):

@@ -36,6 +36,12 @@
 ``passages``        what happens next on all flights of a patch
 ``strikes``         states after an impact
 ``recoveries``      whether all states of a patch return
+``boxes``           boxes of machines
+``sides``           by how much a parameter of a box moves flights
+``plain_flights``   flights in double precision
+``gaps``            parts of a box on which something is open
+``kick_box_claims`` claims about kicks of boxes of machines
+``steady_lines``    levitation, rubs and harmless kicks along a parameter
 ``kick_cells``      the disc of kicks as cells that halve one another
 ``kick_discs``      what is proven of a cell
 ``kick_search``     the search for cells, in several processes

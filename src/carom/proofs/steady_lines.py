@@ -117,18 +117,15 @@ def _least(line: Line, runs: Sequence[tuple[Fraction, Fraction]], *, scaled: boo
     It is at most the upper end of that of any part, and at least the least of all lower ends; the part with that is halved next.
     """
     parts = [_Part(line, *run, scaled) for run in runs]
-    heap = [(part.least, part.low, part) for part in parts]
-    above = min(part.most for part in parts)
-    heapq.heapify(heap)
-    halved = 0
+    above, halved = min(part.most for part in parts), 0
+    heapq.heapify(parts)
     # Parts that are wider than those on which it is shown are halved in any case.
-    while halved < _HALVED or heap[0][0] == -math.inf:
-        part = heapq.heappop(heap)[-1]
-        for half in part.halves():
+    while parts[0].low < parts[0].high and (halved < _HALVED or parts[0].least == -math.inf):
+        for half in heapq.heappop(parts).halves():
             above = min(above, half.most)
-            heapq.heappush(heap, (half.least, half.low, half))
+            heapq.heappush(parts, half)
         halved += 1
-    return hull(heap[0][0], above)
+    return hull(parts[0].least, above)
 
 
 class _Part:
@@ -143,6 +140,10 @@ class _Part:
             table = line.table(value) if scaled else {}
             speed = speed * table["clearance"] * table["speed"] if scaled else speed
             self.least, self.most = float(speed.lower()) * (1 - _ROUNDING), float(speed.upper()) * (1 + _ROUNDING)
+
+    def __lt__(self, other: _Part) -> bool:
+        """Whether the least speed on it may be the smaller one."""
+        return (self.least, self.low) < (other.least, other.low)
 
     def halves(self) -> list[_Part]:
         """Both halves."""
