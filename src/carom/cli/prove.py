@@ -176,6 +176,9 @@ def _print_proof(proof: Proof, checked: bool) -> None:
     for claim in proof:
         table.add_row(claim.about, claim.kind, claim.status, claim.reason or _number(claim))
     screen.print(fitted(screen, table))
+    for claim in proof:
+        if claim.about == "kicks" and claim.status == "proven":
+            screen.print(claim.statement)
     how = "Verified from the certificate alone" if checked else "Proven"
     screen.print(f"{how}, with balls of {proof.bits} bits. Exactly assumed: {_assumed(proof)}.")
     screen.print("Not claimed:")
