@@ -2247,7 +2247,7 @@ def leaves_of(letters: str, parameters: int = 0) -> list[tuple]:
         if not stack:
             raise RefusedError("the tree of cells has letters left over")
         ends = stack.pop()
-        place = 2 * "vapqr"[: 2 + parameters].find(letter)
+        place = 2 * "vapqu"[: 2 + parameters].find(letter)
         if place >= 0:
             cut = (ends[place] + ends[place + 1]) / 2
             stack += [(*ends[:place], cut, *ends[place + 1 :]), (*ends[: place + 1], cut, *ends[place + 2 :])]

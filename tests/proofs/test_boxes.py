@@ -17,6 +17,7 @@ from carom.parameters import Parameters
 from carom.proofs import Hypotheses, check, hypotheses_of, prove, prove_kicks
 from carom.proofs.balls import at_precision
 from carom.proofs.boxes import box_of
+from carom.proofs.families import KICKS
 from carom.proofs.gaps import MOST_GAPS, decimal, gaps_of, outside
 from carom.proofs.kick_box_claims import box_claims_of
 from carom.proofs.kick_cells import IMPACTS, leaves, read
@@ -184,7 +185,7 @@ def test_a_box_is_not_passed_off_as_one_machine(document):
 
 
 def disc(*along):
-    return Disc(hypotheses_of(SPINDLE), "111 mm/s", 3, along)
+    return Disc(KICKS, hypotheses_of(SPINDLE), "111 mm/s", 3, along)
 
 
 DAMPING = ("damping", "200 N s/m", "600 N s/m")

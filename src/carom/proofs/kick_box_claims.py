@@ -12,9 +12,10 @@ from carom.proofs.balls import enclosure_of, enclosure_of_fraction
 from carom.proofs.boxes import MOST_PARAMETERS
 from carom.proofs.claims import Claim, claim_of
 from carom.proofs.evidence import Evidence, NotShownError
+from carom.proofs.families import KICKS
 from carom.proofs.gaps import box_told, gaps_of, outside, told
-from carom.proofs.kick_cells import IMPACTS, OPEN, Cell, Tree, leaves, read, share_of
-from carom.proofs.kick_claims import NOT_CLAIMED, nothing_found, reasons_of, told_kicks
+from carom.proofs.kick_cells import IMPACTS, REFUTED, Cell, Tree, leaves, read, share_of
+from carom.proofs.kick_claims import NOT_CLAIMED, nothing_found, reasons_of
 from carom.proofs.kick_discs import Disc
 from carom.proofs.kick_search import BITS, show_all
 from carom.proofs.rotor import Rotor
@@ -38,7 +39,7 @@ def box_disc_from(rotor: Rotor, options: Mapping[str, Any]) -> Disc:
         raise NotShownError("the certificate has no box of machines")
     if not all(isinstance(entry, list) and [type(text) for text in entry] == [str] * 3 for entry in box):
         raise NotShownError("the certificate has no box of machines")
-    return Disc(rotor.hypotheses, largest, most, tuple(tuple(entry) for entry in box))
+    return Disc(KICKS, rotor.hypotheses, largest, most, tuple(tuple(entry) for entry in box))
 
 
 def kick_box_claims(rotor: Rotor, evidence: Evidence, options: Mapping[str, Any]) -> list[Claim]:
@@ -52,30 +53,36 @@ def kick_box_claims(rotor: Rotor, evidence: Evidence, options: Mapping[str, Any]
 
 
 def box_claims_of(disc: Disc, tree: Tree) -> list[Claim]:
-    """Claims about a disc and a box whose cells are known."""
+    """Claims about a disc and a box whose cells are known; what is refuted leaves a gap as what is open does."""
     known = list(leaves(tree))
     proven = [(cell, IMPACTS.index(letter)) for cell, letter in known if letter in IMPACTS]
-    open_ = [cell for cell, letter in known if letter in OPEN]
+    open_ = [cell for cell, letter in known if letter not in IMPACTS]
     claims = [_share_claim(disc, known, proven, open_), _all_claim(disc, known, proven, open_)]
     if open_:
+        claims += _refutations(disc, known)
         claims += _claims_outside(disc, proven, open_)
         claims += _stretch_claims(disc, proven, open_) if len(disc.along) == 1 else []
     return claims
 
 
+def _told(disc: Disc) -> str:
+    return f"{disc.family.told} {disc.largest}"
+
+
 def _share_claim(disc: Disc, known: list[tuple[Cell, str]], proven: list[tuple[Cell, int]], open_: list[Cell]) -> Claim:
     """How much of the disc, and of the box, is proven."""
     first = min((cell.speeds[0] for cell in open_), default=Fraction(1))
+    refuted = share_of(cell for cell, letter in known if letter == REFUTED)
     exact = {
         "share_proven": share_of(cell for cell, _ in proven),
-        "share_refuted": Fraction(0),
-        "share_open": share_of(open_),
+        "share_refuted": refuted,
+        "share_open": share_of(open_) - refuted,
         "impacts": Fraction(max((impacts for _, impacts in proven), default=0)),
     }
     return claim_of(
         "kicks",
         "recover",
-        f"Of {told_kicks(disc)}, and of the values {disc.box.words}, area of the disc times widths of the intervals, the share share_proven returns to levitation "
+        f"Of {_told(disc)}, and of the values {disc.box.words}, area of the disc times widths of the intervals, the share share_proven returns to levitation "
         "with at most so many impacts, among them, for all these values, every kick slower than the lower end of speed.",
         1 if proven else 0,
         reason="no cell of kicks could be proven to return",
@@ -90,11 +97,27 @@ def _all_claim(disc: Disc, known: list[tuple[Cell, str]], proven: list[tuple[Cel
     return claim_of(
         "kicks",
         "all recover",
-        f"For all {disc.box.words}, all {told_kicks(disc)}, return to levitation with at most {most} impacts.",
-        0 if open_ else 1,
+        f"For all {disc.box.words}, all {_told(disc)}, return to levitation with at most {most} impacts.",
+        -1 if any(letter == REFUTED for _, letter in known) else 0 if open_ else 1,
         reason=reasons_of(known, "area times widths"),
         limited=False,
     )
+
+
+def _refutations(disc: Disc, known: list[tuple[Cell, str]]) -> list[Claim]:
+    """How much is shown not to return, if anything is."""
+    refuted = share_of(cell for cell, letter in known if letter == REFUTED)
+    return [
+        claim_of(
+            "kicks",
+            "do not recover",
+            f"Of {_told(disc)}, and of the values {disc.box.words}, area of the disc times widths of the intervals, the share share_refuted never returns to "
+            "levitation: after bounces the rotor stays on the wall and decays to the synchronous rub of the larger normal force.",
+            1,
+            enclosures={"share_refuted": enclosure_of_fraction(refuted)},
+            limited=False,
+        )
+    ] * bool(refuted)
 
 
 def _claims_outside(disc: Disc, proven: list[tuple[Cell, int]], open_: list[Cell]) -> list[Claim]:
@@ -114,7 +137,7 @@ def _claims_outside(disc: Disc, proven: list[tuple[Cell, int]], open_: list[Cell
         claim_of(
             "kicks",
             "all recover outside of gaps",
-            f"For all {where}: all {told_kicks(disc)}, return to levitation with at most {most} impacts.",
+            f"For all {where}: all {_told(disc)}, return to levitation with at most {most} impacts.",
             1,
             enclosures={"share_of_box": enclosure_of_fraction(1 - inside)},
             limited=False,
@@ -165,7 +188,7 @@ def _meets(cell: Cell, low: Fraction, high: Fraction) -> bool:
 
 def _speeds(disc: Disc, share: Fraction) -> dict[str, Any]:
     """A share of the largest speed: in m/s for machines, in ``c_r Ω`` where that is the same for all of them."""
-    found = {"speed": enclosure_of(disc.speed(share))} if disc.shares_unit else {}
+    found = {"speed": enclosure_of(disc.size(share))} if disc.shares_unit else {}
     if disc.physical and not disc.exact[1]:
         found["speed_si"] = enclosure_of_fraction(disc.exact[0] * share)
     return found

@@ -1,37 +1,39 @@
-"""A disc of kick velocities out of levitation, of one machine or of a box of them, and what is proven of its cells one by one."""
+"""A disc of disturbances out of levitation, and what is proven of its cells one by one."""
 
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property, lru_cache
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 from flint import arb, arb_series
 
 from carom.models import Jeffcott
 from carom.motions import settle
-from carom.outcome import Outcome
-from carom.parameters import DIMENSIONLESS_FIELDS, Field
+from carom.outcome import InputError, Outcome
+from carom.parameters import DIMENSIONLESS_FIELDS
 from carom.parameters.terms import set_by
 from carom.proofs.balls import ball_of, rational
 from carom.proofs.boxes import Box, Part, box_of
 from carom.proofs.evidence import NotShownError
+from carom.proofs.families import FAMILIES, KICKS, Family, Scale
 from carom.proofs.hypotheses import Hypotheses
-from carom.proofs.kick_cells import CUTS, IMPACTS, LOST, Cell, whole
-from carom.proofs.passages import GRAZE, LeftOpenError
-from carom.proofs.patches import Held
-from carom.proofs.recoveries import impacts_of, kicked
+from carom.proofs.kick_cells import CUTS, IMPACTS, LOST, REFUTED, Cell, whole
+from carom.proofs.lines import Numbers
+from carom.proofs.passages import GRAZE, OUTSIDE, LeftOpenError
+from carom.proofs.patches import Held, Patch
+from carom.proofs.recoveries import disturbed, disturbed_in_box, impacts_of, show_in_rub
 from carom.proofs.seeds import doubles_at
 from carom.proofs.series import terms
-from carom.proofs.speeds import LargestSpeed
 
-_SPEED = Field("kicks_up_to", "V", "largest kick out of levitation", "a velocity", "m/s", 1e-9, 1e9, '"100 mm/s"')
+DiscData = tuple[str, str, str, int, tuple[tuple[str, ...], ...]]
 _KEPT = 4096
 """Parts of a box that are kept."""
+_Result = TypeVar("_Result")
 
 
 class Found(NamedTuple):
@@ -51,35 +53,36 @@ class Found(NamedTuple):
 
 @dataclass(frozen=True)
 class Disc:
-    """A disc of kick velocities out of levitation, in the fixed frame.
+    """A disc of disturbances out of levitation by size and direction, in the fixed frame.
 
     Attributes
     ----------
+    family : Family
+        What they are.
     hypotheses : Hypotheses
     largest : str
-        Speed of its rim: with a unit for a machine, in ``c_r Ω`` for a dimensionless one.
+        The largest of them: with units for a machine, without for a dimensionless one.
     most_impacts : int
-        A kick that may have more of them is left open.
+        A disturbance that may have more of them is left open.
     along : tuple of tuples of str
-        Parameters of a box of machines, each with both ends of its interval.
+        Parameters of a box of machines, each with both ends of its interval; for kicks only.
 
     Raises
     ------
     InputError
-        The speed is none, or a parameter is not.
+        The largest size is none, or a parameter is not.
     """
 
+    family: Family
     hypotheses: Hypotheses
     largest: str
     most_impacts: int
     along: tuple[tuple[str, ...], ...] = ()
 
     def __post_init__(self) -> None:
-        self._limit, self.box  # noqa: B018  (raise if the speed or a parameter is none)
-
-    @cached_property
-    def _limit(self) -> LargestSpeed:
-        return LargestSpeed(self.hypotheses, self.largest, _SPEED)
+        self.scale, self.box  # noqa: B018  (raise if it is no size, or a parameter is none)
+        if self.along and self.family is not KICKS:
+            raise InputError("along", [name for name, *_ in self.along], "is for kicks only")
 
     @cached_property
     def box(self) -> Box:
@@ -93,31 +96,38 @@ class Disc:
 
     @property
     def physical(self) -> bool:
-        """Whether its speed has a unit."""
-        return self._limit.physical
+        """Whether its sizes have a unit."""
+        return self.hypotheses.table == "machine"
+
+    @cached_property
+    def scale(self) -> Scale:
+        """What its sizes count."""
+        return self.family.reads(self.largest, self.hypotheses)
 
     @property
     def exact(self) -> tuple[Fraction, int]:
-        """Its largest speed in m/s, or in ``c_r Ω``: a rational number, times π to a power."""
-        return self._limit.exact
+        """Its largest size in the SI unit, or dimensionless: a rational number, times π to a power."""
+        return self.scale.largest.low, self.scale.largest.turns
 
-    def speed(self, share: Fraction) -> Any:
-        """Ball of a share of the largest speed, in ``c_r Ω``, for all its machines."""
-        return rational(share) * self._part(self.whole.parts).units[1]
+    def size(self, share: Fraction) -> Any:
+        """Ball of a share of the largest size, dimensionless."""
+        return rational(self.exact[0] * share) * arb.pi() ** self.exact[1] * self.scale.one()
 
     @property
     def shares_unit(self) -> bool:
-        """Whether ``c_r Ω`` is the same velocity for all its machines."""
+        """Whether the unit of dimensionless sizes is the same for all its machines."""
         return not self.physical or not {"speed", "clearance"} & {set_by(name) for name, *_ in self.along}
 
-    def check_levitation(self) -> None:
-        """Check that one machine of it, that in the middle, levitates inside the wall, with damping; :class:`NotShownError` if not."""
-        held = self._part(self.whole.parts).held.middle
-        if not (held.room > 0 and held.numbers.gamma > 0):
-            raise NotShownError("the rotor must levitate inside the wall, with damping above 0, for kicks to come back")
+    @property
+    def middle(self) -> Held:
+        """The rotor in the middle of its box; :class:`NotShownError` if it may not levitate inside the wall, with damping."""
+        held = self.part(self.whole.parts).held.middle
+        if not _levitates(held):
+            raise NotShownError("the rotor must levitate inside the wall, with damping above 0, for it to come back")
+        return held
 
-    def _part(self, parts: tuple[Part, ...]) -> BoxPart:
-        """The machines of a part of the box, kept for the cells that share it."""
+    def part(self, parts: tuple[Part, ...]) -> BoxPart:
+        """The machines of a part of the box, kept for the cells that share it, at the precision of their first use."""
         if parts not in self._known:
             if len(self._known) >= _KEPT:
                 self._known.clear()
@@ -128,59 +138,69 @@ class Disc:
     def _known(self) -> dict[tuple[Part, ...], BoxPart]:
         return {}
 
-    def unit(self, moved: Mapping[str, Any]) -> Any:
-        """The largest speed in ``c_r Ω`` at values of the parameters: a ball or a power series."""
-        speed: Any = rational(self.exact[0]) * arb.pi() ** self.exact[1]
+    def reach(self, numbers: Numbers, moved: Mapping[str, Any]) -> Any:
+        """``v`` of the largest size, for numbers of a rotor at values of the parameters: a ball or a power series."""
+        size: Any = rational(self.exact[0]) * arb.pi() ** self.exact[1]
+        if not self.along:
+            return size * self.scale.one() * self.scale.gain(numbers)
         if not self.physical:
-            return speed
+            return size
         table = self.box.machines.table(
             {name: value for name, value in moved.items() if name not in DIMENSIONLESS_FIELDS}
         )
-        return speed / (table["clearance"] * table["speed"])
+        return size / (table["clearance"] * table["speed"])
 
     def show(self, cell: Cell, most: int) -> int:
-        """Impacts after which all kicks of a cell return at most; :class:`LeftOpenError` if this is not shown."""
-        part = self._part(cell.parts)
+        """Impacts after which all of a cell return at most; :class:`LeftOpenError` if this is not shown."""
+        return self._followed(cell, lambda held, patch: impacts_of(held, patch, most))
+
+    def refute(self, cell: Cell) -> None:
+        """Show that all of a cell decay to the stable rub; :class:`LeftOpenError` if this is not shown."""
+        self._followed(cell, show_in_rub)
+
+    def _followed(self, cell: Cell, follow: Callable[[Held, Patch], _Result]) -> _Result:
+        part = self.part(cell.parts)
         low, high = (rational(share) for share in cell.speeds)
         first, last = (2 * arb.pi() * rational(share) for share in cell.angles)
         try:
-            if not (part.held.room > 0 and part.held.numbers.gamma > 0):
-                raise LeftOpenError(GRAZE, self._sizes(cell))
-            return impacts_of(part.held, kicked((low, high), (first, last), part.units, part.moves), most)
+            if not _levitates(part.held):
+                raise LeftOpenError(OUTSIDE, self._sizes(cell))
+            if self.along:
+                return follow(part.held, disturbed_in_box((low, high), (first, last), part.reaches, part.moves))
+            return follow(part.held, disturbed((low * part.reaches[1], high * part.reaches[1]), (first, last)))
         except (ArithmeticError, ValueError):
             # Balls of a wide cell that hold everything: numbers in double precision fail then.
             raise LeftOpenError(GRAZE, self._sizes(cell)) from None
 
-    def try_(self, cell: Cell) -> Found:
-        """What can be proven of a cell of which the kick in the middle returns."""
+    def try_(self, cell: Cell, returns: bool) -> Found:
+        """What can be proven of a cell, the disturbance in the middle of which returns or does not."""
+        sizes = self._sizes(cell)
         try:
-            return Found(IMPACTS[self.show(cell, self.most_impacts)])
+            if returns:
+                return Found(IMPACTS[self.show(cell, self.most_impacts)])
+            if not self.part(cell.parts).held.rub.exists:
+                return Found(LOST, CUTS[int(np.argmax(sizes))])
+            self.refute(cell)
+            return Found(REFUTED)
         except LeftOpenError as problem:
-            weights = problem.weights if len(problem.weights) == len(self._sizes(cell)) else self._sizes(cell)
-            return Found(problem.reason[0], CUTS[max(range(len(weights)), key=weights.__getitem__)])
+            weights = problem.weights if len(problem.weights) == len(sizes) else sizes
+            return Found(problem.reason[0] if returns else LOST, CUTS[max(range(len(sizes)), key=weights.__getitem__)])
 
     def come_back(self, cells: list[Cell]) -> list[bool]:
-        """Whether the kick in the middle of each cell returns, in double precision: it decides what is tried."""
+        """Whether the disturbance in the middle of each cell returns, in double precision: it decides what is tried."""
         returned = dict.fromkeys(cells, False)
         for parts in {cell.parts for cell in cells}:
-            rotor, ahead, largest = self._part(parts).doubles
             alike = [cell for cell in cells if cell.parts == parts]
-            middles = [(float(sum(cell.speeds)) / 2, float(sum(cell.angles)) / 2) for cell in alike]
-            kicks = [largest * speed * np.exp(2j * np.pi * angle) * ahead for speed, angle in middles]
-            endings = settle(rotor, np.full(len(alike), rotor.equilibrium), np.array(kicks), threads=1, progress=False)
-            returned |= zip(alike, (endings.outcomes == Outcome.LEVITATED).tolist(), strict=True)
+            returned |= zip(alike, self.part(parts).come_back(alike), strict=True)
         return [returned[cell] for cell in cells]
 
     def tried(self, cells: list[Cell]) -> list[Found]:
         """What is found of some cells."""
-        return [
-            self.try_(cell) if returns else Found(LOST, CUTS[int(np.argmax(self._sizes(cell)))])
-            for cell, returns in zip(cells, self.come_back(cells), strict=True)
-        ]
+        return [self.try_(cell, returns) for cell, returns in zip(cells, self.come_back(cells), strict=True)]
 
     def _sizes(self, cell: Cell) -> tuple[float, ...]:
-        """How wide a cell is in each of its coordinates, in ``c_r Ω``: about by how much they move a flight."""
-        part = self._part(cell.parts)
+        """How wide a cell is in each of its coordinates: about by how much they move a flight."""
+        part = self.part(cell.parts)
         (slow, fast), turn = cell.speeds, cell.angles[1] - cell.angles[0]
         largest, radius = part.doubles[2], part.held.middle.plain.radius
         around = 2 * np.pi * float(turn) * min(float(fast) * largest, radius)
@@ -189,30 +209,33 @@ class Disc:
         ]
         return float(fast - slow) * largest, around, *sides
 
-    def data(self) -> Data:
+    def data(self) -> DiscData:
         """Plain data of it, from which :func:`disc_of` makes it again in another process."""
-        return json.dumps(self.hypotheses.document()), self.largest, self.most_impacts, self.along
-
-
-Data = tuple[str, str, int, tuple[tuple[str, ...], ...]]
+        hypotheses = json.dumps(self.hypotheses.document())
+        return self.family.about, hypotheses, self.largest, self.most_impacts, self.along
 
 
 @lru_cache(maxsize=2)
-def disc_of(data: Data) -> Disc:
+def disc_of(data: DiscData) -> Disc:
     """A disc from plain data, once for all cells that a process looks at."""
-    document, largest, most, along = data
-    return Disc(Hypotheses.from_document(json.loads(document)), largest, most, along)
+    about, document, largest, most, along = data
+    return Disc(FAMILIES[about], Hypotheses.from_document(json.loads(document)), largest, most, along)
+
+
+def _levitates(held: Held) -> bool:
+    """Whether all rotors levitate inside the wall, with damping."""
+    return bool(held.room > 0 and held.numbers.gamma > 0)
 
 
 @dataclass(frozen=True)
 class BoxPart:
-    """The machines of a part of the box.
+    """The machines of a part of the box, or the one machine that there is.
 
     Attributes
     ----------
     held : Held
-    units : tuple of arb
-        The largest speed in ``c_r Ω`` of the machine in the middle, and of all.
+    reaches : tuple of arb
+        ``v`` of the largest size for the machine in the middle, and for all.
     moves : list of arb
         Its derivatives by the parameters, times half their widths.
     phase : float
@@ -220,25 +243,44 @@ class BoxPart:
     """
 
     held: Held
-    units: tuple[Any, Any]
+    reaches: tuple[Any, Any]
     moves: list[Any]
     phase: float
 
     @cached_property
     def doubles(self) -> tuple[Jeffcott, complex, float]:
-        """The rotor in the middle, the direction in which it levitates, and the largest speed, in double precision."""
+        """The rotor in the middle, the direction in which it levitates, and the largest ``v``, in double precision."""
         rotor = Jeffcott(doubles_at(self.held.middle.numbers, self.phase))
         place = rotor.equilibrium
-        return rotor, place / abs(place) if place else 1.0, float(self.units[0].mid())
+        return rotor, place / abs(place) if place else 1.0, float(self.reaches[0].mid())
+
+    def come_back(self, cells: list[Cell]) -> list[bool]:
+        """Whether the disturbance in the middle of each cell returns, in double precision."""
+        rotor, ahead, largest = self.doubles
+        middles = [(float(sum(cell.speeds)) / 2, float(sum(cell.angles)) / 2) for cell in cells]
+        sizes = np.array([largest * size * np.exp(2j * np.pi * angle) * ahead for size, angle in middles])
+        busy = float(self.held.start.lasts.mid())
+        place, rate, _ = self.held.start.plain_response(self.held, busy)
+        back = np.exp(-1j * busy)
+        starts, velocities = rotor.equilibrium + sizes * place * back, sizes * (rate - 1j * place) * back
+        # What is outside by then is tried, to be told why it is open.
+        outside = np.abs(starts) >= 1
+        starts[outside], velocities[outside] = rotor.equilibrium, 0
+        endings = settle(rotor, starts, velocities, threads=1, progress=False)
+        returned: list[bool] = (endings.outcomes == Outcome.LEVITATED).tolist()
+        return returned
 
     @classmethod
     def of(cls, disc: Disc, parts: tuple[Part, ...]) -> BoxPart:
         """From a part of the box of a disc."""
-        box = disc.box
-        units = disc.unit(box.middles(parts)), disc.unit(box.values(parts))
+        box, numbers = disc.box, disc.box.numbers(parts)
         with terms(2):
-            series = [disc.unit(moved) for moved in box.series(parts)]
+            series = [disc.reach(numbers, moved) for moved in box.series(parts)]
         moves = [x[1] if isinstance(x, arb_series) else arb(0) for x in series]
-        numbers = box.numbers(parts)
-        held = Held(numbers, box.middle(parts), box.sides(parts)) if parts else Held(numbers)
-        return cls(held, units, moves, float(ball_of(disc.hypotheses.numbers["phi"]).mid()))
+        if parts:
+            held = Held(numbers, disc.scale.start(), box.middle(parts), box.sides(parts))
+        else:
+            held = Held(numbers, disc.scale.start())
+        values = box.middles(parts), box.values(parts)
+        reaches = tuple(disc.reach(n, moved) for n, moved in zip((held.middle.numbers, numbers), values, strict=True))
+        return cls(held, (reaches[0], reaches[1]), moves, float(ball_of(disc.hypotheses.numbers["phi"]).mid()))

@@ -1,4 +1,4 @@
-"""Prove which kicks out of levitation come back through contact, of one machine or of a box of them, as far as a time allows."""
+"""Prove which kicks out of levitation, or other disturbances, come back through contact, as far as a time allows."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import math
 import os
 from collections.abc import Iterable, Mapping
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, NamedTuple
 
 from carom.arguments import Count, checked, whole
 from carom.core.processors import available_cores
@@ -20,10 +20,11 @@ from carom.progress import Reporter, ShowProgress, shows_progress
 from carom.proofs.balls import at_precision
 from carom.proofs.claims import Proof
 from carom.proofs.evidence import NotShownError
+from carom.proofs.families import KICKS, Family
 from carom.proofs.hypotheses import Given, Hypotheses, hypotheses_of, written_exactly
 from carom.proofs.kick_box_claims import BOX_NOT_CLAIMED, BOX_THEOREM, box_claims_of
 from carom.proofs.kick_cells import AHEAD, IMPACTS, Tree, read, written
-from carom.proofs.kick_claims import NOT_CLAIMED, THEOREM, claims_of
+from carom.proofs.kick_claims import NOT_CLAIMED, claims_of, options_of
 from carom.proofs.kick_discs import Disc
 from carom.proofs.kick_search import BITS, search
 from carom.proofs.proving import TIME
@@ -85,6 +86,7 @@ def prove_kicks(
 
     See Also
     --------
+    carom.proofs.prove_shocks, carom.proofs.prove_unbalance_steps : the same of other disturbances
     carom.closed_forms.harmless_kick : kicks that never reach the wall
     carom.map_basins : the same disc, sampled
 
@@ -95,39 +97,61 @@ def prove_kicks(
     >>> proof["kicks all recover"].status
     'proven'
     """
+    limits = Limits(most_impacts, time_limit, store, workers)
     hypotheses, tell = hypotheses_of(machine, settings, list(along or ())), Reporter.of(progress, "proving")
+    return prove_disc(KICKS, hypotheses, kicks_up_to, limits, tell, along or {})
+
+
+class Limits(NamedTuple):
+    """How far a search goes, and where it is kept: what :func:`prove_kicks` takes."""
+
+    most_impacts: int
+    time_limit: str | float | None
+    store: str | os.PathLike[str] | None
+    workers: int | None
+
+
+def prove_disc(
+    family: Family,
+    hypotheses: Hypotheses,
+    largest: Given,
+    limits: Limits,
+    tell: Reporter,
+    along: Mapping[str, tuple[Given, Given]] | None = None,
+) -> Proof:
+    """Prove which disturbances of a family return, as :func:`prove_kicks` does for kicks."""
     box = tuple((name, *map(written_exactly, ends)) for name, ends in (along or {}).items())
-    disc = Disc(hypotheses, written_exactly(kicks_up_to).removeprefix("double "), most_impacts, box)
-    seconds = math.inf if time_limit is None else read_quantity(TIME, time_limit)
+    disc = Disc(family, hypotheses, written_exactly(largest).removeprefix("double "), limits.most_impacts, box)
+    seconds = math.inf if limits.time_limit is None else read_quantity(TIME, limits.time_limit)
     try:
         with at_precision(BITS):
-            disc.check_levitation()
+            disc.middle  # noqa: B018  (raises if there is no levitation)
     except NotShownError as problem:
         raise InputError("machine", shown(hypotheses.values), str(problem)) from None
-    place = None if store is None else Path(store)
+    place = None if limits.store is None else Path(limits.store)
     tree = {disc.whole: AHEAD} if place is None or not place.exists() else _stored(place, disc)
     with at_precision(BITS):
         search(
             disc,
             tree,
             seconds,
-            workers or available_cores(),
+            limits.workers or available_cores(),
             tell,
             None if place is None else lambda now: _store(place, disc, now),
         )
         claims = box_claims_of(disc, tree) if box else claims_of(disc, tree)
     tell(1.0)
-    options: dict[str, Any] = {"kicks_up_to": disc.largest, "most_impacts": most_impacts}
+    options: dict[str, Any] = dict(zip(options_of(family), (disc.largest, limits.most_impacts), strict=True))
     if box:
         options["box"] = [list(entry) for entry in box]
-    theorem, not_claimed = (BOX_THEOREM, BOX_NOT_CLAIMED) if box else (THEOREM, NOT_CLAIMED)
+    theorem, not_claimed = (BOX_THEOREM, BOX_NOT_CLAIMED) if box else (family.about, NOT_CLAIMED)
     return Proof(theorem, hypotheses, options, tuple(claims), BITS, not_claimed, {"cells": written(tree)})
 
 
 def _content(disc: Disc) -> dict[str, Any]:
-    document, largest, most, box = disc.data()
+    _, document, largest, most, box = disc.data()
     told = {"box": [list(entry) for entry in box]} if box else {}
-    return {"format": _STORE, "hypotheses": document, "kicks_up_to": largest, "most_impacts": most, **told}
+    return {"format": _STORE, "hypotheses": document, disc.family.option: largest, "most_impacts": most, **told}
 
 
 def _store(place: Path, disc: Disc, tree: Tree) -> None:

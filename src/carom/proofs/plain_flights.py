@@ -33,26 +33,20 @@ class PlainRotor:
         )
         return one, other
 
-    def waves(self, time: float, from_wall: bool) -> tuple[PlainWave, PlainWave, PlainWave]:
-        """``c``, ``h₁`` and ``k`` of a flight with their first two derivatives."""
+    def responses(self, time: float) -> tuple[PlainWave, PlainWave]:
+        """``h₀`` and ``h₁`` with their first two derivatives."""
         half, stiff = self.gamma / 2, self.stiff
         root = cmath.sqrt(half * half - stiff) or 1e-9
         fade = cmath.exp(-half * time).real
         h = fade * (cmath.sinh(root * time) / root).real
         dh = fade * cmath.cosh(root * time).real - half * h
-        d2h = -2 * half * dh - stiff * h
-        turn = cmath.exp(1j * time)
-        if not from_wall:
-            return (0, h, turn), (0, dh, 1j * turn), (0, d2h, -turn)
-        c, dc, d2c = dh + 2 * half * h, -stiff * h, -stiff * dh
-        return (
-            (c, h, turn - c - 1j * h),
-            (dc, dh, 1j * turn - dc - 1j * dh),
-            (d2c, d2h, -turn - d2c - 1j * d2h),
-        )
+        return (dh + 2 * half * h, -stiff * h, -stiff * dh), (h, dh, -2 * half * dh - stiff * h)
 
     def flight(self, time: float, from_wall: bool, velocity: complex, turn: complex) -> tuple[complex, complex]:
         """Place and rate on the flight with a velocity at the start and a direction of ``Λ``."""
-        place, rate, _ = self.waves(time, from_wall)
-        lift = self.radius * turn
-        return place[0] + velocity * place[1] + lift * place[2], rate[0] + velocity * rate[1] + lift * rate[2]
+        (c, dc, _), (h, dh, _) = self.responses(time)
+        lift, turned = self.radius * turn, cmath.exp(1j * time)
+        if not from_wall:
+            return velocity * h + lift * turned, velocity * dh + lift * 1j * turned
+        place, rate = turned - c - 1j * h, 1j * turned - dc - 1j * dh
+        return c + velocity * h + lift * place, dc + velocity * dh + lift * rate

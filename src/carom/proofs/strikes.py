@@ -19,11 +19,14 @@ from typing import Any
 
 from flint import arb
 
+from carom.proofs.bends import bent, remainder, second_derivatives
 from carom.proofs.passages import GRAZE, Brush, LeftOpenError, Strike
-from carom.proofs.patches import OF_KICKS, UNIT, Departure, Moment, Patch, cross, dot, spread
+from carom.proofs.patches import FORM, UNIT, Departure, Moment, Patch, cross, dot, spread
 from carom.proofs.series import hull
 
 Columns = list[list[Any]]
+MOST_SPANS = 14
+"""Spans that a patch keeps at most."""
 
 
 def after_strike(departure: Departure, strike: Strike) -> Patch:
@@ -32,6 +35,27 @@ def after_strike(departure: Departure, strike: Strike) -> Patch:
     moment = departure.at(window)
     if not moment.slope > 0:
         raise LeftOpenError(GRAZE, departure.weights(strike.end))
+    time, directions = _crossing(departure, window), departure.patch.directions
+    if departure.held.sides:
+        # Second derivatives by parameters are not known.
+        columns, centre = _columns(moment), _at_wall(departure, departure.at(time), time)
+        if not centre[0] + spread([column[0] for column in columns]) > 0:
+            raise LeftOpenError(GRAZE, departure.weights(strike.end))
+        return _reset(departure, centre, columns, [arb(0)] * 3)
+    middle = Departure(departure.held, departure.patch, alone=True).at(time)
+    columns, drift = _columns(middle), []
+    for j, squares in enumerate(second_derivatives(departure, time, window)):
+        for column, term in zip(columns[2:FORM], bent(directions, squares), strict=True):
+            column[j] = column[j] + term
+        drift.append(remainder(directions, squares) * UNIT)
+    centre = _at_wall(departure, middle, time)
+    if not centre[0] + spread([column[0] for column in columns]) + drift[0] > 0:
+        raise LeftOpenError(GRAZE, departure.weights(strike.end))
+    return _reset(departure, centre, columns, drift)
+
+
+def _columns(moment: Moment) -> Columns:
+    """The state at the wall differentiated along the columns, at the times of a moment at which flights cross."""
     place, rate, bend = moment.wide
     rates = moment.curve / 2, cross(place, bend), 1 - cross(place, rate)
     columns: Columns = []
@@ -39,11 +63,7 @@ def after_strike(departure: Departure, strike: Strike) -> Patch:
     for height, *fixed in zip(*along, strict=True):
         late = -height / moment.slope
         columns.append([x + late * y for x, y in zip(fixed, rates, strict=True)])
-    time = _crossing(departure, window)
-    centre = _at_wall(departure, departure.at(time), time)
-    if not centre[0] + spread([column[0] for column in columns]) > 0:
-        raise LeftOpenError(GRAZE, departure.weights(strike.end))
-    return _reset(departure, centre, columns, [arb(0)] * 3)
+    return columns
 
 
 def after_brush(departure: Departure, brush: Brush) -> Patch:
@@ -96,11 +116,11 @@ def _reset(departure: Departure, centre: list[Any], columns: Columns, drift: lis
         return [-held.numbers.d * x[0], (1 - stops) * x[1] - goes * held.grip * x[0], x[2]]
 
     after = [through(column) for column in columns]
-    for column, side in zip(after[OF_KICKS:], held.sides, strict=False):
+    for j, side in enumerate(held.sides, FORM):
         # The law of the impact depends on the parameters by itself.
-        column[0] = column[0] - side.restitution * wide[0]
-        column[1] = column[1] - stops * side.rim - goes * side.grip * wide[0]
-    return patch_of(start, after, through(drift), len(departure.patch.spans))
+        after[j][0] = after[j][0] - side.restitution * wide[0]
+        after[j][1] = after[j][1] - stops * side.rim - goes * side.grip * wide[0]
+    return patch_of(start, after, through(drift), FORM + len(held.sides))
 
 
 def _slip_slopes(slip: Any, grip: Any) -> tuple[Any, Any]:
@@ -114,16 +134,21 @@ def _slip_slopes(slip: Any, grip: Any) -> tuple[Any, Any]:
     return hull(0, 1), UNIT
 
 
-def patch_of(centre: list[Any], columns: Columns, drift: list[Any], kept: int) -> Patch:
-    """Patch with exact numbers that holds all states of mean value forms, the first so many columns as its spans."""
-    spans = [[x.mid() for x in column] for column in columns[:kept]]
+def patch_of(centre: list[Any], columns: Columns, drift: list[Any], first: int) -> Patch:
+    """Patch with exact numbers that holds all states of mean value forms; the first columns keep their places, small ones are taken together."""
+    kept, small = columns[:first], sorted(columns[first:], key=lambda column: -_length(column))
+    kept, small = kept + small[: MOST_SPANS - first], small[MOST_SPANS - first :]
     rest = []
     for j, x in enumerate(centre):
         # Half widths of the balls of the spans count once for each: a factor of at most 1 stands before them.
         total = arb(x.rad()) + abs(drift[j])
-        for column in columns[:kept]:
+        for column in kept:
             total = total + arb(column[j].rad())
-        for column in columns[kept:]:
+        for column in small:
             total = total + abs(column[j])
         rest.append(total.upper().mid())
-    return Patch([x.mid() for x in centre], spans, rest)
+    return Patch([x.mid() for x in centre], [[x.mid() for x in column] for column in kept], rest)
+
+
+def _length(column: list[Any]) -> float:
+    return sum(abs(float(x.mid())) for x in column)
