@@ -206,7 +206,7 @@ def _prove_return(
         Path(out).mkdir(parents=True, exist_ok=True)
     given: dict[str, Any] = {name: value for name, value in limits.items() if value is not None}
     given |= {"along": box} if box else {}
-    search = {KICKS: prove_kicks, SHOCKS: prove_shocks, STEPS: prove_unbalance_steps}[option]
+    search: Any = {KICKS: prove_kicks, SHOCKS: prove_shocks, STEPS: prove_unbalance_steps}[option]
     return search(machine, largest, settings, store=store, progress=tell, **given)
 
 

@@ -13,7 +13,7 @@ from carom.proofs.passages import (
     MANY,
     RETURNS,
     SLOW,
-    Event,
+    Brush,
     LeftOpenError,
     Return,
     Strike,
@@ -117,23 +117,35 @@ def _struck(held: Held, patch: Patch) -> Iterator[tuple[Patch | None, tuple[floa
         return
     time = begin(departure)
     while True:
-        event: Event | None = next_event(departure, time)
+        event = next_event(departure, time)
         if isinstance(event, Return):
             yield None, None
             return
-        if not departure.busy <= event.begin:
-            raise LeftOpenError(EARLY, departure.weights(event.begin))
-        if isinstance(event, Strike):
-            strike = event
-            try:
-                yield after_strike(departure, strike), None
-                return
-            except LeftOpenError:
-                event = brush_of(departure, strike)
-                if event is None:
-                    raise
-        if event.touches:
-            yield after_brush(departure, event), departure.weights(event.last)
-        if not event.misses:
+        _check_free(departure, event)
+        brush = event if isinstance(event, Brush) else _struck_or_brushed(departure, event)
+        if isinstance(brush, Patch):
+            yield brush, None
             return
-        time = event.end
+        if brush.touches:
+            yield after_brush(departure, brush), departure.weights(brush.last)
+        if not brush.misses:
+            return
+        time = brush.end
+
+
+def _struck_or_brushed(departure: Departure, strike: Strike) -> Patch | Brush:
+    """The patch after a strike; where that is not known the strike as a brush."""
+    try:
+        return after_strike(departure, strike)
+    except LeftOpenError:
+        brush = brush_of(departure, strike)
+        if brush is None:
+            raise
+        _check_free(departure, brush)
+        return brush
+
+
+def _check_free(departure: Departure, event: Strike | Brush) -> None:
+    """Refuse an impact before motion is free."""
+    if not departure.busy <= event.begin:
+        raise LeftOpenError(EARLY, departure.weights(event.begin))
