@@ -19,6 +19,7 @@ from carom.parameters.touchdown_bearing import BALL_FIELDS, PREFIX
 from carom.rotors.attachments import PLANE_FIELDS, TouchdownPlane
 from carom.rotors.controllers import PID, PID_FIELDS
 from carom.rotors.magnetic_bearing import BEARING_FIELDS, MagneticBearing
+from carom.rotors.support import SUPPORT_FIELDS
 
 if TYPE_CHECKING:
     from carom.rotors.flexible_machine import FlexibleMachine
@@ -73,6 +74,7 @@ def _changed_plane(plane: TouchdownPlane, name: str, value: Any) -> TouchdownPla
 
 _KINDS = (
     _Parts("bearings", "magnetic bearing", {**PID_FIELDS, **BEARING_FIELDS}, _of_bearing, _changed_bearing),
+    _Parts("supports", "support", SUPPORT_FIELDS, getattr, lambda part, name, value: replace(part, **{name: value})),
     _Parts(
         "touchdowns",
         "touchdown bearing",

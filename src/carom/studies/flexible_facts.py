@@ -131,12 +131,15 @@ def _levitation(study: FlexibleData) -> Iterator[Fact]:
     response = found.at_speed
     if response is not None:
         planes = listed(
-            [f"{micrometres(abs(each))} at plane {place}" for place, each in enumerate(response.touchdowns[0], start=1)]
+            [
+                f"{micrometres(each)} at plane {place}"
+                for place, each in enumerate(response.touchdown_ellipses.major[0], start=1)
+            ]
         )
         sensors = listed(
             [
-                f"{micrometres(abs(each))} at the sensors of bearing {place}"
-                for place, each in enumerate(response.sensors[0], start=1)
+                f"{micrometres(each)} at the sensors of bearing {place}"
+                for place, each in enumerate(response.sensor_ellipses.major[0], start=1)
             ]
         )
         yield Fact(

@@ -134,9 +134,9 @@ class FlexibleLevitation(Result):
         }
         if self.at_speed is not None:
             found["unbalance_response"] = {
-                "touchdowns_si": np.abs(self.at_speed.touchdowns[0]).tolist(),
-                "sensors_si": np.abs(self.at_speed.sensors[0]).tolist(),
-                "currents_a": np.abs(self.at_speed.currents[0]).tolist(),
+                "touchdowns_si": self.at_speed.touchdown_ellipses.major[0].tolist(),
+                "sensors_si": self.at_speed.sensor_ellipses.major[0].tolist(),
+                "currents_a": self.at_speed.current_ellipses.major[0].tolist(),
                 "zone": self.at_speed.zones[0],
             }
         if self.sensitivity is not None:
@@ -189,7 +189,7 @@ def _speeds(machine: FlexibleMachine) -> np.ndarray:
 def _criticals(response: FlexibleResponse) -> tuple[Critical, ...]:
     """Peaks of what each sensor measures, with the speeds at which they fall to 0.707 of their height."""
     found = []
-    for bearing, sizes in enumerate(np.abs(response.sensors).T, start=1):
+    for bearing, sizes in enumerate(response.sensor_ellipses.major.T, start=1):
         inner = (sizes[1:-1] > sizes[:-2]) & (sizes[1:-1] >= sizes[2:])
         for place in (np.flatnonzero(inner) + 1).tolist():
             factor = _factor(response.speeds, sizes, place)
