@@ -166,7 +166,7 @@ def _critical_speeds(study: FlexibleData) -> Iterator[Fact]:
     for each in found.criticals:
         text = f"Bearing {each.bearing}: {rpm(each.speed)}, {micrometres(each.amplitude)} at its sensors; {_separation(study, each)}"
         yield Fact("Critical speeds", text, values={"speed_si": each.speed, "met": each.separation.met})
-    rule = "Amplification factors and separations are those of API 617 (rotordynamics, unbalance response), by the half-power width at the sensors; its annex on magnetic bearings may state others."
+    rule = "Amplification factors and separations are those of API 617 (API RP 684, SP6.8.2.1 and SP6.8.2.10), by the half-power width at the sensors; its annex on magnetic bearings may state others."
     yield Fact("Critical speeds", f"{rule} Searched from {rpm(speeds[0])} to {rpm(speeds[-1])}.")
 
 
