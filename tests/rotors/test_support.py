@@ -67,7 +67,9 @@ def test_whirls_solve_the_equations_of_both_planes():
         assert turn.conjugate() * behind == pytest.approx(whirl.opposite, abs=1e-6)
         prevails = np.linalg.norm(whirl.shape) > np.linalg.norm(whirl.opposite)
         assert prevails or whirl.sense == "straight"
-        assert np.abs(whirl.shape).max() + np.abs(whirl.opposite).max() >= 1.0 - 1e-12
+        sizes = np.abs(whirl.shape) + np.abs(whirl.opposite)
+        assert sizes.max() == pytest.approx(1.0)
+        assert np.abs(whirl.widest).max() == pytest.approx(1.0)
 
 
 def test_every_free_motion_is_told_once():

@@ -64,6 +64,16 @@ class Whirl(Result):
         return "forward" if self.exponent.imag > 0.0 else "backward"
 
     @property
+    def widest(self) -> np.ndarray:
+        """Displacement at all places at an instant at which the largest of them is farthest out, shape (N,); of circles any instant."""
+        place = (np.abs(self.shape) + np.abs(self.opposite)).argmax()
+        if not self.opposite[place]:
+            return self.shape
+        turn = np.exp(0.5j * np.angle(self.opposite[place] / self.shape[place])) if self.shape[place] else 1.0
+        displaced: np.ndarray = self.shape * turn + self.opposite / turn
+        return displaced
+
+    @property
     def damping_ratio(self) -> float:
         """``−Re λ/|λ|``; negative of a whirl that grows."""
         return -self.exponent.real / abs(self.exponent) if self.exponent else 0.0
