@@ -26,7 +26,7 @@ NOT_COVERED = (
         "Periodic orbits and their stability, the values of a gain at which motions appear, the least change of a gain that leaves only recovery, and the "
         "sizes up to which contact is proven to be impossible."
     ),
-    "Limits of the magnetic bearings that the file does not state, bearings that act differently in two directions, and changes of speed.",
+    "Limits of the magnetic bearings that the file does not state, magnetic bearings whose axes differ, coefficients of supports at other speeds, and changes of speed.",
     "Damping of the shaft as it turns with it, wear and heat of the touchdown bearings, and axial motion.",
 )
 """What a study of a flexible machine withholds."""
@@ -136,15 +136,14 @@ def _levitation(study: FlexibleData) -> Iterator[Fact]:
                 for place, each in enumerate(response.touchdown_ellipses.major[0], start=1)
             ]
         )
-        sensors = listed(
-            [
-                f"{micrometres(each)} at the sensors of bearing {place}"
-                for place, each in enumerate(response.sensor_ellipses.major[0], start=1)
-            ]
-        )
-        yield Fact(
-            "Levitation", f"Its unbalance makes it whirl with radii of {planes}, and {sensors}.", "Unbalance response"
-        )
+        measured = [
+            f"{micrometres(each)} at the sensors of bearing {place}"
+            for place, each in enumerate(response.sensor_ellipses.major[0], start=1)
+        ]
+        # Supports that act differently in two directions make ellipses of circles.
+        sizes = "longer half axes" if found.machine.whole.equations.mirrored else "radii"
+        reached = f"{planes}, and {listed(measured)}" if measured else planes
+        yield Fact("Levitation", f"Its unbalance makes it whirl with {sizes} of {reached}.", "Unbalance response")
     share = study.rotor.system.rest_radius
     say = f"{number(100.0 * share, 3)} % of the clearance at the worst plane"
     yield Fact(

@@ -136,6 +136,7 @@ class FlexibleLevitation(Result):
             found["unbalance_response"] = {
                 "touchdowns_si": self.at_speed.touchdown_ellipses.major[0].tolist(),
                 "sensors_si": self.at_speed.sensor_ellipses.major[0].tolist(),
+                "touchdowns_minor_si": self.at_speed.touchdown_ellipses.minor[0].tolist(),
                 "currents_a": self.at_speed.current_ellipses.major[0].tolist(),
                 "zone": self.at_speed.zones[0],
             }
@@ -175,13 +176,17 @@ def levitation_of_machine(machine: FlexibleMachine) -> FlexibleLevitation:
 
 
 def _speeds(machine: FlexibleMachine) -> np.ndarray:
-    """Speeds of the response: evenly, and densely about the frequencies of forward whirls, whose peaks may be narrow."""
+    """Speeds of the response: evenly, and densely about the frequencies of forward whirls, whose peaks may be narrow.
+
+    Supports that act differently in two directions let unbalance excite backward whirls too.
+    """
     low, high = SLOWEST * machine.speed, FASTEST * machine.speed
     narrow = []
     for whirl in find_whirls(machine, count=4 * WHIRLS):
-        if whirl.sense == "forward" and whirl.damping_ratio < NARROW:
+        excited = whirl.sense == "forward" or machine.whole.equations.mirrored
+        if excited and whirl.damping_ratio < NARROW:
             width = abs(whirl.exponent.real)
-            narrow.append(whirl.exponent.imag + width * np.linspace(-4.0, 4.0, 41))
+            narrow.append(abs(whirl.exponent.imag) + width * np.linspace(-4.0, 4.0, 41))
     speeds = np.concatenate([np.linspace(low, high, SPEEDS), *narrow])
     return np.unique(speeds[(speeds >= low) & (speeds <= high)])
 
