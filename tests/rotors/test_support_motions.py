@@ -112,15 +112,18 @@ def test_supports_hold_on_when_levitation_is_lost():
     assert dropped.outcome in (Outcome.TIME_REACHED, Outcome.AT_REST)
 
 
-def test_a_drop_onto_one_support_falls_on():
-    """With one support the shaft goes on turning about it: no stiffness, and the weight drives that mode without bound."""
-    reduced = dataclasses.replace(machine(), supports=[SEAL]).with_modes(2)
+@pytest.mark.parametrize("support", [SEAL, Support(1, 2e5, 2e5, cxx=40.0, cyy=40.0)])
+def test_a_rotor_dropped_onto_one_support_falls_on(support):
+    """It tilts about that without stiffness, driven by its weight, and hardly held by the gyroscopic moment of so thin a shaft."""
+    reduced = dataclasses.replace(machine(), supports=[support]).with_modes(2)
     left, scales = without_levitation(reduced.model), reduced.scales
     assert left.system.rest_radius == np.inf
     start, own = start_of(reduced, (0.05, 0.02j))
-    motion = cm.simulate(left, start, 0.02 * scales.speed)
-    places = reference(reduced, own, 0.02, held=False)
-    assert ends_of(motion, scales) / scales.length == pytest.approx(places / scales.length, abs=1e-8)
+    motion = cm.simulate(left, start, 0.01 * scales.speed)
+    assert motion.segment_phases.any()
+    places = reference(reduced, own, 0.01, held=False)
+    # Modes of the tilt nearly coincide, up to 1.6e-3 of the speed: half the digits of their squares are lost.
+    assert ends_of(motion, scales) / scales.length == pytest.approx(places / scales.length, abs=1e-6)
 
 
 def test_shocks_end_as_their_stages_do():

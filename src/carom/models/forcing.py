@@ -28,6 +28,8 @@ from carom.outcome import InputError
 
 RESONANT = 1e-3
 """Distance of exponents, relative to one plus their size, below which a force drives a mode instead of adding to it."""
+APART = 1e-4
+"""The same where otherwise modes would nearly coincide: twelve of sixteen digits are left."""
 FADING = 1e-7
 """Rate, relative to the same, at which a mode fades beside a force: from there on it has settled to the force, not been driven away."""
 ALIKE = -1
@@ -164,8 +166,15 @@ class _Modes:
 
     def driven_by(self, exponent: complex, push: np.ndarray) -> _Modes:
         """With one more force, which changes the rates of the amplitudes by ``push``."""
+        try:
+            return self._driven_by(exponent, push, RESONANT)
+        except InputError:  # modes that nearly coincide, as those of a thin shaft that tilts about one support
+            return self._driven_by(exponent, push, APART)
+
+    def _driven_by(self, exponent: complex, push: np.ndarray, resonant: float) -> _Modes:
+        """The same; modes farther than ``resonant`` from a force, relative to one plus its size, are none that it drives."""
         size = 1.0 + abs(exponent)
-        close = self.free & (np.abs(self.exponents - exponent) <= RESONANT * size)
+        close = self.free & (np.abs(self.exponents - exponent) <= resonant * size)
         close &= exponent.real - self.exponents.real <= FADING * size
         near = close & self._pushed(push)
         # Modes that a force drives already, and those after them in their chains.
@@ -177,12 +186,12 @@ class _Modes:
         for last in np.flatnonzero(self.driven & np.insert(self.free[:-1], 0, False)).tolist():
             gap = self.exponents[last] - self.exponents[last - 1]
             touched = near[last] or near[last - 1]
-            if touched and abs(gap) > RESONANT * size:
+            if touched and abs(gap) > resonant * size:
                 push = push + np.eye(len(push))[last] * (push[last - 1] / gap)
-                return self._parted(last, gap).driven_by(exponent, push)
+                return self._parted(last, gap)._driven_by(exponent, push, resonant)
             if touched and EQUAL * size < abs(gap) <= ONE * size:
                 push = push + np.eye(len(push))[last - 1] * (push[last] * gap / 2.0)
-                return self._as_one(last, gap).driven_by(exponent, push)
+                return self._as_one(last, gap)._driven_by(exponent, push, resonant)
             near[last - 1 : last + 1] |= touched
         others = np.flatnonzero(self.free & ~near & ~close)
         matrix = np.diag(self.exponents) + np.diag(self.driven[1:].astype(complex), -1)

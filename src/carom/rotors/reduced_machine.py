@@ -180,6 +180,8 @@ class ReducedMachine(Result):
         once = np.where(heavy, 1.0 / scales.speed, 1.0)[:, None]
         twice = np.where(heavy, 1.0 / scales.speed**2, 1.0 / scales.speed)[:, None]
         size = math.sqrt(scales.mass)
+        # Cross-coupled damping of supports counts as gyroscopic, which stays when levitation is lost.
+        left = 0.5 * (given.unlevitated[0] + given.unlevitated[0].conj().T)
         planes = zip(at.touchdowns, at.clearances, size * given.planes, strict=True)
         return FlexibleModel.in_fixed_frame(
             reduced=self,
@@ -191,7 +193,7 @@ class ReducedMachine(Result):
             touchdowns=[self._touchdown(*each) for each in planes],
             translation=np.eye(len(given.mass))[0],
             scales=scales,
-            unlevitated=np.stack([once * given.unlevitated[0], twice * given.unlevitated[1]]),
+            unlevitated=np.stack([once * left, twice * given.unlevitated[1]]),
             conjugate=np.stack([once * given.across[0], twice * given.across[1]]) if given.mirrored else None,
         )
 
