@@ -87,6 +87,20 @@ def test_tests_that_mutants_are_tried_with_exist():
     assert [name for name in sorted(named) if not (ROOT / "tests" / name).exists()] == []
 
 
+def test_claims_that_are_explained_are_made():
+    """Those in italics in the table of what can be claimed of a machine."""
+    page = (DOCS / "howto" / "what-is-proven.md").read_text(encoding="utf-8")
+    named = [
+        name
+        for row in re.findall(r"^\| (\*[^|]+) \|", page, flags=re.MULTILINE)
+        for name in re.findall(r"\*([^*]+)\*", row)
+    ]
+    made = {claim.name for claim in carom.prove(ROOT / "examples" / "source-paper.toml")}
+    made |= {"kicks recover", "kicks all recover"}
+    assert len(named) > 10
+    assert set(named) <= made
+
+
 # ------------------------------------------------------------------------------------------------ commands and code
 
 PAGES = [

@@ -39,6 +39,7 @@ def test_json_is_the_certificate(capsys, tmp_path):
         ([PAPER, "--longest-period", "1e999999999"], "a time above 0"),
         ([PAPER, "--along", "gamma", "--from", "[0.1, 0.2]", "--to", "0.3"], "must be one number"),
         ([PAPER, "--check", "proof.json"], "must stand alone"),
+        (["--check", "proof.json", "--kicks-up-to", "1"], "must stand alone"),
         ([PAPER, "--time-limit", "3 s"], "is needed by --most-impacts and --time-limit"),
         ([PAPER, "--kicks-up-to", "0.2", "--impacts", "2"], "cannot be combined"),
         ([PAPER, "--kicks-up-to", "0.2", "--most-impacts", "36"], "most_impacts"),
@@ -72,6 +73,24 @@ def test_kicks_are_proven_gone_on_with_and_verified(capsys, tmp_path):
     recover, _ = json.loads(capsys.readouterr().out)["claims"]
     assert (recover["about"], recover["kind"], recover["status"]) == ("kicks", "recover", "proven")
     assert recover["enclosures"]["speed_si"] == ["0.105", "0.105"]
+
+
+@pytest.mark.jit_only
+def test_figure_of_kicks_is_written_with_the_certificate_and_from_it(capsys, tmp_path):
+    command = ["prove", SPINDLE, "--kicks-up-to", "105 mm/s", "--most-impacts", "1"]
+    assert main([*command, "--out", str(tmp_path / "proven")]) == 0
+    assert "figures/proven-kicks.svg" in capsys.readouterr().out
+    assert main(["prove", "--check", str(tmp_path / "proven" / "proof.json"), "--out", str(tmp_path / "drawn")]) == 0
+    assert {file.name for file in (tmp_path / "drawn").rglob("*.*")} == {"proven-kicks.svg", "proven-kicks.png"}
+    for place in ("proven", "drawn"):
+        assert (tmp_path / place / "figures" / "proven-kicks.png").stat().st_size > 10_000
+
+
+def test_other_proofs_have_no_figure(capsys, tmp_path):
+    assert main(["prove", PAPER, "--set", "gamma=3", "--out", str(tmp_path)]) == 0
+    assert not (tmp_path / "figures").exists()
+    assert main(["prove", "--check", str(tmp_path / "proof.json"), "--out", str(tmp_path / "drawn")]) == 2
+    assert "only for a proof of kicks" in capsys.readouterr().err
 
 
 def test_changed_certificate_is_refused(capsys, tmp_path):

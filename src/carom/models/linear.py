@@ -7,7 +7,7 @@ import json
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, Self
+from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 
@@ -25,6 +25,9 @@ from carom.models.touchdown import Touchdown
 from carom.outcome import InputError, shown
 from carom.parameters import Field, Scales
 from carom.results import Result
+
+if TYPE_CHECKING:
+    from carom.models.limited import Limit
 
 SINGULAR = 1e-14
 """Smallest singular value of a matrix, relative to the size of its terms, up to which it counts as singular."""
@@ -290,6 +293,11 @@ class LinearRotor(Result):
     def unbalance_phase(self) -> float:
         """Angle of the unbalance in the co-rotating frame, in rad: that of its force on the rotor as a whole."""
         return float(np.angle(np.vdot(self.translation, self.forcing)))
+
+    @property
+    def stated_limits(self) -> tuple[Limit, ...]:
+        """Limits that its parameters state: none, as they are numbers of its equations."""
+        return ()
 
     @property
     def varied(self) -> Mapping[str, Field]:

@@ -10,8 +10,8 @@ Long motions are thinned: the band of the radius, the last turns of the shaft, t
 are drawn where the argument `virtual` asks for them.
 
 Motions and orbits are drawn by ``motions``, ``histories``, ``touchdowns``, ``drops``, ``spectra``, ``overviews``, ``levitation``, ``mode_shapes`` and ``conditions``; along
-parameters ``diagrams`` with ``coexistence`` and ``proven``, ``regions`` and ``responses``; disturbances ``basins`` with ``pairs`` and
-``rings``, ``gains``, ``drop_maps``, ``sweeps`` and ``attractor_shares``.  Shared are ``style`` (what colours mean), ``sheet`` (the style sheet),
+parameters ``diagrams`` with ``coexistence`` and ``proven``, ``regions`` and ``responses``; disturbances ``basins`` with ``pairs``,
+``rings`` and ``kick_proofs``, ``gains``, ``drop_maps``, ``sweeps`` and ``attractor_shares``.  Shared are ``style`` (what colours mean), ``sheet`` (the style sheet),
 ``figure`` (a figure that keeps it), ``arrangement`` (layout), ``files``, ``plane`` (the clearance circle), ``bands``, ``cells``,
 ``closeups``, ``numerals``, ``placement``, ``parameter_axes`` and ``words``.
 """
@@ -28,6 +28,7 @@ from carom.plots.figure import heading, one_column
 from carom.plots.files import save
 from carom.plots.gains import gain_map
 from carom.plots.histories import radius
+from carom.plots.kick_proofs import proven_kicks
 from carom.plots.levitation import campbell, flexible_response, sensitivity
 from carom.plots.mode_shapes import mode_shapes
 from carom.plots.motions import motion, orbit
@@ -70,6 +71,7 @@ __all__ = [
     "orbit",
     "overview",
     "period_condition",
+    "proven_kicks",
     "radius",
     "regimes",
     "region_map",

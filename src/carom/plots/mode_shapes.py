@@ -35,7 +35,7 @@ _PARTS = (
 
 @checked
 @styled
-def mode_shapes(machine: FlexibleMachine, whirls: Sequence[Whirl]) -> Figure:
+def mode_shapes(flexible: FlexibleMachine, whirls: Sequence[Whirl]) -> Figure:
     """Draw the shapes of free whirls along the shaft, one panel each, with magnets, sensors and touchdown bearings.
 
     Lines are the displacement in the plane in which the whirl is widest, and, dotted, across it; the largest displacement is 1.  Whirls are
@@ -44,10 +44,10 @@ def mode_shapes(machine: FlexibleMachine, whirls: Sequence[Whirl]) -> Figure:
     rows = -(-len(whirls) // _COLUMNS)
     figure = StyledFigure(figsize=(TWO_COLUMNS, (0.12 + _ROW * rows) * TWO_COLUMNS))
     panels = figure.subplots(rows, _COLUMNS, sharex=True, sharey=True, squeeze=False).ravel()
-    places = _MILLIMETRES * machine.rotor.places
+    places = _MILLIMETRES * flexible.rotor.places
     for axes, whirl in zip(panels, whirls, strict=False):
         _shape(axes, places, whirl)
-        _parts(axes, machine)
+        _parts(axes, flexible)
         axes.set(xlim=(places[0], places[-1]), ylim=(-_REACH, _REACH), yticks=[-1.0, 0.0, 1.0])
     for axes in panels[len(whirls) :]:
         axes.remove()
@@ -69,7 +69,7 @@ def _shape(axes: Axes, places: Floats, whirl: Whirl) -> None:
     axes.plot(places, turned.real, color=look.colour, lw=1.4, label=f"{whirl.sense} whirl", gid="along")
     if np.abs(turned.imag).max() > _ROUND:
         axes.plot(places, turned.imag, color=look.colour, lw=1.0, ls=":", label=f"{whirl.sense}, across", gid="across")
-    title = f"{number(whirl.frequency, 3)} Hz, {whirl.sense}, damping ratio {number(whirl.damping_ratio, 2)}"
+    title = f"{number(whirl.frequency, 4)} Hz, {whirl.sense}, damping ratio {number(whirl.damping_ratio, 2)}"
     axes.set_title(title, fontsize="small")
 
 

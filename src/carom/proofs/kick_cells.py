@@ -16,10 +16,12 @@ from carom.proofs.passages import REASONS
 BY_SPEED, BY_ANGLE = "v", "a"
 IMPACTS = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZ"
 """Letters of cells that are proven to return with at most so many impacts."""
+REFUTED = "r"
+"""Letter of cells that are proven to decay to the stable rub."""
 AHEAD, LOST = "t", "x"
 OPEN = {
     AHEAD: "time was up",
-    LOST: "a kick in the middle does not return in double precision",
+    LOST: "the one in the middle does not return in double precision",
     **{reason[0]: words for reason, words in REASONS.items()},
 }
 """Letters of cells that are open: why the cell that was halved into them was."""
@@ -60,7 +62,7 @@ class Cell(NamedTuple):
 
 DISC = Cell(0, 0, 0, 0)
 Tree = dict[Cell, str]
-"""What is known of each cell: a letter of :data:`IMPACTS` or :data:`OPEN`, or by what it is halved."""
+"""What is known of each cell: a letter of :data:`IMPACTS` or :data:`OPEN`, :data:`REFUTED`, or by what it is halved."""
 
 
 def leaves(tree: Mapping[Cell, str]) -> Iterator[tuple[Cell, str]]:
@@ -94,7 +96,7 @@ def read(text: object) -> Tree:
             if max(cell.rings, cell.sectors) >= DEEPEST:
                 raise NotShownError("the certificate has cells that are too small")
             ahead += reversed(cell.halves(letter))
-        elif letter not in IMPACTS and letter not in OPEN:
+        elif letter not in IMPACTS and letter != REFUTED and letter not in OPEN:
             raise NotShownError(f"the certificate has a cell of an unknown kind: {letter!r}")
     if ahead:
         raise NotShownError("the cells of the certificate do not fill the disc")

@@ -1,4 +1,4 @@
-"""Prove which kicks out of levitation come back through contact, as far as a time allows."""
+"""Prove which kicks out of levitation, or other disturbances, come back through contact, as far as a time allows."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import math
 import os
 from collections.abc import Iterable, Mapping
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, NamedTuple
 
 from carom.arguments import Count, checked, whole
 from carom.core.processors import available_cores
@@ -20,9 +20,10 @@ from carom.progress import Reporter, ShowProgress, shows_progress
 from carom.proofs.balls import at_precision
 from carom.proofs.claims import Proof
 from carom.proofs.evidence import NotShownError
+from carom.proofs.families import KICKS, Family
 from carom.proofs.hypotheses import Given, Hypotheses, hypotheses_of, written_exactly
 from carom.proofs.kick_cells import AHEAD, DISC, IMPACTS, Tree, read, written
-from carom.proofs.kick_claims import NOT_CLAIMED, THEOREM, claims_of
+from carom.proofs.kick_claims import NOT_CLAIMED, claims_of, options_of
 from carom.proofs.kick_discs import Disc
 from carom.proofs.kick_search import BITS, search
 
@@ -77,6 +78,7 @@ def prove_kicks(
 
     See Also
     --------
+    carom.proofs.prove_shocks, carom.proofs.prove_unbalance_steps : the same of other disturbances
     carom.closed_forms.harmless_kick : kicks that never reach the wall
     carom.map_basins : the same disc, sampled
 
@@ -87,34 +89,48 @@ def prove_kicks(
     >>> proof["kicks all recover"].status
     'proven'
     """
-    hypotheses, tell = hypotheses_of(machine, settings), Reporter.of(progress, "proving")
-    disc = Disc(hypotheses, written_exactly(kicks_up_to).removeprefix("double "), most_impacts)
-    seconds = math.inf if time_limit is None else read_quantity(_TIME, time_limit)
+    limits = Limits(most_impacts, time_limit, store, workers)
+    return prove_disc(KICKS, hypotheses_of(machine, settings), kicks_up_to, limits, Reporter.of(progress, "proving"))
+
+
+class Limits(NamedTuple):
+    """How far a search goes, and where it is kept: what :func:`prove_kicks` takes."""
+
+    most_impacts: int
+    time_limit: str | float | None
+    store: str | os.PathLike[str] | None
+    workers: int | None
+
+
+def prove_disc(family: Family, hypotheses: Hypotheses, largest: Given, limits: Limits, tell: Reporter) -> Proof:
+    """Prove which disturbances of a family return, as :func:`prove_kicks` does for kicks."""
+    disc = Disc(family, hypotheses, written_exactly(largest).removeprefix("double "), limits.most_impacts)
+    seconds = math.inf if limits.time_limit is None else read_quantity(_TIME, limits.time_limit)
     try:
         with at_precision(BITS):
             disc.held  # noqa: B018  (raises if there is no levitation)
     except NotShownError as problem:
         raise InputError("machine", shown(hypotheses.values), str(problem)) from None
-    place = None if store is None else Path(store)
+    place = None if limits.store is None else Path(limits.store)
     tree = {DISC: AHEAD} if place is None or not place.exists() else _stored(place, disc)
     with at_precision(BITS):
         search(
             disc,
             tree,
             seconds,
-            workers or available_cores(),
+            limits.workers or available_cores(),
             tell,
             None if place is None else lambda now: _store(place, disc, now),
         )
         claims = claims_of(disc, tree)
     tell(1.0)
-    options = {"kicks_up_to": disc.largest, "most_impacts": most_impacts}
-    return Proof(THEOREM, hypotheses, options, tuple(claims), BITS, NOT_CLAIMED, {"cells": written(tree)})
+    options = dict(zip(options_of(family), (disc.largest, limits.most_impacts), strict=True))
+    return Proof(family.about, hypotheses, options, tuple(claims), BITS, NOT_CLAIMED, {"cells": written(tree)})
 
 
 def _content(disc: Disc) -> dict[str, Any]:
-    document, largest, most = disc.data()
-    return {"format": _STORE, "hypotheses": document, "kicks_up_to": largest, "most_impacts": most}
+    _, document, largest, most = disc.data()
+    return {"format": _STORE, "hypotheses": document, disc.family.option: largest, "most_impacts": most}
 
 
 def _store(place: Path, disc: Disc, tree: Tree) -> None:

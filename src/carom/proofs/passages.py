@@ -5,6 +5,9 @@ start at the wall, where ``g' ≤ 0``, it is enough that ``g' < 0`` or ``g'' < 0
 
 *Strike.*  ``g' > 0`` up to a time at which ``g > 1`` for all flights: each crosses exactly once, and none before.
 
+*Bounce.*  ``g'' > 0`` from the wall, where ``g = 1``, to a time at which ``g > 1``, with ``g < 1`` at one before it: as ``g`` is convex, each flight is inside
+until then and crosses exactly once after it.
+
 *Brush.*  ``g'' < 0`` on a window, before which ``g < 1``, and at whose end ``g < 1`` and ``g' < 0``.  A flight that touches in the window
 does so first with ``g' ≥ 0``, before the last maximum.  With ``−g'' ≤ C``, ``g`` rises above ``1`` by at least ``g'²/(2C)``, so that the radial speed
 ``ṙ = g'/2`` is at most ``√(C(max g − 1)/2)``.  All others go on from the end of the window.
@@ -25,7 +28,7 @@ from flint import arb
 
 from carom.outcome import CaromError
 from carom.proofs.patches import UNIT, Departure, dot
-from carom.proofs.series import I, hull
+from carom.proofs.series import hull
 
 LONGEST, SHORTEST = 1.0, 1.0 / 64
 """Steps of time to begin with, and at which the wall is looked for, in ``1/Ω``."""
@@ -52,12 +55,16 @@ class LeftOpenError(CaromError):
         self.reason, self.weights = reason, weights
 
 
-GRAZE, SLOW, MANY, LONG = "graze", "slow impact", "too many impacts", "long flight"
+GRAZE, SLOW, MANY, LONG = "graze", "slow impact", "many impacts", "long flight"
+EARLY, OUTSIDE, RETURNS = "early contact", "outside", "both"
 REASONS = {
     GRAZE: "whether flights graze the wall is not decided",
     SLOW: "an impact is slow and the wall pushes: it may be followed by chatter and lasting contact",
     MANY: "more impacts than were allowed may follow",
     LONG: "flights go on for longer than is followed",
+    EARLY: "the wall may be reached while the shock lasts",
+    OUTSIDE: "the rotor may not have levitated inside the wall before",
+    RETURNS: "some may return and others not",
 }
 
 
@@ -92,7 +99,9 @@ Event = Return | Strike | Brush
 def begin(departure: Departure) -> float:
     """A time at which flights that leave the wall with ``g' ≤ 0`` are inside, as they were until then; zero for those from levitation."""
     if not departure.from_wall:
-        return 0.0
+        if departure.at(arb(0)).height < 1:
+            return 0.0
+        raise LeftOpenError(OUTSIDE, departure.weights(0.0))
     width, outward = _START, departure.wide_velocity.real * 2
     for _ in range(_HALVINGS):
         curve = departure.at(hull(0.0, width)).curve
@@ -104,13 +113,39 @@ def begin(departure: Departure) -> float:
     raise LeftOpenError(SLOW, departure.weights(width))
 
 
+def bounce(departure: Departure) -> Strike | None:
+    """A strike before which the wall pushes all flights all the time; none if that is not shown, or they do not leave the wall."""
+    if not departure.from_wall:
+        return None
+    _, rise, curve = departure.plain(0.0)
+    if not (curve > 0 and rise < 0):
+        return None
+    crossing = -2 * rise / curve
+    for _ in range(_HALVINGS):
+        height, rate, _ = departure.plain(crossing)
+        if not rate > 0:
+            return None
+        crossing -= (height - 1) / rate
+    half = sum(map(abs, departure.plain_spread(crossing)[0])) / rate
+    for factor in (1.1, 1.5, 2.2):
+        low, high = crossing - factor * half - _ROUNDING, crossing + factor * half + _ROUNDING
+        if low > 0 and departure.at(arb(high)).height > 1 and departure.at(arb(low)).height < 1:
+            return Strike(low, high) if _holds(departure, 0.0, high, _bends, 4) else None
+    return None
+
+
+def _bends(departure: Departure, low: float, high: float) -> bool:
+    """Whether ``g'' > 0`` between two times."""
+    return bool(departure.at(hull(low, high)).curve > 0)
+
+
 def next_event(departure: Departure, time: float) -> Event:
     """The next event after a time at which all flights are inside."""
-    end, width = _end(departure), LONGEST
+    end, width, shortest = _end(departure), LONGEST, _shortest(departure, time)
     while time < end:
         if _inside(departure, time, width):
             time, width = time + width, min(2 * width, LONGEST)
-        elif width > SHORTEST:
+        elif width > shortest:
             width /= 2
         else:
             return _meeting(departure, time)
@@ -128,26 +163,32 @@ def _inside(departure: Departure, time: float, width: float) -> bool:
     return bool(middle.height + middle.rise * UNIT * reach + curve * hull(0, reach * reach / 2) < 1)
 
 
+def _shortest(departure: Departure, time: float) -> float:
+    """The step at which the wall is looked for: a disturbance that lasts changes within a part of its time."""
+    lasts = float(departure.busy.mid())
+    return min(SHORTEST, lasts / 16) if time < lasts else SHORTEST
+
+
 def _end(departure: Departure) -> float:
     """A time after which no flight reaches the wall any more."""
     held = departure.held
     n = held.numbers
-    away = (1 if departure.from_wall else departure.wide_levitation) - departure.wide_levitation
-    speed = departure.wide_velocity - (departure.wide_levitation * I if departure.from_wall else 0)
+    away, speed = departure.deviation
+    free = float(departure.busy.upper())
     if held.split < 0:
         turned = speed + away * held.half
         energy = (dot(turned, turned) - held.split * dot(away, away)).upper()
         allowed = -held.split * held.room * held.room
         time = max(0.0, float((energy / allowed).log().upper()) / float(n.gamma.lower())) + _LATER
         if time < _LATEST and energy * (-n.gamma * arb(time)).exp() < allowed:
-            return time
+            return free + time
         raise LeftOpenError(LONG, departure.weights(LONGEST))
     for k in range(int(math.log2(_LATEST))):
         time = float(2**k)
-        (c, h, _), (dc, dh, _), _ = held.waves(arb(time), True)
+        (c, dc, _), (h, dh, _) = held.responses(arb(time))
         place, rate = away * c + speed * h, away * dc + speed * dh
         if dot(rate, rate) + n.omega_squared * dot(place, place) < n.omega_squared * held.room * held.room:
-            return time
+            return free + time
     raise LeftOpenError(LONG, departure.weights(LONGEST))
 
 

@@ -8,10 +8,11 @@ Levitation turns: ``Λ e^{it}`` with ``|Λ| = |U*| = ℓ``.  With the response `
 *From the wall*, at ``z(0) = 1`` with the velocity ``V = a + ib``: ``c = h₀`` and ``k = e^{it} − h₀ − i h₁``.  Its state has the three
 coordinates ``a``, ``b``, ``ψ = arg Λ``: turns of the whole plane change nothing.
 
-*From levitation*, kicked by ``V = v > 0`` along the real axis: ``c = 0`` and ``k = e^{it}``, with the two coordinates ``v`` and ``ψ``.
+*From levitation*, disturbed by ``V = v > 0`` along the real axis: ``c = 0`` and ``k = e^{it}``, with the two coordinates ``v`` and ``ψ``, and in place of
+``h₁`` the response to the disturbance (:mod:`carom.proofs.starts`).
 
-A patch holds the states ``x₀ + Σ_g s_g ξ_g``, ``|ξ_g| ≤ 1``: two spans that it inherits from the cell of kicks, and one for each coordinate
-that holds all else.  A function ``f`` of the state lies in ``f(x₀) + Σ_g f'(X)s_g [−1, 1]`` there, ``X`` the box of the patch
+A patch holds the states ``x₀ + s₁ξ₁ + s₂ξ₂ + s₃ξ₁² + s₄ξ₁ξ₂ + s₅ξ₂² + Σ_g s_g ξ_g``, ``|ξ_g| ≤ 1``: ``ξ₁`` and ``ξ₂`` say where in the cell a kick is, the other spans
+hold what earlier impacts have left out, and a rest for each coordinate what the last one has.  A function ``f`` of the state lies in ``f(x₀) + Σ_g f'(X)s_g [−1, 1]`` there, ``X`` the box of the patch
 (mean value form).
 """
 
@@ -25,12 +26,17 @@ from typing import Any, NamedTuple
 from flint import acb, arb
 
 from carom.proofs.lines import Numbers
-from carom.proofs.series import hyperbolic
+from carom.proofs.rub_balls import Rub
+from carom.proofs.series import I, hyperbolic
+from carom.proofs.starts import Blow, Plain, Response, Start
 
 UNIT = arb(0, 1)
 """All numbers from −1 to 1."""
+FORM = 5
+"""Spans by where in the cell a kick is, those of first and second order."""
 
 
+BLOW = Blow()
 Wave = tuple[Any, Any, Any]
 
 
@@ -48,6 +54,8 @@ class Held:
     Parameters
     ----------
     numbers : Numbers
+    start : Start
+        The disturbance that takes the rotor out of levitation.
 
     Attributes
     ----------
@@ -59,8 +67,8 @@ class Held:
         ``μ(1 + d)``.
     """
 
-    def __init__(self, numbers: Numbers) -> None:
-        self.numbers = numbers
+    def __init__(self, numbers: Numbers, start: Start = BLOW) -> None:
+        self.numbers, self.start = numbers, start
         self.half, self.split = numbers.gamma / 2, numbers.split
         self.radius = numbers.levitation
         self.radius_squared = self.radius * self.radius
@@ -68,35 +76,53 @@ class Held:
         self.grip = numbers.mu * (1 + numbers.d)
         self._plain = tuple(float(x.mid()) for x in (self.half, self.split, numbers.omega_squared))
 
-    def waves(self, time: Any, from_wall: bool) -> Waves:
-        """Waves of flights from the wall or from levitation."""
+    def responses(self, time: Any) -> tuple[Response, Response]:
+        """``h₀`` and ``h₁``."""
         n = self.numbers
         even, odd = hyperbolic(self.split, time)
         fade = (-self.half * time).exp()
         h = fade * odd
         dh = fade * (even - self.half * odd)
         d2h = -n.gamma * dh - n.omega_squared * h
-        sine, cosine = time.sin_cos()
-        turn, way = acb(cosine, sine), acb(-sine, cosine)
-        if not from_wall:
-            zero = arb(0)
-            return Waves((zero, h, turn), (zero, dh, way), (zero, d2h, -turn))
         c, dc = fade * (even + self.half * odd), -n.omega_squared * h
-        d2c = -n.omega_squared * dh
-        return Waves((c, h, turn - acb(c, h)), (dc, dh, way - acb(dc, dh)), (d2c, d2h, -turn - acb(d2c, d2h)))
+        return (c, dc, -n.omega_squared * dh), (h, dh, d2h)
 
-    def plain_waves(self, time: float, from_wall: bool) -> tuple[tuple[complex, complex, complex], ...]:
+    def plain_responses(self, time: float) -> tuple[Plain, Plain]:
         """The same in doubles."""
         half, split, stiff = self._plain
         root = cmath.sqrt(split) or 1e-9
         fade = cmath.exp(-half * time).real
         h = fade * (cmath.sinh(root * time) / root).real
         dh = fade * cmath.cosh(root * time).real - half * h
-        d2h = -2 * half * dh - stiff * h
+        return (dh + 2 * half * h, -stiff * h, -stiff * dh), (h, dh, -2 * half * dh - stiff * h)
+
+    @cached_property
+    def rub(self) -> Rub:
+        """The stable rub; its numbers are not finite where there is none."""
+        return Rub.of(self.numbers)
+
+    @cached_property
+    def released(self) -> Response:
+        """The response to the disturbance when motion becomes free."""
+        return self.start.last(self)
+
+    def waves(self, time: Any, from_wall: bool) -> Waves:
+        """Waves of flights from the wall or from levitation."""
+        sine, cosine = time.sin_cos()
+        turn, way = acb(cosine, sine), acb(-sine, cosine)
+        if not from_wall:
+            zero, (h, dh, d2h) = arb(0), self.start.response(self, time)
+            return Waves((zero, h, turn), (zero, dh, way), (zero, d2h, -turn))
+        (c, dc, d2c), (h, dh, d2h) = self.responses(time)
+        return Waves((c, h, turn - acb(c, h)), (dc, dh, way - acb(dc, dh)), (d2c, d2h, -turn - acb(d2c, d2h)))
+
+    def plain_waves(self, time: float, from_wall: bool) -> tuple[tuple[complex, complex, complex], ...]:
+        """The same in doubles."""
         turn = cmath.exp(1j * time)
         if not from_wall:
+            h, dh, d2h = self.start.plain_response(self, time)
             return (0, h, turn), (0, dh, 1j * turn), (0, d2h, -turn)
-        c, dc, d2c = dh + 2 * half * h, -stiff * h, -stiff * dh
+        (c, dc, d2c), (h, dh, d2h) = self.plain_responses(time)
         return (
             (c, h, turn - c - 1j * h),
             (dc, dh, 1j * turn - dc - 1j * dh),
@@ -113,7 +139,7 @@ class Patch:
     centre : list of arb
         Exact numbers: ``v, ψ`` from levitation, ``a, b, ψ`` from the wall.
     spans : list of list of arb
-        Exact vectors of the coordinates, two of them.
+        Exact vectors of the coordinates: two for a patch that is straight, else first those by ``ξ₁``, ``ξ₂``, ``ξ₁²``, ``ξ₁ξ₂`` and ``ξ₂²``.
     rest : list of arb
         Exact half widths of the coordinates.
     """
@@ -130,14 +156,31 @@ class Patch:
     @cached_property
     def box(self) -> list[Any]:
         """Balls of the coordinates."""
-        return [
-            x + UNIT * (abs(one) + abs(other) + rest)
-            for x, one, other, rest in zip(self.centre, *self.spans, self.rest, strict=True)
+        sizes = list(self.rest)
+        for span in self.spans:
+            sizes = [size + abs(x) for size, x in zip(sizes, span, strict=True)]
+        return [x + UNIT * size for x, size in zip(self.centre, sizes, strict=True)]
+
+    @cached_property
+    def directions(self) -> list[list[Any]]:
+        """The spans, where only the first two are given with those of second order, and one for each coordinate whose rest is not zero."""
+        size = len(self.rest)
+        straight = [[arb(0)] * size] * (FORM - len(self.spans))
+        rests = [
+            [rest if i == j else arb(0) for i in range(size)] for j, rest in enumerate(self.rest) if not rest.is_zero()
         ]
+        return [*self.spans, *straight, *rests]
 
 
 class Departure:
     """The flights of a patch.
+
+    Parameters
+    ----------
+    held : Held
+    patch : Patch
+    alone : bool
+        Whether only the flight of the centre is meant, with its derivatives along the same columns.
 
     Attributes
     ----------
@@ -149,21 +192,30 @@ class Departure:
         ``V`` and ``ψ`` differentiated along the spans and then along what holds the rest; exact.
     """
 
-    def __init__(self, held: Held, patch: Patch) -> None:
+    def __init__(self, held: Held, patch: Patch, *, alone: bool = False) -> None:
         self.held, self.patch, self.from_wall = held, patch, patch.from_wall
         self.velocity, self.levitation = _parts(held, patch.centre)
-        self.wide_velocity, self.wide_levitation = _parts(held, patch.box)
-        directions = [*patch.spans]
-        for j, rest in enumerate(patch.rest):
-            if not rest.is_zero():
-                directions.append([rest if i == j else arb(0) for i in range(len(patch.rest))])
-        self.columns = [(_speed(along), along[-1]) for along in directions]
+        self.wide_velocity, self.wide_levitation = _parts(held, patch.centre if alone else patch.box)
+        self.columns = [(_speed(along), along[-1]) for along in patch.directions]
         middle = [float(x) for x in patch.centre]
         self._velocity = complex(*middle[:-1])
         self._levitation = float(held.radius.mid()) * cmath.exp(1j * middle[-1])
         self._columns = [(complex(v), 1j * self._levitation * float(turn)) for v, turn in self.columns]
 
     # -------------------------------------------------------------------------------------- balls
+
+    @property
+    def busy(self) -> Any:
+        """Time from which motion is free."""
+        return arb(0) if self.from_wall else self.held.start.lasts
+
+    @property
+    def deviation(self) -> tuple[Any, Any]:
+        """Place and velocity from levitation, of all states, when motion becomes free."""
+        if self.from_wall:
+            return 1 - self.wide_levitation, self.wide_velocity - self.wide_levitation * I
+        place, rate, _ = self.held.released
+        return self.wide_velocity * place, self.wide_velocity * rate
 
     def at(self, time: Any) -> Moment:
         """The flights at a time, as mean value forms."""
@@ -222,6 +274,11 @@ class Moment:
     def __init__(self, departure: Departure, waves: Waves) -> None:
         self.departure, self.waves = departure, waves
 
+    @property
+    def parts(self) -> tuple[list[Any], list[Any], list[Any]]:
+        """``p``, ``q`` and ``k`` with their first two derivatives."""
+        return self._p, self._q, [wave[2] for wave in self.waves]
+
     def centre(self, wave: Wave) -> Any:
         """Place or rate on the flight of the centre."""
         d = self.departure
@@ -252,10 +309,16 @@ class Moment:
         return self._products(0, 1)
 
     @cached_property
+    def _moved(self) -> list[tuple[Any, Any, Any]]:
+        """``V h₁`` and its rate differentiated along the columns, and the turn of ``Λ`` along them."""
+        h, dh = self.waves.place[1], self.waves.rate[1]
+        return [(v * h, v * dh, turn) for v, turn in self.departure.columns]
+
+    @cached_property
     def height_along(self) -> list[Any]:
         """``|z|²/2`` differentiated along the columns."""
-        turned, h = cross(self._p[0], self._q[0]), self.waves.place[1]
-        return [dot(self.wide[0], v) * h - turned * turn for v, turn in self.departure.columns]
+        z, turned = self.wide[0], cross(self._p[0], self._q[0])
+        return [dot(z, along) - turned * turn for along, _, turn in self._moved]
 
     @cached_property
     def height(self) -> Any:
@@ -267,8 +330,8 @@ class Moment:
     def rise_along(self) -> list[Any]:
         """``Re(z̄ż)`` differentiated along the columns."""
         (p, dp, _), (q, dq, _), (z, dz, _) = self._p, self._q, self.wide
-        turned, h, dh = cross(p, dq) + cross(dp, q), self.waves.place[1], self.waves.rate[1]
-        return [dot(dz, v) * h + dot(z, v) * dh - turned * turn for v, turn in self.departure.columns]
+        turned = cross(p, dq) + cross(dp, q)
+        return [dot(dz, along) + dot(z, rate) - turned * turn for along, rate, turn in self._moved]
 
     @cached_property
     def rise(self) -> Any:
@@ -285,14 +348,13 @@ class Moment:
     def twist_along(self) -> list[Any]:
         """``Im(z̄ż)`` differentiated along the columns."""
         (p, dp, _), (q, dq, _), (z, dz, _) = self._p, self._q, self.wide
-        turned, h, dh = dot(p, dq) - dot(dp, q), self.waves.place[1], self.waves.rate[1]
-        return [cross(v, dz) * h + cross(z, v) * dh + turned * turn for v, turn in self.departure.columns]
+        turned = dot(p, dq) - dot(dp, q)
+        return [cross(along, dz) + cross(z, rate) + turned * turn for along, rate, turn in self._moved]
 
     def angle_along(self, square: Any) -> list[Any]:
         """``ψ − arg z`` differentiated along the columns, from a ball of ``|z|²``."""
-        z, h = self.wide[0], self.waves.place[1]
-        turned = dot(z, self._p[0])
-        return [(turned * turn - cross(z, v) * h) / square for v, turn in self.departure.columns]
+        z, turned = self.wide[0], dot(self.wide[0], self._p[0])
+        return [(turned * turn - cross(z, along)) / square for along, _, turn in self._moved]
 
 
 def dot(one: Any, other: Any) -> Any:

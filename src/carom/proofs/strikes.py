@@ -19,11 +19,14 @@ from typing import Any
 
 from flint import arb
 
+from carom.proofs.bends import bent, remainder, second_derivatives
 from carom.proofs.passages import GRAZE, Brush, LeftOpenError, Strike
-from carom.proofs.patches import UNIT, Departure, Moment, Patch, cross, dot, spread
+from carom.proofs.patches import FORM, UNIT, Departure, Moment, Patch, cross, dot, spread
 from carom.proofs.series import hull
 
 Columns = list[list[Any]]
+MOST_SPANS = 14
+"""Spans that a patch keeps at most."""
 
 
 def after_strike(departure: Departure, strike: Strike) -> Patch:
@@ -32,6 +35,21 @@ def after_strike(departure: Departure, strike: Strike) -> Patch:
     moment = departure.at(window)
     if not moment.slope > 0:
         raise LeftOpenError(GRAZE, departure.weights(strike.end))
+    time, directions = _crossing(departure, window), departure.patch.directions
+    middle = Departure(departure.held, departure.patch, alone=True).at(time)
+    columns, drift = _columns(middle), []
+    for j, squares in enumerate(second_derivatives(departure, time, window)):
+        for column, term in zip(columns[2:FORM], bent(directions, squares), strict=True):
+            column[j] = column[j] + term
+        drift.append(remainder(directions, squares) * UNIT)
+    centre = _at_wall(departure, middle, time)
+    if not centre[0] + spread([column[0] for column in columns]) + drift[0] > 0:
+        raise LeftOpenError(GRAZE, departure.weights(strike.end))
+    return _reset(departure, centre, columns, drift)
+
+
+def _columns(moment: Moment) -> Columns:
+    """The state at the wall differentiated along the columns, at the times of a moment at which flights cross."""
     place, rate, bend = moment.wide
     rates = moment.curve / 2, cross(place, bend), 1 - cross(place, rate)
     columns: Columns = []
@@ -39,11 +57,7 @@ def after_strike(departure: Departure, strike: Strike) -> Patch:
     for height, *fixed in zip(*along, strict=True):
         late = -height / moment.slope
         columns.append([x + late * y for x, y in zip(fixed, rates, strict=True)])
-    time = _crossing(departure, window)
-    centre = _at_wall(departure, departure.at(time), time)
-    if not centre[0] + spread([column[0] for column in columns]) > 0:
-        raise LeftOpenError(GRAZE, departure.weights(strike.end))
-    return _reset(departure, centre, columns, [arb(0)] * 3)
+    return columns
 
 
 def after_brush(departure: Departure, brush: Brush) -> Patch:
@@ -109,15 +123,20 @@ def _slip_slopes(slip: Any, grip: Any) -> tuple[Any, Any]:
 
 
 def _patch(centre: list[Any], columns: Columns, drift: list[Any]) -> Patch:
-    """Patch with exact numbers that holds all states of mean value forms."""
-    spans = [[x.mid() for x in column] for column in columns[:2]]
+    """Patch with exact numbers that holds all states of mean value forms; small columns are taken together."""
+    kept, small = columns[:FORM], sorted(columns[FORM:], key=lambda column: -_length(column))
+    kept, small = kept + small[: MOST_SPANS - FORM], small[MOST_SPANS - FORM :]
     rest = []
     for j, x in enumerate(centre):
         # Half widths of the balls of the spans count once for each: a factor of at most 1 stands before them.
         total = arb(x.rad()) + abs(drift[j])
-        for column in columns[:2]:
+        for column in kept:
             total = total + arb(column[j].rad())
-        for column in columns[2:]:
+        for column in small:
             total = total + abs(column[j])
         rest.append(total.upper().mid())
-    return Patch([x.mid() for x in centre], spans, rest)
+    return Patch([x.mid() for x in centre], [[x.mid() for x in column] for column in kept], rest)
+
+
+def _length(column: list[Any]) -> float:
+    return sum(abs(float(x.mid())) for x in column)

@@ -7,11 +7,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
+from carom.proofs import state_claims
 from carom.proofs.claims import Claim, claim_of
 from carom.proofs.evidence import Evidence, rational_of
-from carom.proofs.kick_claims import NOT_CLAIMED, OPTIONS, THEOREM, kick_claims
+from carom.proofs.families import FAMILIES
+from carom.proofs.kick_claims import NOT_CLAIMED, kick_claims, options_of
 from carom.proofs.periods import Periods, all_periods
 from carom.proofs.points import point_claims
 from carom.proofs.ranges import range_claims
@@ -148,6 +151,10 @@ THEOREMS: Mapping[str, Theorem] = {
         ),
         ("along", "from", "to", "blocks", "narrowest"),
     ),
-    THEOREM: Theorem(kick_claims, NOT_CLAIMED, OPTIONS),
+    **{
+        about: Theorem(partial(kick_claims, family), NOT_CLAIMED, options_of(family))
+        for about, family in FAMILIES.items()
+    },
+    state_claims.THEOREM: Theorem(state_claims.state_claims, state_claims.NOT_CLAIMED, state_claims.OPTIONS),
 }
 """Theorems by their names in certificates."""

@@ -135,8 +135,9 @@ def coefficients_of(element: Any, speed: float | None) -> dict[str, float]:
     found = {}
     for name in COEFFICIENTS:
         values = np.ravel(getattr(element, name)).astype(float)
-        several = speed and len(values) > 1 and np.size(element.frequency) == len(values)
-        found[name] = float(np.interp(speed, element.frequency, values)) if several else float(values[0])
+        found[name] = float(values[0])
+        if speed and len(values) > 1 and np.size(element.frequency) == len(values):
+            found[name] = float(np.interp(speed, element.frequency, values))
     return found
 
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any, ClassVar, get_args
+from typing import TYPE_CHECKING, Any, ClassVar, get_args
 
 from carom.arguments import checked
 from carom.attractors import DisturbanceSet, find_attractors
@@ -31,14 +31,19 @@ from carom.studies.flexible_study import FlexibleStudy, study_of_machine
 from carom.studies.load_checks import worst_loads
 from carom.studies.recovery import find_recovery
 from carom.studies.study_data import StudyData
-from carom.studies.survives import required_disturbances, survives
+from carom.studies.survives import comes_to_rest, required_disturbances, survives
 from carom.studies.trials import Check, check_recovery, in_all
 from carom.studies.verdict import Verdict, facts_of, verdict
+
+if TYPE_CHECKING:
+    from carom.proofs import Proof, ProvenKicks
 
 TRIED = 1000
 """Disturbances tried at each value of a gain."""
 FIRST, FRESH = 2000, 10_000
 """Fresh disturbances at the machine's own gains: at first, and if all of these came back."""
+PROOF_TIME = "30 s"
+"""Time for the proof of kicks, if it is asked for."""
 SEED = 1
 """Seed of these; the search for recovery has its own."""
 
@@ -83,6 +88,7 @@ def study(
     *,
     requirement: Requirement | None = None,
     proofs: bool = False,
+    proof_time: str | float = PROOF_TIME,
     progress: ShowProgress = None,
 ) -> Study | FlexibleStudy:
     """Study a machine: its simple motions, where they exist, and where disturbances end.
@@ -103,7 +109,10 @@ def study(
         What the machine must survive, instead of what its file states; by default kicks of the speed of a fall through the
         diametral clearance.
     proofs : bool
-        Prove equilibria and orbits too, by :func:`carom.prove`; needs the extra ``carom[proof]``.
+        Prove equilibria and orbits too, by :func:`carom.prove`, and which of the kicks that must be survived come back, by
+        :func:`carom.proofs.prove_kicks`; needs the extra ``carom[proof]``.
+    proof_time : str or float
+        Time for the proof of kicks, in s or with a unit.  What is proven in it depends on the computer.
 
     Raises
     ------
@@ -140,11 +149,10 @@ def study(
             raise InputError(given[0], shown(given[1]), allowed)
         return study_of_machine(case, rotor, reduced, tell)
     known, required = known_of(rotor).orbits, case.requirement.own(rotor.scales)
-    proof = None
+    proof = kicks = None
     if proofs:
-        from carom.proofs import prove  # only here: it needs an extra
-
-        proof, tell = prove(rotor, progress=tell.part(0.0, 0.2)), tell.part(0.2, 1.0)
+        proof, kicks = _proven(rotor, required.kick, proof_time, tell.part(0.0, 0.3))
+        tell = tell.part(0.3, 1.0)
     tell(0.0, "equilibria and periodic orbits (the kernels are compiled on first use)")
     steady = steady_motions(rotor)
     orbits = _orbits(rotor, known)
@@ -172,7 +180,20 @@ def study(
     tell(0.9, "the least change")
     advice = recommend(case, tried, recoveries, needed=present is None or not present.recovers)
     loads = worst_loads(found, case.limits, required) if case.limits.stated and rotor.scales else None
-    return Study(case, rotor, steady, orbits, boundaries, found, endured, present, recoveries, advice, loads, proof)
+    return Study(
+        case, rotor, steady, orbits, boundaries, found, endured, present, recoveries, advice, loads, proof, kicks
+    )
+
+
+def _proven(rotor: Model, largest: float, time: str | float, tell: Reporter) -> tuple[Proof, ProvenKicks | None]:
+    """Theorems about equilibria and orbits, and about kicks where there is levitation to come back to."""
+    from carom.proofs import ProvenKicks, prove, prove_kicks  # only here: they need an extra
+
+    proof = prove(rotor, progress=tell.part(0.0, 0.3))
+    if not comes_to_rest(rotor):
+        return proof, None
+    kicks = prove_kicks(rotor, largest, time_limit=time, progress=tell.part(0.3, 1.0))
+    return proof, ProvenKicks.of(kicks, rotor)
 
 
 def _case_of(machine: Subject) -> Case:

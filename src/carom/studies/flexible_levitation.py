@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -161,7 +162,8 @@ def levitation_of_machine(machine: FlexibleMachine) -> FlexibleLevitation:
     speed, whirls = machine.speed, find_whirls(machine, count=WHIRLS)
     response = at_speed = None
     if machine.unbalances:
-        response = unbalance_response(machine, _speeds(machine).tolist())
+        narrow = find_whirls(machine, count=4 * WHIRLS)
+        response = unbalance_response(machine, speeds_of_response(machine, narrow).tolist())
         at_speed = unbalance_response(machine, [speed])
     return FlexibleLevitation(
         machine=machine,
@@ -175,14 +177,14 @@ def levitation_of_machine(machine: FlexibleMachine) -> FlexibleLevitation:
     )
 
 
-def _speeds(machine: FlexibleMachine) -> np.ndarray:
-    """Speeds of the response: evenly, and densely about the frequencies of forward whirls, whose peaks may be narrow.
+def speeds_of_response(machine: FlexibleMachine, whirls: Sequence[Whirl], top: float | None = None) -> np.ndarray:
+    """Speeds of the response, rad/s: evenly up to the top, and densely about the frequencies of forward whirls, whose peaks may be narrow.
 
     Supports that act differently in two directions let unbalance excite backward whirls too.
     """
-    low, high = SLOWEST * machine.speed, FASTEST * machine.speed
+    low, high = SLOWEST * machine.speed, FASTEST * machine.speed if top is None else top
     narrow = []
-    for whirl in find_whirls(machine, count=4 * WHIRLS):
+    for whirl in whirls:
         excited = whirl.sense == "forward" or machine.whole.equations.mirrored
         if excited and whirl.damping_ratio < NARROW:
             width = abs(whirl.exponent.real)

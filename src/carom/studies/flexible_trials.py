@@ -20,7 +20,7 @@ from carom.outcome import InputError, Outcome
 from carom.parameters import Case, LoadLimits, Required, Scales
 from carom.progress import Reporter
 from carom.results import Result
-from carom.studies.load_checks import LoadCheck, check_loads
+from carom.studies.load_checks import LoadCheck, checks_of_planes
 from carom.studies.verdict_facts import KINDS
 
 DIRECTIONS = 12
@@ -121,7 +121,7 @@ class FlexibleTrial(Result):
                 }
                 for each in self.planes
             ],
-            "limits": [{"name": each.name, "value_si": each.value, "limit_si": each.limit, "exceeded": each.exceeded} for each in self.checks],
+            "limits": [{"name": each.name, "plane": each.plane, "value_si": each.value, "limit_si": each.limit, "exceeded": each.exceeded} for each in self.checks],
         }  # fmt: skip
 
 
@@ -239,7 +239,7 @@ def _reach(motion: Trajectory, loads: PlaneLoads) -> float:
 
 def worst_checks(loads: list[DropLoads], limits: LoadLimits) -> tuple[LoadCheck, ...]:
     """The worst of many motions, at any plane, against each limit that is stated."""
-    checks = [check for each in loads for plane in each.planes for check in check_loads(plane.loads, limits)]
+    checks = [check for each in loads for check in checks_of_planes(each, limits)]
     names = dict.fromkeys(each.name for each in checks)
     return tuple(
         max((each for each in checks if each.name == name), key=lambda each: (each.exceeded, each.value))

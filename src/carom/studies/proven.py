@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
+from carom.parameters.told import number
+from carom.results import fields_of, in_si
 from carom.studies.wording import counted, listed
 
 if TYPE_CHECKING:
     from carom.orbits.orbit import Orbit
-    from carom.proofs import Proof
+    from carom.proofs import Proof, ProvenKicks
 
 
 def proven_words(proof: Proof) -> str:
@@ -31,6 +33,31 @@ def proven_words(proof: Proof) -> str:
     if undecided:
         text += f" {counted(len(undecided), 'claim')} could not be decided: {listed([claim.name for claim in undecided[:4]])}."
     return text
+
+
+def proven_kicks_words(kicks: ProvenKicks) -> str:
+    """What is proven of kicks, and what is left open for which reasons."""
+    text = f"Of kicks out of levitation: {kicks.words}."
+    left = [f"{number(100.0 * part.share, 3)} % of the area ({part.reason})" for part in kicks.parts if part.open]
+    return f"{text} Left open: {listed(left)}." if left else text
+
+
+def proven_kicks_document(kicks: ProvenKicks) -> dict[str, Any]:
+    """The same as plain data for JSON."""
+    document = fields_of(
+        kicks,
+        "all_up_to",
+        "sure_up_to",
+        "impacts",
+        kicks_up_to="largest",
+        share_proven="share",
+        share_refuted="refuted_share",
+        share_open="open_share",
+    )
+    document["open"] = [fields_of(part, "reason", "share") for part in kicks.parts if part.open]
+    return document | in_si(
+        document, kicks.rotor.scales, all_up_to="velocity", sure_up_to="velocity", kicks_up_to="velocity"
+    )
 
 
 def is_proven(proof: Proof | None, orbit: Orbit) -> bool:

@@ -28,7 +28,7 @@ from carom.studies.trials import Check
 from carom.studies.wording import Wording
 
 if TYPE_CHECKING:
-    from carom.proofs import Proof
+    from carom.proofs import Proof, ProvenKicks
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -57,6 +57,8 @@ class StudyData(Result):
         The largest loads of the disturbances against the limits of the touchdown bearing, if any are stated.
     proof : Proof or None
         Theorems about equilibria and orbits, if they were asked for.
+    kicks : ProvenKicks or None
+        What is proven of the kicks that must be survived, if it was asked for and there is stable levitation.
     """
 
     rests_on: ClassVar[tuple[str, ...]] = ("mora2014", "iso14839")
@@ -73,6 +75,7 @@ class StudyData(Result):
     recommendation: Recommendation
     loads: WorstLoads | None = None
     proof: Proof | None = None
+    kicks: ProvenKicks | None = None
 
     @property
     def known(self) -> Known:

@@ -11,6 +11,7 @@ from carom.results import fields_of, in_si
 from carom.studies.endings import ending_words
 from carom.studies.facts import Evidence, Fact
 from carom.studies.findings import stable_rub
+from carom.studies.proven import proven_kicks_document
 from carom.studies.study_data import StudyData
 from carom.studies.survives import Kind, meets
 from carom.studies.wording import SIZES, listed
@@ -34,6 +35,10 @@ def verdict_facts(study: StudyData) -> Iterator[Fact]:
         for name, found in study.survives.items():
             yield _survived(study, name, found)
     yield from _shares(study)
+    if study.kicks is not None:
+        yield Fact(
+            "Verdict", study.kicks.words, "Certain", "proven", proven_kicks_document(study.kicks), disturbances="kick"
+        )
     yield from _others(study)
 
 
@@ -77,6 +82,8 @@ def _survived(study: StudyData, name: Kind, found: SmallestLoss) -> Fact:
     parts = [
         f"harmless up to {size(found.harmless)} (proven)" if found.harmless > 0.0 else "no size is proven harmless"
     ]
+    if name == "kick" and study.kicks is not None and study.kicks.all_up_to > found.harmless:
+        parts.append(f"every one comes back up to {study.kicks.told_up_to} (proven)")
     if found.size is None:
         most = "; with more it cannot levitate" if name == "blade_loss" else ""
         parts.append(f"all {found.tried:,} tried came back, up to {size(found.largest)}{most}")
@@ -188,16 +195,22 @@ def judged(study: StudyData) -> tuple[Level, str, str]:
     if lost:
         outcome = f"Does not come back from all that it must survive, zone {study.zone}"
         return "may-not-come-back", outcome, listed(lost)
-    return (
-        "all-tried-came-back",
-        f"Came back each time from what it must survive, zone {study.zone}",
-        _reservations(study),
-    )
+    outcome = f"Came back each time from what it must survive, zone {study.zone}"
+    if kicks_surely_return(study) and len(required_kinds(study)) == 1:
+        outcome = f"Comes back from every kick that it must survive, zone {study.zone}"
+    return "all-tried-came-back", outcome, _reservations(study)
+
+
+def kicks_surely_return(study: StudyData) -> bool:
+    """Whether every kick that must be survived is proven to come back."""
+    return study.kicks is not None and study.kicks.whole
 
 
 def _reservations(study: StudyData) -> str:
     """What has to be said where all that must be survived came back."""
     parts = ["no guarantee, as disturbances are samples"]
+    if kicks_surely_return(study):
+        parts = ["proven for these kicks; no guarantee for other disturbances, which are samples"]
     if study.bearing_demand is not None and study.bearing_demand.doubtful:
         parts.append(
             f"{study.bearing_demand.doubtful} disturbances ask for a faster current than its magnetic bearings have"

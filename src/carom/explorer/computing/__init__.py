@@ -12,4 +12,7 @@
 ``judgement``      smallest loss, hardest blow, verdict and advice
 ``exports``        the machine shown as a file, as options, as a program
 =================  ==============================================================
+
+Those of the planar rotor; of a flexible machine the same is in ``flexible_controls``, ``flexible_kicks``, ``flexible_motion`` and
+``flexible_exports``, and in ``flexible_levitation`` how it levitates.
 """

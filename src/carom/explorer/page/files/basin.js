@@ -67,7 +67,7 @@ export const basinPicture = (canvas, { onPoint = () => {}, onRing = () => {} } =
       pen.fillStyle = place === picture.active ? "#fff" : "#e4e7ea"; pen.strokeStyle = "rgba(0,0,0,.75)"; pen.lineWidth = place === picture.active ? 2.5 : 1.2;
       pen.beginPath(); pen.arc(x, y, 8, 0, 7); pen.fill(); pen.stroke();
       pen.fillStyle = "#111"; pen.font = "700 11px system-ui, sans-serif"; pen.textAlign = "center"; pen.textBaseline = "middle";
-      pen.fillText(String(place + 1), x, y + 0.5);
+      if (picture.kicks.length > 1) pen.fillText(String(place + 1), x, y + 0.5);
     });
   };
 
@@ -177,7 +177,7 @@ export const basinPicture = (canvas, { onPoint = () => {}, onRing = () => {} } =
     if (dragging) { dragged = true; pull(event, false); return; }
     const held = holds(event);
     canvas.style.cursor = held ? "grab" : "";
-    if (!held && event.pointerType !== "touch" && event.buttons === 0) point(event, false);
+    if (!held && event.pointerType !== "touch" && event.buttons <= 1) point(event, false);
   });
   for (const end of ["pointerup", "pointercancel"]) {
     canvas.addEventListener(end, (event) => {

@@ -1,0 +1,117 @@
+"""Claims about all states inside the clearance and on its wall up to a speed."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from fractions import Fraction
+from typing import Any
+
+from carom.parameters import Field
+from carom.proofs.balls import Enclosure, enclosure_of_fraction, enclosures_of
+from carom.proofs.claims import Claim, claim_of
+from carom.proofs.evidence import Evidence, NotShownError, rational_of
+from carom.proofs.form_search import search, shown
+from carom.proofs.forms import Surface
+from carom.proofs.lost_states import Lost, lost_on_orbits, steadily_lost
+from carom.proofs.rotor import Rotor
+from carom.proofs.speeds import LargestSpeed
+
+THEOREM = "states"
+OPTIONS = ("states_up_to",)
+NOT_CLAIMED = (
+    "that states faster than the speed that is shown do not return, but for those that are named",
+    "how many impacts there are on the way, how hard they are, or how long it takes",
+    "anything of a rotor with weight, of walls that give way, or of a shaft whose speed changes",
+)
+SPEED = Field("states_up_to", "V", "largest speed of a state", "a velocity", "m/s", 1e-9, 1e9, '"100 mm/s"')
+_WHERE = "inside the clearance or on its wall"
+
+
+def state_claims(rotor: Rotor, evidence: Evidence, options: Mapping[str, Any]) -> list[Claim]:
+    """Claims from forms that are searched for or read."""
+    limit = LargestSpeed(rotor.hypotheses, options["states_up_to"], SPEED)
+    share = _share(rotor, evidence, limit)
+    lost = list(steadily_lost(rotor))
+    reach = limit.share(Fraction(1))
+    if share != 1 and _slowest_below(lost, reach) is None:
+        lost += lost_on_orbits(rotor, evidence)
+    slowest = min(lost, key=lambda entry: float(entry.speed.upper()), default=None)
+    return [_recover_claim(limit, share), _lost_claim(limit, slowest), _all_claim(rotor, limit, share, lost)]
+
+
+def _share(rotor: Rotor, evidence: Evidence, limit: LargestSpeed) -> Fraction | None:
+    """The share of the largest speed up to which all states are shown to return; ``None`` if none is."""
+    n = rotor.numbers
+    if not (n.gamma > 0 and n.omega_squared > 0 and n.levitation < 1):
+        return None
+    wall = Surface.of(n)
+    found: Any = evidence.take("forms", lambda: search(wall, limit.share(Fraction(1))))
+    if found is None:
+        return None
+    if not (isinstance(found, list) and len(found) == len(("share", "traps", "limits"))):
+        raise NotShownError("the forms of the certificate are not complete")
+    share = rational_of(found[0])
+    if not (0 < share <= 1 and shown(wall, limit.share(share), *found[1:])):
+        raise NotShownError("the forms of the certificate do not show that all states return")
+    return share
+
+
+def _recover_claim(limit: LargestSpeed, share: Fraction | None) -> Claim:
+    numbers: dict[str, Enclosure] = {}
+    if share is not None:
+        numbers = enclosures_of(speed=limit.share(share))
+        if limit.physical and not limit.exact[1]:
+            numbers["speed_si"] = enclosure_of_fraction(limit.exact[0] * share)
+    return claim_of(
+        "states",
+        "recover",
+        f"From every state {_WHERE}, no faster than the lower end of speed as seen in the fixed frame, the rotor returns to levitation, "
+        "through whatever impacts and lasting contact: no other motion begins there.",
+        0 if share is None else 1,
+        reason="no forms were found that show it of any speed: damping is too weak beside unbalance and friction, or the search is too coarse",
+        enclosures=numbers,
+        limited=False,
+    )
+
+
+def _lost_claim(limit: LargestSpeed, slowest: Lost | None) -> Claim:
+    numbers: dict[str, Enclosure] = {}
+    if slowest is not None:
+        numbers = enclosures_of(speed=slowest.speed)
+        if limit.physical:
+            numbers |= enclosures_of(speed_si=slowest.speed * limit.unit)
+    told = "" if slowest is None else f": {slowest.words}"
+    return claim_of(
+        "states",
+        "lost",
+        f"For every speed above the upper end of speed there is a slower state {_WHERE} from which the rotor never returns to levitation{told}.",
+        0 if slowest is None else 1,
+        reason="no rub, no whirl in lasting contact and no orbit with one impact a period is proven of it, or looked for",
+        enclosures=numbers,
+        limited=False,
+    )
+
+
+def _all_claim(rotor: Rotor, limit: LargestSpeed, share: Fraction | None, lost: list[Lost]) -> Claim:
+    n, slow = rotor.numbers, _slowest_below(lost, limit.share(Fraction(1)))
+    sign, reason = 0, "whether states return that are faster than those of the first claim is open"
+    if share == 1:
+        sign = 1
+    elif n.gamma <= 0 or n.levitation >= 1:
+        sign, reason = -1, "there is no levitation inside the wall that attracts"
+    elif slow is not None:
+        sign, reason = -1, slow.words
+    return claim_of(
+        "states",
+        "all recover",
+        f"From every state {_WHERE}, with a speed of at most {limit.text} as seen in the fixed frame, the rotor returns to levitation.",
+        sign,
+        reason=reason,
+        limited=False,
+    )
+
+
+def _slowest_below(lost: list[Lost], speed: Any) -> Lost | None:
+    """The slowest motion that does not return and has states slower than a speed."""
+    slower = [entry for entry in lost if entry.speed < speed]
+    return min(slower, key=lambda entry: float(entry.speed.upper()), default=None)
