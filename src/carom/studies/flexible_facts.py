@@ -32,7 +32,7 @@ NOT_COVERED = (
         "Periodic orbits and their stability, the values of a gain at which motions appear, the least change of a gain that leaves only recovery, and the "
         "sizes up to which contact is proven to be impossible."
     ),
-    "Limits of the magnetic bearings that the file does not state, bearings that act differently in two directions, and changes of speed.",
+    "Limits of the magnetic bearings that the file does not state, magnetic bearings whose axes differ, coefficients of supports at other speeds, and changes of speed.",
     "Damping of the shaft as it turns with it, wear and heat of the touchdown bearings, and axial motion.",
 )
 """What a study of a flexible machine withholds."""
@@ -76,9 +76,9 @@ def verdict_of_machine(study: FlexibleData, facts: Sequence[Fact]) -> Verdict:
         return Verdict("no-contact-free-motion", "Cannot run without contact", why, survived)
     lost = [_size(study, trial) for trial in study.trials if not trial.survived]
     if lost:
-        outcome = f"Does not come back from all that it must survive, zone {study.zone}"
+        outcome = f"Does not come back from all that it must survive, vibration in zone {study.zone} of ISO 14839-2"
         return Verdict("may-not-come-back", outcome, f"some are lost of: {listed(lost)}", survived)
-    outcome = f"Came back each time from what it must survive, zone {study.zone}"
+    outcome = f"Came back each time from what it must survive, vibration in zone {study.zone} of ISO 14839-2"
     doubts = ["no guarantee, as disturbances are samples", *_doubts(study)]
     return Verdict("all-tried-came-back", outcome, "; ".join(doubts), survived)
 
@@ -148,15 +148,19 @@ def _holding(study: FlexibleData) -> Iterator[Fact]:
     for entry in found:
         if entry.name.outcome is Outcome.LEVITATED:
             continue
-        by = f"{counted(entry.count, 'disturbance')} of {len(found.disturbances)} and {counted(entry.known, 'start')} in backward whirl ended there"
+        by = f"{counted(entry.count, 'disturbance')} of {len(found.disturbances)} and {counted(entry.known, 'start')} in backward whirl"
         force = (
             f", pressed with up to {number(entry.largest_force * scales.force, 3)} N"
             if scales and entry.largest_force
             else ""
         )
+        if not entry.name.outcome.settled:
+            text = f"Of {by} the end is not known ({entry.name.outcome.words}){force}."
+            yield Fact("Disturbances tried", text, motions=(entry.name,))
+            continue
         yield Fact(
             "Backward whirl" if entry.whirl == "backward" else "Disturbances tried",
-            f"{entry.words} {by[0].upper()}{by[1:]}{force}.",
+            f"{entry.words} {by[0].upper()}{by[1:]} ended there{force}.",
             motions=(entry.name,),
         )
     if not found.touching:

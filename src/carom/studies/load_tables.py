@@ -19,7 +19,8 @@ def load_tables(loads: DropLoads, since: str) -> list[tuple[str, list[tuple[str,
     """For each plane a title, empty if there is one plane alone, and labels with what they say; times count from ``since``, planes from 1."""
     planes = loads.planes
     tables = [
-        (f"Plane {each.plane + 1}" if len(planes) > 1 else "", _rows(each, loads.outcome, since)) for each in planes
+        (f"Touchdown bearing {each.plane + 1}" if len(planes) > 1 else "", _rows(each, loads.outcome, since))
+        for each in planes
     ]
     if loads.shaft is not None:
         tables[-1][1].append(("shaft", _shaft_words(loads.shaft)))
