@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import carom as cm
 from carom.rotors import load_machine
 from carom.studies.flexible_rows import machine_rows
@@ -23,8 +25,8 @@ def test_parts_are_told_as_the_file_has_them():
     assert "friction" not in rows
 
 
-def test_a_support_and_a_controller_that_is_no_pid_are_told(tmp_path):
-    text = open(FILE, encoding="utf-8").read()
+def test_a_support_is_told_with_what_it_has(tmp_path):
+    text = Path(FILE).read_text(encoding="utf-8")
     path = tmp_path / "supported.toml"
     path.write_text(
         text + '\n[[support]]\nnode = 7\nkxx = "2e4 N/m"\nkyy = "1e4 N/m"\ncxx = "5 N s/m"\n', encoding="utf-8"
