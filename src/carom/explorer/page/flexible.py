@@ -66,6 +66,7 @@ class FlexibleKind:
             "told": Task("critical speeds and sensitivity", self._told, "told"),
             "fine": Task(FOLLOWING, self._basin(FINE), "basin"),
         }
+        self.wished: Mapping[str, Task] = {}
         self._picture: tuple[int, KickPicture] | None = None
 
     @property

@@ -88,6 +88,8 @@ class Kind(Protocol):
         Work that needs no kernels.
     long : mapping
         Work that is begun when nothing moves, in its order.
+    wished : mapping
+        Work that takes long and is begun only when the page asks for it.
     along : str
         The control that counts as moved last at first.
     template, scripts, figures : str, tuple of str, tuple of str
@@ -108,6 +110,7 @@ class Kind(Protocol):
     apart: tuple[str, ...]
     early: tuple[str, ...]
     long: Mapping[str, Task]
+    wished: Mapping[str, Task]
     along: str
     template: str
     scripts: tuple[str, ...]
