@@ -14,7 +14,7 @@ import carom as cm
 from carom.models import Jeffcott
 from carom.motions import settle
 from carom.outcome import InputError, Outcome
-from carom.proofs import check, hypotheses_of, prove_states
+from carom.proofs import check, prove_states
 from carom.proofs.arrivals import limits_of, read_forms, traps_of
 from carom.proofs.balls import at_precision
 from carom.proofs.forms import Surface
@@ -197,11 +197,3 @@ def test_forged_certificates_are_refused(document, change):
 def test_bad_speeds_are_refused(largest, words):
     with pytest.raises(InputError, match=words):
         prove_states(CASES["overdamped"][0], largest)
-
-
-def test_a_box_of_machines():
-    box = {**CASES["overdamped"][0], "gamma": ("2.499", "2.501"), "mu": ("0.29", "0.3")}
-    proof = prove_states(box, "2")
-
-    assert not hypotheses_of(box).exact
-    assert proof["states all recover"].status == "proven"

@@ -14,14 +14,14 @@ from carom.proofs.forms import STEP, Form, Surface
 
 _SHARES, _RADII, _DIRECTIONS = 24, 3, 24
 """How many values of ``α/γ`` are tried, of the room for ``β`` and ``k``, and directions in it."""
-_NEARLY = 0.999
+_NEARLY = 0.99
 _MOST_FORMS = 2000
 _TURNS, _HEADINGS = 18, 37
 _SPEEDS = (0.0, 0.5, 1.0)
 _MARGIN = 0.01
 """By how much of its level a state must be inside of a trap, so that boxes around it are."""
 _MOST_LIMITS, _HALVINGS, _TRIES, _LESS = 12, 7, 6, Fraction(49, 50)
-_FINE, _BISECTIONS, _SLOWER = 2**40, 30, 0.999
+_FINE, _BISECTIONS, _SLOWER = 2**40, 30, 0.99
 
 Listed = list[list[str]]
 """Forms as evidence."""
