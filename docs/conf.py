@@ -69,6 +69,7 @@ nb_render_markdown_format = "myst"
 
 _SECONDS = {
     "tutorial": 30,
+    "howto/what-is-proven": 20,
     "theorems": 20,
     "misprints": 12,
     "reference/json": 7,

@@ -38,9 +38,9 @@ PROGRAM = """
 import sys
 from types import SimpleNamespace
 from carom.cli import main
-from carom.explorer.page import session
+from carom.explorer.page import planar
 # A study takes seconds; it has tests of its own.  This is what it says of one of the examples.
-session.judge = lambda case, tell: SimpleNamespace(
+planar.judge = lambda case, tell: SimpleNamespace(
     advice="Change: damping 1,400 N s/m to at least 1,706 N s/m.",
     lead="Came back each time from what it must survive, zone C: no guarantee, as disturbances are samples; 23 of 800 starts elsewhere in the "
     "clearance did not come back.",

@@ -15,6 +15,7 @@ from carom.disturbances import Grid, VelocityKick
 from carom.motions import energy_ledger
 from carom.motions.spectrum import full_spectrum
 from carom.outcome import InputError
+from carom.proofs import ProvenKicks, prove_kicks
 from carom.results import Result
 
 KICKS = Grid(VelocityKick(0.5), (4, 6))
@@ -45,6 +46,7 @@ EXAMPLES = {
     "Campbell": lambda: carom.rotors.campbell(munich(0.06), [100.0, 300.0]),
     "FlexibleResponse": lambda: carom.rotors.unbalance_response(munich(0.06), [100.0, 300.0]),
     "Sensitivity": lambda: carom.rotors.sensitivity(munich(0.06), [100.0, 300.0, 900.0]),
+    "ProvenKicks": lambda: ProvenKicks.of(prove_kicks("examples/spindle.toml", "100 mm/s", most_impacts=0, workers=1)),
     "Study": lambda: study_once(PAPER.replace(gamma=0.65, mu=0.0)),
 }
 

@@ -16,8 +16,8 @@ def test_a_drop_tells_both_planes(carom):
     code, out, err = carom("drop", MACHINE, "--until", "20 ms")
     words = " ".join(out.split())
     assert (code, err) == (0, "")
-    assert "Plane 1 peak force" in words
-    assert "Plane 2 peak force" in words
+    assert "Touchdown bearing 1 peak force" in words
+    assert "Touchdown bearing 2 peak force" in words
     _, out, _ = carom("drop", MACHINE, "--until", "20 ms", "--json")
     found = json.loads(out)
     loads = cm.motions.drop_loads(cm.simulate(cm.load(MACHINE), cm.drop(), "20 ms"))
@@ -164,7 +164,7 @@ def test_an_unstable_levitation_is_one_line(carom):
         "simulate", MACHINE, "--kick", "5 mm/s", "--until", "20 ms", "--set", "proportional=1000 A/m"
     )
     assert (code, out, err.count("\n")) == (2, "", 1)
-    assert err.startswith("carom: levitation = unstable: a whirl of ")
+    assert err.startswith("carom: levitation = unstable: a displacement to one side grows")
 
 
 @pytest.mark.parametrize("settings", [(), ("--set", "gravity=0")])

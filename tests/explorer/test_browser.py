@@ -234,7 +234,7 @@ def test_what_arrives_late_moves_nothing_under_the_pointer(page, width):
         assert said(page, place) == late
     said(
         page,
-        "carom.panels.state({ kind: 'working', share: 0.5, words: 'looking for the smallest lost kick '.repeat(3) })",
+        "carom.shows.state[0]({ kind: 'working', share: 0.5, words: 'looking for the smallest lost kick '.repeat(3) })",
     )
     assert said(page, place) == late
     fits(page, width)

@@ -267,13 +267,14 @@ def test_a_model_has_the_case_of_its_bearing(origin):
 @pytest.mark.jit_only
 def test_a_session_answers_with_everything(origin, monkeypatch):
     pytest.importorskip("bokeh", reason="needs the extra carom[explore]")
-    from carom.explorer.page import session as sessions
+    from carom.explorer.page import planar
+    from carom.explorer.page.session import Session
 
-    monkeypatch.setattr(sessions, "COARSE", 8)
-    monkeypatch.setattr(sessions, "COARSEST", 4)
-    monkeypatch.setattr(sessions, "FINE", 9)
+    monkeypatch.setattr(planar, "COARSE", 8)
+    monkeypatch.setattr(planar, "COARSEST", 4)
+    monkeypatch.setattr(planar, "FINE", 9)
     monkeypatch.setattr("carom.explorer.computing.judgement.DIRECTIONS", 1)
-    monkeypatch.setattr(sessions, "judge", lambda case, tell: SimpleNamespace(lead="No.", advice="", survived=()))
+    monkeypatch.setattr(planar, "judge", lambda case, tell: SimpleNamespace(lead="No.", advice="", survived=()))
     ready, done, answers = threading.Event(), threading.Event(), {}
     ready.set()
 
@@ -282,7 +283,7 @@ def test_a_session_answers_with_everything(origin, monkeypatch):
         if name == "verdict":
             done.set()
 
-    session = sessions.Session(origin("restitution"), answer, ready)
+    session = Session(origin("restitution"), answer, ready)
     session.show({"number": 1, "settings": {"touchdown_stiffness": "5e7 N/m"}, "held": False})
     assert done.wait(120.0)
     session.close()

@@ -8,7 +8,7 @@ from carom.disturbances import VelocityKick
 from carom.disturbances.echo import echo_of_kick
 from carom.models import Jeffcott
 from carom.parameters import Parameters, Scales
-from carom.parameters.told import number, told, told_angle
+from carom.parameters.told import number, rounded_down, told, told_angle
 from carom.studies.wording import Wording
 
 SCALES = Scales(mass=50.0, clearance=0.7e-3, speed=184.2)
@@ -34,6 +34,15 @@ def test_without_scales_units_are_those_of_the_equations():
     assert told(0.5, "velocity", None) == "0.5 c_r Ω"
     assert told(0.5, "acceleration", None) == "0.5 c_r Ω²"
     assert told(0.5, "time", None) == "0.5/Ω"
+
+
+@pytest.mark.parametrize(
+    ("value", "least"),
+    [(109.5703, 109.5), (0.17310591, 0.1731), (99.9999, 99.99), (219.7, 219.7), (1.0, 1.0), (0.3, 0.3)],
+)
+def test_what_is_proven_is_rounded_down(value, least):
+    assert rounded_down(value) == pytest.approx(least, rel=1e-12)
+    assert float(number(rounded_down(value))) == least
 
 
 def test_angles_and_numbers():

@@ -16,6 +16,7 @@ from carom.motions import settle
 from carom.outcome import InputError
 from carom.proofs import check, hypotheses_of, prove_kicks
 from carom.proofs.kick_cells import BY_ANGLE, BY_SPEED, DISC, IMPACTS, OPEN, leaves, read, written
+from carom.proofs.passages import REASONS
 from carom.proofs.seeds import doubles_of
 
 NAMES = ("gamma", "omega", "rho", "phi", "mu", "d", "radius_ratio")
@@ -222,11 +223,15 @@ def test_interrupted_search_goes_on_from_its_store(tmp_path, monkeypatch):
     assert 1 < found < len(proof.evidence["cells"])
     assert proof["kicks all recover"].status == "proven"
     assert prove_kicks(SPINDLE, "111 mm/s", most_impacts=1, store=place, workers=1).claims == proof.claims
-    with pytest.raises(InputError, match="another machine, speed or number"):
+    with pytest.raises(InputError, match="another machine, speed, number of impacts or box"):
         prove_kicks(SPINDLE, "112 mm/s", most_impacts=1, store=place)
     place.write_text(place.read_text().replace('"cells": "', '"cells": "v'))
     with pytest.raises(InputError, match="no complete record"):
         prove_kicks(SPINDLE, "111 mm/s", most_impacts=1, store=place)
+
+
+def test_each_reason_has_a_letter_of_its_own():
+    assert len(OPEN) == len(REASONS) + 2
 
 
 def test_time_that_is_up_leaves_cells_open_with_reasons():
@@ -244,7 +249,7 @@ def test_time_that_is_up_leaves_cells_open_with_reasons():
     [
         (SPINDLE, "120", "has no unit"),
         (SPINDLE, "0 mm/s", "kicks_up_to"),
-        (SPINDLE, "[100 mm/s, 120 mm/s]", "must be one speed"),
+        (SPINDLE, "[100 mm/s, 120 mm/s]", "must be one velocity"),
         ({**dict.fromkeys(NAMES, "0.1"), "rho": "2"}, "1", "must levitate inside the wall"),
         ({**dict.fromkeys(NAMES, "0.1"), "gamma": "0"}, "1", "must levitate inside the wall"),
     ],

@@ -148,3 +148,18 @@ def test_another_speed_leaves_the_limits_as_they_are_in_si_units():
         assert one.velocity == pytest.approx(other.velocity, rel=1e-12)
         assert one.accelerations == pytest.approx(other.accelerations, rel=1e-12)
         assert one.rates == pytest.approx(other.rates, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    "changes", [{"proportional": 7000.0}, {"derivative_2": 14.0}, {"current_limit": 0.5}, {"amplifier_bandwidth": 1e4}]
+)
+def test_limits_follow_the_gains_and_bounds_that_are_set(changes):
+    made = machine(current_limit=1.2, slew_rate_limit=1500.0, amplifier_bandwidth=BANDWIDTH)
+    anew = made.replace(**changes).with_modes(2).limited
+
+    moved = made.with_modes(2).limited.replace(**changes)
+
+    for one, other in zip(moved.listed, anew.listed, strict=True):
+        assert one.bound == other.bound
+        for name in ("displacement", "velocity", "accelerations", "rates"):
+            assert getattr(one, name) == pytest.approx(getattr(other, name), rel=1e-12)

@@ -129,7 +129,7 @@ def test_nodes_may_be_called_by_their_names(folder):
         ),
         (
             text_with("rotor.npz").replace("node = 7", "node = 70"),
-            r"^unbalance node = 70: a node of the shaft: 0 to \d+",
+            r"^\[\[unbalance\]\] \d+: node = 70: a node of the shaft: 0 to \d+",
         ),
         (
             text_with("rotor.npz").replace("node = 3\n", 'node = "end"\n'),

@@ -107,5 +107,5 @@ def test_several_planes_have_tables_of_their_own():
     motion = cm.simulate(rotor, cm.kick(1.5), 20.0)
     case = cm.parameters.Case("tilting", rotor, None, cm.parameters.Zones())
     found = DropStudy(case, cm.disturbances.echo.Echo("kick", "Kick", {}), motion)
-    assert [title for title, _ in found.tables] == ["Plane 1", "Plane 2"]
+    assert [title for title, _ in found.tables] == ["Touchdown bearing 1", "Touchdown bearing 2"]
     assert dict(found.tables[0][1])["hardest impact"].startswith("impulse ")

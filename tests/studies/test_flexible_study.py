@@ -11,11 +11,12 @@ import pytest
 
 import carom as cm
 from carom.outcome import InputError, Outcome
+from carom.progress import Reporter
 from carom.rotors import Whirl, find_whirls, load_machine, unbalance_response
 from carom.rotors.collocation import Collocation
 from carom.studies import flexible_study
 from carom.studies.flexible_levitation import levitation_of_machine
-from carom.studies.flexible_trials import DIRECTIONS
+from carom.studies.flexible_trials import DIRECTIONS, trials_of
 from carom.studies.standards import required_margin
 
 pytestmark = pytest.mark.jit_only
@@ -116,10 +117,29 @@ def test_the_amplification_factor_is_that_of_the_damping_ratio():
     [(0.5, 0.4, False, False), (0.5, -0.4, True, False), (0.5j, 0.4j, False, False), (0.01, -0.5, False, True)],
 )
 def test_a_node_between_sensor_and_magnet(sensor, magnet, opposed, hardly):
-    found = Collocation(1, Whirl(1j, np.ones(2, complex)), sensor, magnet)
+    found = Collocation(1, Whirl(1j, np.ones(2, complex), np.zeros(2, complex)), sensor, magnet)
     assert (found.opposed, found.hardly) == (opposed, hardly)
 
 
 def test_a_plan_of_ones_own_is_refused_in_a_line():
     with pytest.raises(InputError, match=r"^proofs = true: left out for a flexible machine$"):
         cm.study(cm.load(FILE), proofs=True)
+
+
+def test_of_motions_without_contact_the_orbit_is_told_not_the_start():
+    """A kick that is known at once to come back is followed all the same; its widest orbit against a fresh one in finer steps."""
+    case = cm.load(FILE)
+    case = replace(case, requirement=cm.parameters.Requirement.of(case, kick="30 mm/s"))
+    rotor = cm.models.model_of(case)
+    required = case.requirement.own(rotor.scales)
+    (trial,) = trials_of(case, rotor, required, 10, Reporter.of(None, "trial"))
+    assert trial.largest.count == DIRECTIONS
+    assert not any(each.contacts for each in trial.planes)
+    for each in trial.planes:
+        widest = 0.0
+        for number in range(DIRECTIONS):
+            motion = cm.simulate(rotor, cm.kick(required.kick, 2.0 * math.pi * number / DIRECTIONS), 300.0)
+            radii = motion.seen_at(each.plane - 1).radius(np.linspace(0.0, 300.0, 50_001))
+            widest = max(widest, radii.max() * MACHINE.clearances[each.plane - 1])
+        assert each.radius == pytest.approx(widest, rel=1e-3)
+    assert trial.worst.time > 100.0

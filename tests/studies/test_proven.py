@@ -2,17 +2,28 @@
 
 from __future__ import annotations
 
+import json
 from dataclasses import replace
 
+import numpy as np
 import pytest
 from machines import PAPER
 from studies import study_once
 
+from carom.closed_forms import harmless_kick
+from carom.files import as_json
 from carom.orbits import find_orbits
-from carom.proofs import check, prove
+from carom.parameters import Case, Requirement, Scales, Shock, Zones
+from carom.proofs import ProvenKicks, check, hypotheses_of, prove, prove_states
+from carom.proofs.evidence import Evidence
+from carom.proofs.families import KICKS
+from carom.proofs.kick_search import BITS
+from carom.proofs.proving import proof_at
+from carom.report import report_page, write_report
+from carom.studies import study
 from carom.studies.document import study_document
-from carom.studies.proven import is_proven, proven_words
-from carom.studies.summaries import motion_rows
+from carom.studies.proven import is_proven, proven_states_words, proven_words
+from carom.studies.summaries import motion_rows, survived_rows
 
 
 @pytest.fixture(scope="module")
@@ -57,3 +68,138 @@ def test_study_shows_its_proof():
     assert "proven" not in {row.name: row.remark for row in motion_rows(plain)}["orbit B1,d"]
     assert check(study_document(proven)["proof"]).claims == proven.proof.claims
     assert study_document(plain)["proof"] is None
+
+
+DAMPED = PAPER.replace(gamma=0.65, mu=0.0)
+"""Every disturbance of this machine comes back at once; kicks of up to 0.58 never touch."""
+
+
+def proven_of(study, largest, cells):
+    """What cells show of the kicks of a studied machine."""
+    options = {"kicks_up_to": str(largest), "most_impacts": 2}
+    evidence = Evidence({"cells": cells})
+    return ProvenKicks.of(proof_at(BITS, KICKS.about, hypotheses_of(study.rotor), options, evidence), study.rotor)
+
+
+@pytest.fixture(scope="module")
+def whole():
+    """The study of a machine that must survive kicks which never touch."""
+    studied = study_once(Case("damped", DAMPED, None, Zones(), requirement=Requirement(kick=0.5)))
+    return replace(studied, kicks=proven_of(studied, 0.5, "aav0a00v0a00aa000"))
+
+
+@pytest.fixture(scope="module")
+def half():
+    """The same where only the slower half of the kicks that must be survived is proven."""
+    studied = study_once(DAMPED)
+    return replace(studied, kicks=proven_of(studied, 1, "vaav0a00v0a00aa000vgx"))
+
+
+@pytest.mark.jit_only
+def test_kicks_that_are_all_proven_are_no_sample(whole):
+    verdict = whole.verdict
+    assert verdict.level == "all-tried-came-back"
+    assert verdict.outcome.startswith("Comes back from every kick that it must survive, zone")
+    assert verdict.reason.startswith("proven for these kicks; no guarantee for other disturbances")
+    assert verdict.headline.endswith("Proven: every kick up to 0.5 c_r Ω comes back, without an impact.")
+    plain = replace(whole, kicks=None).verdict
+    assert plain.outcome.startswith("Came back each time")
+    assert plain.reason.startswith("no guarantee")
+    assert "Proven" not in plain.headline
+
+
+@pytest.mark.jit_only
+def test_of_other_disturbances_nothing_is_proven(whole):
+    shock = Shock(0.1, 1.0)
+    more = replace(whole, case=replace(whole.case, requirement=Requirement(kick=0.5, shock=shock)))
+    present = replace(more.present, returned=(*more.present.returned, more.present.returned[0]))
+    assert replace(more, present=present).verdict.outcome.startswith("Came back each time")
+
+
+@pytest.mark.jit_only
+def test_facts_say_what_is_proven_and_what_is_open(half):
+    facts = {fact.label: fact for fact in half.facts if fact.topic == "Verdict"}
+    assert facts["Certain"].evidence == "proven"
+    assert facts["Certain"].text.startswith(
+        "25 % of the kicks up to 1 c_r Ω come back, without an impact, and every one up to 0.5796 c_r Ω"
+    )
+    values = facts["Certain"].values
+    assert (values["kicks_up_to"], values["all_up_to"], values["share_proven"], values["share_open"]) == (
+        1,
+        0.5,
+        0.25,
+        0.75,
+    )
+    assert values["sure_up_to"] == pytest.approx(harmless_kick(DAMPED))
+    assert [entry["share"] for entry in values["open"]] == [7 / 16, 5 / 16]
+    # What never touches is told as harmless.
+    assert "every one comes back" not in facts["Kick"].text
+    assert half.verdict.outcome == replace(half, kicks=None).verdict.outcome
+    (text,) = (fact.text for fact in half.facts if fact.topic == "Proven")
+    assert text.endswith(
+        "Left open: 43.8 % of the area (the one in the middle does not return in double precision) and 31.2 % of the area (whether flights graze the wall is not decided)."
+    )
+    (first, *_) = (fact.text for fact in half.facts if fact.topic == "Not covered")
+    assert "but for the kicks that are proven" in first
+
+
+@pytest.mark.jit_only
+def test_speed_beyond_the_harmless_one_stands_in_the_table(half):
+    more = replace(half, kicks=replace(half.kicks, all_up_to=0.75))
+    assert "every one comes back up to 0.75 c_r Ω (proven)" in {fact.label: fact.text for fact in more.facts}["Kick"]
+    assert [row.proven for row in survived_rows(more)] == ["0.75 c_r Ω", ""]
+    assert not any(row.proven for row in survived_rows(replace(half, kicks=None)))
+
+
+@pytest.mark.jit_only
+def test_document_has_a_certificate_that_can_be_checked(half):
+    document = json.loads(as_json(half.to_dict()))
+    assert check(document["kick_proof"]).claims == half.kicks.proof.claims
+    assert replace(half, kicks=None).to_dict()["kick_proof"] is None
+
+
+@pytest.mark.jit_only
+def test_all_starts_in_the_clearance_may_be_proven(whole, half):
+    states = prove_states("examples/spindle.toml", "140 mm/s")
+    sure = replace(whole, states=states)
+    assert sure.verdict.reason.startswith(
+        "proven for these kicks and for all starts in the clearance that are no faster;"
+    )
+    elsewhere = {fact.label: fact for fact in sure.facts}["Elsewhere"]
+    assert elsewhere.evidence == "proven"
+    assert elsewhere.text.startswith("every start in the clearance, of up to 0.5 c_r Ω in the room, comes back, as did")
+    assert check(json.loads(as_json(sure.to_dict()))["state_proof"]).claims == states.claims
+    assert any("no other motion begins there" in fact.text for fact in sure.facts if fact.topic == "Proven")
+
+
+@pytest.mark.jit_only
+def test_states_that_are_not_all_proven_are_told_as_they_are(half):
+    lost = prove_states("examples/spindle.toml", "300 mm/s")
+    words = proven_states_words(lost, "300 mm/s", Scales(mass=3.2, clearance=0.25e-3, speed=800 * np.pi))
+    assert words.startswith(
+        "Of all states in the clearance and on its wall, of up to 300 mm/s in the room: some do not come back; every one up to "
+    )
+    assert float(words.split("every one up to ")[1].split()[0]) < 211.6
+    elsewhere = {fact.label: fact for fact in replace(half, states=lost).facts}["Elsewhere"]
+    assert elsewhere.evidence == "sampled"
+
+
+@pytest.mark.jit_only
+def test_study_proves_the_kicks_that_must_be_survived():
+    found = study(DAMPED, proofs=True, requirement=Requirement(kick=0.5), proof_time=0.5)
+    # Those that must be survived never touch, so that faster ones are looked at.
+    assert found.kicks.largest == pytest.approx(2.0 * harmless_kick(DAMPED))
+    assert found.verdict.outcome.startswith("Comes back from every kick that it must survive")
+    assert found.proof is not None
+    assert found.states.options["states_up_to"] == "0.5"
+    without = study(DAMPED.replace(rho=0.9), proofs=True, requirement=Requirement(kick=0.5), proof_time=20.0)
+    assert without.survives is without.kicks is without.states is None
+
+
+@pytest.mark.jit_only
+def test_report_shows_what_is_proven(half, tmp_path):
+    page = write_report(half, str(tmp_path / "out")).read_text(encoding="utf-8")
+    assert "What is proven of kicks" in page
+    assert "25\\xa0% of the kicks" in page.replace("\xa0", "\\xa0")
+    assert (tmp_path / "out" / "figures" / "proven-kicks.svg").exists()
+    assert "proven of kicks" not in report_page(replace(half, kicks=None), [])

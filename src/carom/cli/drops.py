@@ -124,7 +124,8 @@ def print_parts(console: Console, case: Case, motion: Trajectory, kind: str) -> 
     from carom.motions import drop_loads
     from carom.motions.contacts import yields
     from carom.parameters.told import told
-    from carom.studies.load_tables import checks_of_planes, load_tables
+    from carom.studies.load_checks import checks_of_planes
+    from carom.studies.load_tables import load_tables
 
     together = len(motion.parts) > 1 or yields(motion.rotor.system, motion.plane)
     for part in motion.parts:

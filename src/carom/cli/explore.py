@@ -28,23 +28,18 @@ def explore(
     carom[explore].
     """
     from carom.loading import load
-    from carom.models import planar_case_of
 
     if find_spec("bokeh") is None:
         raise CaromError("carom explore needs Bokeh: pip install 'carom[explore]'")
     from carom.explorer.computing.exports import Origin
-    from carom.explorer.computing.planes import opening_words
     from carom.explorer.example import example_file
+    from carom.explorer.page.kinds import explored_case_of, kind_of
     from carom.explorer.server import serve
 
     path = str(example_file()) if machine is None else machine
-    case = planar_case_of(load(path, settings or ()))
-    serve(
-        Origin(path, tuple(settings or ()), case),
-        port,
-        browser=browser,
-        tell=lambda address: _print_opening(address, opening_words(case)),
-    )
+    origin = Origin(path, tuple(settings or ()), explored_case_of(load(path, settings or ())))
+    words = kind_of(origin).words()
+    serve(origin, port, browser=browser, tell=lambda address: _print_opening(address, words))
 
 
 def _print_opening(address: str, words: str) -> None:

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from carom.cli.terminal import AsJson, Settings, check_output, console, print_document, progress
+from carom.files.directory import FIGURES
 from carom.outcome import InputError, shown
 
 if TYPE_CHECKING:
@@ -17,6 +18,14 @@ if TYPE_CHECKING:
 
 CERTIFICATE, CELLS = "proof.json", "cells.json"
 """Names of the certificate, and of the cells of kicks found so far, in the directory given."""
+KICKS, SHOCKS, STEPS, STATES = "--kicks-up-to", "--shocks-up-to", "--unbalance-up-to", "--states-up-to"
+"""Options of theorems about what comes back."""
+DRAWN = "kicks"
+"""Theorem that has a figure."""
+PICTURE, SAMPLED = "proven-kicks", (160, 160)
+"""Name of the figure of kicks, and in how many of them the basin below it is sampled."""
+_DRAWING = 0.95
+"""Share of the bar after which it is drawn."""
 
 
 def prove(
@@ -32,30 +41,55 @@ def prove(
         ),
     ] = 1,
     along: Annotated[
-        str | None,
-        typer.Option(metavar="NAME", help="Prove points and orbits along a parameter instead, --from A --to B."),
+        list[str] | None,
+        typer.Option(
+            metavar="NAME",
+            help="Prove points and orbits along a parameter instead, --from A --to B; with --kicks-up-to which kicks come back for all its "
+            "values, or for all of a box if all three are given two or three times.",
+        ),
     ] = None,
     start: Annotated[
-        str | None,
+        list[str] | None,
         typer.Option("--from", metavar="A", help="First value of the parameter, dimensionless or with a unit."),
     ] = None,
-    stop: Annotated[str | None, typer.Option("--to", metavar="B", help="Last value of the parameter.")] = None,
+    stop: Annotated[list[str] | None, typer.Option("--to", metavar="B", help="Last value of the parameter.")] = None,
     kicks_up_to: Annotated[
         str | None,
         typer.Option(metavar="SPEED", help="Prove instead which kicks out of levitation up to SPEED come back."),
+    ] = None,
+    shocks_up_to: Annotated[
+        str | None,
+        typer.Option(
+            metavar="PEAK,TIME",
+            help="The same of half-sine shocks of the base with peaks up to PEAK, such as '20 g, 0.5 ms'.",
+        ),
+    ] = None,
+    unbalance_up_to: Annotated[
+        str | None,
+        typer.Option(
+            metavar="CHANGE",
+            help="The same of steps to the unbalance of the machine, by changes up to CHANGE, such as '20 um' or '500 g mm'.",
+        ),
     ] = None,
     states_up_to: Annotated[
         str | None,
         typer.Option(metavar="SPEED", help="Prove instead that all states inside the clearance up to SPEED come back."),
     ] = None,
     most_impacts: Annotated[
-        int | None, typer.Option(metavar="N", help="Leave kicks open that may have more than N impacts; by default 12.")
+        int | None, typer.Option(metavar="N", help="Leave open what may have more than N impacts; by default 12.")
     ] = None,
     time_limit: Annotated[
-        str | None, typer.Option(metavar="T", help="End the search after T, such as '2 h'; by default 10 min.")
+        str | None,
+        typer.Option(
+            metavar="T", help="End the search after T, such as '2 h'; by default 10 min, along a parameter never."
+        ),
     ] = None,
     out: Annotated[
-        str | None, typer.Option(metavar="DIR", help=f"Write the certificate, {CERTIFICATE}, to this directory.")
+        str | None,
+        typer.Option(
+            metavar="DIR",
+            help=f"Write the certificate, {CERTIFICATE}, to this directory, and of kicks the figure; with --check the figure alone.",
+        ),
     ] = None,
     check: Annotated[
         str | None, typer.Option(metavar="FILE", help="Verify a certificate instead; no machine file is needed.")
@@ -67,100 +101,153 @@ def prove(
     The numbers of the machine file are taken exactly as they are written. Each claim is proven, refuted or undecided, with the
     reason. A certificate can be verified by itself, without any search. Needs the extra carom[proof].
     """
+    sizes = {KICKS: kicks_up_to, SHOCKS: shocks_up_to, STEPS: unbalance_up_to, STATES: states_up_to}
+    limits = {"most_impacts": most_impacts, "time_limit": time_limit}
+    ranges = {
+        "--longest-period": longest_period,
+        "--along": along or None,
+        "--from": start or None,
+        "--to": stop or None,
+    }
     with progress("loading") as tell:
-        from carom.proofs import check as verify
-        from carom.proofs import prove as prove_machine
-        from carom.proofs import prove_states
-
+        check_output(out)
+        part = tell.part(0.0, _DRAWING)
         if check is not None:
-            others = (
-                machine,
-                longest_period,
-                out,
-                along,
-                start,
-                stop,
-                kicks_up_to,
-                states_up_to,
-                most_impacts,
-                time_limit,
-            )
+            others = (machine, *sizes.values(), *limits.values(), *ranges.values())
             if settings or impacts != 1 or any(other is not None for other in others):
                 raise InputError("--check", shown(check), "must stand alone: a certificate holds its machine")
-            proof = verify(check, progress=tell)
+            proof = _checked(check, out, part)
         elif machine is None:
             raise InputError("MACHINE.toml", None, "give a machine file, or a certificate with --check")
-        elif kicks_up_to is not None:
-            if impacts != 1 or any(other is not None for other in (longest_period, along, start, stop, states_up_to)):
-                raise InputError(
-                    "--kicks-up-to", shown(kicks_up_to), "cannot be combined with options of other theorems"
-                )
-            proof = _prove_kicks(machine, kicks_up_to, settings or (), most_impacts, time_limit, out, tell)
+        elif asked := [option for option, size in sizes.items() if size is not None]:
+            refused = [longest_period] if asked == [KICKS] else [*ranges.values()]
+            if len(asked) > 1 or impacts != 1 or any(other is not None for other in refused):
+                raise InputError(asked[0], shown(sizes[asked[0]]), "cannot be combined with options of other theorems")
+            box = _intervals(along, start, stop)
+            proof = _prove_return(machine, asked[0], sizes[asked[0]] or "", settings or (), limits, box, out, part)
         else:
-            if most_impacts is not None or time_limit is not None:
-                raise InputError("--kicks-up-to", None, "is needed by --most-impacts and --time-limit")
-            check_output(out)
-            if states_up_to is not None:
-                if impacts != 1 or any(other is not None for other in (longest_period, along, start, stop)):
-                    raise InputError(
-                        "--states-up-to", shown(states_up_to), "cannot be combined with options of other theorems"
-                    )
-                proof = prove_states(machine, states_up_to, settings or (), progress=tell)
-            else:
-                interval = _interval(along, start, stop)
-                proof = prove_machine(
-                    machine,
-                    settings or (),
-                    longest_period=longest_period,
-                    impacts=impacts,
-                    along=along,
-                    interval=interval,
-                    progress=tell,
-                )
-    if out is not None:
-        directory = Path(out)
-        directory.mkdir(parents=True, exist_ok=True)
-        proof.save(directory / CERTIFICATE)
+            box = _intervals(along, start, stop)
+            _refuse_limits({**limits, "time_limit": None if box else time_limit})
+            if len(box) > 1:
+                raise InputError("--along", shown(list(box)), "must be one parameter, but with --kicks-up-to")
+            proof = _prove_motions(machine, settings or (), longest_period, impacts, box, time_limit, part)
+        if out is not None:
+            _write(proof, Path(out), None if check else machine, tell)
     if as_json:
         print_document(proof.document())
         return
     _print_proof(proof, checked=check is not None)
-    if out is not None:
+    if check is None and out is not None:
         console().print(f"Certificate: {Path(out) / CERTIFICATE}", soft_wrap=True)
+    if out is not None and proof.theorem == DRAWN:
+        console().print(f"Figure: {Path(out) / FIGURES / PICTURE}.svg", soft_wrap=True)
 
 
-def _interval(along: str | None, start: str | None, stop: str | None) -> tuple[str, str] | None:
-    """Both ends of the values of a parameter, if these were asked for."""
-    from carom.cli.starts import check_exact
+def _checked(check: str, out: str | None, tell: Reporter) -> Proof:
+    """Verify a certificate; only of kicks there is something to write."""
+    from carom.proofs import check as verify
 
-    if along is start is stop is None:
-        return None
-    if start is None or stop is None or along is None:
-        raise InputError("--along", shown(along), "needs --from and --to, and these need --along")
-    for option, end in (("--from", start), ("--to", stop)):
-        check_exact(option, end, along)
-    return start, stop
+    proof = verify(check, progress=tell)
+    if out is not None and proof.theorem != DRAWN:
+        raise InputError("--out", shown(out), "allowed with --check only for a proof of kicks, which has a figure")
+    return proof
 
 
-def _prove_kicks(
+def _refuse_limits(limits: dict[str, Any]) -> None:
+    """Refuse limits of a search through cells where there is none."""
+    if any(limit is not None for limit in limits.values()):
+        told = f"or {SHOCKS} or {STEPS} is needed by --most-impacts, and by --time-limit without --along"
+        raise InputError(KICKS, None, told)
+
+
+def _prove_motions(
     machine: str,
-    kicks_up_to: str,
     settings: Iterable[str],
-    most_impacts: int | None,
+    longest_period: str | None,
+    impacts: int,
+    box: dict[str, tuple[str, str]],
     time_limit: str | None,
+    tell: Reporter,
+) -> Proof:
+    """Prove equilibria and orbits, of one machine or along a parameter."""
+    from carom.proofs import prove as prove_machine
+
+    along, interval = next(iter(box.items()), (None, None))
+    return prove_machine(
+        machine,
+        settings,
+        longest_period=longest_period,
+        impacts=impacts,
+        along=along,
+        interval=interval,
+        time_limit=time_limit,
+        progress=tell,
+    )
+
+
+def _prove_return(
+    machine: str,
+    option: str,
+    largest: str,
+    settings: Iterable[str],
+    limits: dict[str, Any],
+    box: dict[str, tuple[str, str]],
     out: str | None,
     tell: Reporter,
 ) -> Proof:
-    """Prove kicks; with a directory go on from the cells in it."""
-    from carom.proofs import prove_kicks
+    """Prove what returns to levitation, of kicks for all machines of a box; of cells, with a directory go on from those in it."""
+    from carom.proofs import prove_kicks, prove_shocks, prove_states, prove_unbalance_steps
 
-    check_output(out)
+    if option == STATES:
+        _refuse_limits(limits)
+        return prove_states(machine, largest, settings, progress=tell)
+    store = None if out is None else Path(out) / CELLS
     if out is not None:
         Path(out).mkdir(parents=True, exist_ok=True)
-    limits = {"most_impacts": most_impacts, "time_limit": time_limit}
-    given = {name: value for name, value in limits.items() if value is not None}
-    store = None if out is None else Path(out) / CELLS
-    return prove_kicks(machine, kicks_up_to, settings, store=store, progress=tell, **given)  # type: ignore[arg-type]
+    given: dict[str, Any] = {name: value for name, value in limits.items() if value is not None}
+    given |= {"along": box} if box else {}
+    search: Any = {KICKS: prove_kicks, SHOCKS: prove_shocks, STEPS: prove_unbalance_steps}[option]
+    return search(machine, largest, settings, store=store, progress=tell, **given)
+
+
+def _write(proof: Proof, directory: Path, machine: str | None, tell: Reporter) -> None:
+    """Write the certificate, unless it is what was checked, and the figure of kicks."""
+    directory.mkdir(parents=True, exist_ok=True)
+    if machine is not None:
+        proof.save(directory / CERTIFICATE)
+    if proof.theorem == DRAWN:
+        tell(_DRAWING, "drawing")
+        _draw(proof, Path(machine or "certificate").stem, directory)
+
+
+def _draw(proof: Proof, name: str, directory: Path) -> None:
+    """Write the figure of a proof of kicks, over the basin that simulation finds."""
+    from carom import plots
+    from carom.basins import map_cells
+    from carom.disturbances import Grid, KickPlane
+    from carom.proofs import ProvenKicks
+
+    kicks, given = ProvenKicks.of(proof), {**proof.hypotheses.values, **proof.hypotheses.settings}
+    names = ("damping", "stiffness", "speed") if proof.hypotheses.table == "machine" else tuple(given)
+    told = [f"{key} {given[key].removeprefix('double ')}" for key in names]
+    basin = map_cells(kicks.rotor, Grid(KickPlane(kicks.largest), SAMPLED))
+    with plots.heading(f"{name}: {', '.join(told)}"):
+        plots.save(kicks.plot(basin), directory / FIGURES / PICTURE)
+
+
+def _intervals(along: list[str] | None, start: list[str] | None, stop: list[str] | None) -> dict[str, tuple[str, str]]:
+    """Both ends of the values of each parameter that was asked for."""
+    from carom.cli.starts import check_exact
+
+    names, starts, stops = along or [], start or [], stop or []
+    if not len(names) == len(starts) == len(stops):
+        raise InputError("--along", shown(names or None), "needs --from and --to, and these need --along")
+    if len(set(names)) < len(names):
+        raise InputError("--along", shown(names), "names each parameter once")
+    for name, first, last in zip(names, starts, stops, strict=True):
+        for option, end in (("--from", first), ("--to", last)):
+            check_exact(option, end, name)
+    return {name: (first, last) for name, first, last in zip(names, starts, stops, strict=True)}
 
 
 def _print_proof(proof: Proof, checked: bool) -> None:
@@ -172,6 +259,9 @@ def _print_proof(proof: Proof, checked: bool) -> None:
     for claim in proof:
         table.add_row(claim.about, claim.kind, claim.status, claim.reason or _number(claim))
     screen.print(fitted(screen, table))
+    for claim in proof:
+        if claim.about == "kicks" and claim.status == "proven":
+            screen.print(claim.statement)
     how = "Verified from the certificate alone" if checked else "Proven"
     screen.print(f"{how}, with balls of {proof.bits} bits. Exactly assumed: {_assumed(proof)}.")
     screen.print("Not claimed:")
@@ -184,10 +274,7 @@ def _number(claim: Claim) -> str:
 
 
 def _assumed(proof: Proof) -> str:
-    given = {**proof.hypotheses.values, **proof.hypotheses.settings}
-    told = {name: f"{name} = {text}" for name, text in given.items()}
-    along = proof.options.get("along")
-    if along is not None:
-        # Its own value in the machine file is not assumed.
-        told[along] = f"{along} from {proof.options['from']} to {proof.options['to']}"
-    return ", ".join(told.values())
+    moved = (
+        [proof.options["along"]] if "along" in proof.options else [name for name, *_ in proof.options.get("box", ())]
+    )
+    return ", ".join(f"{name} {'from' if name in moved else '='} {text}" for name, text in proof.assumed.items())

@@ -7,6 +7,7 @@ from typing import Annotated
 import typer
 
 from carom.cli.terminal import AsJson, MachineFile, Settings, check_output, console, print_document, progress
+from carom.outcome import InputError, shown
 
 
 def study(
@@ -34,8 +35,18 @@ def study(
         str | None, typer.Option(metavar="DIR", help="Write figures, study.json and report.html to this directory.")
     ] = None,
     prove: Annotated[
-        bool, typer.Option("--prove", help="Prove equilibria and orbits too; needs the extra carom[proof].")
+        bool,
+        typer.Option(
+            "--prove",
+            help="Prove equilibria, orbits and which kicks and states come back too; needs the extra carom[proof].",
+        ),
     ] = False,
+    time_limit: Annotated[
+        str | None,
+        typer.Option(
+            metavar="T", help="With --prove, end the proof of kicks after T, such as '10 min'; by default 30 s."
+        ),
+    ] = None,
     as_json: AsJson = False,
 ) -> None:
     """Study a machine: the verdict in words and numbers, and a report.
@@ -43,10 +54,15 @@ def study(
     Finds every simple motion of the machine with its stability, the damping and stiffness at which each appears or
     vanishes, and where 200 simulated disturbances end. --kick, --shock and --blade-loss say what the machine must survive,
     in place of the table [survive] of its file. With --out it also writes figures, study.json and report.html.
+
+    Of a flexible machine (a [rotor] table) it tells whirls, critical speeds, sensitivity, what is survived and the drop
+    in place of the first two.
     """
     from carom.cli.starts import with_requirement
     from carom.loading import load
 
+    if time_limit is not None and not prove:
+        raise InputError("--time-limit", shown(time_limit), "allowed only with --prove, whose proof of kicks it ends")
     case = with_requirement(load(machine, settings or ()), kick=kick, shock=shock, blade_loss=blade_loss)
     with progress("loading") as tell:
         check_output(out)
@@ -54,7 +70,8 @@ def study(
         from carom.studies import study as study_case
 
         share_of_study = 1.0 if out is None else 0.4
-        result = study_case(case, proofs=prove, progress=tell.part(0.0, share_of_study))
+        given = {} if time_limit is None else {"proof_time": time_limit}
+        result = study_case(case, proofs=prove, **given, progress=tell.part(0.0, share_of_study))  # type: ignore[arg-type]
         report = None
         if out is not None:
             from carom.report import write_flexible_report, write_report

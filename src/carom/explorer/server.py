@@ -30,13 +30,9 @@ from tornado.ioloop import IOLoop
 from tornado.web import ErrorHandler, RequestHandler
 
 from carom.explorer.computing.exports import Origin
-from carom.explorer.computing.kicked_motion import follow_kick
-from carom.explorer.computing.kicks import map_kicks, opening_range, telling_pair
-from carom.explorer.computing.motions import table_of
-from carom.explorer.computing.planes import planes_of
 from carom.explorer.page.document import TOKEN, fill, write_page
+from carom.explorer.page.kinds import kind_of
 from carom.explorer.page.session import Session
-from carom.models import model_of
 from carom.outcome import CaromError, InputError
 
 HERE = "127.0.0.1"
@@ -222,11 +218,7 @@ def _bind(port: int) -> socket.socket:
 def _compile(origin: Origin, ready: threading.Event) -> None:
     """Compile the kernels, or load them, by a first small use."""
     try:
-        rotor = model_of(origin.case)
-        kicks = planes_of(origin.case)[0]
-        table_of(rotor)
-        found = map_kicks(rotor, kicks, 17, opening_range(rotor, kicks))
-        follow_kick(rotor, kicks, *telling_pair(found)[0])
+        kind_of(origin).warm_up()
     except CaromError:
         pass  # the page says what is wrong with this machine
     except RuntimeError as problem:

@@ -107,7 +107,11 @@ def with_limits(system: System, limits: Sequence[Limit]) -> System:
         "limit_columns": system.to_modes @ pushes,
         "limit_couplings": couplings * turns[:, None] / turns,
     }
-    return replace(system, arrays=rotor_record(**{name: arrays[name] for name in _KEPT}, limits=own))
+    kept = {name: arrays[name] for name in _KEPT}
+    if system.mirrored is not None:
+        own["limit_mirrors"] = system.mirrored @ pushes.conj()
+        kept |= {name: arrays[name] for name in ("mirror", "mirror_columns")}
+    return replace(system, arrays=rotor_record(**kept, limits=own))
 
 
 @dataclass(frozen=True)
@@ -192,12 +196,16 @@ class Limited(Around):
         return {name: field for name, field in self.rotor.varied.items() if name not in ("gamma", "omega")}
 
     def replace(self, **changes: Any) -> Limited:
-        """Return the rotor with other values of its parameters; its limits stay what they are in SI units."""
+        """Return the rotor with other values of its parameters; its limits stay what they are in SI units, or are those that its parameters state."""
         for name in changes.keys() & {"gamma", "omega"} - self.varied.keys():
             raise InputError(name, shown(changes[name]), "not to be set beside limits of the controllers")
-        rotor = self.rotor.replace(**changes)
+        rotor: Any = self.rotor.replace(**changes)
+        if isinstance(self.limits, ControlLimit):
+            return Limited(rotor, self.limits)
+        if rotor.stated_limits:  # what a controller asks for changes with its gains
+            return Limited(rotor, rotor.stated_limits)
         before, after = self.rotor.scales, rotor.scales
-        if isinstance(self.limits, ControlLimit) or before is None or after is None or before == after:
+        if before is None or after is None or before == after:
             return Limited(rotor, self.limits)
         return Limited(rotor, tuple(each.at_speed(before.speed / after.speed) for each in self.limits))
 

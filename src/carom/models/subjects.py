@@ -27,7 +27,7 @@ _ALLOWED = "a Machine, a Case (as carom.load reads it from a file), Parameters o
 _PLANAR = (
     "the planar rotor: this result is not known for other models, as of files with [rotor]; with these carom.simulate, carom.settle, "
     "carom.drop, carom.study, carom.find_attractors, carom.map_basins and carom.map_gains work, and the commands study, simulate, drop, attractors, basins, "
-    "orbits, and sweep with [basins]"
+    "orbits, explore, and sweep with [basins]"
 )
 
 
@@ -175,12 +175,18 @@ def case_of(subject: Subject) -> Case:
 def planar_case_of(subject: Subject) -> Case:
     """Case of the planar rotor in a touchdown bearing of any kind, with the default zones; a case is returned as it is.
 
+    A machine and a case may state limits of their magnetic bearings.
+
     Raises
     ------
     InputError
         It is none of these, another model, has weight, or the centre of the touchdown bearing is off the place of levitation.
     """
     model = model_of(subject)
+    if isinstance(model, Limited) and isinstance(subject, Machine | Case):
+        model = model.rotor
+        if isinstance(model, Jeffcott):
+            return subject if isinstance(subject, Case) else Case("machine", model.parameters, subject, Zones())
     if not isinstance(model, InBearing) or not model.levitates:
         return case_of(subject)
     if model.bearing.centre:

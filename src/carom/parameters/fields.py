@@ -87,7 +87,7 @@ class Field:
         """What a user may write here, as the end of an error message."""
         limits = f"{self.lowest:g} to {self.highest:g}"
         if self.zero:
-            limits = f">= 0 (0, or {limits})"
+            limits = f"{'<=' if self.highest < 0 else '>='} 0 (0, or {limits})"
         elif self.lowest > 0:
             limits = f"> 0 ({limits})"
         unit = f" in {self.unit}" if self.unit else ""

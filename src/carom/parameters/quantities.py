@@ -39,9 +39,10 @@ _HYPHEN = re.compile(r"(?<=[A-Za-z])-(?=[A-Za-z])")
 _MEANT = {
     "rad/s": {"Hz": "rev/s", "kHz": "krev/s", "U/min": "rpm"},
     "m": {"mil": "thou", "mils": "thou"},
+    "m/s^2": {"g": "g_0"},
 }
 """Units that pint takes for others in a field of this unit: 1 Hz for 1 rad/s, the U (turn) of German papers for an amount
-of an enzyme, a mil for an angle."""
+of an enzyme, a mil for an angle, the g of accelerations for a gram."""
 _DIGITS = decimal.Context(prec=40)
 # Errors that pint raises besides its own, which derive from some of these.
 _PARSER_ERRORS = (

@@ -38,6 +38,13 @@ def number(value: float, digits: int = 4) -> str:
     return text.rstrip("0").rstrip(".") if "." in text else text
 
 
+def rounded_down(value: float, digits: int = 4) -> float:
+    """Round a positive number down to significant digits: what is proven must not be told as more."""
+    unit = 10.0 ** (math.floor(math.log10(value)) - digits + 1)
+    # A number that has no more digits stays, whatever its last bit is.
+    return math.floor(value / unit * (1.0 + 1e-14)) * unit
+
+
 def shown_in(kind: str, scales: Scales | None) -> tuple[float, str]:
     """Return the unit in which people are told a size, and by what to multiply one in units of the equations.
 

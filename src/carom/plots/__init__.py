@@ -9,9 +9,9 @@ the units of the machine (ms, mm, mm/s, N, N s, rpm) if it is known in SI units,
 Long motions are thinned: the band of the radius, the last turns of the shaft, the position once a turn.  Virtual orbits
 are drawn where the argument `virtual` asks for them.
 
-Motions and orbits are drawn by ``motions``, ``histories``, ``touchdowns``, ``drops``, ``spectra``, ``overviews``, ``levitation`` and ``conditions``; along
-parameters ``diagrams`` with ``coexistence`` and ``proven``, ``regions`` and ``responses``; disturbances ``basins`` with ``pairs`` and
-``rings``, ``gains``, ``drop_maps``, ``sweeps`` and ``attractor_shares``.  Shared are ``style`` (what colours mean), ``sheet`` (the style sheet),
+Motions and orbits are drawn by ``motions``, ``histories``, ``touchdowns``, ``drops``, ``spectra``, ``overviews``, ``levitation``, ``mode_shapes`` and ``conditions``; along
+parameters ``diagrams`` with ``coexistence`` and ``proven``, ``regions`` and ``responses``; disturbances ``basins`` with ``pairs``,
+``rings`` and ``kick_proofs``, ``gains``, ``drop_maps``, ``sweeps`` and ``attractor_shares``.  Shared are ``style`` (what colours mean), ``sheet`` (the style sheet),
 ``figure`` (a figure that keeps it), ``arrangement`` (layout), ``files``, ``plane`` (the clearance circle), ``bands``, ``cells``,
 ``closeups``, ``numerals``, ``placement``, ``parameter_axes`` and ``words``.
 """
@@ -28,7 +28,9 @@ from carom.plots.figure import heading, one_column
 from carom.plots.files import save
 from carom.plots.gains import gain_map
 from carom.plots.histories import radius
+from carom.plots.kick_proofs import proven_kicks
 from carom.plots.levitation import campbell, flexible_response, sensitivity
+from carom.plots.mode_shapes import mode_shapes
 from carom.plots.motions import motion, orbit
 from carom.plots.overviews import equilibria, equilibria_and_orbits, overview
 from carom.plots.pairs import basin_pair
@@ -62,12 +64,14 @@ __all__ = [
     "forces",
     "gain_map",
     "heading",
+    "mode_shapes",
     "motion",
     "multipliers",
     "one_column",
     "orbit",
     "overview",
     "period_condition",
+    "proven_kicks",
     "radius",
     "regimes",
     "region_map",

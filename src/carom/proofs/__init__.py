@@ -29,18 +29,31 @@
 ``seeds``           what is looked at, found in double precision
 ``claims``          claims and proofs
 ``proven_lines``    what a proof shows of a diagram or a plane, for figures
+``proven_kicks``    what a proof shows of a disc of kicks, for figures and studies
 ``evidence``        what a search found, so that a check need not search
 ``theorems``        the theorems by name
 ``proving``         prove, at a precision that rises by itself
 ``patches``         patches of states, and the flights that leave them
 ``passages``        what happens next on all flights of a patch
 ``strikes``         states after an impact
+``mean_values``     numbers with derivatives by a few unknowns, in balls
+``bends``           second derivatives of where flights reach the wall
+``rub_traps``       a region around a stable rub from which no bounce gets out
 ``recoveries``      whether all states of a patch return
-``kick_cells``      the disc of kicks as cells that halve one another
+``boxes``           boxes of machines
+``sides``           by how much a parameter of a box moves flights
+``plain_flights``   flights in double precision
+``gaps``            parts of a box on which something is open
+``kick_box_claims`` claims about kicks of boxes of machines
+``steady_lines``    levitation, rubs and harmless kicks along a parameter
+``starts``          how a disturbance takes a rotor out of levitation
+``families``        kicks, shocks and steps of the unbalance: sizes and words
+``kick_cells``      a disc of kicks, or of others, as cells that halve one another
 ``kick_discs``      what is proven of a cell
 ``kick_search``     the search for cells, in several processes
 ``kick_claims``     claims about kicks
 ``kicks``           prove_kicks, as far as a time allows
+``shocks``          the same for shocks and steps of the unbalance
 ``speeds``          the largest speed that a theorem is about
 ``forms``           quadratic forms that fall in flight and in contact
 ``arrivals``        all states in which motions first meet the wall
@@ -64,7 +77,9 @@ from carom.proofs.certificates import check
 from carom.proofs.claims import Claim, Proof
 from carom.proofs.hypotheses import Hypotheses, hypotheses_of
 from carom.proofs.kicks import prove_kicks
+from carom.proofs.proven_kicks import ProvenKicks
 from carom.proofs.proving import prove
+from carom.proofs.shocks import prove_shocks, prove_unbalance_steps
 from carom.proofs.states import prove_states
 
 __all__ = [
@@ -72,9 +87,12 @@ __all__ = [
     "Enclosure",
     "Hypotheses",
     "Proof",
+    "ProvenKicks",
     "check",
     "hypotheses_of",
     "prove",
     "prove_kicks",
+    "prove_shocks",
     "prove_states",
+    "prove_unbalance_steps",
 ]

@@ -14,8 +14,8 @@ from carom.outcome import CaromError
 from carom.progress import Reporter
 from carom.proofs.balls import at_precision
 from carom.proofs.evidence import NotShownError
-from carom.proofs.kick_cells import IMPACTS, LOST, OPEN, Cell, Tree, leaves, share_of
-from carom.proofs.kick_discs import Disc, Found, disc_of
+from carom.proofs.kick_cells import IMPACTS, LOST, OPEN, REFUTED, Cell, Tree, leaves, share_of
+from carom.proofs.kick_discs import Disc, DiscData, Found, disc_of
 from carom.proofs.passages import LeftOpenError
 
 BITS = 64
@@ -28,7 +28,7 @@ PAUSE = 15.0
 """Seconds between two records of the search."""
 _LAST = 2.0**-50
 """Share of the disc below which a cell is not halved."""
-_LOST_COUNTS = 1 / 64
+_LOST_COUNTS = 1 / 4
 """How much the area of a cell whose middle does not return counts beside others."""
 
 _Result = TypeVar("_Result")
@@ -44,8 +44,8 @@ def search(
     heap: list[tuple[float, Cell]] = []
     for cell, letter in leaves(tree):
         _push(heap, cell, letter)
-    proven, began = share_of(cell for cell, letter in leaves(tree) if letter in IMPACTS), time.monotonic()
-    recorded = began
+    known = {kind: share_of(cell for cell, letter in leaves(tree) if kind(letter)) for kind in (_returns, _ends)}
+    began = recorded = time.monotonic()
 
     def batches() -> Iterator[list[Cell]]:
         while heap and time.monotonic() - began < limit:
@@ -56,13 +56,15 @@ def search(
         for cells, found in _each(disc, _tried, batches, workers):
             for cell, (letter, by) in zip(cells, found, strict=True):
                 tree[cell] = by or letter
-                proven += cell.share if not by else 0
+                for kind in known:
+                    known[kind] += cell.share if not by and kind(letter) else 0
                 for half in cell.halves(by) if by else ():
                     tree[half] = letter
                     _push(heap, half, letter)
             now = time.monotonic()
-            words = f"{100 * float(proven):.4g} % of the area proven, {len(heap)} cells open"
-            tell(max(float(proven), min(1.0, (now - began) / limit)), words)
+            proven, refuted = (float(share) for share in known.values())
+            words = f"{100 * proven:.4g} % of the area proven, {100 * refuted:.4g} % refuted, {len(heap)} cells open"
+            tell(max(proven + refuted, min(1.0, (now - began) / limit)), words)
             if record is not None and now - recorded > PAUSE:
                 record(tree)
                 recorded = now
@@ -73,7 +75,7 @@ def search(
 
 def show_all(disc: Disc, tree: Tree, workers: int, tell: Reporter) -> None:
     """Show what is said of all cells that are proven; :class:`~carom.proofs.evidence.NotShownError` if it is not so."""
-    told = [(cell, letter) for cell, letter in leaves(tree) if letter in IMPACTS]
+    told = [(cell, letter) for cell, letter in leaves(tree) if letter in IMPACTS or letter == REFUTED]
     done = 0
     ahead = iter(range(0, len(told), BATCH))
 
@@ -88,26 +90,38 @@ def show_all(disc: Disc, tree: Tree, workers: int, tell: Reporter) -> None:
         tell(done / len(told), f"{done} of {len(told)} cells verified")
 
 
+def _returns(letter: str) -> bool:
+    return letter in IMPACTS
+
+
+def _ends(letter: str) -> bool:
+    return letter == REFUTED
+
+
 def _push(heap: list[tuple[float, Cell]], cell: Cell, letter: str) -> None:
     if letter in OPEN and cell.share > _LAST:
         heapq.heappush(heap, (-float(cell.share) * (_LOST_COUNTS if letter == LOST else 1.0), cell))
 
 
-def _tried(data: tuple[str, str, int], cells: list[Cell]) -> list[Found]:
+def _tried(data: DiscData, cells: list[Cell]) -> list[Found]:
     with at_precision(BITS):
         return disc_of(data).tried(cells)
 
 
-def _shown(data: tuple[str, str, int], cells: list[tuple[Cell, str]]) -> str:
+def _shown(data: DiscData, cells: list[tuple[Cell, str]]) -> str:
     """What is wrong with some cells; nothing if all is shown."""
     with at_precision(BITS):
+        disc = disc_of(data)
         for cell, letter in cells:
-            most = IMPACTS.index(letter)
             try:
-                disc_of(data).show(cell, most)
+                if letter == REFUTED:
+                    disc.refute(cell)
+                else:
+                    disc.show(cell, IMPACTS.index(letter))
             except LeftOpenError as problem:
-                speeds, angles = ("..".join(map(str, ends)) for ends in (cell.speeds, cell.angles))
-                return f"not all kicks of the cell {speeds}, {angles} return with at most {most} impacts: {problem}"
+                sides = ", ".join("..".join(map(str, ends)) for ends in (cell.speeds, cell.angles, *cell.ends))
+                ends = "end in the rub" if letter == REFUTED else f"return with at most {IMPACTS.index(letter)} impacts"
+                return f"not all {disc.family.about} of the cell {sides} {ends}: {problem}"
     return ""
 
 

@@ -5,6 +5,9 @@ start at the wall, where ``g' ≤ 0``, it is enough that ``g' < 0`` or ``g'' < 0
 
 *Strike.*  ``g' > 0`` up to a time at which ``g > 1`` for all flights: each crosses exactly once, and none before.
 
+*Bounce.*  ``g'' > 0`` from the wall, where ``g = 1``, to a time at which ``g > 1``, with ``g < 1`` at one before it: as ``g`` is convex, each flight is inside
+until then and crosses exactly once after it.
+
 *Brush.*  ``g'' < 0`` on a window, before which ``g < 1``, and at whose end ``g < 1`` and ``g' < 0``.  A flight that touches in the window
 does so first with ``g' ≥ 0``, before the last maximum.  With ``−g'' ≤ C``, ``g`` rises above ``1`` by at least ``g'²/(2C)``, so that the radial speed
 ``ṙ = g'/2`` is at most ``√(C(max g − 1)/2)``.  All others go on from the end of the window.
@@ -25,7 +28,7 @@ from flint import arb
 
 from carom.outcome import CaromError
 from carom.proofs.patches import UNIT, Departure, dot
-from carom.proofs.series import I, hull
+from carom.proofs.series import hull
 
 LONGEST, SHORTEST = 1.0, 1.0 / 64
 """Steps of time to begin with, and at which the wall is looked for, in ``1/Ω``."""
@@ -47,17 +50,21 @@ class LeftOpenError(CaromError):
         How much each span has to do with it.
     """
 
-    def __init__(self, reason: str, weights: tuple[float, float] = (1.0, 1.0)) -> None:
+    def __init__(self, reason: str, weights: tuple[float, ...] = (1.0, 1.0)) -> None:
         super().__init__(reason)
         self.reason, self.weights = reason, weights
 
 
-GRAZE, SLOW, MANY, LONG = "graze", "slow impact", "too many impacts", "long flight"
+GRAZE, SLOW, MANY, LONG = "graze", "slow impact", "many impacts", "long flight"
+EARLY, OUTSIDE, RETURNS = "early contact", "outside", "both"
 REASONS = {
     GRAZE: "whether flights graze the wall is not decided",
     SLOW: "an impact is slow and the wall pushes: it may be followed by chatter and lasting contact",
     MANY: "more impacts than were allowed may follow",
     LONG: "flights go on for longer than is followed",
+    EARLY: "the wall may be reached while the shock lasts",
+    OUTSIDE: "the rotor may not have levitated inside the wall before",
+    RETURNS: "some may return and others not",
 }
 
 
@@ -68,10 +75,21 @@ class Return:
 
 @dataclass(frozen=True)
 class Strike:
-    """Every flight crosses between two times, and not before."""
+    """Every flight crosses between two times, and not before.
+
+    Attributes
+    ----------
+    begin, end : float
+    inside : float
+        A time up to which all flights are inside.
+    peak : float
+        Time of the next maximum on the flight of the centre.
+    """
 
     begin: float
     end: float
+    inside: float
+    peak: float
 
 
 @dataclass(frozen=True)
@@ -92,7 +110,9 @@ Event = Return | Strike | Brush
 def begin(departure: Departure) -> float:
     """A time at which flights that leave the wall with ``g' ≤ 0`` are inside, as they were until then; zero for those from levitation."""
     if not departure.from_wall:
-        return 0.0
+        if departure.at(arb(0)).height < 1:
+            return 0.0
+        raise LeftOpenError(OUTSIDE, departure.weights(0.0))
     width, outward = _START, departure.wide_velocity.real * 2
     for _ in range(_HALVINGS):
         curve = departure.at(hull(0.0, width)).curve
@@ -104,13 +124,39 @@ def begin(departure: Departure) -> float:
     raise LeftOpenError(SLOW, departure.weights(width))
 
 
+def bounce(departure: Departure) -> Strike | None:
+    """A strike before which the wall pushes all flights all the time; none if that is not shown, or they do not leave the wall."""
+    if not departure.from_wall:
+        return None
+    _, rise, curve = departure.plain(0.0)
+    if not (curve > 0 and rise < 0):
+        return None
+    crossing = -2 * rise / curve
+    for _ in range(_HALVINGS):
+        height, rate, _ = departure.plain(crossing)
+        if not rate > 0:
+            return None
+        crossing -= (height - 1) / rate
+    half = sum(map(abs, departure.plain_spread(crossing)[0])) / rate
+    for factor in (1.1, 1.5, 2.2):
+        low, high = crossing - factor * half - _ROUNDING, crossing + factor * half + _ROUNDING
+        if low > 0 and departure.at(arb(high)).height > 1 and departure.at(arb(low)).height < 1:
+            return Strike(low, high, low, high) if _holds(departure, 0.0, high, _bends, 4) else None
+    return None
+
+
+def _bends(departure: Departure, low: float, high: float) -> bool:
+    """Whether ``g'' > 0`` between two times."""
+    return bool(departure.at(hull(low, high)).curve > 0)
+
+
 def next_event(departure: Departure, time: float) -> Event:
     """The next event after a time at which all flights are inside."""
-    end, width = _end(departure), LONGEST
+    end, width, shortest = _end(departure), LONGEST, _shortest(departure, time)
     while time < end:
         if _inside(departure, time, width):
             time, width = time + width, min(2 * width, LONGEST)
-        elif width > SHORTEST:
+        elif width > shortest:
             width /= 2
         else:
             return _meeting(departure, time)
@@ -128,26 +174,32 @@ def _inside(departure: Departure, time: float, width: float) -> bool:
     return bool(middle.height + middle.rise * UNIT * reach + curve * hull(0, reach * reach / 2) < 1)
 
 
+def _shortest(departure: Departure, time: float) -> float:
+    """The step at which the wall is looked for: a disturbance that lasts changes within a part of its time."""
+    lasts = float(departure.busy.mid())
+    return min(SHORTEST, lasts / 16) if time < lasts else SHORTEST
+
+
 def _end(departure: Departure) -> float:
     """A time after which no flight reaches the wall any more."""
     held = departure.held
     n = held.numbers
-    away = (1 if departure.from_wall else departure.wide_levitation) - departure.wide_levitation
-    speed = departure.wide_velocity - (departure.wide_levitation * I if departure.from_wall else 0)
+    away, speed = departure.deviation
+    free = float(departure.busy.upper())
     if held.split < 0:
         turned = speed + away * held.half
         energy = (dot(turned, turned) - held.split * dot(away, away)).upper()
         allowed = -held.split * held.room * held.room
         time = max(0.0, float((energy / allowed).log().upper()) / float(n.gamma.lower())) + _LATER
         if time < _LATEST and energy * (-n.gamma * arb(time)).exp() < allowed:
-            return time
+            return free + time
         raise LeftOpenError(LONG, departure.weights(LONGEST))
     for k in range(int(math.log2(_LATEST))):
         time = float(2**k)
-        (c, h, _), (dc, dh, _), _ = held.waves(arb(time), True)
+        (c, dc, _), (h, dh, _) = held.responses(arb(time))
         place, rate = away * c + speed * h, away * dc + speed * dh
         if dot(rate, rate) + n.omega_squared * dot(place, place) < n.omega_squared * held.room * held.room:
-            return time
+            return free + time
     raise LeftOpenError(LONG, departure.weights(LONGEST))
 
 
@@ -158,13 +210,18 @@ def _meeting(departure: Departure, time: float) -> Event:
     """A strike or a brush after a time at which all flights are inside."""
     crossing, peak = _centre_meets(departure, time)
     if crossing is not None:
-        strike = _strike(departure, time, crossing)
+        strike = _strike(departure, time, crossing, peak)
         if strike is not None:
             return strike
     brush = _brush(departure, time, peak)
     if brush is None:
         raise LeftOpenError(GRAZE, departure.weights(peak))
     return brush
+
+
+def brush_of(departure: Departure, strike: Strike) -> Brush | None:
+    """A strike as a brush: next to a graze less is known of the impact by it, but that little may be known where the strike's is not."""
+    return _brush(departure, strike.inside, strike.peak)
 
 
 def _centre_meets(departure: Departure, time: float) -> tuple[float | None, float]:
@@ -194,7 +251,7 @@ def _root(function: Any, low: float, high: float) -> float:
     return high
 
 
-def _strike(departure: Departure, time: float, crossing: float) -> Strike | None:
+def _strike(departure: Departure, time: float, crossing: float, peak: float) -> Strike | None:
     rate = departure.plain(crossing)[1]
     half = sum(map(abs, departure.plain_spread(crossing)[0])) / rate if rate > 0 else math.inf
     if not half < LONGEST:
@@ -202,7 +259,7 @@ def _strike(departure: Departure, time: float, crossing: float) -> Strike | None
     for factor in (1.1, 1.5, 2.2):
         low, high = max(time, crossing - factor * half - _ROUNDING), crossing + factor * half + _ROUNDING
         if departure.at(arb(high)).height > 1 and (low == time or departure.at(arb(low)).height < 1):
-            return Strike(low, high) if _holds(departure, time, high, _rises) else None
+            return Strike(low, high, time, peak) if _holds(departure, time, high, _rises) else None
     return None
 
 
@@ -213,9 +270,9 @@ def _brush(departure: Departure, time: float, peak: float) -> Brush | None:
     places, rates = (sum(map(abs, columns)) for columns in departure.plain_spread(peak))
     half = math.sqrt(max(0.0, 2 * (height + places - 1)) / -curve) + _ROUNDING
     first = _latest_inside(departure, time, peak, half)
-    last = max(first, peak) + 1.2 * rates / -curve + _ROUNDING
-    end = _first_inside(departure, last, peak, half)
-    if end is None or not departure.at(arb(last)).rise < 0:
+    last = _first_falling(departure, max(first, peak), rates / -curve)
+    end = None if last is None else _first_inside(departure, last, peak, half)
+    if last is None or end is None:
         return None
     curves = list(_curves(departure, first, end))
     if not all(curve < 0 for curve in curves):
@@ -237,6 +294,15 @@ def _latest_inside(departure: Departure, time: float, peak: float, half: float) 
         if departure.at(arb(first)).height < 1 and _holds(departure, time, first, _rises):
             return first
     return time
+
+
+def _first_falling(departure: Departure, peak: float, half: float) -> float | None:
+    """An early time at which all flights have passed their maximum."""
+    for factor in (1.2, 2.0, 4.0):
+        last = peak + factor * half + _ROUNDING
+        if departure.at(arb(last)).rise < 0:
+            return last
+    return None
 
 
 def _first_inside(departure: Departure, last: float, peak: float, half: float) -> float | None:

@@ -8,16 +8,18 @@ Levitation turns: ``Λ e^{it}`` with ``|Λ| = |U*| = ℓ``.  With the response `
 *From the wall*, at ``z(0) = 1`` with the velocity ``V = a + ib``: ``c = h₀`` and ``k = e^{it} − h₀ − i h₁``.  Its state has the three
 coordinates ``a``, ``b``, ``ψ = arg Λ``: turns of the whole plane change nothing.
 
-*From levitation*, kicked by ``V = v > 0`` along the real axis: ``c = 0`` and ``k = e^{it}``, with the two coordinates ``v`` and ``ψ``.
+*From levitation*, disturbed by ``V = v > 0`` along the real axis: ``c = 0`` and ``k = e^{it}``, with the two coordinates ``v`` and ``ψ``, and in place of
+``h₁`` the response to the disturbance (:mod:`carom.proofs.starts`).
 
-A patch holds the states ``x₀ + Σ_g s_g ξ_g``, ``|ξ_g| ≤ 1``: two spans that it inherits from the cell of kicks, and one for each coordinate
-that holds all else.  A function ``f`` of the state lies in ``f(x₀) + Σ_g f'(X)s_g [−1, 1]`` there, ``X`` the box of the patch
+A patch holds the states ``x₀ + s₁ξ₁ + s₂ξ₂ + s₃ξ₁² + s₄ξ₁ξ₂ + s₅ξ₂² + Σ_g s_g ξ_g``, ``|ξ_g| ≤ 1``: ``ξ₁`` and ``ξ₂`` say where in the cell a kick is, the other spans
+hold what earlier impacts have left out, those next to these what the parameters of a box of rotors do, and a rest for each coordinate what the last one has.  A function ``f`` of the state lies in ``f(x₀) + Σ_g f'(X)s_g [−1, 1]`` there, ``X`` the box of the patch
 (mean value form).
 """
 
 from __future__ import annotations
 
 import cmath
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, NamedTuple
@@ -25,12 +27,19 @@ from typing import Any, NamedTuple
 from flint import acb, arb
 
 from carom.proofs.lines import Numbers
-from carom.proofs.series import hyperbolic
+from carom.proofs.plain_flights import PlainRotor
+from carom.proofs.rub_balls import Rub
+from carom.proofs.series import I, hyperbolic
+from carom.proofs.sides import Side, responses_by
+from carom.proofs.starts import Blow, Plain, Response, Start
 
 UNIT = arb(0, 1)
 """All numbers from −1 to 1."""
+FORM = 5
+"""Spans by where in the cell a kick is, those of first and second order; then come those of the parameters of a box of rotors."""
 
 
+BLOW = Blow()
 Wave = tuple[Any, Any, Any]
 
 
@@ -43,14 +52,23 @@ class Waves(NamedTuple):
 
 
 class Held:
-    """What flights need to know of a rotor, at the precision at hand.
+    """What flights need to know of a rotor, or of a box of rotors, at the precision at hand.
 
     Parameters
     ----------
     numbers : Numbers
+        Of all rotors.
+    start : Start
+        The disturbance that takes the rotor out of levitation; of a box of rotors a blow.
+    middle : Numbers, optional
+        Of the rotor in the middle of the box.
+    sides : sequence of Side
+        By how much each parameter of the box moves them.
 
     Attributes
     ----------
+    middle : Held
+        The rotor in the middle.
     half, split : arb
         ``γ/2`` and ``γ²/4 − ω²``.
     radius, radius_squared, room : arb
@@ -59,44 +77,77 @@ class Held:
         ``μ(1 + d)``.
     """
 
-    def __init__(self, numbers: Numbers) -> None:
-        self.numbers = numbers
+    def __init__(
+        self, numbers: Numbers, start: Start = BLOW, middle: Numbers | None = None, sides: Sequence[Side] = ()
+    ) -> None:
+        self.numbers, self.start, self.sides = numbers, start, sides
+        self.middle = self if middle is None else Held(middle)
         self.half, self.split = numbers.gamma / 2, numbers.split
         self.radius = numbers.levitation
         self.radius_squared = self.radius * self.radius
         self.room = 1 - self.radius
         self.grip = numbers.mu * (1 + numbers.d)
-        self._plain = tuple(float(x.mid()) for x in (self.half, self.split, numbers.omega_squared))
+        self.plain = PlainRotor.of(numbers.gamma, numbers.omega_squared, self.radius)
+        self._ends = [self.plain.ends(side) for side in sides]
 
-    def waves(self, time: Any, from_wall: bool) -> Waves:
-        """Waves of flights from the wall or from levitation."""
+    def responses(self, time: Any) -> tuple[Response, Response]:
+        """``h₀`` and ``h₁``."""
         n = self.numbers
         even, odd = hyperbolic(self.split, time)
         fade = (-self.half * time).exp()
         h = fade * odd
         dh = fade * (even - self.half * odd)
         d2h = -n.gamma * dh - n.omega_squared * h
+        c, dc = fade * (even + self.half * odd), -n.omega_squared * h
+        return (c, dc, -n.omega_squared * dh), (h, dh, d2h)
+
+    def plain_responses(self, time: float) -> tuple[Plain, Plain]:
+        """The same in doubles, of the rotor in the middle."""
+        return self.middle.plain.responses(time)
+
+    @cached_property
+    def rub(self) -> Rub:
+        """The stable rub; its numbers are not finite where there is none."""
+        return Rub.of(self.numbers)
+
+    @cached_property
+    def released(self) -> Response:
+        """The response to the disturbance when motion becomes free."""
+        return self.start.last(self)
+
+    def waves(self, time: Any, from_wall: bool) -> Waves:
+        """Waves of flights from the wall or from levitation."""
         sine, cosine = time.sin_cos()
         turn, way = acb(cosine, sine), acb(-sine, cosine)
         if not from_wall:
-            zero = arb(0)
+            zero, (h, dh, d2h) = arb(0), self.start.response(self, time)
             return Waves((zero, h, turn), (zero, dh, way), (zero, d2h, -turn))
-        c, dc = fade * (even + self.half * odd), -n.omega_squared * h
-        d2c = -n.omega_squared * dh
+        (c, dc, d2c), (h, dh, d2h) = self.responses(time)
         return Waves((c, h, turn - acb(c, h)), (dc, dh, way - acb(dc, dh)), (d2c, d2h, -turn - acb(d2c, d2h)))
+
+    def waves_by(self, time: Any, from_wall: bool) -> list[tuple[Wave, Wave]]:
+        """``c``, ``h₁`` and ``k`` and their rates, differentiated by each parameter of the box."""
+        found = []
+        for c, h, dc, dh in responses_by(self.numbers, self.sides, time) if self.sides else []:
+            place, rate = (c, h, -acb(c, h)), (dc, dh, -acb(dc, dh))
+            found.append((place, rate) if from_wall else ((arb(0), h, acb(0)), (arb(0), dh, acb(0))))
+        return found
+
+    def plain_by(self, time: float, from_wall: bool, velocity: complex, turn: complex) -> list[tuple[complex, complex]]:
+        """By how much place and rate change along each parameter, in doubles; ``turn`` is the direction of ``Λ``."""
+        found = []
+        for ends in self._ends:
+            one, other = (end.flight(time, from_wall, velocity, turn) for end in ends)
+            found.append(((one[0] - other[0]) / 2, (one[1] - other[1]) / 2))
+        return found
 
     def plain_waves(self, time: float, from_wall: bool) -> tuple[tuple[complex, complex, complex], ...]:
         """The same in doubles."""
-        half, split, stiff = self._plain
-        root = cmath.sqrt(split) or 1e-9
-        fade = cmath.exp(-half * time).real
-        h = fade * (cmath.sinh(root * time) / root).real
-        dh = fade * cmath.cosh(root * time).real - half * h
-        d2h = -2 * half * dh - stiff * h
         turn = cmath.exp(1j * time)
         if not from_wall:
+            h, dh, d2h = self.start.plain_response(self, time)
             return (0, h, turn), (0, dh, 1j * turn), (0, d2h, -turn)
-        c, dc, d2c = dh + 2 * half * h, -stiff * h, -stiff * dh
+        (c, dc, d2c), (h, dh, d2h) = self.plain_responses(time)
         return (
             (c, h, turn - c - 1j * h),
             (dc, dh, 1j * turn - dc - 1j * dh),
@@ -113,7 +164,8 @@ class Patch:
     centre : list of arb
         Exact numbers: ``v, ψ`` from levitation, ``a, b, ψ`` from the wall.
     spans : list of list of arb
-        Exact vectors of the coordinates, two of them.
+        Exact vectors of the coordinates: two for a patch that is straight, else first those by ``ξ₁``, ``ξ₂``, ``ξ₁²``, ``ξ₁ξ₂`` and ``ξ₂²``, then one
+        for each parameter of the box of rotors.
     rest : list of arb
         Exact half widths of the coordinates.
     """
@@ -130,14 +182,31 @@ class Patch:
     @cached_property
     def box(self) -> list[Any]:
         """Balls of the coordinates."""
-        return [
-            x + UNIT * (abs(one) + abs(other) + rest)
-            for x, one, other, rest in zip(self.centre, *self.spans, self.rest, strict=True)
+        sizes = list(self.rest)
+        for span in self.spans:
+            sizes = [size + abs(x) for size, x in zip(sizes, span, strict=True)]
+        return [x + UNIT * size for x, size in zip(self.centre, sizes, strict=True)]
+
+    @cached_property
+    def directions(self) -> list[list[Any]]:
+        """The spans, where only the first two are given with those of second order, and one for each coordinate whose rest is not zero."""
+        size = len(self.rest)
+        straight = [[arb(0)] * size] * (FORM - len(self.spans))
+        rests = [
+            [rest if i == j else arb(0) for i in range(size)] for j, rest in enumerate(self.rest) if not rest.is_zero()
         ]
+        return [*self.spans, *straight, *rests]
 
 
 class Departure:
     """The flights of a patch.
+
+    Parameters
+    ----------
+    held : Held
+    patch : Patch
+    alone : bool
+        Whether only the flight of the centre is meant, with its derivatives along the same columns.
 
     Attributes
     ----------
@@ -149,25 +218,37 @@ class Departure:
         ``V`` and ``ψ`` differentiated along the spans and then along what holds the rest; exact.
     """
 
-    def __init__(self, held: Held, patch: Patch) -> None:
+    def __init__(self, held: Held, patch: Patch, *, alone: bool = False) -> None:
         self.held, self.patch, self.from_wall = held, patch, patch.from_wall
-        self.velocity, self.levitation = _parts(held, patch.centre)
-        self.wide_velocity, self.wide_levitation = _parts(held, patch.box)
-        directions = [*patch.spans]
-        for j, rest in enumerate(patch.rest):
-            if not rest.is_zero():
-                directions.append([rest if i == j else arb(0) for i in range(len(patch.rest))])
-        self.columns = [(_speed(along), along[-1]) for along in directions]
+        self.velocity, self.levitation = _parts(held.middle, patch.centre)
+        box = patch.centre if alone else patch.box
+        self.wide_velocity, self.wide_levitation = _parts(held, box)
+        self.wide_turn = _turn(box)
+        self.columns = [(_speed(along), along[-1]) for along in patch.directions]
         middle = [float(x) for x in patch.centre]
         self._velocity = complex(*middle[:-1])
-        self._levitation = float(held.radius.mid()) * cmath.exp(1j * middle[-1])
+        self._turn = cmath.exp(1j * middle[-1])
+        self._levitation = held.middle.plain.radius * self._turn
         self._columns = [(complex(v), 1j * self._levitation * float(turn)) for v, turn in self.columns]
 
     # -------------------------------------------------------------------------------------- balls
 
+    @property
+    def busy(self) -> Any:
+        """Time from which motion is free."""
+        return arb(0) if self.from_wall else self.held.start.lasts
+
+    @property
+    def deviation(self) -> tuple[Any, Any]:
+        """Place and velocity from levitation, of all states, when motion becomes free."""
+        if self.from_wall:
+            return 1 - self.wide_levitation, self.wide_velocity - self.wide_levitation * I
+        place, rate, _ = self.held.released
+        return self.wide_velocity * place, self.wide_velocity * rate
+
     def at(self, time: Any) -> Moment:
         """The flights at a time, as mean value forms."""
-        return Moment(self, self.held.waves(time, self.from_wall))
+        return Moment(self, time)
 
     # -------------------------------------------------------------------------------------- doubles
 
@@ -194,12 +275,16 @@ class Departure:
             along, rate = v * h + lift * k, v * dh + lift * dk
             places.append(2 * (z.conjugate() * along).real)
             rates.append(2 * (z.conjugate() * rate + dz.conjugate() * along).real)
+        moved = self.held.plain_by(time, self.from_wall, self._velocity, self._turn)
+        for j, (along, rate) in enumerate(moved, FORM):
+            places[j] += 2 * (z.conjugate() * along).real
+            rates[j] += 2 * (z.conjugate() * rate + dz.conjugate() * along).real
         return places, rates
 
-    def weights(self, time: float) -> tuple[float, float]:
-        """How much each span has to do with ``|z|²`` and its rate at a time."""
-        places, rates = self.plain_spread(time)
-        return abs(places[0]) + abs(rates[0]), abs(places[1]) + abs(rates[1])
+    def weights(self, time: float) -> tuple[float, ...]:
+        """How much both spans of the cell, and that of each parameter, have to do with ``|z|²`` and its rate at a time."""
+        sizes = [abs(place) + abs(rate) for place, rate in zip(*self.plain_spread(time), strict=True)]
+        return (*sizes[:2], *sizes[FORM : FORM + len(self.held.sides)])
 
 
 def _speed(coordinates: list[Any]) -> Any:
@@ -208,8 +293,13 @@ def _speed(coordinates: list[Any]) -> Any:
 
 
 def _parts(held: Held, coordinates: list[Any]) -> tuple[Any, Any]:
+    return _speed(coordinates), _turn(coordinates) * held.radius
+
+
+def _turn(coordinates: list[Any]) -> Any:
+    """Direction of ``Λ``."""
     sine, cosine = coordinates[-1].sin_cos()
-    return _speed(coordinates), acb(held.radius * cosine, held.radius * sine)
+    return acb(cosine, sine)
 
 
 class Moment:
@@ -219,12 +309,24 @@ class Moment:
     ``|q|² = ℓ²|k|²``.  All are evaluated so that this is not lost in the width of ``Λ``.
     """
 
-    def __init__(self, departure: Departure, waves: Waves) -> None:
-        self.departure, self.waves = departure, waves
+    def __init__(self, departure: Departure, time: Any) -> None:
+        self.departure, self.time = departure, time
+        self.waves = departure.held.waves(time, departure.from_wall)
 
-    def centre(self, wave: Wave) -> Any:
-        """Place or rate on the flight of the centre."""
-        d = self.departure
+    @property
+    def parts(self) -> tuple[list[Any], list[Any], list[Any]]:
+        """``p``, ``q`` and ``k`` with their first two derivatives."""
+        return self._p, self._q, [wave[2] for wave in self.waves]
+
+    @cached_property
+    def _middle(self) -> Waves:
+        """Waves of the rotor in the middle of the box."""
+        held = self.departure.held
+        return self.waves if held.middle is held else held.middle.waves(self.time, self.departure.from_wall)
+
+    def centre(self, order: int) -> Any:
+        """Place (0) or rate (1) on the flight of the centre."""
+        d, wave = self.departure, self._middle[order]
         return wave[0] + d.velocity * wave[1] + d.levitation * wave[2]
 
     @cached_property
@@ -252,28 +354,48 @@ class Moment:
         return self._products(0, 1)
 
     @cached_property
+    def _moved(self) -> list[tuple[Any, Any, Any]]:
+        """``z`` and its rate differentiated along the columns, but for the turn of ``Λ`` along them, which comes third."""
+        h, dh = self.waves.place[1], self.waves.rate[1]
+        found = [(v * h, v * dh, turn) for v, turn in self.departure.columns]
+        for j, (place, rate) in enumerate(self._by_parameters(), FORM):
+            along, drift, turn = found[j]
+            found[j] = (along + place, drift + rate, turn)
+        return found
+
+    def _by_parameters(self) -> Iterator[tuple[Any, ...]]:
+        """Place and rate differentiated along each parameter, the state at the start kept."""
+        d = self.departure
+        for waves, side in zip(d.held.waves_by(self.time, d.from_wall), d.held.sides, strict=True):
+            lift = d.wide_turn * side.radius
+            yield tuple(
+                by[0] + d.wide_velocity * by[1] + d.wide_levitation * by[2] + lift * wave[2]
+                for by, wave in zip(waves, self.waves[:2], strict=True)
+            )
+
+    @cached_property
     def height_along(self) -> list[Any]:
         """``|z|²/2`` differentiated along the columns."""
-        turned, h = cross(self._p[0], self._q[0]), self.waves.place[1]
-        return [dot(self.wide[0], v) * h - turned * turn for v, turn in self.departure.columns]
+        z, turned = self.wide[0], cross(self._p[0], self._q[0])
+        return [dot(z, along) - turned * turn for along, _, turn in self._moved]
 
     @cached_property
     def height(self) -> Any:
         """``|z|²`` of all flights, a mean value form."""
-        z = self.centre(self.waves.place)
+        z = self.centre(0)
         return dot(z, z) + spread(self.height_along) * 2
 
     @cached_property
     def rise_along(self) -> list[Any]:
         """``Re(z̄ż)`` differentiated along the columns."""
         (p, dp, _), (q, dq, _), (z, dz, _) = self._p, self._q, self.wide
-        turned, h, dh = cross(p, dq) + cross(dp, q), self.waves.place[1], self.waves.rate[1]
-        return [dot(dz, v) * h + dot(z, v) * dh - turned * turn for v, turn in self.departure.columns]
+        turned = cross(p, dq) + cross(dp, q)
+        return [dot(dz, along) + dot(z, rate) - turned * turn for along, rate, turn in self._moved]
 
     @cached_property
     def rise(self) -> Any:
         """The rate of ``|z|²`` on all flights, a mean value form."""
-        centre = dot(self.centre(self.waves.place), self.centre(self.waves.rate))
+        centre = dot(self.centre(0), self.centre(1))
         return (centre + spread(self.rise_along)) * 2
 
     @cached_property
@@ -285,14 +407,13 @@ class Moment:
     def twist_along(self) -> list[Any]:
         """``Im(z̄ż)`` differentiated along the columns."""
         (p, dp, _), (q, dq, _), (z, dz, _) = self._p, self._q, self.wide
-        turned, h, dh = dot(p, dq) - dot(dp, q), self.waves.place[1], self.waves.rate[1]
-        return [cross(v, dz) * h + cross(z, v) * dh + turned * turn for v, turn in self.departure.columns]
+        turned = dot(p, dq) - dot(dp, q)
+        return [cross(along, dz) + cross(z, rate) + turned * turn for along, rate, turn in self._moved]
 
     def angle_along(self, square: Any) -> list[Any]:
         """``ψ − arg z`` differentiated along the columns, from a ball of ``|z|²``."""
-        z, h = self.wide[0], self.waves.place[1]
-        turned = dot(z, self._p[0])
-        return [(turned * turn - cross(z, v) * h) / square for v, turn in self.departure.columns]
+        z, turned = self.wide[0], dot(self.wide[0], self._p[0])
+        return [(turned * turn - cross(z, along)) / square for along, _, turn in self._moved]
 
 
 def dot(one: Any, other: Any) -> Any:

@@ -91,7 +91,7 @@ def _proven(proof: Proof, allowed: tuple[str, ...], model_at: Callable[[float], 
         )
     line = line_of(proof.hypotheses, along, proof.options["from"], proof.options["to"])
     for end in line.ends:
-        _check_machine(proof.hypotheses.replace(**{along: end}), model_at(float(end)))
+        check_machine(proof.hypotheses.replace(**{along: end}), model_at(float(end)))
     points = [claim for claim in proof if claim.status == "proven" and "value" in claim.enclosures]
     return ProvenLine(
         along,
@@ -101,8 +101,8 @@ def _proven(proof: Proof, allowed: tuple[str, ...], model_at: Callable[[float], 
     )
 
 
-def _check_machine(hypotheses: Hypotheses, model: Model) -> None:
-    """Compare the numbers of the equations."""
+def check_machine(hypotheses: Hypotheses, model: Model) -> None:
+    """Compare the numbers of the equations with those of a proof; :class:`~carom.outcome.InputError` if they are others."""
     parameters = jeffcott_of(model).parameters
     for name in NUMBERS:
         number = hypotheses.numbers[name]

@@ -57,9 +57,24 @@ class Rub:
         root = rub_discriminant(n).sqrt()
         return cls(n, (rub_balance(n) + root) / (1 + n.mu * n.mu), root)
 
+    @property
+    def exists(self) -> bool:
+        """Whether there is one that presses on the wall."""
+        return bool(self.stiffness > 0 and self.force > 0)
+
     def torque(self, off: Any) -> Any:
         """``T(δ)``."""
         return self.stiffness * off.sin() - self._push * (off.cos() - 1)
+
+    def torque_slope(self, off: Any) -> Any:
+        """``T'(δ)``."""
+        return self.stiffness * off.cos() + self._push * off.sin()
+
+    @property
+    def place(self) -> tuple[Any, Any]:
+        """``ρ cos x*`` and ``ρ sin x*``."""
+        n = self.numbers
+        return self.force - 1 + n.omega_squared, -n.gamma - n.mu * self.force
 
     def potential(self, off: Any) -> Any:
         """``Π(δ)``."""
@@ -77,8 +92,7 @@ class Rub:
 
     def turn_of_force(self, reach: Any) -> Any:
         """Largest ``ρ|cos x − cos x*|`` for ``|δ|`` up to a reach of at most π/2."""
-        n = self.numbers
-        along, across = self.force - 1 + n.omega_squared, n.gamma + n.mu * self.force
+        along, across = self.place
         return abs(along) * (1 - reach.cos()) + abs(across) * reach.sin()
 
 

@@ -69,6 +69,11 @@ def _basin(rotor: Model, model: Disturbance, kind: Kind) -> Cells:
     return map_cells(rotor, Grid(model, CELLS[kind]))
 
 
+def of_kicks(study: Study, largest: float) -> Cells:
+    """Where kicks up to a speed end."""
+    return _basin(study.rotor, KickPlane(largest), "kick")
+
+
 def _required(study: Study, kind: Kind) -> tuple[float, int]:
     """Size of a kind that must be survived, and its place among the disturbances followed."""
     return next((size, place) for each, size, place in required_kinds(study) if each == kind)

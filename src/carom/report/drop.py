@@ -50,7 +50,7 @@ def write_drop_report(found: DropStudy, directory: str, *, progress: ShowProgres
         for done, plane in enumerate(planes):
             tell(done / len(planes))
             motion, mark = found.motion.seen_at(plane.plane), f"-{plane.plane + 1}" if len(planes) > 1 else ""
-            which = f" Plane {plane.plane + 1}." if mark else ""
+            which = f" Touchdown bearing {plane.plane + 1}." if mark else ""
             films.append((f"film{plane.plane}-", film_of(motion)))
             orbit, loads = plots.drop_orbit(motion), plots.drop_loads(motion)
             captions = {"orbit": (orbit, _ORBIT), "loads": (loads, _SOFT if plane.gives_way else _RIGID)}

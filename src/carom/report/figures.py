@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -18,6 +19,9 @@ from carom.report import basins
 from carom.report.figure_files import Picture
 from carom.studies import Study
 from carom.studies.endings import ending_phrase, shown_example
+
+if TYPE_CHECKING:
+    from carom.proofs import ProvenKicks
 
 MOST_ORBITS = 2
 """Largest number of stable orbits with figures of their own."""
@@ -38,6 +42,8 @@ def pictures(study: Study) -> list[Picture]:
     if not study.heavy:  # under weight levitation is no point there
         figures.append(_overview(study))
     figures += _of_disturbances(study)
+    if study.kicks is not None:
+        figures.append(_proven_kicks(study, study.kicks))
     figures += [_of_orbit(study, orbit) for orbit in study.stable_orbits[:MOST_ORBITS]]
     if study.known.orbits:
         figures.append(_condition(study.orbits))
@@ -99,6 +105,16 @@ def until_decayed(rotor: Model, time: float) -> float:
     """Return the time until which a motion is shown that returns to levitation at a time, in ``1/Ω``."""
     decay = rotor.system.decay
     return min(time + (SHOWN_TAIL / decay if decay > 0.0 else 0.0), LONGEST_SHOWN)
+
+
+def _proven_kicks(study: Study, kicks: ProvenKicks) -> Picture:
+    return Picture(
+        "proven-kicks",
+        "proven",
+        "Each point is a kick of the levitating rotor. Above its colour says where simulation finds that it ends, full where this is proven and pale where it is not; "
+        "below what is proven of each cell of kicks, and why the others are open.",
+        lambda: plots.proven_kicks(kicks, basins.of_kicks(study, kicks.largest)),
+    )
 
 
 def _of_orbit(study: Study, orbit: Orbit) -> Picture:

@@ -67,6 +67,8 @@ def _pictures(study: FlexibleStudy) -> Iterator[Picture]:
     found = study.levitation
     whirls = "Free whirls over the speed of the shaft, from all modes; unbalance excites forward whirls where they cross the line."
     yield Picture("campbell", SECTION, whirls, found.campbell.plot)
+    shapes = "Shapes of the slowest free whirls at the speed of the machine, from all modes, along the shaft."
+    yield Picture("shapes", SECTION, shapes, lambda: plots.mode_shapes(found.machine, found.whirls))
     if found.response is not None:
         radii = "Radii of the whirl by unbalance, levitating without contact."
         yield Picture("unbalance", SECTION, radii, found.response.plot)
@@ -77,7 +79,8 @@ def _pictures(study: FlexibleStudy) -> Iterator[Picture]:
     for trial in study.trials:
         what = KINDS[trial.kind].lower()  # type: ignore[index]
         for plane in planes:
-            after = f"after the {what} with the largest force"
+            largest = "largest force" if any(each.contacts for each in trial.planes) else "widest orbit"
+            after = f"after the {what} with the {largest}"
             draw = _orbit(trial.worst, plane, f"After the {what}, plane {plane + 1}")
             yield Picture(f"{trial.kind}-{plane + 1}", SECTION, _caption(plane, after), draw)
     if study.fall is not None:

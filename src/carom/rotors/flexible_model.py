@@ -10,7 +10,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from carom.arguments import checked
-from carom.models import LinearRotor, Model, Rates
+from carom.models import Limit, LinearRotor, Model, Rates
 from carom.models.stages import Around
 from carom.outcome import InputError, shown
 from carom.parameters import Field, read_quantity
@@ -48,6 +48,12 @@ class FlexibleModel(LinearRotor):
         """Parameters that can be varied: those of the machine, and the dimensionless ones of a linear rotor."""
         others = {name: field for name, field in super().varied.items() if not name.startswith(_WALLS)}
         return {**others, **self._own}
+
+    @property
+    def stated_limits(self) -> tuple[Limit, ...]:
+        """Limits of the magnetic bearings of the machine."""
+        limits: tuple[Limit, ...] = self.reduced.limits
+        return limits
 
     @checked
     def value(self, name: str) -> float:

@@ -11,7 +11,7 @@ from typing import Any, TypeVar
 import numpy as np
 
 from carom.arguments import checked
-from carom.outcome import CaromWarning, InputError, Problems, shown
+from carom.outcome import CaromWarning, InputError, Problems, shown, together
 from carom.parameters import (
     MACHINE_FIELDS,
     TOUCHDOWN_FIELDS,
@@ -42,6 +42,7 @@ from carom.rotors.matrix_rotor import MatrixRotor
 from carom.rotors.rotor_files import read_rotor
 from carom.rotors.sections import MATERIAL_FIELDS, SECTION_FIELDS, Material, Section
 from carom.rotors.state_spaces import StateSpace
+from carom.rotors.support import SUPPORT_FIELDS, Support
 
 _Part = TypeVar("_Part")
 _RENAMED = {"damping_ratio": "ratio", "damping_of_mass": "of_mass", "damping_of_stiffness": "of_stiffness"}
@@ -54,12 +55,16 @@ ROTOR_ENTRIES: Mapping[str, Any] = {
     "accuracy": Field("accuracy", "", "error of contact forces by reduction", "a number", "", 1e-9, 1.0, "0.02"),
     **dict.fromkeys(_RENAMED),
 }
+SLENDEREST = 500.0
+"""Length over diameter of a section beyond which a unit was probably forgotten."""
 _MATRICES = ("A", "B", "C", "D")
+_YIELDING = ("kelvin-voigt", "hunt-crossley")
 _QUOTIENT = ("numerator", "denominator")
 PART_ENTRIES: Mapping[str, Mapping[str, Any]] = {
     "section": {**SECTION_FIELDS, **MATERIAL_FIELDS},
     "disc": {"node": None, **DISC_FIELDS, "width": None, **by_name(*(SECTION_FIELDS[name] for name in ("outer_diameter", "inner_diameter"))), **MATERIAL_FIELDS},
     "magnetic_bearing": {"node": None, "sensor_nodes": None, **BEARING_FIELDS, **PID_FIELDS, **dict.fromkeys((*_QUOTIENT, *_MATRICES))},
+    "support": {"node": None, **SUPPORT_FIELDS},
     "touchdown": {"node": None, "law": None, **PLANE_FIELDS, **TOUCHDOWN_FIELDS},
     "unbalance": {"node": None, **UNBALANCE_FIELDS},
 }  # fmt: skip
@@ -77,7 +82,7 @@ def read_flexible_case(name: str, tables: MachineTables, settings: Mapping[str, 
     Warns
     -----
     CaromWarning
-        A section is thicker than the shaft is long, or the rotor radius is less than 5 clearances: a unit was probably forgotten.
+        A section is thicker than the shaft is long, or thinner than a wire, or the rotor radius is less than 5 clearances: a unit was probably forgotten.
     """
     if tables.drive is not None:
         problems.errors.append(
@@ -159,9 +164,14 @@ def _read_machine(tables: MachineTables, settings: Mapping[str, str], problems: 
         if not problems.errors:
             rotor = FlexibleRotor(sections, discs, damping, whole.get("longest_element"))  # type: ignore[arg-type]
     parts: dict[str, list[Any]] = {
-        "bearings": _each(tables, "magnetic_bearing", problems, lambda entry: _bearing(_numbered(entry, rotor))),
-        "touchdowns": _each(tables, "touchdown", problems, lambda entry: _plane(_numbered(entry, rotor))),
-        "unbalances": _each(tables, "unbalance", problems, lambda entry: _unbalance(_numbered(entry, rotor))),
+        "bearings": _each(
+            tables, "magnetic_bearing", problems, lambda entry: _on(rotor, _bearing(_numbered(entry, rotor)))
+        ),
+        "touchdowns": _each(tables, "touchdown", problems, lambda entry: _on(rotor, _plane(_numbered(entry, rotor)))),
+        "unbalances": _each(
+            tables, "unbalance", problems, lambda entry: _on(rotor, _unbalance(_numbered(entry, rotor)))
+        ),
+        "supports": _each(tables, "support", problems, lambda entry: _on(rotor, _support(_numbered(entry, rotor)))),
     }
     if not tables.parts.get("touchdown"):
         allowed = "one or more tables, each with its node, clearance, rotor_radius, friction and law"
@@ -209,6 +219,16 @@ def _numbered(entry: Mapping[str, Any], rotor: FreeRotor | None) -> dict[str, An
     return {**entry, **({"node": number(entry["node"])} if "node" in entry else {}), **numbers}
 
 
+def _on(rotor: FreeRotor | None, part: _Part) -> _Part:
+    """The part, all of whose nodes the shaft has; without a shaft, which has errors of its own, they are not known."""
+    if rotor is not None:
+        places: Any = part
+        rotor.check_node("node", places.node)
+        for node in getattr(part, "sensor_nodes", ()):
+            rotor.check_node("sensor_nodes", node)
+    return part
+
+
 def _warn_of_proportions(machine: FlexibleMachine) -> None:
     """Warn of what no rotor looks like: a number without a unit is in metres, not in millimetres."""
     rotor, rooms = machine.rotor, machine.clearances
@@ -218,6 +238,11 @@ def _warn_of_proportions(machine: FlexibleMachine) -> None:
         f"[[section]] {number}: outer_diameter = {each.outer_diameter:g} m: thicker than the shaft is long, {length:.4g} m"
         for number, each in enumerate(sections, start=1)
         if each.outer_diameter > length
+    ]
+    told += [
+        f"[[section]] {number}: length = {each.length:g} m: more than {SLENDEREST:g} times its diameter"
+        for number, each in enumerate(sections, start=1)
+        if each.length > SLENDEREST * each.outer_diameter
     ]
     told += [
         f"[[touchdown]] {number}: rotor_radius = {each.rotor_radius:g} m: less than {LEAST_RADIUS:g} clearances of {room:g} m"
@@ -296,8 +321,15 @@ def _bearing(entry: dict[str, Any]) -> MagneticBearing:
 
 def _plane(entry: dict[str, Any]) -> TouchdownPlane:
     _needed(entry, ("node", "law", *PLANE_FIELDS))
+    if entry["law"] not in _YIELDING:
+        raise InputError("law", shown(entry["law"]), f"must be one of {', '.join(_YIELDING)}")
     bearing = TouchdownBearing(**_of(entry, ("law", *TOUCHDOWN_FIELDS)))
     return TouchdownPlane(entry["node"], bearing, **_of(entry, PLANE_FIELDS))
+
+
+def _support(entry: dict[str, Any]) -> Support:
+    _needed(entry, ("node", "kxx", "kyy"))
+    return Support(**entry)
 
 
 def _unbalance(entry: dict[str, Any]) -> Unbalance:
@@ -314,4 +346,9 @@ def _damping(whole: Mapping[str, Any]) -> ModalDamping | ProportionalDamping:
     if bool(modal) == bool(proportional):
         allowed = "damping_ratio (of all bending modes, such as 0.005), or damping_of_mass and damping_of_stiffness"
         raise InputError("damping", None if not modal else "both", f"one of: {allowed}")
-    return ModalDamping(**modal) if modal else ProportionalDamping(**proportional)
+    try:
+        return ModalDamping(**modal) if modal else ProportionalDamping(**proportional)
+    except InputError as problem:
+        entries = {number: name for name, number in _RENAMED.items()}
+        told = [InputError(entries.get(each.field, each.field), each.value, each.allowed) for each in problem.errors]
+        raise together(told) from None

@@ -2,7 +2,7 @@
 
 A name such as ``proportional`` or ``friction`` is that of all magnetic bearings, or all touchdown bearings, at once; with the number of one of them, as
 the tables of a machine file are counted from 1, of that one: ``proportional_2``.  Entries of touchdown bearings have the prefix that they have
-for the planar rotor: ``touchdown_stiffness``.
+for the planar rotor: ``touchdown_stiffness``.  The size of an unbalance is ``unbalance``.
 """
 
 from __future__ import annotations
@@ -16,9 +16,10 @@ from carom.parameters import MACHINE_FIELDS, SETTINGS, TOUCHDOWN_FIELDS, Field, 
 from carom.parameters.fields import nearest_name
 from carom.parameters.settings import GRAVITY_NAME
 from carom.parameters.touchdown_bearing import BALL_FIELDS, PREFIX
-from carom.rotors.attachments import PLANE_FIELDS, TouchdownPlane
+from carom.rotors.attachments import PLANE_FIELDS, UNBALANCE_FIELDS, TouchdownPlane, Unbalance
 from carom.rotors.controllers import PID, PID_FIELDS
 from carom.rotors.magnetic_bearing import BEARING_FIELDS, MagneticBearing
+from carom.rotors.support import SUPPORT_FIELDS
 
 if TYPE_CHECKING:
     from carom.rotors.flexible_machine import FlexibleMachine
@@ -71,8 +72,17 @@ def _changed_plane(plane: TouchdownPlane, name: str, value: Any) -> TouchdownPla
     return replace(plane, bearing=plane.bearing.replace(**{name.removeprefix(PREFIX): value}))
 
 
+def _of_unbalance(unbalance: Unbalance, name: str) -> Any:
+    return unbalance.size
+
+
+def _changed_unbalance(unbalance: Unbalance, name: str, value: Any) -> Unbalance:
+    return replace(unbalance, size=value)
+
+
 _KINDS = (
     _Parts("bearings", "magnetic bearing", {**PID_FIELDS, **BEARING_FIELDS}, _of_bearing, _changed_bearing),
+    _Parts("supports", "support", SUPPORT_FIELDS, getattr, lambda part, name, value: replace(part, **{name: value})),
     _Parts(
         "touchdowns",
         "touchdown bearing",
@@ -82,6 +92,13 @@ _KINDS = (
         },
         _of_plane,
         _changed_plane,
+    ),
+    _Parts(
+        "unbalances",
+        "[[unbalance]]",
+        {"unbalance": replace(UNBALANCE_FIELDS["size"], name="unbalance")},
+        _of_unbalance,
+        _changed_unbalance,
     ),
 )
 

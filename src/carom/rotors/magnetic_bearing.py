@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
+
+import numpy as np
 
 from carom.outcome import InputError, shown
 from carom.parameters import Field
@@ -15,6 +18,8 @@ from carom.rotors.controllers import state_space_of
 from carom.rotors.entries import read_entries, read_node
 from carom.rotors.state_spaces import StateSpace, delay, lag
 
+SINGULAR = 1e12
+"""Condition of the matrix of a controller above which it integrates."""
 PADE = 3
 """Order of the approximation of a delay ``T``: its phase is right to 0.1° up to a frequency of 2/T, in rad/s."""
 BEARING_FIELDS: Mapping[str, Field] = by_name(
@@ -100,3 +105,11 @@ class MagneticBearing:
         if self.amplifier_bandwidth is not None:
             whole = whole.then(lag(self.amplifier_bandwidth))
         return whole.balanced()
+
+    @cached_property
+    def static_stiffness(self) -> float:
+        """Stiffness against a steady displacement at its sensors and itself, ``ki C(0) + ks``, N/m; infinite with an integrator."""
+        loop = self.loop
+        if loop.states and np.linalg.cond(loop.A) > SINGULAR:
+            return math.inf
+        return self.ki * float(loop.at(np.array(0.0)).real) + self.ks

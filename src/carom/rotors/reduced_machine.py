@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
-from carom.models import Limited, Model, Touchdown
+from carom.models import Limit, Limited, Model, Touchdown
 from carom.models.in_bearing import law_of, race_of
 from carom.models.weight import weighted
 from carom.outcome import InputError
@@ -18,6 +18,7 @@ from carom.parameters.restitution import damping_ratio_of
 from carom.results import Result
 from carom.rotors.attachments import TouchdownPlane
 from carom.rotors.bearing_limits import limits_of_bearings
+from carom.rotors.controllers import PID
 from carom.rotors.equations import Equations, equations_of, loops_of
 from carom.rotors.flexible_model import FlexibleModel
 from carom.rotors.reduction import Basis
@@ -27,8 +28,8 @@ if TYPE_CHECKING:
 
 SLOWEST = 3e-7
 """Rate of an integrator, in ``Ω``, up to which its motion and the steady one under weight are one mode but for rounding."""
-SINGULAR, ROUNDED = 1e12, 1e-6
-"""Condition of the matrix of a controller above which it integrates, and share of its stiffness up to which a bearing has none."""
+ROUNDED = 1e-6
+"""Share of its stiffness up to which a bearing has none, and frequency in ``Ω`` up to which a motion is no whirl."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -70,8 +71,9 @@ class ReducedMachine(Result):
 
     @property
     def states(self) -> int:
-        """Number of complex states: displacements and velocities of all vectors, and states of controllers."""
-        return len(self.equations.mass) + int(self.equations.mass.any(axis=1).sum())
+        """Number of complex states: displacements and velocities of all vectors, and states of controllers; twice that if a support acts differently in two directions."""
+        once = len(self.equations.mass) + int(self.equations.mass.any(axis=1).sum())
+        return 2 * once if self.equations.mirrored else once
 
     @cached_property
     def scales(self) -> Scales:
@@ -83,7 +85,9 @@ class ReducedMachine(Result):
     def equations(self) -> Equations:
         """Equations of motion in SI units."""
         at = self.machine
-        return equations_of(at.rotor, self.basis, at.bearings, at.touchdowns, at.unbalances, restart=at.speed)
+        return equations_of(
+            at.rotor, self.basis, at.bearings, at.touchdowns, at.unbalances, at.supports, restart=at.speed
+        )
 
     def of(self, machine: FlexibleMachine) -> ReducedMachine:
         """By the same vectors, a machine with another value of a parameter, on none of which they depend."""
@@ -99,11 +103,14 @@ class ReducedMachine(Result):
             There are magnetic bearings, and a motion on them grows; or an integrator is so slow that under weight it cannot be told from none.
         """
         rotor = self.unchecked
-        if self.machine.bearings and (rate := rotor.system.decay) <= 0.0:
+        if (self.machine.bearings or self.machine.supports) and (rate := rotor.system.decay) <= 0.0:
             worst = rotor.system.exponents[rotor.system.exponents.real.argmax()] + 1j
             speed = self.machine.speed
             hertz = worst.imag * speed / (2.0 * math.pi)
-            grows = f"unstable: a whirl of {hertz:.4g} Hz grows with {-rate * speed:.4g} 1/s"
+            # One that has gone far before it has turned by a tenth of a radian is no whirl to a reader.
+            turns = abs(worst.imag) > max(ROUNDED, 0.1 * worst.real)
+            what = f"a whirl of {hertz:.4g} Hz" if turns else "a displacement to one side"
+            grows = f"unstable: {what} grows with {-rate * speed:.4g} 1/s"
             raise InputError("levitation", grows, f"controllers that hold the rotor at this speed{self._weak}")
         if self.machine.gravity is not None:
             self._check_integrators(rotor)
@@ -114,13 +121,13 @@ class ReducedMachine(Result):
         """Which bearings push a steady displacement further, in words; empty if none does."""
         found = []
         for number, each in enumerate(self.machine.bearings, start=1):
-            loop = each.loop
-            if loop.states and np.linalg.cond(loop.A) > SINGULAR:
-                continue  # an integrator
-            stiffness = each.ki * float(loop.at(np.array(0.0)).real) + each.ks
+            stiffness, of = each.static_stiffness, "ki C(0) + ks"
+            if math.isinf(stiffness) and isinstance(each.controller, PID):
+                # An integrator holds only what the proportional gain holds already.
+                stiffness, of = each.ki * each.controller.proportional + each.ks, "ki P + ks"
             if stiffness <= ROUNDED * abs(each.ks):
-                found.append(f"{number}: {stiffness:.3g} N/m")
-        return f"; static stiffness ki C(0) + ks of bearing {', '.join(found)}" if found else ""
+                found.append(f"{of} of bearing {number}: {stiffness:.3g} N/m")
+        return f"; static stiffness {', '.join(found)}, must be above 0" if found else ""
 
     def _check_integrators(self, rotor: FlexibleModel) -> None:
         """Refuse an integrator so slow that what weight does to it has no digits left, and a rotor that nothing holds."""
@@ -136,6 +143,8 @@ class ReducedMachine(Result):
                     name, told = "integral", f"{gain:g} A/m/s"
                     allowed = f"0, or at least {faster * gain:.2g} A/m/s: less cannot be told from none under weight"
                 raise InputError(f"[[magnetic_bearing]] {number}: {name}", told, allowed)
+        if not self.machine.bearings:
+            raise InputError("levitation", "no magnetic bearing, under weight", "one or more that hold the rotor")
         told = f"none under weight: a motion comes back with {slowest * self.machine.speed:.2g} 1/s"
         raise InputError("levitation", told, f"controllers that hold the rotor{self._weak}")
 
@@ -148,11 +157,15 @@ class ReducedMachine(Result):
         InputError
             As for :attr:`linear`.
         """
+        return Limited(self.linear, self.limits) if self.limits else self.linear
+
+    @cached_property
+    def limits(self) -> tuple[Limit, ...]:
+        """Limits of its magnetic bearings, in units of the equations, on the gains of which they depend."""
         at, given = self.machine, self.equations
         pulls = np.zeros_like(given.currents)
         pulls[:, : self.vectors] = loops_of(at.rotor, at.bearings, at.touchdowns).bearings @ self.basis.shapes
-        limits = limits_of_bearings(given, tuple(at.bearings), pulls, self.scales)
-        return Limited(self.linear, limits) if limits else self.linear
+        return limits_of_bearings(given, tuple(at.bearings), pulls, self.scales)
 
     @cached_property
     def model(self) -> Model:
@@ -177,6 +190,8 @@ class ReducedMachine(Result):
         once = np.where(heavy, 1.0 / scales.speed, 1.0)[:, None]
         twice = np.where(heavy, 1.0 / scales.speed**2, 1.0 / scales.speed)[:, None]
         size = math.sqrt(scales.mass)
+        # Cross-coupled damping of supports counts as gyroscopic, which stays when levitation is lost.
+        left = 0.5 * (given.unlevitated[0] + given.unlevitated[0].conj().T)
         planes = zip(at.touchdowns, at.clearances, size * given.planes, strict=True)
         return FlexibleModel.in_fixed_frame(
             reduced=self,
@@ -188,7 +203,8 @@ class ReducedMachine(Result):
             touchdowns=[self._touchdown(*each) for each in planes],
             translation=np.eye(len(given.mass))[0],
             scales=scales,
-            unlevitated=np.stack([once * given.unlevitated[0], twice * given.unlevitated[1]]),
+            unlevitated=np.stack([once * left, twice * given.unlevitated[1]]),
+            conjugate=np.stack([once * given.across[0], twice * given.across[1]]) if given.mirrored else None,
         )
 
     def _touchdown(self, plane: TouchdownPlane, clearance: float, row: np.ndarray) -> Touchdown:

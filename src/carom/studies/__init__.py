@@ -19,6 +19,7 @@ Read them in this order.
 ``flexible_trials``      disturbances of a flexible machine, and what its touchdown bearings bear
 ``flexible_data``        :class:`FlexibleData`: what a study has found of a flexible machine, before it is told
 ``flexible_study``       :class:`FlexibleStudy`, which :func:`study` makes of a flexible machine
+``levitation_facts``     how a flexible machine levitates, in words
 ``flexible_facts``       what it has found, in words, and its verdict
 ``flexible_document``    the same as JSON
 ``endings``              where simulated disturbances ended

@@ -8,11 +8,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any, ClassVar, get_args
+from typing import TYPE_CHECKING, Any, ClassVar, get_args
 
 from carom.arguments import checked
 from carom.attractors import DisturbanceSet, find_attractors
 from carom.bifurcations.boundary import boundary_equilibria
+from carom.closed_forms import harmless_kick
 from carom.closed_forms.known import known_of
 from carom.closed_forms.sag import steady_motions
 from carom.closed_forms.thresholds import Gain
@@ -31,14 +32,21 @@ from carom.studies.flexible_study import FlexibleStudy, study_of_machine
 from carom.studies.load_checks import worst_loads
 from carom.studies.recovery import find_recovery
 from carom.studies.study_data import StudyData
-from carom.studies.survives import required_disturbances, survives
+from carom.studies.survives import comes_to_rest, required_disturbances, survives
 from carom.studies.trials import Check, check_recovery, in_all
 from carom.studies.verdict import Verdict, facts_of, verdict
+
+if TYPE_CHECKING:
+    from carom.proofs import Proof, ProvenKicks
 
 TRIED = 1000
 """Disturbances tried at each value of a gain."""
 FIRST, FRESH = 2000, 10_000
 """Fresh disturbances at the machine's own gains: at first, and if all of these came back."""
+PROOF_TIME = "30 s"
+"""Time for the proof of kicks, if it is asked for."""
+BEYOND = 2.0
+"""Largest kick of this proof relative to the harmless one, where those that must be survived never touch."""
 SEED = 1
 """Seed of these; the search for recovery has its own."""
 
@@ -83,6 +91,7 @@ def study(
     *,
     requirement: Requirement | None = None,
     proofs: bool = False,
+    proof_time: str | float = PROOF_TIME,
     progress: ShowProgress = None,
 ) -> Study | FlexibleStudy:
     """Study a machine: its simple motions, where they exist, and where disturbances end.
@@ -103,7 +112,11 @@ def study(
         What the machine must survive, instead of what its file states; by default kicks of the speed of a fall through the
         diametral clearance.
     proofs : bool
-        Prove equilibria and orbits too, by :func:`carom.prove`; needs the extra ``carom[proof]``.
+        Prove equilibria and orbits too, by :func:`carom.prove`, which of the kicks that must be survived come back, by
+        :func:`carom.proofs.prove_kicks` (of kicks up to twice the harmless one where these never touch), and whether all states as fast as these do, by :func:`carom.proofs.prove_states`; needs the extra
+        ``carom[proof]``.
+    proof_time : str or float
+        Time for the proof of kicks, in s or with a unit.  What is proven in it depends on the computer.
 
     Raises
     ------
@@ -140,11 +153,10 @@ def study(
             raise InputError(given[0], shown(given[1]), allowed)
         return study_of_machine(case, rotor, reduced, tell)
     known, required = known_of(rotor).orbits, case.requirement.own(rotor.scales)
-    proof = None
+    proof = kicks = states = None
     if proofs:
-        from carom.proofs import prove  # only here: it needs an extra
-
-        proof, tell = prove(rotor, progress=tell.part(0.0, 0.2)), tell.part(0.2, 1.0)
+        proof, kicks, states = _proven(rotor, required.kick, proof_time, tell.part(0.0, 0.3))
+        tell = tell.part(0.3, 1.0)
     tell(0.0, "equilibria and periodic orbits (the kernels are compiled on first use)")
     steady = steady_motions(rotor)
     orbits = _orbits(rotor, known)
@@ -172,7 +184,41 @@ def study(
     tell(0.9, "the least change")
     advice = recommend(case, tried, recoveries, needed=present is None or not present.recovers)
     loads = worst_loads(found, case.limits, required) if case.limits.stated and rotor.scales else None
-    return Study(case, rotor, steady, orbits, boundaries, found, endured, present, recoveries, advice, loads, proof)
+    return Study(
+        case,
+        rotor,
+        steady,
+        orbits,
+        boundaries,
+        found,
+        endured,
+        present,
+        recoveries,
+        advice,
+        loads,
+        proof,
+        kicks,
+        states,
+    )
+
+
+def _proven(
+    rotor: Model, largest: float, time: str | float, tell: Reporter
+) -> tuple[Proof, ProvenKicks | None, Proof | None]:
+    """Theorems about equilibria and orbits; about kicks and about all states where there is levitation to come back to.
+
+    ``largest`` is the kick that must be survived.
+    """
+    from carom.proofs import ProvenKicks, prove, prove_kicks, prove_states  # only here: they need an extra
+
+    proof = prove(rotor, progress=tell.part(0.0, 0.2))
+    if not comes_to_rest(rotor):
+        return proof, None, None
+    states = prove_states(rotor, largest, progress=tell.part(0.2, 0.3))
+    harmless = harmless_kick(rotor)
+    reach = largest if largest > harmless else BEYOND * harmless
+    kicks = prove_kicks(rotor, reach, time_limit=time, progress=tell.part(0.3, 1.0))
+    return proof, ProvenKicks.of(kicks, rotor), states
 
 
 def _case_of(machine: Subject) -> Case:

@@ -14,8 +14,8 @@ from carom.motions import DropLoads, Trajectory, drop_loads
 from carom.outcome import Outcome
 from carom.parameters import Case
 from carom.results import Result, fields_of, in_si
-from carom.studies.load_checks import LoadCheck
-from carom.studies.load_tables import checks_of_planes, load_entries, load_tables
+from carom.studies.load_checks import LoadCheck, checks_of_planes
+from carom.studies.load_tables import load_entries, load_tables
 from carom.studies.wording import Wording
 
 

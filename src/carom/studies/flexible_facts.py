@@ -2,19 +2,25 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator, Sequence
 
 from carom.outcome import Outcome
 from carom.parameters.told import number
+from carom.rotors import ReducedMachine
 from carom.studies.endings import motion_words
 from carom.studies.facts import Fact, about
 from carom.studies.flexible_data import FlexibleData
-from carom.studies.flexible_levitation import Critical
 from carom.studies.flexible_trials import DIRECTIONS, AtPlane, FlexibleTrial
-from carom.studies.load_tables import checks_of_planes, load_tables
+from carom.studies.levitation_facts import (
+    bearing_facts,
+    critical_speed_facts,
+    response_words,
+    whirl_words,
+    zone_words,
+)
+from carom.studies.load_checks import checks_of_planes
+from carom.studies.load_tables import load_tables
 from carom.studies.response_words import micrometres, rpm
-from carom.studies.standards import CRITICALLY_DAMPED
 from carom.studies.verdict import Verdict
 from carom.studies.verdict_facts import KINDS
 from carom.studies.wording import counted, listed
@@ -26,7 +32,7 @@ NOT_COVERED = (
         "Periodic orbits and their stability, the values of a gain at which motions appear, the least change of a gain that leaves only recovery, and the "
         "sizes up to which contact is proven to be impossible."
     ),
-    "Limits of the magnetic bearings that the file does not state, bearings that act differently in two directions, and changes of speed.",
+    "Limits of the magnetic bearings that the file does not state, magnetic bearings whose axes differ, coefficients of supports at other speeds, and changes of speed.",
     "Damping of the shaft as it turns with it, wear and heat of the touchdown bearings, and axial motion.",
 )
 """What a study of a flexible machine withholds."""
@@ -35,25 +41,31 @@ REDUCTION = (
     "is {error} %. That is the change of the force of one straight first contact with half as many vectors more, an estimate and no bound: motions in "
     "which the rotor bends on its way may differ by more."
 )
-SENSITIVITY_LIMITS = "ISO 14839-3: zone A up to 3 (9.5 dB), B up to 4 (12 dB), C up to 5 (14 dB), D above"
-_HERTZ = 2.0 * math.pi
 
 
 def facts_of_machine(study: FlexibleData) -> Iterator[Fact]:
     """List all facts, in the order in which they are told."""
     yield from _survived(study)
     yield from _levitation(study)
-    yield from _critical_speeds(study)
-    yield from _bearings(study)
+    yield from critical_speed_facts(study.levitation)
+    yield from bearing_facts(study.levitation)
     yield from _holding(study)
     yield from _tried(study)
     yield from _fall(study)
     reduced = study.reduced
-    error = number(100.0 * reduced.error, 2)
-    text = REDUCTION.format(vectors=reduced.vectors, modes=reduced.modes, error=error)
-    yield Fact("Accuracy", text, values={"error": reduced.error, "vectors": reduced.vectors, "modes": reduced.modes})
+    yield Fact(
+        "Accuracy",
+        reduction_words(reduced),
+        values={"error": reduced.error, "vectors": reduced.vectors, "modes": reduced.modes},
+    )
     for each in NOT_COVERED:
         yield Fact("Not covered", each)
+
+
+def reduction_words(reduced: ReducedMachine) -> str:
+    """What the reduction of a machine leaves out."""
+    error = number(100.0 * reduced.error, 2)
+    return REDUCTION.format(vectors=reduced.vectors, modes=reduced.modes, error=error)
 
 
 def verdict_of_machine(study: FlexibleData, facts: Sequence[Fact]) -> Verdict:
@@ -64,9 +76,9 @@ def verdict_of_machine(study: FlexibleData, facts: Sequence[Fact]) -> Verdict:
         return Verdict("no-contact-free-motion", "Cannot run without contact", why, survived)
     lost = [_size(study, trial) for trial in study.trials if not trial.survived]
     if lost:
-        outcome = f"Does not come back from all that it must survive, zone {study.zone}"
+        outcome = f"Does not come back from all that it must survive, vibration in zone {study.zone} of ISO 14839-2"
         return Verdict("may-not-come-back", outcome, f"some are lost of: {listed(lost)}", survived)
-    outcome = f"Came back each time from what it must survive, zone {study.zone}"
+    outcome = f"Came back each time from what it must survive, vibration in zone {study.zone} of ISO 14839-2"
     doubts = ["no guarantee, as disturbances are samples", *_doubts(study)]
     return Verdict("all-tried-came-back", outcome, "; ".join(doubts), survived)
 
@@ -123,88 +135,12 @@ def _survived(study: FlexibleData) -> Iterator[Fact]:
 
 def _levitation(study: FlexibleData) -> Iterator[Fact]:
     found, worst = study.levitation, study.levitation.least_damped
-    text = (
-        f"At {rpm(found.machine.speed)} the least damped of the {len(found.whirls)} slowest whirls is one of {number(worst.frequency, 3)} Hz, {worst.sense}, with a "
-        f"damping ratio of {number(worst.damping_ratio, 2)}."
-    )
+    text = whirl_words(found.machine.speed, found.whirls)
     yield Fact("Levitation", text, "Whirls", values={"damping_ratio": worst.damping_ratio})
-    response = found.at_speed
-    if response is not None:
-        planes = listed(
-            [f"{micrometres(abs(each))} at plane {place}" for place, each in enumerate(response.touchdowns[0], start=1)]
-        )
-        sensors = listed(
-            [
-                f"{micrometres(abs(each))} at the sensors of bearing {place}"
-                for place, each in enumerate(response.sensors[0], start=1)
-            ]
-        )
-        yield Fact(
-            "Levitation", f"Its unbalance makes it whirl with radii of {planes}, and {sensors}.", "Unbalance response"
-        )
+    if found.at_speed is not None:
+        yield Fact("Levitation", response_words(found.at_speed), "Unbalance response")
     share = study.rotor.system.rest_radius
-    say = f"{number(100.0 * share, 3)} % of the clearance at the worst plane"
-    yield Fact(
-        "Levitation",
-        f"With the static sag that is {say}: zone {study.zone} of ISO 14839-2.",
-        "Zone",
-        values={"share": share, "zone": study.zone},
-    )
-
-
-def _critical_speeds(study: FlexibleData) -> Iterator[Fact]:
-    found = study.levitation
-    if found.response is None:
-        yield Fact("Critical speeds", "Without an unbalance there is no response whose peaks could be told.")
-        return
-    speeds = found.response.speeds
-    if not found.criticals:
-        yield Fact("Critical speeds", f"The response has no peak between {rpm(speeds[0])} and {rpm(speeds[-1])}.")
-    for each in found.criticals:
-        text = f"Bearing {each.bearing}: {rpm(each.speed)}, {micrometres(each.amplitude)} at its sensors; {_separation(study, each)}"
-        yield Fact("Critical speeds", text, values={"speed_si": each.speed, "met": each.separation.met})
-    rule = "Amplification factors and separations are those of API 617 (rotordynamics, unbalance response), by the half-power width at the sensors; its annex on magnetic bearings may state others."
-    yield Fact("Critical speeds", f"{rule} Searched from {rpm(speeds[0])} to {rpm(speeds[-1])}.")
-
-
-def _separation(study: FlexibleData, critical: Critical) -> str:
-    margin, factor = critical.separation, critical.factor
-    if factor is None:
-        return "the peak is too flat for an amplification factor, so none is required."
-    told = f"amplification factor {number(factor, 3)}"
-    if factor < CRITICALLY_DAMPED:
-        return f"{told}: critically damped, so no separation is required."
-    run = rpm(study.levitation.machine.speed)
-    where = f"{number(100.0 * margin.actual, 3)} % {margin.side} {run}" if margin.side != "inside" else f"at {run}"
-    return f"{told}, {where}, required {number(100.0 * margin.required, 3)} %: {'met' if margin.met else 'not met'}."
-
-
-def _bearings(study: FlexibleData) -> Iterator[Fact]:
-    found = study.levitation
-    loops = found.sensitivity
-    if loops is not None:
-        rows = zip(loops.peaks.tolist(), loops.peak_frequencies.tolist(), loops.zones, strict=True)
-        told = [
-            f"{number(peak, 3)} ({number(20.0 * math.log10(peak), 3)} dB) at {number(at / _HERTZ, 3)} Hz, zone {zone}, of bearing {place}"
-            for place, (peak, at, zone) in enumerate(rows, start=1)
-        ]
-        yield Fact("Magnetic bearings", f"Largest sensitivity: {listed(told)} ({SENSITIVITY_LIMITS}).", "Sensitivity")
-    for each in found.collocations:
-        name = f"the {each.whirl.sense} whirl of {number(each.whirl.frequency, 3)} Hz (damping ratio {number(each.whirl.damping_ratio, 2)})"
-        if each.opposed:
-            text = f"A node of {name} lies between the sensors and the magnet of bearing {each.bearing}: they move against each other, so damping by the controller feeds it."
-        elif each.hardly:
-            what = "sensors hardly see" if abs(each.sensor) <= abs(each.magnet) else "magnet hardly moves"
-            text = f"Bearing {each.bearing}: its {what} {name}, for a node lies there."
-        else:
-            continue
-        yield Fact("Magnetic bearings", text, "Non-collocation")
-    if found.collocations and not any(each.opposed or each.hardly for each in found.collocations):
-        yield Fact(
-            "Magnetic bearings",
-            f"In none of the {len(found.whirls)} slowest whirls a node lies between sensors and magnet.",
-            "Non-collocation",
-        )
+    yield Fact("Levitation", zone_words(share, study.zone), "Zone", values={"share": share, "zone": study.zone})
 
 
 def _holding(study: FlexibleData) -> Iterator[Fact]:
@@ -212,15 +148,19 @@ def _holding(study: FlexibleData) -> Iterator[Fact]:
     for entry in found:
         if entry.name.outcome is Outcome.LEVITATED:
             continue
-        by = f"{counted(entry.count, 'disturbance')} of {len(found.disturbances)} and {counted(entry.known, 'start')} in backward whirl ended there"
+        by = f"{counted(entry.count, 'disturbance')} of {len(found.disturbances)} and {counted(entry.known, 'start')} in backward whirl"
         force = (
             f", pressed with up to {number(entry.largest_force * scales.force, 3)} N"
             if scales and entry.largest_force
             else ""
         )
+        if not entry.name.outcome.settled:
+            text = f"Of {by} the end is not known ({entry.name.outcome.words}){force}."
+            yield Fact("Disturbances tried", text, motions=(entry.name,))
+            continue
         yield Fact(
             "Backward whirl" if entry.whirl == "backward" else "Disturbances tried",
-            f"{entry.words} {by[0].upper()}{by[1:]}{force}.",
+            f"{entry.words} {by[0].upper()}{by[1:]} ended there{force}.",
             motions=(entry.name,),
         )
     if not found.touching:

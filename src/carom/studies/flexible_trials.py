@@ -6,7 +6,7 @@ import math
 from collections import Counter
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
@@ -20,7 +20,7 @@ from carom.outcome import InputError, Outcome
 from carom.parameters import Case, LoadLimits, Required, Scales
 from carom.progress import Reporter
 from carom.results import Result
-from carom.studies.load_checks import LoadCheck, check_loads
+from carom.studies.load_checks import LoadCheck, checks_of_planes
 from carom.studies.verdict_facts import KINDS
 
 DIRECTIONS = 12
@@ -28,8 +28,8 @@ DIRECTIONS = 12
 TIMES = (1.0, 2.0, 4.0, 8.0)
 """Multiples of the required kick that are tried in these directions."""
 SEED = 1
-SAMPLES = 500
-"""Instants at which the radius of a motion without contact is looked at."""
+LOOKED, SAMPLES = 100, 20_000
+"""Turns of the shaft for which a motion without contact is looked at, which is known at once to settle, and instants at which."""
 MOST_EVENTS = 20_000
 """Events up to which one motion with loads is followed: what then still touches is lost."""
 
@@ -82,7 +82,7 @@ class FlexibleTrial(Result):
     checks : tuple of LoadCheck
         The worst of these against each limit that is stated.
     worst : Trajectory
-        The one with the largest force.
+        The one with the largest force, or without contact the widest orbit.
     """
 
     shown: ClassVar = ("kind", "size", "drawn", "largest", "planes")
@@ -121,13 +121,13 @@ class FlexibleTrial(Result):
                 }
                 for each in self.planes
             ],
-            "limits": [{"name": each.name, "value_si": each.value, "limit_si": each.limit, "exceeded": each.exceeded} for each in self.checks],
+            "limits": [{"name": each.name, "plane": each.plane, "value_si": each.value, "limit_si": each.limit, "exceeded": each.exceeded} for each in self.checks],
         }  # fmt: skip
 
 
 def trials_of(case: Case, rotor: Model, required: Required, count: int, tell: Reporter) -> tuple[FlexibleTrial, ...]:
     """Follow the kinds of disturbances that must be survived: drawn up to their size, and at it in all directions."""
-    kinds: list[tuple[str, float, Disturbance, Callable[[float], Trajectory]]] = []
+    kinds: list[tuple[str, float, Disturbance, Callable[[float], _Followed]]] = []
     kicks = VelocityKick(required.kick)
     kinds.append(("kick", required.kick, kicks, lambda angle: _kicked(rotor, required.kick, angle)))
     if required.shock is not None:
@@ -145,8 +145,8 @@ def trials_of(case: Case, rotor: Model, required: Required, count: int, tell: Re
             raise InputError("blade_loss_after", size, allowed)
         basin = map_basins(rotor, Sample(model, count, SEED))
         ends = Counter({name: basin.share_of(name).count for name in basin.motions})
-        motions = [at(2.0 * math.pi * number / DIRECTIONS) for number in range(DIRECTIONS)]
-        found.append(_trial(kind, size, basin.share_recovered, ends, motions, case.limits))
+        followed = [at(2.0 * math.pi * number / DIRECTIONS) for number in range(DIRECTIONS)]
+        found.append(_trial(kind, size, basin.share_recovered, ends, followed, case.limits))
     return tuple(found)
 
 
@@ -155,7 +155,7 @@ def kicks_beyond(rotor: Model, required: Required) -> tuple[tuple[float, int], .
     found = []
     for times in TIMES:
         back = sum(
-            _kicked(rotor, times * required.kick, 2.0 * math.pi * number / DIRECTIONS).outcome is Outcome.LEVITATED
+            _kicked(rotor, times * required.kick, 2.0 * math.pi * number / DIRECTIONS).back
             for number in range(DIRECTIONS)
         )
         found.append((times, back))
@@ -164,24 +164,42 @@ def kicks_beyond(rotor: Model, required: Required) -> tuple[tuple[float, int], .
     return tuple(found)
 
 
-def _kicked(rotor: Model, speed: float, angle: float) -> Trajectory:
+class _Followed(NamedTuple):
+    """A motion as far as it is looked at, and whether it comes back."""
+
+    motion: Trajectory
+    back: bool
+
+
+def _kicked(rotor: Model, speed: float, angle: float) -> _Followed:
     return _ended(rotor, kick(speed, angle).state(rotor))
 
 
-def _ended(rotor: Model, start: Any) -> Trajectory:
-    return simulate(rotor, start, settle=True, max_events=MOST_EVENTS)
+def _ended(rotor: Model, start: Any) -> _Followed:
+    """Follow a motion until its end is known; one without contact, whose end is known at once, for some turns."""
+    motion = simulate(rotor, start, settle=True, max_events=MOST_EVENTS)
+    back = motion.outcome is Outcome.LEVITATED
+    if back and not any(plane.contacts for plane in drop_loads(motion).planes):
+        motion = simulate(rotor, start, 2.0 * math.pi * LOOKED)
+    return _Followed(motion, back)
 
 
 def _trial(
-    kind: str, size: float, drawn: Share, ends: Counter[MotionName], motions: list[Trajectory], limits: LoadLimits
+    kind: str, size: float, drawn: Share, ends: Counter[MotionName], followed: list[_Followed], limits: LoadLimits
 ) -> FlexibleTrial:
+    motions, back = [each.motion for each in followed], sum(each.back for each in followed)
     loads = [drop_loads(motion) for motion in motions]
-    back = sum(motion.outcome is Outcome.LEVITATED for motion in motions)
-    forces = [max(plane.loads.force for plane in each.planes) for each in loads]
+    planes = tuple(at_plane(motions, loads, plane) for plane in range(len(loads[0].planes)))
+    # The largest force; without contact the widest orbit.
+    sizes = [max(plane.loads.force for plane in each.planes) for each in loads]
+    if not any(sizes):
+        sizes = [
+            max(_reach(motion, plane) for plane in each.planes) for motion, each in zip(motions, loads, strict=True)
+        ]
     whirls = {
         plane.whirl.direction
-        for each in loads
-        if each.outcome is not Outcome.LEVITATED
+        for each, end in zip(loads, followed, strict=True)
+        if not end.back
         for plane in each.planes
         if plane.whirl is not None and plane.whirl.direction
     }
@@ -191,10 +209,10 @@ def _trial(
         drawn=drawn,
         ends=tuple(ends.most_common()),
         largest=Share.of(back, len(motions), drawn=False),
-        planes=tuple(at_plane(motions, loads, plane) for plane in range(len(loads[0].planes))),
+        planes=planes,
         whirls=tuple(sorted(whirls)),
         checks=worst_checks(loads, limits),
-        worst=motions[int(np.argmax(forces))],
+        worst=motions[int(np.argmax(sizes))],
     )
 
 
@@ -215,13 +233,13 @@ def _reach(motion: Trajectory, loads: PlaneLoads) -> float:
     """Largest distance from the centre, in clearances of the plane: by the depth in the bearing, or as sampled of a motion without contact."""
     if loads.loads.depth > 0.0:
         return 1.0 + loads.loads.depth
-    times = np.linspace(0.0, motion.time, SAMPLES)
-    return float(motion.seen_at(loads.plane).radius(times).max())
+    parts = [part.seen_at(loads.plane) for part in motion.parts]
+    return max(float(part.radius(np.linspace(0.0, part.time, SAMPLES)).max()) for part in parts)
 
 
 def worst_checks(loads: list[DropLoads], limits: LoadLimits) -> tuple[LoadCheck, ...]:
     """The worst of many motions, at any plane, against each limit that is stated."""
-    checks = [check for each in loads for plane in each.planes for check in check_loads(plane.loads, limits)]
+    checks = [check for each in loads for check in checks_of_planes(each, limits)]
     names = dict.fromkeys(each.name for each in checks)
     return tuple(
         max((each for each in checks if each.name == name), key=lambda each: (each.exceeded, each.value))

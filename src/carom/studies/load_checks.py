@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from carom.arguments import checked
 from carom.attractors import AttractorSet, MotionName
 from carom.disturbances import BaseShock, BladeLoss
 from carom.models import Model
-from carom.motions import TouchdownLoads, Trajectory, drop_loads, simulate, touchdown_loads
+from carom.motions import DropLoads, TouchdownLoads, Trajectory, drop_loads, simulate, touchdown_loads
 from carom.outcome import InputError
 from carom.parameters import LIMIT_FIELDS, LoadLimits, Required
 from carom.parameters.told import number
@@ -35,6 +35,8 @@ class LoadCheck:
         Whether the load goes on growing, because the motion has settled in contact.
     after : float
         Seconds after the end was known until the growing load reaches its limit: 0 if it has, infinite if it does not grow.
+    plane : int or None
+        Contact plane, from 1, of a rotor with several.
     """
 
     name: str
@@ -42,6 +44,7 @@ class LoadCheck:
     limit: float
     endless: bool
     after: float
+    plane: int | None = None
 
     @property
     def exceeded(self) -> bool:
@@ -52,7 +55,8 @@ class LoadCheck:
     def words(self) -> str:
         """The check in words."""
         value, limit = (LoadLimits.told(self.name, each) for each in (self.value, self.limit))
-        text = f"{LIMIT_FIELDS[self.name].words}: {value}, limit {limit}"
+        where = "" if self.plane is None else f" at plane {self.plane}"
+        text = f"{LIMIT_FIELDS[self.name].words}{where}: {value}, limit {limit}"
         if self.value > self.limit:
             return f"{text}: exceeded{', and it goes on' if self.endless else ''}"
         if not self.endless:
@@ -89,6 +93,16 @@ def check_loads(loads: TouchdownLoads, limits: LoadLimits) -> tuple[LoadCheck, .
             after = (limit - value) / si["lasting_power"]
         found.append(LoadCheck(name, value, limit, endless, after))
     return tuple(found)
+
+
+def checks_of_planes(loads: DropLoads, limits: LoadLimits) -> tuple[LoadCheck, ...]:
+    """The loads of all planes against the limits that are stated; of several the checks name theirs."""
+    several = len(loads.planes) > 1
+    return tuple(
+        replace(check, plane=place if several else None)
+        for place, plane in enumerate(loads.planes, start=1)
+        for check in check_loads(plane.loads, limits)
+    )
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,7 @@ from carom.parameters import MACHINE_FIELDS, LoadLimits, Scales
 from carom.parameters.told import number
 from carom.results import fields_of, in_si
 from carom.studies.document import loads_document
-from carom.studies.load_checks import LoadCheck, check_loads, loads_entry
+from carom.studies.load_checks import check_loads, loads_entry
 from carom.studies.wording import Wording, counted
 
 
@@ -19,7 +19,8 @@ def load_tables(loads: DropLoads, since: str) -> list[tuple[str, list[tuple[str,
     """For each plane a title, empty if there is one plane alone, and labels with what they say; times count from ``since``, planes from 1."""
     planes = loads.planes
     tables = [
-        (f"Plane {each.plane + 1}" if len(planes) > 1 else "", _rows(each, loads.outcome, since)) for each in planes
+        (f"Touchdown bearing {each.plane + 1}" if len(planes) > 1 else "", _rows(each, loads.outcome, since))
+        for each in planes
     ]
     if loads.shaft is not None:
         tables[-1][1].append(("shaft", _shaft_words(loads.shaft)))
@@ -39,11 +40,6 @@ def _shaft_words(shaft: Braking) -> str:
 def load_entries(loads: DropLoads, limits: LoadLimits) -> list[dict[str, Any]]:
     """The loads of each plane as JSON, with the limits."""
     return [_entry(plane, limits) for plane in loads.planes]
-
-
-def checks_of_planes(loads: DropLoads, limits: LoadLimits) -> tuple[LoadCheck, ...]:
-    """The loads of all planes against the limits that are stated."""
-    return tuple(check for plane in loads.planes for check in check_loads(plane.loads, limits))
 
 
 def _rows(plane: PlaneLoads, outcome: Outcome, since: str) -> list[tuple[str, str]]:

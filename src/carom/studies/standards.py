@@ -6,7 +6,8 @@ as critically damped and no separation is required.  Otherwise a critical speed 
 of ``17(1 − 1/(AF − 1.5))`` %, at most 16 %, of the lowest of them, one above them ``10 + 17(1 − 1/(AF − 1.5))`` %, at most
 26 %, of the highest.  Shaft vibration at speed: ``25.4 µm √(12000 rpm/N)`` peak to peak (``√(12000/N)`` mil), at most 25.4 µm.
 The standard applies this to the vibration that is measured beside the bearings at the maximum continuous speed; here it is
-compared with the motion of the calculated unbalance response at each speed.
+compared with the motion of the calculated unbalance response at each speed.  Paragraphs: the factor is SP6.8.2.1 of API RP 684, the separation
+SP6.8.2.10, the vibration SP6.8.2.11, which is 4.8.2.11 of API 617; numbers as the report of the program ROSS cites them, since the standard was not at hand.
 
 *ISO 14839-2* (rotors on active magnetic bearings): zones A to D of the largest displacement of the rotor from the centre of
 the clearance, with limits of 0.3, 0.4 and 0.5 of the smallest radial clearance.  Here the clearance of the touchdown bearing is
@@ -31,8 +32,8 @@ CRITICALLY_DAMPED = 2.5
 """Amplification factor below which no separation is required."""
 
 ASSUMPTIONS = (
-    "Amplification factor: critical speed over the width of the peak at 0.707 (1/√2) of its height (API 617, API RP 684).",
-    "API 617 limit: 25.4 µm √(12000 rpm/N) peak to peak, at most 25.4 µm, compared with the calculated response at each speed.",
+    "Amplification factor: critical speed over the width of the peak at 0.707 (1/√2) of its height (API RP 684, SP6.8.2.1); separation by SP6.8.2.10.",
+    "API 617 limit (4.8.2.11): 25.4 µm √(12000 rpm/N) peak to peak, at most 25.4 µm, compared with the calculated response at each speed.",
     "Editions of API 617, and its annex on magnetic bearings, may state other limits.",
     "Zones of ISO 14839-2: shares of the smallest radial clearance, taken to be that of the touchdown bearing.",
     "Displacements of the zones are from the centre of the clearance, without a static offset.",

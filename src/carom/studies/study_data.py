@@ -28,7 +28,7 @@ from carom.studies.trials import Check
 from carom.studies.wording import Wording
 
 if TYPE_CHECKING:
-    from carom.proofs import Proof
+    from carom.proofs import Proof, ProvenKicks
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -57,6 +57,11 @@ class StudyData(Result):
         The largest loads of the disturbances against the limits of the touchdown bearing, if any are stated.
     proof : Proof or None
         Theorems about equilibria and orbits, if they were asked for.
+    kicks : ProvenKicks or None
+        What is proven of the kicks that must be survived, or of faster ones where these never touch, if it was asked for and there is stable
+        levitation.
+    states : Proof or None
+        The same of all states in the clearance that are no faster than these kicks.
     """
 
     rests_on: ClassVar[tuple[str, ...]] = ("mora2014", "iso14839")
@@ -73,6 +78,8 @@ class StudyData(Result):
     recommendation: Recommendation
     loads: WorstLoads | None = None
     proof: Proof | None = None
+    kicks: ProvenKicks | None = None
+    states: Proof | None = None
 
     @property
     def known(self) -> Known:

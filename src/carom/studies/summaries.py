@@ -73,6 +73,8 @@ class SurvivedRow:
     """Up to which size all tried came back."""
     lost: str
     """The smallest lost, and where it ends."""
+    proven: str = ""
+    """Up to which size all are proven to come back, through contact; empty where this was not looked at."""
 
 
 @dataclass(frozen=True)
@@ -110,6 +112,7 @@ def survived_rows(study: StudyData) -> list[SurvivedRow]:
                 size(found.harmless) if found.harmless > 0.0 else "none",
                 "none" if up_to is None else size(up_to),
                 "none found" if found.size is None else f"{size(found.size)}, {lost_to(study, name, found)}",
+                study.kicks.told_up_to if name == "kick" and study.kicks else "",
             )
         )
     return rows

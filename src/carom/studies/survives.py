@@ -66,7 +66,7 @@ class Survives(Result):
 
 def survives(rotor: Model, required: Required, tell: Reporter) -> Survives | None:
     """Search for the smallest disturbance of each kind that is lost; ``None`` where there is no levitation to come back to."""
-    if rotor.system.rest_radius >= 1.0 or rotor.system.decay <= 0.0:
+    if not comes_to_rest(rotor):
         return None
     tell(0.0, "the smallest kick that is lost")
     kick = _reaching(rotor, VelocityKick(required.kick))
@@ -80,6 +80,11 @@ def survives(rotor: Model, required: Required, tell: Reporter) -> Survives | Non
     if largest_levitating(rotor) > rotor.value("rho"):
         blade_loss = smallest_loss(rotor, BladeLoss(largest_levitating(rotor)))
     return Survives(kick, shock, duration, blade_loss)
+
+
+def comes_to_rest(rotor: Model) -> bool:
+    """Whether there is stable levitation inside the wall, to which a disturbed rotor can come back."""
+    return rotor.system.rest_radius < 1.0 and rotor.system.decay > 0.0
 
 
 def largest_levitating(rotor: Model) -> float:

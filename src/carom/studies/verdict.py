@@ -1,7 +1,7 @@
 """The verdict of a study in words: what the machine survives, what may hold it, which changes help, what is unknown.
 
 It never promises that a machine recovers.  Disturbances are samples, and motions that none of them reached may exist.
-The best possible verdict is that every disturbance tried came back.
+The best possible verdict is that every disturbance tried came back; of kicks it may be that all of them are proven to.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from carom.studies.actuator import actuator_words
 from carom.studies.advice_facts import advice_facts
 from carom.studies.facts import Fact, about
 from carom.studies.findings import FINDINGS
-from carom.studies.proven import proven_words
+from carom.studies.proven import proven_kicks_words, proven_states_words, proven_words
 from carom.studies.rigid_limit import wall_values, wall_words
 from carom.studies.study_data import StudyData
 from carom.studies.verdict_facts import KINDS, Level, judged, verdict_facts
@@ -29,6 +29,14 @@ NOT_COVERED = (
     "Changes of speed, gravity, a rotor that bends or tilts, and controllers that do more than a spring and a damper.",
 )
 """What a study does not cover."""
+SAMPLED, NOT_COVERED_BUT_KICKS = (
+    0,
+    (
+        "Disturbances other than those simulated, but for the kicks that are proven to come back. They are samples: one between them, or a "
+        "larger one, may end elsewhere."
+    ),
+)
+"""Place of the first of these, and what stands there if kicks are proven to come back."""
 NOT_COVERED_OF_MATRICES = (
     "Changes of speed, gravity, and controllers that add states of their own.",
     (
@@ -71,7 +79,7 @@ class Verdict:
     reason : str
         What was lost, or why there is nothing to come back to; empty if there is nothing to say.
     survived : tuple of str
-        For each kind of disturbance: harmless up to, all tried came back up to, smallest lost; then what must be survived.
+        For each kind of disturbance: harmless up to, all tried came back up to, smallest lost; then what must be survived, and what of it is proven.
     """
 
     level: Level
@@ -99,6 +107,11 @@ def facts_of(study: StudyData) -> Iterator[Fact]:
             yield Fact(topic, text)
     if study.proof is not None:
         yield Fact("Proven", proven_words(study.proof), evidence="proven")
+    if study.kicks is not None:
+        yield Fact("Proven", proven_kicks_words(study.kicks), evidence="proven")
+    if study.states is not None:
+        up_to = study.wording.velocity(study.required.kick)
+        yield Fact("Proven", proven_states_words(study.states, up_to, study.rotor.scales), evidence="proven")
     if study.bearing_demand is not None:
         yield Fact("Magnetic bearings", actuator_words(study.bearing_demand))
     if study.other_walls:
@@ -115,6 +128,8 @@ def not_covered(study: StudyData) -> tuple[str, ...]:
     """What the study does not cover; of other models than the planar rotor also what only its closed forms say."""
     of_model = NOT_COVERED_UNDER_WEIGHT if study.heavy else NOT_COVERED_OF_MATRICES
     covered = list(NOT_COVERED if study.known.orbits else (*NOT_COVERED[:-1], *of_model))
+    if study.kicks is not None and study.kicks.share:
+        covered[SAMPLED] = NOT_COVERED_BUT_KICKS
     if (study.rotor.system.arrays["stiffness"] > 0.0).any():
         covered[WALL] = NOT_COVERED_OF_WALLS
     if study.rotor.system.limits:
@@ -131,4 +146,6 @@ def verdict(study: StudyData, found: Sequence[Fact]) -> Verdict:
     ]
     if "Share" in facts:
         survived.append(f"It must survive {facts['Must survive']}; {facts['Share']}.")
+    if "Certain" in facts:
+        survived.append(f"Proven: {facts['Certain']}.")
     return Verdict(level, outcome, reason, tuple(survived))

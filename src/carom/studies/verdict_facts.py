@@ -11,6 +11,7 @@ from carom.results import fields_of, in_si
 from carom.studies.endings import ending_words
 from carom.studies.facts import Evidence, Fact
 from carom.studies.findings import stable_rub
+from carom.studies.proven import proven_kicks_document, states_return
 from carom.studies.study_data import StudyData
 from carom.studies.survives import Kind, meets
 from carom.studies.wording import SIZES, listed
@@ -34,6 +35,10 @@ def verdict_facts(study: StudyData) -> Iterator[Fact]:
         for name, found in study.survives.items():
             yield _survived(study, name, found)
     yield from _shares(study)
+    if study.kicks is not None:
+        yield Fact(
+            "Verdict", study.kicks.words, "Certain", "proven", proven_kicks_document(study.kicks), disturbances="kick"
+        )
     yield from _others(study)
 
 
@@ -77,6 +82,8 @@ def _survived(study: StudyData, name: Kind, found: SmallestLoss) -> Fact:
     parts = [
         f"harmless up to {size(found.harmless)} (proven)" if found.harmless > 0.0 else "no size is proven harmless"
     ]
+    if name == "kick" and study.kicks is not None and study.kicks.all_up_to > found.harmless:
+        parts.append(f"every one comes back up to {study.kicks.told_up_to} (proven)")
     if found.size is None:
         most = "; with more it cannot levitate" if name == "blade_loss" else ""
         parts.append(f"all {found.tried:,} tried came back, up to {size(found.largest)}{most}")
@@ -137,12 +144,15 @@ def _shares(study: StudyData) -> Iterator[Fact]:
             share.document,
             disturbances="kick",
         )
-    elsewhere = present.returned[1]
+    elsewhere, sure = present.returned[1], states_return(study.states)
+    counted = f"{elsewhere.count:,} of {elsewhere.total:,} starts"
     yield Fact(
         "Verdict",
-        f"{elsewhere.count:,} of {elsewhere.total:,} starts spread over the clearance, of up to {upto} in the room, came back",
+        f"every start in the clearance, of up to {upto} in the room, comes back, as did {counted} drawn"
+        if sure
+        else f"{counted} spread over the clearance, of up to {upto} in the room, came back",
         "Elsewhere",
-        "sampled",
+        "proven" if sure else "sampled",
         {"count": elsewhere.count, "total": elsewhere.total, **elsewhere.document},
         disturbances="state",
     )
@@ -188,16 +198,24 @@ def judged(study: StudyData) -> tuple[Level, str, str]:
     if lost:
         outcome = f"Does not come back from all that it must survive, zone {study.zone}"
         return "may-not-come-back", outcome, listed(lost)
-    return (
-        "all-tried-came-back",
-        f"Came back each time from what it must survive, zone {study.zone}",
-        _reservations(study),
-    )
+    outcome = f"Came back each time from what it must survive, zone {study.zone}"
+    if kicks_surely_return(study) and len(required_kinds(study)) == 1:
+        outcome = f"Comes back from every kick that it must survive, zone {study.zone}"
+    return "all-tried-came-back", outcome, _reservations(study)
+
+
+def kicks_surely_return(study: StudyData) -> bool:
+    """Whether every kick that must be survived is proven to come back."""
+    # The largest of a disc that is proven as a whole may differ from its text by rounding.
+    return study.kicks is not None and study.kicks.sure_up_to >= study.required.kick * (1.0 - 1e-12)
 
 
 def _reservations(study: StudyData) -> str:
     """What has to be said where all that must be survived came back."""
     parts = ["no guarantee, as disturbances are samples"]
+    if kicks_surely_return(study):
+        others = " and for all starts in the clearance that are no faster" if states_return(study.states) else ""
+        parts = [f"proven for these kicks{others}; no guarantee for other disturbances, which are samples"]
     if study.bearing_demand is not None and study.bearing_demand.doubtful:
         parts.append(
             f"{study.bearing_demand.doubtful} disturbances ask for a faster current than its magnetic bearings have"

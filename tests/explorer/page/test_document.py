@@ -21,33 +21,47 @@ from bokeh.resources import Resources  # noqa: E402
 from carom.explorer.page import document as documents  # noqa: E402
 from carom.explorer.page.document import fill, write_page  # noqa: E402
 from carom.explorer.page.figures import looks, make_figures  # noqa: E402
+from carom.explorer.page.kinds import kind_of  # noqa: E402
 from carom.explorer.page.models import Answers  # noqa: E402
-from carom.explorer.page.scripts import PICTURES, SCRIPTS, joined  # noqa: E402
+from carom.explorer.page.scripts import FLEXIBLE, PICTURES, PLANAR, joined  # noqa: E402
 from carom.plots import LOOKS  # noqa: E402
 
-MACHINE = str(Path(__file__).parents[3] / "examples" / "keogh-cole.toml")
+EXAMPLES = Path(__file__).parents[3] / "examples"
+MACHINE, OF_ROTOR = str(EXAMPLES / "keogh-cole.toml"), str(EXAMPLES / "tum-flexible-rotor.toml")
+KINDS = {"planar": (MACHINE, PLANAR), "flexible": (OF_ROTOR, FLEXIBLE)}
 FILES = Path(documents.__file__).parent / "files"
 
 
+@pytest.fixture(params=KINDS)
+def kind(request):
+    return request.param
+
+
 @pytest.fixture
-def filled():
-    document = Document()
-    session = fill(document, Origin(MACHINE, (), carom.load(MACHINE)), threading.Event())
+def filled(kind):
+    document, path = Document(), KINDS[kind][0]
+    session = fill(document, Origin(path, (), carom.load(path)), threading.Event())
     yield document
     session.close()
 
 
 @pytest.fixture(scope="module")
-def page():
-    return written(carom.load(MACHINE))
+def pages():
+    return {kind: written(carom.load(path)) for kind, (path, _) in KINDS.items()}
+
+
+@pytest.fixture
+def page(pages, kind):
+    return pages[kind]
 
 
 def written(case):
     return write_page(Origin(MACHINE, (), case), Resources(mode="server", root_url=""))
 
 
-def test_it_holds_the_figures_and_what_browser_and_server_share(filled):
-    assert [root.name for root in filled.roots] == ["history", "section", "diagram"]
+def test_it_holds_the_figures_and_what_browser_and_server_share(filled, kind):
+    figures = {"planar": ["history", "section", "diagram"], "flexible": ["response", "distances", "forces"]}
+    assert [root.name for root in filled.roots] == figures[kind]
     assert {model.name for model in filled.select({"name": "requests"})} == {"requests"}
     assert {model.name for model in filled.select({"name": "answers"})} == {"answers"}
     filled.validate()
@@ -74,7 +88,8 @@ def test_the_page_has_a_place_for_each_figure_of_any_session(filled, page):
         assert f'id="{place}"' in page
 
 
-def test_the_page_has_a_slider_and_a_box_for_every_control(filled, page):
+def test_the_page_has_a_slider_and_a_box_for_every_control(pages):
+    page = pages["planar"]
     assert re.findall(r'data-name="(\w+)"', page) == [
         "stiffness",
         "damping",
@@ -84,7 +99,19 @@ def test_the_page_has_a_slider_and_a_box_for_every_control(filled, page):
         "restitution",
     ]
     assert page.count('<input class="slider" type="range"') == page.count('<input class="box"') == 6
-    assert "keogh-cole – carom explore" in filled.title
+    assert "<title>keogh-cole – carom explore" in page
+
+
+def test_the_page_of_a_flexible_machine_has_a_flight_for_each_touchdown_bearing_and_folds_single_parts(pages):
+    page = pages["flexible"]
+    assert re.findall(r'data-plane="(\d)"', page) == ["0", "1"]
+    whole, folded = page.split('<details class="folded">')
+    assert re.findall(r'data-name="(\w+)"', whole) == [
+        "speed", "unbalance", "proportional", "integral", "derivative", "filter_time", "delay",
+        "clearance", "friction", "touchdown_stiffness", "touchdown_dissipation",
+    ]  # fmt: skip
+    assert set(re.findall(r'data-name="proportional_(\d)"', folded)) == {"1", "2"}
+    assert 'id="motions"' not in page
 
 
 def test_names_of_machines_are_not_taken_for_markup():
@@ -93,25 +120,28 @@ def test_names_of_machines_are_not_taken_for_markup():
     assert "<script>alert" not in written(strange)
 
 
-def test_every_script_is_on_the_page_and_nothing_is_fetched_from_elsewhere(page):
-    assert {path.name for path in FILES.glob("*.js")} == set(SCRIPTS)
-    for name in SCRIPTS:
+def test_every_script_is_on_the_page_and_nothing_is_fetched_from_elsewhere(page, kind):
+    assert {path.name for path in FILES.glob("*.js")} == {*PLANAR, *FLEXIBLE}
+    for name in KINDS[kind][1]:
         lines = (FILES / name).read_text(encoding="utf-8").splitlines()
         for line in lines:
             assert line.startswith("import ") or line.removeprefix("export ") in page
     assert not re.findall(r"https?://", page)
 
 
-def test_the_scripts_use_only_what_the_page_and_the_answers_have(page):
-    scripts = "\n".join((FILES / name).read_text(encoding="utf-8") for name in SCRIPTS)
+def test_the_scripts_use_only_what_the_page_and_the_answers_have(page, kind):
+    path, names = KINDS[kind]
+    scripts = "\n".join((FILES / name).read_text(encoding="utf-8") for name in names)
     for name in re.findall(r'\bat\("([\w-]+)"\)', scripts):
         assert f'id="{name}"' in page, name
-    shown = re.search(r"const shows = \{(.*?)\};", scripts, flags=re.DOTALL)[1]
-    assert set(re.findall(r"(\w+): \[", shown)) == set(
-        Answers.properties()
-        - {"name", "tags", "syncable", "subscribed_events", "js_event_callbacks", "js_property_callbacks"}
+    machine = kind_of(Origin(path, (), carom.load(path)))
+    shown = set(re.findall(r'carom\.on\("(\w+)"', scripts)) | set(machine.slots)
+    tasks = (*machine.long.values(), *machine.wished.values())
+    assert shown == {"state", "reply", "exports", *machine.quick, *(task.answer for task in tasks)} | (
+        {"loss", "proven"} if kind == "flexible" else set()  # the picture and its ring are ready for them
     )
-    parts = make_figures().parts
+    assert shown <= set(Answers.properties())
+    parts = make_figures(machine.figures).parts
     for name in re.findall(r"\bparts\.(\w+)", scripts):
         assert name in parts or name in ("push",), name
 

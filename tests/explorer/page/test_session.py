@@ -12,6 +12,7 @@ import pytest
 import carom
 from carom.explorer.computing.exports import Origin
 from carom.explorer.computing.judgement import Loss
+from carom.explorer.page import planar
 from carom.explorer.page import session as sessions
 from carom.explorer.page.session import Session
 
@@ -43,12 +44,12 @@ class Page:
 
 @pytest.fixture
 def page(monkeypatch):
-    monkeypatch.setattr(sessions, "COARSE", 8)
-    monkeypatch.setattr(sessions, "COARSEST", 4)
-    monkeypatch.setattr(sessions, "FINE", 10)
+    monkeypatch.setattr(planar, "COARSE", 8)
+    monkeypatch.setattr(planar, "COARSEST", 4)
+    monkeypatch.setattr(planar, "FINE", 10)
     # A study takes seconds; the verdict has a test of its own.
     monkeypatch.setattr(
-        sessions,
+        planar,
         "judge",
         lambda case, tell: SimpleNamespace(lead="It may not.", advice="Change: damping.", survived=("Kick: no.",)),
     )
@@ -104,7 +105,7 @@ def test_while_a_slider_moves_on_only_the_picture_is_computed(page, monkeypatch)
 
 
 def test_the_picture_is_as_fine_as_it_can_follow_the_hand(page):
-    page.session._cost = 1.0
+    page.session.kind._cost = 1.0
     page.session.show(request(1, held=True))
     assert page.numbered("basin", 1)["size"] == 4
 
@@ -147,7 +148,7 @@ def test_a_wrong_value_does_not_swallow_what_is_being_computed(page, monkeypatch
         tell(carom.progress.Progress(1.0, "found"))
         return Loss(None, "none found", "")
 
-    monkeypatch.setattr(sessions, "find_loss", slow)
+    monkeypatch.setattr(planar, "find_loss", slow)
     page.session.show(request(1))
     assert begun.wait(SOON)
     page.session.show(request(2, damping="a lot"))
@@ -170,7 +171,7 @@ def test_a_machine_whose_orbits_cannot_be_computed_is_told_as_such(page, monkeyp
     def refuse(rotor):
         raise carom.outcome.CaromError("no orbits; change the damping")
 
-    monkeypatch.setattr(sessions, "table_of", refuse)
+    monkeypatch.setattr(planar, "table_of", refuse)
     page.session.show(request(1, held=True))
     assert page.numbered("basin", 1)["size"]
     assert page.numbered("table", 1)["refused"] == "no orbits; change the damping"
@@ -245,8 +246,8 @@ def test_a_view_that_cannot_be_read_is_chosen_for_the_machine(page, view):
 
 @pytest.mark.jit_only
 def test_a_diagram_is_kept_while_only_its_own_slider_moves(page, monkeypatch):
-    made, real = [], sessions.picture_along
-    monkeypatch.setattr(sessions, "picture_along", lambda *given: made.append(given[1].name) or real(*given))
+    made, real = [], planar.picture_along
+    monkeypatch.setattr(planar, "picture_along", lambda *given: made.append(given[1].name) or real(*given))
     for number, settings in enumerate(
         [{"damping": "2000"}, {"damping": "2500"}, {"damping": "2500", "friction": "0.2"}], start=1
     ):
@@ -263,7 +264,7 @@ def test_what_takes_long_can_be_stopped_and_goes_on(page, monkeypatch):
         while True:
             tell(carom.progress.Progress(0.5, "still looking"))
 
-    monkeypatch.setattr(sessions, "find_loss", endless)
+    monkeypatch.setattr(planar, "find_loss", endless)
     page.session.show(request(1))
     assert begun.wait(SOON)
     assert (
@@ -272,7 +273,7 @@ def test_what_takes_long_can_be_stopped_and_goes_on(page, monkeypatch):
     )
     page.session.cancel()
     page.until("state", lambda state: state["kind"] == "cancelled")
-    monkeypatch.setattr(sessions, "find_loss", lambda rotor, plane, largest, tell: Loss(None, "none found", ""))
+    monkeypatch.setattr(planar, "find_loss", lambda rotor, plane, largest, tell: Loss(None, "none found", ""))
     page.session.resume()
     assert page.numbered("loss", 1)["value"] == "none found"
     page.until("state", lambda state: state["kind"] == "idle")
@@ -299,3 +300,25 @@ def test_a_page_waits_for_the_kernels_and_says_so():
     ready.set()
     assert waiting.until("motion")["outcome"]
     waiting.session.close()
+
+
+@pytest.mark.jit_only
+def test_what_is_wished_is_done_only_then_and_for_the_machine_shown(page, monkeypatch):
+    asked = []
+
+    def find(rotor, plane, largest, tell):
+        asked.append((plane.name, largest))
+        return SimpleNamespace(words="every kick comes back", share="100 %", open=[])
+
+    monkeypatch.setattr(planar, "find_proven", find)
+    page.session.show(request(1))
+    page.until("state", lambda state: state["kind"] == "idle")
+    assert not asked
+    page.session.wish({"name": "unknown"})
+    page.session.wish({"name": "proven", "count": 1})
+    assert page.numbered("proven", 1)["words"] == "every kick comes back"
+    page.until("state", lambda state: state["kind"] == "idle")
+    ((name, largest),) = asked
+    basin = [value for answer, value in page.seen if answer == "basin"][-1]
+    assert (name, basin["kind"]) == ("kick", "kick")
+    assert basin["largest"] == pytest.approx(1e3 * largest * page.session._shown.subject.rotor.scales.velocity)

@@ -10,6 +10,10 @@
 ``motions``        table of steady motions and orbits
 ``diagrams``       bifurcation diagram along one parameter
 ``judgement``      smallest loss, hardest blow, verdict and advice
+``proofs``         which kicks are proven to come back
 ``exports``        the machine shown as a file, as options, as a program
 =================  ==============================================================
+
+Those of the planar rotor; of a flexible machine the same is in ``flexible_controls``, ``flexible_kicks``, ``flexible_motion`` and
+``flexible_exports``, and in ``flexible_levitation`` how it levitates.
 """

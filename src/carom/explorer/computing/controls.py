@@ -35,6 +35,10 @@ class Control:
         Ends of the slider.
     logarithmic : bool
         Whether equal distances on the slider are equal ratios.
+    group : str
+        Heading under which it stands.
+    among : str
+        Name of the control of all parts together, one of which this moves; empty for any other.
     """
 
     name: str
@@ -44,6 +48,8 @@ class Control:
     low: float
     high: float
     logarithmic: bool
+    group: str = "The machine"
+    among: str = ""
 
     def setting(self, value: float) -> str:
         """A value as text that :func:`with_settings` reads, rounded to four digits."""

@@ -11,6 +11,7 @@ from carom.closed_forms.known import known_of
 from carom.explorer.computing.controls import Control, unit_of
 from carom.explorer.computing.rest import repeats
 from carom.models import Model
+from carom.models.limited import limits_of
 from carom.outcome import STEADY_WORDS
 from carom.plots.diagrams import BOUNDARIES, POINTS
 from carom.plots.style import LOOKS, OUTCOMES
@@ -87,6 +88,8 @@ def why_none(rotor: Model) -> str:
         return ""
     if not repeats(rotor):
         return "None are known where friction turns a race or changes the speed of the shaft."
+    if limits_of(rotor) is not None:
+        return "None are known where the magnetic bearings have limits."
     followed = "The program that is copied as Python follows them, in minutes."
     return f"Not computed on this page: only orbits on a rigid wall that stands still have closed forms. {followed}"
 

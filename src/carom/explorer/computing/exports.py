@@ -19,6 +19,7 @@ from carom.explorer.computing.controls import Control, controls_of, term_of, uni
 from carom.explorer.computing.planes import Plane
 from carom.explorer.computing.rest import Rest, repeats
 from carom.models import Model, model_of
+from carom.models.limited import limits_of
 from carom.motions import State
 from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, Case, TouchdownBearing
 from carom.parameters.machine_file import UNUSED
@@ -70,11 +71,6 @@ class Origin:
     settings: tuple[str, ...]
     case: Case
 
-    @property
-    def mark(self) -> str:
-        """Text that differs from machine to machine: what is set on a page is not meant for another one."""
-        return hashlib.sha256(f"{self.case.name}\n{as_toml(self.case)}".encode()).hexdigest()[:10]
-
     def all_settings(self, changes: Mapping[str, str]) -> tuple[str, ...]:
         """``name=value`` for every parameter that differs from the file, those changed on the page last."""
         units = {control.name: control.unit for control in controls_of(self.case)}
@@ -99,6 +95,11 @@ class Origin:
             return setting
         field = MACHINE_FIELDS[set_by(name)]
         return f"{field.name}={getattr(machine, field.name)!r} {field.unit}".strip()
+
+
+def mark_of(name: str, text: str) -> str:
+    """Text that differs from machine to machine, by name and all numbers: what is set on a page is not meant for another one."""
+    return hashlib.sha256(f"{name}\n{text}".encode()).hexdigest()[:10]
 
 
 def _name(setting: str) -> str:
@@ -165,7 +166,7 @@ motion.plot().savefig("motion.png")
 
 def _orbits(rotor: Model, along: Control) -> str:
     """The part of a program that finds orbits; none where there are none."""
-    if not repeats(rotor):
+    if not repeats(rotor) or limits_of(rotor) is not None:
         return ""
     searched = "" if known_of(rotor).orbits else ", impacts=1"
     unit = unit_of(along.name)

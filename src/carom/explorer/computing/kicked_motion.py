@@ -104,7 +104,7 @@ def follow_kick(rotor: Model, plane: Plane, first: float, second: float, progres
         impact_speeds=log.radial_speed.astype(np.float32),
         blows=log.blow.astype(np.float32),
         forward=log.angular_speed > -1.0,
-        spans=tuple(map(_span, shown.lasting_contacts)),
+        spans=tuple(map(span_of, shown.lasting_contacts)),
         whole=shown.time >= motion.time,
         outcome=motion.outcome.label,
         colour=look.colour,
@@ -125,7 +125,8 @@ def _shown_until(rotor: Model, motion: Trajectory) -> float:
     return min(end, LONGEST_BOUNCING if motion.outcome in REPEATING else LONGEST)
 
 
-def _span(stretch: LastingContact) -> Span:
+def span_of(stretch: LastingContact) -> Span:
+    """A stretch of lasting contact as it is drawn."""
     look = REGIMES[stretch.phase]
     return Span(stretch.start, stretch.end, look.words, look.colour)
 

@@ -7,11 +7,13 @@ from dataclasses import asdict, dataclass
 from carom.closed_forms import find_equilibria
 from carom.closed_forms.known import known_of
 from carom.models import Model
+from carom.models.limited import limits_of
 from carom.orbits import Orbit
 from carom.orbits.single_impact import orbits_within_reach
 from carom.studies import Wording
 from carom.studies.summaries import MotionRow, simple_motion_rows, steady_rows
 
+BESIDE_LIMITS = "Orbits are not known where the magnetic bearings have limits."
 NO_ORBITS = (
     "Orbits are not searched on this page: only those on a rigid wall that stands still have closed forms. "
     "carom.find_orbits(machine, impacts=1) searches them, in about a minute."
@@ -48,7 +50,8 @@ def table_of(rotor: Model) -> MotionTable:
     if not known_of(rotor).orbits:
         rotor.system.refuse_forces()
         steady = steady_rows(find_equilibria(rotor).members, Wording(rotor.scales))
-        return MotionTable(tuple(TableRow(**asdict(row)) for row in steady), NO_ORBITS)
+        why = NO_ORBITS if limits_of(rotor) is None else BESIDE_LIMITS
+        return MotionTable(tuple(TableRow(**asdict(row)) for row in steady), why)
     orbits = orbits_within_reach(rotor)
     texts = {f"orbit {orbit.name}": _multipliers(orbit) for orbit in orbits if orbit.admissible}
     rows = simple_motion_rows(find_equilibria(rotor).members, orbits, Wording(rotor.scales))

@@ -2,8 +2,12 @@
 
 =============  ==============================================================
 ``models``     the two objects that browser and server share
-``messages``   results as plain dictionaries for the browser
+``messages``   results as plain dictionaries for the browser; of flexible machines ``flexible_messages``
 ``view``       what the page wishes to see of a machine
+``kind``       what a kind of machine brings to the page
+``planar``     the planar rotor
+``flexible``   a flexible machine
+``kinds``      which of both it is
 ``session``    takes requests, has the work done, sends the answers
 ``figures``    the figures with axes, which the browser fills
 ``document``   all of these in one document, with the template

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import json
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from functools import cache, partial
+from itertools import groupby
 from typing import Any
 
 import jinja2
@@ -18,25 +19,22 @@ from bokeh.events import ConnectionLost, DocumentReady
 from bokeh.models import CustomJS
 from bokeh.resources import Resources
 
-from carom.closed_forms.known import known_of
 from carom.explorer.background import SupersededError
-from carom.explorer.computing.controls import controls_of
+from carom.explorer.computing.controls import Control
 from carom.explorer.computing.exports import Origin
-from carom.explorer.computing.planes import planes_of
-from carom.explorer.computing.walls import wall_of
 from carom.explorer.page.figures import looks, make_figures
-from carom.explorer.page.messages import control_message, plane_message
+from carom.explorer.page.kinds import kind_of
+from carom.explorer.page.messages import Message, control_message
 from carom.explorer.page.models import Answers, Requests
-from carom.explorer.page.scripts import SCRIPTS, joined, text_of
+from carom.explorer.page.scripts import joined, text_of
 from carom.explorer.page.session import Session
-from carom.models import model_of
 
 TOKEN = "key-of-a-session"
 
 
 def fill(document: Document, origin: Origin, ready: threading.Event) -> Session:
     """Fill a new document with the page of a machine, and return its session."""
-    requests, answers, figures = Requests(name="requests"), Answers(name="answers"), make_figures()
+    requests, answers = Requests(name="requests"), Answers(name="answers")
 
     def hand_over(name: str, value: Any) -> None:
         try:
@@ -46,18 +44,20 @@ def fill(document: Document, origin: Origin, ready: threading.Event) -> Session:
             raise SupersededError from None
 
     session = Session(origin, hand_over, ready)
+    figures = make_figures(session.kind.figures)
     asked: dict[str, Callable[[Any], None]] = {
         "machine": session.show,
         "kick": session.kick,
         "cancel": lambda _: session.cancel(),
         "resume": lambda _: session.resume(),
+        "wish": session.wish,
     }
     for name, act in asked.items():
         requests.on_change(name, partial(_act, act))
     for plot in figures.plots.values():
         document.add_root(plot)
     # What no plot refers to is not part of the document.
-    figures.plots["history"].tags = [requests, answers, *figures.parts.values()]
+    next(iter(figures.plots.values())).tags = [requests, answers, *figures.parts.values()]
     document.title = _title(origin)
     begin = CustomJS(
         args={"requests": requests, "answers": answers, "parts": figures.parts, "plots": figures.plots}, code=_BEGIN
@@ -73,26 +73,35 @@ def fill(document: Document, origin: Origin, ready: threading.Event) -> Session:
 
 def write_page(origin: Origin, resources: Resources) -> str:
     """The page of a machine as text, the same for all who ask: :data:`TOKEN` stands for the key of a session in it."""
+    kind = kind_of(origin)
     # The figures of every session have these names, so that the page need not know its document.
-    places = {plot: ID(f"place-{name}") for name, plot in make_figures().plots.items()}
+    places = {plot: ID(f"place-{name}") for name, plot in make_figures(kind.figures).plots.items()}
     return html_page_for_render_items(
         bundle_for_objs_and_resources(None, resources),
         {},
         [RenderItem(token=TOKEN, roots=places, use_for_title=True)],
         _title(origin),
-        template=_template(),
+        template=_templates().get_template(kind.template),
         template_variables={
             "name": origin.case.name,
-            "mark": origin.mark,
-            "controls": [control_message(control) for control in controls_of(origin.case)],
-            "planes": [plane_message(plane, origin.case.parameters.scales) for plane in planes_of(origin.case)],
+            "mark": kind.mark,
+            "groups": _groups(kind.controls.values()),
             "style": text_of("page.css"),
-            "script": joined(SCRIPTS),
+            "script": joined(kind.scripts),
             "looks": json.dumps(looks()),
-            "wall": wall_of(model_of(origin.case)),
-            "orbits": known_of(model_of(origin.case)).orbits,
+            **kind.variables(),
         },
     )
+
+
+def _groups(controls: Iterable[Control]) -> list[Message]:
+    """Controls by their headings; those of single parts are folded away."""
+    found = []
+    for heading, members in groupby(controls, key=lambda control: control.group):
+        listed = list(members)
+        messages = [control_message(each) for each in listed]
+        found.append({"heading": heading, "folded": all(each.among for each in listed), "controls": messages})
+    return found
 
 
 def _title(origin: Origin) -> str:
@@ -108,8 +117,11 @@ _BEGIN, _LOST = "carom.begin(requests, answers, parts, plots)", "carom.panels.lo
 
 
 @cache
-def _template() -> jinja2.Template:
-    environment = jinja2.Environment(
-        autoescape=True, trim_blocks=True, lstrip_blocks=True, undefined=jinja2.StrictUndefined
+def _templates() -> jinja2.Environment:
+    return jinja2.Environment(
+        loader=jinja2.FunctionLoader(text_of),
+        autoescape=True,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        undefined=jinja2.StrictUndefined,
     )
-    return environment.from_string(text_of("page.html.jinja"))

@@ -1,7 +1,12 @@
-"""The figures with axes: radius over time, section of impacts, diagram along a slider.  The browser fills them."""
+"""The figures with axes, which the browser fills.
+
+Of the planar rotor they are radius over time, section of impacts and diagram along a slider; of a flexible machine the response to
+unbalance over the speed, and distance and contact force at each touchdown bearing over time.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -22,7 +27,7 @@ class Figures:
     Attributes
     ----------
     plots : dict
-        ``"history"``, ``"section"`` and ``"diagram"``.
+        By name.
     parts : dict
         Sources, marks and ranges by name; none of them is sent back to the server when the browser changes it.
     """
@@ -31,10 +36,10 @@ class Figures:
     parts: dict[str, Any]
 
 
-def make_figures() -> Figures:
-    """Make all figures, empty."""
+def make_figures(names: Sequence[str]) -> Figures:
+    """Make the figures of a kind of machine, empty."""
     parts: dict[str, Any] = {}
-    plots = {"history": _history(parts), "section": _section(parts), "diagram": _diagram(parts)}
+    plots = {name: _MAKERS[name](parts) for name in names}
     for name, plot in plots.items():
         plot._id = ID(name)  # Bokeh has no public way to name an object; the text of the page refers to these
         for model in plot.references():
@@ -126,6 +131,53 @@ def _diagram(parts: dict[str, Any]) -> Any:
     plot.add_tools(HoverTool(renderers=[special], tooltips="@words at @x{0.[0000]}"))
     plot.add_tools(HoverTool(renderers=[drawn], tooltips="@words: stable from @left{0.[00]} to @right{0.[00]}"))
     return plot
+
+
+def _curves(plot: Any, parts: dict[str, Any], name: str, **look: Any) -> None:
+    """Several lines, each with a colour of its own."""
+    source = _source(parts, name, "xs", "ys", "colour")
+    plot.multi_line("xs", "ys", source=source, line_color="colour", line_width=1.6, name=name, **look)
+
+
+def _response(parts: dict[str, Any]) -> Any:
+    """Radius of the whirl by unbalance over the speed: at the touchdown bearings, dashed at the sensors; clearances, and the present speed."""
+    plot = _plot("response", _range(parts, "response_x", 0, 1), _range(parts, "response_y", 0, 1))
+    _curves(plot, parts, "sensors", line_dash="dashed")
+    _curves(plot, parts, "planes")
+    walls = _source(parts, "walls", "xs", "ys")
+    plot.multi_line("xs", "ys", source=walls, line_color=LOOKS["wall"].colour, line_width=1.5, name="wall")
+    parts["cursor"] = _moving_line(line_width=1.6, line_color="#808080")
+    plot.add_layout(parts["cursor"])
+    return plot
+
+
+def _distances(parts: dict[str, Any]) -> Any:
+    """Distance from the centre over time at each touchdown bearing; the wall is at one."""
+    plot = _plot("distances", _range(parts, "distances_x", 0, 1), _range(parts, "distances_y", 0, 1.06))
+    plot.add_layout(Span(location=1.0, dimension="width", line_color=LOOKS["wall"].colour, line_width=1.5, name="wall"))
+    _curves(plot, parts, "distances", line_alpha=0.85)
+    parts["now"] = _moving_line(line_color=LOOKS["virtual"].colour, line_dash="dashed")
+    plot.add_layout(parts["now"])
+    return plot
+
+
+def _forces(parts: dict[str, Any]) -> Any:
+    """Normal force over time in each touchdown bearing."""
+    plot = _plot("forces", _range(parts, "forces_x", 0, 1), _range(parts, "forces_y", 0, 1))
+    _curves(plot, parts, "forces", line_alpha=0.85)
+    parts["now_too"] = _moving_line(line_color=LOOKS["virtual"].colour, line_dash="dashed")
+    plot.add_layout(parts["now_too"])
+    return plot
+
+
+_MAKERS: Mapping[str, Callable[[dict[str, Any]], Any]] = {
+    "history": _history,
+    "section": _section,
+    "diagram": _diagram,
+    "response": _response,
+    "distances": _distances,
+    "forces": _forces,
+}
 
 
 def looks() -> dict[str, str]:

@@ -10,16 +10,18 @@ class Requests(DataModel):
     """What the page asks for; each request is a plain dictionary that the browser replaces as a whole.
 
     ``machine`` holds ``number``, ``settings`` (text by name), ``held`` (whether a slider is being dragged), ``along``
-    (the control moved last) and ``view``: the ``kind`` of disturbances shown, the ``largest`` of the picture and the two
-    ``kicks`` that are drawn, all of which may be missing.  ``kick`` holds ``number``, ``slot`` (0 or 1), ``first`` and
-    ``second``: one of both, by its components.  Sizes are in the unit that people are told.
-    ``cancel`` and ``resume`` count how often what takes long was stopped, and begun again.
+    (the control moved last) and ``view``: the ``kind`` of disturbances shown, the ``largest`` of the picture and the
+    ``kicks`` that are drawn, all of which may be missing.  ``kick`` holds ``number``, ``slot`` (from 0), ``first`` and
+    ``second``: one of them, by its components.  Sizes are in the unit that people are told.
+    ``cancel`` and ``resume`` count how often what takes long was stopped, and begun again.  ``wish`` holds the ``name`` of what takes long and is
+    begun only so, and counts how often it was asked for.
     """
 
     machine = Any(default=None)
     kick = Any(default=None)
     cancel = Any(default=0)
     resume = Any(default=0)
+    wish = Any(default=None)
 
 
 class Answers(DataModel):
@@ -27,7 +29,8 @@ class Answers(DataModel):
 
     ``reply`` answers each request for a machine at once: ``number`` of the request, ``shown``, the number of the request whose
     machine is shown, ``values`` of its controls in their units, and in ``text`` and ``names`` what could not be used.
-    ``motion`` and ``beside`` are those after both kicks.
+    ``motion`` and ``beside`` are those after the kicks that are drawn.  ``levitation`` and ``told`` are of flexible machines, from ``beside`` to
+    ``diagram`` of the planar rotor.
     """
 
     state = Any(default=None)
@@ -39,5 +42,8 @@ class Answers(DataModel):
     loss = Any(default=None)
     hardest = Any(default=None)
     verdict = Any(default=None)
+    proven = Any(default=None)
     diagram = Any(default=None)
     exports = Any(default=None)
+    levitation = Any(default=None)
+    told = Any(default=None)

@@ -1,4 +1,4 @@
-"""What the page wishes to see of a machine: kind of disturbances, range, and both that are drawn."""
+"""What the page wishes to see of a machine: kind of disturbances, range, and those that are drawn."""
 
 from __future__ import annotations
 
@@ -22,10 +22,10 @@ class View:
     kind : str
     largest : float or None
         Range of the picture, in the unit that people are told.
-    kicks : tuple of two pairs of float, or None
-        Components of both disturbances, in this unit.
+    kicks : tuple of pairs of float, or None
+        Components of the disturbances that are drawn, in this unit.
     active : int
-        Which of both was chosen last: the one that is copied.
+        Which of them was chosen last: the one that is copied.
     """
 
     kind: str = "kick"
@@ -43,7 +43,7 @@ def read_view(given: Any) -> View:
     return View(
         str(given.get("kind", "kick")),
         largest if largest is not None and largest > 0.0 else None,
-        tuple(pair for pair in pairs if pair is not None) if len(pairs) == 2 and None not in pairs else None,
+        tuple(pair for pair in pairs if pair is not None) if pairs and None not in pairs else None,
         1 if given.get("active") == 1 else 0,
     )
 

@@ -9,7 +9,7 @@ carom.held = false;
   const settings = carom.controls.settings;
   const rows = [...document.querySelectorAll(".control")].map((row) => {
     const data = row.dataset;
-    return { row, name: data.name, unit: data.unit, low: +data.low, high: +data.high, value: +data.value, log: data.log === "1",
+    return { row, name: data.name, unit: data.unit, low: +data.low, high: +data.high, value: +data.value, log: data.log === "1", among: data.among,
       now: +data.value, slider: row.querySelector(".slider"), box: row.querySelector(".box"), shown: row.querySelector(".box").value };
   });
 
@@ -56,6 +56,13 @@ carom.held = false;
     one.row.classList.toggle("changed", one.name in settings);
     one.row.classList.toggle("own-unit", !plain.test(one.box.value));
   };
+  // What is set for all parts holds for each of them.
+  const together = (whole) => {
+    for (const one of rows.filter((row) => row.among === whole.name)) {
+      delete settings[one.name];
+      mark(one);
+    }
+  };
   const moved = (one, held, keep = true) => {
     const value = valueAt(one, +one.slider.value);
     one.now = value;
@@ -63,6 +70,7 @@ carom.held = false;
     settings[one.name] = `${typing(value)} ${one.unit}`.trim();
     carom.moved = one.name;
     mark(one);
+    together(one);
     if (carom.showCursor) carom.showCursor(one.name, value);
     carom.controls.ask(held, keep);
   };
@@ -72,6 +80,7 @@ carom.held = false;
     if (text === one.shown) delete settings[one.name]; else settings[one.name] = text;
     carom.moved = one.name;
     mark(one);
+    together(one);
     carom.controls.ask(false);
   };
 
@@ -113,7 +122,7 @@ carom.held = false;
   carom.controls.share = (name) => +rows.find((row) => row.name === name).slider.value / 1000;
 
   // The server reads what was typed: its values place the sliders and the mark in the diagram.
-  carom.controls.reply = (reply) => {
+  carom.on("reply", (reply) => {
     carom.shown = reply.shown;
     const words = reply.text || carom.controls.notice;
     carom.controls.notice = "";
@@ -122,9 +131,15 @@ carom.held = false;
     for (const one of rows) {
       one.box.classList.toggle("wrong", reply.names.includes(one.name));
       if (carom.held || reply.number < carom.number) continue;
-      one.now = reply.values[one.name];
+      const value = reply.values[one.name];
+      // Of all parts together, where they differ.
+      if (value === null) { one.box.value = ""; one.box.placeholder = "differ"; continue; }
+      if (!one.box.value) one.box.value = typing(value);
+      one.now = value;
       one.slider.value = place(one, one.now);
+      // A box follows what was set of all parts together.
+      if (one.among && !(one.name in settings)) one.box.value = one.among in settings ? typing(value) : one.shown;
       if (carom.showCursor) carom.showCursor(one.name, one.now);
     }
-  };
+  });
 })();

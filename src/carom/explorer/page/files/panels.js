@@ -1,10 +1,10 @@
-// Words and numbers: state, tiles, table, texts to copy, and whether the server is still there.
+// Words and numbers: state, tiles of the picture, texts to copy, and whether the server is still there.
 carom.panels = { exports: null };
 
 (() => {
   let compiling = 0;
   const endless = (words) => { at("state").className = "busy endless"; at("state").querySelector("span").textContent = words; };
-  carom.panels.state = (state) => {
+  carom.on("state", (state) => {
     const box = at("state");
     clearInterval(compiling);
     at("cancel").hidden = state.kind !== "working";
@@ -24,9 +24,9 @@ carom.panels = { exports: null };
     } else {
       box.className = "";
       box.querySelector("span").textContent = state.kind === "cancelled" ? "Stopped. What had been found is shown." : "";
-      if (state.kind === "idle" && exact.verdict) carom.sweep.idle();
+      if (state.kind === "idle" && carom.idle) carom.idle();
     }
-  };
+  });
   for (const wish of ["cancel", "resume"]) at(wish).addEventListener("click", () => { carom.requests[wish] += 1; });
 
   const tile = (name, value, remark, old = false) => {
@@ -34,56 +34,17 @@ carom.panels = { exports: null };
     at(`${name}-remark`).textContent = remark;
     at(name).classList.toggle("old", old);
   };
+  carom.panels.tile = tile;
   // What does not come with the picture belongs to one machine: it is pale until it is known of the present one.
-  const exact = { loss: 0, hardest: 0, verdict: 0 };
-  const pale = (what, old) => { for (const card of document.querySelectorAll(`[data-of="${what}"]`)) card.classList.toggle("old", old); };
-  carom.panels.shown = (what, message) => pale(what, carom.basin.message !== null && message.number < carom.basin.message.number);
-  carom.panels.basin = (message) => {
+  carom.panels.pale = (what, old) => { for (const card of document.querySelectorAll(`[data-of="${what}"]`)) card.classList.toggle("old", old); };
+  carom.panels.shown = (what, message) => carom.panels.pale(what, message.number < (carom.seen || 0));
+  carom.on("basin", (message) => {
     if (message.refused) return;
     at("sentence").textContent = message.sentence;
     tile("share", message.share, message.share_remark);
     at("lost-title").textContent = `smallest lost ${message.nouns[0]}`;
-    if (exact.loss !== message.number) tile("lost", message.lost, message.lost_remark);
-    if (exact.hardest !== message.number) at("hardest").classList.add("old");
-    if (exact.verdict !== message.number) for (const card of ["headline", "advice", "tried"]) at(card).classList.add("old");
-    if (carom.held) for (const what of ["motion", "beside", "figures", "table"]) pale(what, true);
-  };
-  carom.panels.loss = (message) => {
-    exact.loss = message.number;
-    tile("lost", message.refused ? "–" : message.value, message.refused || message.remark);
-  };
-  carom.panels.hardest = (message) => {
-    exact.hardest = message.number;
-    tile("hardest", message.refused ? "–" : message.value, message.refused || message.remark);
-  };
-  carom.panels.verdict = (message) => {
-    exact.verdict = message.number;
-    for (const card of ["headline", "advice", "tried"]) at(card).classList.remove("old");
-    at("headline").textContent = message.refused || message.lead;
-    at("advice").textContent = message.advice || "";
-    at("tried").hidden = Boolean(message.refused);
-    at("survived").replaceChildren(...(message.survived || []).map((words) => {
-      const item = document.createElement("li");
-      item.textContent = words;
-      return item;
-    }));
-  };
-  carom.panels.table = carom.unhurried((message) => {
-    const body = document.querySelector("#motions tbody");
-    carom.panels.shown("table", message);
-    if (message.refused) { body.replaceChildren(); at("argument").textContent = message.refused; return; }
-    body.replaceChildren(...message.rows.map((row) => {
-      const line = document.createElement("tr");
-      line.className = row.state === "not possible" ? "impossible" : row.state;
-      for (const name of ["name", "state", "period", "size", "impulse", "force", "multipliers", "remark"]) {
-        const cell = document.createElement("td");
-        cell.textContent = row[name];
-        line.append(cell);
-      }
-      return line;
-    }));
-    at("argument").textContent = message.argument;
   });
+  carom.on("exports", (message) => { carom.panels.exports = message; });
 
   const words = { toml: "machine file", options: "options of the command line", command: "command", python: "program", link: "address of this machine and these kicks" };
   for (const button of document.querySelectorAll("[data-copy]")) {

@@ -9,15 +9,7 @@ carom.begin_plots = (parts, plots) => {
     parts.points.data = { ...special, colour: inked, fill: special.admissible.map((one) => (one ? 1 : 0)) };
   };
   const theme = () => {
-    const ink = colour("soft"), rule = colour("rule");
-    for (const plot of Object.values(plots)) {
-      plot.setv({ border_fill_color: colour("card"), background_fill_color: colour("card"), border_fill_alpha: 1, background_fill_alpha: 1 });
-      for (const axis of [...plot.below, ...plot.left]) {
-        axis.setv({ axis_label_text_color: ink, major_label_text_color: ink, axis_line_color: rule, major_tick_line_color: rule, minor_tick_line_color: null,
-          axis_label_text_font_style: "normal", axis_label_text_font_size: "12px", major_label_text_font_size: "12px" });
-      }
-      for (const grid of plot.center) if (grid.grid_line_color !== undefined) grid.grid_line_color = rule;
-    }
+    const ink = carom.themed(plots);
     parts.cursor.line_color = colour("ink");
     parts.now.line_color = ink;
     const path = plots.history.renderers.find((one) => one.name === "path"), wall = plots.history.center.find((one) => one.name === "wall");
@@ -109,6 +101,7 @@ carom.begin_plots = (parts, plots) => {
       carom.showCursor(along, carom.controls.value(along));
     },
   };
+  carom.on("diagram", carom.plots.diagram);
   carom.showCursor = (name, value) => { if (name === along) parts.cursor.location = value; };
   if (carom.motion.message && !carom.motion.message.refused) carom.plots.motion(carom.motion.message);
 };

@@ -1,21 +1,24 @@
-// The pictures: where kicks lead, and the flights after two of them.  A click on what comes back is flown first, one on what is lost second.
+// The pictures: where kicks lead, and the flights after those that are drawn, at each touchdown bearing.  Of two kicks one on what comes back is
+// flown first, one on what is lost second.
 carom.stage = {};
 
 (() => {
-  const slots = ["motion", "beside"], canvases = ["clearance", "beside"];
+  const canvases = [...document.querySelectorAll("canvas[data-slot]")], slotOf = canvases.map((canvas) => +canvas.dataset.slot);
+  const slots = ["motion", "beside"].filter((_, slot) => slotOf.includes(slot));
   const state = { kind: "kick", largest: null, kicks: null, active: 0, ring: null };
   let asked = 0, opening = 0, smallest = { number: 0, size: 0 }, pointed = null;
 
   const basin = basinPicture(at("basin"), { onPoint: (kick, chosen, slot) => point(kick, chosen, slot), onRing: (size, done) => pulled(size, done) });
-  const flights = canvases.map((name, slot) => flight(at(name), {
-    looks: carom.looks, onTime: (now, end) => { if (carom.plots && slot === state.active) carom.plots.now(now, now >= end); },
+  const flights = canvases.map((canvas, place) => flight(canvas, {
+    looks: carom.looks, onTime: (now, end) => { if (carom.plots && flights[place] === carom.motion) carom.plots.now(now, now >= end); },
   }));
+  const first = (slot) => flights[slotOf.indexOf(slot)];
   carom.basin = basin;
   carom.flights = flights;
   carom.parts.push(basin.renew, ...flights.map((one) => one.renew));
-  const marked = () => state.kicks || flights.map((one) => one.message && one.message.kick).filter(Boolean);
+  const marked = () => state.kicks || slots.map((_, slot) => first(slot).message && first(slot).message.kick).filter(Boolean);
   // The motion that the figures show.
-  Object.defineProperty(carom, "motion", { get: () => flights[state.active] });
+  Object.defineProperty(carom, "motion", { get: () => first(state.active) });
 
   const ask = carom.throttled(45, (kick, slot, chosen) => {
     asked += 1;
@@ -23,8 +26,8 @@ carom.stage = {};
   });
   const point = (kick, chosen, slot = null) => {
     const ending = basin.endingOf(kick);
-    const place = slot === null ? (ending && ending.back ? 0 : 1) : slot, both = marked();
-    if (both.length < 2) return;
+    const place = slots.length === 1 ? 0 : slot === null ? (ending && ending.back ? 0 : 1) : slot, both = marked();
+    if (both.length < slots.length) return;
     state.kicks = both.map((one, other) => (other === place ? kick : one));
     state.active = place;
     pointed = { ...kick, slot: place };
@@ -37,6 +40,7 @@ carom.stage = {};
   const legendOf = (message) => {
     const [one] = message.nouns, rows = [];
     if (message.harmless > 0) rows.push(["dash", "proven never to touch"]);
+    if (basin.veiled()) rows.push(["pale", `pale: nothing is proven; proven to come back ${basin.proven.share}`]);
     if (message.required > 0) rows.push(["must", `${message.required > message.largest * 1.0001 ? "out of the picture: " : ""}must survive ${short(message.required, 3)} ${message.unit}`]);
     if (basin.ring > 0) rows.push(["lost", state.ring ? `chosen: ${short(basin.ring, 3)} ${message.unit}` : `smallest lost ${one}: ${short(basin.ring, 3)} ${message.unit}`]);
     return rows;
@@ -85,21 +89,27 @@ carom.stage = {};
     ringed();
     if (done) carom.address.keep();
   };
-  carom.stage.loss = (message) => {
+  carom.on("loss", (message) => {
     if (message.refused) return;
     smallest = { number: message.number, size: message.size };
     if (basin.message) ringed();
-  };
+  });
+
+  carom.on("proven", (message) => {
+    if (message.refused) return;
+    basin.prove(message);
+    if (basin.message) note();
+  });
 
   const ranged = (message) => {
     opening = message.opening;
     if (document.activeElement !== at("range") || !carom.held) at("range").value = Math.round(1000 * Math.log(message.largest / opening * 8) / Math.log(64));
     at("range-words").textContent = `up to ${short(message.largest, 3)} ${message.unit}`;
   };
-  carom.stage.basin = (message) => {
+  carom.on("basin", (message) => {
     if (basin.message && message.number < basin.message.number) return;
     if (message.refused) { at("sentence").textContent = message.refused; return; }
-    for (const one of flights) one.rest = { position: message.rest_position, colour: message.legend_rest };
+    for (const one of flights) one.rest = message.rest_position && { position: message.rest_position, colour: message.legend_rest };
     // All at once, so that it is drawn once.
     basin.kicks = marked();
     basin.ring = ringOf(message);
@@ -108,13 +118,14 @@ carom.stage = {};
     ranged(message);
     at("rest").textContent = message.rest;
     at("kind").value = message.kind;
-    carom.controls.arrived(message.number);
-  };
+    if (!carom.follows) carom.controls.arrived(message.number);
+  });
 
   // The motion after one of both; a newer wish keeps its own mark.
   const moved = (slot) => (message) => {
-    const one = flights[slot], newest = !pointed || pointed.slot !== slot || !message.kick || (pointed.first === message.kick.first && pointed.second === message.kick.second);
-    one.show(message);
+    const one = first(slot), newest = !pointed || pointed.slot !== slot || !message.kick || (pointed.first === message.kick.first && pointed.second === message.kick.second);
+    const all = flights.filter((_, place) => slotOf[place] === slot);
+    all.forEach((each, place) => each.show(message.planes ? { ...message, ...message.planes[place] } : message));
     carom.panels.shown(slots[slot], message);
     at(`${slots[slot]}-words`).textContent = message.refused || message.words + (message.whole ? "" : " Its beginning is shown.");
     at(`${slots[slot]}-title`).textContent = message.refused ? "not possible" : message.outcome === "levitated" ? "comes back" : "is lost";
@@ -122,14 +133,16 @@ carom.stage = {};
     if (message.refused) return;
     if (!state.kicks || newest) basin.mark(marked(), state.active);
     if (carom.plots && slot === state.active) carom.plots.motion(message);
-    if (carom.held) one.finish(false); else one.play();
+    for (const each of all) if (carom.held) each.finish(false); else each.play();
     const slower = one.slower();
     at("pace").textContent = slower > 1.5 ? `slowed down ${short(slower, 2)} times` : "";
   };
-  carom.stage.motions = slots.map((_, slot) => moved(slot));
+  slots.forEach((name, slot) => carom.on(name, moved(slot)));
   at("replay").addEventListener("click", () => { for (const one of flights) one.play(); });
   for (const choice of document.querySelectorAll('input[name="frame"]')) {
-    choice.addEventListener("change", () => { for (const one of flights) one.turnWith(choice.value); });
+    const turn = () => { for (const one of flights) one.turnWith(choice.value); };
+    if (choice.checked) for (const one of flights) one.frame = choice.value;
+    choice.addEventListener("change", turn);
   }
 
   at("range").addEventListener("input", () => {
@@ -148,19 +161,20 @@ carom.stage = {};
   carom.stage.view = () => ({
     kind: state.kind, largest: state.largest, active: state.active, kicks: state.kicks && state.kicks.map((kick) => [kick.first, kick.second]),
   });
+  const kept = ["kick", "other"]; // names in the address
   const pair = (kick) => `${short(kick.first)},${short(kick.second)}`;
   carom.stage.kept = () => ({
     ...(state.kind !== "kick" && { show: state.kind }), ...(state.largest && { range: short(state.largest) }),
-    ...(state.kicks && { kick: pair(state.kicks[0]), other: pair(state.kicks[1]) }), ...(state.ring && { ring: short(state.ring) }),
+    ...(state.kicks && Object.fromEntries(state.kicks.map((kick, slot) => [kept[slot], pair(kick)]))), ...(state.ring && { ring: short(state.ring) }),
   });
   carom.stage.reset = () => carom.stage.restore({});
-  carom.stage.restore = (kept) => {
+  carom.stage.restore = (given) => {
     const number = (text) => (Number(text) > 0 && Number.isFinite(Number(text)) ? Number(text) : null);
     const kick = (text) => { const [first, second] = (text || "").split(",").map(Number); return Number.isFinite(first) && Number.isFinite(second) && text ? { first, second } : null; };
-    const both = [kick(kept.kick), kick(kept.other)], known = [...at("kind").options].some((one) => one.value === kept.show);
+    const both = slots.map((_, slot) => kick(given[kept[slot]])), known = [...at("kind").options].some((one) => one.value === given.show);
     pointed = null;
     if (both.includes(null)) for (const one of flights) one.clear();
-    Object.assign(state, { kind: known ? kept.show : "kick", largest: number(kept.range), kicks: both.includes(null) ? null : both, active: 0, ring: number(kept.ring) });
+    Object.assign(state, { kind: known ? given.show : "kick", largest: number(given.range), kicks: both.includes(null) ? null : both, active: 0, ring: number(given.ring) });
     if (basin.message) { basin.mark(marked(), 0); ringed(); }
   };
 })();

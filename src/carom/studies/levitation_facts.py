@@ -1,0 +1,103 @@
+"""How a flexible machine levitates, in words: speeds in rpm, frequencies in Hz, lengths in µm, in the fixed frame."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+
+from carom.parameters.told import number
+from carom.rotors import FlexibleResponse, Whirl
+from carom.studies.facts import Fact
+from carom.studies.flexible_levitation import Critical, FlexibleLevitation
+from carom.studies.response_words import micrometres, rpm
+from carom.studies.standards import CRITICALLY_DAMPED
+from carom.studies.wording import listed
+
+SENSITIVITY_LIMITS = "ISO 14839-3: zone A up to 3 (9.5 dB), B up to 4 (12 dB), C up to 5 (14 dB), D above"
+_HERTZ = 2.0 * math.pi
+
+
+def whirl_words(speed: float, whirls: Sequence[Whirl]) -> str:
+    """The least damped of the whirls at a speed, rad/s."""
+    worst = min(whirls, key=lambda each: each.damping_ratio)
+    return (
+        f"At {rpm(speed)} the least damped of the {len(whirls)} slowest whirls is one of {number(worst.frequency, 3)} Hz, {worst.sense}, with a "
+        f"damping ratio of {number(worst.damping_ratio, 2)}."
+    )
+
+
+def response_words(at_speed: FlexibleResponse) -> str:
+    """The whirl by unbalance at one speed."""
+    planes = [
+        f"{micrometres(each)} at plane {place}"
+        for place, each in enumerate(at_speed.touchdown_ellipses.major[0], start=1)
+    ]
+    sensors = [
+        f"{micrometres(each)} at the sensors of bearing {place}"
+        for place, each in enumerate(at_speed.sensor_ellipses.major[0], start=1)
+    ]
+    # Supports that act differently in two directions make ellipses of circles.
+    sizes = "longer half axes" if at_speed.machine.whole.equations.mirrored else "radii"
+    reached = f"{listed(planes)}, and {listed(sensors)}" if sensors else listed(planes)
+    return f"Its unbalance makes it whirl with {sizes} of {reached}."
+
+
+def zone_words(share: float, zone: str) -> str:
+    """The share of the clearance that sag and whirl take together, and its zone."""
+    say = f"{number(100.0 * share, 3)} % of the clearance at the worst plane"
+    return f"With the static sag that is {say}: zone {zone} of ISO 14839-2."
+
+
+def critical_speed_facts(found: FlexibleLevitation) -> Iterator[Fact]:
+    """Peaks of the response, with their separation from the speed of the machine."""
+    if found.response is None:
+        yield Fact("Critical speeds", "Without an unbalance there is no response whose peaks could be told.")
+        return
+    speeds = found.response.speeds
+    if not found.criticals:
+        yield Fact("Critical speeds", f"The response has no peak between {rpm(speeds[0])} and {rpm(speeds[-1])}.")
+    for each in found.criticals:
+        text = f"Bearing {each.bearing}: {rpm(each.speed)}, {micrometres(each.amplitude)} at its sensors; {_separation(found, each)}"
+        yield Fact("Critical speeds", text, values={"speed_si": each.speed, "met": each.separation.met})
+    rule = "Amplification factors and separations are those of API 617 (API RP 684, SP6.8.2.1 and SP6.8.2.10), by the half-power width at the sensors; its annex on magnetic bearings may state others."
+    yield Fact("Critical speeds", f"{rule} Searched from {rpm(speeds[0])} to {rpm(speeds[-1])}.")
+
+
+def _separation(found: FlexibleLevitation, critical: Critical) -> str:
+    margin, factor = critical.separation, critical.factor
+    if factor is None:
+        return "the peak is too flat for an amplification factor, so none is required."
+    told = f"amplification factor {number(factor, 3)}"
+    if factor < CRITICALLY_DAMPED:
+        return f"{told}: critically damped, so no separation is required."
+    run = rpm(found.machine.speed)
+    where = f"{number(100.0 * margin.actual, 3)} % {margin.side} {run}" if margin.side != "inside" else f"at {run}"
+    return f"{told}, {where}, required {number(100.0 * margin.required, 3)} %: {'met' if margin.met else 'not met'}."
+
+
+def bearing_facts(found: FlexibleLevitation) -> Iterator[Fact]:
+    """Sensitivity of the loops, and whirls of which a node lies at a bearing."""
+    loops = found.sensitivity
+    if loops is not None:
+        rows = zip(loops.peaks.tolist(), loops.peak_frequencies.tolist(), loops.zones, strict=True)
+        told = [
+            f"{number(peak, 3)} ({number(20.0 * math.log10(peak), 3)} dB) at {number(at / _HERTZ, 3)} Hz, zone {zone}, of bearing {place}"
+            for place, (peak, at, zone) in enumerate(rows, start=1)
+        ]
+        yield Fact("Magnetic bearings", f"Largest sensitivity: {listed(told)} ({SENSITIVITY_LIMITS}).", "Sensitivity")
+    for each in found.collocations:
+        name = f"the {each.whirl.sense} whirl of {number(each.whirl.frequency, 3)} Hz (damping ratio {number(each.whirl.damping_ratio, 2)})"
+        if each.opposed:
+            text = f"A node of {name} lies between the sensors and the magnet of bearing {each.bearing}: they move against each other, so damping by the controller feeds it."
+        elif each.hardly:
+            what = "sensors hardly see" if abs(each.sensor) <= abs(each.magnet) else "magnet hardly moves"
+            text = f"Bearing {each.bearing}: its {what} {name}, for a node lies there."
+        else:
+            continue
+        yield Fact("Magnetic bearings", text, "Non-collocation")
+    if found.collocations and not any(each.opposed or each.hardly for each in found.collocations):
+        yield Fact(
+            "Magnetic bearings",
+            f"In none of the {len(found.whirls)} slowest whirls a node lies between sensors and magnet.",
+            "Non-collocation",
+        )
