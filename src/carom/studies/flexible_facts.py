@@ -32,7 +32,7 @@ NOT_COVERED = (
         "Periodic orbits and their stability, the values of a gain at which motions appear, the least change of a gain that leaves only recovery, and the "
         "sizes up to which contact is proven to be impossible."
     ),
-    "Limits of the magnetic bearings that the file does not state, bearings that act differently in two directions, and changes of speed.",
+    "Limits of the magnetic bearings that the file does not state, magnetic bearings whose axes differ, coefficients of supports at other speeds, and changes of speed.",
     "Damping of the shaft as it turns with it, wear and heat of the touchdown bearings, and axial motion.",
 )
 """What a study of a flexible machine withholds."""
