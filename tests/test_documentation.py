@@ -15,6 +15,11 @@ from typer.main import get_command
 import carom
 from carom.cli.app import app
 from carom.outcome import Outcome
+from carom.proofs import hypotheses_of
+from carom.proofs.families import FAMILIES
+from carom.proofs.kick_cells import DISC, REFUTED
+from carom.proofs.kick_claims import claims_of
+from carom.proofs.kick_discs import Disc
 
 ROOT = Path(__file__).parent.parent
 DOCS = ROOT / "docs"
@@ -96,7 +101,12 @@ def test_claims_that_are_explained_are_made():
         for name in re.findall(r"\*([^*]+)\*", row)
     ]
     made = {claim.name for claim in carom.prove(ROOT / "examples" / "source-paper.toml")}
-    made |= {"kicks recover", "kicks all recover"}
+    made |= {f"states {kind}" for kind in ("recover", "all recover", "lost")}
+    sizes = {"kicks": "1", "shocks": "1, 1", "unbalance steps": "1"}
+    machine = hypotheses_of(ROOT / "examples" / "source-paper.toml", ["gamma=0.3"])
+    for about, family in FAMILIES.items():
+        # Claims as they would be if all of the disc were refuted, which nobody asks here.
+        made |= {claim.name for claim in claims_of(Disc(family, machine, sizes[about], 1), {DISC: REFUTED})}
     assert len(named) > 10
     assert set(named) <= made
 

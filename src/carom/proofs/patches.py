@@ -12,13 +12,14 @@ coordinates ``a``, ``b``, ``ψ = arg Λ``: turns of the whole plane change nothi
 ``h₁`` the response to the disturbance (:mod:`carom.proofs.starts`).
 
 A patch holds the states ``x₀ + s₁ξ₁ + s₂ξ₂ + s₃ξ₁² + s₄ξ₁ξ₂ + s₅ξ₂² + Σ_g s_g ξ_g``, ``|ξ_g| ≤ 1``: ``ξ₁`` and ``ξ₂`` say where in the cell a kick is, the other spans
-hold what earlier impacts have left out, and a rest for each coordinate what the last one has.  A function ``f`` of the state lies in ``f(x₀) + Σ_g f'(X)s_g [−1, 1]`` there, ``X`` the box of the patch
+hold what earlier impacts have left out, those next to these what the parameters of a box of rotors do, and a rest for each coordinate what the last one has.  A function ``f`` of the state lies in ``f(x₀) + Σ_g f'(X)s_g [−1, 1]`` there, ``X`` the box of the patch
 (mean value form).
 """
 
 from __future__ import annotations
 
 import cmath
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, NamedTuple
@@ -26,14 +27,16 @@ from typing import Any, NamedTuple
 from flint import acb, arb
 
 from carom.proofs.lines import Numbers
+from carom.proofs.plain_flights import PlainRotor
 from carom.proofs.rub_balls import Rub
 from carom.proofs.series import I, hyperbolic
+from carom.proofs.sides import Side, responses_by
 from carom.proofs.starts import Blow, Plain, Response, Start
 
 UNIT = arb(0, 1)
 """All numbers from −1 to 1."""
 FORM = 5
-"""Spans by where in the cell a kick is, those of first and second order."""
+"""Spans by where in the cell a kick is, those of first and second order; then come those of the parameters of a box of rotors."""
 
 
 BLOW = Blow()
@@ -49,16 +52,23 @@ class Waves(NamedTuple):
 
 
 class Held:
-    """What flights need to know of a rotor, at the precision at hand.
+    """What flights need to know of a rotor, or of a box of rotors, at the precision at hand.
 
     Parameters
     ----------
     numbers : Numbers
+        Of all rotors.
     start : Start
-        The disturbance that takes the rotor out of levitation.
+        The disturbance that takes the rotor out of levitation; of a box of rotors a blow.
+    middle : Numbers, optional
+        Of the rotor in the middle of the box.
+    sides : sequence of Side
+        By how much each parameter of the box moves them.
 
     Attributes
     ----------
+    middle : Held
+        The rotor in the middle.
     half, split : arb
         ``γ/2`` and ``γ²/4 − ω²``.
     radius, radius_squared, room : arb
@@ -67,14 +77,18 @@ class Held:
         ``μ(1 + d)``.
     """
 
-    def __init__(self, numbers: Numbers, start: Start = BLOW) -> None:
-        self.numbers, self.start = numbers, start
+    def __init__(
+        self, numbers: Numbers, start: Start = BLOW, middle: Numbers | None = None, sides: Sequence[Side] = ()
+    ) -> None:
+        self.numbers, self.start, self.sides = numbers, start, sides
+        self.middle = self if middle is None else Held(middle)
         self.half, self.split = numbers.gamma / 2, numbers.split
         self.radius = numbers.levitation
         self.radius_squared = self.radius * self.radius
         self.room = 1 - self.radius
         self.grip = numbers.mu * (1 + numbers.d)
-        self._plain = tuple(float(x.mid()) for x in (self.half, self.split, numbers.omega_squared))
+        self.plain = PlainRotor.of(numbers.gamma, numbers.omega_squared, self.radius)
+        self._ends = [self.plain.ends(side) for side in sides]
 
     def responses(self, time: Any) -> tuple[Response, Response]:
         """``h₀`` and ``h₁``."""
@@ -88,13 +102,8 @@ class Held:
         return (c, dc, -n.omega_squared * dh), (h, dh, d2h)
 
     def plain_responses(self, time: float) -> tuple[Plain, Plain]:
-        """The same in doubles."""
-        half, split, stiff = self._plain
-        root = cmath.sqrt(split) or 1e-9
-        fade = cmath.exp(-half * time).real
-        h = fade * (cmath.sinh(root * time) / root).real
-        dh = fade * cmath.cosh(root * time).real - half * h
-        return (dh + 2 * half * h, -stiff * h, -stiff * dh), (h, dh, -2 * half * dh - stiff * h)
+        """The same in doubles, of the rotor in the middle."""
+        return self.middle.plain.responses(time)
 
     @cached_property
     def rub(self) -> Rub:
@@ -115,6 +124,22 @@ class Held:
             return Waves((zero, h, turn), (zero, dh, way), (zero, d2h, -turn))
         (c, dc, d2c), (h, dh, d2h) = self.responses(time)
         return Waves((c, h, turn - acb(c, h)), (dc, dh, way - acb(dc, dh)), (d2c, d2h, -turn - acb(d2c, d2h)))
+
+    def waves_by(self, time: Any, from_wall: bool) -> list[tuple[Wave, Wave]]:
+        """``c``, ``h₁`` and ``k`` and their rates, differentiated by each parameter of the box."""
+        found = []
+        for c, h, dc, dh in responses_by(self.numbers, self.sides, time) if self.sides else []:
+            place, rate = (c, h, -acb(c, h)), (dc, dh, -acb(dc, dh))
+            found.append((place, rate) if from_wall else ((arb(0), h, acb(0)), (arb(0), dh, acb(0))))
+        return found
+
+    def plain_by(self, time: float, from_wall: bool, velocity: complex, turn: complex) -> list[tuple[complex, complex]]:
+        """By how much place and rate change along each parameter, in doubles; ``turn`` is the direction of ``Λ``."""
+        found = []
+        for ends in self._ends:
+            one, other = (end.flight(time, from_wall, velocity, turn) for end in ends)
+            found.append(((one[0] - other[0]) / 2, (one[1] - other[1]) / 2))
+        return found
 
     def plain_waves(self, time: float, from_wall: bool) -> tuple[tuple[complex, complex, complex], ...]:
         """The same in doubles."""
@@ -139,7 +164,8 @@ class Patch:
     centre : list of arb
         Exact numbers: ``v, ψ`` from levitation, ``a, b, ψ`` from the wall.
     spans : list of list of arb
-        Exact vectors of the coordinates: two for a patch that is straight, else first those by ``ξ₁``, ``ξ₂``, ``ξ₁²``, ``ξ₁ξ₂`` and ``ξ₂²``.
+        Exact vectors of the coordinates: two for a patch that is straight, else first those by ``ξ₁``, ``ξ₂``, ``ξ₁²``, ``ξ₁ξ₂`` and ``ξ₂²``, then one
+        for each parameter of the box of rotors.
     rest : list of arb
         Exact half widths of the coordinates.
     """
@@ -194,12 +220,15 @@ class Departure:
 
     def __init__(self, held: Held, patch: Patch, *, alone: bool = False) -> None:
         self.held, self.patch, self.from_wall = held, patch, patch.from_wall
-        self.velocity, self.levitation = _parts(held, patch.centre)
-        self.wide_velocity, self.wide_levitation = _parts(held, patch.centre if alone else patch.box)
+        self.velocity, self.levitation = _parts(held.middle, patch.centre)
+        box = patch.centre if alone else patch.box
+        self.wide_velocity, self.wide_levitation = _parts(held, box)
+        self.wide_turn = _turn(box)
         self.columns = [(_speed(along), along[-1]) for along in patch.directions]
         middle = [float(x) for x in patch.centre]
         self._velocity = complex(*middle[:-1])
-        self._levitation = float(held.radius.mid()) * cmath.exp(1j * middle[-1])
+        self._turn = cmath.exp(1j * middle[-1])
+        self._levitation = held.middle.plain.radius * self._turn
         self._columns = [(complex(v), 1j * self._levitation * float(turn)) for v, turn in self.columns]
 
     # -------------------------------------------------------------------------------------- balls
@@ -219,7 +248,7 @@ class Departure:
 
     def at(self, time: Any) -> Moment:
         """The flights at a time, as mean value forms."""
-        return Moment(self, self.held.waves(time, self.from_wall))
+        return Moment(self, time)
 
     # -------------------------------------------------------------------------------------- doubles
 
@@ -246,12 +275,16 @@ class Departure:
             along, rate = v * h + lift * k, v * dh + lift * dk
             places.append(2 * (z.conjugate() * along).real)
             rates.append(2 * (z.conjugate() * rate + dz.conjugate() * along).real)
+        moved = self.held.plain_by(time, self.from_wall, self._velocity, self._turn)
+        for j, (along, rate) in enumerate(moved, FORM):
+            places[j] += 2 * (z.conjugate() * along).real
+            rates[j] += 2 * (z.conjugate() * rate + dz.conjugate() * along).real
         return places, rates
 
-    def weights(self, time: float) -> tuple[float, float]:
-        """How much each span has to do with ``|z|²`` and its rate at a time."""
-        places, rates = self.plain_spread(time)
-        return abs(places[0]) + abs(rates[0]), abs(places[1]) + abs(rates[1])
+    def weights(self, time: float) -> tuple[float, ...]:
+        """How much both spans of the cell, and that of each parameter, have to do with ``|z|²`` and its rate at a time."""
+        sizes = [abs(place) + abs(rate) for place, rate in zip(*self.plain_spread(time), strict=True)]
+        return (*sizes[:2], *sizes[FORM : FORM + len(self.held.sides)])
 
 
 def _speed(coordinates: list[Any]) -> Any:
@@ -260,8 +293,13 @@ def _speed(coordinates: list[Any]) -> Any:
 
 
 def _parts(held: Held, coordinates: list[Any]) -> tuple[Any, Any]:
+    return _speed(coordinates), _turn(coordinates) * held.radius
+
+
+def _turn(coordinates: list[Any]) -> Any:
+    """Direction of ``Λ``."""
     sine, cosine = coordinates[-1].sin_cos()
-    return _speed(coordinates), acb(held.radius * cosine, held.radius * sine)
+    return acb(cosine, sine)
 
 
 class Moment:
@@ -271,17 +309,24 @@ class Moment:
     ``|q|² = ℓ²|k|²``.  All are evaluated so that this is not lost in the width of ``Λ``.
     """
 
-    def __init__(self, departure: Departure, waves: Waves) -> None:
-        self.departure, self.waves = departure, waves
+    def __init__(self, departure: Departure, time: Any) -> None:
+        self.departure, self.time = departure, time
+        self.waves = departure.held.waves(time, departure.from_wall)
 
     @property
     def parts(self) -> tuple[list[Any], list[Any], list[Any]]:
         """``p``, ``q`` and ``k`` with their first two derivatives."""
         return self._p, self._q, [wave[2] for wave in self.waves]
 
-    def centre(self, wave: Wave) -> Any:
-        """Place or rate on the flight of the centre."""
-        d = self.departure
+    @cached_property
+    def _middle(self) -> Waves:
+        """Waves of the rotor in the middle of the box."""
+        held = self.departure.held
+        return self.waves if held.middle is held else held.middle.waves(self.time, self.departure.from_wall)
+
+    def centre(self, order: int) -> Any:
+        """Place (0) or rate (1) on the flight of the centre."""
+        d, wave = self.departure, self._middle[order]
         return wave[0] + d.velocity * wave[1] + d.levitation * wave[2]
 
     @cached_property
@@ -310,9 +355,23 @@ class Moment:
 
     @cached_property
     def _moved(self) -> list[tuple[Any, Any, Any]]:
-        """``V h₁`` and its rate differentiated along the columns, and the turn of ``Λ`` along them."""
+        """``z`` and its rate differentiated along the columns, but for the turn of ``Λ`` along them, which comes third."""
         h, dh = self.waves.place[1], self.waves.rate[1]
-        return [(v * h, v * dh, turn) for v, turn in self.departure.columns]
+        found = [(v * h, v * dh, turn) for v, turn in self.departure.columns]
+        for j, (place, rate) in enumerate(self._by_parameters(), FORM):
+            along, drift, turn = found[j]
+            found[j] = (along + place, drift + rate, turn)
+        return found
+
+    def _by_parameters(self) -> Iterator[tuple[Any, ...]]:
+        """Place and rate differentiated along each parameter, the state at the start kept."""
+        d = self.departure
+        for waves, side in zip(d.held.waves_by(self.time, d.from_wall), d.held.sides, strict=True):
+            lift = d.wide_turn * side.radius
+            yield tuple(
+                by[0] + d.wide_velocity * by[1] + d.wide_levitation * by[2] + lift * wave[2]
+                for by, wave in zip(waves, self.waves[:2], strict=True)
+            )
 
     @cached_property
     def height_along(self) -> list[Any]:
@@ -323,7 +382,7 @@ class Moment:
     @cached_property
     def height(self) -> Any:
         """``|z|²`` of all flights, a mean value form."""
-        z = self.centre(self.waves.place)
+        z = self.centre(0)
         return dot(z, z) + spread(self.height_along) * 2
 
     @cached_property
@@ -336,7 +395,7 @@ class Moment:
     @cached_property
     def rise(self) -> Any:
         """The rate of ``|z|²`` on all flights, a mean value form."""
-        centre = dot(self.centre(self.waves.place), self.centre(self.waves.rate))
+        centre = dot(self.centre(0), self.centre(1))
         return (centre + spread(self.rise_along)) * 2
 
     @cached_property

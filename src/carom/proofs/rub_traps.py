@@ -174,7 +174,7 @@ class Bounces:
             self.rub.torque(self.reach) > 0
             and self.rub.torque(-self.reach) < 0
             and least > 0
-            and self.speed * self.speed / (2 * least) <= box.gap.upper()
+            and self.speed * self.speed / (2 * least) < box.gap.upper()
             and box.gap.upper() < 1
             and 1 + self._gain < rational(_FASTER * _FASTER)
             and n.d**2 * (1 + self._gain) < 1

@@ -144,8 +144,7 @@ def _middle_cells(stride: int, wanted: np.ndarray) -> np.ndarray:
 
 def _ends(rotor: Model, right: np.ndarray, up: np.ndarray, progress: ShowProgress = None) -> np.ndarray:
     """Outcomes of kicks by their parts, in units of the equations."""
-    fastest = float(np.hypot(right, up).max())
-    starts = VelocityKick(fastest).starts(rotor, np.hypot(right, up), np.arctan2(up, right))
+    starts = VelocityKick().starts(rotor, np.hypot(right, up), np.arctan2(up, right))
     return np.asarray(follow(rotor, starts, max_events=MOST_EVENTS, progress=progress).outcomes)
 
 

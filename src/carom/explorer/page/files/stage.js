@@ -40,6 +40,7 @@ carom.stage = {};
   const legendOf = (message) => {
     const [one] = message.nouns, rows = [];
     if (message.harmless > 0) rows.push(["dash", "proven never to touch"]);
+    if (basin.veiled()) rows.push(["pale", `pale: nothing is proven; proven to come back ${basin.proven.share}`]);
     if (message.required > 0) rows.push(["must", `${message.required > message.largest * 1.0001 ? "out of the picture: " : ""}must survive ${short(message.required, 3)} ${message.unit}`]);
     if (basin.ring > 0) rows.push(["lost", state.ring ? `chosen: ${short(basin.ring, 3)} ${message.unit}` : `smallest lost ${one}: ${short(basin.ring, 3)} ${message.unit}`]);
     return rows;
@@ -92,6 +93,12 @@ carom.stage = {};
     if (message.refused) return;
     smallest = { number: message.number, size: message.size };
     if (basin.message) ringed();
+  });
+
+  carom.on("proven", (message) => {
+    if (message.refused) return;
+    basin.prove(message);
+    if (basin.message) note();
   });
 
   const ranged = (message) => {
