@@ -23,7 +23,8 @@ from typing import Any
 from flint import arb
 
 from carom.proofs.mean_values import NOTHING, Form, Pair
-from carom.proofs.patches import Departure, Held, cross, dot
+from carom.proofs.moments import cross, dot
+from carom.proofs.patches import Departure, Held
 
 Jet = list[Any]
 """A function of time with its derivatives."""
