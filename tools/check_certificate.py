@@ -2970,7 +2970,16 @@ def check_box_kicks(document: dict, exact: dict[str, Exact], report: Report) -> 
     report.each(document["claims"], decide)
 
 
+def check_states(document: dict, exact: dict[str, Exact], report: Report) -> None:
+    """All states up to a speed are shown by forms, which this program does not know."""
+    report.each(
+        document["claims"],
+        lambda claim: "claims nothing" if claim["status"] == "undecided" else "not covered|all states up to a speed",
+    )
+
+
 THEOREMS = {
+    "states": check_states,
     "single-impact orbits": check_machine,
     "orbits of several impacts": check_machine,
     "along a parameter": check_along,

@@ -45,6 +45,13 @@ def test_json_is_the_certificate(capsys, tmp_path):
         ([PAPER, "--kicks-up-to", "0.2", "--most-impacts", "36"], "most_impacts"),
         ([PAPER, "--kicks-up-to", "0.2", "--time-limit", "soon"], "time_limit"),
         ([SPINDLE, "--kicks-up-to", "110"], "this has no unit: write 110 m/s"),
+        ([PAPER, "--states-up-to", "0.2", "--impacts", "2"], "cannot be combined"),
+        ([PAPER, "--states-up-to", "fast"], "states_up_to"),
+        ([SPINDLE, "--states-up-to", "110"], "this has no unit: write 110 m/s"),
+        ([SPINDLE, "--shocks-up-to", "5 g"], "must be the largest peak and the duration"),
+        ([SPINDLE, "--unbalance-up-to", "5"], "unbalance_up_to = 5"),
+        ([SPINDLE, "--kicks-up-to", "1 mm/s", "--shocks-up-to", "5 g, 1 ms"], "cannot be combined"),
+        ([SPINDLE, "--most-impacts", "2"], "is needed by --most-impacts"),
         (["--check", "absent.json"], "cannot be read"),
         (["absent.toml"], "there is no such file"),
         ([PAPER, "--set", "stiffness=1"], "unknown name in the settings; did you mean omega?"),
@@ -91,6 +98,27 @@ def test_other_proofs_have_no_figure(capsys, tmp_path):
     assert not (tmp_path / "figures").exists()
     assert main(["prove", "--check", str(tmp_path / "proof.json"), "--out", str(tmp_path / "drawn")]) == 2
     assert "only for a proof of kicks" in capsys.readouterr().err
+
+
+def test_all_states_are_proven_and_verified(capsys, tmp_path):
+    assert main(["prove", SPINDLE, "--states-up-to", "100 mm/s", "--out", str(tmp_path)]) == 0
+    assert "undecided" not in capsys.readouterr().out
+    assert main(["prove", "--check", str(tmp_path / "proof.json"), "--json"]) == 0
+    recover, lost, whole = json.loads(capsys.readouterr().out)["claims"]
+    assert recover["enclosures"]["speed_si"] == ["0.1", "0.1"]
+    assert "runs away to rolling" in lost["statement"]
+    assert whole["status"] == "proven"
+
+
+@pytest.mark.parametrize(
+    ("option", "largest", "about"),
+    [("--shocks-up-to", "50 g, 0.2 ms", "shocks"), ("--unbalance-up-to", "30 um", "unbalance steps")],
+)
+def test_other_disturbances_are_proven(capsys, option, largest, about):
+    assert main(["prove", SPINDLE, option, largest, "--json"]) == 0
+    recover, everything = json.loads(capsys.readouterr().out)["claims"]
+    assert (recover["about"], recover["kind"], everything["status"]) == (about, "recover", "proven")
+    assert recover["enclosures"]["impacts"] == ["0", "0"]
 
 
 def test_changed_certificate_is_refused(capsys, tmp_path):

@@ -10,7 +10,6 @@ import carom as cm
 from carom.cli.app import BAD_INPUT, main
 from carom.rotors.machine_file import PART_ENTRIES, ROTOR_ENTRIES
 
-
 SUPPORT = ("node", "kx", "ky", "cx", "cy")
 """How entries of a table begin that is left out as a whole."""
 

@@ -377,3 +377,8 @@ def test_boxes_of_kicks_that_are_forged_are_refused(box):
     more = {**claim, "kind": "all recover outside of gaps", "enclosures": {}}
     assert not refused({**box, "claims": [*box["claims"], {**more, "statement": told.format(1)}]})
     assert refused({**box, "claims": [*box["claims"], {**more, "statement": told.format(0)}]})
+
+
+def test_all_states_are_not_covered():
+    states = prove_states({**PAPER, "gamma": "1"}, "1").document()
+    assert {verdict for verdict, what, _ in report_of(states).lines if "states" in what} == {"not covered"}
