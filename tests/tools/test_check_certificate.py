@@ -14,7 +14,7 @@ from pathlib import Path
 
 import pytest
 
-from carom.proofs import prove, prove_kicks
+from carom.proofs import prove, prove_kicks, prove_states
 
 PROGRAM = Path(__file__).parents[2] / "tools" / "check_certificate.py"
 PAPER = {
