@@ -80,7 +80,7 @@ def test_the_series_of_contact_obeys_the_equations_of_motion(bound):
     y, v = ROW @ position, ROW @ velocity
     normal = y / abs(y)
     size = 50.0 * (abs(y) - 1.0) + (normal.conjugate() * v).real
-    wanted = [*accelerations(position, velocity, -size * (1.0 + 0.15j) * normal, BEGINS), excess, 0.0]
+    wanted = accelerations(position, velocity, -size * (1.0 + 0.15j) * normal, BEGINS) + np.array([excess, 0.0])
     # The difference is right to the square of the step.
     assert rates == pytest.approx(wanted, abs=1e-4)
     contact_forces(system.arrays, contact, amplitudes, work)

@@ -9,7 +9,7 @@ the units of the machine (ms, mm, mm/s, N, N s, rpm) if it is known in SI units,
 Long motions are thinned: the band of the radius, the last turns of the shaft, the position once a turn.  Virtual orbits
 are drawn where the argument `virtual` asks for them.
 
-Motions and orbits are drawn by ``motions``, ``histories``, ``touchdowns``, ``drops``, ``spectra``, ``overviews``, ``levitation``, ``mode_shapes`` and ``conditions``; along
+Motions and orbits are drawn by ``motions``, ``histories``, ``touchdowns``, ``drops``, ``spectra``, ``overviews``, ``levitation``, ``shapes`` and ``conditions``; along
 parameters ``diagrams`` with ``coexistence`` and ``proven``, ``regions`` and ``responses``; disturbances ``basins`` with ``pairs``,
 ``rings`` and ``kick_proofs``, ``gains``, ``drop_maps``, ``sweeps`` and ``attractor_shares``.  Shared are ``style`` (what colours mean), ``sheet`` (the style sheet),
 ``figure`` (a figure that keeps it), ``arrangement`` (layout), ``files``, ``plane`` (the clearance circle), ``bands``, ``cells``,
@@ -30,12 +30,12 @@ from carom.plots.gains import gain_map
 from carom.plots.histories import radius
 from carom.plots.kick_proofs import proven_kicks
 from carom.plots.levitation import campbell, flexible_response, sensitivity
-from carom.plots.mode_shapes import mode_shapes
 from carom.plots.motions import motion, orbit
 from carom.plots.overviews import equilibria, equilibria_and_orbits, overview
 from carom.plots.pairs import basin_pair
 from carom.plots.regions import region_map
 from carom.plots.responses import unbalance_response
+from carom.plots.shapes import mode_shapes
 from carom.plots.sheet import applied
 from carom.plots.spectra import multipliers, spectrum
 from carom.plots.style import LOOKS, ONE_COLUMN, OUTCOMES, TWO_COLUMNS, Look
