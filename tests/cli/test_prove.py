@@ -48,6 +48,10 @@ def test_json_is_the_certificate(capsys, tmp_path):
         ([PAPER, "--states-up-to", "0.2", "--impacts", "2"], "cannot be combined"),
         ([PAPER, "--states-up-to", "fast"], "states_up_to"),
         ([SPINDLE, "--states-up-to", "110"], "this has no unit: write 110 m/s"),
+        ([SPINDLE, "--shocks-up-to", "5 g"], "must be the largest peak and the duration"),
+        ([SPINDLE, "--unbalance-up-to", "5"], "unbalance_up_to = 5"),
+        ([SPINDLE, "--kicks-up-to", "1 mm/s", "--shocks-up-to", "5 g, 1 ms"], "cannot be combined"),
+        ([SPINDLE, "--most-impacts", "2"], "is needed by --most-impacts"),
         (["--check", "absent.json"], "cannot be read"),
         (["absent.toml"], "there is no such file"),
         ([PAPER, "--set", "stiffness=1"], "unknown name in the settings; did you mean omega?"),
@@ -104,6 +108,17 @@ def test_all_states_are_proven_and_verified(capsys, tmp_path):
     assert recover["enclosures"]["speed_si"] == ["0.1", "0.1"]
     assert "runs away to rolling" in lost["statement"]
     assert whole["status"] == "proven"
+
+
+@pytest.mark.parametrize(
+    ("option", "largest", "about"),
+    [("--shocks-up-to", "50 g, 0.2 ms", "shocks"), ("--unbalance-up-to", "30 um", "unbalance steps")],
+)
+def test_other_disturbances_are_proven(capsys, option, largest, about):
+    assert main(["prove", SPINDLE, option, largest, "--json"]) == 0
+    recover, everything = json.loads(capsys.readouterr().out)["claims"]
+    assert (recover["about"], recover["kind"], everything["status"]) == (about, "recover", "proven")
+    assert recover["enclosures"]["impacts"] == ["0", "0"]
 
 
 def test_changed_certificate_is_refused(capsys, tmp_path):

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from compilation import sized
@@ -82,7 +84,7 @@ def test_second_derivatives_are_those_of_single_flights(held):
         if strike is None or not departure.plain(strike.end)[1] > 0.3:
             continue
         seen += 1
-        wide = Strike(strike.begin - 0.05, strike.end + 0.05)
+        wide = replace(strike, begin=strike.begin - 0.05, end=strike.end + 0.05)
         time = arb(crossing(numbers, centre, strike))
         found = second_derivatives(departure, time, arb(strike.begin).union(arb(strike.end)))
         size = len(centre)

@@ -16,8 +16,9 @@ from carom.proofs.balls import at_precision
 from carom.proofs.boxes import box_of
 from carom.proofs.hypotheses import hypotheses_of
 from carom.proofs.lines import Numbers
+from carom.proofs.moments import FORM
 from carom.proofs.passages import Brush, LeftOpenError, Return, Strike, begin, next_event
-from carom.proofs.patches import FORM, Departure, Held, Patch
+from carom.proofs.patches import Departure, Held, Patch
 from carom.proofs.plain_flights import PlainRotor
 from carom.proofs.rotor import Rotor
 from carom.proofs.sides import Side, responses_by

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import dataclasses
+from pathlib import Path
 
 import numpy as np
 import pytest
 from flexible_machines import munich, replaced
 from scipy.linalg import eigvals
 
+import carom as cm
+from carom.cli.app import main
 from carom.outcome import InputError
 from carom.rotors import (
     Support,
@@ -220,3 +223,28 @@ def test_a_support_that_drives_whirl_is_refused():
 def test_bad_supports_are_refused(changes, words):
     with pytest.raises(InputError, match=words):
         replaced(MACHINE, supports=[dataclasses.replace(SEAL, **changes)])
+
+
+@pytest.mark.parametrize(
+    "verb",
+    [
+        lambda rotor: cm.find_equilibria(rotor),
+        lambda rotor: cm.find_orbits(rotor, impacts=2),
+        lambda rotor: cm.closed_forms.small_cycles(rotor),
+        lambda rotor: cm.orbits.lyapunov_exponents(rotor, cm.kick(1.0), impacts=10),
+    ],
+)
+def test_what_rests_on_alike_directions_is_refused(verb):
+    with pytest.raises(InputError, match="bearings that act differently in two directions"):
+        verb(MACHINE.with_modes(3).linear)
+
+
+def test_steady_motions_are_told_without_rubs(capsys, tmp_path):
+    path = tmp_path / "mine.toml"
+    text = Path("examples/tum-flexible-rotor.toml").read_text(encoding="utf-8")
+    path.write_text(f"{text}\n[[support]]\nnode = 7\nkxx = 2e4\nkyy = 5e3\ncxx = 20.0\ncyy = 20.0\n", encoding="utf-8")
+    assert cm.load(path).parameters.system.mirrored is not None
+    assert main(["orbits", str(path)]) == 0
+    told = " ".join(capsys.readouterr().out.split())
+    assert "levitation" in told
+    assert "where bearings act differently in two directions; attractors finds" in told

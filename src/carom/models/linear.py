@@ -1,4 +1,4 @@
-"""Any linear isotropic rotor, from its matrices."""
+"""Any linear rotor, from its matrices."""
 
 from __future__ import annotations
 

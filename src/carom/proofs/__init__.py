@@ -34,6 +34,7 @@
 ``theorems``        the theorems by name
 ``proving``         prove, at a precision that rises by itself
 ``patches``         patches of states, and the flights that leave them
+``moments``         all flights of a patch at a time
 ``passages``        what happens next on all flights of a patch
 ``strikes``         states after an impact
 ``mean_values``     numbers with derivatives by a few unknowns, in balls

@@ -27,7 +27,8 @@ from typing import Any
 from flint import arb
 
 from carom.outcome import CaromError
-from carom.proofs.patches import UNIT, Departure, dot
+from carom.proofs.moments import UNIT, dot
+from carom.proofs.patches import Departure
 from carom.proofs.series import hull
 
 LONGEST, SHORTEST = 1.0, 1.0 / 64

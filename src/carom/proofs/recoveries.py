@@ -8,6 +8,7 @@ from typing import Any
 
 from flint import arb
 
+from carom.proofs.moments import FORM
 from carom.proofs.passages import (
     EARLY,
     MANY,
@@ -22,7 +23,7 @@ from carom.proofs.passages import (
     brush_of,
     next_event,
 )
-from carom.proofs.patches import FORM, Departure, Held, Patch
+from carom.proofs.patches import Departure, Held, Patch
 from carom.proofs.rub_traps import ends_in_rub
 from carom.proofs.series import hull
 from carom.proofs.strikes import after_brush, after_strike, patch_of

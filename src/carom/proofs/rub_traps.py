@@ -24,7 +24,8 @@ from typing import Any, NamedTuple
 from flint import acb, arb
 
 from carom.proofs.balls import rational
-from carom.proofs.patches import UNIT, Held, Patch
+from carom.proofs.moments import UNIT
+from carom.proofs.patches import Held, Patch
 from carom.proofs.rub_balls import Rub
 from carom.proofs.series import hull
 

@@ -20,8 +20,9 @@ from typing import Any
 from flint import arb
 
 from carom.proofs.bends import bent, remainder, second_derivatives
+from carom.proofs.moments import FORM, UNIT, Moment, cross, dot, spread
 from carom.proofs.passages import GRAZE, Brush, LeftOpenError, Strike
-from carom.proofs.patches import FORM, UNIT, Departure, Moment, Patch, cross, dot, spread
+from carom.proofs.patches import Departure, Patch
 from carom.proofs.series import hull
 
 Columns = list[list[Any]]

@@ -164,7 +164,8 @@ def _holding(study: FlexibleData) -> Iterator[Fact]:
             motions=(entry.name,),
         )
     if not found.touching:
-        text = f"None of {len(found.disturbances)} disturbances, nor of the starts in backward whirl, ended in contact. Other motions may exist."
+        seen = "" if all(entry.name.outcome.settled for entry in found) else " that were followed to their end"
+        text = f"None of {len(found.disturbances)} disturbances and of the starts in backward whirl{seen} ended in contact. Other motions may exist."
         yield Fact("Disturbances tried", text, evidence="sampled")
 
 

@@ -20,9 +20,12 @@ carom.stage = {};
   // The motion that the figures show.
   Object.defineProperty(carom, "motion", { get: () => first(state.active) });
 
-  const ask = carom.throttled(45, (kick, slot, chosen) => {
+  // A click is not forgotten when the pointer trembles after it.
+  let clicked = false;
+  const ask = carom.throttled(45, (kick, slot) => {
     asked += 1;
-    carom.requests.kick = { number: asked, slot, ...kick, chosen };
+    carom.requests.kick = { number: asked, slot, ...kick, chosen: clicked };
+    clicked = false;
   });
   const point = (kick, chosen, slot = null) => {
     const ending = basin.endingOf(kick);
@@ -32,7 +35,8 @@ carom.stage = {};
     state.active = place;
     pointed = { ...kick, slot: place };
     basin.mark(state.kicks, place);
-    ask(kick, place, chosen);
+    clicked ||= chosen;
+    ask(kick, place);
     // Arrow keys take many steps, of which the address keeps the last.
     if (chosen) carom.address.keep(slot === null);
   };
