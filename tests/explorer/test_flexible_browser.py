@@ -17,7 +17,7 @@ def page(one_page):
     """The page as it is after loading; the picture of kicks goes on being filled in meanwhile."""
     one_page.bring_to_front()
     one_page.locator("#reset").click()
-    for answer in ("levitation", "motion"):
+    for answer in ("levitating", "motion"):
         answered(one_page, answer, said(one_page, "carom.number"))
     return one_page
 
@@ -36,7 +36,7 @@ def test_it_loads_and_shows_both_bearings_and_the_kicks(page):
 def test_dragging_a_gain_changes_the_answer_at_once(page):
     before = page.locator("#whirls").inner_text()
     drag(page, "derivative", (0.55, 0.65, 0.8))
-    answered(page, "levitation", said(page, "carom.number"))
+    answered(page, "levitating", said(page, "carom.number"))
     assert page.locator("#whirls").inner_text() != before
     # What contact does is pale until it is known of this machine.
     answered(page, "motion", said(page, "carom.number"))

@@ -26,6 +26,8 @@ from carom.rotors.reduction import Basis
 if TYPE_CHECKING:
     from carom.rotors.flexible_machine import FlexibleMachine
 
+UNHELD = "levitation"
+"""What errors name where nothing holds the rotor."""
 SLOWEST = 3e-7
 """Rate of an integrator, in ``Ω``, up to which its motion and the steady one under weight are one mode but for rounding."""
 ROUNDED = 1e-6
@@ -111,7 +113,7 @@ class ReducedMachine(Result):
             turns = abs(worst.imag) > max(ROUNDED, 0.1 * worst.real)
             what = f"a whirl of {hertz:.4g} Hz" if turns else "a displacement to one side"
             grows = f"unstable: {what} grows with {-rate * speed:.4g} 1/s"
-            raise InputError("levitation", grows, f"controllers that hold the rotor at this speed{self._weak}")
+            raise InputError(UNHELD, grows, f"controllers that hold the rotor at this speed{self._weak}")
         if self.machine.gravity is not None:
             self._check_integrators(rotor)
         return rotor
@@ -144,9 +146,9 @@ class ReducedMachine(Result):
                     allowed = f"0, or at least {faster * gain:.2g} A/m/s: less cannot be told from none under weight"
                 raise InputError(f"[[magnetic_bearing]] {number}: {name}", told, allowed)
         if not self.machine.bearings:
-            raise InputError("levitation", "no magnetic bearing, under weight", "one or more that hold the rotor")
+            raise InputError(UNHELD, "no magnetic bearing, under weight", "one or more that hold the rotor")
         told = f"none under weight: a motion comes back with {slowest * self.machine.speed:.2g} 1/s"
-        raise InputError("levitation", told, f"controllers that hold the rotor{self._weak}")
+        raise InputError(UNHELD, told, f"controllers that hold the rotor{self._weak}")
 
     @cached_property
     def limited(self) -> FlexibleModel | Limited:

@@ -67,8 +67,8 @@ def test_a_machine_is_answered_with_everything_and_the_picture_is_filled_in(page
     answers = {}
     for name, value in page.seen:
         answers.setdefault(name, []).append(value)
-    assert set(answers) == {"reply", "levitation", "exports", "motion", "state", "basin", "told"}
-    assert answers["levitation"][-1]["holds"]
+    assert set(answers) == {"reply", "levitating", "exports", "motion", "state", "basin", "told"}
+    assert answers["levitating"][-1]["holds"]
     pictures = answers["basin"]
     counts = [int(re.search(r": (\d+) followed", each["share_remark"])[1]) for each in pictures]
     assert counts == sorted(counts)
@@ -80,19 +80,19 @@ def test_a_machine_is_answered_with_everything_and_the_picture_is_filled_in(page
 
 def test_while_a_slider_is_held_no_kicks_are_followed_for_the_picture(page):
     page.session.show(request(1, held=True, proportional="6000"))
-    assert page.numbered("levitation", 1)["holds"]
+    assert page.numbered("levitating", 1)["holds"]
     page.has("motion")
-    assert {name for name, _ in page.seen} == {"reply", "levitation", "motion"}
+    assert {name for name, _ in page.seen} == {"reply", "levitating", "motion"}
 
 
 def test_a_machine_that_does_not_levitate_is_shown_as_such(page):
     page.session.show(request(1, delay="2"))
-    assert page.numbered("levitation", 1)["lead"].startswith("It does not levitate")
+    assert page.numbered("levitating", 1)["lead"].startswith("It does not levitate")
     assert page.numbered("basin", 1)["refused"].startswith("No kick is followed")
     page.session.show(request(2, unbalance="4 kg mm"))
     assert page.numbered("motion", 2)["refused"].startswith("No kick is followed")
     page.session.show(request(3))
-    assert page.numbered("levitation", 3)["holds"]
+    assert page.numbered("levitating", 3)["holds"]
 
 
 def test_values_tell_where_parts_differ(page):

@@ -11,6 +11,7 @@ from carom.parameters import Case
 from carom.parameters.told import number
 from carom.progress import Reporter, ShowProgress
 from carom.rotors import FlexibleResponse, ReducedMachine, Whirl, find_whirls, unbalance_response
+from carom.rotors.reduced_machine import UNHELD
 from carom.studies.flexible_facts import reduction_words
 from carom.studies.flexible_levitation import FASTEST, WHIRLS, levitation_of_machine, speeds_of_response
 from carom.studies.levitation_facts import (
@@ -104,7 +105,7 @@ def levitating(case: Case, reduced: ReducedMachine, top: float) -> Levitating:
     try:
         share, why = reduced.model.system.rest_radius, ""
     except InputError as problem:
-        grows = problem.field == "levitation"
+        grows = problem.field == UNHELD
         share, why = np.inf, str(problem.value).removeprefix("unstable: ") if grows else str(problem)
     stable, holds = not why and not growing, share < 1.0
     told = stable or bool(growing)  # what grows without going round is no whirl

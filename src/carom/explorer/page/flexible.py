@@ -44,7 +44,7 @@ class FlexibleKind:
 
     slots: tuple[str, ...] = ("motion",)
     apart: tuple[str, ...] = ("motion",)
-    early: tuple[str, ...] = ("levitation", "told")
+    early: tuple[str, ...] = ("levitating", "told")
     along = "speed"
     template = "flexible.html.jinja"
     scripts: tuple[str, ...] = FLEXIBLE
@@ -60,7 +60,7 @@ class FlexibleKind:
         self.planes_shown = len(found.machine.touchdowns)
         self.controls: Mapping[str, Control] = {each.name: each for each in controls_of_machine(found.machine)}
         self.mark = mark_of(origin.case.name, json.dumps(document_of(found.machine), sort_keys=True))
-        self.quick: Mapping[str, Work] = {"levitation": self._levitation, "motion": self._motion}
+        self.quick: Mapping[str, Work] = {"levitating": self._levitation, "motion": self._motion}
         self.long: Mapping[str, Task] = {
             "basin": Task(FOLLOWING, self._basin(COARSE), "basin"),
             "told": Task("critical speeds and sensitivity", self._told, "told"),

@@ -29,7 +29,7 @@ class Answers(DataModel):
 
     ``reply`` answers each request for a machine at once: ``number`` of the request, ``shown``, the number of the request whose
     machine is shown, ``values`` of its controls in their units, and in ``text`` and ``names`` what could not be used.
-    ``motion`` and ``beside`` are those after the kicks that are drawn.  ``levitation`` and ``told`` are of flexible machines, from ``beside`` to
+    ``motion`` and ``beside`` are those after the kicks that are drawn.  ``levitating`` and ``told`` are of flexible machines, from ``beside`` to
     ``diagram`` of the planar rotor.
     """
 
@@ -45,5 +45,5 @@ class Answers(DataModel):
     proven = Any(default=None)
     diagram = Any(default=None)
     exports = Any(default=None)
-    levitation = Any(default=None)
+    levitating = Any(default=None)
     told = Any(default=None)

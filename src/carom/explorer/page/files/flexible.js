@@ -12,7 +12,7 @@ carom.follows = true; // a dragged slider waits for how the machine levitates, n
     carom.panels.pale(what, old);
     if (what === "basin") for (const name of ["basin", "sentence", "legend", "ring-note"]) at(name).classList.toggle("old", old);
   };
-  carom.on("levitation", (message) => {
+  carom.on("levitating", (message) => {
     carom.controls.arrived(message.number);
     // What contact does is pale until it is known of this machine.
     for (const what of ["motion", "figures", "basin", "told"]) if ((carom.known[what] || 0) < message.number) pale(what, true);
@@ -91,7 +91,7 @@ carom.begin_plots = (parts, plots) => {
   theme();
   carom.parts.push(theme);
 
-  carom.on("levitation", carom.unhurried((message) => {
+  carom.on("levitating", carom.unhurried((message) => {
     if (message.refused) return;
     const { curves, speeds, walls } = message, many = curves.length / 2;
     const low = speeds.length ? speeds[0] : 0, high = speeds.length ? speeds[speeds.length - 1] : message.speed;

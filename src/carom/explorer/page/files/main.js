@@ -1,6 +1,6 @@
 // Answers of the server go to the parts that show them.
 // These are shown although a newer machine is on its way: they follow the hand, or say themselves that they are old.
-carom.late = new Set(["basin", "motion", "beside", "table", "levitation"]);
+carom.late = new Set(["basin", "motion", "beside", "table", "levitating"]);
 carom.begin = (requests, answers, parts, plots) => {
   carom.requests = requests;
   carom.begun = { answers, parts, plots };
