@@ -34,7 +34,7 @@ from carom.rotors.documents import document_of
 from carom.rotors.flexible_model import reduced_of
 from carom.studies.flexible_levitation import FASTEST
 
-NONE = "No kick is followed: with these values there is no levitation without contact that it could disturb."
+NONE = "No kick is followed: with these values there is no levitation that it could disturb."
 FIRST = 0.5, math.radians(30.0)
 """Size of the kick that is drawn first, over the range of the picture, and its direction."""
 
