@@ -116,13 +116,15 @@ class Flock:
         at_top = self.rising[lanes] & (rate <= 0)
         self.closest[lanes[at_top]] = np.minimum(self.closest[lanes[at_top]], gap[at_top])
         self.rising[lanes] = rate > 0
-        touch = (gap < TOUCH) & (rate > 0)
+        # At rest on the wall the sign of the rate is rounding: a first short step tells whether the wall pushes.
+        rests = (tau == 0) & (np.abs(rate) < 1e-12)
+        touch = (gap < TOUCH) & (rate > 0) & ~rests
         free = ~touch
         self.mode[lanes[free & m.out_of_reach(u, w)]] = RETURNED
         room = np.maximum(gap, 0)
         root = np.sqrt(rate**2 + 2 * bend * room)
         step = np.where(rate > 0, 2 * room / np.maximum(np.abs(rate) + root, 1e-300), (root - rate) / bend)
-        self.since[lanes[free]] += np.maximum(step[free], 1e-12)
+        self.since[lanes[free]] += np.maximum(step[free], np.where(rests[free], 1e-9, 1e-12))
         if np.any(touch):
             self.strike(lanes[touch], tau[touch], z[touch], zdot[touch], ahead[touch])
 
@@ -138,7 +140,8 @@ class Flock:
         cone = m.mu * (1 + m.d) * a
         after = b - np.clip(m.s + b, -cone, cone)
         normal = after**2 - m.omega**2 + np.real(m.pull * ahead * np.conj(out))
-        stays = (normal > 0) & (a < LOW) & (a < 1e-3 * normal * (1 - m.d))
+        # Where nearly all speed is left, a start at rest on the wall stays there too.
+        stays = (normal > 0) & (a < LOW) & (a < np.maximum(1e-3 * (1 - m.d), 1e-7) * normal)
         landed = lanes[stays]
         self.mode[landed] = SLIDES
         self.chattered[landed] = True
