@@ -15,6 +15,12 @@ from typer.main import get_command
 import carom
 from carom.cli.app import app
 from carom.outcome import Outcome
+from carom.proofs import hypotheses_of
+from carom.proofs.families import FAMILIES, KICKS
+from carom.proofs.kick_box_claims import box_claims_of
+from carom.proofs.kick_cells import DISC, REFUTED, read
+from carom.proofs.kick_claims import claims_of
+from carom.proofs.kick_discs import Disc
 
 ROOT = Path(__file__).parent.parent
 DOCS = ROOT / "docs"
@@ -96,7 +102,14 @@ def test_claims_that_are_explained_are_made():
         for name in re.findall(r"\*([^*]+)\*", row)
     ]
     made = {claim.name for claim in carom.prove(ROOT / "examples" / "source-paper.toml")}
-    made |= {"kicks recover", "kicks all recover"}
+    made |= {f"states {kind}" for kind in ("recover", "all recover", "lost")}
+    sizes = {"kicks": "1", "shocks": "1, 1", "unbalance steps": "1"}
+    machine = hypotheses_of(ROOT / "examples" / "source-paper.toml", ["gamma=0.3"])
+    for about, family in FAMILIES.items():
+        # Claims as they would be if all of the disc were refuted, which nobody asks here.
+        made |= {claim.name for claim in claims_of(Disc(family, machine, sizes[about], 1), {DISC: REFUTED})}
+    box = Disc(KICKS, machine, "1", 1, (("mu", "0.1", "0.2"),))
+    made |= {claim.name for claim in box_claims_of(box, read("p0t", 1))}
     assert len(named) > 10
     assert set(named) <= made
 

@@ -34,6 +34,7 @@ from collections import Counter
 from fractions import Fraction
 from itertools import pairwise
 from pathlib import Path
+from typing import NamedTuple
 
 from flint import arb, arb_series, ctx, fmpq
 
@@ -1001,9 +1002,9 @@ def loaded(text: str) -> dict:
     if set(document) != needed:
         raise RefusedError(f"entries missing, or not known: {', '.join(sorted(set(document) ^ needed))}")
     hypotheses = document["hypotheses"]
-    if not isinstance(hypotheses, dict) or set(hypotheses) != {"table", "values", "settings", "exact"}:
+    if not isinstance(hypotheses, dict) or set(hypotheses) - {"helpers"} != {"table", "values", "settings", "exact"}:
         raise RefusedError("the hypotheses have entries missing, or some that are not known")
-    for name in ("values", "settings", "exact"):
+    for name in set(hypotheses) - {"table"}:
         if not isinstance(hypotheses[name], dict) or not all(isinstance(v, str) for v in hypotheses[name].values()):
             raise RefusedError(f"the hypotheses have {name} that are no texts")
     for claim in document["claims"] if isinstance(document["claims"], list) else [None]:
@@ -1036,6 +1037,10 @@ def check(text: str) -> Report:
     if any(value.startswith("[") for value in hypotheses["exact"].values()):
         for claim in claims:
             report.add("not covered", f"{claim['about']}: {claim['kind']}", "the hypotheses are a box of machines")
+        return report
+    if "helpers" in hypotheses:
+        for claim in claims:
+            report.add("not covered", f"{claim['about']}: {claim['kind']}", "along a term of the machine's file")
         return report
     exact = exact_numbers(hypotheses)
     stated = {name: Exact.read(value) for name, value in hypotheses["exact"].items()}
@@ -2229,28 +2234,22 @@ def check_along(document: dict, exact: dict[str, Exact], report: Report) -> None
 
 MOST_FLIGHTS = 300
 MOST_PARTS = 600  # of cells
-KICKS = (
-    r"Of kicks out of levitation, seen in the fixed frame, with velocities in the disc up to (.+), the share share_proven of the area returns to "
-    r"levitation with at most so many impacts, among them every kick slower than the lower end of speed\."
-)
-ALL_KICKS = r"All kicks out of levitation, seen in the fixed frame, with velocities in the disc up to (.+), return to levitation with at most (\d+) impacts\."
+MOST_LOST, MOST_BOUNCES = 30, 20  # of refuted cells
 
 
-def leaves_of(letters: str) -> list[tuple[str, Fraction, Fraction, Fraction, Fraction]]:
-    """The cells of a tree: letter, speeds as shares of the largest, angles as shares of a turn."""
-    found, stack = [], [(Fraction(0), Fraction(1), Fraction(0), Fraction(1))]
+def leaves_of(letters: str, parameters: int = 0) -> list[tuple]:
+    """The cells of a tree: letter, both ends of speeds as shares of the largest, of angles as shares of a turn, of parameters as shares."""
+    found, stack = [], [(Fraction(0), Fraction(1)) * (2 + parameters)]
     for letter in letters:
         if not stack:
             raise RefusedError("the tree of cells has letters left over")
-        low, high, first, last = stack.pop()
-        if letter == "v":
-            cut = (low + high) / 2
-            stack += [(cut, high, first, last), (low, cut, first, last)]
-        elif letter == "a":
-            cut = (first + last) / 2
-            stack += [(low, high, cut, last), (low, high, first, cut)]
+        ends = stack.pop()
+        place = 2 * "vapqu"[: 2 + parameters].find(letter)
+        if place >= 0:
+            cut = (ends[place] + ends[place + 1]) / 2
+            stack += [(*ends[:place], cut, *ends[place + 1 :]), (*ends[: place + 1], cut, *ends[place + 2 :])]
         elif re.fullmatch("[0-9A-Zb-uw-z]", letter):
-            found.append((letter, low, high, first, last))
+            found.append((letter, *ends))
         else:
             raise RefusedError("the tree of cells has a letter that is not known")
     if stack:
@@ -2263,10 +2262,38 @@ def impacts_of(letter: str) -> int | None:
     return int(letter, 36) if letter.isdigit() or letter.isupper() else None
 
 
-def impacts_of_kick(m: Machine, speed: arb, angle: arb, most: int) -> int | None:
-    """How many impacts a kick has until no flight reaches the wall; None where this is not decided."""
+def kicked(m: Machine, speed: arb, direction: Z) -> tuple[Z, Z]:
+    """Deviation and velocity after a kick."""
+    return ZERO, direction * speed
+
+
+def stepped(m: Machine, change: arb, direction: Z) -> tuple[Z, Z]:
+    """Deviation and velocity after the eccentricity has changed: before, the rotor levitated elsewhere."""
+    return direction * (change / m.b.norm().sqrt()), ZERO
+
+
+def shaken(lasts: arb):
+    """The same after a half-sine push of a peak, of this duration."""
+
+    def start(m: Machine, peak: arb, direction: Z) -> tuple[Z, Z]:
+        # x'' + gamma x' + omega^2 x = sin(nu t): the part that goes on, less free motion with its place and rate at the start.
+        nu = arb.pi() / lasts
+        stiff, drag = m.omega2 - nu * nu, m.gamma * nu
+        size = stiff * stiff + drag * drag
+        at, rate = -drag / size, nu * stiff / size
+        u, v = Z(-at), Z(-rate) + Z(at).turned()
+        u, v = m.fly(u, v, lasts)
+        place, speed = turn(lasts) * u, turn(lasts) * (v + u.turned())  # in the fixed frame, real
+        place, speed = (place.re - at) * peak, (speed.re - rate) * peak
+        back = turn(-lasts)
+        return direction * back * place, direction * back * Z(speed, -place)
+
+    return start
+
+
+def impacts_after(m: Machine, u: Z, v: Z, most: int) -> int | None:
+    """How many impacts there are until no flight reaches the wall; None where this is not decided."""
     far = m.far2.sqrt()
-    u, v = ZERO, turn(angle) * speed
     room = m.omega2 * (1 - far) * (1 - far)
     for count in range(most + 2):
         start, skip = arb(0), 0 if count == 0 else 1
@@ -2322,8 +2349,8 @@ def next_zero(height, start: arb, skip: int) -> tuple[arb, bool] | None:
     return None
 
 
-def kicks_followed(m: Machine, scaled: Exact, cells_of: list) -> int:
-    """How many kicks in the middle of cells are seen to return; one that has more impacts than its cell may have is refused."""
+def kicks_followed(m: Machine, scaled: Exact, cells_of: list, start) -> int:
+    """How many in the middle of cells are seen to return; one that has more impacts than its cell may have is refused."""
     closed = [cell for cell in cells_of if impacts_of(cell[0]) is not None]
     closed.sort(key=lambda cell: (cell[1] ** 2 - cell[2] ** 2) * (cell[4] - cell[3]))
     flown = 0
@@ -2331,12 +2358,31 @@ def kicks_followed(m: Machine, scaled: Exact, cells_of: list) -> int:
         bound = impacts_of(letter) or 0
         speed, angle = (scaled * Exact((low + high) / 2)).ball(), 2 * arb.pi() * ball((first + last) / 2)
         try:
-            found = impacts_of_kick(m, speed, angle, bound)
+            found = impacts_after(m, *start(m, speed, turn(angle)), bound)
         except RefusedError:
             found = None
         flown += found is not None
         if found is not None and found > bound:
-            raise RefusedError(f"the kick in the middle of a cell has more than {bound} impacts")
+            raise RefusedError(f"the one in the middle of a cell has more than {bound} impacts")
+    return flown
+
+
+def lost_followed(m: Machine, scaled: Exact, cells_of: list, start) -> int:
+    """How many in the middle of refuted cells are seen to strike on; one that returns is refused."""
+    lost = sorted(
+        (cell for cell in cells_of if cell[0] == "r"),
+        key=lambda cell: (cell[1] ** 2 - cell[2] ** 2) * (cell[4] - cell[3]),
+    )
+    flown = 0
+    for _, low, high, first, last in lost[:MOST_LOST]:
+        size, angle = (scaled * Exact((low + high) / 2)).ball(), 2 * arb.pi() * ball((first + last) / 2)
+        try:
+            found = impacts_after(m, *start(m, size, turn(angle)), MOST_BOUNCES)
+        except RefusedError:
+            found = None
+        flown += found is not None
+        if found is not None and found <= MOST_BOUNCES:
+            raise RefusedError(f"the one in the middle of a refuted cell returns after {found} impacts")
     return flown
 
 
@@ -2609,61 +2655,336 @@ def share_followed(m: Machine, scaled: Exact, cells_of: list) -> Fraction:
     return shown
 
 
+class Kind(NamedTuple):
+    """What a theorem about discs is about: names, statements up to the largest size, and dimensions."""
+
+    option: str
+    size: str
+    told: str
+    smaller: str
+    units: tuple[str, ...]
+
+
+DISCS = {
+    "kicks": Kind(
+        "kicks_up_to",
+        "speed",
+        "kicks out of levitation, seen in the fixed frame, with velocities in the disc up to",
+        "kick slower than the lower end of speed",
+        ("m/s",),
+    ),
+    "shocks": Kind(
+        "shocks_up_to",
+        "peak",
+        "half-sine shocks of the base at levitation, with peak, in any direction, and duration up to and of",
+        "shock with a peak below the lower end of peak",
+        ("m/s^2",),
+    ),
+    "unbalance steps": Kind(
+        "unbalance_up_to",
+        "change",
+        "steps to the unbalance of the machine, out of levitation with another one, with changes in the disc up to",
+        "step by less than the lower end of change",
+        ("m", "kg m"),
+    ),
+}
+
+
+def disc_of(kind: Kind, text: str, hypotheses: dict) -> tuple[Exact, Exact, object]:
+    """The largest size in SI units and without dimension, and how a size becomes a start."""
+    size, _, lasts = text.partition(",")
+    physical = hypotheses["table"] == "machine"
+    si = si_values(hypotheses) if physical else {}
+    scale = {
+        "m/s": ("clearance", "speed"),
+        "m/s^2": ("clearance", "speed", "speed"),
+        "m": ("clearance",),
+        "kg m": ("clearance", "mass"),
+    }
+    units = kind.units if physical else ("",)
+    unit = units[-1]
+    for other in units[:-1]:
+        try:
+            quantity(size.strip(), other)
+        except RefusedError:
+            continue
+        unit = other
+    size, factor = size.strip(), Exact(1)
+    if unit == "m/s^2" and re.fullmatch(r".*[\d ]g", size):
+        size, factor = size[:-1].strip() + " m/s^2", Exact("9.80665")
+    largest = quantity(size, unit) * factor
+    scaled = largest
+    for name in scale.get(unit, ()):
+        scaled = scaled / si[name]
+    if kind.option == "shocks_up_to":
+        duration = quantity(lasts.strip(), "s" if physical else "")
+        start = shaken((duration * si["speed"] if physical else duration).ball())
+    else:
+        start = kicked if kind.option == "kicks_up_to" else stepped
+    return largest, scaled, start
+
+
+def areas(cells_of: list) -> dict[str, Fraction]:
+    """The shares of the disc whose cells are proven to return, refuted and open."""
+    area = dict.fromkeys(("proven", "refuted", "open"), Fraction(0))
+    for letter, low, high, first, last in cells_of:
+        known = "proven" if impacts_of(letter) is not None else "refuted" if letter == "r" else "open"
+        area[known] += (high * high - low * low) * (last - first)
+    return area
+
+
 def check_kicks(document: dict, exact: dict[str, Exact], report: Report) -> None:
-    """The shares follow from the cells, and in the middle of each of the largest cells one kick is followed."""
+    """The shares follow from the cells, and in the middle of each of the largest cells one is followed."""
     options, hypotheses, m = document["options"], document["hypotheses"], Machine.of(exact)
+    about, kind = document["theorem"], DISCS[document["theorem"]]
     letters = document["evidence"].get("cells") if isinstance(document["evidence"], dict) else None
     if not isinstance(letters, str):
         raise RefusedError("there is no tree of cells")
     cells_of = leaves_of(letters)
-    largest = quantity(options["kicks_up_to"], "m/s" if hypotheses["table"] == "machine" else "")
-    scaled = largest
-    if hypotheses["table"] == "machine":
-        si = si_values(hypotheses)
-        scaled = largest / (si["clearance"] * si["speed"])
-    area = {True: Fraction(0), False: Fraction(0)}
-    for letter, low, high, first, last in cells_of:
-        area[impacts_of(letter) is not None] += (high * high - low * low) * (last - first)
+    largest, scaled, start = disc_of(kind, options[kind.option], hypotheses)
+    area = areas(cells_of)
     safe = min((low for letter, low, *_ in cells_of if impacts_of(letter) is None), default=Fraction(1))
     most = max((impacts_of(letter) or 0 for letter, *_ in cells_of), default=0)
     numbers = {
-        "speed": (scaled * Exact(safe)).ball(),
-        "share_proven": area[True],
-        "share_refuted": Fraction(0),
-        "share_open": area[False],
+        kind.size: (scaled * Exact(safe)).ball(),
+        "share_proven": area["proven"],
+        "share_refuted": area["refuted"],
+        "share_open": area["open"],
         "impacts": Fraction(most),
     }
     if hypotheses["table"] == "machine":
-        numbers["speed_si"] = largest.rational * safe
+        numbers[f"{kind.size}_si"] = largest.rational * safe
+    told = re.escape(f"{kind.told} {options[kind.option]}")
+    patterns = {
+        "recover": rf"Of {told}, the share share_proven of the area returns to levitation with at most so many impacts, among them every {kind.smaller}\.",
+        "all recover": rf"All {told}, return to levitation with at most (\d+) impacts\.",
+        "do not recover": rf"Of {told}, the share share_refuted of the area never returns to levitation: after bounces the rotor stays on the wall and "
+        r"decays to the synchronous rub of the larger normal force\.",
+    }
 
     def decide(claim: dict) -> str:
-        pattern = {"recover": KICKS, "all recover": ALL_KICKS}.get(claim["kind"]) if claim["about"] == "kicks" else None
+        pattern = patterns.get(claim["kind"]) if claim["about"] == about else None
         if pattern is None:
             return "not covered|a claim of a kind that this program does not know"
         match = re.fullmatch(pattern, claim["statement"])
-        if not match or match[1] != options["kicks_up_to"]:
+        if not match:
             raise RefusedError("its statement is not known to this program")
-        if claim["kind"] == "all recover" and (claim["status"] == "proven") != (
-            area[False] == 0 and int(match[2]) >= most
-        ):
-            raise RefusedError("it does not follow from the cells")
+        if claim["kind"] == "all recover":
+            stands = "refuted" if area["refuted"] else "undecided" if area["open"] else "proven"
+            if claim["status"] != stands or (stands == "proven" and int(match[1]) < most):
+                raise RefusedError("it does not follow from the cells")
         if claim["status"] == "undecided":
             return "claims nothing"
+        lost = f"{lost_followed(m, scaled, cells_of, start)} in the middle of refuted cells strike on"
+        if claim["kind"] == "do not recover":
+            if not area["refuted"]:
+                raise RefusedError("it does not follow from the cells")
+            judge(claim, Fact(claim["statement"], True, {"share_refuted": area["refuted"]}))
+            return f"not covered|its share follows from the cells; {lost}"
+        if claim["status"] == "refuted":
+            return f"not covered|there are refuted cells; {lost}"
         judge(claim, Fact(claim["statement"], True, numbers if claim["kind"] == "recover" else {}))
-        flown = kicks_followed(m, scaled, cells_of)
+        flown = kicks_followed(m, scaled, cells_of, start)
+        if about != "kicks":
+            return f"not covered|its shares follow from the cells; {flown} in the middle of cells return"
         shown = share_followed(m, scaled, cells_of)
-        if shown == area[True]:
+        if shown == area["proven"]:
             return "checked"
         return f"not covered|its shares follow from the cells; {flown} kicks in the middle of cells return, and all kicks of {float(shown):.6f} of the disc"
 
     report.each(document["claims"], decide)
 
 
+BOX_KICKS = (
+    r"Of kicks out of levitation, seen in the fixed frame, with velocities in the disc up to (.+), and of the values (.+), area of the disc times widths of the "
+    r"intervals, the share share_proven returns to levitation with at most so many impacts, among them, for all these values, every kick slower than the "
+    r"lower end of speed\."
+)
+KICKS_TOLD = r"all kicks out of levitation, seen in the fixed frame, with velocities in the disc up to (.+), return to levitation with at most (\d+) impacts\."
+SLOWER = r"every kick out of levitation, seen in the fixed frame, slower than the lower end of speed returns to levitation with at most (\d+) impacts\."
+
+
+class Box:
+    """Some parameters of a machine, each in an interval, and the cells of kicks and of these."""
+
+    def __init__(self, document: dict, exact: dict[str, Exact]) -> None:
+        options, self.hypotheses = document["options"], document["hypotheses"]
+        self.exact, self.si = exact, self.hypotheses["table"] == "machine"
+        self.entries = options["box"]
+        names = [name for name, *_ in self.entries]
+        known = {**dict.fromkeys(DIMENSIONLESS, ""), **(MACHINE if self.si else {})}
+        if not 1 <= len(names) <= 3 or len(set(names)) < len(names):
+            raise RefusedError("its box has no parameter, too many, or one twice")
+        if any(name not in known for name in names) or (self.si and self.hypotheses["settings"]):
+            raise RefusedError("not covered|along such a parameter")
+        if {"phi", "unbalance_phase"} & set(names):
+            raise RefusedError("its box has a parameter that changes nothing")
+        self.ends = [[quantity(end, known[name]) for end in ends] for name, *ends in self.entries]
+        if any(low.power != high.power or low.rational > high.rational for low, high in self.ends):
+            raise RefusedError("an interval of its box ends before it begins")
+        self.largest = quantity(options["kicks_up_to"], "m/s" if self.si else "")
+        self.cells = leaves_of(document["evidence"]["cells"], len(names))
+
+    def width(self, cell: tuple) -> Fraction:
+        """The share of the box that a cell has."""
+        total = Fraction(1)
+        for low, high in zip(cell[5::2], cell[6::2], strict=True):
+            total *= high - low
+        return total
+
+    def area(self, closed: bool) -> Fraction:
+        """The share of disc and box that is proven, or open."""
+        chosen = (cell for cell in self.cells if (impacts_of(cell[0]) is not None) == closed)
+        return sum(((c[2] ** 2 - c[1] ** 2) * (c[4] - c[3]) * self.width(c) for c in chosen), Fraction(0))
+
+    def at(self, shares: list[Fraction]) -> tuple[Machine, arb]:
+        """A machine of the box, and the largest speed for it."""
+        values = {
+            name: (low.rational + (high.rational - low.rational) * share, low.power or high.power)
+            for (name, *_), (low, high), share in zip(self.entries, self.ends, shares, strict=True)
+        }
+        moved = {name: Exact(*value) for name, value in values.items()}
+        hypotheses = {key: dict(value) if isinstance(value, dict) else value for key, value in self.hypotheses.items()}
+        if not self.si:
+            exact = {**self.exact, **{name: value for name, value in moved.items() if name != "omega"}}
+            if "omega" in moved:
+                exact["omega_squared"] = moved["omega"] * moved["omega"]
+            return Machine.of(exact), self.largest.ball()
+        v = {"unbalance_phase": Exact(0), **si_values(hypotheses), **{k: x for k, x in moved.items() if k in MACHINE}}
+        momentum = v["mass"] * v["speed"]
+        exact = {
+            "gamma": v["damping"] / momentum,
+            "omega_squared": v["stiffness"] / (momentum * v["speed"]),
+            "rho": v["eccentricity"] / v["clearance"],
+            "mu": v["friction"],
+            "d": v["restitution"],
+            "radius_ratio": v["rotor_radius"] / v["clearance"],
+            "phi": v["unbalance_phase"],
+        } | {k: x for k, x in moved.items() if k in DIMENSIONLESS and k != "omega"}
+        if "omega" in moved:
+            exact["omega_squared"] = moved["omega"] * moved["omega"]
+        return Machine.of(exact), (self.largest / (v["clearance"] * v["speed"])).ball()
+
+    def flown(self) -> int:
+        """How many kicks, in the middle of cells and of their machines, are seen to return with at most as many impacts as their cells may have."""
+        closed = [cell for cell in self.cells if impacts_of(cell[0]) is not None]
+        closed.sort(key=lambda c: (c[1] ** 2 - c[2] ** 2) * (c[4] - c[3]) * self.width(c))
+        count = 0
+        for letter, low, high, first, last, *ends in closed[:MOST_FLIGHTS]:
+            bound = impacts_of(letter) or 0
+            m, largest = self.at([(a + b) / 2 for a, b in zip(ends[::2], ends[1::2], strict=True)])
+            try:
+                direction = turn(2 * arb.pi() * ball((first + last) / 2))
+                found = impacts_after(m, *kicked(m, largest * ball((low + high) / 2), direction), bound)
+            except RefusedError:
+                found = None
+            if found is not None and found > bound:
+                raise RefusedError(f"the kick in the middle of a cell has more than {bound} impacts")
+            count += found is not None
+        return count
+
+    def overlapping(self, intervals: list[tuple[Fraction, Fraction]]) -> list[tuple]:
+        """Cells that share more than an end with intervals of the first parameter, given in its SI unit."""
+        low, high = (end.rational for end in self.ends[0])
+        return [
+            cell
+            for cell in self.cells
+            if any(low + (high - low) * cell[5] < b and a < low + (high - low) * cell[6] for a, b in intervals)
+        ]
+
+
+def intervals_of(text: str, name: str) -> list[tuple[Fraction, Fraction]]:
+    """Intervals of a parameter in a statement."""
+    found = []
+    for part in text.split(" or "):
+        match = re.fullmatch(rf"{re.escape(name)} in \[(\S+), (\S+)\](?: .+)?", part)
+        if not match:
+            raise RefusedError("an interval of a statement is not known to this program")
+        found.append((Fraction(match[1]), Fraction(match[2])))
+    return found
+
+
+def check_box_kicks(document: dict, exact: dict[str, Exact], report: Report) -> None:
+    """The shares, intervals and speeds follow from the cells, and in the middle of each of the largest one kick is followed."""
+    try:
+        box, text = Box(document, exact), document["options"]["kicks_up_to"]
+    except RefusedError as problem:
+        verdict, _, why = str(problem).partition("|")
+        if not why:
+            raise
+        report.each(document["claims"], lambda claim: f"{verdict}|{why}")
+        return
+    words = " and ".join(f"{low} <= {name} <= {high}" for name, low, high in box.entries)
+    flown = box.flown()
+    why = f"not covered|it follows from the cells; {flown} kicks in the middle of cells return"
+
+    def agrees(cells_of: list[tuple], slower: Fraction, most: str) -> None:
+        """All these cells, as far as they hold slower kicks, are closed with at most so many impacts."""
+        for cell in cells_of:
+            impacts = impacts_of(cell[0])
+            if cell[1] < slower and (impacts is None or impacts > int(most)):
+                raise RefusedError("it does not follow from the cells")
+
+    def decide(claim: dict) -> str:
+        statement, kind, proven = claim["statement"], claim["kind"], claim["status"] == "proven"
+        if kind == "recover" and claim["about"] == "kicks":
+            match = re.fullmatch(BOX_KICKS, statement)
+            if not match or (match[1], match[2]) != (text, words):
+                raise RefusedError("its statement is not known to this program")
+            safe = min((cell[1] for cell in box.cells if impacts_of(cell[0]) is None), default=Fraction(1))
+            most = max((impacts_of(cell[0]) or 0 for cell in box.cells), default=0)
+            wanted = {
+                "share_proven": box.area(True),
+                "share_refuted": Fraction(0),
+                "share_open": box.area(False),
+                "impacts": Fraction(most),
+            }
+            wanted |= {"speed_si": box.largest.rational * safe} if box.si else {}
+            stated = numbers_of(claim)
+            for name, number in wanted.items():
+                holds(stated[name], number)
+            return why if proven else "claims nothing"
+        if not proven:
+            return "claims nothing"
+        match = re.fullmatch(rf"For all (.+?)[,:] {KICKS_TOLD}", statement)
+        if match and match[2] == text and match[1] == words:
+            agrees(box.cells, Fraction(1), match[3])
+            return why
+        slow = re.fullmatch(rf"For all (.+): {SLOWER}", statement)
+        if (
+            len(box.entries) > 1
+            or not (slow or (match and match[2] == text))
+            or box.ends[0][0].power
+            or box.ends[0][1].power
+        ):
+            return "not covered|a claim of a kind that this program does not know"
+        where = intervals_of((slow or match)[1], box.entries[0][0])
+        if slow:
+            name = "speed_si" if box.si else "speed"
+            speed = numbers_of(claim)[name][0] / box.largest.rational
+            agrees(box.overlapping(where), speed, slow[2])
+        else:
+            agrees(box.overlapping(where), Fraction(1), match[3])
+        return why
+
+    report.each(document["claims"], decide)
+
+
+def check_states(document: dict, exact: dict[str, Exact], report: Report) -> None:
+    """All states up to a speed are shown by forms, which this program does not know."""
+    report.each(
+        document["claims"],
+        lambda claim: "claims nothing" if claim["status"] == "undecided" else "not covered|all states up to a speed",
+    )
+
+
 THEOREMS = {
+    "states": check_states,
     "single-impact orbits": check_machine,
     "orbits of several impacts": check_machine,
     "along a parameter": check_along,
-    "kicks": check_kicks,
+    **dict.fromkeys(DISCS, check_kicks),
+    "kicks of a box of machines": check_box_kicks,
 }
 
 

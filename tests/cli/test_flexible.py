@@ -164,7 +164,7 @@ def test_an_unstable_levitation_is_one_line(carom):
         "simulate", MACHINE, "--kick", "5 mm/s", "--until", "20 ms", "--set", "proportional=1000 A/m"
     )
     assert (code, out, err.count("\n")) == (2, "", 1)
-    assert err.startswith("carom: levitation = unstable: a whirl of ")
+    assert err.startswith("carom: levitation = unstable: a displacement to one side grows")
 
 
 @pytest.mark.parametrize("settings", [(), ("--set", "gravity=0")])

@@ -94,3 +94,27 @@ def test_bearings_without_gains_are_assumed_and_told(folder, capsys, monkeypatch
         (folder / "machine.toml").write_text(text, encoding="utf-8")
         (bearing,) = cm.rotors.load_machine(folder / "machine.toml").bearings
         assert bearing.ki * bearing.controller.proportional + bearing.ks > 1e5
+
+
+def test_seals_and_bearings_that_act_differently_in_two_directions_are_taken_over(folder, capsys, monkeypatch):
+    np.savez("rotor.npz", **ARRAYS)
+    numbers = {"kxx": 2e6, "kxy": 1e5, "kyx": -2e5, "kyy": 3e6, "cxx": 300.0, "cxy": 0.0, "cyx": 0.0, "cyy": 200.0}
+    usual = {"stiffness": 2e6, "damping": 300.0, "coefficients": numbers}
+    magnet = {"node": 3, "tag": "AMB", "kind": "MagneticBearingElement", "ki": 50.0, "ks": -1e5}
+    film = {"node": 5, "tag": "Film", "kind": "BearingElement", "alike": False, **usual}
+    seal = {"node": 2, "tag": "Seal", "kind": "SealElement", "alike": False, **usual}
+    rotor, _ = ross_import._of_matrices(folder / "rotor.npz")
+    for bearings, held, nodes in (
+        ((magnet, film, seal), [3], [5, 2]),
+        ((film, {**film, "node": 0}), [], [5, 0]),
+        ((seal,), [0, len(rotor.nodes) - 1], [2]),
+    ):
+        found = ross_import.ImportedRotor(rotor, False, bearings, (), 300.0)
+        monkeypatch.setattr("carom.rotors.ross_import.import_rotor", lambda *_, found=found: found)
+        assert main(["import-rotor", "model.py", "-o", "rotor.npz", "--python", sys.executable]) == 0
+        text = capsys.readouterr().out
+        (folder / "machine.toml").write_text(text, encoding="utf-8")
+        machine = cm.rotors.load_machine(folder / "machine.toml")
+        assert [each.node for each in machine.bearings] == held
+        assert [each.node for each in machine.supports] == nodes
+        assert all(getattr(machine.supports[0], name) == value for name, value in numbers.items())

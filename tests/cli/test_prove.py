@@ -40,11 +40,18 @@ def test_json_is_the_certificate(capsys, tmp_path):
         ([PAPER, "--along", "gamma", "--from", "[0.1, 0.2]", "--to", "0.3"], "must be one number"),
         ([PAPER, "--check", "proof.json"], "must stand alone"),
         (["--check", "proof.json", "--kicks-up-to", "1"], "must stand alone"),
-        ([PAPER, "--time-limit", "3 s"], "is needed by --most-impacts and --time-limit"),
+        ([PAPER, "--time-limit", "3 s"], "is needed by --most-impacts, and by --time-limit without --along"),
         ([PAPER, "--kicks-up-to", "0.2", "--impacts", "2"], "cannot be combined"),
         ([PAPER, "--kicks-up-to", "0.2", "--most-impacts", "36"], "most_impacts"),
         ([PAPER, "--kicks-up-to", "0.2", "--time-limit", "soon"], "time_limit"),
         ([SPINDLE, "--kicks-up-to", "110"], "this has no unit: write 110 m/s"),
+        ([PAPER, "--states-up-to", "0.2", "--impacts", "2"], "cannot be combined"),
+        ([PAPER, "--states-up-to", "fast"], "states_up_to"),
+        ([SPINDLE, "--states-up-to", "110"], "this has no unit: write 110 m/s"),
+        ([SPINDLE, "--shocks-up-to", "5 g"], "must be the largest peak and the duration"),
+        ([SPINDLE, "--unbalance-up-to", "5"], "unbalance_up_to = 5"),
+        ([SPINDLE, "--kicks-up-to", "1 mm/s", "--shocks-up-to", "5 g, 1 ms"], "cannot be combined"),
+        ([SPINDLE, "--most-impacts", "2"], "is needed by --most-impacts"),
         (["--check", "absent.json"], "cannot be read"),
         (["absent.toml"], "there is no such file"),
         ([PAPER, "--set", "stiffness=1"], "unknown name in the settings; did you mean omega?"),
@@ -93,6 +100,27 @@ def test_other_proofs_have_no_figure(capsys, tmp_path):
     assert "only for a proof of kicks" in capsys.readouterr().err
 
 
+def test_all_states_are_proven_and_verified(capsys, tmp_path):
+    assert main(["prove", SPINDLE, "--states-up-to", "100 mm/s", "--out", str(tmp_path)]) == 0
+    assert "undecided" not in capsys.readouterr().out
+    assert main(["prove", "--check", str(tmp_path / "proof.json"), "--json"]) == 0
+    recover, lost, whole = json.loads(capsys.readouterr().out)["claims"]
+    assert recover["enclosures"]["speed_si"] == ["0.1", "0.1"]
+    assert "runs away to rolling" in lost["statement"]
+    assert whole["status"] == "proven"
+
+
+@pytest.mark.parametrize(
+    ("option", "largest", "about"),
+    [("--shocks-up-to", "50 g, 0.2 ms", "shocks"), ("--unbalance-up-to", "30 um", "unbalance steps")],
+)
+def test_other_disturbances_are_proven(capsys, option, largest, about):
+    assert main(["prove", SPINDLE, option, largest, "--json"]) == 0
+    recover, everything = json.loads(capsys.readouterr().out)["claims"]
+    assert (recover["about"], recover["kind"], everything["status"]) == (about, "recover", "proven")
+    assert recover["enclosures"]["impacts"] == ["0", "0"]
+
+
 def test_changed_certificate_is_refused(capsys, tmp_path):
     assert main(["prove", PAPER, "--out", str(tmp_path)]) == 0
     path = tmp_path / "proof.json"
@@ -117,3 +145,63 @@ def test_value_of_the_parameter_along_which_is_proven_is_not_assumed(capsys):
     printed = capsys.readouterr().out
     assert "gamma from 0.1 to 0.10001" in printed
     assert "gamma = 0.3" not in printed
+
+
+def test_kicks_of_a_box_of_machines_are_proven_and_verified(capsys, tmp_path):
+    box = [
+        "--along",
+        "damping",
+        "--from",
+        "300 N s/m",
+        "--to",
+        "400 N s/m",
+        "--along",
+        "friction",
+        "--from",
+        "0.1",
+        "--to",
+        "0.3",
+    ]
+    kicks = ["prove", SPINDLE, "--kicks-up-to", "111 mm/s", "--most-impacts", "1", *box]
+    assert main([*kicks, "--out", str(tmp_path)]) == 0
+    printed = " ".join(capsys.readouterr().out.split())
+    assert (
+        "For all 300 N s/m <= damping <= 400 N s/m and 0.1 <= friction <= 0.3, all kicks out of levitation" in printed
+    )
+    assert "damping from 300 N s/m to 400 N s/m, friction from 0.1 to 0.3." in printed
+    assert "350 N s/m" not in printed
+
+    assert main(["prove", "--check", str(tmp_path / "proof.json")]) == 0
+    assert "Verified from the certificate alone" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["--along", "damping", "--from", "300 N s/m"], "needs --from and --to"),
+        (["--along", "damping", "--from", "300", "--to", "400 N s/m"], "has no unit"),
+        (["--along", "derivative_gain", "--from", "2", "--to", "3 A s/m"], "has no unit"),
+        (["--along", "mu", "--from", "0.1", "--to", "0.2"] * 2, "names each parameter once"),
+    ],
+)
+def test_bad_boxes_are_one_line(capsys, arguments, words):
+    assert main(["prove", SPINDLE, "--kicks-up-to", "111 mm/s", *arguments]) == 2
+    error = capsys.readouterr().err
+    assert words in error
+    assert error.count("\n") == 1
+
+
+def test_a_box_is_for_kicks_only(capsys):
+    box = ["--along", "mu", "--from", "0.1", "--to", "0.2", "--along", "d", "--from", "0.5", "--to", "0.6"]
+    assert main(["prove", SPINDLE, *box]) == 2
+    assert "must be one parameter" in capsys.readouterr().err
+
+
+def test_time_that_is_up_leaves_the_rest_of_an_interval_open(capsys):
+    assert (
+        main(["prove", PAPER, "--along", "gamma", "--from", "0.09", "--to", "0.12", "--time-limit", "1e-3", "--json"])
+        == 0
+    )
+    claims = {f"{claim['about']} {claim['kind']}": claim for claim in json.loads(capsys.readouterr().out)["claims"]}
+    assert "the search ended before" in claims["machine all-single-impact-orbits"]["reason"]
+    assert claims["kick harmless"]["status"] == "proven"

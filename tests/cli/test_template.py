@@ -10,6 +10,9 @@ import carom as cm
 from carom.cli.app import BAD_INPUT, main
 from carom.rotors.machine_file import PART_ENTRIES, ROTOR_ENTRIES
 
+SUPPORT = ("node", "kx", "ky", "cx", "cy")
+"""How entries of a table begin that is left out as a whole."""
+
 
 @pytest.fixture
 def text(capsys):
@@ -50,6 +53,15 @@ def test_what_stands_beside_as_another_way_works(tmp_path, text, block):
     assert cm.load(path).parameters.system.decay > 0.0
 
 
+def test_the_table_of_a_support_loads(tmp_path, text):
+    path = tmp_path / "mine.toml"
+    block = text[text.index("# [[support]]") :].partition("\n\n")[0]
+    path.write_text(text.replace(block, re.sub("^# ", "", block, flags=re.MULTILINE)), encoding="utf-8")
+    (support,) = cm.rotors.load_machine(path).supports
+    assert support.kxx == 2e4
+    assert all(getattr(support, name) for name in PART_ENTRIES["support"] if name != "node")
+
+
 def test_every_line_that_may_be_used_loads(tmp_path, text):
     """Entries that go with all others, by taking their mark away one by one."""
     path = tmp_path / "mine.toml"
@@ -68,6 +80,7 @@ def test_every_line_that_may_be_used_loads(tmp_path, text):
         "exponent",
         "longest",
         "accuracy",
+        *SUPPORT,
     )
     parts = text.partition("# [survive]")[0]
     lines = [each for each in re.findall(r"^# (\w+ = .*)$", parts, flags=re.MULTILINE) if not each.startswith(others)]

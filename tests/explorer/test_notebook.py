@@ -6,13 +6,16 @@ import base64
 import queue
 import sys
 import time
+from contextlib import contextmanager
 
 import numpy as np
 import pytest
 from browsing import BROWSER
+from flexible_pages import opened
 from linear_rotors import tilting
 
 import carom
+from carom.explorer.computing import flexible_kicks
 from carom.explorer.notebook import encoded
 from carom.outcome import CaromError, InputError
 
@@ -42,15 +45,21 @@ HOST = """
 """
 
 
-@pytest.fixture
-def figure():
-    """A figure, and what it sends."""
-    pytest.importorskip("anywidget", reason="needs the extra carom[notebook]")
-    made = carom.explorer.explore(MACHINE)
+@contextmanager
+def shown(made):
+    """A figure, which keeps what it sends."""
     made.sent = queue.Queue()
     made.send = lambda content, buffers=None: made.sent.put((content, buffers))
     yield made
     made.close()
+
+
+@pytest.fixture
+def figure():
+    """A figure, and what it sends."""
+    pytest.importorskip("anywidget", reason="needs the extra carom[notebook]")
+    with shown(carom.explorer.explore(MACHINE)) as made:
+        yield made
 
 
 def ask(figure, name, **value):
@@ -99,6 +108,24 @@ def test_without_the_extra_it_says_what_to_install(monkeypatch):
     carom.explorer.notebook._figure_class.cache_clear()
     with pytest.raises(CaromError, match=r'need anywidget; install it with: pip install "carom\[notebook\]"$'):
         carom.explorer.explore(MACHINE)
+
+
+@pytest.mark.jit_only
+def test_a_flexible_machine_is_drawn_at_each_of_its_touchdown_bearings(browser, monkeypatch):
+    pytest.importorskip("anywidget", reason="needs the extra carom[notebook]")
+    monkeypatch.setattr(flexible_kicks, "CELLS", 9)
+    monkeypatch.setattr(flexible_kicks, "TIMES", (1.0,))
+    flexible_kicks.opening_size.cache_clear()
+    with shown(carom.explorer.explore(opened("gravity=0").case)) as figure:
+        page, until = hosted(browser, figure, "background: #fff; color: #000")
+        motion = until("motion")
+        until("basin")
+        assert page.locator("#levitation").inner_text().startswith("It levitates")
+        for plane, found in enumerate(motion["planes"]):
+            assert found["words"] in page.locator(f"#motion-{plane}-words").inner_text()
+        assert motion["words"] in page.locator("#motion-0-words").inner_text()
+        assert page.problems == []
+    flexible_kicks.opening_size.cache_clear()
 
 
 def test_another_model_than_the_planar_rotor_is_refused():
@@ -155,7 +182,7 @@ PIXEL = """([id, across, up]) => {
 @pytest.mark.jit_only
 def test_a_click_on_the_picture_shows_the_motion_from_that_kick(browser, figure):
     page, until = hosted(browser, figure, "background: #fff; color: #000")
-    words = page.locator("#beside-words")
+    words = page.locator("#beside-0-words")
     assert page.locator("#sentence").inner_text() == "Loading the kernels …"
     picture = until("basin", size=120)
     told = [item.split(" ") for item in page.locator("#legend li").all_inner_texts()]
@@ -188,12 +215,12 @@ def test_a_click_on_the_picture_shows_the_motion_from_that_kick(browser, figure)
 def test_it_is_light_or_dark_as_the_notebook_is_and_stays_inside_it(browser, figure, colours, dark):
     page, until = hosted(browser, figure, colours)
     until("basin", size=120)
-    red, green, blue = page.evaluate(PIXEL, ["clearance", 0.5, 0.15])
+    red, green, blue = page.evaluate(PIXEL, ["motion-0", 0.5, 0.15])
     assert (max(red, green, blue) < 100) is dark
     assert page.evaluate("getComputedStyle(document.body).maxWidth") == "none"  # the style of the page does not leak
     assert page.evaluate("typeof window.carom_looks") == "undefined"
     page.evaluate("document.body.style.color = '#dddddd'")
     page.wait_for_timeout(100)
-    red, green, blue = page.evaluate(PIXEL, ["clearance", 0.5, 0.15])
+    red, green, blue = page.evaluate(PIXEL, ["motion-0", 0.5, 0.15])
     assert max(red, green, blue) < 100
     assert page.problems == []

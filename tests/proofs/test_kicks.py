@@ -223,7 +223,7 @@ def test_interrupted_search_goes_on_from_its_store(tmp_path, monkeypatch):
     assert 1 < found < len(proof.evidence["cells"])
     assert proof["kicks all recover"].status == "proven"
     assert prove_kicks(SPINDLE, "111 mm/s", most_impacts=1, store=place, workers=1).claims == proof.claims
-    with pytest.raises(InputError, match="another machine, speed or number"):
+    with pytest.raises(InputError, match="another machine, speed, number of impacts or box"):
         prove_kicks(SPINDLE, "112 mm/s", most_impacts=1, store=place)
     place.write_text(place.read_text().replace('"cells": "', '"cells": "v'))
     with pytest.raises(InputError, match="no complete record"):

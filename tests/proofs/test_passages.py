@@ -2,22 +2,26 @@
 
 from __future__ import annotations
 
-import cmath
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from compilation import sized
 from flint import arb
-from machines import fly, path, strike
 from scipy.optimize import brentq
+from single_flights import Single
 
-from carom.parameters import Parameters
 from carom.proofs.balls import at_precision
+from carom.proofs.boxes import box_of
 from carom.proofs.hypotheses import hypotheses_of
+from carom.proofs.lines import Numbers
+from carom.proofs.moments import FORM
 from carom.proofs.passages import Brush, LeftOpenError, Return, Strike, begin, next_event
 from carom.proofs.patches import Departure, Held, Patch
+from carom.proofs.plain_flights import PlainRotor
 from carom.proofs.rotor import Rotor
+from carom.proofs.sides import Side, responses_by
 from carom.proofs.strikes import after_brush, after_strike
 
 ROUNDING = 1e-9
@@ -35,38 +39,6 @@ def held(request):
     numbers = dict(zip(names, MACHINES[request.param], strict=True))
     with at_precision(64):
         yield Held(Rotor(hypotheses_of({**numbers, "phi": 0.0})).numbers), numbers
-
-
-class Single:
-    """One flight of a patch, in the frame in which it begins on the real axis."""
-
-    def __init__(self, numbers, state):
-        *velocity, self.psi = state
-        stiffness = complex(numbers["omega"] ** 2 - 1, numbers["gamma"])
-        self.parameters = Parameters(**numbers, phi=self.psi + cmath.phase(stiffness))
-        levitation = numbers["rho"] / abs(stiffness) * cmath.exp(1j * self.psi)
-        from_wall = len(velocity) > 1
-        self.start = 1.0 if from_wall else levitation
-        self.velocity = complex(*velocity) - 1j if from_wall else complex(velocity[0])
-
-    def at(self, time):
-        """Position and velocity in the fixed frame."""
-        place, speed = fly(self.parameters, self.start, self.velocity, time)
-        turned = cmath.exp(1j * time)
-        return place * turned, (speed + 1j * place) * turned
-
-    def height(self, time):
-        return abs(self.at(time)[0]) ** 2
-
-    def heights(self, times):
-        return abs(path(self.parameters, self.start, self.velocity, times)) ** 2
-
-    def after(self, time):
-        """``a``, ``b`` and ``ψ`` after an impact at a time."""
-        z, dz = self.at(time)
-        local = dz * (z / abs(z)).conjugate()
-        a, b = strike(self.parameters, local.real, local.imag - 1)
-        return np.array([a, b + 1, self.psi + time - cmath.phase(z)])
 
 
 def patch(random, from_wall, size):
@@ -129,7 +101,7 @@ def _after(departure, event):
     return after_brush(departure, event) if isinstance(event, Brush) and event.touches else None
 
 
-def _check(flight, event, after):
+def _check(flight, event, after, shares=None):
     end = {Return: 30.0, Strike: getattr(event, "end", 0), Brush: getattr(event, "end", 0)}[type(event)]
     times = np.linspace(1e-3, end, 400)
     heights = flight.heights(times)
@@ -149,6 +121,83 @@ def _check(flight, event, after):
     turned = float(after.centre[2])
     found[2] += 2 * math.pi * round((turned - found[2]) / (2 * math.pi))
     assert all(holds(ball, x) for ball, x in zip(after.box, found, strict=True))
+    if shares is not None:
+        # What moved it so far along each span moves it so far along that after the impact.
+        spans = np.array([[float(x) for x in span] for span in after.spans])
+        left = found - shares @ spans[: len(shares)] - [float(x) for x in after.centre]
+        others = np.abs(spans[len(shares) :]).sum(axis=0)
+        assert (np.abs(left) <= others + [float(rest) + ROUNDING for rest in after.rest]).all()
+
+
+def boxed(random, numbers, size):
+    """A box about a machine in one to three of its numbers: what flights need to know of it, and the numbers at shares of the box."""
+    names = random.choice(list(numbers), random.integers(1, 4), replace=False).tolist()
+    ends = {name: [numbers[name] * (1 - size), numbers[name] * (1 + size)] for name in names}
+    hypotheses = hypotheses_of({**numbers, "phi": 0.0})
+    box = box_of(hypotheses, [(name, *(f"double {end!r}" for end in pair)) for name, pair in ends.items()])
+    whole = [(0, 0)] * len(names)
+    held = Held(box.numbers(whole), middle=box.middle(whole), sides=box.sides(whole))
+
+    def at(shares):
+        places = zip(ends.items(), shares, strict=True)
+        return {
+            **numbers,
+            **{name: (low + high) / 2 + (high - low) / 2 * share for (name, (low, high)), share in places},
+        }
+
+    return held, at, len(names)
+
+
+def test_events_happen_to_all_flights_of_all_machines_of_a_box(held):
+    numbers, random, seen = held[1], np.random.default_rng(17), set()
+    for number in range(sized(80, 16, 800)):
+        size = 10 ** random.uniform(-4, -1.5)
+        of_box, at, count = boxed(random, numbers, size)
+        exact, _ = patch(random, bool(number % 2), size)
+        along = size * random.uniform(-1, 1, (count, len(exact.centre)))
+        bends = [[arb(0)] * len(exact.centre)] * (FORM - 2)
+        exact = replace(exact, spans=[*exact.spans, *bends, *([arb(x) for x in span] for span in along)])
+        departure = Departure(of_box, exact)
+        try:
+            event = next_event(departure, begin(departure))
+            after = _after(departure, event)
+        except LeftOpenError:
+            continue
+        seen.add(type(event))
+        spans = np.array([[float(x) for x in span] for span in exact.spans])
+        for _ in range(8):
+            shares = (
+                random.uniform(-1, 1, len(spans)) if random.random() < 0.7 else random.choice([-1.0, 1.0], len(spans))
+            )
+            rest = random.uniform(-1, 1, len(exact.rest)) * [float(x) for x in exact.rest]
+            state = [float(x) for x in exact.centre] + shares @ spans + rest
+            _check(Single(at(shares[FORM:]), state), event, after, shares)
+    assert {Return, Strike} <= seen
+
+
+@pytest.mark.parametrize("split", [-0.02, -1e-4, 0.0, 3e-4, 0.5])
+def test_responses_are_differentiated_by_damping_and_stiffness(split):
+    """Against differences, next to critical damping and away from it."""
+    gamma, step = 1.25, 1e-5
+    stiffness = gamma**2 / 4 - split
+
+    def responses(damping, stiff, time):
+        (c, dc, _), (h, dh, _) = PlainRotor(damping, stiff, 0.0).responses(time)
+        return np.array([c, h, dc, dh])
+
+    none = arb(0)
+    sides = [Side(arb(1), none, none, none, none, none), Side(none, arb(1), none, none, none, none)]
+    with at_precision(64):
+        exact = Numbers(arb(gamma), arb(stiffness), none, none, none, none)
+        for time in (0.1, 0.9, 3.0, 8.0):
+            wanted = [
+                responses(gamma + step, stiffness, time) - responses(gamma - step, stiffness, time),
+                responses(gamma, stiffness + step, time) - responses(gamma, stiffness - step, time),
+            ]
+            for found, difference in zip(responses_by(exact, sides, arb(time)), wanted, strict=True):
+                values = [float(ball.mid()) for ball in (found.place, found.push, found.place_rate, found.push_rate)]
+                # The differences have an error of step squared times third derivatives, and of rounding over the step.
+                assert values == pytest.approx(difference / (2 * step), abs=1e-7)
 
 
 def test_a_patch_across_a_graze_has_two_outcomes():

@@ -14,7 +14,7 @@ import carom as cm
 from carom.models import Jeffcott
 from carom.motions import settle
 from carom.outcome import InputError, Outcome
-from carom.proofs import check, hypotheses_of, prove_states
+from carom.proofs import check, prove_states
 from carom.proofs.arrivals import limits_of, read_forms, traps_of
 from carom.proofs.balls import at_precision
 from carom.proofs.forms import Surface
@@ -30,20 +30,21 @@ def dimensionless(text):
 
 
 CASES = {
-    # What a machine is, the largest speed, and what is found of it.
-    "spindle": ("examples/spindle.toml", "140 mm/s", "proven"),
-    "source paper, strongly damped": (dimensionless("1 0.76 3/7 0.21 0.15 0.95 400/7"), "2", "proven"),
-    "no friction": (dimensionless("0.9 1.3 0.05 0 0 0.8 3"), "3", "proven"),
-    "slip that stops": (dimensionless("0.8 1.2 0.02 1 0.4 0.5 0.3"), "0.8", "proven"),
-    "wall without rebound": (dimensionless("0.7 0.4 0.1 2 0.3 0 9"), "1", "proven"),
-    "elastic wall": (dimensionless("0.6 0.5 0.01 0 0.1 1 20"), "2", "proven"),
-    "overdamped": (dimensionless("2.5 0.4 0.2 0 0.3 0.6 5"), "3", "proven"),
+    # What a machine is, and a speed up to which all states return.
+    "spindle": ("examples/spindle.toml", "140 mm/s"),
+    "source paper, strongly damped": (dimensionless("1 0.76 3/7 0.21 0.15 0.95 400/7"), "2"),
+    "much unbalance": (dimensionless("0.6 0.76 3/7 0.21 0.15 0.95 400/7"), "1"),
+    "no friction": (dimensionless("0.9 1.3 0.05 0 0 0.8 3"), "3"),
+    "slip that stops": (dimensionless("0.8 1.2 0.02 1 0.4 0.5 0.3"), "0.8"),
+    "wall without rebound": (dimensionless("0.7 0.4 0.1 2 0.3 0 9"), "1"),
+    "elastic wall": (dimensionless("0.6 0.5 0.01 0 0.1 1 20"), "2"),
+    "overdamped": (dimensionless("2.5 0.4 0.2 0 0.3 0.6 5"), "3"),
 }
 
 
 @pytest.fixture(scope="module", params=CASES, ids=str)
 def proof(request):
-    machine, largest, _ = CASES[request.param]
+    machine, largest = CASES[request.param]
     return prove_states(machine, largest)
 
 
@@ -70,6 +71,14 @@ def test_simulated_states_return(proof):
     assert settle(rotor, *starts).recovered.all()
 
 
+def valued(form, place, velocity, circle):
+    """A form, written out anew, of positions and velocities in the fixed frame while levitation is at some places."""
+    alpha, beta, k, shift, _ = (float(value.mid()) for value in form)
+    away, rate = place - shift * circle, velocity - 1j * shift * circle
+    cross = away.conj() * rate
+    return abs(rate) ** 2 + 2 * alpha * cross.real + 2 * beta * cross.imag + k * abs(away) ** 2
+
+
 def test_forms_fall_in_flight_and_at_every_impact_in_their_trap(proof):
     """Forms written out anew; flights by a matrix exponential, impacts with any friction within the cone."""
     rng, p = np.random.default_rng(5), doubles_of(proof.hypotheses)
@@ -80,26 +89,25 @@ def test_forms_fall_in_flight_and_at_every_impact_in_their_trap(proof):
     step = expm(np.array([[0, 1], [-(p.omega**2), -p.gamma]]) * 0.01)
     number = 4000
     for trap in traps:
-        alpha, beta, k = (float(value) for value in trap.form)
-
-        def size(away, rate, alpha=alpha, beta=beta, k=k):
-            cross = away.conj() * rate
-            return abs(rate) ** 2 + 2 * alpha * cross.real + 2 * beta * cross.imag + k * abs(away) ** 2
-
-        away, rate = rng.standard_normal((2, number, 2)) @ [1, 1j]
-        later = step @ np.array([away, rate])
-        assert (size(*later) < size(away, rate)).all()
-
+        shift, core = float(trap.form.shift.mid()), float(trap.form.core(wall).mid()) ** 2
         circle = levitation * np.exp(2j * np.pi * rng.random(number))
+        away, rate = np.sqrt(float(trap.bound)) * (rng.standard_normal((2, number, 2)) @ [1, 1j])
+        later = np.exp(0.01j) * circle, *(step @ np.array([away, rate]))
+        before, after = (valued(trap.form, u + c, w + 1j * c, c) for c, u, w in ((circle, away, rate), later))
+        assert (after < before)[before > 1.01 * core].all()
+        assert float(trap.bound) > core
+        assert 0 <= shift <= 1
+
         outward = rng.random(number) ** 3 * 3 * np.sqrt(float(trap.bound))
         outward[::4] = 0
         velocity = outward + 1j * rng.standard_normal(number) * np.sqrt(float(trap.bound))
-        inside = size(1 - circle, velocity - 1j * circle) <= float(trap.bound)
+        size = valued(trap.form, 1, velocity, circle)
+        inside = size <= float(trap.bound)
         friction = p.mu * np.where(rng.random(number) < 0.5, 1, 2 * rng.random(number) - 1)
         # Lasting contact is an impact so weak that its square does not count.
         impulse = np.where(outward > 0, (1 + p.d) * outward, 1e-9)
         after = velocity - (1 + 1j * friction) * impulse
-        change = size(1 - circle, after - 1j * circle) - size(1 - circle, velocity - 1j * circle)
+        change = valued(trap.form, 1, after, circle) - size
         assert inside.sum() > number / 100
         assert (change[inside] <= 1e-12).all()  # rounding of numbers next to 1
 
@@ -113,12 +121,8 @@ def test_states_up_to_a_speed_arrive_within_its_bounds(proof):
         limits = limits_of(wall, wall.gamma * 0 + speed, read_forms(proof.evidence["forms"][2]))
     place, turning = drawn(speed, 2000, seed=int(rng.integers(100)))
     circle = levitation * np.exp(2j * np.pi * rng.random(2000))
-    away, rate = place - circle, turning + 1j * place - 1j * circle
     for limit in limits:
-        alpha, beta, k = (float(value.mid()) for value in limit.form)
-        cross = away.conj() * rate
-        size = abs(rate) ** 2 + 2 * alpha * cross.real + 2 * beta * cross.imag + k * abs(away) ** 2
-        assert (size <= float(limit.bound)).all()
+        assert (valued(limit.form, place, turning + 1j * place, circle) <= float(limit.bound)).all()
 
 
 @pytest.mark.parametrize(
@@ -156,7 +160,7 @@ def test_states_that_are_said_to_be_lost_are():
 
 @pytest.fixture(scope="module")
 def document():
-    machine, largest, _ = CASES["source paper, strongly damped"]
+    machine, largest = CASES["source paper, strongly damped"]
     return json.loads(json.dumps(prove_states(machine, largest).document()))
 
 
@@ -193,11 +197,3 @@ def test_forged_certificates_are_refused(document, change):
 def test_bad_speeds_are_refused(largest, words):
     with pytest.raises(InputError, match=words):
         prove_states(CASES["overdamped"][0], largest)
-
-
-def test_a_box_of_machines():
-    box = {**CASES["overdamped"][0], "gamma": ("2.499", "2.501"), "mu": ("0.29", "0.3")}
-    proof = prove_states(box, "2")
-
-    assert not hypotheses_of(box).exact
-    assert proof["states all recover"].status == "proven"

@@ -264,13 +264,20 @@ def test_what_cannot_be_used_is_refused_in_one_line(make, says):
 
 def test_controllers_that_do_not_hold_the_rotor_are_refused():
     weak = munich(bearings=[MagneticBearing(node, 50.0, -1e5, PID(1500.0, 0.0, 5.0, 1e-4)) for node in (3, 11)])
-    with pytest.raises(InputError, match=r"^levitation = unstable: a whirl of .* Hz grows with .* 1/s: controllers"):
+    with pytest.raises(
+        InputError,
+        match=r"^levitation = unstable: a displacement to one side grows with .* 1/s: controllers .* bearing 1: -2\.5e\+04 N/m",
+    ):
         _ = weak.model
     late = munich(
         bearings=[MagneticBearing(node, 50.0, -1e5, PID(5000.0, 0.0, 5.0, 1e-4), delay="20 ms") for node in (3, 11)]
     )
     with pytest.raises(InputError, match=r"^levitation = unstable"):
         _ = late.model
+    winding = munich(bearings=[MagneticBearing(node, 50.0, -1e5, PID(1500.0, 100.0, 5.0, 1e-4)) for node in (3, 11)])
+    assert np.isinf(winding.bearings[0].static_stiffness)
+    with pytest.raises(InputError, match=r"ki P \+ ks of bearing 1: -2\.5e\+04 N/m"):
+        _ = winding.model
 
 
 def test_damping_of_a_mode_is_asked_for():

@@ -117,7 +117,7 @@ def test_the_amplification_factor_is_that_of_the_damping_ratio():
     [(0.5, 0.4, False, False), (0.5, -0.4, True, False), (0.5j, 0.4j, False, False), (0.01, -0.5, False, True)],
 )
 def test_a_node_between_sensor_and_magnet(sensor, magnet, opposed, hardly):
-    found = Collocation(1, Whirl(1j, np.ones(2, complex)), sensor, magnet)
+    found = Collocation(1, Whirl(1j, np.ones(2, complex), np.zeros(2, complex)), sensor, magnet)
     assert (found.opposed, found.hardly) == (opposed, hardly)
 
 

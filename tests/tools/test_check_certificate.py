@@ -14,7 +14,7 @@ from pathlib import Path
 
 import pytest
 
-from carom.proofs import prove
+from carom.proofs import prove, prove_kicks, prove_states
 
 PROGRAM = Path(__file__).parents[2] / "tools" / "check_certificate.py"
 PAPER = {
@@ -150,7 +150,7 @@ def test_orbits_of_several_impacts_are_confirmed(doubled):
 def test_points_and_intervals_are_confirmed(along):
     found = report_of(along)
     assert not found.refused
-    assert not_covered(along) <= OTHERS
+    assert not_covered(along) <= OTHERS | {"levitation", "rub 1", "rub 2", "kick"}
     assert ("checked", "non-smooth-hopf: of B1,a", "") in found.lines
     assert any("birth of B1,a" in what for _, what, _ in found.lines)
 
@@ -339,3 +339,46 @@ def test_cells_of_kicks_that_are_forged_are_refused(kicks, monkeypatch):
         forged = changed(kicks, "kicks", "recover", enclosures={**claim["enclosures"], name: ["0.5", "0.6"]})
         assert refused(forged)
     assert refused(changed(kicks, "kicks", "all recover", status="proven", reason=""))
+
+
+@pytest.fixture(scope="module")
+def box():
+    """Of the spindle for all dampings within 20 %, kicks up to 111 mm/s."""
+    spindle, along = KEOGH.with_name("spindle.toml"), {"damping": ("280 N s/m", "420 N s/m")}
+    proof = prove_kicks(str(spindle), "111 mm/s", along=along, most_impacts=1, time_limit=None, workers=1)
+    return json.loads(json.dumps(proof.document()))
+
+
+def test_kicks_of_machines_of_a_box_return(box):
+    lines = {what: (verdict, why) for verdict, what, why in report_of(box).lines}
+    closed = sum(letter in "01" for letter in box["evidence"]["cells"])
+    assert lines["kicks: all recover"] == (
+        "not covered",
+        f"it follows from the cells; {closed} kicks in the middle of cells return",
+    )
+    assert refused(box) == []
+
+
+def test_boxes_of_kicks_that_are_forged_are_refused(box):
+    cells, (entry,) = box["evidence"]["cells"], box["options"]["box"]
+    for letters in (cells[:-1], f"{cells}0", cells.replace("1", "0"), cells.replace("1", "g", 1), "q00"):
+        assert refused({**box, "evidence": {"cells": letters}})
+    for entries in (
+        [["damping", "280 N s/m", "430 N s/m"]],
+        [],
+        [entry, entry],
+        [["damping", "420 N s/m", "280 N s/m"]],
+    ):
+        assert refused({**box, "options": {**box["options"], "box": entries}})
+    claim = box["claims"][0]
+    for name in ("share_proven", "share_open", "speed_si"):
+        assert refused(changed(box, "kicks", "recover", enclosures={**claim["enclosures"], name: ["0.5", "0.6"]}))
+    told = "For all damping in [280, 420] N s/m: all kicks out of levitation, seen in the fixed frame, with velocities in the disc up to 111 mm/s, return to levitation with at most {} impacts."
+    more = {**claim, "kind": "all recover outside of gaps", "enclosures": {}}
+    assert not refused({**box, "claims": [*box["claims"], {**more, "statement": told.format(1)}]})
+    assert refused({**box, "claims": [*box["claims"], {**more, "statement": told.format(0)}]})
+
+
+def test_all_states_are_not_covered():
+    states = prove_states({**PAPER, "gamma": "1"}, "1").document()
+    assert {verdict for verdict, what, _ in report_of(states).lines if "states" in what} == {"not covered"}

@@ -41,14 +41,18 @@ def prove(
         ),
     ] = 1,
     along: Annotated[
-        str | None,
-        typer.Option(metavar="NAME", help="Prove points and orbits along a parameter instead, --from A --to B."),
+        list[str] | None,
+        typer.Option(
+            metavar="NAME",
+            help="Prove points and orbits along a parameter instead, --from A --to B; with --kicks-up-to which kicks come back for all its "
+            "values, or for all of a box if all three are given two or three times.",
+        ),
     ] = None,
     start: Annotated[
-        str | None,
+        list[str] | None,
         typer.Option("--from", metavar="A", help="First value of the parameter, dimensionless or with a unit."),
     ] = None,
-    stop: Annotated[str | None, typer.Option("--to", metavar="B", help="Last value of the parameter.")] = None,
+    stop: Annotated[list[str] | None, typer.Option("--to", metavar="B", help="Last value of the parameter.")] = None,
     kicks_up_to: Annotated[
         str | None,
         typer.Option(metavar="SPEED", help="Prove instead which kicks out of levitation up to SPEED come back."),
@@ -75,7 +79,10 @@ def prove(
         int | None, typer.Option(metavar="N", help="Leave open what may have more than N impacts; by default 12.")
     ] = None,
     time_limit: Annotated[
-        str | None, typer.Option(metavar="T", help="End the search after T, such as '2 h'; by default 10 min.")
+        str | None,
+        typer.Option(
+            metavar="T", help="End the search after T, such as '2 h'; by default 10 min, along a parameter never."
+        ),
     ] = None,
     out: Annotated[
         str | None,
@@ -96,7 +103,12 @@ def prove(
     """
     sizes = {KICKS: kicks_up_to, SHOCKS: shocks_up_to, STEPS: unbalance_up_to, STATES: states_up_to}
     limits = {"most_impacts": most_impacts, "time_limit": time_limit}
-    ranges = {"--longest-period": longest_period, "--along": along, "--from": start, "--to": stop}
+    ranges = {
+        "--longest-period": longest_period,
+        "--along": along or None,
+        "--from": start or None,
+        "--to": stop or None,
+    }
     with progress("loading") as tell:
         check_output(out)
         part = tell.part(0.0, _DRAWING)
@@ -108,13 +120,17 @@ def prove(
         elif machine is None:
             raise InputError("MACHINE.toml", None, "give a machine file, or a certificate with --check")
         elif asked := [option for option, size in sizes.items() if size is not None]:
-            if len(asked) > 1 or impacts != 1 or any(other is not None for other in ranges.values()):
+            refused = [longest_period] if asked == [KICKS] else [*ranges.values()]
+            if len(asked) > 1 or impacts != 1 or any(other is not None for other in refused):
                 raise InputError(asked[0], shown(sizes[asked[0]]), "cannot be combined with options of other theorems")
-            proof = _prove_return(machine, asked[0], sizes[asked[0]] or "", settings or (), limits, out, part)
+            box = _intervals(along, start, stop)
+            proof = _prove_return(machine, asked[0], sizes[asked[0]] or "", settings or (), limits, box, out, part)
         else:
-            _refuse_limits(limits)
-            interval = _interval(along, start, stop)
-            proof = _prove_motions(machine, settings or (), longest_period, impacts, along, interval, part)
+            box = _intervals(along, start, stop)
+            _refuse_limits({**limits, "time_limit": None if box else time_limit})
+            if len(box) > 1:
+                raise InputError("--along", shown(list(box)), "must be one parameter, but with --kicks-up-to")
+            proof = _prove_motions(machine, settings or (), longest_period, impacts, box, time_limit, part)
         if out is not None:
             _write(proof, Path(out), None if check else machine, tell)
     if as_json:
@@ -140,7 +156,8 @@ def _checked(check: str, out: str | None, tell: Reporter) -> Proof:
 def _refuse_limits(limits: dict[str, Any]) -> None:
     """Refuse limits of a search through cells where there is none."""
     if any(limit is not None for limit in limits.values()):
-        raise InputError(KICKS, None, f"or {SHOCKS} or {STEPS} is needed by --most-impacts and --time-limit")
+        told = f"or {SHOCKS} or {STEPS} is needed by --most-impacts, and by --time-limit without --along"
+        raise InputError(KICKS, None, told)
 
 
 def _prove_motions(
@@ -148,15 +165,23 @@ def _prove_motions(
     settings: Iterable[str],
     longest_period: str | None,
     impacts: int,
-    along: str | None,
-    interval: tuple[str, str] | None,
+    box: dict[str, tuple[str, str]],
+    time_limit: str | None,
     tell: Reporter,
 ) -> Proof:
     """Prove equilibria and orbits, of one machine or along a parameter."""
     from carom.proofs import prove as prove_machine
 
+    along, interval = next(iter(box.items()), (None, None))
     return prove_machine(
-        machine, settings, longest_period=longest_period, impacts=impacts, along=along, interval=interval, progress=tell
+        machine,
+        settings,
+        longest_period=longest_period,
+        impacts=impacts,
+        along=along,
+        interval=interval,
+        time_limit=time_limit,
+        progress=tell,
     )
 
 
@@ -166,10 +191,11 @@ def _prove_return(
     largest: str,
     settings: Iterable[str],
     limits: dict[str, Any],
+    box: dict[str, tuple[str, str]],
     out: str | None,
     tell: Reporter,
 ) -> Proof:
-    """Prove what returns to levitation; of cells, with a directory go on from those in it."""
+    """Prove what returns to levitation, of kicks for all machines of a box; of cells, with a directory go on from those in it."""
     from carom.proofs import prove_kicks, prove_shocks, prove_states, prove_unbalance_steps
 
     if option == STATES:
@@ -178,8 +204,9 @@ def _prove_return(
     store = None if out is None else Path(out) / CELLS
     if out is not None:
         Path(out).mkdir(parents=True, exist_ok=True)
-    given = {name: value for name, value in limits.items() if value is not None}
-    search = {KICKS: prove_kicks, SHOCKS: prove_shocks, STEPS: prove_unbalance_steps}[option]
+    given: dict[str, Any] = {name: value for name, value in limits.items() if value is not None}
+    given |= {"along": box} if box else {}
+    search: Any = {KICKS: prove_kicks, SHOCKS: prove_shocks, STEPS: prove_unbalance_steps}[option]
     return search(machine, largest, settings, store=store, progress=tell, **given)
 
 
@@ -208,17 +235,19 @@ def _draw(proof: Proof, name: str, directory: Path) -> None:
         plots.save(kicks.plot(basin), directory / FIGURES / PICTURE)
 
 
-def _interval(along: str | None, start: str | None, stop: str | None) -> tuple[str, str] | None:
-    """Both ends of the values of a parameter, if these were asked for."""
+def _intervals(along: list[str] | None, start: list[str] | None, stop: list[str] | None) -> dict[str, tuple[str, str]]:
+    """Both ends of the values of each parameter that was asked for."""
     from carom.cli.starts import check_exact
 
-    if along is start is stop is None:
-        return None
-    if start is None or stop is None or along is None:
-        raise InputError("--along", shown(along), "needs --from and --to, and these need --along")
-    for option, end in (("--from", start), ("--to", stop)):
-        check_exact(option, end, along)
-    return start, stop
+    names, starts, stops = along or [], start or [], stop or []
+    if not len(names) == len(starts) == len(stops):
+        raise InputError("--along", shown(names or None), "needs --from and --to, and these need --along")
+    if len(set(names)) < len(names):
+        raise InputError("--along", shown(names), "names each parameter once")
+    for name, first, last in zip(names, starts, stops, strict=True):
+        for option, end in (("--from", first), ("--to", last)):
+            check_exact(option, end, name)
+    return {name: (first, last) for name, first, last in zip(names, starts, stops, strict=True)}
 
 
 def _print_proof(proof: Proof, checked: bool) -> None:
@@ -230,6 +259,9 @@ def _print_proof(proof: Proof, checked: bool) -> None:
     for claim in proof:
         table.add_row(claim.about, claim.kind, claim.status, claim.reason or _number(claim))
     screen.print(fitted(screen, table))
+    for claim in proof:
+        if claim.about == "kicks" and claim.status == "proven":
+            screen.print(claim.statement)
     how = "Verified from the certificate alone" if checked else "Proven"
     screen.print(f"{how}, with balls of {proof.bits} bits. Exactly assumed: {_assumed(proof)}.")
     screen.print("Not claimed:")
@@ -242,10 +274,7 @@ def _number(claim: Claim) -> str:
 
 
 def _assumed(proof: Proof) -> str:
-    given = {**proof.hypotheses.values, **proof.hypotheses.settings}
-    told = {name: f"{name} = {text}" for name, text in given.items()}
-    along = proof.options.get("along")
-    if along is not None:
-        # Its own value in the machine file is not assumed.
-        told[along] = f"{along} from {proof.options['from']} to {proof.options['to']}"
-    return ", ".join(told.values())
+    moved = (
+        [proof.options["along"]] if "along" in proof.options else [name for name, *_ in proof.options.get("box", ())]
+    )
+    return ", ".join(f"{name} {'from' if name in moved else '='} {text}" for name, text in proof.assumed.items())

@@ -14,7 +14,6 @@ from typing import TYPE_CHECKING, cast
 from carom.outcome import InputError, together
 from carom.parameters import (
     DIMENSIONLESS_FIELDS,
-    MACHINE_FIELDS,
     Case,
     Field,
     Requirement,
@@ -178,11 +177,11 @@ def read_value(option: str, text: str, varied: Axis) -> float:
 
 def check_exact(option: str, text: str, name: str) -> None:
     """Refuse a value of a physical parameter without its unit, where it is read exactly."""
-    if name in MACHINE_FIELDS:
+    if name in SETTABLE and name not in DIMENSIONLESS_FIELDS:
         from carom.parameters.exact import read_exact
 
         try:
-            read_exact(_of_command_line(MACHINE_FIELDS[name]), text)
+            read_exact(_of_command_line(SETTABLE[name]), text)
         except InputError as problem:
             raise InputError(option, problem.value, f"{name} {problem.allowed}") from None
 

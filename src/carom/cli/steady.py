@@ -95,6 +95,11 @@ def print_steady(console: Console, case: Case) -> None:
         table.add_row(each.motion, planes, whirl, *sizes, each.state)
     console.print(fitted(console, table))
     console.print()
+    if rotor.system.mirrored is not None:
+        console.print(
+            "Rubs and whirls are no steady motions where bearings act differently in two directions; attractors finds where motions end."
+        )
+        return
     if rotor.system.forced is not None:
         console.print(
             "Under weight rubs and whirls are no steady motions: leave it out by --set gravity=0 to see them."

@@ -37,7 +37,8 @@ def study(
     prove: Annotated[
         bool,
         typer.Option(
-            "--prove", help="Prove equilibria, orbits and which kicks come back too; needs the extra carom[proof]."
+            "--prove",
+            help="Prove equilibria, orbits and which kicks and states come back too; needs the extra carom[proof].",
         ),
     ] = False,
     time_limit: Annotated[

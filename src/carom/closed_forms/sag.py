@@ -19,7 +19,8 @@ from carom.results import Result
 class Levitation(Result):
     """The steady motion without contact.
 
-    In the fixed frame the coordinates are ``sag + whirl·e^{it}``.
+    In the fixed frame the coordinates are ``sag + whirl·e^{it}``, and ``+ opposite·e^{−it}`` where bearings act differently in two directions: then each
+    goes round an ellipse.
 
     Attributes
     ----------
@@ -29,8 +30,10 @@ class Levitation(Result):
         matrices of the fixed frame, in which damping does not act on what stands still.
     whirl : complex, or ndarray of complex, shape (n,)
         Response to the unbalance, which turns with the shaft: the equilibrium without weight.
+    opposite : complex, or ndarray of complex, shape (n,)
+        Its part that turns against the shaft.
     sags, radii : ndarray, shape (P,)
-        Distance of the middle of the circle from the centre, and its radius, at each contact plane in its clearance.
+        Distance of the middle of the circle from the centre, and its radius, at each contact plane in its clearance; of an ellipse the longer half axis.
     eigenvalues : ndarray of complex, shape (N,)
         Exponents of small disturbances, in the co-rotating frame, in ``Ω``.
     """
@@ -43,6 +46,7 @@ class Levitation(Result):
     rotor: Model
     sag: Any
     whirl: Any
+    opposite: Any
     sags: np.ndarray
     radii: np.ndarray
     eigenvalues: np.ndarray
@@ -60,7 +64,7 @@ class Levitation(Result):
     @property
     def position(self) -> Any:
         """Coordinates at time zero."""
-        return self.sag + self.whirl
+        return self.sag + self.whirl + self.opposite
 
     @property
     def status(self) -> Status:
@@ -78,13 +82,14 @@ class Levitation(Result):
     def stable(self) -> bool:
         """Whether small disturbances die out; not where the magnetic bearings would have to give more than their limits."""
         system = self.rotor.system
-        kept = not asks_beyond(system, np.zeros(system.modes), system.forced)
+        kept = not asks_beyond(system, np.zeros(system.modes), system.outer)
         return kept and bool(self.eigenvalues.real.max() < 0.0)
 
     @checked
     def path(self, times: Reals) -> np.ndarray:
         """Coordinates in the fixed frame at times in ``1/Ω``, of their shape; of several coordinates with a last axis of these."""
-        turned = np.multiply.outer(np.exp(1j * np.asarray(times)), self.whirl)
+        turns = np.exp(1j * np.asarray(times))
+        turned = np.multiply.outer(turns, self.whirl) + np.multiply.outer(turns.conj(), self.opposite)
         placed: np.ndarray = self.sag + turned
         return placed
 
@@ -119,15 +124,17 @@ def levitation(machine: Subject) -> Levitation:
     system, arrays = model.system, model.system.arrays
     if system.rest_radius == np.inf:
         raise InputError("levitation", "none, nothing holds the rotor", "a rotor that is held against its weight")
-    forced = np.zeros(system.modes, complex) if system.forced is None else system.forced
-    sag, whirl = system.shapes @ forced, system.rest
-    one = len(whirl) == 1
+
+    def told(coordinates: np.ndarray) -> Any:
+        return complex(coordinates[0]) if len(coordinates) == 1 else coordinates
+
     return Levitation(
         model,
-        complex(sag[0]) if one else sag,
-        complex(whirl[0]) if one else whirl,
-        np.abs(arrays["rows"] @ forced),
-        np.abs(arrays["offsets"]),
+        told(system.shapes @ system.outer),
+        told(system.rest),
+        told(system.rest_mirrored),
+        np.abs(arrays["rows"] @ system.outer),
+        np.abs(arrays["offsets"]) + np.abs(system.planes @ system.rest_mirrored),
         np.asarray(system.exponents),
     )
 

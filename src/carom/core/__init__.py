@@ -21,6 +21,7 @@ Nothing here knows units, files or results.  A kernel sees a rotor as the arrays
 ``compliance``         contact with a wall that gives way, as Taylor series
 ``shaft``              the speed of the shaft as a state, in contact and from flight to flight
 ``limits``             limits of magnetic bearings: what is asked for beyond them
+``mirror``             bearings that act differently in two directions
 ``surfaces``           speeds of the two surfaces that touch, where they change
 ``rounding``           rounding errors of sums over the modes
 ``taylor``             length of a step, sums and zeros of Taylor series

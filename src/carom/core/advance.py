@@ -9,7 +9,7 @@ from carom.core.arrivals import LANDING, rests, touch
 from carom.core.events import INSIDE, LEAVING, search
 from carom.core.fate import levitates, triggers, until_triggered
 from carom.core.flow import acceleration, copy, displacement, velocity
-from carom.core.limits import FREE, WITHIN, at_limits, pass_time
+from carom.core.limits import FREE, WITHIN, at_limits, keeps_time, pass_time
 from carom.core.phases import AWAY, FLIGHT, stays
 from carom.core.planar_proofs import stays_inside
 from carom.core.rounding import RESTING, push_rounding, speed_rounding
@@ -77,6 +77,7 @@ def advance(rotor, table, amplitudes, until, contacts, log, memory, work, rub):
     copy(contacts, contact)
     if rotor.limit_bounds.shape[0] > 0:
         copy(memory.limited, rub.limited)
+    if keeps_time(rotor):
         rub.clock = memory.clock
     time = 0.0
     events, most_stalled = 0, STALLED_TOGETHER
@@ -171,8 +172,8 @@ def _fly(rotor, table, horizon, contact, memory, work, rub):
         reaction, duration, plane = _leap(rotor, table, leap, contact, resting, work, rub)
         elapsed, unproven = elapsed + duration, unproven + duration
         span = min(2.0 * span, memory.recheck)
-        if rotor.limit_bounds.shape[0] > 0:
-            pass_time(duration, memory, rub)
+        if keeps_time(rotor):
+            pass_time(duration, False, memory, rub)
         if reaction != CLEAR:
             break
         copy(work.arrival, state)

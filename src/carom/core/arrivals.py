@@ -13,7 +13,7 @@ from carom.core.planar_proofs import fades_to_rolling
 from carom.core.rounding import RESTING, speed_rounding
 from carom.core.rub import meets_wall, next_phase, rest_on_wall
 from carom.core.surfaces import may_change
-from carom.core.wall import move_plane, set_on_wall, unit, wall_of, yields
+from carom.core.wall import move_plane, push_plane, set_on_wall, unit, wall_of, yields
 from carom.outcome import Outcome
 
 CONTACT, GRAZING, CHATTER = int(Outcome.CONTACT), int(Outcome.GRAZING), int(Outcome.CHATTER)
@@ -119,8 +119,7 @@ def _meet(rotor, contact, plane, elapsed, memory, work, rub):
             strike_together(rotor, work.arrival, work.current, rub)
             return CONTACT
     change = normal * arrival(normal.conjugate() * speed, wall_of(rotor, plane))
-    for k in range(work.current.shape[0]):
-        work.current[k] = work.arrival[k] + rotor.columns[k, plane] * change
+    push_plane(rotor, plane, change, work.arrival, work.current)
     return CONTACT
 
 
@@ -191,6 +190,5 @@ def _land(rotor, contact, plane, amplitudes, rub):
     normal = unit(displacement(rotor, plane, amplitudes))
     local = normal.conjugate() * velocity(rotor, plane, amplitudes)
     change = normal * landing(local, wall_of(rotor, plane))
-    for k in range(amplitudes.shape[0]):
-        amplitudes[k] += rotor.columns[k, plane] * change
+    push_plane(rotor, plane, change, amplitudes, amplitudes)
     rest_on_wall(rotor, plane, amplitudes, False)

@@ -33,7 +33,7 @@ from carom.core.phases import FLIGHT, ROLLING, SEPARATED, sense_of_phase
 from carom.core.rounding import position_rounding, speed_rounding
 from carom.core.surfaces import race_grip, relative_coefficient, relative_excess
 from carom.core.taylor import first_fall
-from carom.core.wall import set_on_wall, unit, wall_of
+from carom.core.wall import push_plane, set_on_wall, unit, wall_of
 
 SHARP = 1e-4
 """Error of the place where a series takes another form, relative to its depth: there both forms are the same."""
@@ -144,8 +144,7 @@ def stay_in_wall(rotor, plane, rolls, leaves, amplitudes):
     elif rolls:
         normal = unit(displacement(rotor, plane, amplitudes))
         change = normal * complex(0.0, -slip_in_wall(rotor, plane, amplitudes))
-        for m in range(amplitudes.shape[0]):
-            amplitudes[m] += rotor.columns[m, plane] * change
+        push_plane(rotor, plane, change, amplitudes, amplitudes)
 
 
 @inlined

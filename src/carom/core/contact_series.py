@@ -18,7 +18,8 @@ mobility ``G = WMB``.  Staying on all walls then needs, at each plane ``p`` in c
 and the second equation of a plane is ``F_p = −μ N_p sgn v_p`` where it slips and
 ``Im(ȳ_p a_p) + Σ_q Im(ȳ_p G_pq (−N_q + iF_q) y_q) = 0`` where it rolls: linear equations for each coefficient in turn.
 
-A shaft whose speed changes adds to these equations (:mod:`carom.core.shaft`), and so do bearings at their limits (:mod:`carom.core.limits`).
+A shaft whose speed changes adds to these equations (:mod:`carom.core.shaft`), and so do bearings at their limits (:mod:`carom.core.limits`) and
+those that act differently in two directions (:mod:`carom.core.mirror`).
 
 A wall that gives way has a normal force of its own, and ``n = y/|y|`` takes the place of ``y`` there (:mod:`carom.core.compliance`).
 """
@@ -31,6 +32,7 @@ from carom.core.equations import solve
 from carom.core.friction import friction_ratio, rolling_force
 from carom.core.layout import ORDER
 from carom.core.limits import drive_by_excess, saturate
+from carom.core.mirror import drive_by_mirror
 from carom.core.phases import ROLLING, lasts, sense_of_phase, stays
 from carom.core.shaft import brake_shaft, couple_by_shaft, sweep_unbalance, turn_shaft
 from carom.core.surfaces import may_change, race_grip, relative_coefficient
@@ -66,6 +68,8 @@ def rub_series(rotor, contact, amplitudes, work):
                 turn_shaft(rotor, contact, k, work)
             if rotor.limit_bounds.shape[0] > 0:
                 drive_by_excess(rotor, k, work)
+            if rotor.mirror.shape[0] > 0:
+                drive_by_mirror(rotor, k, work)
 
 
 @kernel

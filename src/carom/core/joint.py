@@ -35,7 +35,7 @@ from carom.core.phases import AWAY, ROLLING, lasts, sense_of_phase
 from carom.core.rub import meets_wall
 from carom.core.shaft import change_speed, lever_of_shaft
 from carom.core.surfaces import relative_excess, turn_race
-from carom.core.wall import unit, wall_of, yields
+from carom.core.wall import push_plane, unit, wall_of, yields
 
 EXACT = 1e-11
 """Error, relative to the largest speeds and impulses, that rounding may leave in the inequalities."""
@@ -79,8 +79,7 @@ def strike_together(rotor, before, after, rub):
     for p in range(planes):
         if rub.joined[p]:
             change = unit(displacement(rotor, p, before)) * rub.impulses[p]
-            for k in range(after.shape[0]):
-                after[k] += rotor.columns[k, p] * change
+            push_plane(rotor, p, change, after, after)
             turn_race(rotor, p, rub.impulses[p].imag, after)
             if rotor.shaft.shape[0] > 0:
                 change_speed(rotor, p, rub.impulses[p].imag, after)
@@ -108,8 +107,7 @@ def land_together(rotor, contact, plane, amplitudes, rub):
         if rub.joined[p]:
             impulse = complex(-rub.matrix[2 * p, -1], rub.matrix[2 * p + 1, -1])
             change = unit(displacement(rotor, p, amplitudes)) * impulse
-            for k in range(amplitudes.shape[0]):
-                amplitudes[k] += rotor.columns[k, p] * change
+            push_plane(rotor, p, change, amplitudes, amplitudes)
             turn_race(rotor, p, impulse.imag, amplitudes)
             if rotor.shaft.shape[0] > 0:
                 change_speed(rotor, p, impulse.imag, amplitudes)

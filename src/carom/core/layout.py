@@ -69,6 +69,8 @@ def rotor_record(
     shaft_gain: np.ndarray | None = None,
     drive: np.ndarray | None = None,
     limits: Mapping[str, np.ndarray] | None = None,
+    mirror: np.ndarray | None = None,
+    mirror_columns: np.ndarray | None = None,
 ) -> np.record:
     """A linear rotor with ``N`` moving modes and ``P`` contact planes, as the kernels see it.
 
@@ -118,7 +120,12 @@ def rotor_record(
     limits : mapping, optional
         Of ``L`` quantities with a limit along each of two axes of the fixed frame (:mod:`carom.core.limits`): ``limit_rows`` (L, N) and
         ``limit_offsets`` (L,), complex, by which they follow from the amplitudes; ``limit_bounds`` (L,); ``limit_columns`` (N, L), rates of
-        the amplitudes by what lies beyond; ``limit_couplings`` (L, L), by which what lies beyond one adds to those after it.
+        the amplitudes by what lies beyond; ``limit_couplings`` (L, L), by which what lies beyond one adds to those after it; where there is
+        a ``mirror``, also ``limit_mirrors`` (N, L), as ``mirror_columns``.
+    mirror : ndarray of int, shape (1,), optional
+        Mode of the turn of bearings that act differently in two directions (:mod:`carom.core.mirror`).
+    mirror_columns : ndarray of complex, shape (N, P), optional
+        Change of the amplitudes by the conjugate of an impulse at a plane, times that turn.
 
     Returns
     -------
@@ -130,7 +137,7 @@ def rotor_record(
         (``Σ_k |rows|²`` over the free modes), of a shaft ``unbalance_rows`` (acceleration of the planes by its unbalance at the nominal speed), and of
         limits ``limit_pulls`` (P, L) (acceleration of the planes by what lies beyond) and ``reach``, a record in which the quantities are planes, in
         units of their bounds.
-        The fields of a shaft and of limits have no entries without them: kernels for such rotors are compiled without them.  A record is passed by address and its shapes are known at compile time: kernels run six
+        The fields of a shaft, of limits and of a mirror have no entries without them: kernels for such rotors are compiled without them.  A record is passed by address and its shapes are known at compile time: kernels run six
         times as fast as with a tuple of arrays.
     """
     modes, planes = len(exponents), len(rows)
@@ -176,11 +183,14 @@ def rotor_record(
         "response": [] if unbalance is None else np.zeros(modes),
         "shaft_gain": [] if shaft_gain is None else shaft_gain,
         "drive": [] if drive is None else drive,
+        "mirror": [] if mirror is None else mirror,
+        "mirror_columns": np.zeros((modes, 0)) if mirror_columns is None else mirror_columns,
+        "limit_mirrors": np.zeros((modes, 0)),
         **given,
         "limit_pulls": seen["rate_rows"].dot(given["limit_columns"]),
         "reach": tuple(reach[name] for name in _flight_layout(modes, number).names or ()),
     }
-    layout = _rotor_layout(modes, planes, shaft is not None, number)
+    layout = _rotor_layout(modes, planes, shaft is not None, number, mirror is not None)
     return filled(layout, tuple(fields[name] for name in layout.names or ()))
 
 
@@ -230,8 +240,8 @@ def _flight_layout(modes: int, planes: int) -> np.dtype:
 
 
 @cache
-def _rotor_layout(modes: int, planes: int, with_shaft: bool, limits: int) -> np.dtype:
-    shafts = int(with_shaft)
+def _rotor_layout(modes: int, planes: int, with_shaft: bool, limits: int, mirrored: bool) -> np.dtype:
+    shafts, mirrors = int(with_shaft), int(mirrored)
     return layout_of(
         (
             *_flight_fields(modes, planes),
@@ -254,6 +264,9 @@ def _rotor_layout(modes: int, planes: int, with_shaft: bool, limits: int) -> np.
             ("limit_columns", COMPLEX, (modes, limits)),
             ("limit_couplings", COMPLEX, (limits, limits)),
             ("limit_pulls", COMPLEX, (planes, limits)),
+            ("mirror", np.dtype(np.int64), (mirrors,)),
+            ("mirror_columns", COMPLEX, (modes, mirrors * planes)),
+            ("limit_mirrors", COMPLEX, (modes, mirrors * limits)),
             ("reach", _flight_layout(modes, limits), ()),
         )
     )

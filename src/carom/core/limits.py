@@ -44,10 +44,16 @@ def at_limits(work):
 
 
 @inlined
-def pass_time(duration, memory, work):
-    """Turn the fixed frame against that of the rotor for so long; kept below a turn, its rounding does not grow."""
+def keeps_time(rotor):
+    """Whether it matters how far the fixed frame has turned: contact then is asked after each whole turn whether it has settled."""
+    return rotor.limit_bounds.shape[0] > 0 or rotor.mirror.shape[0] > 0
+
+
+@inlined
+def pass_time(duration, whole, memory, work):
+    """Turn the fixed frame against that of the rotor for so long, or to the end of a whole turn; kept below that, its rounding does not grow."""
     later = work.clock + duration
-    work.clock = later - TURN * math.floor(later / TURN)
+    work.clock = 0.0 if whole else later - TURN * math.floor(later / TURN)
     memory.clock = work.clock
 
 

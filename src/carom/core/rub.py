@@ -35,7 +35,7 @@ from carom.core.phases import (
 from carom.core.rounding import RESTING, position_rounding, push_rounding, speed_rounding, yielding_rounding
 from carom.core.surfaces import may_change, relative_excess
 from carom.core.taylor import first_fall, series_step, sum_series
-from carom.core.wall import rigid_wall, set_on_wall, unit, wall_of, yields
+from carom.core.wall import push_plane, rigid_wall, set_on_wall, unit, wall_of, yields
 
 NO_TURN = 1e-15
 """Distance along the wall that counts as zero."""
@@ -238,8 +238,7 @@ def rest_on_wall(rotor, plane, amplitudes, rolling):
     surface_speed += relative_excess(rotor, plane, amplitudes)
     wall = rigid_wall(0.0, 0.0, surface_speed)
     change = normal * arrival_in_sense(local, STOPPED if rolling else FORWARD, wall)
-    for m in range(amplitudes.shape[0]):
-        amplitudes[m] += rotor.columns[m, plane] * change
+    push_plane(rotor, plane, change, amplitudes, amplitudes)
 
 
 @kernel

@@ -20,7 +20,7 @@ from carom.core.fate import (
 )
 from carom.core.layout import NEAR
 from carom.core.limits import FREE as FREE_AXIS
-from carom.core.limits import TURN, WHOLE, change_limits, first_limit, pass_time
+from carom.core.limits import TURN, WHOLE, change_limits, first_limit, keeps_time, pass_time
 from carom.core.phases import AWAY, FLIGHT, FORWARD_SLIP, ROLLING, lasts, stays
 from carom.core.planar_proofs import absorbed, hastens, runs_away
 from carom.core.rub import first_contact, first_transition, next_phase, rest_on_wall, turn_ahead
@@ -69,13 +69,12 @@ def rub_step(rotor, contact, amplitudes, horizon, memory, rub):
             turn = turn_ahead(leading, memory.turn_position, math.copysign(1.0, speed), duration, rub)
             if turn < duration:
                 duration, changed, turned, axis = turn, NOWHERE, True, WHOLE
-        if rotor.limit_bounds.shape[0] > 0 and TURN - rub.clock <= duration:
+        if keeps_time(rotor) and TURN - rub.clock <= duration:
             duration, changed, turned, axis, whole = TURN - rub.clock, NOWHERE, False, WHOLE, True
     sum_series(rub, duration, amplitudes)
+    if keeps_time(rotor):
+        pass_time(duration, whole, memory, rub)
     if rotor.limit_bounds.shape[0] > 0:
-        pass_time(duration, memory, rub)
-        if whole:
-            memory.clock, rub.clock = 0.0, 0.0
         change_limits(rotor, axis, at_bound, amplitudes, memory, rub)
     memory.turn_time += duration
     _remove_rounding(rotor, contact, changed, following, undecided, duration > 0.0, amplitudes, memory)

@@ -89,3 +89,14 @@ def move_plane(rotor, plane, shift, amplitudes):
     for k in range(amplitudes.shape[0]):
         if rotor.free[k]:
             amplitudes[k] += rotor.rows[plane, k].conjugate() * scaled
+
+
+@inlined
+def push_plane(rotor, plane, change, before, after):
+    """Amplitudes after an impulse at a plane that changes its velocity by so much; before and after may be one array."""
+    for k in range(after.shape[0]):
+        after[k] = before[k] + rotor.columns[k, plane] * change
+    if rotor.mirror.shape[0] > 0:
+        mirrored = change.conjugate() * after[rotor.mirror[0]]
+        for k in range(after.shape[0]):
+            after[k] += rotor.mirror_columns[k, plane] * mirrored

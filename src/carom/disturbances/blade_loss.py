@@ -77,7 +77,12 @@ class BladeLoss(Disturbance):
             rest = rest[0]
         positions = complex_of(rest.real * cosine + rest.imag * sine, rest.imag * cosine - rest.real * sine)
         none = np.zeros(np.shape(phase), bool)
-        positions, velocities = sagged(rotor, positions) if levitates else (positions, np.zeros_like(positions))
+        # What goes round against the shaft turns the other way with the phase.
+        opposite = None if rotor.system.mirrored is None else (cosine + 1j * sine) * rotor.system.rest_mirrored
+        if levitates:
+            positions, velocities = sagged(rotor, positions, opposite)
+        else:
+            velocities = np.zeros_like(positions)
         return Starts(positions, velocities, none | levitates, none, none, np.zeros(np.shape(phase)))
 
     def release(self, machine: Subject, phase: float = 0.0) -> tuple[Model, State]:

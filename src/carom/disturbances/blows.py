@@ -172,8 +172,7 @@ class BaseShock(Disturbance):
             stages_of(rotor)[0].rotor, peaks, self.duration, directions
         )
         # Without forces that change with time, and axes of bearings, nothing depends on it.
-        depends = rotor.system.outer.any() or rotor.system.limits
-        begins = np.full(peaks.shape, self.duration if depends else 0.0)
+        begins = np.full(peaks.shape, self.duration if rotor.system.timed else 0.0)
         return Starts(positions, velocities, np.ones(peaks.shape, bool), undecided, touched, begins)
 
     def stages(self, machine: Subject, direction: float = 0.0) -> tuple[Staged, State]:

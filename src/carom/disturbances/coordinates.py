@@ -144,13 +144,19 @@ class Starts(NamedTuple):
         return Starts(*(values[chosen] for values in self))
 
 
-def sagged(rotor: Model, positions: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Positions of rotors at rest in the turning frame with the static sag added, and the velocities of that, which stands still."""
+def sagged(rotor: Model, positions: np.ndarray, opposite: np.ndarray | None = None) -> tuple[np.ndarray, np.ndarray]:
+    """Positions of rotors at rest in the turning frame with the static sag added, and the velocities of that, which stands still.
+
+    ``opposite`` are positions of what goes round against the shaft, twice as fast in its frame.
+    """
     if rotor.system.forced is None:
         return positions, np.zeros_like(positions)
-    sag = rotor.system.shapes @ rotor.system.forced
+    sag = rotor.system.shapes @ rotor.system.outer
     placed = positions + (sag if len(sag) > 1 else sag[0])
-    return placed, np.broadcast_to(-1j * (sag if len(sag) > 1 else sag[0]), placed.shape).copy()
+    velocities = np.broadcast_to(-1j * (sag if len(sag) > 1 else sag[0]), placed.shape).copy()
+    if opposite is not None:
+        placed, velocities = placed + opposite, velocities - 2j * opposite
+    return placed, velocities
 
 
 def displaced(rotor: Model, positions: np.ndarray, velocities: np.ndarray, exists: np.ndarray | bool = True) -> Starts:

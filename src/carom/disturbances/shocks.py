@@ -54,6 +54,8 @@ def states_after_shocks(
     with a last axis of that length; whether the wall was
     grazed so nearly that double precision cannot decide, and whether it was reached during the pulse.
     """
+    if rotor.system.mirrored is not None:
+        return _states_one_by_one(rotor, peaks, duration, directions)
     system = shaken(rotor, duration, 1.0).system
     at_rest = np.append(rotor.system.rest, np.zeros_like(rotor.system.rest))
     # Levitation under weight goes round a circle; its amplitudes are those of the weight, whatever the shock.
@@ -85,6 +87,38 @@ def states_after_shocks(
         velocities.reshape(shape),
         undecided.reshape(peaks.shape),
         touched.reshape(peaks.shape),
+    )
+
+
+def _states_one_by_one(
+    rotor: Model, peaks: np.ndarray, duration: float, directions: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """:func:`states_after_shocks` where bearings act differently in two directions: the motion is no multiple of that of another shock."""
+    start = np.concatenate(rotor.system.kicked(0.0))[None]
+    planes, limits = len(rotor.system.arrays["rows"]), rotor.system.limits
+    found, undecided, touched = [], [], []
+    for peak, direction in zip(peaks.ravel().tolist(), directions.ravel().tolist(), strict=True):
+        system = shaken(rotor, duration, cmath.rect(peak, direction) / 2j).system
+        modes = system.modes
+        tools = (
+            EventLog.empty(LOGGED, modes, planes, limits),
+            memory(modes, limits=limits),
+            workspace(modes),
+            rub_workspace(modes, planes, limits),
+        )
+        motion, contact = system.amplitudes_of(start), np.full((1, planes), AWAY)
+        outcomes, events = np.zeros((2, 1), np.int64)
+        advance_in_turn(system.arrays, system.table, motion, duration, MOST_EVENTS, contact, *tools, outcomes, events)
+        found.append(system.states_of(motion)[0])
+        undecided.append(outcomes[0] != Outcome.TIME_REACHED)
+        touched.append(events[0] > 0)
+    positions, velocities = np.split(np.reshape(found, (-1, start.shape[1])), 2, axis=1)
+    shape = peaks.shape + (rotor.system.rest.shape if len(rotor.system.rest) > 1 else ())
+    return (
+        positions.reshape(shape),
+        velocities.reshape(shape),
+        np.reshape(undecided, peaks.shape),
+        np.reshape(touched, peaks.shape),
     )
 
 

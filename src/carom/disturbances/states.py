@@ -71,15 +71,15 @@ class UnbalanceStep(Disturbance):
 
     def starts(self, rotor: Model, *values: np.ndarray) -> Starts:
         """Levitation with the old unbalance; under weight about the static sag."""
+        from carom.models.directions import whirl_of
         from carom.models.weight import refuse_unsteady
 
         eccentricity, phase = values
         refuse_unsteady(rotor)
-        mass, damping, gyroscopic, stiffness, _ = rotor.matrices
         push = cmath.rect(1.0, rotor.unbalance_phase) * rotor.system.translated
-        response = np.linalg.solve(stiffness - mass + 1j * damping + gyroscopic, mass @ push)
-        sags = np.abs(rotor.system.arrays["rows"] @ rotor.system.forced_at(0.0))
-        reaches = np.abs(rotor.system.planes @ response)
+        response, opposite = whirl_of(rotor, rotor.matrices.mass @ push)
+        sags = np.abs(rotor.system.arrays["rows"] @ rotor.system.outer)
+        reaches = np.abs(rotor.system.planes @ response) + np.abs(rotor.system.planes @ opposite)
         cosine, sine = eccentricity * np.cos(phase), eccentricity * np.sin(phase)
 
         def reach() -> np.ndarray:
@@ -93,11 +93,12 @@ class UnbalanceStep(Disturbance):
             cosine, sine = cosine[..., None], sine[..., None]
         else:
             response = response[0]
+        behind = None if rotor.system.mirrored is None else (cosine - 1j * sine) * opposite
         positions = complex_of(
             response.real * cosine - response.imag * sine, response.imag * cosine + response.real * sine
         )
         none = np.zeros(there.shape, bool)
-        return Starts(*sagged(rotor, positions), there, none, touched, np.zeros(there.shape))
+        return Starts(*sagged(rotor, positions, behind), there, none, touched, np.zeros(there.shape))
 
 
 @checked

@@ -26,16 +26,30 @@ const render = ({ model, el }) => {
   const host = document.createElement("div"), root = host.attachShadow({ mode: "open" }), at = (id) => root.getElementById(id);
   root.innerHTML = page.body;
   el.append(host);
-  const slots = ["motion", "beside"];
+  const { slots, planes } = page;
   let asked = 0, active = 0, chosen = null;
+  at("reading").textContent = page.reading;
 
-  const flights = ["clearance", "beside"].map((name) => flight(at(name), { looks: page.looks }));
-  const marked = () => chosen || flights.map((one) => one.message && one.message.kick).filter(Boolean);
+  // A flight for each kick and plane, with what is said of it below.
+  const flights = slots.flatMap((name, slot) => Array.from({ length: planes }, (_, plane) => {
+    const place = document.createElement("div"), canvas = document.createElement("canvas"), words = document.createElement("p");
+    canvas.id = `${name}-${plane}`;
+    canvas.setAttribute("role", "img");
+    canvas.setAttribute("aria-label", `Path of the rotor inside touchdown bearing ${plane + 1} after kick ${slot + 1}`);
+    words.className = "soft";
+    words.id = `${name}-${plane}-words`;
+    place.append(canvas, words);
+    at("flights").append(place);
+    const made = flight(canvas, { looks: page.looks });
+    made.frame = page.frame;
+    return Object.assign(made, { words, slot, plane });
+  }));
+  const marked = () => chosen || slots.map((_, slot) => flights[slot * planes].message && flights[slot * planes].message.kick).filter(Boolean);
   // What comes back is flown as 1, what is lost as 2.
   const basin = basinPicture(at("basin"), { onPoint: (kick, clicked, slot = null) => {
     const ending = basin.endingOf(kick), both = marked();
-    if (both.length < 2) return;
-    active = slot === null ? (ending && ending.back ? 0 : 1) : slot;
+    if (both.length < slots.length) return;
+    active = slots.length === 1 ? 0 : slot === null ? (ending && ending.back ? 0 : 1) : slot;
     chosen = both.map((one, place) => (place === active ? kick : one));
     basin.mark(chosen, active);
     asked += 1;
@@ -45,20 +59,27 @@ const render = ({ model, el }) => {
   const shows = {
     basin: (message) => {
       if (message.refused) { at("sentence").textContent = message.refused; return; }
-      for (const one of flights) one.rest = { position: message.rest_position, colour: message.legend_rest };
+      for (const one of flights) one.rest = message.rest_position && { position: message.rest_position, colour: message.legend_rest };
       basin.kicks = marked();
       basin.show(message);
       at("sentence").textContent = message.sentence;
       at("legend").replaceChildren(...legendOf(message));
     },
   };
+  shows.levitation = (message) => {
+    at("levitation").hidden = false;
+    at("levitation").textContent = message.refused || `${message.lead} ${message.more}`;
+  };
   slots.forEach((name, slot) => {
     shows[name] = (message) => {
-      flights[slot].show(message);
-      at(`${name}-words`).textContent = message.refused || message.words + (message.whole ? "" : " Its beginning is shown.");
-      if (message.refused) return;
-      basin.mark(marked(), active);
-      flights[slot].play();
+      for (const one of flights.filter((each) => each.slot === slot)) {
+        const part = message.planes ? message.planes[one.plane] : {};
+        one.show({ ...message, ...part });
+        const more = part.words ? `Touchdown bearing ${one.plane + 1}: ${part.words}. ` : "";
+        one.words.textContent = message.refused || `${more}${one.plane ? "" : message.words}${message.whole || one.plane ? "" : " Its beginning is shown."}`;
+        if (!message.refused) one.play();
+      }
+      if (!message.refused) basin.mark(marked(), active);
     };
   });
   const take = (content, buffers) => {

@@ -13,9 +13,10 @@ import numpy as np
 
 from carom.arguments import checked
 from carom.explorer.computing.exports import Origin
+from carom.explorer.page.kinds import explored_case_of, kind_of
 from carom.explorer.page.scripts import PICTURES, joined
 from carom.explorer.page.session import Session
-from carom.models import Subject, planar_case_of
+from carom.models import Subject
 from carom.outcome import CaromError
 from carom.plots.style import LOOKS
 
@@ -24,13 +25,14 @@ from carom.plots.style import LOOKS
 def explore(machine: Subject) -> Any:
     """Where kicks of a machine lead, as a figure in a notebook: point at a kick, and the motion after it is shown.
 
-    The figure is that of ``carom explore`` without its sliders.  Two kicks are followed: of those
+    The figure is that of ``carom explore`` without its sliders.  Of a planar rotor two kicks are followed: of those
     that come back, and of those that are lost.
 
     Parameters
     ----------
     machine : Machine, Case, Parameters or model
-        A planar rotor, in a touchdown bearing of any kind.
+        A planar rotor in a touchdown bearing of any kind, or the case or model of a flexible machine, of which one kick is followed at
+        each touchdown bearing.
 
     Returns
     -------
@@ -42,19 +44,20 @@ def explore(machine: Subject) -> Any:
     CaromError
         The extra ``carom[notebook]`` is not installed.
     InputError
-        It is another model than the planar rotor.
+        It is another model.
 
     See Also
     --------
     carom.map_basins : the ends of kicks and other disturbances as data, and as a figure on paper
     """
-    case = planar_case_of(machine)
-    return _figure_class()(Origin("", (), case))
+    origin = Origin("", (), explored_case_of(machine))
+    kind = kind_of(origin)
+    return _figure_class(kind.slots, kind.planes_shown, kind.frame, kind.reading)(origin)
 
 
 @cache
-def _figure_class() -> type:
-    """Class of the figure."""
+def _figure_class(slots: tuple[str, ...], planes: int, frame: str, reading: str) -> type:
+    """Class of the figure of machines with so many kicks and touchdown bearings."""
     try:
         from anywidget import AnyWidget
     except ModuleNotFoundError:
@@ -65,14 +68,14 @@ def _figure_class() -> type:
     class KickFigure(AnyWidget):  # type: ignore[misc]
         """The figure of one machine: what the browser asks for goes to a session of the page, and its answers come back."""
 
-        _esm = script()
+        _esm = script(slots, planes, frame, reading)
 
         def __init__(self, origin: Origin) -> None:
             super().__init__()
             self.case = origin.case
             ready = threading.Event()
             ready.set()  # kernels compile where they are first called
-            self._session = Session(origin, self._answer, ready, wanted=("fine",))
+            self._session = Session(origin, self._answer, ready, wanted=("basin",))
             self._asked = {"machine": self._session.show, "kick": self._session.kick}
             self.on_msg(lambda _, content, buffers: self._asked[content["name"]](content["value"]))
 
@@ -103,9 +106,16 @@ def encoded(value: Any, buffers: list[bytes]) -> Any:
 
 
 @cache
-def script() -> str:
-    """The figure as a module of JavaScript."""
-    page = {"body": _beside("notebook.html"), "looks": {name: look.colour for name, look in LOOKS.items()}}
+def script(slots: tuple[str, ...], planes: int, frame: str, reading: str) -> str:
+    """The figure as a module of JavaScript; see :class:`carom.explorer.page.kind.Kind`."""
+    page = {
+        "body": _beside("notebook.html"),
+        "looks": {name: look.colour for name, look in LOOKS.items()},
+        "slots": slots,
+        "planes": planes,
+        "frame": frame,
+        "reading": reading,
+    }
     return joined(PICTURES) + _beside("notebook.js").replace("PAGE", json.dumps(page), 1)
 
 

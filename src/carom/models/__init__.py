@@ -8,7 +8,9 @@
 ``nodes``                 nodes of orbits: states, and under weight its direction
 ``from_modes``            systems from their modes
 ``jeffcott``              :class:`Jeffcott`: the planar rigid rotor, by its parameters
-``linear``                :class:`LinearRotor`: any linear isotropic rotor, by its matrices
+``linear``                :class:`LinearRotor`: any linear rotor, by its matrices
+``mirror``                its system where bearings act differently in two directions
+``directions``            whether they do
 ``linear_parameters``     its named parameters
 ``in_bearing``            :class:`InBearing`: the planar rotor in a touchdown bearing that gives way
 ``limited``               :class:`Limited`: a rotor on magnetic bearings that have limits

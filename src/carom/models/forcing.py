@@ -7,25 +7,33 @@ With the amplitudes ``c`` of the free modes and a force of amplitude ``f`` and e
 ``c − (σ − M)⁻¹ b f`` moves as without the force.  So the force is one more mode, which adds ``(σ − M)⁻¹ b`` times itself to the
 others, and which no impulse changes.  In resonance, where ``σ`` is nearly an exponent of ``M``, the force stands before the mode
 it drives and forms a chain with it: weight, velocity and displacement in free fall.
+
+Where bearings act differently in two directions (:mod:`carom.models.mirror`), a force ``f e^{σt}`` is also a force ``f̄ e^{σ̄t − 2it}`` on
+conjugates; of one that is constant in the fixed frame both exponents are one.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from carom.core.wall import Wall
 from carom.models.from_modes import modal_system
+from carom.models.mirror import TURN
 from carom.models.system import EQUAL, System
 from carom.outcome import InputError
 
 RESONANT = 1e-3
 """Distance of exponents, relative to one plus their size, below which a force drives a mode instead of adding to it."""
+APART = 1e-4
+"""The same where otherwise modes would nearly coincide: twelve of sixteen digits are left."""
 FADING = 1e-7
 """Rate, relative to the same, at which a mode fades beside a force: from there on it has settled to the force, not been driven away."""
+ALIKE = -1
+"""Instead of the mode of a turn."""
 ONE = 1e-7
 """Gap of a pair, relative to one plus the size of its exponents, whose square is lost in rounding."""
 
@@ -55,9 +63,17 @@ def with_forces(system: System, forces: Sequence[Force]) -> System:
     """
     n, planes, arrays = system.shapes.shape[0], len(system.arrays["rows"]), system.arrays
     first = planes + system.limits
-    modes = _Modes.of(system)
-    for force in _merged(forces):
-        modes = modes.driven_by(complex(force.exponent), modes.left[:, first + n :] @ force.accelerations)
+    modes, last = _Modes.of(system), first + 2 * n
+    pushes = [(force.exponent, force.accelerations, slice(first + n, last)) for force in forces]
+    if system.mirrored is not None:
+        # Amplitudes by rates of conjugates come last.
+        pushes += [
+            (np.conj(force.exponent) + TURN, np.conj(force.accelerations), slice(last + first + n, None))
+            for force in forces
+        ]
+    for exponent, together in _merged(pushes):
+        push = np.sum([modes.left[:, place] @ values for values, place in together], axis=0)
+        modes = modes.driven_by(exponent, push)
     return modal_system(
         exponents=modes.exponents,
         driven=modes.driven,
@@ -65,7 +81,7 @@ def with_forces(system: System, forces: Sequence[Force]) -> System:
         forced=modes.forced,
         rest=system.rest,
         shapes=modes.right[first:],
-        inverse=modes.left[:, first:],
+        inverse=modes.left[:, first:last],
         translation=system.translation,
         races=system.races,
         shaft=system.shaft,
@@ -75,22 +91,37 @@ def with_forces(system: System, forces: Sequence[Force]) -> System:
         limits={
             "limit_rows": modes.right[planes:first],
             "limit_columns": modes.left[:, planes:first],
+            "limit_mirrors": modes.left[:, last + planes : last + first],
             **{name: arrays[name] for name in ("limit_offsets", "limit_bounds", "limit_couplings")},
         },
+        **_mirrored(modes, slice(last, last + planes), slice(last + first, None)),
         **{name: arrays[name] for name in ("offsets", "masses", *Wall._fields)},
     )
 
 
-def _merged(forces: Sequence[Force]) -> list[Force]:
-    """The forces, those of one exponent added up."""
-    merged: list[Force] = []
-    for force in forces:
-        for place, other in enumerate(merged):
-            if abs(force.exponent - other.exponent) <= EQUAL * (1.0 + abs(force.exponent)):
-                merged[place] = Force(other.exponent, other.accelerations + force.accelerations)
+def _mirrored(modes: _Modes, columns: slice, states: slice) -> dict[str, Any]:
+    """What of a system acts on conjugates; nothing where bearings are alike in both directions."""
+    if modes.mirror == ALIKE:
+        return {}
+    return {
+        "mirror": np.array([modes.mirror]),
+        "mirror_columns": modes.left[:, columns],
+        "mirrored": modes.left[:, states],
+    }
+
+
+def _merged(
+    pushes: Sequence[tuple[complex, np.ndarray, slice]],
+) -> list[tuple[complex, list[tuple[np.ndarray, slice]]]]:
+    """What pushes with one exponent, together: accelerations, and which columns say what they change."""
+    merged: list[tuple[complex, list[tuple[np.ndarray, slice]]]] = []
+    for exponent, values, place in pushes:
+        for other, together in merged:
+            if abs(exponent - other) <= EQUAL * (1.0 + abs(exponent)):
+                together.append((values, place))
                 break
         else:
-            merged.append(force)
+            merged.append((complex(exponent), [(values, place)]))
     return merged
 
 
@@ -104,6 +135,8 @@ class _Modes:
     forced: np.ndarray
     right: np.ndarray
     left: np.ndarray
+    mirror: int
+    """Which is the turn of bearings that act differently in two directions; ALIKE where there is none."""
 
     @classmethod
     def of(cls, system: System) -> _Modes:
@@ -116,6 +149,11 @@ class _Modes:
             kept[place : place + 2] = False
         right = np.concatenate([arrays["rows"], arrays["limit_rows"], system.shapes])
         left = np.concatenate([arrays["columns"], arrays["limit_columns"], system.to_modes], axis=1)
+        mirror = ALIKE
+        if system.mirrored is not None:
+            acting = arrays["mirror_columns"], arrays["limit_mirrors"], system.mirrored
+            left = np.concatenate([left, *acting], axis=1)
+            mirror = int(kept[: arrays["mirror"][0]].sum())
         return cls(
             exponents=arrays["exponents"][kept],
             driven=arrays["driven"].astype(bool)[kept],
@@ -123,12 +161,20 @@ class _Modes:
             forced=forced[kept],
             right=right[:, kept],
             left=left[kept],
+            mirror=mirror,
         )
 
     def driven_by(self, exponent: complex, push: np.ndarray) -> _Modes:
         """With one more force, which changes the rates of the amplitudes by ``push``."""
+        try:
+            return self._driven_by(exponent, push, RESONANT)
+        except InputError:  # modes that nearly coincide, as those of a thin shaft that tilts about one support
+            return self._driven_by(exponent, push, APART)
+
+    def _driven_by(self, exponent: complex, push: np.ndarray, resonant: float) -> _Modes:
+        """The same; modes farther than ``resonant`` from a force, relative to one plus its size, are none that it drives."""
         size = 1.0 + abs(exponent)
-        close = self.free & (np.abs(self.exponents - exponent) <= RESONANT * size)
+        close = self.free & (np.abs(self.exponents - exponent) <= resonant * size)
         close &= exponent.real - self.exponents.real <= FADING * size
         near = close & self._pushed(push)
         # Modes that a force drives already, and those after them in their chains.
@@ -140,12 +186,12 @@ class _Modes:
         for last in np.flatnonzero(self.driven & np.insert(self.free[:-1], 0, False)).tolist():
             gap = self.exponents[last] - self.exponents[last - 1]
             touched = near[last] or near[last - 1]
-            if touched and abs(gap) > RESONANT * size:
+            if touched and abs(gap) > resonant * size:
                 push = push + np.eye(len(push))[last] * (push[last - 1] / gap)
-                return self._parted(last, gap).driven_by(exponent, push)
+                return self._parted(last, gap)._driven_by(exponent, push, resonant)
             if touched and EQUAL * size < abs(gap) <= ONE * size:
                 push = push + np.eye(len(push))[last - 1] * (push[last] * gap / 2.0)
-                return self._as_one(last, gap).driven_by(exponent, push)
+                return self._as_one(last, gap)._driven_by(exponent, push, resonant)
             near[last - 1 : last + 1] |= touched
         others = np.flatnonzero(self.free & ~near & ~close)
         matrix = np.diag(self.exponents) + np.diag(self.driven[1:].astype(complex), -1)
@@ -218,4 +264,5 @@ class _Modes:
             np.insert(self.forced, place, amplitude),
             np.insert(self.right, place, self.right @ shares, axis=1),
             np.insert(self.left, place, 0.0, axis=0),
+            self.mirror + (self.mirror > ALIKE and self.mirror >= place),
         )

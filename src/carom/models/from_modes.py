@@ -38,15 +38,18 @@ def modal_system(
     shaft: ShaftModes | None = None,
     clearances: tuple[float, ...] | None = None,
     limits: Mapping[str, np.ndarray] | None = None,
+    mirrored: np.ndarray | None = None,
+    mirror_columns: np.ndarray | None = None,
+    mirror: np.ndarray | None = None,
     **planes: np.ndarray,
 ) -> System:
     """System of these modes, in arrays of one of few sizes: each size of the kernels takes seconds to compile.
 
     Parameters
     ----------
-    exponents, driven, free, rows, columns, limits, **planes
+    exponents, driven, free, rows, columns, limits, mirror, mirror_columns, **planes
         See :func:`~carom.core.layout.rotor_record`.
-    rest, shapes, inverse, forced, translation, clearances
+    rest, shapes, inverse, forced, translation, clearances, mirrored
         See :class:`System`.
     races : RaceModes, optional
         Further modes, of races that turn.
@@ -83,7 +86,10 @@ def modal_system(
             **limits,
             "limit_rows": filled(limits["limit_rows"], 1),
             "limit_columns": filled(limits["limit_columns"]),
+            "limit_mirrors": filled(limits["limit_mirrors"]),
         }
+    if mirror is not None and mirror_columns is not None:
+        planes |= {"mirror": mirror, "mirror_columns": filled(mirror_columns)}
     arrays = rotor_record(
         limits=limits,
         exponents=filled(exponents, filler=exponents[-1]),
@@ -94,7 +100,10 @@ def modal_system(
         **planes,
     )
     moved = None if forced is None else filled(forced)
-    return System(arrays, rest, filled(shapes, 1), filled(inverse), translation, moved, races, shaft, clearances)
+    conjugates = None if mirrored is None else filled(mirrored)
+    return System(
+        arrays, rest, filled(shapes, 1), filled(inverse), translation, moved, races, shaft, clearances, conjugates
+    )
 
 
 @checked

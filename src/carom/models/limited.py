@@ -107,7 +107,11 @@ def with_limits(system: System, limits: Sequence[Limit]) -> System:
         "limit_columns": system.to_modes @ pushes,
         "limit_couplings": couplings * turns[:, None] / turns,
     }
-    return replace(system, arrays=rotor_record(**{name: arrays[name] for name in _KEPT}, limits=own))
+    kept = {name: arrays[name] for name in _KEPT}
+    if system.mirrored is not None:
+        own["limit_mirrors"] = system.mirrored @ pushes.conj()
+        kept |= {name: arrays[name] for name in ("mirror", "mirror_columns")}
+    return replace(system, arrays=rotor_record(**kept, limits=own))
 
 
 @dataclass(frozen=True)

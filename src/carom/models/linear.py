@@ -1,4 +1,4 @@
-"""Any linear isotropic rotor, from its matrices."""
+"""Any linear rotor, from its matrices."""
 
 from __future__ import annotations
 
@@ -15,6 +15,7 @@ from carom.arguments import checked
 from carom.models import linear_parameters
 from carom.models.forcing import Force, with_forces
 from carom.models.from_modes import modal_system, second_order_system, walls_as_arrays
+from carom.models.mirror import Doubled, mirrored_system
 from carom.models.model import Matrices, Rates
 from carom.models.modes import modes_of
 from carom.models.race import RaceModes
@@ -63,6 +64,9 @@ class LinearRotor(Result):
     unlevitated : array_like of complex, shape (2, n, n), optional
         Damping and stiffness in the fixed frame that are left when levitation is lost; a drop needs it.  By default all are
         levitation for a rotor with one coordinate, and none is known for others.
+    conjugate : array_like of complex, shape (2, n, n), optional
+        Damping and stiffness in the fixed frame that act on the conjugates of rates and coordinates: of bearings that act differently in two
+        directions, with levitation or without it.  By default there are none.  Not with a ``shaft``.
 
     Raises
     ------
@@ -80,6 +84,7 @@ class LinearRotor(Result):
     scales: Scales | None = None
     shaft: Shaft | None = None
     unlevitated: np.ndarray | None = None
+    conjugate: np.ndarray | None = None
 
     def __post_init__(self) -> None:
         if not isinstance(self.scales, Scales | None):
@@ -100,7 +105,8 @@ class LinearRotor(Result):
                 raise InputError(name, values.tolist(), f"finite numbers of shape {shape}")
         if self.heavy.any() and self.forcing[~self.heavy].any():
             raise InputError("forcing", self.forcing.tolist(), "0 for coordinates without mass")
-        self._check_unlevitated()
+        self._check_pair("unlevitated")
+        self._check_pair("conjugate")
         given: Any = self.touchdowns
         listed = tuple(given) if isinstance(given, Iterable) else ()
         if not listed or not all(isinstance(each, Touchdown) and len(each.plane) == n for each in listed):
@@ -110,15 +116,15 @@ class LinearRotor(Result):
         if self.shaft is not None:
             self._check_shaft()
 
-    def _check_unlevitated(self) -> None:
-        """Read what is left without levitation."""
-        if self.unlevitated is None:
+    def _check_pair(self, name: str) -> None:
+        """Read a pair of a damping and a stiffness, if it is stated."""
+        if getattr(self, name) is None:
             return
-        values, shape = _numbers("unlevitated", self.unlevitated), (2, *self.mass.shape)
+        values, shape = _numbers(name, getattr(self, name)), (2, *self.mass.shape)
         if values.shape != shape or not np.isfinite(values).all():
-            raise InputError("unlevitated", values.tolist(), f"finite numbers of shape {shape}")
+            raise InputError(name, values.tolist(), f"finite numbers of shape {shape}")
         values.flags.writeable = False
-        object.__setattr__(self, "unlevitated", values)
+        object.__setattr__(self, name, values)
 
     @cached_property
     def heavy(self) -> np.ndarray:
@@ -133,6 +139,12 @@ class LinearRotor(Result):
 
     def _check_shaft(self) -> None:
         """Refuse a shaft whose speed changes where the matrices would change with it, or where it has no response to its unbalance."""
+        if self.conjugate is not None:
+            raise InputError(
+                "shaft",
+                shown(self.shaft),
+                "None where bearings act differently in two directions: its speed stays as it is",
+            )
         if np.abs(self.matrices.gyroscopic).max() > GYROSCOPIC * np.abs(self.damping).max():
             raise InputError(
                 "shaft", shown(self.shaft), "None for a rotor with a gyroscopic matrix: its modes change with the speed"
@@ -184,6 +196,8 @@ class LinearRotor(Result):
     def system(self) -> System:
         """Modes, contact planes and contact law."""
         n = len(self.mass)
+        if self.conjugate is not None and self.conjugate.any():
+            return self._mirrored(self.conjugate)
         self._check_inverses()
         if _singular(self.stiffness, self.mass, self.damping, self.stiffness) and self.forcing.any():
             # In undamped resonance with the unbalance, which then drives a mode, there is no rest.
@@ -218,6 +232,22 @@ class LinearRotor(Result):
             limits=None,
             **walls_as_arrays([each.wall(mass) for each, mass in zip(self.touchdowns, masses, strict=True)]),
             masses=masses,
+            translation=self.translation,
+            clearances=tuple(each.clearance for each in self.touchdowns),
+        )
+
+    def _mirrored(self, conjugate: np.ndarray) -> System:
+        """System where bearings act differently in two directions."""
+        doubled = Doubled.of(self.mass, self.damping, self.stiffness, conjugate)
+        none = np.zeros(len(self.mass))
+        if _singular(doubled.stiffness, doubled.mass, doubled.damping, doubled.stiffness) and self.forcing.any():
+            raise InputError("forcing", self.forcing.tolist(), "none in undamped resonance with it")
+        planes = [dataclasses.replace(each, plane=np.append(each.plane, none), race=None) for each in self.touchdowns]
+        system = LinearRotor(*doubled, np.append(self.forcing, none), planes).system
+        return mirrored_system(
+            system,
+            self.accelerations(self.planes.conj().T) * system.arrays["masses"],
+            races=RaceModes.of([each.race for each in self.touchdowns], system.arrays["masses"]),
             translation=self.translation,
             clearances=tuple(each.clearance for each in self.touchdowns),
         )
@@ -311,8 +341,11 @@ class LinearRotor(Result):
         numbers = {name: [getattr(self, name).real.tolist(), getattr(self, name).imag.tolist()] for name in _NUMBERS}
         numbers["touchdowns"] = [each.attributes() for each in self.touchdowns]
         shaft, scales = (dataclasses.asdict(part) if part else None for part in (self.shaft, self.scales))
-        left = self.unlevitated
-        others = {"shaft": shaft, "unlevitated": None if left is None else [left.real.tolist(), left.imag.tolist()]}
+        pairs = {
+            name: None if pair is None else [pair.real.tolist(), pair.imag.tolist()]
+            for name, pair in (("unlevitated", self.unlevitated), ("conjugate", self.conjugate))
+        }
+        others = {"shaft": shaft, **pairs}
         return {"linear_rotor": json.dumps(numbers | others), "scales": json.dumps(scales)}
 
     @classmethod
@@ -327,7 +360,7 @@ class LinearRotor(Result):
             An attribute is missing, or is not such text.
         """
         numbers, scales = (json.loads(attributes[name]) for name in ("linear_rotor", "scales"))
-        for name in (*_NUMBERS, "unlevitated"):
+        for name in (*_NUMBERS, "unlevitated", "conjugate"):
             if numbers.get(name) is not None:
                 real, imaginary = numbers[name]
                 numbers[name] = np.array(real) + 1j * np.array(imaginary)

@@ -40,6 +40,8 @@ def fields(rotor: LinearRotor) -> dict[str, Field]:
     absent = own.keys() & {"mu", "d", "radius_ratio", *WALL_FIELDS} - set(_at_planes(rotor))
     if not rotor.heavy.all():
         absent |= {"gamma", "omega"}  # matrices that hold a controller are no multiple of a damping or a stiffness
+    if rotor.conjugate is not None:
+        absent |= {"gamma", "omega"}  # there is none that is alike in both directions
     found = {name: field for name, field in own.items() if name not in absent}
     found |= {name: MACHINE_FIELDS[name] for name, same in SAME.items() if same not in absent}
     if rotor.scales is not None:
@@ -121,7 +123,8 @@ def moved(rotor: LinearRotor, name: str, given: float | str) -> dict[str, Any]:
             "stiffness": rotor.stiffness + stiffer + 1j * more,
             "touchdowns": tuple(each.at_speed(1.0 / slower) for each in rotor.touchdowns),
             "shaft": None if rotor.shaft is None else rotor.shaft.at_speed(1.0 / slower),
-            "unlevitated": _times(rotor, slower, slower * slower),
+            "unlevitated": _times(rotor.unlevitated, slower, slower * slower),
+            "conjugate": _times(rotor.conjugate, slower, slower * slower),
             "scales": replace(rotor.scales, speed=value),
         }
     present = value_of(rotor, own)
@@ -132,16 +135,15 @@ def moved(rotor: LinearRotor, name: str, given: float | str) -> dict[str, Any]:
         return {"forcing": rotor.forcing * factor}
     if own == "omega":
         stiffer = rotor.stiffness + (factor * factor - 1.0) * stiffness
-        return {"stiffness": stiffer, "unlevitated": _times(rotor, 1.0, factor * factor)}
+        return {"stiffness": stiffer, "unlevitated": _times(rotor.unlevitated, 1.0, factor * factor)}
     more = (factor - 1.0) * damping
-    multiplied = _times(rotor, factor, 1.0)
+    multiplied = _times(rotor.unlevitated, factor, 1.0)
     return {"damping": rotor.damping + more, "stiffness": rotor.stiffness + 1j * more, "unlevitated": multiplied}
 
 
-def _times(rotor: LinearRotor, damping: float, stiffness: float) -> np.ndarray | None:
-    """Multiples of the damping and the stiffness that are left without levitation."""
-    left = rotor.unlevitated
-    return None if left is None else np.stack([damping * left[0], stiffness * left[1]])
+def _times(pair: np.ndarray | None, damping: float, stiffness: float) -> np.ndarray | None:
+    """Multiples of a pair of a damping and a stiffness."""
+    return None if pair is None else np.stack([damping * pair[0], stiffness * pair[1]])
 
 
 def rates_of(rotor: LinearRotor, name: str) -> Rates | None:
@@ -149,6 +151,8 @@ def rates_of(rotor: LinearRotor, name: str) -> Rates | None:
     own, plane = _planes(rotor).get(name, (SAME.get(name, name), None))
     changes_walls = any(each.at_speed(2.0) != each for each in rotor.touchdowns)
     if own in WALL_FIELDS or (name == "speed" and (changes_walls or not rotor.heavy.all())):
+        return None
+    if rotor.conjugate is not None:
         return None
     of_law = {attribute: np.zeros(len(rotor.planes)) for attribute in _EXACT.values()}
     stiffer, more, pull = np.zeros_like(rotor.stiffness), np.zeros_like(rotor.damping), np.zeros_like(rotor.forcing)

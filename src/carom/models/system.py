@@ -28,6 +28,12 @@ EQUAL = 1e-12
 """Distance of exponents, relative to one plus their size, below which they are one number."""
 ROUNDING = 1e-12
 """Share of the sum of moduli below which the sum counts as zero."""
+MIRRORED = "bearings that act differently in two directions"
+"""What a rotor has that is refused for it."""
+ALIKE = (
+    "bearings alike in both directions; without these carom.simulate, carom.settle, carom.drop, carom.study, carom.find_attractors and "
+    "carom.map_basins work"
+)
 
 
 class Contact(NamedTuple):
@@ -80,6 +86,9 @@ class System(Result):
         Those of a shaft whose speed changes.  The frame turns at its nominal speed.
     clearances : tuple of float, optional
         Clearance of each plane in the unit of length of the rotor's scales; ones by default.
+    mirrored : ndarray of complex, shape (N, 2n), optional
+        Amplitudes per conjugate of a coordinate, then of a rate, times ``e^{−2it}``, where bearings act differently in two directions
+        (:mod:`carom.models.mirror`); by default they do not.
     """
 
     arrays: np.record
@@ -91,6 +100,7 @@ class System(Result):
     races: RaceModes | None = None
     shaft: ShaftModes | None = None
     clearances: tuple[float, ...] | None = None
+    mirrored: np.ndarray | None = None
 
     @cached_property
     def table(self) -> np.record:
@@ -154,6 +164,8 @@ class System(Result):
     @property
     def unrepeated(self) -> tuple[str, str] | None:
         """What keeps motions from repeating in a way that is known here, and what is allowed instead; ``None`` if nothing does."""
+        if self.mirrored is not None and self.unsteady is None:
+            return MIRRORED, ALIKE
         if self.limits and self.unsteady is None:
             return "limits of its magnetic bearings", "bearings without limits, or carom.simulate and carom.settle"
         return self.unsteady
@@ -175,7 +187,7 @@ class System(Result):
         return bool(self.outer[~self._steady].any())
 
     def refuse_unrepeated(self) -> None:
-        """Refuse a rotor of which no orbits are known: a race turns, the speed changes, or a force changes in the fixed frame."""
+        """Refuse a rotor of which no orbits are known, as a race turns, the speed changes, a force changes in the fixed frame, or bearings are not alike in both directions."""
         if self.unrepeated is not None:
             raise InputError("machine", *self.unrepeated)
 
@@ -187,8 +199,31 @@ class System(Result):
     def refuse_forces(self) -> None:
         """Refuse a rotor that never is at rest in its frame: forces change with time there, a race turns or the speed changes."""
         self.refuse_unsteady()
+        self.refuse_mirrored()
         if self.forced is not None:
             raise InputError("machine", "forces that change with time", "a rotor whose forces turn with its frame")
+
+    def refuse_mirrored(self) -> None:
+        """Refuse a rotor whose bearings act differently in two directions."""
+        if self.mirrored is not None:
+            raise InputError("machine", MIRRORED, ALIKE)
+
+    @property
+    def timed(self) -> bool:
+        """Whether it matters when a motion begins."""
+        return bool(self.outer.any() or self.limits or self.mirrored is not None)
+
+    @property
+    def rest_mirrored(self) -> np.ndarray:
+        """Coordinates (n,) of what turns with ``e^{−2it}`` in the contact-free motion: its whirl is an ellipse in the fixed frame."""
+        return self.shapes @ (self._turn if self.mirrored is not None else np.zeros(self.modes))
+
+    @cached_property
+    def _turn(self) -> np.ndarray:
+        """The turn of bearings that act differently in two directions at time zero, zeros elsewhere; shape (N,)."""
+        turn = np.zeros(self.modes, complex)
+        turn[self.arrays["mirror"]] = 1.0
+        return turn
 
     @property
     def rates(self) -> np.ndarray:
@@ -228,6 +263,7 @@ class System(Result):
             outer[self.arrays["race"][self.races.planes]] = 0.0
         for place in self.arrays["shaft"].tolist():
             outer[place : place + 2] = 0.0
+        outer[self.arrays["mirror"]] = 0.0
         return outer
 
     @cached_property
@@ -248,8 +284,11 @@ class System(Result):
             found: np.ndarray = np.einsum("nk,mk->mn", self.to_modes, states - self._whole_rest)
             return found
         forced = self.forced_at(time)
-        at_rest = self.states_of(forced[None])
-        return np.asarray(np.einsum("nk,mk->mn", self.to_modes, states - at_rest) + forced)
+        away = states - self.states_of(forced[None])
+        found = np.einsum("nk,mk->mn", self.to_modes, away) + forced
+        if self.mirrored is not None:
+            found += np.einsum("nk,mk->mn", self.mirrored, away.conj()) * forced[self.arrays["mirror"]]
+        return found
 
     def states_of(self, amplitudes: np.ndarray) -> np.ndarray:
         """States of mode amplitudes, the inverse of :meth:`amplitudes_of`."""

@@ -61,7 +61,7 @@ def direction_of_fall(model: Model) -> float:
 
 def refuse_forces(model: Model) -> None:
     """Refuse a rotor on which forces act that change with time in its frame: it never is at rest there."""
-    if model.system.shaft is not None:
+    if model.system.shaft is not None or model.system.mirrored is not None:
         model.system.refuse_forces()
     if model.system.forced is not None:
         acting = "forces that change with time" if weight_of(model) is None else "gravity"
@@ -126,4 +126,5 @@ def without_levitation(model: Model) -> Model:
         translation=model.system.translated,
         scales=model.scales,
         shaft=model.shaft if isinstance(model, LinearRotor) else None,
+        conjugate=model.conjugate if isinstance(model, LinearRotor) else None,
     )

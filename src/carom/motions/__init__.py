@@ -20,6 +20,7 @@
 ``bearing_loads``     the same of a drop, over all stages, with race, whirl and rest
 ``courses``           a drop sampled over all stages, to be drawn
 ``ledger``          energies of a motion
+``across``          energies of bearings that act differently in two directions
 ``spectrum``        forward and backward whirl at each multiple of the shaft speed
 ==================  =============================================================================
 """

@@ -12,6 +12,7 @@ from carom.models import Matrices
 from carom.models.excess import excess_accelerations, excess_of
 from carom.models.in_bearing import pull_of
 from carom.models.stages import forces_of
+from carom.motions.across import Across
 from carom.motions.contacts import Table, column, presses, race_speed, slip_velocity, yields
 from carom.motions.quadrature import NODES, WEIGHTS, pieces
 from carom.motions.spin import spin_of
@@ -161,7 +162,8 @@ def energy_ledger(trajectory: Trajectory) -> EnergyLedger:
     skew = 0.5 * (matrices.stiffness - matrices.stiffness.conj().T)
     if np.abs(skew).max() <= HERMITIAN * np.abs(matrices.stiffness).max():
         skew = np.zeros_like(skew)
-    kinetic, spring = _stored(trajectory, matrices)
+    across = Across(trajectory)
+    kinetic, spring = _stored(trajectory, matrices, across)
     wall, parting, dampers = _walls(trajectory, counts, half)
     races, drag = _races(trajectory, times)
     spin = spin_of(trajectory, times)
@@ -180,8 +182,8 @@ def energy_ledger(trajectory: Trajectory) -> EnergyLedger:
         shaft=spin.energy,
         unbalance=work(((fixed.conj() @ matrices.forcing) * spin.unbalance).real)
         + at_events(np.arange(len(spin.jolts)), _work_of_jolts(trajectory, spin.jolts)),
-        damping=work(-_form(fixed, matrices.damping, fixed)),
-        circulatory=work(-_form(fixed, skew, position)),
+        damping=work(-_form(fixed, matrices.damping, fixed) + across.damping_power(fixed, times)),
+        circulatory=work(-_form(fixed, skew, position) + across.circulatory_power(position, fixed, times)),
         forces=work(_power_of_forces(trajectory, times, fixed)),
         limits=work(_power_of_excess(trajectory, times, fixed)),
         impacts=at_events(impact, impacts.contact_work),
@@ -279,10 +281,12 @@ def _races(trajectory: Trajectory, times: np.ndarray) -> tuple[np.ndarray, np.nd
     return kinetic, power
 
 
-def _stored(trajectory: Trajectory, matrices: Matrices) -> tuple[np.ndarray, np.ndarray]:
+def _stored(trajectory: Trajectory, matrices: Matrices, across: Across) -> tuple[np.ndarray, np.ndarray]:
     """Kinetic and spring energy at the start of each segment and at the end."""
     position, velocity = trajectory.rotor.system.state(trajectory.segment_amplitudes)
     position = np.concatenate([position, np.asarray(trajectory.final.position)[None]])
     velocity = np.concatenate([velocity, np.asarray(trajectory.final.velocity)[None]])
     position, fixed = _in_fixed_frame(position, velocity, len(matrices.mass))
-    return 0.5 * _form(fixed, matrices.mass, fixed), 0.5 * _form(position, matrices.stiffness, position)
+    spring = 0.5 * _form(position, matrices.stiffness, position)
+    spring += across.energy(position, np.append(trajectory.segment_starts, trajectory.time))
+    return 0.5 * _form(fixed, matrices.mass, fixed), spring

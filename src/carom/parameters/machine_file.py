@@ -136,7 +136,11 @@ class Case(Tabular):
         return f"Case {self.name}"
 
     def rows(self) -> list[tuple[str, str]]:
-        """The machine in the units of people, what it must survive, what is stated of its bearing, and the units of the equations."""
+        """The machine in the units of people, and what is stated beside it."""
+        return [*self._of_machine(), *self.beside_rows()]
+
+    def beside_rows(self) -> list[tuple[str, str]]:
+        """What is stated beside the machine: bearing, drive, gravity, what it must survive, limits; and the units of the equations."""
         scales = self.parameters.scales
         zones = ", ".join(f"{zone} up to {number(limit)}" for zone, limit in zip("ABC", self.zones.limits, strict=True))
         limits = [
@@ -146,7 +150,6 @@ class Case(Tabular):
         ]
         units = [f"{shown_in(kind, None)[1]} = {told(1.0, kind, scales)}" for kind in _UNITS_TOLD]
         return [
-            *self._of_machine(),
             *([("touchdown bearing", self.touchdown.words)] if self.touchdown else []),
             *([("drive", self.drive.words)] if self.drive else []),
             *([("gravity", self.gravity.words)] if self.gravity else []),

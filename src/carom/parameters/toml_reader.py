@@ -16,7 +16,7 @@ from carom.parameters.fields import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, unknow
 _WHAT = "machine file"
 _OPTIONAL = ("zones", "limits", "survive", "gravity", "touchdown", "drive")
 _KINDS = ("machine", "dimensionless", "rotor")
-_LISTS = ("section", "disc", "magnetic_bearing", "touchdown", "unbalance")
+_LISTS = ("section", "disc", "magnetic_bearing", "support", "touchdown", "unbalance")
 """Tables of which a file with ``[rotor]`` holds one for each part."""
 _TABLES = dict.fromkeys((*_KINDS, *_OPTIONAL, *_LISTS))
 _LARGEST_BYTES = 1_000_000

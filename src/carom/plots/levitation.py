@@ -105,19 +105,20 @@ def sensitivity(found: Sensitivity) -> Figure:
 @checked
 @styled
 def flexible_response(found: FlexibleResponse) -> Figure:
-    """Draw the radii of the whirl by unbalance over the speed: at the touchdown bearings and at the sensors, with the speed of the machine.
+    """Draw the radii of the whirl by unbalance over the speed, of ellipses the largest: at the touchdown bearings and at the sensors, with the speed of the machine.
 
     What reaches the clearance is virtual: there the rotor touches before.
     """
     figure, axes = one_axes(None, (TWO_COLUMNS, 0.62 * TWO_COLUMNS))
     speeds, machine = found.speeds / RPM, found.machine
-    kinds = (("touchdown bearing", "stable", found.touchdowns), ("sensors of bearing", "unstable", found.sensors))
+    reached, measured = found.touchdown_ellipses.major, found.sensor_ellipses.major
+    kinds = (("touchdown bearing", "stable", reached), ("sensors of bearing", "unstable", measured))
     for words, look, values in kinds:
-        for number_of, radii in enumerate(np.abs(values).T, start=1):
+        for number_of, radii in enumerate(values.T, start=1):
             name = f"{words} {number_of}"
             line = _LINES[(number_of - 1) % len(_LINES)]
             axes.plot(speeds, 1e6 * radii, linestyle=line, color=LOOKS[look].colour, label=name, gid=name)
-    top = 1e6 * max(float(np.abs(found.touchdowns).max()), float(np.abs(found.sensors).max()))
+    top = 1e6 * max(float(reached.max()), float(measured.max(initial=0.0)))
     least = 1e6 * min(machine.clearances)
     if top > 0.5 * least:
         axes.axhline(least, color="#1a1a1a", lw=0.9, ls=":", label="clearance", gid="clearance")

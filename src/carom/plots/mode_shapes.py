@@ -62,9 +62,9 @@ def mode_shapes(flexible: FlexibleMachine, whirls: Sequence[Whirl]) -> Figure:
 
 def _shape(axes: Axes, places: Floats, whirl: Whirl) -> None:
     # The square of a rotating number tells the plane in which the shape is widest, whatever its sign.
-    turned = whirl.shape * cmath.exp(-0.5j * cmath.phase(complex((whirl.shape**2).sum())))
+    turned = whirl.widest * cmath.exp(-0.5j * cmath.phase(complex((whirl.widest**2).sum())))
     turned *= 1.0 if turned.real[np.abs(turned.real).argmax()] > 0.0 else -1.0
-    look = LOOKS[whirl.sense]
+    look = LOOKS["backward" if whirl.sense == "backward" else "forward"]
     axes.axhline(0.0, color="#a6a6a6", lw=0.6)
     axes.plot(places, turned.real, color=look.colour, lw=1.4, label=f"{whirl.sense} whirl", gid="along")
     if np.abs(turned.imag).max() > _ROUND:

@@ -34,12 +34,19 @@
 ``theorems``        the theorems by name
 ``proving``         prove, at a precision that rises by itself
 ``patches``         patches of states, and the flights that leave them
+``moments``         all flights of a patch at a time
 ``passages``        what happens next on all flights of a patch
 ``strikes``         states after an impact
 ``mean_values``     numbers with derivatives by a few unknowns, in balls
 ``bends``           second derivatives of where flights reach the wall
 ``rub_traps``       a region around a stable rub from which no bounce gets out
 ``recoveries``      whether all states of a patch return
+``boxes``           boxes of machines
+``sides``           by how much a parameter of a box moves flights
+``plain_flights``   flights in double precision
+``gaps``            parts of a box on which something is open
+``kick_box_claims`` claims about kicks of boxes of machines
+``steady_lines``    levitation, rubs and harmless kicks along a parameter
 ``starts``          how a disturbance takes a rotor out of levitation
 ``families``        kicks, shocks and steps of the unbalance: sizes and words
 ``kick_cells``      a disc of kicks, or of others, as cells that halve one another

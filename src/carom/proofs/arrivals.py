@@ -16,7 +16,7 @@ from flint import arb
 
 from carom.proofs.balls import rational
 from carom.proofs.evidence import rational_of
-from carom.proofs.forms import Form, Surface, angles, highest, level
+from carom.proofs.forms import Form, Surface, angles, energy, highest, level, returns
 
 MOST_BOXES = 50_000
 _TURNS = 8
@@ -37,26 +37,28 @@ def read_forms(listed: Any) -> list[Form]:
 
 
 def traps_of(wall: Surface, forms: Sequence[Form]) -> list[Bounded] | None:
-    """The traps of forms; ``None`` if there are none, or one of them need not fall."""
+    """The traps of forms; ``None`` if there are none, or motions in one of them need not return."""
     turns, traps = angles(), []
     for form in forms:
-        if not form.falls(wall):
+        if not (0 <= form.shift <= 1 and form.falls(wall) and returns(form, wall)):
             return None
-        trap = Bounded(form, level(form, wall, turns))
-        if not trap.bound > 0:
+        trap, core = Bounded(form, level(form, wall, turns)), form.core(wall)
+        if not trap.bound > core * core:
             return None
         traps.append(trap)
     return traps or None
 
 
 def limits_of(wall: Surface, speed: Any, forms: Sequence[Form]) -> list[Bounded] | None:
-    """Bounds of what arrives, that of energy first; ``None`` if a form may rise in flight."""
-    turns = angles()
-    zero = arb(0)
-    energy = Form(zero, zero, wall.omega_squared)
-    if not all(form.falls(wall) for form in forms):
+    """Bounds of what arrives, that of energy first; ``None`` if a form may rise in flight beyond its core."""
+    turns, first = angles(), energy(wall)
+    if not all(0 <= form.shift <= 1 and form.falls(wall) for form in forms):
         return None
-    return [Bounded(form, highest(form, wall, speed, turns)) for form in (energy, *forms)]
+    limits = [Bounded(first, highest(first, wall, speed, turns))]
+    for form in forms:
+        core = form.core(wall).upper()
+        limits.append(Bounded(form, highest(form, wall, speed, turns).max(core * core).upper()))
+    return limits
 
 
 def _fastest(wall: Surface, energy: Bounded) -> Any:

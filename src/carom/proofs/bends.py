@@ -20,10 +20,11 @@ from itertools import combinations_with_replacement
 from math import comb
 from typing import Any
 
-from flint import acb, arb
+from flint import arb
 
-from carom.proofs.mean_values import Form, Pair
-from carom.proofs.patches import Departure, Held, cross, dot
+from carom.proofs.mean_values import NOTHING, Form, Pair
+from carom.proofs.moments import cross, dot
+from carom.proofs.patches import Departure, Held
 
 Jet = list[Any]
 """A function of time with its derivatives."""
@@ -120,7 +121,7 @@ class _Bends:
         held, patch = departure.held, departure.patch
         self.size, self.ell = len(patch.centre), held.radius_squared
         state = [Form(x, [*(column[m] for column in columns), arb(0)]) for m, x in enumerate(patch.centre)]
-        velocity = Pair(state[0], state[1] if departure.from_wall else arb(0))
+        velocity = Pair(state[0], state[1] if departure.from_wall else NOTHING)
         levitation, turn = _turning(state[-1]) * held.radius, _turning(time)
         still, struck = _responses(departure, time, orders)
         self.moved = [struck, [x.turned for x in struck]][: self.size - 1]
@@ -220,14 +221,16 @@ def _responses(departure: Departure, time: Form, orders: int) -> tuple[list[Pair
 
 def _freely(held: Held, jet: Iterable[Any], orders: int) -> list[Any]:
     """More derivatives of a free motion."""
-    found, n = [acb(x) for x in jet], held.numbers
+    found, n = list(jet), held.numbers
     while len(found) < orders:
         found.append(-n.gamma * found[-1] - n.omega_squared * found[-2])
     return found
 
 
 def _through(time: Form, at: Any, every: Any, slope: Any) -> Pair:
-    """A complex function of time."""
+    """A real or complex function of time."""
+    if isinstance(at, arb):
+        return Pair(time.through(at, every, slope), NOTHING)
     return Pair(time.through(at.real, every.real, slope.real), time.through(at.imag, every.imag, slope.imag))
 
 

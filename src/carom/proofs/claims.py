@@ -12,6 +12,7 @@ from typing import Any, ClassVar, Literal, get_args
 
 from carom.arguments import checked
 from carom.files import write_whole
+from carom.parameters.terms import set_by
 from carom.proofs.balls import Enclosure
 from carom.proofs.hypotheses import Hypotheses
 from carom.results import WIDEST, Members
@@ -133,6 +134,16 @@ class Proof(Members[Claim]):
         """Claims of one status."""
         return tuple(claim for claim in self.claims if claim.status == status)
 
+    @property
+    def assumed(self) -> dict[str, str]:
+        """Each number that is assumed as it was given; of parameters along which something is proven, their intervals."""
+        along, box = self.options.get("along"), self.options.get("box", ())
+        entries = [(along, self.options["from"], self.options["to"])] if along is not None else box
+        # Their own values in the machine file are not assumed, nor what they stand for.
+        moved = {name: f"{start} to {stop}" for name, start, stop in entries}
+        given = {**self.hypotheses.values, **self.hypotheses.settings, **self.hypotheses.helpers}
+        return {name: text for name, text in given.items() if name not in map(set_by, moved)} | moved
+
     def rows(self) -> list[tuple[str, str]]:
         """Each claim with its status, and the reason where it is not proven."""
         told = [(claim.name, ": ".join(filter(None, (claim.status, claim.reason)))) for claim in self.claims]
@@ -140,13 +151,8 @@ class Proof(Members[Claim]):
 
     def brief_rows(self) -> list[tuple[str, str]]:
         """The theorem, the machine, how many claims have each status, and which are undecided."""
-        given = {**self.hypotheses.values, **self.hypotheses.settings}
-        along = self.options.get("along")
-        if along is not None:
-            # Its own value is not assumed.
-            given[along] = f"{self.options['from']} to {self.options['to']}"
         counts = [(status, len(self.with_status(status))) for status in get_args(Status)]
-        first, *more = wrap(", ".join(f"{name} {text}" for name, text in given.items()), WIDEST)
+        first, *more = wrap(", ".join(f"{name} {text}" for name, text in self.assumed.items()), WIDEST)
         open_ = [claim.name for claim in self.with_status("undecided")]
         rest = len(open_) - _MOST_NAMED
         return [

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import math
 import re
+import time
 from collections.abc import Callable, Mapping
 from fractions import Fraction
 from typing import Any, TypeVar
@@ -30,10 +32,15 @@ class Evidence:
         What an earlier proof has recorded; without it searches are made.
     tell : Reporter, optional
         Receives the progress of those who search.
+    seconds : float
+        After which searches that can end early do.
     """
 
-    def __init__(self, recorded: Mapping[str, Any] | None = None, tell: Reporter | None = None) -> None:
+    def __init__(
+        self, recorded: Mapping[str, Any] | None = None, tell: Reporter | None = None, seconds: float = math.inf
+    ) -> None:
         self.tell = tell or Reporter(step="proving")
+        self._end = time.monotonic() + seconds
         self._recorded = None if recorded is None else dict(recorded)
         self._used: dict[str, Any] = {}
 
@@ -41,6 +48,11 @@ class Evidence:
     def reading(self) -> bool:
         """Whether it is read, not searched for."""
         return self._recorded is not None
+
+    @property
+    def is_late(self) -> bool:
+        """Whether searches that can end early should."""
+        return time.monotonic() > self._end
 
     def take(self, name: str, search: Callable[[], _Found]) -> _Found:
         """What is known under a name: strings, numbers, ``None``, and lists of such.

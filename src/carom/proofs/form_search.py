@@ -10,18 +10,18 @@ import numpy as np
 from flint import arb
 
 from carom.proofs.arrivals import all_trapped, limits_of, read_forms, traps_of
-from carom.proofs.forms import Form, Surface
+from carom.proofs.forms import STEP, Form, Surface
 
-_SHARES = (*np.linspace(0.03, 0.97, 24), 0.99, 0.997)
-"""Values of ``α/γ`` that are tried."""
-_RADII, _DIRECTIONS = (0.33, 0.67, 0.999), 24
-"""How much of the room for ``β`` and ``k`` is used, and in how many directions."""
-_TURNS, _HEADINGS = 24, 49
+_SHARES, _RADII, _DIRECTIONS = 24, 3, 24
+"""How many values of ``α/γ`` are tried, of the room for ``β`` and ``k``, and directions in it."""
+_NEARLY = 0.99
+_MOST_FORMS = 2000
+_TURNS, _HEADINGS = 18, 37
 _SPEEDS = (0.0, 0.5, 1.0)
 _MARGIN = 0.01
 """By how much of its level a state must be inside of a trap, so that boxes around it are."""
 _MOST_LIMITS, _HALVINGS, _TRIES, _LESS = 12, 7, 6, Fraction(49, 50)
-_FINE = 2**40
+_FINE, _BISECTIONS, _SLOWER = 2**40, 30, 0.99
 
 Listed = list[list[str]]
 """Forms as evidence."""
@@ -34,16 +34,44 @@ class Candidates:
     ----------
     wall : Surface
         In balls.
+    finer : int
+        How many times finer than usual the grid of forms is.
     """
 
-    def __init__(self, wall: Surface) -> None:
-        self.balls, self.wall = wall, wall.plain()
-        self.forms = _forms(self.wall)
-        turns = _turns(4 * _TURNS + 1)
-        with np.errstate(over="ignore"):
-            inward = np.maximum(-_spread(self.forms).centre(self.wall, *turns)[0], 0)
-            levels = (_spread(self.forms).away(self.wall, turns[1]) + self.wall.hold * inward**2).min(axis=1)
-        self.levels = levels
+    def __init__(self, wall: Surface, finer: int = 1) -> None:
+        self.wall = wall.plain()
+        self.centred = _forms(self.wall, finer)
+        self.forms, self.levels = self._best_shifts()
+
+    def _best_shifts(self) -> tuple[Form, np.ndarray]:
+        """Of each form the share of levitation about which its trap holds the fastest states, of those from which motions return."""
+        step = float(STEP)
+        shifts = np.arange(0.0, 1.0 + step / 2, step)
+        growth, turns = step * self.centred.step(self.wall), _turns(4 * _TURNS + 1)
+        entries = [self._at(float(shift), turns) for shift in shifts]
+        good = np.ones(self.centred.alpha.size, bool)
+        fastest, best = np.full(good.size, -np.inf), np.full(good.size, len(shifts) - 1)
+        for place in range(len(shifts) - 1, -1, -1):
+            form, bound, speed = entries[place]
+            core = form.core(self.wall)
+            good &= (1 - _MARGIN) * np.sqrt(bound) > core
+            if place < len(shifts) - 1:
+                good &= core + growth < (1 - _MARGIN) * np.sqrt(entries[place + 1][1])
+            better = good & (speed > fastest)
+            fastest[better], best[better] = speed[better], place
+        levels = np.array([bound for _, bound, _ in entries])[best, np.arange(good.size)]
+        kept = np.argsort(-fastest)[:_MOST_FORMS]
+        forms = self.centred._replace(shift=shifts[best])
+        return Form(*(values[kept] for values in forms)), levels[kept]
+
+    def _at(self, shift: float, turns: tuple[np.ndarray, np.ndarray]) -> tuple[Form, np.ndarray, np.ndarray]:
+        """Forms about a share of levitation, their levels, and the speed up to which each holds all states."""
+        forms = self.centred._replace(shift=np.full(self.centred.alpha.size, shift))
+        radial, along = _spread(forms).centre(self.wall, *turns)
+        away = _spread(forms).away(self.wall, turns[1])
+        bound = (away + self.wall.hold * np.maximum(-radial, 0) ** 2).min(axis=1)
+        room = np.sqrt(np.maximum(bound[:, None] - away, 0)) - np.hypot(radial, along)
+        return forms, bound, room.min(axis=1)
 
     def chosen(self, speed: float) -> tuple[Listed, Listed] | None:
         """Traps, and forms that bound what arrives, for all states up to a speed; ``None`` if there are none."""
@@ -65,10 +93,11 @@ class Candidates:
     def _arrivals(self, speed: float) -> tuple[np.ndarray, np.ndarray, tuple[np.ndarray, np.ndarray], list[int]]:
         """Velocities at the wall, sines and cosines of the angles of levitation, and the forms that bound them most."""
         turns = _turns(_TURNS + 1)
-        forms = _joined(self.forms, Form(0.0, 0.0, self.wall.omega_squared))
+        forms = _joined(self.forms, Form(0.0, 0.0, self.wall.omega_squared, 1.0, np.inf))
         radial, along = _spread(forms).centre(self.wall, *turns)
         away = _spread(forms).away(self.wall, turns[1])
         bounds = ((speed + np.hypot(radial, along)) ** 2 + away).max(axis=1)
+        bounds = np.maximum(bounds, forms.core(self.wall) ** 2)
         heading = np.linspace(-np.pi / 2, np.pi / 2, _HEADINGS)
         # Along a ray the form is r² − 2 r (v₀·ray) + |v₀|² + …
         ray = radial[..., None] * np.cos(heading) + along[..., None] * np.sin(heading)
@@ -76,7 +105,7 @@ class Candidates:
         reach = ray + np.sqrt(np.maximum(ray**2 + rest[..., None], 0))
         names, counts = np.unique(reach.argmin(axis=0), return_counts=True)
         order = [int(name) for name in names[np.argsort(-counts)] if name < self.levels.size][:_MOST_LIMITS]
-        longest = reach[[*order, self.levels.size]].min(axis=0)
+        longest = np.maximum(reach[[*order, self.levels.size]].min(axis=0), 0)
         fast = longest[..., None] * np.array(_SPEEDS)
         a, b = (fast * wave(heading)[:, None] for wave in (np.cos, np.sin))
         places = np.broadcast_to(np.arange(turns[0].size)[:, None, None], fast.shape).ravel()
@@ -88,17 +117,23 @@ def _turns(count: int) -> tuple[np.ndarray, np.ndarray]:
     return np.sin(angle), np.cos(angle)
 
 
-def _forms(wall: Surface) -> Form:
-    """Forms that fall in flight."""
-    alpha = np.array(_SHARES)[:, None] * wall.gamma
-    direction = np.linspace(0, 2 * np.pi, _DIRECTIONS, endpoint=False)
-    waves = np.concatenate([[0j], *(radius * np.exp(1j * direction) for radius in _RADII)])
+def _forms(wall: Surface, finer: int) -> Form:
+    """Forms about levitation that fall in flight, each at its largest rate."""
+    alpha = np.array([*np.linspace(0.03, 0.97, finer * _SHARES), 0.99, 0.997])[:, None] * wall.gamma
+    direction = np.linspace(0, 2 * np.pi, finer * _DIRECTIONS, endpoint=False)
+    radii = np.linspace(0, _NEARLY, finer * _RADII + 1)[1:]
+    waves = np.concatenate([[0j], *(radius * np.exp(1j * direction) for radius in radii)])
     room = np.sqrt(4 * alpha * (wall.gamma - alpha) * wall.omega_squared)
     beta, more = room * waves.real / wall.gamma, room * waves.imag
-    forms = Form(*(values.ravel() for values in np.broadcast_arrays(alpha, beta, more)))
-    stiffness = wall.omega_squared + wall.gamma * forms.alpha + forms.stiffness
-    forms = forms._replace(stiffness=stiffness)
-    return Form(*(values[forms.rest > 0] for values in forms))
+    stiffness = wall.omega_squared + wall.gamma * alpha + more
+    forms = Form(*(values.ravel() for values in np.broadcast_arrays(alpha, beta, stiffness, 1.0, 0.0)))
+    forms = Form(*(values[forms.rest > 0] for values in forms))
+    low, high = forms.rate, np.full(forms.rate.size, wall.gamma / 2)
+    for _ in range(_BISECTIONS):
+        middle = (low + high) / 2
+        falls = np.all([slack > 0 for slack in forms._replace(rate=middle).slacks(wall)], axis=0)
+        low, high = np.where(falls, middle, low), np.where(falls, high, middle)
+    return forms._replace(rate=_SLOWER * low)
 
 
 def _spread(forms: Form) -> Form:
@@ -119,18 +154,20 @@ def search(wall: Surface, speed: Any) -> list[Any] | None:
 
     Parameters are balls.
     """
-    candidates, largest = Candidates(wall), float(speed.mid())
-    share = _largest_share(candidates, largest)
-    for _ in range(_TRIES if share else 0):
-        found = candidates.chosen(float(share) * largest)
-        if found is not None and shown(wall, speed * arb(share.numerator) / share.denominator, *found):
-            return [str(share), *found]
-        share *= _LESS
+    largest = float(speed.mid())
+    for finer in (1, 2):
+        candidates = Candidates(wall, finer)
+        share = _largest_share(candidates, largest)
+        for _ in range(_TRIES if share else 0):
+            found = candidates.chosen(float(share) * largest)
+            if found is not None and shown(wall, speed * arb(share.numerator) / share.denominator, *found):
+                return [str(share), *found]
+            share *= _LESS
     return None
 
 
 def _largest_share(candidates: Candidates, largest: float) -> Fraction:
-    """The largest share of a speed for which there are forms, about."""
+    """The largest share of a speed for which there are forms, about; 0 if there are none for a small one."""
     if candidates.chosen(largest) is not None:
         return Fraction(1)
     low, high = Fraction(0), Fraction(1)

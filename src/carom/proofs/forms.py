@@ -1,14 +1,17 @@
-"""Quadratic forms of the deviation from levitation that fall in flight, and the sets in which contact does not raise them either.
+"""Quadratic forms of the distance from a point next to levitation, which fall in flight, and the sets in which contact does not raise them either.
 
-With ``u = z − Λe^{it}`` in the fixed frame, ``g = α − iβ`` and ``k > |g|²``,
+With ``u = z − σΛe^{it}`` in the fixed frame, a share ``0 ≤ σ ≤ 1`` of levitation, ``g = α − iβ`` and ``k > |g|²``,
 
     Q = |u̇|² + 2 Re(g ū u̇) + k|u|² = |ξ|² + (k − |g|²)|u|²,      ξ = u̇ + ḡu .
 
-*Flight.*  ``Q̇/2 = −(γ − α)|u̇|² − αω²|u|² + Re((k − ω² − γg) ū u̇)``: negative for all states but levitation if ``0 < α < γ`` and
-``|k − ω² − γg|² < 4α(γ − α)ω²``, and never positive where equality is allowed too.
+*Flight.*  ``Q̇/2 = −(γ − α)|u̇|² − αω²|u|² + Re((k − ω² − γg) ū u̇) + Re(ξ̄(1 − σ)ρe^{it}) ≤ −δQ + (1 − σ)ρ√Q`` if
+
+    γ − α > δ,      αω² > δk,      |k − ω² − (γ − 2δ)g|² < 4(γ − α − δ)(αω² − δk).
+
+So ``Q`` falls to its *core*, ``((1 − σ)ρ/δ)²``, which is zero for ``σ = 1``.
 
 *Contact.*  Turn the plane such that the rotor touches at ``z = 1``, with ``Λ = ℓe^{iψ}`` and the velocity ``v = a + ib``.  There ``ξ = v − v₀`` with
-``v₀ = a₀ + ib₀ = −ḡ + (i + ḡ)Λ``.  An impact takes ``(1 + iτ)p``, ``p = (1 + d)a``, from the velocity, with ``|τ| ≤ μ`` whether slip goes on, stops, or is backward.  It changes
+``v₀ = a₀ + ib₀ = −ḡ + (i + ḡ)σΛ``.  An impact takes ``(1 + iτ)p``, ``p = (1 + d)a``, from the velocity, with ``|τ| ≤ μ`` whether slip goes on, stops, or is backward.  It changes
 ``Q`` by
 
     −2p(−a₀ + τ(b − b₀) + ea),      e = 1 − ½(1 + d)(1 + τ²),
@@ -17,13 +20,15 @@ and lasting contact of any kind by the same with ``a = 0`` and ``p = N dt``.  Wh
 
     |ξ|² ≤ K h²,      K = 1 + 1/μ² if e ≥ 0 for τ = μ, else (1 − e)²/(e² + μ²) with that e.
 
-*Trap.*  So no motion leaves the set ``Q ≤ C`` if ``C < (k − |g|²)|1 − Λ|² + K max(h, 0)²`` at all angles ``ψ``; in it ``Q`` falls to zero.
+*Trap.*  So no motion leaves the set ``Q ≤ C`` if ``C`` is above the core and ``C < (k − |g|²)|1 − σΛ|² + K max(h, 0)²`` at all angles ``ψ``; in it ``Q`` falls to the core.  With a larger ``σ``
+``√Q`` is larger by ``(σ' − σ)ℓ√(|i + ḡ|² + k − |g|²)`` at most; if that is in the trap of ``σ'``, and so on up to ``σ = 1``, motions in the trap return to levitation.
 
 The formulas serve balls as well as arrays of doubles.
 """
 
 from __future__ import annotations
 
+from fractions import Fraction
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -31,8 +36,10 @@ from flint import arb
 
 from carom.proofs.lines import Numbers
 
-PARTS = 1024
-"""Parts of a turn on which something is shown of all angles."""
+PARTS, FEW = 1024, 512
+"""Parts of a turn on which something is shown of all angles, and where it need not be sharp."""
+STEP = Fraction(1, 20)
+"""Of the share of levitation, from one trap to the next."""
 _SLIPPERY = 1e-3
 """Friction that a bound for less of it assumes: without any, ``K`` would be infinite."""
 _BELOW = 1 - 2.0**-20
@@ -43,7 +50,7 @@ class Surface(NamedTuple):
 
     Attributes
     ----------
-    gamma, omega_squared, d, ratio : number
+    gamma, omega_squared, rho, d, ratio : number
         As of the rotor; ``ratio`` is ``s = R/c_r``.
     radius : number
         ``ℓ``.
@@ -55,6 +62,7 @@ class Surface(NamedTuple):
 
     gamma: Any
     omega_squared: Any
+    rho: Any
     d: Any
     ratio: Any
     radius: Any
@@ -71,7 +79,7 @@ class Surface(NamedTuple):
         else:
             e = e.min(arb(0))
             hold = (1 - e) * (1 - e) / (e * e + friction * friction)
-        return cls(n.gamma, n.omega_squared, n.d, n.radius_ratio, n.levitation, n.mu * (1 + n.d), hold)
+        return cls(n.gamma, n.omega_squared, n.rho, n.d, n.radius_ratio, n.levitation, n.mu * (1 + n.d), hold)
 
     def plain(self) -> Surface:
         """The same in doubles."""
@@ -85,38 +93,52 @@ class Surface(NamedTuple):
 
 
 class Form(NamedTuple):
-    """A form by ``α``, ``β`` and ``k``: balls, or arrays of doubles for many forms at once."""
+    """A form by ``α``, ``β``, ``k``, ``σ`` and ``δ``: balls, or arrays of doubles for many forms at once."""
 
     alpha: Any
     beta: Any
     stiffness: Any
+    shift: Any
+    rate: Any
 
     @property
     def rest(self) -> Any:
         """``k − |g|²``."""
         return self.stiffness - self.alpha * self.alpha - self.beta * self.beta
 
-    def slack(self, wall: Surface) -> Any:
-        """``4α(γ − α)ω² − |k − ω² − γg|²``: not negative where ``Q`` does not rise in flight."""
-        real = self.stiffness - wall.omega_squared - wall.gamma * self.alpha
-        turning = wall.gamma * self.beta
-        return 4 * self.alpha * (wall.gamma - self.alpha) * wall.omega_squared - real * real - turning * turning
+    def slacks(self, wall: Surface) -> tuple[Any, Any, Any]:
+        """Three numbers that are positive if ``Q`` falls in flight at the rate ``δ``."""
+        drag = wall.gamma - self.alpha - self.rate
+        hold = self.alpha * wall.omega_squared - self.rate * self.stiffness
+        left = wall.gamma - 2 * self.rate
+        real, turning = self.stiffness - wall.omega_squared - left * self.alpha, left * self.beta
+        return drag, hold, 4 * drag * hold - real * real - turning * turning
 
     def falls(self, wall: Surface) -> bool:
         """Whether it falls in flight, of balls."""
-        return bool(self.alpha > 0 and wall.gamma > self.alpha and self.slack(wall) > 0 and self.rest > 0)
+        return bool(self.rate > 0 and self.rest > 0 and all(slack > 0 for slack in self.slacks(wall)))
+
+    def core(self, wall: Surface) -> Any:
+        """Root of what it falls to, ``(1 − σ)ρ/δ``."""
+        return (1 - self.shift) * wall.rho / self.rate
+
+    def step(self, wall: Surface) -> Any:
+        """By how much its root may grow over a whole ``σ``."""
+        ahead = 1 + self.beta
+        return wall.radius * (self.alpha * self.alpha + ahead * ahead + self.rest) ** 0.5
 
     def centre(self, wall: Surface, sine: Any, cosine: Any) -> tuple[Any, Any]:
         """``a₀`` and ``b₀`` at an angle ``ψ``."""
-        ahead = 1 + self.beta
+        ahead, radius = 1 + self.beta, wall.radius * self.shift
         return (
-            wall.radius * (self.alpha * cosine - ahead * sine) - self.alpha,
-            wall.radius * (self.alpha * sine + ahead * cosine) - self.beta,
+            radius * (self.alpha * cosine - ahead * sine) - self.alpha,
+            radius * (self.alpha * sine + ahead * cosine) - self.beta,
         )
 
     def away(self, wall: Surface, cosine: Any) -> Any:
-        """``(k − |g|²)|1 − Λ|²``."""
-        return self.rest * (1 + wall.radius * wall.radius - 2 * wall.radius * cosine)
+        """``(k − |g|²)|1 − σΛ|²``."""
+        radius = wall.radius * self.shift
+        return self.rest * (1 + radius * radius - 2 * radius * cosine)
 
     def size(self, wall: Surface, turn: tuple[Any, Any], a: Any, b: Any) -> Any:
         """``Q`` at the wall; ``turn`` holds sine and cosine of ``ψ``."""
@@ -125,14 +147,19 @@ class Form(NamedTuple):
         return x * x + y * y + self.away(wall, turn[1])
 
 
-def angles() -> list[tuple[Any, Any]]:
+def energy(wall: Surface) -> Form:
+    """The form ``|u̇|² + ω²|u|²`` about levitation, which never rises in flight; of balls."""
+    return Form(arb(0), arb(0), wall.omega_squared, arb(1), arb(0))
+
+
+def angles(parts: int = PARTS) -> list[tuple[Any, Any]]:
     """Sines and cosines of the parts of a turn, as balls."""
-    width = arb.pi() / PARTS
-    return [(width * (2 * k + arb(0, 1))).sin_cos() for k in range(PARTS)]
+    width = arb.pi() / parts
+    return [(width * (2 * k + arb(0, 1))).sin_cos() for k in range(parts)]
 
 
 def level(form: Form, wall: Surface, turns: list[tuple[Any, Any]]) -> Any:
-    """A level ``C`` below which a form makes a trap, as a ball without radius."""
+    """A level ``C`` that contact does not let a form leave, as a ball without radius."""
     bounds = []
     for sine, cosine in turns:
         inward = (-form.centre(wall, sine, cosine)[0]).lower().max(arb(0))
@@ -140,10 +167,24 @@ def level(form: Form, wall: Surface, turns: list[tuple[Any, Any]]) -> Any:
     return (min(bounds) * _BELOW).lower()
 
 
+def returns(form: Form, wall: Surface) -> bool:
+    """Whether motions that reach the core of a form return to levitation, by traps of larger and larger ``σ``."""
+    turns, growth = angles(FEW), form.step(wall)
+    while form.shift < 1:
+        ahead = form.shift + arb(STEP.numerator) / STEP.denominator
+        later = form._replace(shift=ahead if ahead < 1 else arb(1))
+        root = form.core(wall) + (later.shift - form.shift) * growth
+        bound = level(later, wall, turns)
+        if not (bound > 0 and root.max(later.core(wall)) < bound.sqrt()):
+            return False
+        form = later
+    return bool(form.shift == 1)
+
+
 def highest(form: Form, wall: Surface, speed: Any, turns: list[tuple[Any, Any]]) -> Any:
     """A bound of a form over all states ``|z| ≤ 1``, ``|ż| ≤ speed``.
 
-    The form is convex in ``(z, ż)``, so its largest value is at ``|z| = 1`` and ``|ż| = speed``, at most ``(speed + |v₀|)² + (k − |g|²)|1 − Λ|²``.
+    The form is convex in ``(z, ż)``, so its largest value is at ``|z| = 1`` and ``|ż| = speed``, at most ``(speed + |v₀|)² + (k − |g|²)|1 − σΛ|²``.
     """
     most = arb(0)
     for sine, cosine in turns:

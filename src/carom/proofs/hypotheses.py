@@ -9,7 +9,7 @@ from __future__ import annotations
 import os
 import tomllib
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from decimal import Decimal
 from fractions import Fraction
 from functools import cached_property
@@ -20,7 +20,7 @@ from carom.arguments import checked
 from carom.loading import load
 from carom.models import Subject, jeffcott_of
 from carom.outcome import InputError, Problems, shown, together
-from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, PARAMETERS, Machine
+from carom.parameters import DIMENSIONLESS_FIELDS, HELPER_FIELDS, MACHINE_FIELDS, PARAMETERS, TERMS, Machine
 from carom.parameters.exact import ExactNumber, read_exact
 from carom.parameters.fields import name_errors, unknown_name
 from carom.parameters.terms import DEFAULTS, check_names
@@ -44,6 +44,8 @@ class Hypotheses:
         Each number of the table as it was given: ``"0.76"``, ``"3/7"``, ``"50 kg"``, ``"double 0.1"`` or ``"[0.1, 0.2]"``.
     settings : mapping of str to str
         Dimensionless numbers that replace what follows from a machine.
+    helpers : mapping of str to str
+        Entries of the machine's file that a term needs along which something is proven, such as ``force_current_factor``.
 
     Raises
     ------
@@ -54,6 +56,7 @@ class Hypotheses:
     table: Literal["machine", "dimensionless"]
     values: Mapping[str, str]
     settings: Mapping[str, str]
+    helpers: Mapping[str, str] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         fields = MACHINE_FIELDS if self.table == "machine" else DIMENSIONLESS_FIELDS
@@ -63,9 +66,17 @@ class Hypotheses:
             for name, text in self.settings.items()
             if name not in DIMENSIONLESS_FIELDS
         ]
+        helpers = HELPER_FIELDS if self.table == "machine" else {}
+        errors += [
+            unknown_name(name, text, helpers, "the entries of the machine's file")
+            for name, text in self.helpers.items()
+            if name not in helpers
+        ]
         if errors:
             raise together(errors)
         self.numbers  # noqa: B018  (raises if a value is not allowed)
+        for name, text in self.helpers.items():
+            read_exact(HELPER_FIELDS[name], text)
 
     @cached_property
     def numbers(self) -> Mapping[str, ExactNumber]:
@@ -97,12 +108,19 @@ class Hypotheses:
         written = {name: written_exactly(value) for name, value in changes.items()}
         values = {**self.values, **{name: text for name, text in written.items() if name in self.values}}
         rest = {name: text for name, text in written.items() if name not in self.values}
-        return Hypotheses(self.table, values, {**self.settings, **rest})
+        return Hypotheses(self.table, values, {**self.settings, **rest}, self.helpers)
 
     def document(self) -> dict[str, Any]:
         """As plain data for JSON; ``exact`` holds what follows, for the reader."""
         exact = {name: str(self.numbers[name]) for name in (*NUMBERS, "phi")}
-        return {"table": self.table, "values": dict(self.values), "settings": dict(self.settings), "exact": exact}
+        told = {"helpers": dict(self.helpers)} if self.helpers else {}
+        return {
+            "table": self.table,
+            "values": dict(self.values),
+            "settings": dict(self.settings),
+            **told,
+            "exact": exact,
+        }
 
     @classmethod
     def from_document(cls, document: Mapping[str, Any]) -> Hypotheses:
@@ -114,7 +132,7 @@ class Hypotheses:
             It is not such data, or the numbers do not follow from those given.
         """
         try:
-            tables = [document["values"], document["settings"]]
+            tables = [document["values"], document["settings"], document.get("helpers", {})]
             if document["table"] not in ("machine", "dimensionless"):
                 raise KeyError("table")
             if not all(isinstance(text, str) for table in tables for text in table.values()):
@@ -144,7 +162,9 @@ def dimensionless_of(machine: Mapping[str, Any]) -> dict[str, Any]:
 
 @checked
 def hypotheses_of(
-    machine: Subject | Hypotheses | str | os.PathLike[str] | Mapping[str, Given], settings: Iterable[str] = ()
+    machine: Subject | Hypotheses | str | os.PathLike[str] | Mapping[str, Given],
+    settings: Iterable[str] = (),
+    along: Iterable[str] = (),
 ) -> Hypotheses:
     """Hypotheses of any description of a rotor.
 
@@ -155,6 +175,8 @@ def hypotheses_of(
         floats, count as doubles.
     settings : iterable of str
         Texts ``"name=value"`` that change the numbers of a file.
+    along : iterable of str
+        Parameters along which something is to be proven: what terms among them need of the file is kept.
 
     Raises
     ------
@@ -163,7 +185,7 @@ def hypotheses_of(
     """
     given = list(settings)
     if isinstance(machine, str | os.PathLike):
-        return _from_file(machine, given)
+        return _from_file(machine, given, [need for name in along if name in TERMS for need in TERMS[name].needs])
     if given:
         raise InputError("settings", given, "for a file only: give a machine with the values wanted")
     if isinstance(machine, Hypotheses):
@@ -174,7 +196,8 @@ def hypotheses_of(
     return Hypotheses("dimensionless", {name: written_exactly(value) for name, value in numbers.items()}, {})
 
 
-def _from_file(path: str | os.PathLike[str], settings: list[str]) -> Hypotheses:
+def _from_file(path: str | os.PathLike[str], settings: list[str], needs: list[str]) -> Hypotheses:
+    """Numbers of a file, with what is needed of its other entries."""
     problems = Problems()
     tables = read_machine_tables(path, problems)
     texts = {}
@@ -194,7 +217,10 @@ def _from_file(path: str | os.PathLike[str], settings: list[str]) -> Hypotheses:
     content = tomllib.loads(Path(path).read_text(encoding="utf-8-sig"), parse_float=Decimal)
     table: Literal["machine", "dimensionless"] = "machine" if "machine" in content else "dimensionless"
     if table == "machine":
-        return _of_machine_file(path, content[table], texts)
+        read = _of_machine_file(path, content[table], texts)
+        given = {**DEFAULTS, **content[table], **texts}
+        helpers = {name: written_exactly(given[name]) for name in needs if name in HELPER_FIELDS and name in given}
+        return replace(read, helpers=helpers)
     read = Hypotheses(table, {name: written_exactly(value) for name, value in content[table].items()}, {})
     return read.replace(**texts)
 

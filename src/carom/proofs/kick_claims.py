@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from fractions import Fraction
 from typing import Any
 
@@ -11,7 +11,7 @@ from carom.proofs.balls import enclosure_of_fraction, enclosures_of
 from carom.proofs.claims import Claim, claim_of
 from carom.proofs.evidence import Evidence, NotShownError
 from carom.proofs.families import Family
-from carom.proofs.kick_cells import IMPACTS, OPEN, REFUTED, Tree, leaves, read, share_of
+from carom.proofs.kick_cells import IMPACTS, OPEN, REFUTED, Cell, Tree, leaves, read, share_of
 from carom.proofs.kick_discs import Disc
 from carom.proofs.kick_search import BITS, show_all
 from carom.proofs.rotor import Rotor
@@ -41,13 +41,27 @@ def kick_claims(family: Family, rotor: Rotor, evidence: Evidence, options: Mappi
     if rotor.bits != BITS:
         raise NotShownError(f"cells are shown with {BITS} bits")
     disc = disc_from(family, rotor, options)
-    tree = read(evidence.take("cells", _nothing))
+    tree = read(evidence.take("cells", nothing_found))
     show_all(disc, tree, available_cores(), evidence.tell)
     return claims_of(disc, tree)
 
 
-def _nothing() -> str:
+def nothing_found() -> str:
+    """Stand for a search where cells are only read."""
     raise NotShownError("cells are found by a search of their own")
+
+
+def reasons_of(known: Iterable[tuple[Cell, str]], of: str) -> str:
+    """How much of all cells does not return, and how much is open, and why; nothing where all returns."""
+    parts: dict[str, Fraction] = {}
+    for cell, letter in known:
+        parts[letter] = parts.get(letter, Fraction(0)) + cell.share
+    told = [
+        (letter, f"{100 * float(part):.3g} % of the {of}")
+        for letter, part in sorted(parts.items(), key=lambda entry: -entry[1])
+    ]
+    refuted = [f"{share} does not return" for letter, share in told if letter == REFUTED]
+    return "; ".join([*refuted, *(f"{share}: {OPEN[letter]}" for letter, share in told if letter in OPEN)])
 
 
 def claims_of(disc: Disc, tree: Tree) -> list[Claim]:
@@ -55,9 +69,7 @@ def claims_of(disc: Disc, tree: Tree) -> list[Claim]:
     known = [(cell, letter) for cell, letter in leaves(tree)]
     proven = [(cell, IMPACTS.index(letter)) for cell, letter in known if letter in IMPACTS]
     first = min((cell.speeds[0] for cell, letter in known if letter not in IMPACTS), default=Fraction(1))
-    parts = {letter: share_of(cell for cell, other in known if other == letter) for letter in OPEN}
-    open_ = {letter: part for letter, part in sorted(parts.items(), key=lambda entry: -entry[1]) if part}
-    share, left = share_of(cell for cell, _ in proven), sum(open_.values(), Fraction(0))
+    share, left = share_of(cell for cell, _ in proven), share_of(cell for cell, letter in known if letter in OPEN)
     refuted = share_of(cell for cell, letter in known if letter == REFUTED)
     most = max((impacts for _, impacts in proven), default=0)
     family = disc.family
@@ -76,15 +88,12 @@ def claims_of(disc: Disc, tree: Tree) -> list[Claim]:
         enclosures=numbers,
         limited=False,
     )
-    reasons = [f"{100 * float(part):.3g} % of the area: {OPEN[letter]}" for letter, part in open_.items()]
-    if refuted:
-        reasons.insert(0, f"{100 * float(refuted):.3g} % of the area does not return")
     whole = claim_of(
         family.about,
         "all recover",
         f"All {told}, return to levitation with at most {most} impacts.",
-        -1 if refuted else 0 if open_ else 1,
-        reason="; ".join(reasons),
+        -1 if refuted else 0 if left else 1,
+        reason=reasons_of(known, "area"),
         limited=False,
     )
     return [recover, whole, *([_refutation(family, told, refuted)] if refuted else [])]

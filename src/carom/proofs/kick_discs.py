@@ -3,30 +3,36 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property, lru_cache
 from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
-from flint import arb
+from flint import arb, arb_series
 
 from carom.models import Jeffcott
 from carom.motions import settle
-from carom.outcome import Outcome
-from carom.proofs.balls import rational
+from carom.outcome import InputError, Outcome
+from carom.parameters import DIMENSIONLESS_FIELDS
+from carom.parameters.terms import set_by
+from carom.proofs.balls import ball_of, rational
+from carom.proofs.boxes import Box, Part, box_of
 from carom.proofs.evidence import NotShownError
-from carom.proofs.families import FAMILIES, Family, Scale
+from carom.proofs.families import FAMILIES, KICKS, Family, Scale
 from carom.proofs.hypotheses import Hypotheses
-from carom.proofs.kick_cells import BY_ANGLE, BY_SPEED, IMPACTS, LOST, REFUTED, Cell
-from carom.proofs.passages import GRAZE, LeftOpenError
+from carom.proofs.kick_cells import CUTS, IMPACTS, LOST, REFUTED, Cell, whole
+from carom.proofs.lines import Numbers
+from carom.proofs.passages import GRAZE, OUTSIDE, LeftOpenError
 from carom.proofs.patches import Held, Patch
-from carom.proofs.recoveries import disturbed, impacts_of, show_in_rub
-from carom.proofs.rotor import Rotor
-from carom.proofs.seeds import doubles_of
+from carom.proofs.recoveries import disturbed, disturbed_in_box, impacts_of, show_in_rub
+from carom.proofs.seeds import doubles_at
+from carom.proofs.series import terms
 
-DiscData = tuple[str, str, str, int]
+DiscData = tuple[str, str, str, int, tuple[tuple[str, ...], ...]]
+_KEPT = 4096
+"""Parts of a box that are kept."""
 _Result = TypeVar("_Result")
 
 
@@ -58,20 +64,35 @@ class Disc:
         The largest of them: with units for a machine, without for a dimensionless one.
     most_impacts : int
         A disturbance that may have more of them is left open.
+    along : tuple of tuples of str
+        Parameters of a box of machines, each with both ends of its interval; for kicks only.
 
     Raises
     ------
     InputError
-        The largest size is none.
+        The largest size is none, or a parameter is not.
     """
 
     family: Family
     hypotheses: Hypotheses
     largest: str
     most_impacts: int
+    along: tuple[tuple[str, ...], ...] = ()
 
     def __post_init__(self) -> None:
-        self._scale  # noqa: B018  (raises if it is no size)
+        self.scale, self.box  # noqa: B018  (raise if it is no size, or a parameter is none)
+        if self.along and self.family is not KICKS:
+            raise InputError("along", [name for name, *_ in self.along], "is for kicks only")
+
+    @cached_property
+    def box(self) -> Box:
+        """Its machines."""
+        return box_of(self.hypotheses, self.along)
+
+    @property
+    def whole(self) -> Cell:
+        """The cell that is all of it."""
+        return whole(len(self.along))
 
     @property
     def physical(self) -> bool:
@@ -79,75 +100,163 @@ class Disc:
         return self.hypotheses.table == "machine"
 
     @cached_property
-    def _scale(self) -> Scale:
+    def scale(self) -> Scale:
+        """What its sizes count."""
         return self.family.reads(self.largest, self.hypotheses)
 
     @property
     def exact(self) -> tuple[Fraction, int]:
         """Its largest size in the SI unit, or dimensionless: a rational number, times π to a power."""
-        return self._scale.largest.low, self._scale.largest.turns
+        return self.scale.largest.low, self.scale.largest.turns
 
     def size(self, share: Fraction) -> Any:
         """Ball of a share of the largest size, dimensionless."""
-        return rational(self.exact[0] * share) * arb.pi() ** self.exact[1] * self._scale.one()
+        return rational(self.exact[0] * share) * arb.pi() ** self.exact[1] * self.scale.one()
 
-    def _reach(self, share: Fraction) -> Any:
-        """Ball of ``v`` for a share of the largest size."""
-        return rational(self.exact[0] * share) * self._unit
+    @property
+    def shares_unit(self) -> bool:
+        """Whether the unit of dimensionless sizes is the same for all its machines."""
+        return not self.physical or not {"speed", "clearance"} & {set_by(name) for name, *_ in self.along}
 
-    @cached_property
-    def _unit(self) -> Any:
-        """``v`` of what the rational part of the largest size counts."""
-        return arb.pi() ** self.exact[1] * self._scale.one() * self._scale.gain(self.held.numbers)
-
-    @cached_property
-    def held(self) -> Held:
-        """The rotor, at the precision of its first use; :class:`NotShownError` if it may not levitate inside the wall."""
-        held = Held(Rotor(self.hypotheses).numbers, self._scale.start())
-        if not (held.room > 0 and held.numbers.gamma > 0):
+    @property
+    def middle(self) -> Held:
+        """The rotor in the middle of its box; :class:`NotShownError` if it may not levitate inside the wall, with damping."""
+        held = self.part(self.whole.parts).held.middle
+        if not _levitates(held):
             raise NotShownError("the rotor must levitate inside the wall, with damping above 0, for it to come back")
         return held
 
+    def part(self, parts: tuple[Part, ...]) -> BoxPart:
+        """The machines of a part of the box, kept for the cells that share it, at the precision of their first use."""
+        if parts not in self._known:
+            if len(self._known) >= _KEPT:
+                self._known.clear()
+            self._known[parts] = BoxPart.of(self, parts)
+        return self._known[parts]
+
     @cached_property
-    def _doubles(self) -> tuple[Jeffcott, complex, float]:
-        """The rotor, the direction in which it levitates, and the largest ``v``, in double precision."""
-        rotor = Jeffcott(doubles_of(self.hypotheses))
-        place = rotor.equilibrium
-        return rotor, place / abs(place) if place else 1.0, float(self._reach(Fraction(1)).mid())
+    def _known(self) -> dict[tuple[Part, ...], BoxPart]:
+        return {}
+
+    def reach(self, numbers: Numbers, moved: Mapping[str, Any]) -> Any:
+        """``v`` of the largest size, for numbers of a rotor at values of the parameters: a ball or a power series."""
+        size: Any = rational(self.exact[0]) * arb.pi() ** self.exact[1]
+        if not self.along:
+            return size * self.scale.one() * self.scale.gain(numbers)
+        if not self.physical:
+            return size
+        table = self.box.machines.table(
+            {name: value for name, value in moved.items() if name not in DIMENSIONLESS_FIELDS}
+        )
+        return size / (table["clearance"] * table["speed"])
 
     def show(self, cell: Cell, most: int) -> int:
         """Impacts after which all of a cell return at most; :class:`LeftOpenError` if this is not shown."""
-        return self._followed(cell, lambda patch: impacts_of(self.held, patch, most))
+        return self._followed(cell, lambda held, patch: impacts_of(held, patch, most))
 
     def refute(self, cell: Cell) -> None:
         """Show that all of a cell decay to the stable rub; :class:`LeftOpenError` if this is not shown."""
-        self._followed(cell, lambda patch: show_in_rub(self.held, patch))
+        self._followed(cell, show_in_rub)
 
-    def _followed(self, cell: Cell, follow: Callable[[Patch], _Result]) -> _Result:
-        slow, fast = (self._reach(share) for share in cell.speeds)
-        angles = tuple(2 * arb.pi() * rational(share) for share in cell.angles)
+    def _followed(self, cell: Cell, follow: Callable[[Held, Patch], _Result]) -> _Result:
+        part = self.part(cell.parts)
+        low, high = (rational(share) for share in cell.speeds)
+        first, last = (2 * arb.pi() * rational(share) for share in cell.angles)
         try:
-            return follow(disturbed((slow, fast), (angles[0], angles[1])))
+            if not _levitates(part.held):
+                raise LeftOpenError(OUTSIDE, self._sizes(cell))
+            if self.along:
+                return follow(part.held, disturbed_in_box((low, high), (first, last), part.reaches, part.moves))
+            return follow(part.held, disturbed((low * part.reaches[1], high * part.reaches[1]), (first, last)))
         except (ArithmeticError, ValueError):
             # Balls of a wide cell that hold everything: numbers in double precision fail then.
-            raise LeftOpenError(GRAZE) from None
+            raise LeftOpenError(GRAZE, self._sizes(cell)) from None
 
     def try_(self, cell: Cell, returns: bool) -> Found:
         """What can be proven of a cell, the disturbance in the middle of which returns or does not."""
+        sizes = self._sizes(cell)
         try:
             if returns:
                 return Found(IMPACTS[self.show(cell, self.most_impacts)])
-            if not self.held.rub.exists:
-                return Found(LOST, self._wider(cell))
+            if not self.part(cell.parts).held.rub.exists:
+                return Found(LOST, CUTS[int(np.argmax(sizes))])
             self.refute(cell)
             return Found(REFUTED)
         except LeftOpenError as problem:
-            by_speed, by_angle = problem.weights
-            return Found(problem.reason[0] if returns else LOST, BY_SPEED if by_speed >= by_angle else BY_ANGLE)
+            weights = problem.weights if len(problem.weights) == len(sizes) else sizes
+            return Found(problem.reason[0] if returns else LOST, CUTS[max(range(len(sizes)), key=weights.__getitem__)])
 
     def come_back(self, cells: list[Cell]) -> list[bool]:
         """Whether the disturbance in the middle of each cell returns, in double precision: it decides what is tried."""
-        rotor, ahead, largest = self._doubles
+        returned = dict.fromkeys(cells, False)
+        for parts in {cell.parts for cell in cells}:
+            alike = [cell for cell in cells if cell.parts == parts]
+            returned |= zip(alike, self.part(parts).come_back(alike), strict=True)
+        return [returned[cell] for cell in cells]
+
+    def tried(self, cells: list[Cell]) -> list[Found]:
+        """What is found of some cells."""
+        return [self.try_(cell, returns) for cell, returns in zip(cells, self.come_back(cells), strict=True)]
+
+    def _sizes(self, cell: Cell) -> tuple[float, ...]:
+        """How wide a cell is in each of its coordinates: about by how much they move a flight."""
+        part = self.part(cell.parts)
+        (slow, fast), turn = cell.speeds, cell.angles[1] - cell.angles[0]
+        largest, radius = part.doubles[2], part.held.middle.plain.radius
+        around = 2 * np.pi * float(turn) * min(float(fast) * largest, radius)
+        sides = [
+            float((abs(side.gamma) + abs(side.omega_squared) + abs(side.radius)).mid()) for side in part.held.sides
+        ]
+        return float(fast - slow) * largest, around, *sides
+
+    def data(self) -> DiscData:
+        """Plain data of it, from which :func:`disc_of` makes it again in another process."""
+        hypotheses = json.dumps(self.hypotheses.document())
+        return self.family.about, hypotheses, self.largest, self.most_impacts, self.along
+
+
+@lru_cache(maxsize=2)
+def disc_of(data: DiscData) -> Disc:
+    """A disc from plain data, once for all cells that a process looks at."""
+    about, document, largest, most, along = data
+    return Disc(FAMILIES[about], Hypotheses.from_document(json.loads(document)), largest, most, along)
+
+
+def _levitates(held: Held) -> bool:
+    """Whether all rotors levitate inside the wall, with damping."""
+    return bool(held.room > 0 and held.numbers.gamma > 0)
+
+
+@dataclass(frozen=True)
+class BoxPart:
+    """The machines of a part of the box, or the one machine that there is.
+
+    Attributes
+    ----------
+    held : Held
+    reaches : tuple of arb
+        ``v`` of the largest size for the machine in the middle, and for all.
+    moves : list of arb
+        Its derivatives by the parameters, times half their widths.
+    phase : float
+        Of the unbalance.
+    """
+
+    held: Held
+    reaches: tuple[Any, Any]
+    moves: list[Any]
+    phase: float
+
+    @cached_property
+    def doubles(self) -> tuple[Jeffcott, complex, float]:
+        """The rotor in the middle, the direction in which it levitates, and the largest ``v``, in double precision."""
+        rotor = Jeffcott(doubles_at(self.held.middle.numbers, self.phase))
+        place = rotor.equilibrium
+        return rotor, place / abs(place) if place else 1.0, float(self.reaches[0].mid())
+
+    def come_back(self, cells: list[Cell]) -> list[bool]:
+        """Whether the disturbance in the middle of each cell returns, in double precision."""
+        rotor, ahead, largest = self.doubles
         middles = [(float(sum(cell.speeds)) / 2, float(sum(cell.angles)) / 2) for cell in cells]
         sizes = np.array([largest * size * np.exp(2j * np.pi * angle) * ahead for size, angle in middles])
         busy = float(self.held.start.lasts.mid())
@@ -161,23 +270,17 @@ class Disc:
         returned: list[bool] = (endings.outcomes == Outcome.LEVITATED).tolist()
         return returned
 
-    def tried(self, cells: list[Cell]) -> list[Found]:
-        """What is found of some cells."""
-        return [self.try_(cell, returns) for cell, returns in zip(cells, self.come_back(cells), strict=True)]
-
-    def _wider(self, cell: Cell) -> str:
-        """In which of the two a cell is the wider."""
-        (slow, fast), turn = cell.speeds, cell.angles[1] - cell.angles[0]
-        around = 2 * np.pi * float(turn) * min(float(fast) * self._doubles[2], float(self.held.radius.mid()))
-        return BY_SPEED if float(fast - slow) * self._doubles[2] >= around else BY_ANGLE
-
-    def data(self) -> DiscData:
-        """Plain data of it, from which :func:`disc_of` makes it again in another process."""
-        return self.family.about, json.dumps(self.hypotheses.document()), self.largest, self.most_impacts
-
-
-@lru_cache(maxsize=2)
-def disc_of(data: DiscData) -> Disc:
-    """A disc from plain data, once for all cells that a process looks at."""
-    about, document, largest, most = data
-    return Disc(FAMILIES[about], Hypotheses.from_document(json.loads(document)), largest, most)
+    @classmethod
+    def of(cls, disc: Disc, parts: tuple[Part, ...]) -> BoxPart:
+        """From a part of the box of a disc."""
+        box, numbers = disc.box, disc.box.numbers(parts)
+        with terms(2):
+            series = [disc.reach(numbers, moved) for moved in box.series(parts)]
+        moves = [x[1] if isinstance(x, arb_series) else arb(0) for x in series]
+        if parts:
+            held = Held(numbers, disc.scale.start(), box.middle(parts), box.sides(parts))
+        else:
+            held = Held(numbers, disc.scale.start())
+        values = box.middles(parts), box.values(parts)
+        reaches = tuple(disc.reach(n, moved) for n, moved in zip((held.middle.numbers, numbers), values, strict=True))
+        return cls(held, (reaches[0], reaches[1]), moves, float(ball_of(disc.hypotheses.numbers["phi"]).mid()))

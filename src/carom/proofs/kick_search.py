@@ -119,9 +119,9 @@ def _shown(data: DiscData, cells: list[tuple[Cell, str]]) -> str:
                 else:
                     disc.show(cell, IMPACTS.index(letter))
             except LeftOpenError as problem:
-                speeds, angles = ("..".join(map(str, ends)) for ends in (cell.speeds, cell.angles))
+                sides = ", ".join("..".join(map(str, ends)) for ends in (cell.speeds, cell.angles, *cell.ends))
                 ends = "end in the rub" if letter == REFUTED else f"return with at most {IMPACTS.index(letter)} impacts"
-                return f"not all {disc.family.about} of the cell {speeds}, {angles} {ends}: {problem}"
+                return f"not all {disc.family.about} of the cell {sides} {ends}: {problem}"
     return ""
 
 

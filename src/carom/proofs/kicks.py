@@ -15,20 +15,21 @@ from carom.core.processors import available_cores
 from carom.files import write_whole
 from carom.models import Subject
 from carom.outcome import InputError, shown
-from carom.parameters import Field, read_quantity
+from carom.parameters import read_quantity
 from carom.progress import Reporter, ShowProgress, shows_progress
 from carom.proofs.balls import at_precision
 from carom.proofs.claims import Proof
 from carom.proofs.evidence import NotShownError
 from carom.proofs.families import KICKS, Family
 from carom.proofs.hypotheses import Given, Hypotheses, hypotheses_of, written_exactly
-from carom.proofs.kick_cells import AHEAD, DISC, IMPACTS, Tree, read, written
+from carom.proofs.kick_box_claims import BOX_NOT_CLAIMED, BOX_THEOREM, box_claims_of
+from carom.proofs.kick_cells import AHEAD, IMPACTS, Tree, read, written
 from carom.proofs.kick_claims import NOT_CLAIMED, claims_of, options_of
 from carom.proofs.kick_discs import Disc
 from carom.proofs.kick_search import BITS, search
+from carom.proofs.proving import TIME
 
 _STORE = "carom cells of kicks 1"
-_TIME = Field("time_limit", "", "time to search", "a time", "s", 1e-3, 1e9, '"10 min"')
 USUAL_TIME = "10 min"
 USUAL_IMPACTS = 12
 
@@ -40,6 +41,7 @@ def prove_kicks(
     kicks_up_to: Given,
     settings: Iterable[str] = (),
     *,
+    along: Mapping[str, tuple[Given, Given]] | None = None,
     most_impacts: Annotated[int, whole(0, len(IMPACTS) - 1)] = USUAL_IMPACTS,
     time_limit: str | float | None = USUAL_TIME,
     store: str | os.PathLike[str] | None = None,
@@ -53,6 +55,9 @@ def prove_kicks(
     until nothing is open or time is up.  The proof has two claims: which share of the disc surely returns, up to which speed all kicks do,
     and with how many impacts at most; and whether all of it does, with the reasons of what is open.
 
+    With ``along`` all this is shown for all machines of a box at once, whose cells are halved in the parameters too.  Where something stays open,
+    further claims say for which parameters all kicks return all the same and, along one parameter, up to which speed on each stretch.
+
     Parameters
     ----------
     machine : Machine, Case, Parameters, model, path, mapping or Hypotheses
@@ -61,6 +66,9 @@ def prove_kicks(
         Radius of the disc: text with a unit for a machine file in SI units, a number in ``c_r Ω`` for all others.
     settings : iterable of str
         As for :func:`~carom.prove`.
+    along : mapping of str to pairs of numbers, optional
+        Up to three parameters with both ends of their intervals, such as ``{"damping": ("280 N s/m", "420 N s/m")}``: dimensionless numbers,
+        and for a machine file its entries, gains of magnetic bearings included.  A float is a double.
     most_impacts : int
         A kick that may have more of them is left open; at most 35.
     time_limit : str or float
@@ -90,7 +98,8 @@ def prove_kicks(
     'proven'
     """
     limits = Limits(most_impacts, time_limit, store, workers)
-    return prove_disc(KICKS, hypotheses_of(machine, settings), kicks_up_to, limits, Reporter.of(progress, "proving"))
+    hypotheses, tell = hypotheses_of(machine, settings, list(along or ())), Reporter.of(progress, "proving")
+    return prove_disc(KICKS, hypotheses, kicks_up_to, limits, tell, along or {})
 
 
 class Limits(NamedTuple):
@@ -102,17 +111,25 @@ class Limits(NamedTuple):
     workers: int | None
 
 
-def prove_disc(family: Family, hypotheses: Hypotheses, largest: Given, limits: Limits, tell: Reporter) -> Proof:
+def prove_disc(
+    family: Family,
+    hypotheses: Hypotheses,
+    largest: Given,
+    limits: Limits,
+    tell: Reporter,
+    along: Mapping[str, tuple[Given, Given]] | None = None,
+) -> Proof:
     """Prove which disturbances of a family return, as :func:`prove_kicks` does for kicks."""
-    disc = Disc(family, hypotheses, written_exactly(largest).removeprefix("double "), limits.most_impacts)
-    seconds = math.inf if limits.time_limit is None else read_quantity(_TIME, limits.time_limit)
+    box = tuple((name, *map(written_exactly, ends)) for name, ends in (along or {}).items())
+    disc = Disc(family, hypotheses, written_exactly(largest).removeprefix("double "), limits.most_impacts, box)
+    seconds = math.inf if limits.time_limit is None else read_quantity(TIME, limits.time_limit)
     try:
         with at_precision(BITS):
-            disc.held  # noqa: B018  (raises if there is no levitation)
+            disc.middle  # noqa: B018  (raises if there is no levitation)
     except NotShownError as problem:
         raise InputError("machine", shown(hypotheses.values), str(problem)) from None
     place = None if limits.store is None else Path(limits.store)
-    tree = {DISC: AHEAD} if place is None or not place.exists() else _stored(place, disc)
+    tree = {disc.whole: AHEAD} if place is None or not place.exists() else _stored(place, disc)
     with at_precision(BITS):
         search(
             disc,
@@ -122,15 +139,19 @@ def prove_disc(family: Family, hypotheses: Hypotheses, largest: Given, limits: L
             tell,
             None if place is None else lambda now: _store(place, disc, now),
         )
-        claims = claims_of(disc, tree)
+        claims = box_claims_of(disc, tree) if box else claims_of(disc, tree)
     tell(1.0)
-    options = dict(zip(options_of(family), (disc.largest, limits.most_impacts), strict=True))
-    return Proof(family.about, hypotheses, options, tuple(claims), BITS, NOT_CLAIMED, {"cells": written(tree)})
+    options: dict[str, Any] = dict(zip(options_of(family), (disc.largest, limits.most_impacts), strict=True))
+    if box:
+        options["box"] = [list(entry) for entry in box]
+    theorem, not_claimed = (BOX_THEOREM, BOX_NOT_CLAIMED) if box else (family.about, NOT_CLAIMED)
+    return Proof(theorem, hypotheses, options, tuple(claims), BITS, not_claimed, {"cells": written(tree)})
 
 
 def _content(disc: Disc) -> dict[str, Any]:
-    _, document, largest, most = disc.data()
-    return {"format": _STORE, "hypotheses": document, disc.family.option: largest, "most_impacts": most}
+    _, document, largest, most, box = disc.data()
+    told = {"box": [list(entry) for entry in box]} if box else {}
+    return {"format": _STORE, "hypotheses": document, disc.family.option: largest, "most_impacts": most, **told}
 
 
 def _store(place: Path, disc: Disc, tree: Tree) -> None:
@@ -147,11 +168,11 @@ def _stored(place: Path, disc: Disc) -> Tree:
         cells = found.pop("cells")
         if found.pop("sha256") != hashlib.sha256(cells.encode()).hexdigest():
             raise ValueError("damaged")
-        tree = read(cells)
+        tree = read(cells, len(disc.along))
     except OSError as problem:
         raise InputError("store", shown(place), f"cannot be read: {problem.strerror or problem}") from None
     except (AttributeError, KeyError, NotShownError, TypeError, ValueError):
         raise InputError("store", shown(place), "is no complete record of cells; remove it to begin anew") from None
     if found != _content(disc):
-        raise InputError("store", shown(place), "belongs to another machine, speed or number of impacts")
+        raise InputError("store", shown(place), "belongs to another machine, speed, number of impacts or box")
     return tree

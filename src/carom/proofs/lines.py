@@ -1,7 +1,8 @@
-"""Machines that differ in one number: their dimensionless numbers as functions of it, for balls and power series."""
+"""Machines that differ in one number or several: their dimensionless numbers as functions of it, for balls and power series."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
@@ -10,9 +11,10 @@ from typing import Any, NamedTuple
 from flint import arb_series
 
 from carom.outcome import InputError
-from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS
+from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, TERM_FIELDS, TERMS, Field
 from carom.parameters.exact import read_exact
 from carom.parameters.fields import unknown_name
+from carom.parameters.terms import ENTRIES
 from carom.proofs.balls import ball_of, exact_ends, interval
 from carom.proofs.hypotheses import NUMBERS, Hypotheses, dimensionless_of
 from carom.proofs.series import I, hyperbolic
@@ -72,6 +74,58 @@ class Numbers(NamedTuple):
         return (even - share) * away + odd * velocity, (even + share) * velocity - odd * away * self.product
 
 
+class Machines:
+    """Machines that differ in some parameters, the other numbers those of the hypotheses, at the precision of their first use.
+
+    Parameters
+    ----------
+    hypotheses : Hypotheses
+    """
+
+    def __init__(self, hypotheses: Hypotheses) -> None:
+        self.hypotheses = hypotheses
+
+    def at(self, moved: Mapping[str, Any]) -> Numbers:
+        """Numbers at values of some parameters, by their names: balls or power series."""
+        found = dict(self._balls)
+        machine = {name: value for name, value in moved.items() if name not in DIMENSIONLESS_FIELDS}
+        if machine:
+            found |= {**dimensionless_of(self.table(machine)), **self._set}
+        found |= {name: value for name, value in moved.items() if name in DIMENSIONLESS_FIELDS and name != "omega"}
+        if "omega" in moved:
+            found["omega_squared"] = moved["omega"] * moved["omega"]
+        for value in moved.values():
+            if isinstance(value, arb_series):
+                # What does not depend on the parameter is a power series too.
+                found["gamma"] = found["gamma"] + value * 0
+        return Numbers(*(found[name] for name in NUMBERS))
+
+    def table(self, moved: Mapping[str, Any]) -> dict[str, Any]:
+        """The machine's table in SI units with other values of some entries: fields, or terms that set them."""
+        found = {**self._machine, **{name: value for name, value in moved.items() if name not in TERMS}}
+        terms = [name for name in moved if name in TERMS]
+        # What sets the mass or the stiffness comes before what needs them.
+        for name in sorted(terms, key=lambda name: TERMS[name].sets == "damping"):
+            term = TERMS[name]
+            found[term.sets] = term.value(moved[name], *(found[need] for need in term.needs))
+        return found
+
+    @cached_property
+    def _balls(self) -> dict[str, Any]:
+        return {name: ball_of(self.hypotheses.numbers[name]) for name in NUMBERS}
+
+    @cached_property
+    def _set(self) -> dict[str, Any]:
+        """Numbers that do not follow from the machine's table."""
+        names = {"omega_squared" if name == "omega" else name for name in self.hypotheses.settings}
+        return {name: ball for name, ball in self._balls.items() if name in names}
+
+    @cached_property
+    def _machine(self) -> dict[str, Any]:
+        given = {**self.hypotheses.values, **self.hypotheses.helpers}
+        return {name: ball_of(read_exact(ENTRIES[name], text)) for name, text in given.items()}
+
+
 @dataclass(frozen=True)
 class Line:
     """All machines whose parameter lies in an interval, the other numbers those of the hypotheses, at the precision of their first use.
@@ -80,7 +134,7 @@ class Line:
     ----------
     hypotheses : Hypotheses
     name : str
-        Dimensionless or physical.
+        Dimensionless, physical, or a term of the machine's file.
     start, stop : str
         Ends of the interval as they were given.
     """
@@ -91,15 +145,14 @@ class Line:
     stop: str
 
     @property
-    def physical(self) -> bool:
-        """Whether the parameter is one of the machine's table in SI units."""
-        return self.name not in DIMENSIONLESS_FIELDS
+    def field(self) -> Field:
+        """Field of the parameter."""
+        return DIMENSIONLESS_FIELDS.get(self.name) or ENTRIES[self.name]
 
     @cached_property
     def ends(self) -> tuple[Fraction, Fraction]:
         """Both ends; rounded outward where they are multiples of a power of π."""
-        field = MACHINE_FIELDS[self.name] if self.physical else DIMENSIONLESS_FIELDS[self.name]
-        start, stop = read_exact(field, self.start), read_exact(field, self.stop)
+        start, stop = read_exact(self.field, self.start), read_exact(self.field, self.stop)
         low = start.low if not start.turns else exact_ends(ball_of(start))[0]
         return low, stop.high if not stop.turns else exact_ends(ball_of(stop))[1]
 
@@ -115,30 +168,15 @@ class Line:
 
     def at(self, value: Any) -> Numbers:
         """Numbers at a value of the parameter: a ball or a power series."""
-        found = dict(self._balls)
-        if not self.physical:
-            found |= {"omega_squared": value * value} if self.name == "omega" else {self.name: value}
-        else:
-            found |= {**dimensionless_of({**self._machine, self.name: value}), **self._set}
-        if isinstance(value, arb_series):
-            # What does not depend on the parameter is a power series too.
-            found["gamma"] = found["gamma"] + value * 0
-        return Numbers(*(found[name] for name in NUMBERS))
+        return self._machines.at({self.name: value})
+
+    def table(self, value: Any) -> dict[str, Any]:
+        """The machine's table in SI units at a value of the parameter; that of the file for a dimensionless one."""
+        return self._machines.table({} if self.name in DIMENSIONLESS_FIELDS else {self.name: value})
 
     @cached_property
-    def _balls(self) -> dict[str, Any]:
-        return {name: ball_of(self.hypotheses.numbers[name]) for name in NUMBERS}
-
-    @cached_property
-    def _set(self) -> dict[str, Any]:
-        """Numbers that do not follow from the machine's table."""
-        names = {"omega_squared" if name == "omega" else name for name in self.hypotheses.settings}
-        return {name: ball for name, ball in self._balls.items() if name in names}
-
-    @cached_property
-    def _machine(self) -> dict[str, Any]:
-        values = self.hypotheses.values.items()
-        return {name: ball_of(read_exact(MACHINE_FIELDS[name], text)) for name, text in values}
+    def _machines(self) -> Machines:
+        return Machines(self.hypotheses)
 
 
 def line_of(hypotheses: Hypotheses, name: str, start: str, stop: str) -> Line:
@@ -147,9 +185,14 @@ def line_of(hypotheses: Hypotheses, name: str, start: str, stop: str) -> Line:
     The hypotheses' own value of the parameter does not matter.  A parameter that is unknown or changes nothing is refused, and so
     is an empty interval.
     """
-    known = {**DIMENSIONLESS_FIELDS, **(MACHINE_FIELDS if hypotheses.table == "machine" else {})}
+    known = {**DIMENSIONLESS_FIELDS, **({**MACHINE_FIELDS, **TERM_FIELDS} if hypotheses.table == "machine" else {})}
     if name not in known:
         raise unknown_name(name, f"{start} to {stop}", known, "parameter")
+    if name in TERMS:
+        missing = [need for need in TERMS[name].needs if need not in {**hypotheses.values, **hypotheses.helpers}]
+        if missing:
+            allowed = f"is {TERMS[name].sets} = {TERMS[name].formula}; the machine file gives no {', '.join(missing)}"
+            raise InputError("parameter", name, allowed)
     if name in ("phi", "unbalance_phase"):
         raise InputError("parameter", name, "only turns motions: no claim depends on it")
     for end in (start, stop):

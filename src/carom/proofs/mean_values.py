@@ -11,6 +11,8 @@ from typing import Any
 
 from flint import arb
 
+NOTHING = 0
+"""Exactly zero: what is multiplied by it costs nothing."""
 _UNIT = arb(0, 1)
 
 
@@ -38,6 +40,8 @@ class Form:
         self.every = near if every is None or not near.overlaps(every) else near.intersection(every)
 
     def __add__(self, other: Any) -> Form:
+        if other is NOTHING:
+            return self
         if isinstance(other, Form):
             by = [one + two for one, two in zip(self.by, other.by, strict=True)]
             return Form(self.at + other.at, by, self.every + other.every)
@@ -52,7 +56,9 @@ class Form:
     def __rsub__(self, other: Any) -> Form:
         return -self + other
 
-    def __mul__(self, other: Any) -> Form:
+    def __mul__(self, other: Any) -> Any:
+        if other is NOTHING:
+            return NOTHING
         if isinstance(other, Form):
             one, two = self.every, other.every
             by = [a * two + b * one for a, b in zip(self.by, other.by, strict=True)]

@@ -27,7 +27,8 @@ from typing import Any
 from flint import arb
 
 from carom.outcome import CaromError
-from carom.proofs.patches import UNIT, Departure, dot
+from carom.proofs.moments import UNIT, dot
+from carom.proofs.patches import Departure
 from carom.proofs.series import hull
 
 LONGEST, SHORTEST = 1.0, 1.0 / 64
@@ -50,7 +51,7 @@ class LeftOpenError(CaromError):
         How much each span has to do with it.
     """
 
-    def __init__(self, reason: str, weights: tuple[float, float] = (1.0, 1.0)) -> None:
+    def __init__(self, reason: str, weights: tuple[float, ...] = (1.0, 1.0)) -> None:
         super().__init__(reason)
         self.reason, self.weights = reason, weights
 
@@ -75,10 +76,21 @@ class Return:
 
 @dataclass(frozen=True)
 class Strike:
-    """Every flight crosses between two times, and not before."""
+    """Every flight crosses between two times, and not before.
+
+    Attributes
+    ----------
+    begin, end : float
+    inside : float
+        A time up to which all flights are inside.
+    peak : float
+        Time of the next maximum on the flight of the centre.
+    """
 
     begin: float
     end: float
+    inside: float
+    peak: float
 
 
 @dataclass(frozen=True)
@@ -130,7 +142,7 @@ def bounce(departure: Departure) -> Strike | None:
     for factor in (1.1, 1.5, 2.2):
         low, high = crossing - factor * half - _ROUNDING, crossing + factor * half + _ROUNDING
         if low > 0 and departure.at(arb(high)).height > 1 and departure.at(arb(low)).height < 1:
-            return Strike(low, high) if _holds(departure, 0.0, high, _bends, 4) else None
+            return Strike(low, high, low, high) if _holds(departure, 0.0, high, _bends, 4) else None
     return None
 
 
@@ -199,13 +211,18 @@ def _meeting(departure: Departure, time: float) -> Event:
     """A strike or a brush after a time at which all flights are inside."""
     crossing, peak = _centre_meets(departure, time)
     if crossing is not None:
-        strike = _strike(departure, time, crossing)
+        strike = _strike(departure, time, crossing, peak)
         if strike is not None:
             return strike
     brush = _brush(departure, time, peak)
     if brush is None:
         raise LeftOpenError(GRAZE, departure.weights(peak))
     return brush
+
+
+def brush_of(departure: Departure, strike: Strike) -> Brush | None:
+    """A strike as a brush: next to a graze less is known of the impact by it, but that little may be known where the strike's is not."""
+    return _brush(departure, strike.inside, strike.peak)
 
 
 def _centre_meets(departure: Departure, time: float) -> tuple[float | None, float]:
@@ -235,7 +252,7 @@ def _root(function: Any, low: float, high: float) -> float:
     return high
 
 
-def _strike(departure: Departure, time: float, crossing: float) -> Strike | None:
+def _strike(departure: Departure, time: float, crossing: float, peak: float) -> Strike | None:
     rate = departure.plain(crossing)[1]
     half = sum(map(abs, departure.plain_spread(crossing)[0])) / rate if rate > 0 else math.inf
     if not half < LONGEST:
@@ -243,7 +260,7 @@ def _strike(departure: Departure, time: float, crossing: float) -> Strike | None
     for factor in (1.1, 1.5, 2.2):
         low, high = max(time, crossing - factor * half - _ROUNDING), crossing + factor * half + _ROUNDING
         if departure.at(arb(high)).height > 1 and (low == time or departure.at(arb(low)).height < 1):
-            return Strike(low, high) if _holds(departure, time, high, _rises) else None
+            return Strike(low, high, time, peak) if _holds(departure, time, high, _rises) else None
     return None
 
 
@@ -254,9 +271,9 @@ def _brush(departure: Departure, time: float, peak: float) -> Brush | None:
     places, rates = (sum(map(abs, columns)) for columns in departure.plain_spread(peak))
     half = math.sqrt(max(0.0, 2 * (height + places - 1)) / -curve) + _ROUNDING
     first = _latest_inside(departure, time, peak, half)
-    last = max(first, peak) + 1.2 * rates / -curve + _ROUNDING
-    end = _first_inside(departure, last, peak, half)
-    if end is None or not departure.at(arb(last)).rise < 0:
+    last = _first_falling(departure, max(first, peak), rates / -curve)
+    end = None if last is None else _first_inside(departure, last, peak, half)
+    if last is None or end is None:
         return None
     curves = list(_curves(departure, first, end))
     if not all(curve < 0 for curve in curves):
@@ -278,6 +295,15 @@ def _latest_inside(departure: Departure, time: float, peak: float, half: float) 
         if departure.at(arb(first)).height < 1 and _holds(departure, time, first, _rises):
             return first
     return time
+
+
+def _first_falling(departure: Departure, peak: float, half: float) -> float | None:
+    """An early time at which all flights have passed their maximum."""
+    for factor in (1.2, 2.0, 4.0):
+        last = peak + factor * half + _ROUNDING
+        if departure.at(arb(last)).rise < 0:
+            return last
+    return None
 
 
 def _first_inside(departure: Departure, last: float, peak: float, half: float) -> float | None:

@@ -12,53 +12,49 @@ coordinates ``a``, ``b``, ``ψ = arg Λ``: turns of the whole plane change nothi
 ``h₁`` the response to the disturbance (:mod:`carom.proofs.starts`).
 
 A patch holds the states ``x₀ + s₁ξ₁ + s₂ξ₂ + s₃ξ₁² + s₄ξ₁ξ₂ + s₅ξ₂² + Σ_g s_g ξ_g``, ``|ξ_g| ≤ 1``: ``ξ₁`` and ``ξ₂`` say where in the cell a kick is, the other spans
-hold what earlier impacts have left out, and a rest for each coordinate what the last one has.  A function ``f`` of the state lies in ``f(x₀) + Σ_g f'(X)s_g [−1, 1]`` there, ``X`` the box of the patch
+hold what earlier impacts have left out, those next to these what the parameters of a box of rotors do, and a rest for each coordinate what the last one has.  A function ``f`` of the state lies in ``f(x₀) + Σ_g f'(X)s_g [−1, 1]`` there, ``X`` the box of the patch
 (mean value form).
 """
 
 from __future__ import annotations
 
 import cmath
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import Any
 
 from flint import acb, arb
 
 from carom.proofs.lines import Numbers
+from carom.proofs.moments import FORM, UNIT, Moment, Wave, Waves
+from carom.proofs.plain_flights import PlainRotor
 from carom.proofs.rub_balls import Rub
 from carom.proofs.series import I, hyperbolic
+from carom.proofs.sides import Side, responses_by
 from carom.proofs.starts import Blow, Plain, Response, Start
 
-UNIT = arb(0, 1)
-"""All numbers from −1 to 1."""
-FORM = 5
-"""Spans by where in the cell a kick is, those of first and second order."""
-
-
 BLOW = Blow()
-Wave = tuple[Any, Any, Any]
-
-
-class Waves(NamedTuple):
-    """``c``, ``h₁`` and ``k`` of a flight with their first two derivatives, at a time or on an interval of times."""
-
-    place: Wave
-    rate: Wave
-    bend: Wave
 
 
 class Held:
-    """What flights need to know of a rotor, at the precision at hand.
+    """What flights need to know of a rotor, or of a box of rotors, at the precision at hand.
 
     Parameters
     ----------
     numbers : Numbers
+        Of all rotors.
     start : Start
-        The disturbance that takes the rotor out of levitation.
+        The disturbance that takes the rotor out of levitation; of a box of rotors a blow.
+    middle : Numbers, optional
+        Of the rotor in the middle of the box.
+    sides : sequence of Side
+        By how much each parameter of the box moves them.
 
     Attributes
     ----------
+    middle : Held
+        The rotor in the middle.
     half, split : arb
         ``γ/2`` and ``γ²/4 − ω²``.
     radius, radius_squared, room : arb
@@ -67,14 +63,18 @@ class Held:
         ``μ(1 + d)``.
     """
 
-    def __init__(self, numbers: Numbers, start: Start = BLOW) -> None:
-        self.numbers, self.start = numbers, start
+    def __init__(
+        self, numbers: Numbers, start: Start = BLOW, middle: Numbers | None = None, sides: Sequence[Side] = ()
+    ) -> None:
+        self.numbers, self.start, self.sides = numbers, start, sides
+        self.middle = self if middle is None else Held(middle)
         self.half, self.split = numbers.gamma / 2, numbers.split
         self.radius = numbers.levitation
         self.radius_squared = self.radius * self.radius
         self.room = 1 - self.radius
         self.grip = numbers.mu * (1 + numbers.d)
-        self._plain = tuple(float(x.mid()) for x in (self.half, self.split, numbers.omega_squared))
+        self.plain = PlainRotor.of(numbers.gamma, numbers.omega_squared, self.radius)
+        self._ends = [self.plain.ends(side) for side in sides]
 
     def responses(self, time: Any) -> tuple[Response, Response]:
         """``h₀`` and ``h₁``."""
@@ -88,13 +88,8 @@ class Held:
         return (c, dc, -n.omega_squared * dh), (h, dh, d2h)
 
     def plain_responses(self, time: float) -> tuple[Plain, Plain]:
-        """The same in doubles."""
-        half, split, stiff = self._plain
-        root = cmath.sqrt(split) or 1e-9
-        fade = cmath.exp(-half * time).real
-        h = fade * (cmath.sinh(root * time) / root).real
-        dh = fade * cmath.cosh(root * time).real - half * h
-        return (dh + 2 * half * h, -stiff * h, -stiff * dh), (h, dh, -2 * half * dh - stiff * h)
+        """The same in doubles, of the rotor in the middle."""
+        return self.middle.plain.responses(time)
 
     @cached_property
     def rub(self) -> Rub:
@@ -115,6 +110,22 @@ class Held:
             return Waves((zero, h, turn), (zero, dh, way), (zero, d2h, -turn))
         (c, dc, d2c), (h, dh, d2h) = self.responses(time)
         return Waves((c, h, turn - acb(c, h)), (dc, dh, way - acb(dc, dh)), (d2c, d2h, -turn - acb(d2c, d2h)))
+
+    def waves_by(self, time: Any, from_wall: bool) -> list[tuple[Wave, Wave]]:
+        """``c``, ``h₁`` and ``k`` and their rates, differentiated by each parameter of the box."""
+        found = []
+        for c, h, dc, dh in responses_by(self.numbers, self.sides, time) if self.sides else []:
+            place, rate = (c, h, -acb(c, h)), (dc, dh, -acb(dc, dh))
+            found.append((place, rate) if from_wall else ((arb(0), h, acb(0)), (arb(0), dh, acb(0))))
+        return found
+
+    def plain_by(self, time: float, from_wall: bool, velocity: complex, turn: complex) -> list[tuple[complex, complex]]:
+        """By how much place and rate change along each parameter, in doubles; ``turn`` is the direction of ``Λ``."""
+        found = []
+        for ends in self._ends:
+            one, other = (end.flight(time, from_wall, velocity, turn) for end in ends)
+            found.append(((one[0] - other[0]) / 2, (one[1] - other[1]) / 2))
+        return found
 
     def plain_waves(self, time: float, from_wall: bool) -> tuple[tuple[complex, complex, complex], ...]:
         """The same in doubles."""
@@ -139,7 +150,8 @@ class Patch:
     centre : list of arb
         Exact numbers: ``v, ψ`` from levitation, ``a, b, ψ`` from the wall.
     spans : list of list of arb
-        Exact vectors of the coordinates: two for a patch that is straight, else first those by ``ξ₁``, ``ξ₂``, ``ξ₁²``, ``ξ₁ξ₂`` and ``ξ₂²``.
+        Exact vectors of the coordinates: two for a patch that is straight, else first those by ``ξ₁``, ``ξ₂``, ``ξ₁²``, ``ξ₁ξ₂`` and ``ξ₂²``, then one
+        for each parameter of the box of rotors.
     rest : list of arb
         Exact half widths of the coordinates.
     """
@@ -194,12 +206,15 @@ class Departure:
 
     def __init__(self, held: Held, patch: Patch, *, alone: bool = False) -> None:
         self.held, self.patch, self.from_wall = held, patch, patch.from_wall
-        self.velocity, self.levitation = _parts(held, patch.centre)
-        self.wide_velocity, self.wide_levitation = _parts(held, patch.centre if alone else patch.box)
+        self.velocity, self.levitation = _parts(held.middle, patch.centre)
+        box = patch.centre if alone else patch.box
+        self.wide_velocity, self.wide_levitation = _parts(held, box)
+        self.wide_turn = _turn(box)
         self.columns = [(_speed(along), along[-1]) for along in patch.directions]
         middle = [float(x) for x in patch.centre]
         self._velocity = complex(*middle[:-1])
-        self._levitation = float(held.radius.mid()) * cmath.exp(1j * middle[-1])
+        self._turn = cmath.exp(1j * middle[-1])
+        self._levitation = held.middle.plain.radius * self._turn
         self._columns = [(complex(v), 1j * self._levitation * float(turn)) for v, turn in self.columns]
 
     # -------------------------------------------------------------------------------------- balls
@@ -219,7 +234,7 @@ class Departure:
 
     def at(self, time: Any) -> Moment:
         """The flights at a time, as mean value forms."""
-        return Moment(self, self.held.waves(time, self.from_wall))
+        return Moment(self, time)
 
     # -------------------------------------------------------------------------------------- doubles
 
@@ -246,12 +261,16 @@ class Departure:
             along, rate = v * h + lift * k, v * dh + lift * dk
             places.append(2 * (z.conjugate() * along).real)
             rates.append(2 * (z.conjugate() * rate + dz.conjugate() * along).real)
+        moved = self.held.plain_by(time, self.from_wall, self._velocity, self._turn)
+        for j, (along, rate) in enumerate(moved, FORM):
+            places[j] += 2 * (z.conjugate() * along).real
+            rates[j] += 2 * (z.conjugate() * rate + dz.conjugate() * along).real
         return places, rates
 
-    def weights(self, time: float) -> tuple[float, float]:
-        """How much each span has to do with ``|z|²`` and its rate at a time."""
-        places, rates = self.plain_spread(time)
-        return abs(places[0]) + abs(rates[0]), abs(places[1]) + abs(rates[1])
+    def weights(self, time: float) -> tuple[float, ...]:
+        """How much both spans of the cell, and that of each parameter, have to do with ``|z|²`` and its rate at a time."""
+        sizes = [abs(place) + abs(rate) for place, rate in zip(*self.plain_spread(time), strict=True)]
+        return (*sizes[:2], *sizes[FORM : FORM + len(self.held.sides)])
 
 
 def _speed(coordinates: list[Any]) -> Any:
@@ -260,116 +279,10 @@ def _speed(coordinates: list[Any]) -> Any:
 
 
 def _parts(held: Held, coordinates: list[Any]) -> tuple[Any, Any]:
+    return _speed(coordinates), _turn(coordinates) * held.radius
+
+
+def _turn(coordinates: list[Any]) -> Any:
+    """Direction of ``Λ``."""
     sine, cosine = coordinates[-1].sin_cos()
-    return _speed(coordinates), acb(held.radius * cosine, held.radius * sine)
-
-
-class Moment:
-    """All flights of a patch at a time or on an interval of times.
-
-    With ``z = p + q``, ``p = c + V h₁`` and ``q = Λk``, nothing but products of ``p`` and ``q`` depends on ``ψ`` in ``|z|²`` and its rates:
-    ``|q|² = ℓ²|k|²``.  All are evaluated so that this is not lost in the width of ``Λ``.
-    """
-
-    def __init__(self, departure: Departure, waves: Waves) -> None:
-        self.departure, self.waves = departure, waves
-
-    @property
-    def parts(self) -> tuple[list[Any], list[Any], list[Any]]:
-        """``p``, ``q`` and ``k`` with their first two derivatives."""
-        return self._p, self._q, [wave[2] for wave in self.waves]
-
-    def centre(self, wave: Wave) -> Any:
-        """Place or rate on the flight of the centre."""
-        d = self.departure
-        return wave[0] + d.velocity * wave[1] + d.levitation * wave[2]
-
-    @cached_property
-    def _p(self) -> list[Any]:
-        return [wave[0] + self.departure.wide_velocity * wave[1] for wave in self.waves]
-
-    @cached_property
-    def _q(self) -> list[Any]:
-        return [self.departure.wide_levitation * wave[2] for wave in self.waves]
-
-    @cached_property
-    def wide(self) -> list[Any]:
-        """``z``, ``ż`` and ``z̈`` of all flights."""
-        return [p + q for p, q in zip(self._p, self._q, strict=True)]
-
-    def _products(self, one: int, other: int) -> Any:
-        """``Re(z̄ w)`` of two of them."""
-        (p, q), (u, w) = ((self._p[j], self._q[j]) for j in (one, other))
-        turning = dot(self.waves[one][2], self.waves[other][2])
-        return dot(p, u) + dot(p, w) + dot(q, u) + self.departure.held.radius_squared * turning
-
-    @cached_property
-    def slope(self) -> Any:
-        """``Re(z̄ż)`` on all flights, as wide as the patch and the times are."""
-        return self._products(0, 1)
-
-    @cached_property
-    def _moved(self) -> list[tuple[Any, Any, Any]]:
-        """``V h₁`` and its rate differentiated along the columns, and the turn of ``Λ`` along them."""
-        h, dh = self.waves.place[1], self.waves.rate[1]
-        return [(v * h, v * dh, turn) for v, turn in self.departure.columns]
-
-    @cached_property
-    def height_along(self) -> list[Any]:
-        """``|z|²/2`` differentiated along the columns."""
-        z, turned = self.wide[0], cross(self._p[0], self._q[0])
-        return [dot(z, along) - turned * turn for along, _, turn in self._moved]
-
-    @cached_property
-    def height(self) -> Any:
-        """``|z|²`` of all flights, a mean value form."""
-        z = self.centre(self.waves.place)
-        return dot(z, z) + spread(self.height_along) * 2
-
-    @cached_property
-    def rise_along(self) -> list[Any]:
-        """``Re(z̄ż)`` differentiated along the columns."""
-        (p, dp, _), (q, dq, _), (z, dz, _) = self._p, self._q, self.wide
-        turned = cross(p, dq) + cross(dp, q)
-        return [dot(dz, along) + dot(z, rate) - turned * turn for along, rate, turn in self._moved]
-
-    @cached_property
-    def rise(self) -> Any:
-        """The rate of ``|z|²`` on all flights, a mean value form."""
-        centre = dot(self.centre(self.waves.place), self.centre(self.waves.rate))
-        return (centre + spread(self.rise_along)) * 2
-
-    @cached_property
-    def curve(self) -> Any:
-        """The second derivative of ``|z|²`` on all flights."""
-        return (self._products(1, 1) + self._products(0, 2)) * 2
-
-    @cached_property
-    def twist_along(self) -> list[Any]:
-        """``Im(z̄ż)`` differentiated along the columns."""
-        (p, dp, _), (q, dq, _), (z, dz, _) = self._p, self._q, self.wide
-        turned = dot(p, dq) - dot(dp, q)
-        return [cross(along, dz) + cross(z, rate) + turned * turn for along, rate, turn in self._moved]
-
-    def angle_along(self, square: Any) -> list[Any]:
-        """``ψ − arg z`` differentiated along the columns, from a ball of ``|z|²``."""
-        z, turned = self.wide[0], dot(self.wide[0], self._p[0])
-        return [(turned * turn - cross(z, along)) / square for along, _, turn in self._moved]
-
-
-def dot(one: Any, other: Any) -> Any:
-    """``Re(z̄ w)``."""
-    return one.real * other.real + one.imag * other.imag
-
-
-def cross(one: Any, other: Any) -> Any:
-    """``Im(z̄ w)``."""
-    return one.real * other.imag - one.imag * other.real
-
-
-def spread(columns: list[Any]) -> Any:
-    """All sums of numbers of the columns, each with a factor from −1 to 1."""
-    total: Any = arb(0)
-    for column in columns:
-        total = total + abs(column)
-    return UNIT * total
+    return acb(cosine, sine)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 from collections.abc import Iterable, Mapping
 from fractions import Fraction
@@ -10,6 +11,7 @@ from typing import Annotated
 from carom.arguments import checked, whole
 from carom.models import Subject
 from carom.outcome import InputError, shown
+from carom.parameters import Field, read_quantity
 from carom.progress import Reporter, ShowProgress, shows_progress
 from carom.proofs.balls import at_precision
 from carom.proofs.claims import Proof
@@ -20,6 +22,7 @@ from carom.proofs.rotor import Rotor
 from carom.proofs.several_impacts import MOST_IMPACTS
 from carom.proofs.theorems import THEOREMS, Options
 
+TIME = Field("time_limit", "", "time to search", "a time", "s", 1e-3, 1e9, '"10 min"')
 FIRST_BITS, MOST_BITS = 128, 1024
 """Precision to begin with, and beyond which a claim is left undecided."""
 MOST_BLOCKS, NARROWEST = 2000, "1/10000"
@@ -40,13 +43,15 @@ def prove(
     impacts: Annotated[int, whole(1, MOST_IMPACTS)] = 1,
     along: str | None = None,
     interval: tuple[Given, Given] | None = None,
+    time_limit: str | float | None = None,
     progress: ShowProgress = None,
 ) -> Proof:
     """Prove what can be proven of a machine's equilibria and of its orbits with one impact a period.
 
     With ``impacts`` above 1 the claims are also about orbits with at most so many impacts a period that a search finds.
     With ``along`` they are instead about bifurcation points along a parameter, and about all orbits with one impact a
-    period for all its values in an interval: whether they are motions of the machine and whether they are stable.
+    period for all its values in an interval: whether they are motions of the machine and whether they are stable; and about
+    levitation, rubs, the harmless kick and whirl.
     An undecided claim says why.
 
     Parameters
@@ -59,9 +64,11 @@ def prove(
     impacts : int
         At most so many a period, 1 to 24.
     along : str, optional
-        A parameter, dimensionless or physical.
+        A parameter: dimensionless, an entry of the machine's table, or a term that sets one, such as ``derivative_gain``.
     interval : pair of numbers, optional
         Its ends, such as ``("0.084", "0.177")`` or ``("300 N s/m", "2000 N s/m")``; as with ``machine`` a float is a double.
+    time_limit : str or float, optional
+        When to end the search along the interval, in s or with a unit: the rest of it is open then.
 
     Raises
     ------
@@ -80,7 +87,8 @@ def prove(
     >>> proof["B1,d stable"].status
     'proven'
     """
-    hypotheses, tell = hypotheses_of(machine, settings), Reporter.of(progress, "proving")
+    hypotheses = hypotheses_of(machine, settings, () if along is None else (along,))
+    tell = Reporter.of(progress, "proving")
     if (along is None) is not (interval is None):
         raise InputError("along", shown(along), "needs an interval, and an interval needs a parameter")
     if along is not None and interval is not None:
@@ -89,7 +97,12 @@ def prove(
         start, stop = (written_exactly(end) for end in interval)
         line_of(hypotheses, along, start, stop)
         limits = {"blocks": MOST_BLOCKS, "narrowest": NARROWEST}
-        return proof_of("along a parameter", hypotheses, {"along": along, "from": start, "to": stop, **limits}, tell)
+        seconds = math.inf if time_limit is None else read_quantity(TIME, time_limit)
+        return proof_of(
+            "along a parameter", hypotheses, {"along": along, "from": start, "to": stop, **limits}, tell, seconds
+        )
+    if time_limit is not None:
+        raise InputError("time_limit", shown(time_limit), "is for a proof along a parameter")
     limit = None if longest_period is None else str(_time(longest_period))
     options = {"longest_period": limit, "cells": MOST_CELLS}
     if impacts == 1:
@@ -97,15 +110,17 @@ def prove(
     return proof_of("orbits of several impacts", hypotheses, {**options, "impacts": impacts}, tell)
 
 
-def proof_of(theorem: str, hypotheses: Hypotheses, options: Options, tell: Reporter | None = None) -> Proof:
-    """Prove the claims of a theorem, with more bits as long as more bits may decide a claim."""
+def proof_of(
+    theorem: str, hypotheses: Hypotheses, options: Options, tell: Reporter | None = None, seconds: float = math.inf
+) -> Proof:
+    """Prove the claims of a theorem, with more bits as long as more bits may decide a claim; each search ends after so many seconds."""
     bits, done, tell = FIRST_BITS, 0.0, tell or Reporter()
     while True:
         # Mostly the first bits suffice; further ones share what is left of the bar.
         end = done + 0.9 * (1.0 - done)
         tell(done)
         try:
-            evidence = Evidence(tell=tell.part(done, end, f"proving with {bits} bits"))
+            evidence = Evidence(tell=tell.part(done, end, f"proving with {bits} bits"), seconds=seconds)
             proof = proof_at(bits, theorem, hypotheses, options, evidence)
         except NotShownError:
             # A search and its check differ by rounding: more bits settle it.

@@ -83,7 +83,7 @@ def range_claims(rotor: Rotor, evidence: Evidence, options: Any) -> list[Claim]:
 
 
 def _claims_along(line: Line, evidence: Evidence, most: int, narrowest: Fraction) -> list[Claim]:
-    cuts = evidence.take("blocks", lambda: _cuts(line, most, narrowest, evidence.tell.part(0.0, 0.5)))
+    cuts = evidence.take("blocks", lambda: _cuts(line, most, narrowest, evidence))
     tell = evidence.tell if evidence.reading else evidence.tell.part(0.5, 1.0)
     stretches = _stretches(_pieces(line, cuts, most, tell))
     words = f"For all {line.words}, no orbit with one impact a period stops its slip or slips backward."
@@ -101,8 +101,9 @@ def _claims_along(line: Line, evidence: Evidence, most: int, narrowest: Fraction
 # ------------------------------------------------------------------------------------------------ blocks
 
 
-def _cuts(line: Line, most: int, narrowest: Fraction, tell: Reporter) -> list[list[str]]:
+def _cuts(line: Line, most: int, narrowest: Fraction, evidence: Evidence) -> list[list[str]]:
     """Ends of the blocks, and why a block is left open, by a march along the interval."""
+    tell = evidence.tell.part(0.0, 0.5)
     low, high = line.ends
     width = high - low
     least = narrowest * width
@@ -123,7 +124,7 @@ def _cuts(line: Line, most: int, narrowest: Fraction, tell: Reporter) -> list[li
             found.append([str(end), DECIDED])
             place, step, skip = end, min(step * Fraction(3, 2), width / 4), least
         tell(float((place - low) / width) if width else 1.0)
-        if len(found) > most and place < high:
+        if place < high and (len(found) > most or evidence.is_late):
             found.append([str(high), ENDED])
             break
     return found
@@ -168,7 +169,7 @@ def _pieces(line: Line, cuts: Sequence[Sequence[str]], most: int, tell: Reporter
                 raise NotShownError(told) from None
             reason = str(problem)
         if reason and known == ENDED:
-            reason = f"the search ended after {most} blocks"
+            reason = "the search ended before"
         tell(float((after - low) / (high - low)) if high > low else 1.0)
         found.append(Stretch(before, after, facts, reason))
     return found

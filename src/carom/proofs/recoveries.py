@@ -2,18 +2,36 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
 from typing import Any
 
 from flint import arb
 
-from carom.proofs.passages import EARLY, MANY, RETURNS, LeftOpenError, Return, Strike, begin, bounce, next_event
+from carom.proofs.moments import FORM
+from carom.proofs.passages import (
+    EARLY,
+    MANY,
+    RETURNS,
+    SLOW,
+    Brush,
+    LeftOpenError,
+    Return,
+    Strike,
+    begin,
+    bounce,
+    brush_of,
+    next_event,
+)
 from carom.proofs.patches import Departure, Held, Patch
 from carom.proofs.rub_traps import ends_in_rub
-from carom.proofs.strikes import after_brush, after_strike
+from carom.proofs.series import hull
+from carom.proofs.strikes import after_brush, after_strike, patch_of
 
 MOST_BRANCHES = 200
 """Patches followed for one cell."""
+_Ahead = tuple[Patch, int, tuple[float, ...] | None]
+"""A patch, the impacts before it, and how much each span had to do with the brush that it comes from."""
 MOST_BOUNCES = 60
 """Impacts followed for one that ends in the rub."""
 
@@ -28,6 +46,26 @@ def disturbed(size: tuple[Any, Any], angle: tuple[Any, Any]) -> Patch:
         centre.append(middle)
         spans.append([half if i == j else arb(0) for i in range(2)])
     return Patch(centre, spans, [arb(0), arb(0)])
+
+
+def disturbed_in_box(
+    share: tuple[Any, Any], angle: tuple[Any, Any], units: tuple[Any, Any], moves: Sequence[Any]
+) -> Patch:
+    """The same for a box of rotors, the sizes as shares of a largest one.
+
+    ``units`` are the largest size of the rotor in the middle and of all of them, ``moves`` its derivatives by the parameters, times half their
+    widths.
+    """
+    middles = [(low + high) / 2 for low, high in (share, angle)]
+    halves = [abs(high - x).max(abs(low - x)) for (low, high), x in zip((share, angle), middles, strict=True)]
+    zero = arb(0)
+    columns = [[halves[0] * units[1], zero], [zero, halves[1]], *([zero, zero] for _ in range(FORM - 2))]
+    columns += [[hull(*share) * move, zero] for move in moves]
+    patch = patch_of([middles[0] * units[0], -middles[1]], columns, [zero, zero], len(columns))
+    # Nothing else moves along the first two: they hold what was rounded too.
+    for j, rest in enumerate(patch.rest):
+        patch.spans[j][j] = (patch.spans[j][j] + rest).upper().mid()
+    return replace(patch, rest=[zero, zero])
 
 
 def impacts_of(held: Held, patch: Patch, most: int) -> int:
@@ -45,43 +83,70 @@ def show_in_rub(held: Held, patch: Patch) -> None:
 
 def _followed(held: Held, patch: Patch, most: int, is_end: Callable[[Patch | None], bool]) -> int:
     """The most impacts after which all states of a patch are at an end; ``None`` stands for flights that return."""
-    ahead, found, branches = [(patch, 0)], 0, 0
+    ahead: list[_Ahead] = [(patch, 0, None)]
+    found, branches = 0, 0
     while ahead:
-        start, before = ahead.pop()
-        for after in _struck(held, start):
-            branches += 1
-            if is_end(after):
-                found = max(found, before + (after is not None))
-            elif after is None:
-                raise LeftOpenError(RETURNS)
-            elif before == most or branches > MOST_BRANCHES:
-                raise LeftOpenError(MANY)
-            else:
-                ahead.append((after, before + 1))
-                found = max(found, before + 1)
+        start, before, touched = ahead.pop()
+        try:
+            for after, weights in _struck(held, start):
+                branches += 1
+                if is_end(after):
+                    found = max(found, before + (after is not None))
+                elif after is None:
+                    raise LeftOpenError(RETURNS)
+                elif before == most or branches > MOST_BRANCHES:
+                    raise LeftOpenError(MANY)
+                else:
+                    ahead.append((after, before + 1, weights))
+                    found = max(found, before + 1)
+        except LeftOpenError as problem:
+            # How slow a touch may be is a matter of how wide the patch was in it, which its spans do not tell any more.
+            told = touched if touched and problem.reason == SLOW else problem.weights
+            raise LeftOpenError(problem.reason, told) from None
     return found
 
 
-def _struck(held: Held, patch: Patch) -> Iterator[Patch | None]:
-    """Patches after the next impact of all flights of a patch, and ``None`` for those that return without one."""
+def _struck(held: Held, patch: Patch) -> Iterator[tuple[Patch | None, tuple[float, ...] | None]]:
+    """Patches after the next impact of all flights of a patch, and ``None`` for those that return without one.
+
+    After a brush with how much each span had to do with it.
+    """
     departure = Departure(held, patch)
     strike = bounce(departure)
     if strike is not None:
-        yield after_strike(departure, strike)
+        yield after_strike(departure, strike), None
         return
     time = begin(departure)
     while True:
         event = next_event(departure, time)
         if isinstance(event, Return):
-            yield None
+            yield None, None
             return
-        if not departure.busy <= event.begin:
-            raise LeftOpenError(EARLY, departure.weights(event.begin))
-        if isinstance(event, Strike):
-            yield after_strike(departure, event)
+        _check_free(departure, event)
+        brush = event if isinstance(event, Brush) else _struck_or_brushed(departure, event)
+        if isinstance(brush, Patch):
+            yield brush, None
             return
-        if event.touches:
-            yield after_brush(departure, event)
-        if not event.misses:
+        if brush.touches:
+            yield after_brush(departure, brush), departure.weights(brush.last)
+        if not brush.misses:
             return
-        time = event.end
+        time = brush.end
+
+
+def _struck_or_brushed(departure: Departure, strike: Strike) -> Patch | Brush:
+    """The patch after a strike; where that is not known the strike as a brush."""
+    try:
+        return after_strike(departure, strike)
+    except LeftOpenError:
+        brush = brush_of(departure, strike)
+        if brush is None:
+            raise
+        _check_free(departure, brush)
+        return brush
+
+
+def _check_free(departure: Departure, event: Strike | Brush) -> None:
+    """Refuse an impact before motion is free."""
+    if not departure.busy <= event.begin:
+        raise LeftOpenError(EARLY, departure.weights(event.begin))

@@ -24,7 +24,8 @@ from typing import Any, NamedTuple
 from flint import acb, arb
 
 from carom.proofs.balls import rational
-from carom.proofs.patches import UNIT, Held, Patch
+from carom.proofs.moments import UNIT
+from carom.proofs.patches import Held, Patch
 from carom.proofs.rub_balls import Rub
 from carom.proofs.series import hull
 
@@ -174,7 +175,7 @@ class Bounces:
             self.rub.torque(self.reach) > 0
             and self.rub.torque(-self.reach) < 0
             and least > 0
-            and self.speed * self.speed / (2 * least) <= box.gap.upper()
+            and self.speed * self.speed / (2 * least) < box.gap.upper()
             and box.gap.upper() < 1
             and 1 + self._gain < rational(_FASTER * _FASTER)
             and n.d**2 * (1 + self._gain) < 1

@@ -2,15 +2,41 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from fractions import Fraction
+from itertools import groupby
 from math import ceil, floor
 
-from carom.proofs.balls import Enclosure
+from carom.proofs.balls import Enclosure, interval
 from carom.proofs.claims import Claim, Status
+from carom.proofs.lines import Line, Numbers
 
 Runs = Mapping[bool | None, Sequence[tuple[Fraction, Fraction]]]
 """Parts on which something holds, on which the contrary does, and on which it is open (``None``)."""
+
+_HALVINGS = 12
+"""How often a part is halved before it is left open."""
+
+
+def runs_along(line: Line, holds: Callable[[Numbers], bool | None]) -> Runs:
+    """Parts of a line by what holds on them, neighbours put together: it is halved until that is decided for all values of a part."""
+    runs: dict[bool | None, list[tuple[Fraction, Fraction]]] = {True: [], False: [], None: []}
+    for value, group in groupby(_parts(line, holds, *line.ends, _HALVINGS), key=lambda part: part[0]):
+        parts = list(group)
+        runs[value].append((parts[0][1], parts[-1][2]))
+    return runs
+
+
+def _parts(
+    line: Line, holds: Callable[[Numbers], bool | None], low: Fraction, high: Fraction, halvings: int
+) -> Iterator[tuple[bool | None, Fraction, Fraction]]:
+    value = holds(line.at(interval(low, high)))
+    if value is not None or not halvings or low == high:
+        yield value, low, high
+        return
+    middle = (low + high) / 2
+    yield from _parts(line, holds, low, middle, halvings - 1)
+    yield from _parts(line, holds, middle, high, halvings - 1)
 
 
 def claim_of_runs(about: str, kind: str, statement: str, runs: Runs) -> Claim:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
+from decimal import Decimal
 from typing import Any
 
 import numpy as np
@@ -11,12 +13,12 @@ from flint import arb
 from carom.bifurcations import find_bifurcations
 from carom.models import Jeffcott
 from carom.orbits import Kind, find_orbits
-from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, Machine, Parameters
+from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, TERMS, Machine, Parameters
 from carom.parameters.exact import read_exact
 from carom.proofs.balls import ball_of
 from carom.proofs.courses import Course, Return
 from carom.proofs.hypotheses import Hypotheses
-from carom.proofs.lines import Line
+from carom.proofs.lines import Line, Numbers
 
 _SAMPLES = 400
 
@@ -35,15 +37,26 @@ def doubles_of(hypotheses: Hypotheses) -> Parameters:
     return numbers.replace(**changes)
 
 
+def doubles_at(numbers: Numbers, phase: float) -> Parameters:
+    """Parameters next to numbers of the equations."""
+    values: dict[str, Any] = {name: float(ball.mid()) for name, ball in numbers._asdict().items()}
+    return Parameters(omega=math.sqrt(values.pop("omega_squared")), phi=phase, **values)
+
+
 def point_seeds(line: Line) -> list[tuple[str, str, dict[str, float]]]:
     """Bifurcation points along a parameter: their kinds, the motions and guesses of all that may be unknown."""
     low, high = (float(end) for end in line.ends)
     if not low < high:
         # Doubles cannot tell the ends apart.
         return []
-    found = []
-    for point in find_bifurcations(doubles_of(line.hypotheses), line.name, (low, high)).points:
+    found, term = [], TERMS.get(line.name)
+    name = line.name if term is None else term.sets
+    ends = [end if term is None else float(line.table(arb(end))[name].mid()) for end in (low, high)]
+    for point in find_bifurcations(doubles_of(line.hypotheses), name, (ends[0], ends[1])).points:
         at = {name: float(getattr(point, name)) for name in ("period", "radial_speed", "value")}
+        if term is not None:
+            needs = (Decimal(float(line.table(line.ball)[need].mid())) for need in term.needs)
+            at["value"] = float(term.entry(Decimal(at["value"]), *needs))
         at["touch"] = _touch(line, **at) if point.kind == "grazing" else 0.0
         if not point.name.startswith("R"):
             found.append((point.kind, str(point.name), at))

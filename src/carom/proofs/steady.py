@@ -77,12 +77,9 @@ def _claims_of_rub(rotor: Rotor, name: str, side: int) -> list[Claim]:
     )
     if exists.status != "proven":
         return [exists]
-    root = square.sqrt()
-    force = (half + side * root) / (1 + n.mu * n.mu)
-    if half * side < 0:
-        # The form without cancellation.
-        force = wall_condition(n) / (half - side * root)
-        force = arb(0) if rotor.on_the_wall else force
+    force = rub_force(n, side)
+    if half * side < 0 and rotor.on_the_wall:
+        force = arb(0)
     pushes = decided(force) or (-1 if force.is_zero() else 0)
     pressed = rotor.claim(
         name,
@@ -107,6 +104,13 @@ def _claims_of_rub(rotor: Rotor, name: str, side: int) -> list[Claim]:
 def wall_condition(n: Numbers) -> Any:
     """``(ω² − 1)² + γ² − ρ²``: zero where ``|U*| = 1``."""
     return squared(n.product) - n.rho * n.rho
+
+
+def rub_force(n: Numbers, side: int) -> Any:
+    """Normal force of a rub, the larger (1) or the smaller (−1) root, where the discriminant is positive."""
+    root, half = rub_discriminant(n).sqrt(), rub_balance(n)
+    # The form without cancellation where there would be some.
+    return wall_condition(n) / (half - side * root) if half * side < 0 else (half + side * root) / (1 + n.mu * n.mu)
 
 
 def rub_discriminant(n: Numbers) -> Any:
@@ -140,10 +144,19 @@ def _kick_claim(rotor: Rotor) -> Claim:
         return claim(-1, "it does not levitate inside the wall, or any kick grows")
     if not (room > 0 and damping.low >= 0):
         return claim(0, "it may not levitate inside the wall, or a kick may grow")
-    speed = room / _largest_response(rotor.numbers)
-    if not (speed.is_finite() and speed > 0):
+    speed = harmless_speed(rotor.numbers)
+    if speed is None:
         return claim(0, "the largest response to a kick could not be enclosed")
     return claim(1, speed=speed)
+
+
+def harmless_speed(n: Numbers) -> Any | None:
+    """Speed below which kicks are harmless; ``None`` where none is shown."""
+    room = 1 - n.levitation
+    if not (room > 0 and n.gamma >= 0):
+        return None
+    speed = room / _largest_response(n)
+    return speed if speed.is_finite() and speed > 0 else None
 
 
 def _largest_response(n: Numbers) -> Any:

@@ -20,8 +20,9 @@ from typing import Any
 from flint import arb
 
 from carom.proofs.bends import bent, remainder, second_derivatives
+from carom.proofs.moments import FORM, UNIT, Moment, cross, dot, spread
 from carom.proofs.passages import GRAZE, Brush, LeftOpenError, Strike
-from carom.proofs.patches import FORM, UNIT, Departure, Moment, Patch, cross, dot, spread
+from carom.proofs.patches import Departure, Patch
 from carom.proofs.series import hull
 
 Columns = list[list[Any]]
@@ -36,6 +37,12 @@ def after_strike(departure: Departure, strike: Strike) -> Patch:
     if not moment.slope > 0:
         raise LeftOpenError(GRAZE, departure.weights(strike.end))
     time, directions = _crossing(departure, window), departure.patch.directions
+    if departure.held.sides:
+        # Second derivatives by parameters are not known.
+        columns, centre = _columns(moment), _at_wall(departure, departure.at(time), time)
+        if not centre[0] + spread([column[0] for column in columns]) > 0:
+            raise LeftOpenError(GRAZE, departure.weights(strike.end))
+        return _reset(departure, centre, columns, [arb(0)] * 3)
     middle = Departure(departure.held, departure.patch, alone=True).at(time)
     columns, drift = _columns(middle), []
     for j, squares in enumerate(second_derivatives(departure, time, window)):
@@ -82,15 +89,15 @@ def _crossing(departure: Departure, window: Any) -> Any:
         guess -= (height - 1) / rise
     guess = min(max(guess, float(window.lower())), float(window.upper()))
     near = departure.at(arb(guess))
-    z = near.centre(near.waves.place)
+    z = near.centre(0)
     far = departure.at(window)
-    slope = dot(far.centre(far.waves.place), far.centre(far.waves.rate)) * 2
+    slope = dot(far.centre(0), far.centre(1)) * 2
     return (arb(guess) - (dot(z, z) - 1) / slope).intersection(window)
 
 
 def _at_wall(departure: Departure, moment: Moment, time: Any) -> list[Any]:
     """``a``, ``b`` and ``ψ`` of the flight of the centre."""
-    z, dz = moment.centre(moment.waves.place), moment.centre(moment.waves.rate)
+    z, dz = moment.centre(0), moment.centre(1)
     # Away from the cut of the argument on the negative axis.
     angle = z.log().imag if z.real > 0 else (-z).log().imag + arb.pi()
     return [dot(z, dz), cross(z, dz), departure.patch.centre[-1] + time - angle]
@@ -98,17 +105,23 @@ def _at_wall(departure: Departure, moment: Moment, time: Any) -> list[Any]:
 
 def _reset(departure: Departure, centre: list[Any], columns: Columns, drift: list[Any]) -> Patch:
     """Patch after the impact of states ``a, b, ψ`` before it."""
-    n, grip = departure.held.numbers, departure.held.grip
+    held = departure.held
     wide = [x + spread([column[j] for column in columns]) + drift[j] for j, x in enumerate(centre)]
-    stops, goes = _slip_slopes(n.radius_ratio + wide[1], grip * wide[0])
-    slip, most = n.radius_ratio + centre[1], grip * centre[0]
+    stops, goes = _slip_slopes(held.numbers.radius_ratio + wide[1], held.grip * wide[0])
+    middle = held.middle.numbers
+    slip, most = middle.radius_ratio + centre[1], held.middle.grip * centre[0]
     kept = slip - slip.min(most).max(-most)
-    start = [-n.d * centre[0], kept - n.radius_ratio, centre[2]]
+    start = [-middle.d * centre[0], kept - middle.radius_ratio, centre[2]]
 
     def through(x: list[Any]) -> list[Any]:
-        return [-n.d * x[0], (1 - stops) * x[1] - goes * grip * x[0], x[2]]
+        return [-held.numbers.d * x[0], (1 - stops) * x[1] - goes * held.grip * x[0], x[2]]
 
-    return _patch(start, [through(column) for column in columns], through(drift))
+    after = [through(column) for column in columns]
+    for j, side in enumerate(held.sides, FORM):
+        # The law of the impact depends on the parameters by itself.
+        after[j][0] = after[j][0] - side.restitution * wide[0]
+        after[j][1] = after[j][1] - stops * side.rim - goes * side.grip * wide[0]
+    return patch_of(start, after, through(drift), FORM + len(held.sides))
 
 
 def _slip_slopes(slip: Any, grip: Any) -> tuple[Any, Any]:
@@ -122,10 +135,10 @@ def _slip_slopes(slip: Any, grip: Any) -> tuple[Any, Any]:
     return hull(0, 1), UNIT
 
 
-def _patch(centre: list[Any], columns: Columns, drift: list[Any]) -> Patch:
-    """Patch with exact numbers that holds all states of mean value forms; small columns are taken together."""
-    kept, small = columns[:FORM], sorted(columns[FORM:], key=lambda column: -_length(column))
-    kept, small = kept + small[: MOST_SPANS - FORM], small[MOST_SPANS - FORM :]
+def patch_of(centre: list[Any], columns: Columns, drift: list[Any], first: int) -> Patch:
+    """Patch with exact numbers that holds all states of mean value forms; the first columns keep their places, small ones are taken together."""
+    kept, small = columns[:first], sorted(columns[first:], key=lambda column: -_length(column))
+    kept, small = kept + small[: MOST_SPANS - first], small[MOST_SPANS - first :]
     rest = []
     for j, x in enumerate(centre):
         # Half widths of the balls of the spans count once for each: a factor of at most 1 stands before them.

@@ -14,6 +14,7 @@ from carom.proofs import state_claims
 from carom.proofs.claims import Claim, claim_of
 from carom.proofs.evidence import Evidence, rational_of
 from carom.proofs.families import FAMILIES
+from carom.proofs.kick_box_claims import BOX_NOT_CLAIMED, BOX_OPTIONS, BOX_THEOREM, kick_box_claims
 from carom.proofs.kick_claims import NOT_CLAIMED, kick_claims, options_of
 from carom.proofs.periods import Periods, all_periods
 from carom.proofs.points import point_claims
@@ -24,6 +25,7 @@ from carom.proofs.several_impacts import several_impact_claims
 from carom.proofs.single_impact import candidates, orbit_claims
 from carom.proofs.slip import slip_claim
 from carom.proofs.steady import steady_claims
+from carom.proofs.steady_lines import steady_line_claims
 from carom.proofs.whirl import whirl_claims
 from carom.proofs.whirl_lines import whirl_line_claims
 
@@ -141,6 +143,7 @@ THEOREMS: Mapping[str, Theorem] = {
             *point_claims(rotor, evidence, options),
             *range_claims(rotor, evidence, options),
             *whirl_line_claims(rotor, options),
+            *steady_line_claims(rotor, options),
         ],
         (
             "what is said to be open on an interval, but for the points listed there",
@@ -155,6 +158,7 @@ THEOREMS: Mapping[str, Theorem] = {
         about: Theorem(partial(kick_claims, family), NOT_CLAIMED, options_of(family))
         for about, family in FAMILIES.items()
     },
+    BOX_THEOREM: Theorem(kick_box_claims, BOX_NOT_CLAIMED, BOX_OPTIONS),
     state_claims.THEOREM: Theorem(state_claims.state_claims, state_claims.NOT_CLAIMED, state_claims.OPTIONS),
 }
 """Theorems by their names in certificates."""

@@ -5,20 +5,14 @@ The interval is halved until the signs of :mod:`carom.proofs.whirl` are decided 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
-from fractions import Fraction
-from itertools import groupby
+from collections.abc import Callable, Mapping
 from typing import Any
 
-from carom.proofs.balls import interval
 from carom.proofs.claims import Claim
-from carom.proofs.lines import Line, Numbers, line_of
+from carom.proofs.lines import Numbers, line_of
 from carom.proofs.rotor import Rotor
-from carom.proofs.runs import Runs, claim_of_runs
+from carom.proofs.runs import claim_of_runs, runs_along
 from carom.proofs.whirl import BACKWARD, drag_sign, rolling_sign
-
-_HALVINGS = 12
-"""How often a part is halved before it is left open."""
 
 
 def whirl_line_claims(rotor: Rotor, options: Mapping[str, Any]) -> list[Claim]:
@@ -32,7 +26,7 @@ def whirl_line_claims(rotor: Rotor, options: Mapping[str, Any]) -> list[Claim]:
         "absent": (BACKWARD, _absent),
     }
     return [
-        claim_of_runs("whirl", kind, f"For all {line.words}, {words}.", _runs(line, holds))
+        claim_of_runs("whirl", kind, f"For all {line.words}, {words}.", runs_along(line, holds))
         for kind, (words, holds) in kinds.items()
     ]
 
@@ -46,24 +40,3 @@ def _absent(n: Numbers) -> bool | None:
     if drag_sign(n) == 1:
         return True
     return False if rolling_sign(n) == 1 else None
-
-
-def _runs(line: Line, holds: Callable[[Numbers], bool | None]) -> Runs:
-    """Parts of the line by what holds on them, neighbours put together."""
-    runs: dict[bool | None, list[tuple[Fraction, Fraction]]] = {True: [], False: [], None: []}
-    for value, group in groupby(_parts(line, holds, *line.ends, _HALVINGS), key=lambda part: part[0]):
-        parts = list(group)
-        runs[value].append((parts[0][1], parts[-1][2]))
-    return runs
-
-
-def _parts(
-    line: Line, holds: Callable[[Numbers], bool | None], low: Fraction, high: Fraction, halvings: int
-) -> Iterator[tuple[bool | None, Fraction, Fraction]]:
-    value = holds(line.at(interval(low, high)))
-    if value is not None or not halvings or low == high:
-        yield value, low, high
-        return
-    middle = (low + high) / 2
-    yield from _parts(line, holds, low, middle, halvings - 1)
-    yield from _parts(line, holds, middle, high, halvings - 1)

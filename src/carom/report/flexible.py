@@ -12,6 +12,7 @@ from carom.arguments import checked
 from carom.files import staged_directory, write_json
 from carom.files.directory import MANIFEST
 from carom.motions import Trajectory
+from carom.parameters.told import number
 from carom.plots.sheet import drawing
 from carom.progress import Reporter, ShowProgress, shows_progress
 from carom.report.figure_files import Picture, draw_figures
@@ -19,6 +20,7 @@ from carom.report.html import page_template, versions
 from carom.report.page import REPORT
 from carom.studies import FlexibleStudy
 from carom.studies.facts import about, paragraphs
+from carom.studies.flexible_rows import machine_rows
 from carom.studies.verdict_facts import KINDS
 
 SECTION = "study"
@@ -54,7 +56,8 @@ def write_flexible_report(study: FlexibleStudy, directory: str, *, progress: Sho
             mark=_MARKS[study.verdict.level],
             survived=about(study.facts, "Verdict"),
             topics=paragraphs(study.facts),
-            machine=study.case.rows(),
+            machine=machine_rows(study.case, study.reduced.machine),
+            whirls=_whirls(study),
             figures=inline,
             versions=versions(),
         )
@@ -87,6 +90,12 @@ def _pictures(study: FlexibleStudy) -> Iterator[Picture]:
         for plane in planes:
             draw = _orbit(study.fall, plane, f"Drop, plane {plane + 1}")
             yield Picture(f"drop-{plane + 1}", SECTION, _caption(plane, "after levitation is lost"), draw)
+
+
+def _whirls(study: FlexibleStudy) -> list[tuple[str, str, str]]:
+    """Frequency, sense and damping ratio of the slowest whirls."""
+    found = study.levitation.whirls
+    return [(f"{number(each.frequency)} Hz", each.sense, number(each.damping_ratio, 3)) for each in found]
 
 
 def _caption(plane: int, when: str) -> str:

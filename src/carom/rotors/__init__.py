@@ -11,6 +11,7 @@
 ``controllers``           :class:`PID`, :class:`TransferFunction`, and those of other libraries
 ``bearing_limits``        limits of magnetic bearings as those of a model
 ``magnetic_bearing``      :class:`MagneticBearing`: magnet, sensors, and what is between both
+``support``               :class:`Support`: a seal, a fluid-film bearing, a spring
 ``free_rotor``            what all rotors have in common, however their matrices are made
 ``flexible_rotor``        :class:`FlexibleRotor`: a shaft with discs as finite elements
 ``matrix_checks``         what matrices of a rotor must be
@@ -52,6 +53,7 @@ from carom.rotors.ross_import import ImportedRotor, import_rotor
 from carom.rotors.rotor_files import read_rotor, write_rotor
 from carom.rotors.sections import Material, Section
 from carom.rotors.state_spaces import StateSpace
+from carom.rotors.support import Support
 from carom.rotors.unbalance import FlexibleResponse, unbalance_response
 from carom.rotors.whirls import Campbell, Whirl, campbell, find_whirls
 
@@ -73,6 +75,7 @@ __all__ = [
     "Section",
     "Sensitivity",
     "StateSpace",
+    "Support",
     "TouchdownPlane",
     "TransferFunction",
     "Unbalance",

@@ -51,7 +51,7 @@ def limits_of_bearings(
     last = len(equations.mass) - sum(each.loop.states for each in bearings) - 1
     for number, bearing in enumerate(bearings):
         last += bearing.loop.states
-        place = _Place(pulls[number], equations.currents[number], -equations.stiffness[last], last)
+        place = _Place(pulls[number], equations.currents[number], -equations.stiffness[last].real, last)
         found += [_in_units(limit, scales) for limit in _in_si(bearing, place, len(found))]
     return tuple(found)
 

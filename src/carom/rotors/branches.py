@@ -31,14 +31,26 @@ def followed(equations: Equations, speeds: np.ndarray) -> np.ndarray:
 
     Two motions are alike by ``|a b|``, where ``a`` is the share of the first in the second and ``b`` that of the second in the first: 1 of the
     same motion, whatever its size.  Where two whirls come near each other their shapes mix, and a whirl keeps its shape rather than its
-    place.
+    place.  Where supports act differently in two directions, the exponent of each motion is that with the sense that prevails in it.
     """
-    here = _at(equations, float(speeds[0]))
-    rows = [here.exponents]
+    followed_of = equations.both if equations.mirrored else equations
+    here = _at(followed_of, float(speeds[0]))
+    rows = [here]
     for before, after in zip(speeds[:-1].tolist(), speeds[1:].tolist(), strict=True):
-        here = _step(equations, here, before, after, HALVINGS)
-        rows.append(here.exponents)
-    return np.array(rows)
+        here = _step(followed_of, here, before, after, HALVINGS)
+        rows.append(here)
+    if not equations.mirrored:
+        return np.array([each.exponents for each in rows])
+    once = rows[0].exponents.imag > 0.0  # the others are their conjugates
+    return np.array([_with_sense(each, len(equations.mass))[once] for each in rows])
+
+
+def _with_sense(motions: Motions, coordinates: int) -> np.ndarray:
+    """Exponents whose imaginary parts are above zero where a motion goes forward more than backward."""
+    both = motions.states[: 2 * coordinates]
+    ahead, behind = (np.linalg.norm(each, axis=0) for each in np.split(both, 2))
+    forward = (ahead >= behind) == (motions.exponents.imag > 0.0)
+    return motions.exponents.real + 1j * np.abs(motions.exponents.imag) * np.where(forward, 1.0, -1.0)
 
 
 def _at(equations: Equations, speed: float) -> Motions:

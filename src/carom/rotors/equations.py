@@ -1,9 +1,9 @@
-"""Equations of motion of a flexible rotor on magnetic bearings, in SI units and in the fixed frame."""
+"""Equations of motion of a flexible rotor on magnetic bearings and supports, in SI units and in the fixed frame."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -11,10 +11,11 @@ from carom.rotors.attachments import TouchdownPlane, Unbalance
 from carom.rotors.free_rotor import FreeRotor
 from carom.rotors.magnetic_bearing import MagneticBearing
 from carom.rotors.reduction import RIGID, Basis
+from carom.rotors.support import Support
 
 
 class Equations(NamedTuple):
-    """``M z̈ + (D − iΩG) ż + K z = Ω² e^{iΩt} f`` of vectors with unit modal mass, mounts, and controller states, which have no mass.
+    """``M z̈ + (D − iΩG) ż + K z + D′ z̄˙ + K′ z̄ = Ω² e^{iΩt} f`` of vectors with unit modal mass, mounts, and controller states, which have no mass.
 
     Displacements are ``basis.shapes`` times the first ``v`` coordinates, which are in m √kg.
     """
@@ -31,9 +32,35 @@ class Equations(NamedTuple):
     """Displacement at each touchdown bearing, relative to its mount, shape (P, n)."""
     currents: np.ndarray
     """Current of each bearing, A, per coordinate, shape (B, n)."""
+    across: np.ndarray
+    """``D′`` and ``K′``, shape (2, n, n): of supports that act differently in two directions, with and without magnetic bearings."""
+
+    @property
+    def mirrored(self) -> bool:
+        """Whether a support acts differently in two directions."""
+        return bool(self.across.any())
+
+    @property
+    def both(self) -> Equations:
+        """Equations of the coordinates and their conjugates ``(z, z̄)``, in which nothing depends on the direction.
+
+        Their response has as its second half the conjugate of what goes round with ``e^{−iΩt}``.
+        """
+        stored = (block(each, each.conj()) for each in (self.mass, self.damping, self.stiffness))
+        mass, damping, stiffness = stored
+        damping, stiffness = damping + off(self.across[0]), stiffness + off(self.across[1])
+        none = np.zeros_like
+        return self._replace(
+            mass=mass,
+            damping=damping,
+            gyroscopic=block(self.gyroscopic, -self.gyroscopic),
+            stiffness=stiffness,
+            forcing=np.append(self.forcing, none(self.forcing)),
+            across=none(np.stack([damping, stiffness])),
+        )
 
     def exponents(self, speed: float) -> tuple[np.ndarray, np.ndarray]:
-        """Exponents (N,) of the free motion at a speed, 1/s, and the coordinates (n, N) of each."""
+        """Exponents (N,) of the free motion at a speed, 1/s, and the coordinates (n, N) of each, where nothing depends on the direction."""
         heavy = np.asarray(self.mass.any(axis=1))
         n, masses = len(heavy), self.mass[heavy, heavy][:, None]
         spin = (self.damping - 1j * speed * self.gyroscopic)[np.ix_(heavy, heavy)]
@@ -45,10 +72,20 @@ class Equations(NamedTuple):
         return values, vectors[:n]
 
     def response(self, speed: float) -> np.ndarray:
-        """Coordinates (n,) of the whirl with which the rotor answers its unbalance, at time zero."""
+        """Coordinates (n,) of the whirl with which the rotor answers its unbalance, at time zero, where nothing depends on the direction."""
         dynamic = self.stiffness - speed**2 * self.mass + 1j * speed * (self.damping - 1j * speed * self.gyroscopic)
         answer: np.ndarray = np.linalg.solve(dynamic, speed**2 * self.forcing)
         return answer
+
+
+def block(first: np.ndarray, second: np.ndarray) -> np.ndarray:
+    """The matrix with these on its diagonal."""
+    return np.block([[first, np.zeros_like(first)], [np.zeros_like(second), second]])
+
+
+def off(matrix: np.ndarray) -> np.ndarray:
+    """The matrix with this one and its conjugate beside its diagonal."""
+    return np.block([[np.zeros_like(matrix), matrix], [matrix.conj(), np.zeros_like(matrix)]])
 
 
 class Loops(NamedTuple):
@@ -87,6 +124,7 @@ def equations_of(
     bearings: Sequence[MagneticBearing],
     touchdowns: Sequence[TouchdownPlane],
     unbalances: Sequence[Unbalance],
+    supports: Sequence[Support],
     restart: float,
 ) -> Equations:
     """Equations of a machine in a basis.
@@ -110,6 +148,8 @@ def equations_of(
         mass[place, place], stiffness[place, place] = mount.mount_mass or 0.0, mount.mount_stiffness or 0.0
         damping[place, place] = mount.mount_damping or 0.0
         planes[plane, place] = -1.0
+    held = _supported(rotor, basis, supports, size)
+    damping, stiffness = damping + held.alike[0], stiffness + held.alike[1]
     states = slice(first, size)
     damping[states, states] = np.eye(size - first)
     left = np.stack([damping, stiffness])
@@ -126,7 +166,28 @@ def equations_of(
     forcing = np.zeros(size, complex)
     for each in unbalances:
         forcing[free] += each.size * np.exp(1j * each.angle) * (row_of(rotor, each.node) @ basis.shapes)
-    return Equations(mass, damping, gyroscopic, stiffness, forcing, left, planes, currents)
+    return Equations(mass, damping, gyroscopic, stiffness, forcing, left, planes, currents, held.across)
+
+
+class _Supported(NamedTuple):
+    """Damping and stiffness of all supports, both of shape (2, n, n)."""
+
+    alike: np.ndarray
+    """By velocities and displacements; real without cross-coupling."""
+    across: np.ndarray
+    """By their conjugates."""
+
+
+def _supported(rotor: FreeRotor, basis: Basis, supports: Sequence[Support], size: int) -> _Supported:
+    both = np.zeros((2, 2, size, size), complex)
+    for each in supports:
+        pull = row_of(rotor, each.node) @ basis.shapes
+        square = np.zeros((size, size))
+        square[: len(pull), : len(pull)] = np.outer(pull, pull)
+        for place, numbers in enumerate((each.damping, each.stiffness)):
+            both[:, place] += np.multiply.outer(np.array(numbers), square)
+    alike: Any = both[0]
+    return _Supported(alike if alike.imag.any() else alike.real, both[1])
 
 
 def _damping(rotor: FreeRotor, basis: Basis) -> np.ndarray:

@@ -15,7 +15,7 @@ from carom.outcome import InputError, shown
 from carom.parameters import Field, Gravity
 from carom.rotors.attachments import TouchdownPlane, Unbalance
 from carom.rotors.entries import read_entries
-from carom.rotors.equations import loops_of
+from carom.rotors.equations import loops_of, row_of
 from carom.rotors.free_rotor import FreeRotor
 from carom.rotors.machine_parameters import (
     WHOLE,
@@ -28,6 +28,7 @@ from carom.rotors.machine_parameters import (
 from carom.rotors.magnetic_bearing import MagneticBearing
 from carom.rotors.reduced_machine import ReducedMachine
 from carom.rotors.reduction import MORE, RIGID, Basis, contact_error, rubin_basis
+from carom.rotors.support import Support
 
 ACCURACY = 0.02
 """Error of contact forces by reduction that is accepted by default; it is that of one
@@ -38,6 +39,7 @@ _KINDS = {
     "bearings": MagneticBearing,
     "touchdowns": TouchdownPlane,
     "unbalances": Unbalance,
+    "supports": Support,
 }
 
 
@@ -53,12 +55,14 @@ class FlexibleMachine:
     clearance : float or str
         Radial clearance, m, at touchdown bearings that state none of their own; lengths of the model are in this unit.
     bearings : sequence of MagneticBearing
-        Without any the rotor is free.
+        Without any, and without supports, the rotor is free.
     touchdowns : sequence of TouchdownPlane
         One or more.
     unbalances : sequence of Unbalance, optional
     gravity : carom.parameters.Gravity, optional
         By default the rotor has no weight.
+    supports : sequence of Support, optional
+        What holds the rotor with and without its magnetic bearings.
 
     Raises
     ------
@@ -73,6 +77,7 @@ class FlexibleMachine:
     touchdowns: Sequence[TouchdownPlane]
     unbalances: Sequence[Unbalance] = ()
     gravity: Gravity | None = None
+    supports: Sequence[Support] = ()
 
     def __post_init__(self) -> None:
         rotor: Any = self.rotor
@@ -92,7 +97,7 @@ class FlexibleMachine:
             self.rotor.check_node("bearing node", each.node)
             for node in each.sensor_nodes:
                 self.rotor.check_node("sensor node", node)
-        for name in ("touchdowns", "unbalances"):
+        for name in ("touchdowns", "unbalances", "supports"):
             for part in getattr(self, name):
                 self.rotor.check_node(f"{name.removesuffix('s')} node", part.node)
         for name in ("bearings", "touchdowns"):
@@ -142,7 +147,8 @@ class FlexibleMachine:
     @cached_property
     def _rows(self) -> list[np.ndarray]:
         """Where forces act and displacements are measured, each place once."""
-        rows = np.concatenate(loops_of(self.rotor, self.bearings, self.touchdowns))
+        held = [row_of(self.rotor, each.node)[None] for each in self.supports]
+        rows = np.concatenate([*loops_of(self.rotor, self.bearings, self.touchdowns), *held])
         return list(np.unique(rows, axis=0))
 
     def basis(self, modes: int) -> Basis:

@@ -12,9 +12,9 @@ import numpy as np
 from carom.arguments import checked
 from carom.outcome import InputError
 from carom.results import Result
-from carom.rotors.equations import loops_of
+from carom.rotors.equations import block, loops_of, row_of
 from carom.rotors.flexible_machine import FlexibleMachine
-from carom.rotors.whirls import speeds_of
+from carom.rotors.whirls import motions_at, speeds_of
 
 LIMITS = {"A": 3.0, "B": 4.0, "C": 5.0}
 """Largest peak of the sensitivity in each zone of ISO 14839-3:2006; above lies zone D."""
@@ -64,6 +64,7 @@ def sensitivity(flexible: FlexibleMachine, frequencies: Sequence[float] | None =
     """Compute the sensitivity of the loops of a flexible machine, from all its modes.
 
     With gyroscopic moments a direction, such as x, sees both whirls: ``S(iω)`` of the complex loop and the conjugate of ``S(−iω)``, half of each.
+    Where supports act differently in two directions, so are the two axes of a bearing; told is the one with the larger peak.
 
     Parameters
     ----------
@@ -80,15 +81,21 @@ def sensitivity(flexible: FlexibleMachine, frequencies: Sequence[float] | None =
         raise InputError("bearings", None, "one or more carom.rotors.MagneticBearing")
     loop = _Loop(flexible)
     listed = _usual(flexible) if frequencies is None else np.sort(speeds_of(frequencies))
-    values = np.array([loop.of_axis(each) for each in listed.tolist()])
-    peaks = [loop.peak(listed, np.abs(values[:, number]), number) for number in range(len(flexible.bearings))]
-    return Sensitivity(listed, values, *(np.array(each) for each in zip(*peaks, strict=True)))
+    values = np.array([loop.of_axes(each) for each in listed.tolist()])
+    places = [(axis, number) for number in range(len(flexible.bearings)) for axis in range(values.shape[1])]
+    peaks = {place: loop.peak(listed, np.abs(values[:, *place]), place) for place in places}
+    worst = [
+        max((each for each in places if each[1] == number), key=lambda each: peaks[each][0])
+        for number in range(values.shape[2])
+    ]
+    told = (np.array(each) for each in zip(*(peaks[place] for place in worst), strict=True))
+    return Sensitivity(listed, np.stack([values[:, *place] for place in worst], axis=1), *told)
 
 
 def _usual(machine: FlexibleMachine) -> np.ndarray:
     """Frequencies, rad/s, over the range that the standard asks for, and those of the free whirls, where narrow peaks are."""
     highest = max(HIGHEST * machine.speed, LEAST_HIGHEST)
-    own = np.abs(machine.whole.equations.exponents(machine.speed)[0].imag)
+    own = np.abs(motions_at(machine.whole.equations, machine.speed).exponents.imag)
     return np.union1d(np.geomspace(LOWEST, highest, COUNT), own[(own > LOWEST) & (own < highest)])
 
 
@@ -103,27 +110,52 @@ class _Loop:
         softer = [bearing.ks * np.outer(pull, pull) for bearing, pull in zip(self.bearings, self.pulls, strict=True)]
         self.stiffness = held.unlevitated[1][vectors, vectors] + np.sum(softer, axis=0)
         self.spin = held.damping[vectors, vectors] - 1j * machine.speed * held.gyroscopic[vectors, vectors]
+        # Supports that act differently in two directions, where they hold the rotor.
+        across = [each for each in machine.supports if each.stiffness.across or each.damping.across]
+        rows = [row_of(machine.rotor, each.node) @ whole.basis.shapes for each in across]
+        self.held = np.reshape(rows, (len(across), whole.vectors))
+        self.across = np.array([(each.stiffness.across, each.damping.across) for each in across]).reshape(-1, 2)
 
-    def of_whirls(self, frequency: float) -> np.ndarray:
-        """Sensitivity of whirls at a frequency, negative for backward ones, shape (B,)."""
+    def answers(self, frequency: float) -> np.ndarray:
+        """What sensors measure, and displacements at such supports, by forces of whirls at bearings and there; shape (B + S, B + S)."""
         s = 1j * frequency
         dynamic = self.stiffness + s * self.spin + s * s * np.eye(len(self.stiffness))
-        gains = [bearing.ki * complex(bearing.loop.at(np.array(s))) for bearing in self.bearings]
-        opened = self.seen @ np.linalg.solve(dynamic, self.pulls.T) * gains
-        return np.asarray(np.diag(np.linalg.inv(np.eye(len(gains)) + opened)))
+        pushed = np.concatenate([self.pulls, self.held])
+        found: np.ndarray = np.concatenate([self.seen, self.held]) @ np.linalg.solve(dynamic, pushed.T)
+        return found
 
-    def of_axis(self, frequency: float) -> np.ndarray:
-        """Sensitivity of one direction, shape (B,)."""
-        return np.asarray(0.5 * (self.of_whirls(frequency) + self.of_whirls(-frequency).conj()))
+    def opened(self, frequency: float) -> np.ndarray:
+        """What sensors measure by forces at bearings, of displacements and of their conjugates, (2B, 2B)."""
+        count, s = len(self.bearings), 1j * frequency
+        free = block(self.answers(frequency), self.answers(-frequency).conj())
+        size = len(free) // 2
+        links = np.zeros_like(free)
+        for place, (stiffness, damping) in enumerate(self.across, start=count):
+            links[place, size + place] = stiffness + s * damping
+            links[size + place, place] = stiffness.conjugate() + s * damping.conjugate()
+        held = np.linalg.solve(np.eye(2 * size) + free @ links, free)
+        kept = np.append(np.arange(count), size + np.arange(count))
+        return held[np.ix_(kept, kept)]
 
-    def peak(self, frequencies: np.ndarray, sizes: np.ndarray, number: int) -> tuple[float, float]:
-        """Largest sensitivity of a bearing beside the largest of those known, and its frequency."""
+    def of_axes(self, frequency: float) -> np.ndarray:
+        """Sensitivity of one direction, shape (1, B); where both differ of both axes, shape (2, B)."""
+        count, s = len(self.bearings), np.array(1j * frequency)
+        gains = [bearing.ki * complex(bearing.loop.at(s)) for bearing in self.bearings]
+        whole = np.linalg.inv(np.eye(2 * count) + self.opened(frequency) * (2 * gains))
+        # A real signal along an axis is as much a part of the displacement as of its conjugate.
+        turns = np.exp(2j * np.array([each.axis_angle for each in self.bearings]))
+        straight = np.diag(whole[:count, :count]) + np.diag(whole[count:, count:])
+        mixed = np.diag(whole[:count, count:]) / turns + np.diag(whole[count:, :count]) * turns
+        return 0.5 * (np.stack([straight + mixed, straight - mixed]) if len(self.across) else straight[None])
+
+    def peak(self, frequencies: np.ndarray, sizes: np.ndarray, axis: tuple[int, int]) -> tuple[float, float]:
+        """Largest sensitivity along an axis of a bearing beside the largest of those known, and its frequency."""
         place = int(sizes.argmax())
         best = float(sizes[place]), float(frequencies[place])
         for _ in range(ZOOMS):
             low, high = frequencies[max(place - 1, 0)], frequencies[min(place + 1, len(frequencies) - 1)]
             frequencies = np.linspace(low, high, POINTS)
-            sizes = np.array([abs(self.of_axis(each)[number]) for each in frequencies.tolist()])
+            sizes = np.array([abs(self.of_axes(each)[axis]) for each in frequencies.tolist()])
             place = int(sizes.argmax())
             best = max(best, (float(sizes[place]), float(frequencies[place])))
         return best

@@ -42,6 +42,7 @@ from carom.rotors.matrix_rotor import MatrixRotor
 from carom.rotors.rotor_files import read_rotor
 from carom.rotors.sections import MATERIAL_FIELDS, SECTION_FIELDS, Material, Section
 from carom.rotors.state_spaces import StateSpace
+from carom.rotors.support import SUPPORT_FIELDS, Support
 
 _Part = TypeVar("_Part")
 _RENAMED = {"damping_ratio": "ratio", "damping_of_mass": "of_mass", "damping_of_stiffness": "of_stiffness"}
@@ -63,6 +64,7 @@ PART_ENTRIES: Mapping[str, Mapping[str, Any]] = {
     "section": {**SECTION_FIELDS, **MATERIAL_FIELDS},
     "disc": {"node": None, **DISC_FIELDS, "width": None, **by_name(*(SECTION_FIELDS[name] for name in ("outer_diameter", "inner_diameter"))), **MATERIAL_FIELDS},
     "magnetic_bearing": {"node": None, "sensor_nodes": None, **BEARING_FIELDS, **PID_FIELDS, **dict.fromkeys((*_QUOTIENT, *_MATRICES))},
+    "support": {"node": None, **SUPPORT_FIELDS},
     "touchdown": {"node": None, "law": None, **PLANE_FIELDS, **TOUCHDOWN_FIELDS},
     "unbalance": {"node": None, **UNBALANCE_FIELDS},
 }  # fmt: skip
@@ -169,6 +171,7 @@ def _read_machine(tables: MachineTables, settings: Mapping[str, str], problems: 
         "unbalances": _each(
             tables, "unbalance", problems, lambda entry: _on(rotor, _unbalance(_numbered(entry, rotor)))
         ),
+        "supports": _each(tables, "support", problems, lambda entry: _on(rotor, _support(_numbered(entry, rotor)))),
     }
     if not tables.parts.get("touchdown"):
         allowed = "one or more tables, each with its node, clearance, rotor_radius, friction and law"
@@ -322,6 +325,11 @@ def _plane(entry: dict[str, Any]) -> TouchdownPlane:
         raise InputError("law", shown(entry["law"]), f"must be one of {', '.join(_YIELDING)}")
     bearing = TouchdownBearing(**_of(entry, ("law", *TOUCHDOWN_FIELDS)))
     return TouchdownPlane(entry["node"], bearing, **_of(entry, PLANE_FIELDS))
+
+
+def _support(entry: dict[str, Any]) -> Support:
+    _needed(entry, ("node", "kxx", "kyy"))
+    return Support(**entry)
 
 
 def _unbalance(entry: dict[str, Any]) -> Unbalance:

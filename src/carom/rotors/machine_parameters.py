@@ -19,6 +19,7 @@ from carom.parameters.touchdown_bearing import BALL_FIELDS, PREFIX
 from carom.rotors.attachments import PLANE_FIELDS, UNBALANCE_FIELDS, TouchdownPlane, Unbalance
 from carom.rotors.controllers import PID, PID_FIELDS
 from carom.rotors.magnetic_bearing import BEARING_FIELDS, MagneticBearing
+from carom.rotors.support import SUPPORT_FIELDS
 
 if TYPE_CHECKING:
     from carom.rotors.flexible_machine import FlexibleMachine
@@ -81,6 +82,7 @@ def _changed_unbalance(unbalance: Unbalance, name: str, value: Any) -> Unbalance
 
 _KINDS = (
     _Parts("bearings", "magnetic bearing", {**PID_FIELDS, **BEARING_FIELDS}, _of_bearing, _changed_bearing),
+    _Parts("supports", "support", SUPPORT_FIELDS, getattr, lambda part, name, value: replace(part, **{name: value})),
     _Parts(
         "touchdowns",
         "touchdown bearing",

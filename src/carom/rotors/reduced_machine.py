@@ -71,8 +71,9 @@ class ReducedMachine(Result):
 
     @property
     def states(self) -> int:
-        """Number of complex states: displacements and velocities of all vectors, and states of controllers."""
-        return len(self.equations.mass) + int(self.equations.mass.any(axis=1).sum())
+        """Number of complex states: displacements and velocities of all vectors, and states of controllers; twice that if a support acts differently in two directions."""
+        once = len(self.equations.mass) + int(self.equations.mass.any(axis=1).sum())
+        return 2 * once if self.equations.mirrored else once
 
     @cached_property
     def scales(self) -> Scales:
@@ -84,7 +85,9 @@ class ReducedMachine(Result):
     def equations(self) -> Equations:
         """Equations of motion in SI units."""
         at = self.machine
-        return equations_of(at.rotor, self.basis, at.bearings, at.touchdowns, at.unbalances, restart=at.speed)
+        return equations_of(
+            at.rotor, self.basis, at.bearings, at.touchdowns, at.unbalances, at.supports, restart=at.speed
+        )
 
     def of(self, machine: FlexibleMachine) -> ReducedMachine:
         """By the same vectors, a machine with another value of a parameter, on none of which they depend."""
@@ -100,7 +103,7 @@ class ReducedMachine(Result):
             There are magnetic bearings, and a motion on them grows; or an integrator is so slow that under weight it cannot be told from none.
         """
         rotor = self.unchecked
-        if self.machine.bearings and (rate := rotor.system.decay) <= 0.0:
+        if (self.machine.bearings or self.machine.supports) and (rate := rotor.system.decay) <= 0.0:
             worst = rotor.system.exponents[rotor.system.exponents.real.argmax()] + 1j
             speed = self.machine.speed
             hertz = worst.imag * speed / (2.0 * math.pi)
@@ -187,6 +190,8 @@ class ReducedMachine(Result):
         once = np.where(heavy, 1.0 / scales.speed, 1.0)[:, None]
         twice = np.where(heavy, 1.0 / scales.speed**2, 1.0 / scales.speed)[:, None]
         size = math.sqrt(scales.mass)
+        # Cross-coupled damping of supports counts as gyroscopic, which stays when levitation is lost.
+        left = 0.5 * (given.unlevitated[0] + given.unlevitated[0].conj().T)
         planes = zip(at.touchdowns, at.clearances, size * given.planes, strict=True)
         return FlexibleModel.in_fixed_frame(
             reduced=self,
@@ -198,7 +203,8 @@ class ReducedMachine(Result):
             touchdowns=[self._touchdown(*each) for each in planes],
             translation=np.eye(len(given.mass))[0],
             scales=scales,
-            unlevitated=np.stack([once * given.unlevitated[0], twice * given.unlevitated[1]]),
+            unlevitated=np.stack([once * left, twice * given.unlevitated[1]]),
+            conjugate=np.stack([once * given.across[0], twice * given.across[1]]) if given.mirrored else None,
         )
 
     def _touchdown(self, plane: TouchdownPlane, clearance: float, row: np.ndarray) -> Touchdown:

@@ -17,6 +17,7 @@ import numpy as np
 SHAFTS = ("MultiRotor", "CoAxialRotor")
 """Rotors of several shafts."""
 COORDINATES = ("x", "y", "z", "alpha", "beta", "theta")
+COEFFICIENTS = ("kxx", "kxy", "kyx", "kyy", "cxx", "cxy", "cyx", "cyy")
 
 
 class RefusedError(Exception):
@@ -60,7 +61,10 @@ def read(source: str, name: str, folder: Path) -> dict[str, Any]:
         arrays["D"] = damping
     np.savez(folder / "rotor.npz", **arrays, coordinates=np.array(COORDINATES), names=np.array(names_of(rotor)))
     remarks = [f"{each.tag}: left out, it is no part of the shaft, which ends at node {last}" for each in beyond]
-    bearings = [bearing_of(each) for each in rotor.bearing_elements]
+    bearings = [bearing_of(each, rotor.rated_w) for each in rotor.bearing_elements]
+    remarks += [
+        f"{each['tag']}: its coefficients depend on the speed; {each['taken']}" for each in bearings if "taken" in each
+    ]
     return {"version": ross.__version__, "bearings": bearings, "remarks": remarks, "speed": rotor.rated_w}
 
 
@@ -92,14 +96,18 @@ def names_of(rotor: Any) -> list[str]:
     return names
 
 
-def bearing_of(element: Any) -> dict[str, Any]:
-    """Node, kind and numbers of a bearing."""
+def bearing_of(element: Any, speed: float | None) -> dict[str, Any]:
+    """Node, kind and numbers of a bearing, at a speed, rad/s, if they depend on it."""
     kind = type(element).__name__
     told: dict[str, Any] = {"node": int(element.n), "tag": element.tag, "kind": kind}
     if kind != "MagneticBearingElement":
-        alike = np.ptp([element.kxx[0], element.kyy[0]]) == 0.0 and len(element.kxx) == 1
-        numbers = {"stiffness": float(element.kxx[0]), "damping": float(element.cxx[0])}
-        return {**told, **numbers, "alike": bool(alike and not np.any([element.kxy, element.kyx]))}
+        numbers = coefficients_of(element, speed)
+        if any(np.ptp(np.ravel(getattr(element, name))) for name in COEFFICIENTS):
+            told["taken"] = f"taken are those at {speed:.10g} rad/s" if speed else "taken are the first"
+        alike = all(numbers[f"{of}xx"] == numbers[f"{of}yy"] for of in "kc")
+        alike &= not any(numbers[f"{of}{axes}"] for of in "kc" for axes in ("xy", "yx"))
+        usual = {"stiffness": numbers["kxx"], "damping": numbers["cxx"]}
+        return {**told, **usual, "alike": alike, "coefficients": numbers}
     gains = [
         np.unique(np.asarray(values, float)) for values in (element.ki, element.ks, element.k_amp, element.k_sense)
     ]
@@ -120,6 +128,17 @@ def bearing_of(element: Any) -> dict[str, Any]:
         told |= {name: factor * float(value) for name, value in pid.items() if value}
         told["filter_time"] = 1.0 / float(element.n_f)
     return told
+
+
+def coefficients_of(element: Any, speed: float | None) -> dict[str, float]:
+    """The eight coefficients of a bearing, N/m and N s/m: the first of several, or between those at the speeds around a speed."""
+    found = {}
+    for name in COEFFICIENTS:
+        values = np.ravel(getattr(element, name)).astype(float)
+        found[name] = float(values[0])
+        if speed and len(values) > 1 and np.size(element.frequency) == len(values):
+            found[name] = float(np.interp(speed, element.frequency, values))
+    return found
 
 
 if __name__ == "__main__":

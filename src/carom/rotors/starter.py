@@ -44,9 +44,12 @@ def starter_text(found: ImportedRotor, source: str) -> str:
         *damping,
     ]
     held = _held(found)
-    nodes = [each["node"] for each in held]
+    supports = [each for each in found.bearings if _is_support(each)]
+    nodes = list(dict.fromkeys(each["node"] for each in held or supports))
     for each in held:
         lines += ["", "[[magnetic_bearing]]", *_magnetic(each, len(held), rotor.mass)]
+    for each in supports:
+        lines += ["", *_support(each)]
     for node in nodes:
         lines += ["", *_touchdown(node)]
     middle = min(range(len(rotor.nodes)), key=lambda node: abs(rotor.nodes[node] - rotor.centre))
@@ -63,12 +66,30 @@ def starter_text(found: ImportedRotor, source: str) -> str:
 
 
 def _held(found: ImportedRotor) -> list[Mapping[str, Any]]:
-    """Bearings that become magnetic bearings: those of the source, or assumed ones at both ends."""
+    """Bearings that become magnetic bearings: those of the source, or assumed ones in place of its springs, or at both ends if nothing else holds it."""
     stated = [each for each in found.bearings if each["kind"] == MAGNETIC]
-    springs = [each for each in found.bearings if each["kind"] != MAGNETIC and "Seal" not in each["kind"]]
+    springs = [each for each in found.bearings if each["kind"] != MAGNETIC and not _is_support(each)]
+    held = any(_is_support(each) and "Seal" not in each["kind"] for each in found.bearings)
     ends = [{"node": node, "kind": "none"} for node in (0, len(found.rotor.nodes) - 1)]
-    chosen: Sequence[Mapping[str, Any]] = stated or springs or ends
+    chosen: Sequence[Mapping[str, Any]] = stated or springs or ([] if held else ends)
     return list({each["node"]: each for each in chosen}.values())
+
+
+def _is_support(bearing: Mapping[str, Any]) -> bool:
+    """Whether a bearing is taken over as it is: a seal, or one that acts differently in two directions."""
+    return "coefficients" in bearing and ("Seal" in bearing["kind"] or not bearing["alike"])
+
+
+def _support(bearing: Mapping[str, Any]) -> list[str]:
+    return [
+        f"[[support]]                        # {bearing['tag']}, a {bearing['kind']}",
+        f"node = {bearing['node']}",
+        *(
+            f'{name} = "{value!r} {"N/m" if name.startswith("k") else "N s/m"}"'
+            for name, value in bearing["coefficients"].items()
+            if value or name in ("kxx", "kyy")
+        ),
+    ]
 
 
 def _not_taken(bearings: Sequence[Mapping[str, Any]]) -> list[str]:
@@ -76,7 +97,7 @@ def _not_taken(bearings: Sequence[Mapping[str, Any]]) -> list[str]:
     return [
         f"# {each['tag']}, a {each['kind']} at node {each['node']} (kxx = {each['stiffness']:.4g} N/m, cxx = {each['damping']:.4g} N s/m): not taken over."
         for each in bearings
-        if each["kind"] != MAGNETIC
+        if each["kind"] != MAGNETIC and not _is_support(each)
     ]
 
 

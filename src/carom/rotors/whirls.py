@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import ClassVar, NamedTuple
 
 import numpy as np
 
@@ -13,17 +13,20 @@ from carom.arguments import Count, Positive, checked
 from carom.outcome import InputError, shown
 from carom.results import Result
 from carom.rotors.branches import followed
+from carom.rotors.equations import Equations
 from carom.rotors.flexible_machine import FlexibleMachine
 
 SLOW = 12
 """Whirls that are listed by default."""
 STANDING = 0.1
 """Frequency over the size of an exponent up to which a motion has faded before it goes round: a damping ratio of 0.995."""
+STRAIGHT = 1e-9
+"""Sense up to which a whirl counts as going to and fro along lines."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Whirl(Result):
-    """A free whirl at one speed of the shaft, in the fixed frame: ``z(s, t) = shape(s) e^{λt}``.
+    """A free whirl at one speed of the shaft, in the fixed frame: ``z(s, t) = shape(s) e^{λt} + opposite(s) e^{λ̄t}``.
 
     Attributes
     ----------
@@ -31,10 +34,14 @@ class Whirl(Result):
         ``λ``, 1/s.
     shape : ndarray of complex, shape (N,)
         Displacement at all places of the rotor (:attr:`FlexibleRotor.places`: the ends of all elements), of which the largest is 1; the angle is where the rotor is at time zero.
+    opposite : ndarray of complex, shape (N,)
+        What goes round the other way, where supports act differently in two directions: each place of the rotor follows an ellipse, with the axes
+        ``|shape| ± |opposite|``.  Zeros otherwise.
     """
 
     exponent: complex
     shape: np.ndarray
+    opposite: np.ndarray
 
     shown: ClassVar = ("frequency", "sense", "damping_ratio")
     rests_on: ClassVar = ()
@@ -46,10 +53,25 @@ class Whirl(Result):
 
     @property
     def sense(self) -> str:
-        """``"forward"``, ``"backward"``, or ``"none"`` of a motion that fades before it goes round."""
+        """``"forward"``, ``"backward"``, ``"straight"`` of one to and fro along lines, or ``"none"`` of a motion that fades before it goes round.
+
+        Of ellipses it is the sense of most of the rotor: of the sum of what their areas are.
+        """
         if not turns(np.array(self.exponent)):
             return "none"
+        if roundness(self.shape, self.opposite) <= STRAIGHT:
+            return "straight"
         return "forward" if self.exponent.imag > 0.0 else "backward"
+
+    @property
+    def widest(self) -> np.ndarray:
+        """Displacement at all places at an instant at which the largest of them is farthest out, shape (N,); of circles any instant."""
+        place = (np.abs(self.shape) + np.abs(self.opposite)).argmax()
+        if not self.opposite[place]:
+            return self.shape
+        turn = np.exp(0.5j * np.angle(self.opposite[place] / self.shape[place])) if self.shape[place] else 1.0
+        displaced: np.ndarray = self.shape * turn + self.opposite / turn
+        return displaced
 
     @property
     def damping_ratio(self) -> float:
@@ -74,15 +96,52 @@ def find_whirls(flexible: FlexibleMachine, speed: Positive | None = None, count:
     carom.rotors.campbell : over the speed
     """
     at = flexible.speed if speed is None else speed
-    exponents, coordinates = flexible.whole.equations.exponents(at)
-    shapes = flexible.whole.basis.shapes[::2] @ coordinates[: flexible.whole.vectors]
-    whirls = [Whirl(complex(each), shape / _largest(shape)) for each, shape in zip(exponents, shapes.T, strict=True)]
+    whole = flexible.whole
+    found = motions_at(whole.equations, at)
+    shapes, opposite = (whole.basis.shapes[::2] @ each[: whole.vectors] for each in (found.ahead, found.behind))
+    whirls = [
+        Whirl(complex(exponent), shape / size, other / size)
+        for exponent, shape, other in zip(found.exponents, shapes.T, opposite.T, strict=True)
+        for size in [_largest(np.abs(shape) + np.abs(other))]
+    ]
     turning = [each for each in whirls if each.sense != "none"]
     return tuple(sorted(turning, key=lambda each: each.frequency)[:count])
 
 
-def _largest(shape: np.ndarray) -> float:
-    return float(np.abs(shape).max()) or 1.0
+def _largest(sizes: np.ndarray) -> float:
+    return float(sizes.max()) or 1.0
+
+
+class Motions(NamedTuple):
+    """Free motions of a machine, each once: ``ahead e^{λt} + behind e^{λ̄t}``."""
+
+    exponents: np.ndarray
+    """1/s, shape (N,)."""
+    ahead: np.ndarray
+    """Coordinates, shape (n, N)."""
+    behind: np.ndarray
+
+
+def motions_at(equations: Equations, speed: float) -> Motions:
+    """Free motions at a speed, 1/s; of two conjugate exponents that stand for one motion the one whose sense prevails."""
+    if not equations.mirrored:
+        exponents, coordinates = equations.exponents(speed)
+        return Motions(exponents, coordinates, np.zeros_like(coordinates))
+    exponents, coordinates = equations.both.exponents(speed)
+    ahead, behind = np.split(coordinates, 2)
+    heavy = equations.mass.any(axis=1)
+    prevails = np.linalg.norm(ahead[heavy], axis=0) - np.linalg.norm(behind[heavy], axis=0)
+    # Of one to and fro along lines neither does.
+    level = STRAIGHT * np.linalg.norm(coordinates, axis=0)
+    chosen = (prevails > level) | ((np.abs(prevails) <= level) & (exponents.imag > 0.0)) | (exponents.imag == 0.0)
+    return Motions(exponents[chosen], ahead[:, chosen], behind[:, chosen].conj())
+
+
+def roundness(shape: np.ndarray, opposite: np.ndarray) -> float:
+    """1 of circles, 0 of lines: areas of ellipses over those of circles that are as large, in the sum over all places."""
+    ahead, behind = np.sum(np.abs(shape) ** 2), np.sum(np.abs(opposite) ** 2)
+    total = ahead + behind
+    return float(abs(ahead - behind) / total) if total else 0.0
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -95,7 +154,8 @@ class Campbell(Result):
         rad/s.
     exponents : ndarray of complex, shape (m, k)
         1/s; a column is a whirl (:mod:`carom.rotors.branches`), in the order of the imaginary parts at the first speed, so backward whirls come
-        first.  NaN where it fades before it goes round.
+        first.  NaN where it fades before it goes round.  Where supports act differently in two directions the sign of the imaginary part says
+        which sense prevails, and may change along a column.
     machine : FlexibleMachine
     """
 
@@ -146,8 +206,9 @@ def campbell(flexible: FlexibleMachine, speeds: Sequence[float], count: Count = 
     """
     listed = speeds_of(speeds)
     order = np.argsort(listed, kind="stable")
-    found = np.empty((len(listed), flexible.whole.states), complex)
-    found[order] = followed(flexible.whole.equations, listed[order])
+    rows = followed(flexible.whole.equations, listed[order])
+    found = np.empty_like(rows)
+    found[order] = rows
     found[~turns(found)] = np.nan
     slow = np.argsort(np.where(np.isnan(found), np.inf, np.abs(found.imag)), axis=1)[:, :count]
     chosen = np.array([place for place in np.unique(slow).tolist() if not np.isnan(found[:, place]).all()], int)

@@ -21,6 +21,7 @@ Read them in this order.
 ``flexible_study``       :class:`FlexibleStudy`, which :func:`study` makes of a flexible machine
 ``levitation_facts``     how a flexible machine levitates, in words
 ``flexible_facts``       what it has found, in words, and its verdict
+``flexible_rows``        its parts in the units of people
 ``flexible_document``    the same as JSON
 ``endings``              where simulated disturbances ended
 ``facts``                :class:`Fact`: what headline, page, report and JSON show

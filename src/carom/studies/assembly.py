@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, get_args
 from carom.arguments import checked
 from carom.attractors import DisturbanceSet, find_attractors
 from carom.bifurcations.boundary import boundary_equilibria
+from carom.closed_forms import harmless_kick
 from carom.closed_forms.known import known_of
 from carom.closed_forms.sag import steady_motions
 from carom.closed_forms.thresholds import Gain
@@ -44,6 +45,8 @@ FIRST, FRESH = 2000, 10_000
 """Fresh disturbances at the machine's own gains: at first, and if all of these came back."""
 PROOF_TIME = "30 s"
 """Time for the proof of kicks, if it is asked for."""
+BEYOND = 2.0
+"""Largest kick of this proof relative to the harmless one, where those that must be survived never touch."""
 SEED = 1
 """Seed of these; the search for recovery has its own."""
 
@@ -109,8 +112,9 @@ def study(
         What the machine must survive, instead of what its file states; by default kicks of the speed of a fall through the
         diametral clearance.
     proofs : bool
-        Prove equilibria and orbits too, by :func:`carom.prove`, and which of the kicks that must be survived come back, by
-        :func:`carom.proofs.prove_kicks`; needs the extra ``carom[proof]``.
+        Prove equilibria and orbits too, by :func:`carom.prove`, which of the kicks that must be survived come back, by
+        :func:`carom.proofs.prove_kicks` (of kicks up to twice the harmless one where these never touch), and whether all states as fast as these do, by :func:`carom.proofs.prove_states`; needs the extra
+        ``carom[proof]``.
     proof_time : str or float
         Time for the proof of kicks, in s or with a unit.  What is proven in it depends on the computer.
 
@@ -149,9 +153,9 @@ def study(
             raise InputError(given[0], shown(given[1]), allowed)
         return study_of_machine(case, rotor, reduced, tell)
     known, required = known_of(rotor).orbits, case.requirement.own(rotor.scales)
-    proof = kicks = None
+    proof = kicks = states = None
     if proofs:
-        proof, kicks = _proven(rotor, required.kick, proof_time, tell.part(0.0, 0.3))
+        proof, kicks, states = _proven(rotor, required.kick, proof_time, tell.part(0.0, 0.3))
         tell = tell.part(0.3, 1.0)
     tell(0.0, "equilibria and periodic orbits (the kernels are compiled on first use)")
     steady = steady_motions(rotor)
@@ -181,19 +185,40 @@ def study(
     advice = recommend(case, tried, recoveries, needed=present is None or not present.recovers)
     loads = worst_loads(found, case.limits, required) if case.limits.stated and rotor.scales else None
     return Study(
-        case, rotor, steady, orbits, boundaries, found, endured, present, recoveries, advice, loads, proof, kicks
+        case,
+        rotor,
+        steady,
+        orbits,
+        boundaries,
+        found,
+        endured,
+        present,
+        recoveries,
+        advice,
+        loads,
+        proof,
+        kicks,
+        states,
     )
 
 
-def _proven(rotor: Model, largest: float, time: str | float, tell: Reporter) -> tuple[Proof, ProvenKicks | None]:
-    """Theorems about equilibria and orbits, and about kicks where there is levitation to come back to."""
-    from carom.proofs import ProvenKicks, prove, prove_kicks  # only here: they need an extra
+def _proven(
+    rotor: Model, largest: float, time: str | float, tell: Reporter
+) -> tuple[Proof, ProvenKicks | None, Proof | None]:
+    """Theorems about equilibria and orbits; about kicks and about all states where there is levitation to come back to.
 
-    proof = prove(rotor, progress=tell.part(0.0, 0.3))
+    ``largest`` is the kick that must be survived.
+    """
+    from carom.proofs import ProvenKicks, prove, prove_kicks, prove_states  # only here: they need an extra
+
+    proof = prove(rotor, progress=tell.part(0.0, 0.2))
     if not comes_to_rest(rotor):
-        return proof, None
-    kicks = prove_kicks(rotor, largest, time_limit=time, progress=tell.part(0.3, 1.0))
-    return proof, ProvenKicks.of(kicks, rotor)
+        return proof, None, None
+    states = prove_states(rotor, largest, progress=tell.part(0.2, 0.3))
+    harmless = harmless_kick(rotor)
+    reach = largest if largest > harmless else BEYOND * harmless
+    kicks = prove_kicks(rotor, reach, time_limit=time, progress=tell.part(0.3, 1.0))
+    return proof, ProvenKicks.of(kicks, rotor), states
 
 
 def _case_of(machine: Subject) -> Case:

@@ -209,6 +209,7 @@ def study_document(study: StudyData, verdict: Verdict, facts: Sequence[Fact]) ->
         "loads": study.loads.document() if study.loads else None,
         "proof": study.proof.document() if study.proof else None,
         "kick_proof": study.kicks.proof.document() if study.kicks else None,
+        "state_proof": study.states.document() if study.states else None,
     }
 
 

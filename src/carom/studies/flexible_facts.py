@@ -32,7 +32,7 @@ NOT_COVERED = (
         "Periodic orbits and their stability, the values of a gain at which motions appear, the least change of a gain that leaves only recovery, and the "
         "sizes up to which contact is proven to be impossible."
     ),
-    "Limits of the magnetic bearings that the file does not state, bearings that act differently in two directions, and changes of speed.",
+    "Limits of the magnetic bearings that the file does not state, magnetic bearings whose axes differ, coefficients of supports at other speeds, and changes of speed.",
     "Damping of the shaft as it turns with it, wear and heat of the touchdown bearings, and axial motion.",
 )
 """What a study of a flexible machine withholds."""
@@ -164,7 +164,8 @@ def _holding(study: FlexibleData) -> Iterator[Fact]:
             motions=(entry.name,),
         )
     if not found.touching:
-        text = f"None of {len(found.disturbances)} disturbances, nor of the starts in backward whirl, ended in contact. Other motions may exist."
+        seen = "" if all(entry.name.outcome.settled for entry in found) else " that were followed to their end"
+        text = f"None of {len(found.disturbances)} disturbances and of the starts in backward whirl{seen} ended in contact. Other motions may exist."
         yield Fact("Disturbances tried", text, evidence="sampled")
 
 

@@ -135,9 +135,10 @@ class FlexibleLevitation(Result):
         }
         if self.at_speed is not None:
             found["unbalance_response"] = {
-                "touchdowns_si": np.abs(self.at_speed.touchdowns[0]).tolist(),
-                "sensors_si": np.abs(self.at_speed.sensors[0]).tolist(),
-                "currents_a": np.abs(self.at_speed.currents[0]).tolist(),
+                "touchdowns_si": self.at_speed.touchdown_ellipses.major[0].tolist(),
+                "sensors_si": self.at_speed.sensor_ellipses.major[0].tolist(),
+                "touchdowns_minor_si": self.at_speed.touchdown_ellipses.minor[0].tolist(),
+                "currents_a": self.at_speed.current_ellipses.major[0].tolist(),
                 "zone": self.at_speed.zones[0],
             }
         if self.sensitivity is not None:
@@ -177,13 +178,17 @@ def levitation_of_machine(machine: FlexibleMachine) -> FlexibleLevitation:
 
 
 def speeds_of_response(machine: FlexibleMachine, whirls: Sequence[Whirl], top: float | None = None) -> np.ndarray:
-    """Speeds of the response, rad/s: evenly up to the top, and densely about the frequencies of forward whirls, whose peaks may be narrow."""
+    """Speeds of the response, rad/s: evenly up to the top, and densely about the frequencies of forward whirls, whose peaks may be narrow.
+
+    Supports that act differently in two directions let unbalance excite backward whirls too.
+    """
     low, high = SLOWEST * machine.speed, FASTEST * machine.speed if top is None else top
     narrow = []
     for whirl in whirls:
-        if whirl.sense == "forward" and whirl.damping_ratio < NARROW:
+        excited = whirl.sense == "forward" or machine.whole.equations.mirrored
+        if excited and whirl.damping_ratio < NARROW:
             width = abs(whirl.exponent.real)
-            narrow.append(whirl.exponent.imag + width * np.linspace(-4.0, 4.0, 41))
+            narrow.append(abs(whirl.exponent.imag) + width * np.linspace(-4.0, 4.0, 41))
     speeds = np.concatenate([np.linspace(low, high, SPEEDS), *narrow])
     return np.unique(speeds[(speeds >= low) & (speeds <= high)])
 
@@ -191,7 +196,7 @@ def speeds_of_response(machine: FlexibleMachine, whirls: Sequence[Whirl], top: f
 def _criticals(response: FlexibleResponse) -> tuple[Critical, ...]:
     """Peaks of what each sensor measures, with the speeds at which they fall to 0.707 of their height."""
     found = []
-    for bearing, sizes in enumerate(np.abs(response.sensors).T, start=1):
+    for bearing, sizes in enumerate(response.sensor_ellipses.major.T, start=1):
         inner = (sizes[1:-1] > sizes[:-2]) & (sizes[1:-1] >= sizes[2:])
         for place in (np.flatnonzero(inner) + 1).tolist():
             factor = _factor(response.speeds, sizes, place)

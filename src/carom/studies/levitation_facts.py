@@ -29,13 +29,17 @@ def whirl_words(speed: float, whirls: Sequence[Whirl]) -> str:
 def response_words(at_speed: FlexibleResponse) -> str:
     """The whirl by unbalance at one speed."""
     planes = [
-        f"{micrometres(abs(each))} at plane {place}" for place, each in enumerate(at_speed.touchdowns[0], start=1)
+        f"{micrometres(each)} at plane {place}"
+        for place, each in enumerate(at_speed.touchdown_ellipses.major[0], start=1)
     ]
     sensors = [
-        f"{micrometres(abs(each))} at the sensors of bearing {place}"
-        for place, each in enumerate(at_speed.sensors[0], start=1)
+        f"{micrometres(each)} at the sensors of bearing {place}"
+        for place, each in enumerate(at_speed.sensor_ellipses.major[0], start=1)
     ]
-    return f"Its unbalance makes it whirl with radii of {listed(planes)}, and {listed(sensors)}."
+    # Supports that act differently in two directions make ellipses of circles.
+    sizes = "longer half axes" if at_speed.machine.whole.equations.mirrored else "radii"
+    reached = f"{listed(planes)}, and {listed(sensors)}" if sensors else listed(planes)
+    return f"Its unbalance makes it whirl with {sizes} of {reached}."
 
 
 def zone_words(share: float, zone: str) -> str:

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from carom.parameters.told import number
+from carom.parameters.told import number, rounded_down, shown_in
 from carom.results import fields_of, in_si
 from carom.studies.wording import counted, listed
 
 if TYPE_CHECKING:
     from carom.orbits.orbit import Orbit
+    from carom.parameters import Scales
     from carom.proofs import Proof, ProvenKicks
 
 
@@ -40,6 +41,25 @@ def proven_kicks_words(kicks: ProvenKicks) -> str:
     text = f"Of kicks out of levitation: {kicks.words}."
     left = [f"{number(100.0 * part.share, 3)} % of the area ({part.reason})" for part in kicks.parts if part.open]
     return f"{text} Left open: {listed(left)}." if left else text
+
+
+def states_return(proof: Proof | None) -> bool:
+    """Whether all states that a proof is about are proven to return."""
+    return proof is not None and proof["states all recover"].status == "proven"
+
+
+def proven_states_words(proof: Proof, up_to: str, scales: Scales | None) -> str:
+    """What is proven of all states up to a speed, told in words."""
+    whole, shown = proof["states all recover"], proof["states recover"]
+    told = f"Of all states in the clearance and on its wall, of up to {up_to} in the room:"
+    if whole.status == "proven":
+        return f"{told} every one comes back, so that no other motion begins there."
+    factor, unit = shown_in("velocity", scales)
+    parts = ["some do not come back" if whole.status == "refuted" else "it is open whether all come back"]
+    if shown.status == "proven":
+        speed = number(rounded_down(factor * float(shown.enclosures["speed"].low)))
+        parts.append(f"every one up to {speed} {unit} does")
+    return f"{told} {'; '.join(parts)} ({whole.reason})."
 
 
 def proven_kicks_document(kicks: ProvenKicks) -> dict[str, Any]:

@@ -58,7 +58,10 @@ class StudyData(Result):
     proof : Proof or None
         Theorems about equilibria and orbits, if they were asked for.
     kicks : ProvenKicks or None
-        What is proven of the kicks that must be survived, if it was asked for and there is stable levitation.
+        What is proven of the kicks that must be survived, or of faster ones where these never touch, if it was asked for and there is stable
+        levitation.
+    states : Proof or None
+        The same of all states in the clearance that are no faster than these kicks.
     """
 
     rests_on: ClassVar[tuple[str, ...]] = ("mora2014", "iso14839")
@@ -76,6 +79,7 @@ class StudyData(Result):
     loads: WorstLoads | None = None
     proof: Proof | None = None
     kicks: ProvenKicks | None = None
+    states: Proof | None = None
 
     @property
     def known(self) -> Known:

@@ -14,7 +14,7 @@ from carom.studies.actuator import actuator_words
 from carom.studies.advice_facts import advice_facts
 from carom.studies.facts import Fact, about
 from carom.studies.findings import FINDINGS
-from carom.studies.proven import proven_kicks_words, proven_words
+from carom.studies.proven import proven_kicks_words, proven_states_words, proven_words
 from carom.studies.rigid_limit import wall_values, wall_words
 from carom.studies.study_data import StudyData
 from carom.studies.verdict_facts import KINDS, Level, judged, verdict_facts
@@ -109,6 +109,9 @@ def facts_of(study: StudyData) -> Iterator[Fact]:
         yield Fact("Proven", proven_words(study.proof), evidence="proven")
     if study.kicks is not None:
         yield Fact("Proven", proven_kicks_words(study.kicks), evidence="proven")
+    if study.states is not None:
+        up_to = study.wording.velocity(study.required.kick)
+        yield Fact("Proven", proven_states_words(study.states, up_to, study.rotor.scales), evidence="proven")
     if study.bearing_demand is not None:
         yield Fact("Magnetic bearings", actuator_words(study.bearing_demand))
     if study.other_walls:

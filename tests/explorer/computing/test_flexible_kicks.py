@@ -69,6 +69,7 @@ def test_shares_and_the_smallest_loss_count_what_was_followed():
     found = KickPicture(3.0, outcomes, followed)
     share = found.share_up_to(math.inf)
     assert (share.count, share.total) == (6, 7)
+    assert (found.share.count, found.share.total) == (7, 8)
     assert found.smallest_lost == pytest.approx(2.0, rel=1e-12)
     cells, endings = found.cells
     assert [ending.words for ending in endings] == ["levitation", "rolling backward whirl"]

@@ -136,8 +136,9 @@ def test_the_scripts_use_only_what_the_page_and_the_answers_have(page, kind):
         assert f'id="{name}"' in page, name
     machine = kind_of(Origin(path, (), carom.load(path)))
     shown = set(re.findall(r'carom\.on\("(\w+)"', scripts)) | set(machine.slots)
-    assert shown == {"state", "reply", "exports", *machine.quick, *(task.answer for task in machine.long.values())} | (
-        {"loss"} if kind == "flexible" else set()  # the ring of the picture is ready for it
+    tasks = (*machine.long.values(), *machine.wished.values())
+    assert shown == {"state", "reply", "exports", *machine.quick, *(task.answer for task in tasks)} | (
+        {"loss", "proven"} if kind == "flexible" else set()  # the picture and its ring are ready for them
     )
     assert shown <= set(Answers.properties())
     parts = make_figures(machine.figures).parts

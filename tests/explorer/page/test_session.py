@@ -300,3 +300,25 @@ def test_a_page_waits_for_the_kernels_and_says_so():
     ready.set()
     assert waiting.until("motion")["outcome"]
     waiting.session.close()
+
+
+@pytest.mark.jit_only
+def test_what_is_wished_is_done_only_then_and_for_the_machine_shown(page, monkeypatch):
+    asked = []
+
+    def find(rotor, plane, largest, tell):
+        asked.append((plane.name, largest))
+        return SimpleNamespace(words="every kick comes back", share="100 %", open=[])
+
+    monkeypatch.setattr(planar, "find_proven", find)
+    page.session.show(request(1))
+    page.until("state", lambda state: state["kind"] == "idle")
+    assert not asked
+    page.session.wish({"name": "unknown"})
+    page.session.wish({"name": "proven", "count": 1})
+    assert page.numbered("proven", 1)["words"] == "every kick comes back"
+    page.until("state", lambda state: state["kind"] == "idle")
+    ((name, largest),) = asked
+    basin = [value for answer, value in page.seen if answer == "basin"][-1]
+    assert (name, basin["kind"]) == ("kick", "kick")
+    assert basin["largest"] == pytest.approx(1e3 * largest * page.session._shown.subject.rotor.scales.velocity)

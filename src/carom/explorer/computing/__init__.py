@@ -10,6 +10,7 @@
 ``motions``        table of steady motions and orbits
 ``diagrams``       bifurcation diagram along one parameter
 ``judgement``      smallest loss, hardest blow, verdict and advice
+``proofs``         which kicks are proven to come back
 ``exports``        the machine shown as a file, as options, as a program
 =================  ==============================================================
 

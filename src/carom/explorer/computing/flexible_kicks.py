@@ -70,6 +70,12 @@ class KickPicture:
         return Share.of(int(back.sum()), int(inside.sum()), drawn=False)
 
     @property
+    def share(self) -> Share:
+        """Share of the area of the picture that comes back, as far as it is known: small kicks are followed first, so of those followed more do."""
+        known = self.outcomes != NO_START
+        return Share.of(int((self.outcomes == Outcome.LEVITATED).sum()), int(known.sum()), drawn=False)
+
+    @property
     def smallest_lost(self) -> float | None:
         """Smallest kick followed that does not come back; ``None`` without one."""
         lost = self.sizes[self.followed & (self.outcomes != Outcome.LEVITATED) & (self.outcomes != NO_START)]
@@ -144,8 +150,7 @@ def _middle_cells(stride: int, wanted: np.ndarray) -> np.ndarray:
 
 def _ends(rotor: Model, right: np.ndarray, up: np.ndarray, progress: ShowProgress = None) -> np.ndarray:
     """Outcomes of kicks by their parts, in units of the equations."""
-    fastest = float(np.hypot(right, up).max())
-    starts = VelocityKick(fastest).starts(rotor, np.hypot(right, up), np.arctan2(up, right))
+    starts = VelocityKick().starts(rotor, np.hypot(right, up), np.arctan2(up, right))
     return np.asarray(follow(rotor, starts, max_events=MOST_EVENTS, progress=progress).outcomes)
 
 

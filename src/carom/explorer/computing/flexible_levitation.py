@@ -160,24 +160,26 @@ def _row(whirl: Whirl) -> WhirlRow:
 
 def _orbits(at_speed: FlexibleResponse) -> tuple[Orbit, ...]:
     planes = [
-        Orbit(f"touchdown bearing {place}", micrometres(abs(each)), f"{number(100.0 * (1.0 - room), 3)} %")
-        for place, (each, room) in enumerate(zip(at_speed.touchdowns[0], at_speed.room[0], strict=True), start=1)
+        Orbit(f"touchdown bearing {place}", micrometres(each), f"{number(100.0 * (1.0 - room), 3)} %")
+        for place, (each, room) in enumerate(
+            zip(at_speed.touchdown_ellipses.major[0], at_speed.room[0], strict=True), start=1
+        )
     ]
     sensors = [
-        Orbit(f"sensors of magnetic bearing {place}", micrometres(abs(each)), "")
-        for place, each in enumerate(at_speed.sensors[0], start=1)
+        Orbit(f"sensors of magnetic bearing {place}", micrometres(each), "")
+        for place, each in enumerate(at_speed.sensor_ellipses.major[0], start=1)
     ]
     return (*planes, *sensors)
 
 
 def _curves(response: FlexibleResponse) -> tuple[Curve, ...]:
     planes = [
-        Curve(f"touchdown bearing {place}", np.abs(each), False)
-        for place, each in enumerate(response.touchdowns.T, start=1)
+        Curve(f"touchdown bearing {place}", each, False)
+        for place, each in enumerate(response.touchdown_ellipses.major.T, start=1)
     ]
     sensors = [
-        Curve(f"sensors of bearing {place}", np.abs(each), True)
-        for place, each in enumerate(response.sensors.T, start=1)
+        Curve(f"sensors of bearing {place}", each, True)
+        for place, each in enumerate(response.sensor_ellipses.major.T, start=1)
     ]
     return (*planes, *sensors)
 

@@ -50,6 +50,7 @@ def fill(document: Document, origin: Origin, ready: threading.Event) -> Session:
         "kick": session.kick,
         "cancel": lambda _: session.cancel(),
         "resume": lambda _: session.resume(),
+        "wish": session.wish,
     }
     for name, act in asked.items():
         requests.on_change(name, partial(_act, act))

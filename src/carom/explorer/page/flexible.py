@@ -49,12 +49,15 @@ class FlexibleKind:
     template = "flexible.html.jinja"
     scripts: tuple[str, ...] = FLEXIBLE
     figures: tuple[str, ...] = ("response", "distances", "forces")
+    frame = "fixed"
+    reading = "Point at a kick: it is followed at every touchdown bearing. Kicks are as seen along the shaft, with 0° at the right. The picture is filled in, coarse at first."
 
     def __init__(self, origin: Origin) -> None:
         found = reduced_of(model_of(origin.case))
         if found is None:
             raise TypeError("no flexible machine")
         self.origin, self._reduced = origin, found
+        self.planes_shown = len(found.machine.touchdowns)
         self.controls: Mapping[str, Control] = {each.name: each for each in controls_of_machine(found.machine)}
         self.mark = mark_of(origin.case.name, json.dumps(document_of(found.machine), sort_keys=True))
         self.quick: Mapping[str, Work] = {"levitation": self._levitation, "motion": self._motion}
@@ -63,6 +66,7 @@ class FlexibleKind:
             "told": Task("critical speeds and sensitivity", self._told, "told"),
             "fine": Task(FOLLOWING, self._basin(FINE), "basin"),
         }
+        self.wished: Mapping[str, Task] = {}
         self._picture: tuple[int, KickPicture] | None = None
 
     @property
@@ -87,7 +91,7 @@ class FlexibleKind:
 
     def variables(self) -> Message:
         """What the template needs beside the controls."""
-        return {"touchdowns": len(self._reduced.machine.touchdowns), "planes": [{"name": "kick", "words": "kicks"}]}
+        return {"touchdowns": self.planes_shown, "planes": [{"name": "kick", "words": "kicks"}]}
 
     def words(self) -> str:
         """What the page begins with."""

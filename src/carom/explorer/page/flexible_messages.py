@@ -64,6 +64,7 @@ def picture_message(found: KickPicture, rotor: Model, required: float, begun: fl
     judged, share = required, found.share_up_to(required * (1.0 + 1e-9))
     if required > found.largest * (1.0 + 1e-9) or share.total < FEW:
         judged, share = found.largest, whole
+    so_far = "" if found.whole else " so far"
     words = f"kicks up to {told(judged, 'velocity', rotor.scales)}"
     return {
         "kind": "kick",
@@ -77,13 +78,13 @@ def picture_message(found: KickPicture, rotor: Model, required: float, begun: fl
         "rest": STEADY_WORDS["contact-free"],
         "levitates": True,
         "endings": [asdict(ending) for ending in endings],
-        "share": percent(whole.fraction) if whole.total else "–",
-        "share_remark": f"{whole.count:,} of {whole.total:,} kicks up to {told(found.largest, 'velocity', rotor.scales)}",
+        "share": percent(found.share.fraction) if whole.total else "–",
+        "share_remark": f"by area, of kicks up to {told(found.largest, 'velocity', rotor.scales)}: {whole.total:,} followed{so_far}",
         "sentence": _sentence(share.count, share.total, words),
         "harmless": 0.0,
         "lost_size": 0.0 if lost is None else factor * lost,
         "lost": "none" if lost is None else told(lost, "velocity", rotor.scales),
-        "lost_remark": f"of {whole.total:,} kicks followed{'' if found.whole else ' so far'}; smaller ones may be lost too",
+        "lost_remark": f"of {whole.total:,} kicks followed{so_far}; smaller ones may be lost too",
         "rest_position": [0.0, 0.0],
         "outward": [1.0, 0.0],
         "legend_rest": LOOKS["contact-free"].colour,

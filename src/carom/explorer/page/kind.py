@@ -88,10 +88,18 @@ class Kind(Protocol):
         Work that needs no kernels.
     long : mapping
         Work that is begun when nothing moves, in its order.
+    wished : mapping
+        Work that takes long and is begun only when the page asks for it.
     along : str
         The control that counts as moved last at first.
     template, scripts, figures : str, tuple of str, tuple of str
         Parts of the page.
+    planes_shown : int
+        Touchdown bearings at which a motion is drawn.
+    frame : {"rotating", "fixed"}
+        In which it is drawn first.
+    reading : str
+        How the picture of kicks is read, in a figure without the page.
     """
 
     origin: Origin
@@ -102,10 +110,14 @@ class Kind(Protocol):
     apart: tuple[str, ...]
     early: tuple[str, ...]
     long: Mapping[str, Task]
+    wished: Mapping[str, Task]
     along: str
     template: str
     scripts: tuple[str, ...]
     figures: tuple[str, ...]
+    planes_shown: int
+    frame: str
+    reading: str
 
     def subject(self, settings: Mapping[str, str]) -> Any:
         """The machine with other values of its controls; refuse all that cannot be used at once."""

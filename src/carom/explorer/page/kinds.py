@@ -7,7 +7,7 @@ from carom.explorer.page.flexible import FlexibleKind
 from carom.explorer.page.kind import Kind
 from carom.explorer.page.planar import PlanarKind
 from carom.models import Subject, model_of, planar_case_of
-from carom.parameters import Case
+from carom.parameters import Case, Zones
 from carom.rotors.flexible_model import reduced_of
 
 
@@ -30,6 +30,9 @@ def explored_case_of(subject: Subject) -> Case:
     InputError
         It is neither, or has what the page of its kind does not show.
     """
-    if isinstance(subject, Case) and reduced_of(model_of(subject)) is not None:
+    reduced = reduced_of(model_of(subject))
+    if reduced is None:
+        return planar_case_of(subject)
+    if isinstance(subject, Case):
         return subject
-    return planar_case_of(subject)
+    return Case("machine", reduced.limited, None, Zones(), gravity=reduced.machine.gravity)

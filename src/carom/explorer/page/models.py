@@ -13,13 +13,15 @@ class Requests(DataModel):
     (the control moved last) and ``view``: the ``kind`` of disturbances shown, the ``largest`` of the picture and the
     ``kicks`` that are drawn, all of which may be missing.  ``kick`` holds ``number``, ``slot`` (from 0), ``first`` and
     ``second``: one of them, by its components.  Sizes are in the unit that people are told.
-    ``cancel`` and ``resume`` count how often what takes long was stopped, and begun again.
+    ``cancel`` and ``resume`` count how often what takes long was stopped, and begun again.  ``wish`` holds the ``name`` of what takes long and is
+    begun only so, and counts how often it was asked for.
     """
 
     machine = Any(default=None)
     kick = Any(default=None)
     cancel = Any(default=0)
     resume = Any(default=0)
+    wish = Any(default=None)
 
 
 class Answers(DataModel):
@@ -40,6 +42,7 @@ class Answers(DataModel):
     loss = Any(default=None)
     hardest = Any(default=None)
     verdict = Any(default=None)
+    proven = Any(default=None)
     diagram = Any(default=None)
     exports = Any(default=None)
     levitation = Any(default=None)

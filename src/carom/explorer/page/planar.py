@@ -16,6 +16,7 @@ from carom.explorer.computing.kicked_motion import follow_kick
 from carom.explorer.computing.kicks import RANGES, TRIED, map_kicks, opening_range, telling_pair
 from carom.explorer.computing.motions import table_of
 from carom.explorer.computing.planes import Plane, opening_words, planes_of
+from carom.explorer.computing.proofs import find_proven
 from carom.explorer.computing.rest import rest_of
 from carom.explorer.computing.walls import wall_of
 from carom.explorer.page import messages
@@ -50,6 +51,9 @@ class PlanarKind:
     template = "planar.html.jinja"
     scripts: tuple[str, ...] = PLANAR
     figures: tuple[str, ...] = ("history", "section", "diagram")
+    planes_shown = 1
+    frame = "rotating"
+    reading = "Point at a kick: what comes back flies as 1, what is lost as 2. Angles count from 0°, the x axis that turns with the shaft."
 
     def __init__(self, origin: Origin) -> None:
         self.origin, self.mark = origin, mark_of(origin.case.name, as_toml(origin.case))
@@ -72,6 +76,7 @@ class PlanarKind:
             "diagram": Task("following orbits along the slider", self._diagram, "diagram"),
             "verdict": Task("writing the verdict", self._verdict, "verdict"),
         }
+        self.wished: Mapping[str, Task] = {"proven": Task("proving which kicks come back", self._proven, "proven")}
 
     def subject(self, settings: Mapping[str, str]) -> PlanarSubject:
         """The machine with other values of its controls."""
@@ -154,6 +159,7 @@ class PlanarKind:
 
     def _coarse(self, shown: Shown, tell: Tell) -> Message:
         """Picture that is computed fast enough to follow a dragged slider, as fine as that allows."""
+        self._largest(shown)  # which takes seconds the first time, and would be taken for the cost of the picture
         cells, began = self._cells(PATIENCE, COARSE), time.perf_counter()
         message = self._picture(shown, cells, tell)
         cost = (time.perf_counter() - began) / message["size"] ** 2
@@ -181,6 +187,10 @@ class PlanarKind:
         rotor, plane = shown.subject.rotor, self._plane(shown)
         largest = max(plane.own(self._largest(shown), rotor.scales), self._judged(shown))
         return messages.loss_message(find_loss(rotor, plane, largest, tell), plane, rotor.scales)
+
+    def _proven(self, shown: Shown, tell: Tell) -> Message:
+        rotor, plane = shown.subject.rotor, self._plane(shown)
+        return vars(find_proven(rotor, plane, plane.own(self._largest(shown), rotor.scales), tell))
 
     def _hardest(self, shown: Shown, tell: Tell) -> Message:
         case, rotor = shown.subject.case, shown.subject.rotor

@@ -48,21 +48,22 @@ class Session:
     ready : threading.Event
         Set when the kernels are compiled.
     wanted : collection of str, optional
-        What of all that takes long is done; by default everything.
+        Answers of what takes long that are wanted; by default all.
     """
 
     def __init__(
         self, origin: Origin, answer: Answer, ready: threading.Event, wanted: Collection[str] | None = None
     ) -> None:
         self.kind, self._answer, self._ready = kind_of(origin), answer, ready
-        self._wanted = tuple(self.kind.long) if wanted is None else wanted
+        self._wanted = {task.answer for task in self.kind.long.values()} if wanted is None else set(wanted)
         self._shown = Shown(0, self.kind.subject({}), {}, self.kind.along, View())
         self._reported = 0.0
         self._left: dict[str, Work] = {}
         quick, apart = self.kind.quick, self.kind.apart
         self._quick = Worker([name for name in quick if name not in apart])
         self._apart = Worker(apart) if apart else self._quick
-        self._long = Worker(tuple(self.kind.long), self._report)
+        self._tasks = {**self.kind.long, **self.kind.wished}
+        self._long = Worker(tuple(self._tasks), self._report)
 
     def close(self) -> None:
         """End all work of the page."""
@@ -122,7 +123,7 @@ class Session:
     def _finish(self) -> None:
         """Start everything that takes longer than a moment."""
         self._answer("exports", self.kind.exports(self._shown))
-        self._left = {name: task.work for name, task in self.kind.long.items() if name in self._wanted}
+        self._left = {name: task.work for name, task in self.kind.long.items() if task.answer in self._wanted}
         self.resume()
 
     def kick(self, request: Mapping[str, Any]) -> None:
@@ -138,6 +139,13 @@ class Session:
         if request.get("chosen"):
             self._answer("exports", self.kind.exports(self._shown))
 
+    def wish(self, request: Mapping[str, Any]) -> None:
+        """Begin what takes long and is done only where it is asked for, by its ``name``."""
+        name = str(request.get("name"))
+        if name in self.kind.wished:
+            self._left[name] = self.kind.wished[name].work
+            self._ask(name, self._left[name])
+
     def cancel(self) -> None:
         """Interrupt what takes long."""
         self._long.drop()
@@ -152,7 +160,7 @@ class Session:
 
     def _ask(self, name: str, work: Work, afterwards: Callable[[], None] | None = None, pause: float = 0.0) -> None:
         """Have work done for the machine shown now and its result sent; then, if that is still shown, call `afterwards`."""
-        shown, task = self._shown, self.kind.long.get(name)
+        shown, task = self._shown, self._tasks.get(name)
         answer = name if task is None else task.answer
 
         def send(message: Message) -> None:
@@ -174,7 +182,7 @@ class Session:
                 send(result)
             if self._shown.number == shown.number:
                 self._left.pop(name, None)
-            if name == tuple(self.kind.long)[-1]:
+            if name == tuple(self.kind.long)[-1] or name in self.kind.wished:
                 self._answer("state", {"kind": "idle"})
             if afterwards is not None and self._shown.number == shown.number:
                 afterwards()
@@ -192,5 +200,5 @@ class Session:
         now = time.monotonic()
         if now - self._reported > QUIET:
             self._reported = now
-            words = progress.step or self.kind.long[name].words
+            words = progress.step or self._tasks[name].words
             self._answer("state", {"kind": "working", "words": words, "share": progress.share})

@@ -4,14 +4,15 @@
 //     picture.show(message);        // cells, size, largest, unit, axes, endings, harmless, required, outward
 //     picture.mark(kicks, active);  // pairs { first, second } in the unit of the message
 //     picture.setRing(size);        // in this unit; 0 for none
+//     picture.prove(proven);        // number of the message that it belongs to, open (n by n): pale where nothing is proven
 //
 // onPoint(kick, chosen) hears where one points, onRing(size, done) to which size the ring is dragged.
 import { clamp, inksOf, short, square, tickStep, tile } from "./common.js";
 
 export const basinPicture = (canvas, { onPoint = () => {}, onRing = () => {} } = {}) => {
   const ink = inksOf(canvas), knobAngle = -0.6, narrow = 300;
-  const picture = { message: null, kicks: [], active: 0, ring: 0 };
-  let frame = null, layer = null, dragged = false, dragging = false;
+  const picture = { message: null, kicks: [], active: 0, ring: 0, proven: null };
+  let frame = null, layer = null, veil = null, dragged = false, dragging = false;
 
   // Cells with their textures in pixels of the screen, painted once for a picture and a size.
   const paint = (message, wide) => {
@@ -29,6 +30,19 @@ export const basinPicture = (canvas, { onPoint = () => {}, onRing = () => {} } =
     sheet.width = sheet.height = wide;
     sheet.getContext("2d").putImageData(image, 0, 0);
     return { message, sheet };
+  };
+
+  // Paper over what is not proven, which lets a third of the colours through.
+  const veilOf = (open) => {
+    const n = Math.round(Math.sqrt(open.length)), image = new ImageData(n, n), sheet = document.createElement("canvas");
+    open.forEach((left, place) => { image.data[4 * ((n - 1 - Math.floor(place / n)) * n + place % n) + 3] = left ? 165 : 0; });
+    sheet.width = sheet.height = n;
+    const pen = sheet.getContext("2d");
+    pen.putImageData(image, 0, 0);
+    pen.globalCompositeOperation = "source-in";
+    pen.fillStyle = ink("card");
+    pen.fillRect(0, 0, n, n);
+    return sheet;
   };
 
   // Lines that are seen on light and on dark cells.
@@ -105,6 +119,7 @@ export const basinPicture = (canvas, { onPoint = () => {}, onRing = () => {} } =
     if (layer === null || layer.message !== message || layer.sheet.width !== wide) layer = paint(message, wide);
     pen.imageSmoothingEnabled = false;
     pen.drawImage(layer.sheet, x0, y0, span, span);
+    if (picture.veiled()) pen.drawImage((veil ||= veilOf(picture.proven.open)), x0, y0, span, span);
     // The edge of the disc, which dark cells would not have on dark paper.
     pen.strokeStyle = ink("soft"); pen.lineWidth = 1; circle(1);
     pen.save();
@@ -123,7 +138,9 @@ export const basinPicture = (canvas, { onPoint = () => {}, onRing = () => {} } =
   picture.show = (message) => { picture.message = message; picture.draw(); };
   picture.mark = (marked, active = picture.active) => { picture.kicks = marked; picture.active = active; picture.draw(); };
   picture.setRing = (size) => { picture.ring = size; picture.draw(); };
-  picture.renew = () => { ink.renew(); picture.draw(); };
+  picture.prove = (proven) => { picture.proven = proven; veil = null; picture.draw(); };
+  picture.veiled = () => picture.proven !== null && picture.message !== null && picture.proven.number === picture.message.number;
+  picture.renew = () => { ink.renew(); veil = null; picture.draw(); };
   // Where the cell of a disturbance leads; null outside the picture.
   picture.endingOf = (kick) => {
     const message = picture.message, n = message.size;

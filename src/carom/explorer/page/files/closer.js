@@ -1,6 +1,6 @@
 // What is found of one machine of the planar rotor when nothing moves: smallest loss, hardest blow, verdict, and the table of motions.
 (() => {
-  const exact = { loss: 0, hardest: 0, verdict: 0 };
+  const exact = { loss: 0, hardest: 0, verdict: 0, proven: 0 };
   carom.on("basin", (message) => {
     if (message.refused) return;
     if (exact.loss !== message.number) carom.panels.tile("lost", message.lost, message.lost_remark);
@@ -16,6 +16,18 @@
     exact.hardest = message.number;
     carom.panels.tile("hardest", message.refused ? "–" : message.value, message.refused || message.remark);
   });
+  // Proven is only what is asked for: the picture of another machine, range or kind of disturbance shows nothing of it.
+  const asks = "Which kicks come back as a theorem: takes up to half a minute.";
+  let wishes = 0;
+  if (at("prove")) {
+    at("proven").textContent = asks;
+    at("prove").addEventListener("click", () => { wishes += 1; carom.requests.wish = { name: "proven", count: wishes }; });
+    carom.on("basin", (message) => { if (exact.proven !== message.number) at("proven").textContent = asks; });
+    carom.on("proven", (message) => {
+      exact.proven = message.number;
+      at("proven").textContent = message.refused || `Proven: ${message.words}.`;
+    });
+  }
   carom.on("verdict", (message) => {
     exact.verdict = message.number;
     for (const card of ["headline", "advice", "tried"]) at(card).classList.remove("old");

@@ -20,9 +20,12 @@ carom.stage = {};
   // The motion that the figures show.
   Object.defineProperty(carom, "motion", { get: () => first(state.active) });
 
-  const ask = carom.throttled(45, (kick, slot, chosen) => {
+  // A click is not forgotten when the pointer trembles after it.
+  let clicked = false;
+  const ask = carom.throttled(45, (kick, slot) => {
     asked += 1;
-    carom.requests.kick = { number: asked, slot, ...kick, chosen };
+    carom.requests.kick = { number: asked, slot, ...kick, chosen: clicked };
+    clicked = false;
   });
   const point = (kick, chosen, slot = null) => {
     const ending = basin.endingOf(kick);
@@ -32,7 +35,8 @@ carom.stage = {};
     state.active = place;
     pointed = { ...kick, slot: place };
     basin.mark(state.kicks, place);
-    ask(kick, place, chosen);
+    clicked ||= chosen;
+    ask(kick, place);
     // Arrow keys take many steps, of which the address keeps the last.
     if (chosen) carom.address.keep(slot === null);
   };
@@ -40,6 +44,7 @@ carom.stage = {};
   const legendOf = (message) => {
     const [one] = message.nouns, rows = [];
     if (message.harmless > 0) rows.push(["dash", "proven never to touch"]);
+    if (basin.veiled()) rows.push(["pale", `pale: nothing is proven; proven to come back ${basin.proven.share}`]);
     if (message.required > 0) rows.push(["must", `${message.required > message.largest * 1.0001 ? "out of the picture: " : ""}must survive ${short(message.required, 3)} ${message.unit}`]);
     if (basin.ring > 0) rows.push(["lost", state.ring ? `chosen: ${short(basin.ring, 3)} ${message.unit}` : `smallest lost ${one}: ${short(basin.ring, 3)} ${message.unit}`]);
     return rows;
@@ -92,6 +97,12 @@ carom.stage = {};
     if (message.refused) return;
     smallest = { number: message.number, size: message.size };
     if (basin.message) ringed();
+  });
+
+  carom.on("proven", (message) => {
+    if (message.refused) return;
+    basin.prove(message);
+    if (basin.message) note();
   });
 
   const ranged = (message) => {

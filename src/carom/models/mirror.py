@@ -1,0 +1,87 @@
+"""Rotors whose bearings act differently in two directions, as systems of twice as many modes (:mod:`carom.core.mirror`).
+
+In the fixed frame, with matrices ``D′`` and ``K′`` of what depends on the direction,
+
+    M Z̈ + (D − iG) Ż + K Z + D′ Z̄˙ + K′ Z̄ = F e^{it} + f.
+
+Together with its conjugate this is a linear rotor of the coordinates ``(Z, Z̄)``.  Seen in the frame that turns with the shaft, as ``U = Ze^{−it}`` and
+``V = Z̄e^{−it}``, its coefficients are constant.  A state says ``U`` and ``U̇``; with ``τ = e^{−2it}`` those of ``V`` follow from
+
+    V = Ūτ,      V̇ = (Ū˙ − 2iŪ)τ.
+
+Unbalance lets the rotor go round an ellipse, ``U = p + qτ`` with ``V = q̄ + p̄τ``: of the constant forces ``(F, 0)`` the answer is ``(p, q̄)``.  The
+turn ``τ`` is a forcing mode, which moves the coordinates by ``q``.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple, Self
+
+import numpy as np
+
+from carom.core.wall import Wall
+from carom.models.from_modes import modal_system
+from carom.models.system import System
+
+TURN = -2j
+"""Exponent of ``τ``."""
+
+
+class Doubled(NamedTuple):
+    """Matrices of the coordinates ``(U, V)`` in the frame that turns with the shaft, as those of a rotor of ``2n`` coordinates."""
+
+    mass: np.ndarray
+    damping: np.ndarray
+    stiffness: np.ndarray
+
+    @classmethod
+    def of(cls, mass: np.ndarray, damping: np.ndarray, stiffness: np.ndarray, conjugate: np.ndarray) -> Self:
+        """Double the matrices of that frame; what acts on conjugates, damping and stiffness, is that of the fixed frame."""
+        spin = damping - 2j * mass
+        fixed, (across, stiffer) = stiffness + mass - 1j * spin, conjugate
+        both = np.block([[mass, np.zeros_like(mass)], [np.zeros_like(mass), mass.conj()]])
+        spins = np.block([[spin, across], [across.conj(), spin.conj()]])
+        springs = np.block([[fixed, stiffer], [stiffer.conj(), fixed.conj()]])
+        return cls(both, spins + 2j * both, springs - both + 1j * spins)
+
+
+def mirrored_system(doubled: System, pushes: np.ndarray, **others: Any) -> System:
+    """System of the coordinates ``U`` from that of both.
+
+    Parameters
+    ----------
+    doubled : System
+        Of the coordinates ``(U, V)``; its planes see ``U`` alone.
+    pushes : ndarray of complex, shape (n, P)
+        Change of the rates of the coordinates by an impulse at a plane that changes its velocity by one.
+    **others
+        See :func:`~carom.models.from_modes.modal_system`: what both do not say.
+    """
+    n, free, arrays = len(doubled.rest) // 2, doubled.free, doubled.arrays
+    modes = int(free.sum())
+    forward, backward = np.split(doubled.rest, 2)
+    ellipse = backward.conj()
+    inverse = np.append(doubled.to_modes[free], np.zeros((1, 4 * n)), axis=0)
+    by_position, by_conjugate, by_rate, by_conjugate_rate = np.split(inverse, 4, axis=1)
+    planes = doubled.planes[:, :n]
+
+    def turned(values: np.ndarray, by_turn: np.ndarray) -> np.ndarray:
+        return np.append(values[:, free], by_turn[:, None], axis=1)
+
+    return modal_system(
+        exponents=np.append(doubled.exponents, TURN),
+        driven=np.append(arrays["driven"][free], False),
+        free=np.append(np.ones(modes, bool), False),
+        forced=np.append(np.zeros(modes), 1.0).astype(complex),
+        rest=forward,
+        shapes=turned(doubled.shapes[:n], ellipse),
+        inverse=np.concatenate([by_position, by_rate], axis=1),
+        rows=turned(arrays["rows"], planes @ ellipse),
+        columns=np.append(arrays["columns"][free], np.zeros((1, len(planes))), axis=0),
+        mirror=np.array([modes]),
+        mirror_columns=by_conjugate_rate @ pushes.conj(),
+        mirrored=np.concatenate([by_conjugate - 2j * by_conjugate_rate, by_conjugate_rate], axis=1),
+        limits=None,
+        **{name: arrays[name] for name in ("offsets", "masses", *Wall._fields)},
+        **others,
+    )

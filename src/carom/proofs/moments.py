@@ -1,0 +1,158 @@
+"""All flights of a patch at a time or on an interval of times, as mean value forms."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from flint import arb
+
+if TYPE_CHECKING:
+    from carom.proofs.patches import Departure
+
+UNIT = arb(0, 1)
+"""All numbers from −1 to 1."""
+FORM = 5
+"""Spans by where in the cell a kick is, those of first and second order; then come those of the parameters of a box of rotors."""
+Wave = tuple[Any, Any, Any]
+
+
+class Waves(NamedTuple):
+    """``c``, ``h₁`` and ``k`` of a flight with their first two derivatives, at a time or on an interval of times."""
+
+    place: Wave
+    rate: Wave
+    bend: Wave
+
+
+class Moment:
+    """All flights of a patch at a time or on an interval of times.
+
+    With ``z = p + q``, ``p = c + V h₁`` and ``q = Λk``, nothing but products of ``p`` and ``q`` depends on ``ψ`` in ``|z|²`` and its rates:
+    ``|q|² = ℓ²|k|²``.  All are evaluated so that this is not lost in the width of ``Λ``.
+    """
+
+    def __init__(self, departure: Departure, time: Any) -> None:
+        self.departure, self.time = departure, time
+        self.waves = departure.held.waves(time, departure.from_wall)
+
+    @property
+    def parts(self) -> tuple[list[Any], list[Any], list[Any]]:
+        """``p``, ``q`` and ``k`` with their first two derivatives."""
+        return self._p, self._q, [wave[2] for wave in self.waves]
+
+    @cached_property
+    def _middle(self) -> Waves:
+        """Waves of the rotor in the middle of the box."""
+        held = self.departure.held
+        return self.waves if held.middle is held else held.middle.waves(self.time, self.departure.from_wall)
+
+    def centre(self, order: int) -> Any:
+        """Place (0) or rate (1) on the flight of the centre."""
+        d, wave = self.departure, self._middle[order]
+        return wave[0] + d.velocity * wave[1] + d.levitation * wave[2]
+
+    @cached_property
+    def _p(self) -> list[Any]:
+        return [wave[0] + self.departure.wide_velocity * wave[1] for wave in self.waves]
+
+    @cached_property
+    def _q(self) -> list[Any]:
+        return [self.departure.wide_levitation * wave[2] for wave in self.waves]
+
+    @cached_property
+    def wide(self) -> list[Any]:
+        """``z``, ``ż`` and ``z̈`` of all flights."""
+        return [p + q for p, q in zip(self._p, self._q, strict=True)]
+
+    def _products(self, one: int, other: int) -> Any:
+        """``Re(z̄ w)`` of two of them."""
+        (p, q), (u, w) = ((self._p[j], self._q[j]) for j in (one, other))
+        turning = dot(self.waves[one][2], self.waves[other][2])
+        return dot(p, u) + dot(p, w) + dot(q, u) + self.departure.held.radius_squared * turning
+
+    @cached_property
+    def slope(self) -> Any:
+        """``Re(z̄ż)`` on all flights, as wide as the patch and the times are."""
+        return self._products(0, 1)
+
+    @cached_property
+    def _moved(self) -> list[tuple[Any, Any, Any]]:
+        """``z`` and its rate differentiated along the columns, but for the turn of ``Λ`` along them, which comes third."""
+        h, dh = self.waves.place[1], self.waves.rate[1]
+        found = [(v * h, v * dh, turn) for v, turn in self.departure.columns]
+        for j, (place, rate) in enumerate(self._by_parameters(), FORM):
+            along, drift, turn = found[j]
+            found[j] = (along + place, drift + rate, turn)
+        return found
+
+    def _by_parameters(self) -> Iterator[tuple[Any, ...]]:
+        """Place and rate differentiated along each parameter, the state at the start kept."""
+        d = self.departure
+        for waves, side in zip(d.held.waves_by(self.time, d.from_wall), d.held.sides, strict=True):
+            lift = d.wide_turn * side.radius
+            yield tuple(
+                by[0] + d.wide_velocity * by[1] + d.wide_levitation * by[2] + lift * wave[2]
+                for by, wave in zip(waves, self.waves[:2], strict=True)
+            )
+
+    @cached_property
+    def height_along(self) -> list[Any]:
+        """``|z|²/2`` differentiated along the columns."""
+        z, turned = self.wide[0], cross(self._p[0], self._q[0])
+        return [dot(z, along) - turned * turn for along, _, turn in self._moved]
+
+    @cached_property
+    def height(self) -> Any:
+        """``|z|²`` of all flights, a mean value form."""
+        z = self.centre(0)
+        return dot(z, z) + spread(self.height_along) * 2
+
+    @cached_property
+    def rise_along(self) -> list[Any]:
+        """``Re(z̄ż)`` differentiated along the columns."""
+        (p, dp, _), (q, dq, _), (z, dz, _) = self._p, self._q, self.wide
+        turned = cross(p, dq) + cross(dp, q)
+        return [dot(dz, along) + dot(z, rate) - turned * turn for along, rate, turn in self._moved]
+
+    @cached_property
+    def rise(self) -> Any:
+        """The rate of ``|z|²`` on all flights, a mean value form."""
+        centre = dot(self.centre(0), self.centre(1))
+        return (centre + spread(self.rise_along)) * 2
+
+    @cached_property
+    def curve(self) -> Any:
+        """The second derivative of ``|z|²`` on all flights."""
+        return (self._products(1, 1) + self._products(0, 2)) * 2
+
+    @cached_property
+    def twist_along(self) -> list[Any]:
+        """``Im(z̄ż)`` differentiated along the columns."""
+        (p, dp, _), (q, dq, _), (z, dz, _) = self._p, self._q, self.wide
+        turned = dot(p, dq) - dot(dp, q)
+        return [cross(along, dz) + cross(z, rate) + turned * turn for along, rate, turn in self._moved]
+
+    def angle_along(self, square: Any) -> list[Any]:
+        """``ψ − arg z`` differentiated along the columns, from a ball of ``|z|²``."""
+        z, turned = self.wide[0], dot(self.wide[0], self._p[0])
+        return [(turned * turn - cross(z, along)) / square for along, _, turn in self._moved]
+
+
+def dot(one: Any, other: Any) -> Any:
+    """``Re(z̄ w)``."""
+    return one.real * other.real + one.imag * other.imag
+
+
+def cross(one: Any, other: Any) -> Any:
+    """``Im(z̄ w)``."""
+    return one.real * other.imag - one.imag * other.real
+
+
+def spread(columns: list[Any]) -> Any:
+    """All sums of numbers of the columns, each with a factor from −1 to 1."""
+    total: Any = arb(0)
+    for column in columns:
+        total = total + abs(column)
+    return UNIT * total

@@ -1,0 +1,58 @@
+"""What is proven of the kicks of a picture lies where the picture has them."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import carom
+from carom.closed_forms import harmless_kick
+from carom.explorer.computing import proofs
+from carom.explorer.computing.planes import planes_of
+from carom.models import model_of
+from carom.outcome import InputError
+from carom.proofs import prove_kicks
+
+pytestmark = pytest.mark.jit_only
+
+CASE = carom.load("examples/spindle.toml")
+PLANES = {plane.name: plane for plane in planes_of(CASE)}
+
+
+def test_kicks_that_never_touch_are_proven(monkeypatch):
+    rotor = model_of(CASE)
+    monkeypatch.setattr(proofs, "LIMIT", "1 s")
+    largest = 1.5 * harmless_kick(rotor)
+    found = proofs.find_proven(rotor, PLANES["kick"], largest)
+    line = largest * ((np.arange(proofs.CELLS) + 0.5) * 2.0 / proofs.CELLS - 1.0)
+    size = np.hypot(*np.meshgrid(line, line))
+    assert found.open.shape == size.shape
+    assert not found.open[size < 0.8 * harmless_kick(rotor)].any()
+    assert found.open[size > largest].all()
+    assert found.words.endswith("mm/s") or found.words.endswith("impacts")
+
+
+def test_rows_are_the_second_component(monkeypatch):
+    """The upper half alone is proven, which a search could not be made to show."""
+
+    def upper(*given, **options):
+        from carom.proofs.evidence import Evidence
+        from carom.proofs.families import KICKS
+        from carom.proofs.kick_search import BITS
+        from carom.proofs.proving import proof_at
+
+        proof = prove_kicks(*given, **options | {"time_limit": 1e-3})
+        return proof_at(BITS, KICKS.about, proof.hypotheses, proof.options, Evidence({"cells": "a0g"}))
+
+    monkeypatch.setattr("carom.proofs.prove_kicks", upper)
+    rotor = model_of(CASE)
+    found = proofs.find_proven(rotor, PLANES["kick"], 0.9 * harmless_kick(rotor))
+    half = proofs.CELLS // 2
+    inside = np.s_[half // 2 : half], np.s_[half // 2 : half]  # lower left
+    assert found.open[inside].all()
+    assert not found.open[half + 5 : half + 40, half + 5 : half + 40].any()
+
+
+def test_of_other_disturbances_nothing_is_proven():
+    with pytest.raises(InputError, match="kicks: of other disturbances nothing is proven"):
+        proofs.find_proven(model_of(CASE), PLANES["shock"], 1.0)

@@ -1,0 +1,275 @@
+"""Rotors whose bearings act differently in two directions, against the plain equations of motion in the fixed frame."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from limited_reference import clipped, follow, struck
+from scipy.linalg import expm
+
+import carom as cm
+from carom.closed_forms import harmless_kick
+from carom.closed_forms.sag import levitation
+from carom.models import Force, Forced, KelvinVoigt, LinearRotor, Rigid, Touchdown, model_from
+from carom.models.limited import Limit, Limited
+from carom.models.weight import without_levitation
+from carom.motions import State, energy_ledger
+from carom.outcome import InputError, Outcome, Phase
+
+MASS = np.diag([1.0, 0.3])
+GYROSCOPIC = np.diag([0.0, 0.2])
+STIFFNESS = np.array([[0.6, 0.1], [0.1, 0.4]])
+DAMPING = 0.05 * np.eye(2) + 0.1 * STIFFNESS
+ACROSS = np.stack(
+    [
+        0.03 * np.eye(2) + 0.01j * np.array([[0.0, 1.0], [1.0, 0.0]]),
+        np.array([[0.15 + 0.05j, 0.02], [0.02, 0.1]]),
+    ]
+)
+UNBALANCE = np.array([0.1 + 0.05j, 0.0])
+ROW = np.array([1.0, 0.2])
+FELT = 1.0 / (ROW @ np.linalg.solve(MASS, ROW))
+WEIGHT = -0.02j
+START = State(np.array([0.2 + 0.1j, -0.1]), np.array([1.0j, 0.4]))
+SOFT = KelvinVoigt(stiffness=200.0, damping=0.5)
+
+
+def rotor_of(law=SOFT, friction=0.15, surface_speed=8.0, conjugate=ACROSS, **changes):
+    given = {"mass": MASS, "damping": DAMPING, "stiffness": STIFFNESS, "gyroscopic": GYROSCOPIC, "forcing": UNBALANCE}
+    planes = [Touchdown(ROW, law, friction, surface_speed)]
+    return LinearRotor.in_fixed_frame(
+        **{**given, **changes}, touchdowns=planes, translation=[1.0, 0.0], conjugate=conjugate
+    )
+
+
+def heavy(rotor):
+    return Forced(rotor, (Force(-1j, np.array([WEIGHT, 0.0])),))
+
+
+def fixed(state, time):
+    """Coordinates and velocities in the fixed frame, as one vector."""
+    turn = np.exp(1j * time)
+    return np.concatenate([state.position * turn, (state.velocity + 1j * np.asarray(state.position)) * turn])
+
+
+def rates(push):
+    """Rates of that vector, under a contact force on the plane by its displacement and velocity."""
+
+    def found(time, state):
+        place, speed = state[:2], state[2:]
+        force = UNBALANCE * np.exp(1j * time) + MASS @ [WEIGHT, 0.0] + ROW * push(ROW @ place, ROW @ speed)
+        force = force - (DAMPING - 1j * GYROSCOPIC) @ speed - STIFFNESS @ place
+        force = force - ACROSS[0] @ speed.conj() - ACROSS[1] @ place.conj()
+        return np.concatenate([speed, np.linalg.solve(MASS, force)])
+
+    return found
+
+
+def test_flights_are_those_of_the_real_equations():
+    rotor = rotor_of(forcing=np.zeros(2))
+    spin, across = DAMPING - 1j * GYROSCOPIC, ACROSS
+
+    def real(matrix, conjugate):  # A z + B z̄ of the real and the imaginary parts
+        ahead, behind = matrix + conjugate, matrix - conjugate
+        return np.block([[ahead.real, -behind.imag], [ahead.imag, behind.real]])
+
+    masses = np.linalg.inv(np.kron(np.eye(2), MASS))
+    forces = np.concatenate([real(STIFFNESS, across[1]), real(spin, across[0])], axis=1)
+    generator = np.concatenate([np.eye(4, 8, 4), -masses @ forces])
+    begins, time = 0.3, 7.0
+    system = rotor.system
+    amplitudes = system.amplitudes(START.position, START.velocity, begins)
+    start = fixed(START, begins)
+    vector = np.concatenate([start[:2].real, start[:2].imag, start[2:].real, start[2:].imag])
+    end = expm(generator * time) @ vector
+
+    position, _ = system.state(system.fly(amplitudes, np.array(time)))
+    found = position * np.exp(1j * (begins + time))
+    assert found.real == pytest.approx(end[:2], abs=1e-12)
+    assert found.imag == pytest.approx(end[2:4], abs=1e-12)
+    eigenvalues = np.linalg.eigvals(generator)
+    assert np.sort_complex(system.exponents + 1j) == pytest.approx(np.sort_complex(eigenvalues), abs=1e-12)
+
+
+def test_states_come_back_from_amplitudes_at_any_time():
+    system = heavy(rotor_of()).system
+    for time in (0.0, 1.3, 8.1):
+        amplitudes = system.amplitudes(START.position, START.velocity, time)
+        position, velocity = system.state(amplitudes)
+        assert position == pytest.approx(START.position, abs=1e-14)
+        assert velocity == pytest.approx(START.velocity, abs=1e-14)
+
+
+def test_a_blow_changes_velocities_as_without_such_bearings():
+    arrays = heavy(rotor_of()).system.arrays
+    assert np.abs(arrays["mirror_columns"]).max() > 0.01
+    assert arrays["rows"] @ arrays["mirror_columns"] == pytest.approx(0.0, abs=1e-14)
+    assert arrays["rate_rows"] @ arrays["mirror_columns"] == pytest.approx(0.0, abs=1e-14)
+    assert arrays["mobility"] == pytest.approx(1.0, abs=1e-14)
+
+
+def test_unbalance_leads_round_an_ellipse():
+    rotor = rotor_of()
+    ahead = STIFFNESS - MASS + 1j * (DAMPING - 1j * GYROSCOPIC)  # of e^{it}
+    behind = STIFFNESS - MASS - 1j * (DAMPING - 1j * GYROSCOPIC)  # of e^{-it}
+    forward, backward = rotor.system.rest, rotor.system.rest_mirrored
+    # Z = p e^{it} + q e^{-it}: the conjugate of one part acts on the other.
+    across = ACROSS[1] - 1j * ACROSS[0], ACROSS[1] + 1j * ACROSS[0]
+    assert ahead @ forward + across[1] @ backward.conj() == pytest.approx(UNBALANCE, abs=1e-14)
+    assert behind @ backward + across[0] @ forward.conj() == pytest.approx(0.0, abs=1e-14)
+    turns = np.exp(1j * np.linspace(0.0, 2.0 * np.pi, 2001))
+    reach = np.abs(ROW @ (np.outer(forward, turns) + np.outer(backward, turns.conj()))).max()
+    assert rotor.system.rest_radius == pytest.approx(reach, rel=1e-5)
+
+
+def test_weight_lets_it_sag_as_the_real_equations_say():
+    system = heavy(rotor_of()).system
+    sag = system.shapes @ system.outer
+    force = STIFFNESS @ sag + ACROSS[1] @ sag.conj()
+    assert force == pytest.approx(MASS @ np.array([WEIGHT, 0.0]), abs=1e-14)
+
+
+@pytest.mark.parametrize("friction", [0.15, 0.0])
+def test_motions_in_a_wall_that_gives_way_are_those_of_a_general_integrator(friction):
+    motion = cm.simulate(heavy(rotor_of(friction=friction)), START, 12.0)
+
+    def push(place, speed):
+        normal = place / abs(place)
+        depth, rate = abs(place) - 1.0, (normal.conjugate() * speed).real
+        # The surface of the rotor is so fast that it always slips forward.
+        size = max(200.0 * depth + 0.5 * rate, 0.0) if depth > 0.0 else 0.0
+        return -size * (1.0 + 1j * friction) * normal
+
+    final, _ = follow(rates(push), fixed(START, 0.0), 12.0)
+
+    entered = (motion.segment_phases[1:, 0] != Phase.FLIGHT) & (motion.segment_phases[:-1, 0] == Phase.FLIGHT)
+    assert entered.sum() == 2
+    # The integrator steps over the kink where the force ends.
+    assert fixed(motion.final, 12.0) == pytest.approx(final, abs=1e-9)
+    assert energy_ledger(motion).imbalance < 1e-12
+
+
+def test_rigid_impacts_are_those_of_a_general_integrator():
+    motion = cm.simulate(heavy(rotor_of(Rigid(0.8))), START, 9.0)
+
+    def after(_time, state):
+        place, speed = ROW @ state[:2], ROW @ state[2:]
+        change = struck(place, speed, 0.8, 0.15, 7.0) - speed
+        return np.concatenate([state[:2], state[2:] + np.linalg.solve(MASS, ROW) * FELT * change])
+
+    final, impacts = follow(
+        rates(lambda place, speed: 0.0),
+        fixed(START, 0.0),
+        9.0,
+        ends=lambda time, state: abs(ROW @ state[:2]) ** 2 - 1.0,
+        after=after,
+    )
+
+    assert motion.contacts.time == pytest.approx(impacts, abs=1e-9)
+    assert fixed(motion.final, 9.0) == pytest.approx(final, abs=1e-9)
+    assert energy_ledger(motion).imbalance < 1e-12
+
+
+def test_limits_of_controllers_act_in_both_directions():
+    bound, angle = 0.2, 0.4
+    limit = Limit(bound, 0.5 * np.array([1.0, 0.1]), 0.1 * np.array([1.0, 0.1]), np.array([1.0, 0.0]), angle=angle)
+    start = State(START.position, 0.2 * START.velocity)
+    motion = cm.simulate(heavy(Limited(rotor_of(), (limit,))), start, 5.0)
+    free = rates(lambda place, speed: 0.0)
+
+    def limited(time, state):
+        asked = limit.displacement @ state[:2] + limit.velocity @ state[2:]
+        excess = asked - clipped(asked, bound, angle)
+        return free(time, state) + np.concatenate([np.zeros(2), limit.accelerations * excess])
+
+    final, _ = follow(limited, fixed(start, 0.0), 5.0)
+
+    assert motion.radius(np.linspace(0.0, 5.0, 100)).max() < 1.0
+    assert motion.segment_limits.max() > 1
+    assert fixed(motion.final, 5.0) == pytest.approx(final, abs=1e-9)
+    assert energy_ledger(motion).imbalance < 1e-12
+
+
+@pytest.mark.parametrize(("law", "surface_speed"), [(SOFT, 8.0), (SOFT, 1.05), (Rigid(0.8), 8.0), (Rigid(0.3), 1.05)])
+def test_bearings_that_are_alike_move_the_rotor_as_without_the_second_set_of_modes(law, surface_speed):
+    # What acts on conjugates is not zero, but far below rounding.
+    nearly = rotor_of(law, 0.4, surface_speed, conjugate=np.full((2, 2, 2), 1e-300))
+    alike = rotor_of(law, 0.4, surface_speed, conjugate=None)
+    assert (nearly.system.mirrored is None, alike.system.mirrored is None) == (False, True)
+
+    ends = [cm.simulate(heavy(each), START, 15.0) for each in (nearly, alike)]
+    assert ends[0].segment_phases.tolist() == ends[1].segment_phases.tolist()
+    # Rounding grows in each contact.
+    assert ends[0].final.position == pytest.approx(ends[1].final.position, abs=1e-9)
+
+
+def test_lasting_contact_settles():
+    rotor = rotor_of(KelvinVoigt(stiffness=50.0, damping=5.0), 0.05, forcing=np.array([0.6, 0.0]))
+    motion = cm.simulate(rotor, State(np.array([0.9, 0.0]), np.zeros(2)))
+    assert motion.outcome is Outcome.FORWARD_RUB
+    turn = 2.0 * np.pi
+    before, after = motion.at(np.array([motion.time - turn, motion.time]))[0]
+    assert before == pytest.approx(after, abs=1e-8)  # states are the same to 1e-9 relative
+    # It goes round no circle: the radius changes twice a turn.
+    assert np.ptp(motion.radius(motion.time - np.linspace(0.0, turn, 100))) > 0.005
+
+
+def test_levitation_settles_inside_the_wall():
+    assert cm.simulate(heavy(rotor_of()), cm.kick(0.05)).outcome is Outcome.LEVITATED
+
+
+def test_a_model_comes_back_from_its_attributes():
+    rotor = heavy(rotor_of())
+    again = model_from(rotor.attributes())
+    assert again.system.arrays["mirror_columns"].tolist() == rotor.system.arrays["mirror_columns"].tolist()
+
+
+def test_such_bearings_stay_when_levitation_is_lost():
+    rotor = rotor_of(conjugate=ACROSS)
+    rotor = LinearRotor(
+        **{name: getattr(rotor, name) for name in ("mass", "damping", "stiffness", "forcing", "touchdowns")},
+        translation=rotor.translation,
+        unlevitated=np.stack([DAMPING, 0.5 * STIFFNESS]),
+        conjugate=ACROSS,
+    )
+    left = without_levitation(rotor)
+    assert left.matrices.stiffness == pytest.approx(0.5 * STIFFNESS, abs=1e-14)
+    assert left.conjugate.tolist() == ACROSS.tolist()
+
+
+@pytest.mark.parametrize("verb", [cm.find_equilibria, lambda rotor: cm.find_orbits(rotor, impacts=2)])
+@pytest.mark.parametrize("rotor", [rotor_of(), heavy(rotor_of())])
+def test_what_needs_alike_bearings_is_refused(verb, rotor):
+    with pytest.raises(InputError, match="bearings that act differently in two directions"):
+        verb(rotor)
+
+
+def test_levitation_is_told_with_its_ellipse():
+    rotor = heavy(rotor_of())
+    held, motion = levitation(rotor), cm.simulate(rotor, cm.kick(0.0), 5.0)
+    times = np.linspace(0.0, 5.0, 7)
+    assert held.path(times) == pytest.approx(motion.at(times)[0] * np.exp(1j * times)[:, None], abs=1e-12)
+    assert held.reach == pytest.approx(rotor.system.rest_radius, abs=1e-12)
+    assert held.stable
+
+
+def test_no_kick_is_known_to_be_harmless():
+    assert harmless_kick(rotor_of()) == 0.0
+
+
+def test_the_speed_of_its_shaft_does_not_change():
+    with pytest.raises(InputError, match="its speed stays as it is"):
+        LinearRotor(
+            MASS,
+            DAMPING,
+            STIFFNESS,
+            UNBALANCE,
+            [Touchdown(ROW, SOFT, 0.1, 8.0)],
+            conjugate=ACROSS,
+            shaft=cm.models.Shaft(1.0),
+        )
+
+
+def test_what_acts_on_conjugates_has_the_shape_of_the_matrices():
+    with pytest.raises(InputError, match=r"conjugate.*\(2, 2, 2\)"):
+        rotor_of(conjugate=np.zeros((2, 3)))

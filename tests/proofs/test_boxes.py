@@ -1,0 +1,336 @@
+"""Kicks that are proven to come back for all machines of a box do so for machines drawn from it; certificates of boxes stand alone."""
+
+from __future__ import annotations
+
+import json
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from compilation import sized
+
+import carom
+from carom.models import Jeffcott
+from carom.motions import settle
+from carom.outcome import InputError
+from carom.parameters import Parameters
+from carom.proofs import Hypotheses, check, hypotheses_of, prove, prove_kicks
+from carom.proofs.balls import at_precision
+from carom.proofs.boxes import box_of
+from carom.proofs.families import KICKS
+from carom.proofs.gaps import MOST_GAPS, decimal, gaps_of, outside
+from carom.proofs.kick_box_claims import box_claims_of
+from carom.proofs.kick_cells import IMPACTS, leaves, read
+from carom.proofs.kick_discs import Disc
+
+SPINDLE = "examples/spindle.toml"
+GAINS = """
+[machine]
+mass = "3.2 kg"
+magnetic_bearings = 2
+force_current_factor = "80 N/A"
+negative_stiffness = "300 N/mm"
+proportional_gain = "6250 A/m"
+derivative_gain = "2.1875 A s/m"
+eccentricity = "0.9947 um"
+clearance = "0.25 mm"
+rotor_radius = "15 mm"
+speed = "24000 rpm"
+friction = 0.2
+restitution = 0.7
+"""
+SLIP_STOPS = {
+    "gamma": "0.6",
+    "omega": "1.2",
+    "rho": "0.02",
+    "phi": "1",
+    "mu": "0.4",
+    "d": "0.5",
+    "radius_ratio": "0.05",
+}
+CASES = {
+    # What the machine is, the largest kick, the impacts allowed, and the box; nothing is left open of any.
+    "damping": (SPINDLE, "111 mm/s", 1, {"damping": ("280 N s/m", "420 N s/m")}),
+    "speed and clearance": (
+        SPINDLE,
+        "111 mm/s",
+        1,
+        {"speed": ("23900 rpm", "24000 rpm"), "clearance": ("0.249 mm", "0.25 mm")},
+    ),
+    "gains": (
+        GAINS,
+        "110 mm/s",
+        1,
+        {"derivative_gain": ("2.1 A s/m", "2.3 A s/m"), "proportional_gain": ("6200 A/m", "6300 A/m")},
+    ),
+    "friction and rebound": (SLIP_STOPS, "1.9", 2, {"mu": ("0.34", "0.46"), "d": ("0.4", "0.55")}),
+    "unbalance from none, damping past critical": (
+        {**SLIP_STOPS, "gamma": "2.4"},
+        "3.4",
+        1,
+        {"gamma": ("2.38", "2.42"), "rho": ("0", "0.001")},
+    ),
+}
+
+
+def file_of(machine, folder):
+    """A path or numbers as they are, the text of a file as a file."""
+    if not isinstance(machine, str) or "\n" not in machine:
+        return machine
+    (folder / "machine.toml").write_text(machine)
+    return str(folder / "machine.toml")
+
+
+@pytest.fixture(scope="module", params=CASES, ids=str)
+def case(request, tmp_path_factory):
+    machine, largest, most, along = CASES[request.param]
+    machine = file_of(machine, tmp_path_factory.mktemp("machine"))
+    proof = prove_kicks(machine, largest, along=along, most_impacts=most, time_limit=None, workers=1)
+    return machine, proof
+
+
+def rotor_at(machine, settings):
+    """The rotor of a machine with other values of some parameters, by carom's own reading of files."""
+    if isinstance(machine, dict):
+        numbers = {name: float(value) for name, value in {**machine, **settings}.items()}
+        return Jeffcott(Parameters(**numbers)), 1.0
+    loaded = carom.load(machine, [f"{name}={value}" for name, value in settings.items()])
+    return Jeffcott(loaded.parameters), loaded.parameters.scales.velocity
+
+
+def test_everything_is_proven(case):
+    _, proof = case
+    assert proof["kicks all recover"].status == proof["kicks recover"].status == "proven"
+    assert proof["kicks recover"].enclosures["share_proven"].low == "1"
+    assert len(proof) == 2
+
+
+def test_kicks_of_machines_drawn_from_the_box_return(case):
+    machine, proof = case
+    random, box = np.random.default_rng(5), proof.options["box"]
+    cells = list(leaves(read(proof.evidence["cells"], len(box))))
+    largest, most = float(proof.options["kicks_up_to"].split()[0]), proof.options["most_impacts"]
+    hit = 0
+    for _ in range(sized(200, 25, 2000)):
+        cell, letter = cells[random.integers(len(cells))]
+        shares = [[float(end) for end in ends] for ends in (*cell.ends, cell.speeds, cell.angles)]
+        # Ends and corners are drawn too, inside by less than any width of a cell.
+        drawn = random.random((len(shares), 4))
+        drawn[:, ::2] = np.round(drawn[:, ::2])
+        values = [low + (high - low) * share for (low, high), share in zip(shares, drawn, strict=True)]
+        settings = {}
+        for (name, start, stop), share in zip(box, values, strict=False):
+            (low, unit), (high, _) = (end.partition(" ")[::2] for end in (start, stop))
+            settings[name] = f"{float(low) + (float(high) - float(low)) * share[0]} {unit}".strip()
+        rotor, velocity = rotor_at(machine, settings)
+        ahead = rotor.equilibrium / abs(rotor.equilibrium) if rotor.equilibrium else 1.0
+        size = largest / (1000 * velocity if isinstance(machine, str) else 1.0) * (1 - 1e-12)
+        kicks = size * values[-2] * np.exp(2j * np.pi * values[-1]) * ahead
+        endings = settle(rotor, np.full(4, rotor.equilibrium), kicks, threads=1)
+        assert endings.recovered.all(), (settings, kicks)
+        assert (endings.impacts <= IMPACTS.index(letter)).all(), (settings, kicks)
+        hit += int((endings.impacts > 0).sum())
+    assert hit
+    assert most >= max(IMPACTS.index(letter) for _, letter in cells)
+
+
+@pytest.fixture(scope="module")
+def document():
+    machine, largest, most, along = CASES["friction and rebound"]
+    proof = prove_kicks(machine, largest, along=along, most_impacts=most, time_limit=None, workers=1)
+    return json.loads(json.dumps(proof.document()))
+
+
+def test_certificate_is_verified_without_a_search(document, monkeypatch):
+    monkeypatch.setattr("carom.proofs.kick_discs.settle", None)
+    monkeypatch.setattr("carom.proofs.kicks.search", None)
+
+    assert check(document)["kicks all recover"].status == "proven"
+
+
+def test_forged_boxes_are_refused(document):
+    """Intervals wider, missing, of another name or form, and twice; cells of another number of parameters, swapped or missing."""
+    options, cells = document["options"], document["evidence"]["cells"]
+    (first, low, high), second = options["box"]
+    boxes = [
+        [[first, low, "0.9"], second],
+        [[first, "0.1", high], second],
+        [[first, low, high]],
+        [],
+        [["gamma", low, high], second],
+        [[first, low, high], [first, low, high]],
+        [[first, low], second],
+        [[first, low, 0.42], second],
+        "mu",
+        None,
+        [[first, high, low], second],
+    ]
+    swapped = cells.replace("1", "x", 1).replace("0", "1", 1).replace("x", "0", 1)
+    assert swapped != cells
+    assert set(cells) & set("pq")
+    forged = [{"options": {**options, "box": box}} for box in boxes]
+    forged += [
+        {"evidence": {"cells": text}}
+        for text in (swapped, cells[:-1], cells + "0", cells.replace("1", "0"), "r" + cells + cells, "0")
+    ]
+    for change in forged:
+        with pytest.raises(InputError, match="is refused"):
+            check({**document, **change})
+
+
+def test_a_box_is_not_passed_off_as_one_machine(document):
+    options = {name: value for name, value in document["options"].items() if name != "box"}
+    with pytest.raises(InputError, match="is refused"):
+        check({**document, "theorem": "kicks", "options": options})
+
+
+def disc(*along):
+    return Disc(KICKS, hypotheses_of(SPINDLE), "111 mm/s", 3, along)
+
+
+DAMPING = ("damping", "200 N s/m", "600 N s/m")
+
+
+def test_what_holds_is_told_outside_of_gaps():
+    """A tree by hand, of which the claims follow: the first quarter of the dampings is open for fast kicks."""
+    with at_precision(64):
+        claims = box_claims_of(disc(DAMPING), read("ppv0g12", 1))
+    named = {claim.name: claim for claim in claims}
+
+    assert named["kicks all recover"].status == "undecided"
+    outside_of_it = named["kicks all recover outside of gaps"]
+    assert outside_of_it.status == "proven"
+    assert outside_of_it.statement.startswith("For all damping in [300, 600] N s/m: all kicks")
+    assert outside_of_it.statement.endswith("at most 2 impacts.")
+    slow = named["kicks, damping in [200, 300] N s/m recover"]
+    assert (slow.enclosures["speed_si"].low, slow.enclosures["speed_si"].high) == ("0.0555", "0.0555")
+    assert "at most 0 impacts" in slow.statement
+    fast = named["kicks, damping in [300, 600] N s/m recover"]
+    assert fast.enclosures["speed_si"].low == "0.111"
+    assert named["kicks recover"].enclosures["speed_si"].high == "0.0555"
+    assert Fraction(named["kicks recover"].enclosures["share_open"].low) == Fraction(3, 16)
+
+
+def test_gaps_of_several_parameters_are_told_as_boxes():
+    second = ("stiffness", "3e5 N/m", "5e5 N/m")
+    with at_precision(64):
+        claims = box_claims_of(disc(DAMPING, second), read("pq0g1", 2))
+    told = next(claim for claim in claims if claim.kind == "all recover outside of gaps")
+
+    assert (
+        "outside of these boxes: damping in [200, 400] N s/m and stiffness in [400000, 500000] N/m: all kicks"
+        in told.statement
+    )
+    assert told.enclosures["share_of_box"].low == "0.75"
+
+
+def test_nothing_is_told_where_everything_is_open():
+    with at_precision(64):
+        claims = box_claims_of(disc(DAMPING), read("t", 1))
+    assert [claim.status for claim in claims] == ["undecided", "undecided"]
+
+
+def test_speeds_are_not_told_in_a_unit_that_machines_do_not_share():
+    with at_precision(64):
+        claims = box_claims_of(disc(("clearance", "0.2 mm", "0.3 mm")), read("v0g", 1))
+    assert "speed" not in claims[0].enclosures
+    assert claims[0].enclosures["speed_si"].low == "0.0555"
+
+
+@pytest.mark.parametrize("count", [1, 2, 3])
+def test_gaps_hold_all_that_is_open_and_are_few(count):
+    random = np.random.default_rng(count)
+    for _ in range(sized(60, 10, 300)):
+        open_ = []
+        for _ in range(random.integers(1, 60)):
+            halvings = random.integers(0, 6, count)
+            open_.append(tuple((int(random.integers(2**n)), int(n)) for n in halvings))
+        gaps = gaps_of(open_)
+        assert 1 <= len(gaps) <= MOST_GAPS
+        for parts in open_:
+            inner = [Fraction(2 * k + 1, 2 ** (n + 1)) for k, n in parts]
+            assert any(
+                all(Fraction(k, 2**n) <= x <= Fraction(k + 1, 2**n) for x, (k, n) in zip(inner, gap, strict=True))
+                for gap in gaps
+            )
+        if count == 1:
+            lengths = sum(high - low for low, high in outside(gaps)) + sum(Fraction(1, 2**n) for ((_, n),) in gaps)
+            assert lengths == 1
+
+
+def test_numbers_are_rounded_to_the_side_asked_for():
+    third = Fraction(1, 3)
+    assert Fraction(decimal(third, upward=False)) < third < Fraction(decimal(third, upward=True))
+    assert decimal(Fraction(280), upward=True) == "280"
+    assert decimal(Fraction(9947, 10**13), upward=False) == "9.947E-10"
+
+
+def test_time_that_is_up_leaves_gaps_and_a_store_goes_on(tmp_path):
+    along = {"damping": ("280 N s/m", "420 N s/m")}
+    place = tmp_path / "cells.json"
+    first = prove_kicks(SPINDLE, "111 mm/s", along=along, most_impacts=1, time_limit=1e-3, store=place, workers=1)
+    assert first["kicks all recover"].status == "undecided"
+    assert check(json.loads(json.dumps(first.document()))).claims == first.claims
+    with pytest.raises(InputError, match="belongs to another"):
+        prove_kicks(SPINDLE, "111 mm/s", most_impacts=1, store=place, workers=1)
+    whole = prove_kicks(SPINDLE, "111 mm/s", along=along, most_impacts=1, time_limit=None, store=place, workers=1)
+    assert whole["kicks all recover"].status == "proven"
+
+
+@pytest.mark.parametrize(
+    ("along", "words"),
+    [
+        ({"damping": ("280 N/m", "420 N s/m")}, "damping"),
+        ({"damping": ("420 N s/m", "280 N s/m")}, "must begin below"),
+        ({"mass_": ("1 kg", "2 kg")}, "mass"),
+        ({"unbalance_phase": ("0 rad", "1 rad")}, "only turns motions"),
+        ({"damping": ("280 N s/m", "420 N s/m"), "damping_ratio": ("0.1", "0.2")}, "give one of the two"),
+        ({"damping": ("280 N s/m", "420 N s/m"), "gamma": ("0.1", "0.2")}, "give one of the two"),
+        ({"derivative_gain": ("1 A s/m", "2 A s/m")}, "gives no force_current_factor"),
+        (dict.fromkeys(("gamma", "mu", "d", "rho"), ("0.1", "0.2")), "at most 3"),
+    ],
+)
+def test_what_is_no_box_is_refused(along, words):
+    with pytest.raises(InputError, match=words):
+        prove_kicks(SPINDLE, "111 mm/s", along=along)
+
+
+@pytest.mark.parametrize(
+    "settings",
+    [
+        {"derivative_gain": "2.3 A s/m", "proportional_gain": "6300 A/m"},
+        {"natural_frequency": "55 Hz", "damping_ratio": "0.2"},
+        {"unbalance": "4 g mm", "diametral_clearance": "0.4 mm", "rotor_diameter": "31 mm"},
+    ],
+)
+def test_terms_mean_what_they_do_in_a_file(tmp_path, settings):
+    """Numbers of the equations along terms, against carom's own reading of the file with these settings."""
+    path = file_of(GAINS, tmp_path)
+    box = box_of(hypotheses_of(path, (), list(settings)), [(name, text, text) for name, text in settings.items()])
+    with at_precision(96):
+        numbers = box.numbers([(0, 0)] * len(settings))
+    wanted = carom.load(path, [f"{name}={text}" for name, text in settings.items()]).parameters.as_dict()
+    wanted["omega_squared"] = wanted["omega"] ** 2
+    for name, ball in numbers._asdict().items():
+        # The file's values are rounded once or twice.
+        assert float(ball.mid()) == pytest.approx(wanted[name], rel=1e-14)
+
+
+def test_helpers_of_terms_are_hypotheses(tmp_path):
+    read = hypotheses_of(file_of(GAINS, tmp_path), ["force_current_factor=81 N/A"], ["derivative_gain"])
+
+    assert read.helpers == {"magnetic_bearings": "2", "force_current_factor": "81 N/A"}
+    assert Hypotheses.from_document(read.document()) == read
+    with pytest.raises(InputError, match="mass"):
+        Hypotheses.from_document({**read.document(), "helpers": {"mass": "1 kg"}})
+
+
+def test_orbits_are_proven_along_a_term():
+    """Along the diameter of the clearance the same is proven as along its radius."""
+    diameter = prove(SPINDLE, along="diametral_clearance", interval=("0.49 mm", "0.51 mm"))
+    radius = prove(SPINDLE, along="clearance", interval=("0.245 mm", "0.255 mm"))
+
+    assert check(json.loads(json.dumps(diameter.document()))).claims == diameter.claims
+    assert [claim.status for claim in diameter] == [claim.status for claim in radius]
+    ends = [proof["kick harmless"].enclosures["speed_si"] for proof in (diameter, radius)]
+    assert ends[0].value == pytest.approx(ends[1].value, rel=1e-9)

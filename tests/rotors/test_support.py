@@ -1,0 +1,250 @@
+"""Supports that act differently in two directions, against the equations of two real planes written down anew."""
+
+from __future__ import annotations
+
+import dataclasses
+from pathlib import Path
+
+import numpy as np
+import pytest
+from flexible_machines import munich, replaced
+from scipy.linalg import eigvals
+
+import carom as cm
+from carom.cli.app import main
+from carom.outcome import InputError
+from carom.rotors import (
+    Support,
+    Unbalance,
+    campbell,
+    find_whirls,
+    sensitivity,
+    unbalance_response,
+)
+
+SEAL = Support(7, kxx="2e5 N/m", kyy=5e4, kxy=3e4, kyx=-1e4, cxx=20.0, cyy=50.0, cxy=5.0)
+MACHINE = munich(0.06, unbalances=[Unbalance(7, "20 g mm"), Unbalance(3, "5 g mm", "90 deg")], supports=[SEAL])
+
+
+def planes(machine, exponent=None):
+    """Stiffness, damping and mass (4N, 4N) of displacements and tilts in x, then in y; magnetic bearings act at an exponent, if one is given."""
+    rotor = machine.rotor
+    n = len(rotor.mass_matrix)
+    both = np.eye(2)
+    turning = np.array([[0.0, 1.0], [-1.0, 0.0]])  # −iG ż of z = x + iy
+    mass, stiffness = np.kron(both, rotor.mass_matrix), np.kron(both, rotor.stiffness_matrix).astype(complex)
+    damping = np.kron(both, rotor.damping_matrix) + machine.speed * np.kron(turning, rotor.gyroscopic_matrix)
+    for each in machine.supports:
+        place = rotor.displacement_at(each.node)
+        at = np.ix_((place, n + place), (place, n + place))
+        stiffness[at] += np.array([[each.kxx, each.kxy], [each.kyx, each.kyy]])
+        damping[at] += np.array([[each.cxx, each.cxy], [each.cyx, each.cyy]])
+    for each in machine.bearings if exponent is not None else ():
+        for shift in (0, n):
+            place = shift + rotor.displacement_at(each.node)
+            stiffness[place, place] += each.ks
+            for node in each.sensor_nodes:
+                seen = shift + rotor.displacement_at(node)
+                stiffness[place, seen] += each.ki * complex(each.loop.at(exponent)) / len(each.sensor_nodes)
+    return mass, damping, stiffness
+
+
+def size_of(machine):
+    return len(machine.rotor.mass_matrix)
+
+
+def test_whirls_solve_the_equations_of_both_planes():
+    n = size_of(MACHINE)
+    for whirl in find_whirls(MACHINE):
+        mass, damping, stiffness = planes(MACHINE, whirl.exponent)
+        matrix = stiffness + whirl.exponent * damping + whirl.exponent**2 * mass
+        scale = np.sqrt(np.diag(planes(MACHINE)[2]).real)
+        _, sizes, vectors = np.linalg.svd(matrix / np.outer(scale, scale))
+        # Singular, to the rounding of a matrix whose largest is one.
+        assert sizes[-1] < 1e-12
+        along, across = np.split(vectors[-1].conj() / scale, 2)
+        # x = Re(X e^{λt}): z = ½ (X + iY) e^{λt} + ½ conj(X − iY) e^{λ̄t}.
+        ahead, behind = 0.5 * (along + 1j * across)[:n:2], 0.5 * (along - 1j * across)[:n:2].conj()
+        turn = whirl.shape[np.abs(whirl.shape).argmax()] / ahead[np.abs(whirl.shape).argmax()]
+        assert turn * ahead == pytest.approx(whirl.shape, abs=1e-6)
+        assert turn.conjugate() * behind == pytest.approx(whirl.opposite, abs=1e-6)
+        prevails = np.linalg.norm(whirl.shape) > np.linalg.norm(whirl.opposite)
+        assert prevails or whirl.sense == "straight"
+        sizes = np.abs(whirl.shape) + np.abs(whirl.opposite)
+        assert sizes.max() == pytest.approx(1.0)
+        assert np.abs(whirl.widest).max() == pytest.approx(1.0)
+
+
+def test_every_free_motion_is_told_once():
+    """Without controllers the exponents are those of two real planes."""
+    machine = replaced(MACHINE, bearings=[], supports=[SEAL, Support(2, 1e5, 2e5, cxx=10.0, cyy=10.0)])
+    mass, damping, stiffness = planes(machine)
+    zero, one = np.zeros_like(mass), np.eye(len(mass))
+    exponents = eigvals(np.block([[zero, one], [-stiffness.real, -damping]]), np.block([[one, zero], [zero, mass]]))
+    turning = exponents[exponents.imag > 0.1 * np.abs(exponents)]  # the others fade before they go round
+    slowest = turning[np.argsort(turning.imag)][:10]
+    found = find_whirls(machine, count=10)
+    assert [each.frequency * 2.0 * np.pi for each in found] == pytest.approx(slowest.imag.tolist(), rel=1e-8)
+    assert [each.exponent.real for each in found] == pytest.approx(slowest.real.tolist(), rel=1e-6)
+
+
+def test_senses():
+    still = replaced(MACHINE, supports=[Support(7, 2e5, 2e5)], speed=1e-3)
+    assert {each.sense for each in find_whirls(still)} <= {"forward", "backward"}
+    apart = replaced(MACHINE, supports=[Support(7, 2e5, 5e4)], speed=1e-3)
+    whirls = find_whirls(apart)
+    # Without a noteworthy speed the rotor vibrates along x and along y, at two frequencies.
+    assert sum(np.abs(each.shape).max() - np.abs(each.opposite).max() < 1e-3 for each in whirls) >= 4
+    circulating = replaced(MACHINE, supports=[Support(7, 2e5, 2e5, 1e4, -1e4)])
+    assert not circulating.whole.equations.mirrored
+
+
+@pytest.mark.parametrize("speed", [100.0, 330.0, 900.0])
+def test_response_to_unbalance_goes_round_the_ellipses_of_both_planes(speed):
+    machine = replaced(MACHINE, speed=speed)
+    rotor, n = machine.rotor, size_of(machine)
+    mass, damping, stiffness = planes(machine, 1j * speed)
+    force = np.zeros(2 * n, complex)
+    for each in machine.unbalances:
+        turn = each.size * speed**2 * np.exp(1j * each.angle)
+        force[rotor.displacement_at(each.node)] += turn  # x = Re(turn e^{iΩt}), y = Im(...)
+        force[n + rotor.displacement_at(each.node)] += -1j * turn
+    answer = np.linalg.solve(stiffness + 1j * speed * damping - speed**2 * mass, force)
+    places = np.array([rotor.displacement_at(each.node) for each in machine.touchdowns])
+    angles = np.linspace(0.0, 2.0 * np.pi, 7200, endpoint=False)
+    turns = np.exp(1j * angles)[:, None]
+    path = (answer[places] * turns).real + 1j * (answer[n + places] * turns).real
+
+    found = unbalance_response(machine, [speed])
+    ellipses = found.touchdown_ellipses
+    assert path == pytest.approx(ellipses.ahead[0] * turns + ellipses.behind[0] / turns, rel=1e-8, abs=1e-14)
+    assert ellipses.major[0] == pytest.approx(np.abs(path).max(axis=0), rel=1e-6)
+    assert np.abs(ellipses.minor[0]) == pytest.approx(np.abs(path).min(axis=0), rel=1e-5)
+    farthest = path[np.abs(path).argmax(axis=0), range(len(places))]
+    assert np.abs(np.exp(2j * ellipses.direction[0]) - (farthest / np.abs(farthest)) ** 2).max() < 2e-3
+    assert found.room[0] == pytest.approx(1.0 - np.abs(path).max(axis=0) / np.array(machine.clearances), abs=1e-6)
+
+
+def test_the_model_levitates_round_the_same_ellipse():
+    machine = replaced(MACHINE, gravity=None)
+    whole = machine.whole
+    found, system = unbalance_response(machine, [machine.speed]).touchdown_ellipses, whole.model.system
+    assert system.arrays["offsets"] * machine.clearance == pytest.approx(found.ahead[0], rel=1e-7)
+    behind = system.arrays["rows"][:, system.arrays["mirror"][0]] * machine.clearance
+    assert behind == pytest.approx(found.behind[0], rel=1e-7)
+    # Their exponents are the whirls, and the conjugates of these.
+    slowest = sorted(find_whirls(machine), key=lambda each: each.frequency)[:6]
+    own = (system.exponents + 1j) * machine.speed
+    for whirl in slowest:
+        for exponent in (whirl.exponent, whirl.exponent.conjugate()):
+            assert np.abs(own - exponent).min() < 1e-6 * abs(exponent)
+
+
+def test_static_sag_is_that_of_both_planes():
+    machine = replaced(MACHINE, bearings=[], supports=[SEAL, Support(3, 1e5, 2e5), Support(11, 2e5, 1e5, kxy=1e4)])
+    rotor, n = machine.rotor, size_of(machine)
+    _, _, stiffness = planes(machine)
+    weight = np.zeros(2 * n)
+    weight[n:] = -machine.gravity.acceleration * rotor.mass_matrix @ np.tile([1.0, 0.0], n // 2)
+    sag = np.linalg.solve(stiffness.real, weight)
+    place = rotor.displacement_at(machine.touchdowns[0].node)
+    system = machine.whole.model.system
+    found = system.arrays["rows"][0] @ system.outer * machine.clearance
+    assert found == pytest.approx(sag[place] + 1j * sag[n + place], rel=1e-6)
+
+
+def test_sensitivity_is_the_worse_of_both_axes():
+    frequencies = [200.0, 380.0, 416.3]
+    found = sensitivity(MACHINE, frequencies)
+    n, rotor = size_of(MACHINE), MACHINE.rotor
+    for place, frequency in enumerate(frequencies):
+        s = 1j * frequency
+        mass, damping, stiffness = planes(replaced(MACHINE, bearings=[]))
+        matrix = stiffness + s * damping + s * s * mass
+        pulls, seen, gains = [], [], []
+        for shift in (0, n):
+            for each in MACHINE.bearings:
+                pull, row = np.zeros((2, 2 * n))
+                at = shift + rotor.displacement_at(each.node)
+                pull[at], matrix[at, at] = 1.0, matrix[at, at] + each.ks
+                for node in each.sensor_nodes:
+                    row[shift + rotor.displacement_at(node)] += 1.0 / len(each.sensor_nodes)
+                pulls, seen = [*pulls, pull], [*seen, row]
+                gains.append(each.ki * complex(each.loop.at(s)))
+        opened = np.array(seen) @ np.linalg.solve(matrix, np.array(pulls).T) * gains
+        own = np.diag(np.linalg.inv(np.eye(4) + opened)).reshape(2, 2)
+        axis = [int(np.abs(own[0, number] - found.values[place, number]) > 1e-8) for number in range(2)]
+        assert found.values[place] == pytest.approx(own[axis, range(2)], rel=1e-8)
+
+
+def test_sensitivity_of_supports_that_are_nearly_alike_is_that_of_alike_ones():
+    frequencies = [200.0, 416.3]
+    nearly, alike = (
+        sensitivity(replaced(MACHINE, supports=[Support(7, 1e5, other)]), frequencies) for other in (1e5 + 1e-6, 1e5)
+    )
+    assert np.abs(nearly.values) == pytest.approx(np.abs(alike.values), rel=1e-8)
+
+
+def test_whirls_are_followed_over_the_speed():
+    speeds = np.linspace(50.0, 600.0, 12)
+    found = campbell(MACHINE, speeds.tolist(), count=8)
+    for speed, row in zip(speeds[::4].tolist(), found.exponents[::4], strict=True):
+        own = [each.exponent for each in find_whirls(MACHINE, speed, count=40)]
+        for exponent in row:
+            assert np.abs(np.array(own) - exponent).min() < 1e-7 * abs(exponent)
+    assert found.plot() is not None
+
+
+def test_more_states_are_told():
+    alike = replaced(MACHINE, supports=[])
+    assert MACHINE.with_modes(8).states == 2 * (alike.with_modes(8).states + 2)  # one vector more, for the seal
+
+
+def test_entries_are_parameters():
+    moved = MACHINE.replace(kxx="1e5 N/m", cyy_1=70.0)
+    assert (moved.supports[0].kxx, moved.supports[0].cyy) == (1e5, 70.0)
+    assert MACHINE.value("kxy") == 3e4
+    model = MACHINE.with_modes(6).linear
+    assert model.replace(kyy=6e4).reduced.machine.supports[0].kyy == 6e4
+    again = type(model).from_attributes(model.attributes())
+    assert again.reduced.machine.supports == MACHINE.supports
+    assert again.system.arrays["mirror_columns"].tolist() == model.system.arrays["mirror_columns"].tolist()
+
+
+def test_a_support_that_drives_whirl_is_refused():
+    with pytest.raises(InputError, match="grows"):
+        _ = replaced(MACHINE, supports=[Support(7, 1e5, 1e5, 1e6, -1e6)]).with_modes(6).linear
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [({"node": 30}, "node of the shaft"), ({"kxx": "3 kg"}, "stiffness"), ({"cxy": float("nan")}, "finite|damping")],
+)
+def test_bad_supports_are_refused(changes, words):
+    with pytest.raises(InputError, match=words):
+        replaced(MACHINE, supports=[dataclasses.replace(SEAL, **changes)])
+
+
+@pytest.mark.parametrize(
+    "verb",
+    [
+        lambda rotor: cm.find_equilibria(rotor),
+        lambda rotor: cm.find_orbits(rotor, impacts=2),
+        lambda rotor: cm.closed_forms.small_cycles(rotor),
+        lambda rotor: cm.orbits.lyapunov_exponents(rotor, cm.kick(1.0), impacts=10),
+    ],
+)
+def test_what_rests_on_alike_directions_is_refused(verb):
+    with pytest.raises(InputError, match="bearings that act differently in two directions"):
+        verb(MACHINE.with_modes(3).linear)
+
+
+def test_steady_motions_are_told_without_rubs(capsys, tmp_path):
+    path = tmp_path / "mine.toml"
+    text = Path("examples/tum-flexible-rotor.toml").read_text(encoding="utf-8")
+    path.write_text(f"{text}\n[[support]]\nnode = 7\nkxx = 2e4\nkyy = 5e3\ncxx = 20.0\ncyy = 20.0\n", encoding="utf-8")
+    assert cm.load(path).parameters.system.mirrored is not None
+    assert main(["orbits", str(path)]) == 0
+    told = " ".join(capsys.readouterr().out.split())
+    assert "levitation" in told
+    assert "where bearings act differently in two directions; attractors finds" in told
