@@ -2793,6 +2793,8 @@ def check_kicks(document: dict, exact: dict[str, Exact], report: Report) -> None
         return f"not covered|its shares follow from the cells; {flown} kicks in the middle of cells return, and all kicks of {float(shown):.6f} of the disc"
 
     report.each(document["claims"], decide)
+    needed = [(about, told) for told in patterns if told != "do not recover" or area["refuted"]]
+    refuse_missing(dict.fromkeys(needed), document["claims"], report)
 
 
 BOX_KICKS = (

@@ -339,6 +339,8 @@ def test_cells_of_kicks_that_are_forged_are_refused(kicks, monkeypatch):
         forged = changed(kicks, "kicks", "recover", enclosures={**claim["enclosures"], name: ["0.5", "0.6"]})
         assert refused(forged)
     assert refused(changed(kicks, "kicks", "all recover", status="proven", reason=""))
+    for claims in ([], kicks["claims"][:1], kicks["claims"][1:]):
+        assert refused({**kicks, "claims": claims})
 
 
 @pytest.fixture(scope="module")
