@@ -22,8 +22,8 @@ import numpy as np
 from carom.arguments import Positive, checked
 from carom.closed_forms.known import known_of
 from carom.models import Forced, Limited, Model, Subject, model_of
+from carom.models.mode_arrays import STEADY
 from carom.models.stages import Around, stages_of
-from carom.models.system import STEADY
 
 MARGIN = 1e-9
 """Share of the distance from the wall that is left for rounding."""

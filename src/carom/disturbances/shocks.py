@@ -31,7 +31,7 @@ from carom.core.layout import rub_workspace, workspace
 from carom.core.phases import AWAY
 from carom.models import Force, Forced, Model
 from carom.models.in_bearing import carried_by_housing
-from carom.models.system import EQUAL, STEADY
+from carom.models.mode_arrays import EQUAL, STEADY
 from carom.motions.ensembles import MOST_EVENTS
 from carom.outcome import Outcome
 

@@ -4,7 +4,8 @@
 ``axes``                  :class:`Axis`: any named parameter of any model, to vary
 ``spans``                 :class:`Span`: an interval of a parameter, with what happens at its ends
 ``model``                 :class:`Model`: what every description of a rotor offers
-``system``                :class:`System`: modes and contact planes of any linear rotor
+``mode_arrays``           modes and contact planes as arrays for the kernels
+``system``                :class:`System`: any linear rotor by these, its states and what repeats
 ``nodes``                 nodes of orbits: states, and under weight its direction
 ``from_modes``            systems from their modes
 ``jeffcott``              :class:`Jeffcott`: the planar rigid rotor, by its parameters

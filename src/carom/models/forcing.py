@@ -23,7 +23,8 @@ import numpy as np
 from carom.core.wall import Wall
 from carom.models.from_modes import modal_system
 from carom.models.mirror import TURN
-from carom.models.system import EQUAL, System
+from carom.models.mode_arrays import EQUAL
+from carom.models.system import System
 from carom.outcome import InputError
 
 RESONANT = 1e-3

@@ -12,8 +12,9 @@ import numpy as np
 
 from carom.arguments import Infinity, NotNegative, Positive, checked
 from carom.models.forcing import Force, with_forces
+from carom.models.mode_arrays import EQUAL, STEADY
 from carom.models.model import Matrices, Model
-from carom.models.system import EQUAL, STEADY, System
+from carom.models.system import System
 from carom.outcome import InputError, shown
 from carom.parameters import SETTINGS, Field, Scales, read_quantity
 from carom.parameters.settings import GRAVITY_NAME

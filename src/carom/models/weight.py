@@ -17,9 +17,9 @@ from carom.models.in_bearing import InBearing
 from carom.models.jeffcott import Jeffcott
 from carom.models.limited import Limited
 from carom.models.linear import LinearRotor
+from carom.models.mode_arrays import EQUAL, STEADY
 from carom.models.model import Model
 from carom.models.stages import Forced, forces_of
-from carom.models.system import EQUAL, STEADY
 from carom.models.touchdown import Rigid, Touchdown
 from carom.outcome import InputError, shown
 from carom.parameters import Gravity
