@@ -147,7 +147,7 @@ SHOCKS = Family(
     "shocks",
     "shocks_up_to",
     "peak",
-    "half-sine shocks of the base at levitation, with peak, in any direction, and duration up to and of",
+    "half-sine shocks of the base out of levitation, in any direction, with a peak up to, and a duration of,",
     "shock with a peak below the lower end of peak",
     _shocks,
 )
