@@ -45,7 +45,6 @@ def test_without_weight_other_disturbances_work(carom, options):
 PLANAR = [
     ("response",),
     ("prove",),
-    ("explore",),
     ("bifurcations", "--along", "speed", "--from", "2000 rpm", "--to", "3000 rpm"),
     ("regions",),
 ]
@@ -57,7 +56,7 @@ def test_what_takes_the_planar_rotor_refuses_it_in_one_line(carom, command, sett
     code, out, err = carom(command[0], MACHINE, *command[1:], *settings)
     assert (code, out) == (2, "")
     assert err.startswith("carom: machine = Case tum-flexible-rotor: the planar rotor")
-    assert "the commands study, simulate, drop, attractors, basins, orbits, and sweep with [basins]" in err
+    assert "the commands study, simulate, drop, attractors, basins, orbits, explore, and sweep with [basins]" in err
     assert err.count("\n") == 1
 
 

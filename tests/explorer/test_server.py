@@ -24,6 +24,7 @@ from tornado.httpclient import AsyncHTTPClient, HTTPRequest
 from tornado.websocket import WebSocketClosedError, websocket_connect
 
 from carom.explorer import server as servers
+from carom.explorer.page import planar
 from carom.explorer.server import LEFT, Explorer, _compile
 
 MACHINE = str(Path(__file__).parents[2] / "examples" / "keogh-cole.toml")
@@ -227,7 +228,7 @@ def test_compiling_is_quiet_only_where_the_program_ends_meanwhile(monkeypatch):
     def fail(rotor):
         raise RuntimeError(words.pop(0))
 
-    monkeypatch.setattr(servers, "table_of", fail)
+    monkeypatch.setattr(planar, "table_of", fail)
     origin, ready = Origin(MACHINE, (), carom.load(MACHINE)), threading.Event()
     _compile(origin, ready)
     assert ready.is_set()

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from carom.cli.terminal import AsJson, Settings, check_output, console, print_document, progress
-from carom.files.directory import FIGURES
 from carom.outcome import InputError, shown
 
 if TYPE_CHECKING:
@@ -140,7 +139,7 @@ def prove(
     if check is None and out is not None:
         console().print(f"Certificate: {Path(out) / CERTIFICATE}", soft_wrap=True)
     if out is not None and proof.theorem == DRAWN:
-        console().print(f"Figure: {Path(out) / FIGURES / PICTURE}.svg", soft_wrap=True)
+        console().print(f"Figure: {_picture(Path(out))}.svg", soft_wrap=True)
 
 
 def _checked(check: str, out: str | None, tell: Reporter) -> Proof:
@@ -220,6 +219,13 @@ def _write(proof: Proof, directory: Path, machine: str | None, tell: Reporter) -
         _draw(proof, Path(machine or "certificate").stem, directory)
 
 
+def _picture(directory: Path) -> Path:
+    """The figure of kicks, without its endings."""
+    from carom.files.directory import FIGURES
+
+    return directory / FIGURES / PICTURE
+
+
 def _draw(proof: Proof, name: str, directory: Path) -> None:
     """Write the figure of a proof of kicks, over the basin that simulation finds."""
     from carom import plots
@@ -232,7 +238,7 @@ def _draw(proof: Proof, name: str, directory: Path) -> None:
     told = [f"{key} {given[key].removeprefix('double ')}" for key in names]
     basin = map_cells(kicks.rotor, Grid(KickPlane(kicks.largest), SAMPLED))
     with plots.heading(f"{name}: {', '.join(told)}"):
-        plots.save(kicks.plot(basin), directory / FIGURES / PICTURE)
+        plots.save(kicks.plot(basin), _picture(directory))
 
 
 def _intervals(along: list[str] | None, start: list[str] | None, stop: list[str] | None) -> dict[str, tuple[str, str]]:

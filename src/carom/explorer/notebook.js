@@ -66,7 +66,7 @@ const render = ({ model, el }) => {
       at("legend").replaceChildren(...legendOf(message));
     },
   };
-  shows.levitation = (message) => {
+  shows.levitating = (message) => {
     at("levitation").hidden = false;
     at("levitation").textContent = message.refused || `${message.lead} ${message.more}`;
   };
