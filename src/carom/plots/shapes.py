@@ -17,6 +17,7 @@ from carom.plots.style import LOOKS, TWO_COLUMNS, Look, styled
 from carom.plots.words import number
 
 if TYPE_CHECKING:
+    import carom.rotors
     from carom.rotors import FlexibleMachine, Whirl
 
 _COLUMNS, _ROW = 2, 0.165
@@ -35,7 +36,7 @@ _PARTS = (
 
 @checked
 @styled
-def mode_shapes(flexible: FlexibleMachine, whirls: Sequence[Whirl]) -> Figure:
+def mode_shapes(flexible: FlexibleMachine, whirls: Sequence[carom.rotors.Whirl]) -> Figure:
     """Draw the shapes of free whirls along the shaft, one panel each, with magnets, sensors and touchdown bearings.
 
     Lines are the displacement in the plane in which the whirl is widest, and, dotted, across it; the largest displacement is 1.  Whirls are

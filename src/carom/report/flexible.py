@@ -84,11 +84,11 @@ def _pictures(study: FlexibleStudy) -> Iterator[Picture]:
         for plane in planes:
             largest = "largest force" if any(each.contacts for each in trial.planes) else "widest orbit"
             after = f"after the {what} with the {largest}"
-            draw = _orbit(trial.worst, plane, f"After the {what}, plane {plane + 1}")
+            draw = _orbit(trial.worst, plane, f"After the {what}, touchdown bearing {plane + 1}")
             yield Picture(f"{trial.kind}-{plane + 1}", SECTION, _caption(plane, after), draw)
     if study.fall is not None:
         for plane in planes:
-            draw = _orbit(study.fall, plane, f"Drop, plane {plane + 1}")
+            draw = _orbit(study.fall, plane, f"Drop, touchdown bearing {plane + 1}")
             yield Picture(f"drop-{plane + 1}", SECTION, _caption(plane, "after levitation is lost"), draw)
 
 
@@ -99,7 +99,9 @@ def _whirls(study: FlexibleStudy) -> list[tuple[str, str, str]]:
 
 
 def _caption(plane: int, when: str) -> str:
-    return f"Orbit of the shaft at plane {plane + 1} {when}, in the fixed frame, and its gap to the touchdown bearing."
+    return (
+        f"Orbit of the shaft at touchdown bearing {plane + 1} {when}, in the fixed frame, and its gap to the bearing."
+    )
 
 
 def _orbit(motion: Trajectory, plane: int, title: str) -> Callable[[], Figure]:

@@ -29,7 +29,7 @@ def whirl_words(speed: float, whirls: Sequence[Whirl]) -> str:
 def response_words(at_speed: FlexibleResponse) -> str:
     """The whirl by unbalance at one speed."""
     planes = [
-        f"{micrometres(each)} at plane {place}"
+        f"{micrometres(each)} at touchdown bearing {place}"
         for place, each in enumerate(at_speed.touchdown_ellipses.major[0], start=1)
     ]
     sensors = [
@@ -44,7 +44,7 @@ def response_words(at_speed: FlexibleResponse) -> str:
 
 def zone_words(share: float, zone: str) -> str:
     """The share of the clearance that sag and whirl take together, and its zone."""
-    say = f"{number(100.0 * share, 3)} % of the clearance at the worst plane"
+    say = f"{number(100.0 * share, 3)} % of the clearance at the worst touchdown bearing"
     return f"With the static sag that is {say}: zone {zone} of ISO 14839-2."
 
 

@@ -55,7 +55,7 @@ class LoadCheck:
     def words(self) -> str:
         """The check in words."""
         value, limit = (LoadLimits.told(self.name, each) for each in (self.value, self.limit))
-        where = "" if self.plane is None else f" at plane {self.plane}"
+        where = "" if self.plane is None else f" at touchdown bearing {self.plane}"
         text = f"{LIMIT_FIELDS[self.name].words}{where}: {value}, limit {limit}"
         if self.value > self.limit:
             return f"{text}: exceeded{', and it goes on' if self.endless else ''}"

@@ -124,7 +124,7 @@ def levitating(case: Case, reduced: ReducedMachine, top: float) -> Levitating:
         damping=number(worst.damping_ratio, 3) if told else "–",
         damping_remark=f"of the {worst.sense} whirl of {number(worst.frequency, 3)} Hz" if told else "a motion grows",
         clearance=f"{number(100.0 * share, 3)} %" if stable and np.isfinite(share) else "–",
-        clearance_remark=f"sag and whirl by unbalance at the worst plane: zone {zone} of ISO 14839-2"
+        clearance_remark=f"sag and whirl by unbalance at the worst touchdown bearing: zone {zone} of ISO 14839-2"
         if stable
         else "a motion grows",
         whirls=tuple(map(_row, listed)),
