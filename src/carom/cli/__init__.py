@@ -17,6 +17,7 @@ with ``regions``, ``basins``, ``sweep``, ``paper``, ``explore``, ``template``, `
 ``region_tables``    what ``regions`` prints
 ``starts``           starts, times and ranges from text, with or without units
 ``drop_map``         drops over a plane of two numbers
+``proof_options``    options of prove
 ``release_options``  how a motion begins, as options of ``simulate`` and ``drop``
 ``drops``            drops, and motions in several stages
 ``logs``             contact logs as files

@@ -4,10 +4,26 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Any
 
-import typer
-
+from carom.cli.proof_options import (
+    CELLS,
+    CERTIFICATE,
+    Along,
+    Check,
+    File,
+    From,
+    Impacts,
+    KicksUpTo,
+    LongestPeriod,
+    MostImpacts,
+    Out,
+    ShocksUpTo,
+    StatesUpTo,
+    TimeLimit,
+    To,
+    UnbalanceUpTo,
+)
 from carom.cli.terminal import AsJson, Settings, check_output, console, print_document, progress
 from carom.outcome import InputError, shown
 
@@ -15,8 +31,6 @@ if TYPE_CHECKING:
     from carom.progress import Reporter
     from carom.proofs import Claim, Proof
 
-CERTIFICATE, CELLS = "proof.json", "cells.json"
-"""Names of the certificate, and of the cells of kicks found so far, in the directory given."""
 KICKS, SHOCKS, STEPS, STATES = "--kicks-up-to", "--shocks-up-to", "--unbalance-up-to", "--states-up-to"
 """Options of theorems about what comes back."""
 DRAWN = "kicks"
@@ -28,71 +42,21 @@ _DRAWING = 0.95
 
 
 def prove(
-    machine: Annotated[str | None, typer.Argument(metavar="[MACHINE.toml]", help="The machine file.")] = None,
+    machine: File = None,
     settings: Settings = None,
-    longest_period: Annotated[
-        str | None, typer.Option(metavar="T", help="Look only for periods up to T, in 1/Omega; by default for all.")
-    ] = None,
-    impacts: Annotated[
-        int,
-        typer.Option(
-            metavar="N", help="Prove orbits with at most N impacts a period, those with several that a search finds."
-        ),
-    ] = 1,
-    along: Annotated[
-        list[str] | None,
-        typer.Option(
-            metavar="NAME",
-            help="Prove points and orbits along a parameter instead, --from A --to B; with --kicks-up-to which kicks come back for all its "
-            "values, or for all of a box if all three are given two or three times.",
-        ),
-    ] = None,
-    start: Annotated[
-        list[str] | None,
-        typer.Option("--from", metavar="A", help="First value of the parameter, dimensionless or with a unit."),
-    ] = None,
-    stop: Annotated[list[str] | None, typer.Option("--to", metavar="B", help="Last value of the parameter.")] = None,
-    kicks_up_to: Annotated[
-        str | None,
-        typer.Option(metavar="SPEED", help="Prove instead which kicks out of levitation up to SPEED come back."),
-    ] = None,
-    shocks_up_to: Annotated[
-        str | None,
-        typer.Option(
-            metavar="PEAK,TIME",
-            help="The same of half-sine shocks of the base with peaks up to PEAK, such as '20 g, 0.5 ms'.",
-        ),
-    ] = None,
-    unbalance_up_to: Annotated[
-        str | None,
-        typer.Option(
-            metavar="CHANGE",
-            help="The same of steps to the unbalance of the machine, by changes up to CHANGE, such as '20 um' or '500 g mm'.",
-        ),
-    ] = None,
-    states_up_to: Annotated[
-        str | None,
-        typer.Option(metavar="SPEED", help="Prove instead that all states inside the clearance up to SPEED come back."),
-    ] = None,
-    most_impacts: Annotated[
-        int | None, typer.Option(metavar="N", help="Leave open what may have more than N impacts; by default 12.")
-    ] = None,
-    time_limit: Annotated[
-        str | None,
-        typer.Option(
-            metavar="T", help="End the search after T, such as '2 h'; by default 10 min, along a parameter never."
-        ),
-    ] = None,
-    out: Annotated[
-        str | None,
-        typer.Option(
-            metavar="DIR",
-            help=f"Write the certificate, {CERTIFICATE}, to this directory, and of kicks the figure; with --check the figure alone.",
-        ),
-    ] = None,
-    check: Annotated[
-        str | None, typer.Option(metavar="FILE", help="Verify a certificate instead; no machine file is needed.")
-    ] = None,
+    longest_period: LongestPeriod = None,
+    impacts: Impacts = 1,
+    along: Along = None,
+    start: From = None,
+    stop: To = None,
+    kicks_up_to: KicksUpTo = None,
+    shocks_up_to: ShocksUpTo = None,
+    unbalance_up_to: UnbalanceUpTo = None,
+    states_up_to: StatesUpTo = None,
+    most_impacts: MostImpacts = None,
+    time_limit: TimeLimit = None,
+    out: Out = None,
+    check: Check = None,
     as_json: AsJson = False,
 ) -> None:
     """Prove equilibria and all orbits with one impact a period, in ball arithmetic; or along a parameter; or what comes back.
@@ -231,11 +195,14 @@ def _draw(proof: Proof, name: str, directory: Path) -> None:
     from carom import plots
     from carom.basins import map_cells
     from carom.disturbances import Grid, KickPlane
+    from carom.parameters.told import number
     from carom.proofs import ProvenKicks
 
     kicks, given = ProvenKicks.of(proof), {**proof.hypotheses.values, **proof.hypotheses.settings}
-    names = ("damping", "stiffness", "speed") if proof.hypotheses.table == "machine" else tuple(given)
-    told = [f"{key} {given[key].removeprefix('double ')}" for key in names]
+    if proof.hypotheses.table == "machine":
+        told = [f"{key} {given[key].removeprefix('double ')}" for key in ("damping", "stiffness", "speed")]
+    else:
+        told = [f"{key} {number(value)}" for key, value in kicks.rotor.parameters.as_dict().items()]
     basin = map_cells(kicks.rotor, Grid(KickPlane(kicks.largest), SAMPLED))
     with plots.heading(f"{name}: {', '.join(told)}"):
         plots.save(kicks.plot(basin), _picture(directory))

@@ -55,7 +55,7 @@
 ``kick_claims``     claims about kicks
 ``kicks``           prove_kicks, as far as a time allows
 ``shocks``          the same for shocks and steps of the unbalance
-``speeds``          the largest speed that a theorem is about
+``sizes``           the largest size that a theorem is about
 ``forms``           quadratic forms that fall in flight and in contact
 ``arrivals``        all states in which motions first meet the wall
 ``form_search``     which forms show that all states return

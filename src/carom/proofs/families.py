@@ -8,18 +8,19 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 from flint import arb
 
 from carom.outcome import InputError
-from carom.parameters import MACHINE_FIELDS, Field
-from carom.parameters.exact import ExactNumber, read_exact
+from carom.parameters import Field
+from carom.parameters.exact import ExactNumber
 from carom.proofs.balls import ball_of
 from carom.proofs.hypotheses import Hypotheses
 from carom.proofs.lines import Numbers
 from carom.proofs.patches import BLOW
+from carom.proofs.sizes import read_size, unit_of
 from carom.proofs.starts import Pulse, Start, Step
 
 
@@ -80,29 +81,9 @@ _CHANGE = Field("unbalance_up_to", "Δ", "largest change of the unbalance", "a l
 _PRODUCT = Field("unbalance_up_to", "Δ", "change of the unbalance", "an unbalance", "kg m", 1e-15, 1e9, '"2000 g mm"')
 
 
-def _read(field: Field, text: str, hypotheses: Hypotheses, whole: str = "") -> ExactNumber:
-    """One exact number: with a unit of a machine in SI units, a plain number of a dimensionless one."""
-    of_machine = hypotheses.table == "machine"
-    number = read_exact(
-        replace(field, needs_unit=True) if of_machine else replace(field, unit="", kind="a number"), text
-    )
-    if number.low != number.high:
-        raise InputError(field.name, whole or text, f"must be one {field.kind.split(maxsplit=1)[1]}, not an interval")
-    return number
-
-
-def _size(hypotheses: Hypotheses, *names: str) -> Any:
-    """Product of numbers of a machine; 1 for a dimensionless one."""
-    product: Any = arb(1)
-    if hypotheses.table == "machine":
-        for name in names:
-            product = product * ball_of(read_exact(MACHINE_FIELDS[name], hypotheses.values[name]))
-    return product
-
-
 def _kicks(text: str, hypotheses: Hypotheses) -> Scale:
-    largest = _read(_SPEED, text, hypotheses)
-    return Scale(largest, lambda: 1 / _size(hypotheses, "clearance", "speed"), lambda _: arb(1), lambda: BLOW)
+    largest = read_size(_SPEED, text, hypotheses)
+    return Scale(largest, lambda: 1 / unit_of(hypotheses, "clearance", "speed"), lambda _: arb(1), lambda: BLOW)
 
 
 def _shocks(text: str, hypotheses: Hypotheses) -> Scale:
@@ -111,15 +92,15 @@ def _shocks(text: str, hypotheses: Hypotheses) -> Scale:
     if len(parts) != 2:
         raise InputError("shocks_up_to", text, f"must be the largest peak and the duration, such as {_PEAK.example}")
     peak, lasts = (
-        _read(field, part.strip(), hypotheses, text) for field, part in zip((_PEAK, _TIME), parts, strict=True)
+        read_size(field, part.strip(), hypotheses, text) for field, part in zip((_PEAK, _TIME), parts, strict=True)
     )
 
     def duration() -> Any:
-        return ball_of(lasts) * _size(hypotheses, "speed")
+        return ball_of(lasts) * unit_of(hypotheses, "speed")
 
     return Scale(
         peak,
-        lambda: 1 / _size(hypotheses, "clearance", "speed", "speed"),
+        lambda: 1 / unit_of(hypotheses, "clearance", "speed", "speed"),
         lambda _: 2 * duration() / arb.pi(),
         lambda: Pulse(duration()),
     )
@@ -130,9 +111,9 @@ def _steps(text: str, hypotheses: Hypotheses) -> Scale:
     largest, sizes = None, ["clearance"]
     if hypotheses.table == "machine":
         with suppress(InputError):
-            largest, sizes = _read(_PRODUCT, text, hypotheses), ["clearance", "mass"]
-    largest = largest or _read(_CHANGE, text, hypotheses)
-    return Scale(largest, lambda: 1 / _size(hypotheses, *sizes), lambda n: 1 / abs(n.product), Step)
+            largest, sizes = read_size(_PRODUCT, text, hypotheses), ["clearance", "mass"]
+    largest = largest or read_size(_CHANGE, text, hypotheses)
+    return Scale(largest, lambda: 1 / unit_of(hypotheses, *sizes), lambda n: 1 / abs(n.product), Step)
 
 
 KICKS = Family(

@@ -14,7 +14,7 @@ from carom.proofs.form_search import search, shown
 from carom.proofs.forms import Surface
 from carom.proofs.lost_states import Lost, lost_on_orbits, steadily_lost
 from carom.proofs.rotor import Rotor
-from carom.proofs.speeds import LargestSpeed
+from carom.proofs.sizes import LargestSpeed
 
 THEOREM = "states"
 OPTIONS = ("states_up_to",)
@@ -23,7 +23,7 @@ NOT_CLAIMED = (
     "how many impacts there are on the way, how hard they are, or how long it takes",
     "anything of a rotor with weight, of walls that give way, or of a shaft whose speed changes",
 )
-SPEED = Field("states_up_to", "V", "largest speed of a state", "a velocity", "m/s", 1e-9, 1e9, '"100 mm/s"')
+SPEED = Field("states_up_to", "V", "largest speed of a state", "a speed", "m/s", 1e-9, 1e9, '"100 mm/s"')
 _WHERE = "inside the clearance or on its wall"
 
 

@@ -11,7 +11,7 @@ from carom.progress import Reporter, ShowProgress, shows_progress
 from carom.proofs.claims import Proof
 from carom.proofs.hypotheses import Given, Hypotheses, hypotheses_of, written_exactly
 from carom.proofs.proving import proof_of
-from carom.proofs.speeds import LargestSpeed
+from carom.proofs.sizes import LargestSpeed
 from carom.proofs.state_claims import SPEED, THEOREM
 
 

@@ -1,4 +1,4 @@
-"""The largest speed that a theorem is about, exactly as it was given."""
+"""The largest size that a theorem is about, exactly as it was given: numbers and units, and a speed by them."""
 
 from __future__ import annotations
 
@@ -11,9 +11,29 @@ from flint import arb
 
 from carom.outcome import InputError
 from carom.parameters import MACHINE_FIELDS, Field
-from carom.parameters.exact import read_exact
+from carom.parameters.exact import ExactNumber, read_exact
 from carom.proofs.balls import ball_of, rational
 from carom.proofs.hypotheses import Hypotheses
+
+
+def read_size(field: Field, text: str, hypotheses: Hypotheses, whole: str = "") -> ExactNumber:
+    """One exact number: with a unit of a machine in SI units, a plain number of a dimensionless one."""
+    of_machine = hypotheses.table == "machine"
+    number = read_exact(
+        replace(field, needs_unit=True) if of_machine else replace(field, unit="", kind="a number", example="0.2"), text
+    )
+    if number.low != number.high:
+        raise InputError(field.name, whole or text, f"must be one {field.kind.split(maxsplit=1)[1]}, not an interval")
+    return number
+
+
+def unit_of(hypotheses: Hypotheses, *names: str) -> Any:
+    """Product of numbers of a machine; 1 for a dimensionless one."""
+    product: Any = arb(1)
+    if hypotheses.table == "machine":
+        for name in names:
+            product = product * ball_of(read_exact(MACHINE_FIELDS[name], hypotheses.values[name]))
+    return product
 
 
 @dataclass(frozen=True)
@@ -49,10 +69,7 @@ class LargestSpeed:
     @cached_property
     def exact(self) -> tuple[Fraction, int]:
         """It in m/s, or in ``c_r Ω``: a rational number, times π to a power."""
-        field = replace(self.field, needs_unit=True) if self.physical else replace(self.field, unit="", kind="a number")
-        number = read_exact(field, self.text)
-        if number.low != number.high:
-            raise InputError(self.field.name, self.text, "must be one speed")
+        number = read_size(self.field, self.text, self.hypotheses)
         return number.low, number.turns
 
     def share(self, share: Fraction) -> Any:
@@ -62,9 +79,4 @@ class LargestSpeed:
     @cached_property
     def unit(self) -> Any:
         """``c_r Ω`` in m/s as a ball, or 1 for a dimensionless machine."""
-        if not self.physical:
-            return arb(1)
-        clearance, speed = (
-            ball_of(read_exact(MACHINE_FIELDS[name], self.hypotheses.values[name])) for name in ("clearance", "speed")
-        )
-        return clearance * speed
+        return unit_of(self.hypotheses, "clearance", "speed")
