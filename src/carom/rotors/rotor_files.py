@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import io
+import json
+import math
 import os
-import zipfile
+import subprocess
+import sys
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -28,6 +31,8 @@ KEYS: Mapping[str, str] = {
 }
 """Arrays of a file, and what they are."""
 NEEDED = ("M", "K", "G", "nodes")
+_SECONDS = 60
+"""After which reading a file is given up; the process that reads it has its own limit, which is lower but on a busy machine."""
 
 
 @checked
@@ -63,10 +68,10 @@ def read_rotor(path: str | os.PathLike[str], damping: Any = None, discs: Sequenc
     given: dict[str, Any] = {key: arrays[key] for key in NEEDED}
     given |= {"damping": matrix if damping is None else damping, "discs": discs}
     if "names" in arrays:
-        given["names"] = _texts(arrays["names"])
+        given["names"] = arrays["names"]
     try:
         if "coordinates" in arrays:
-            return MatrixRotor.of_planes(**given, coordinates=_texts(arrays["coordinates"]))
+            return MatrixRotor.of_planes(**given, coordinates=arrays["coordinates"])
         is_complex = arrays["M"].shape == (2 * arrays["nodes"].size,) * 2
         return MatrixRotor(**given) if is_complex else MatrixRotor.of_planes(**given)
     except InputError as problem:
@@ -107,43 +112,40 @@ def check_target(path: str | os.PathLike[str]) -> None:
         raise InputError("rotor file", shown(path), "a name that ends in .npz")
 
 
-def _arrays(path: Path) -> dict[str, np.ndarray]:
-    """Arrays of a file that are known here."""
-    readers = {".npz": _of_numpy, ".mat": _of_matlab}
-    if path.suffix.lower() not in readers:
+def _arrays(path: Path) -> dict[str, Any]:
+    """Arrays of a file that are known here, and lists of texts, as a process of its own reads them (``array_reader.py``)."""
+    if path.suffix.lower() not in (".npz", ".mat"):
         raise InputError("rotor file", shown(str(path)), "a file of matrices, .npz or .mat")
+    if not path.is_file():
+        why = "this is no file, but a directory or a device" if path.exists() else "there is no such file"
+        raise InputError("rotor file", shown(str(path)), why)
+    told, numbers = _read_apart(path)
+    found: dict[str, Any] = {key: tuple(texts) for key, texts in told["texts"]}
+    for key, shape in told["numbers"]:
+        own, numbers = np.split(numbers, [math.prod(shape)])
+        found[key] = own.reshape(shape)
+    return found
+
+
+def _read_apart(path: Path) -> tuple[dict[str, Any], np.ndarray]:
+    """Texts and shapes by key, and all numbers one after the other."""
+    reader = Path(__file__).with_name("array_reader.py")
+    # Modules beside the reader are none of the libraries'; one thread of theirs is enough.
+    command = [sys.executable, "-P", str(reader), str(path), *KEYS]
+    environment = {**os.environ, "OPENBLAS_NUM_THREADS": "1"}
     try:
-        return readers[path.suffix.lower()](path)
-    except FileNotFoundError:
-        raise InputError("rotor file", shown(str(path)), "there is no such file") from None
-    except (OSError, ValueError, TypeError, KeyError, NotImplementedError, zipfile.BadZipFile, EOFError) as problem:
-        told = str(problem).partition("\n")[0] or type(problem).__name__
-        allowed = "a file of numpy.savez, or of MATLAB's save -v7 with plain arrays"
-        raise InputError("rotor file", shown(str(path)), f"{allowed}; it cannot be read ({told})") from None
-
-
-def _of_numpy(path: Path) -> dict[str, np.ndarray]:
-    with np.load(path, allow_pickle=False) as archive:
-        return {key: archive[key] for key in archive.files if key in KEYS}
-
-
-def _of_matlab(path: Path) -> dict[str, np.ndarray]:
-    from scipy.io import loadmat, matlab  # type: ignore[import-untyped]
-
-    try:
-        found = loadmat(path, variable_names=list(KEYS))
-    except matlab.MatReadError as problem:
-        raise ValueError(problem) from None
-    return {key: _full(found[key]) for key in KEYS if key in found}
-
-
-def _full(matrix: Any) -> np.ndarray:
-    """A matrix with its zeros, of a sparse one too."""
-    return np.asarray(matrix.toarray() if hasattr(matrix, "toarray") else matrix)
-
-
-def _texts(given: np.ndarray) -> tuple[str, ...]:
-    """Texts of an array, or of a cell array of MATLAB; one text alone holds words with spaces between them."""
-    listed = [str(np.asarray(each).ravel()[0]) if np.size(each) else "" for each in np.ravel(given).tolist()]
-    texts = [each.strip() for each in listed]
-    return tuple(texts[0].split()) if len(texts) == 1 else tuple(texts)
+        done = subprocess.run(
+            command, capture_output=True, stdin=subprocess.DEVNULL, env=environment, timeout=_SECONDS, check=False
+        )
+        head, _, numbers = done.stdout.partition(b"\n")
+        told = json.loads(head)
+    except subprocess.TimeoutExpired:
+        told = {"refused": f"this takes more than {_SECONDS} s"}
+    except OSError as problem:
+        told = {"refused": f"no process can be started for it: {problem.strerror}"}
+    except ValueError:  # the process has ended before it wrote anything
+        told = {"refused": "it is damaged: reading it ends the program that does"}
+    if "refused" not in told:
+        return told, np.frombuffer(numbers, "<f8")
+    allowed = "a file of numpy.savez, or of MATLAB's save -v7 with plain arrays"
+    raise InputError("rotor file", shown(str(path)), f"{allowed}; it cannot be read: {told['refused']}")
