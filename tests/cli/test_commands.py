@@ -86,7 +86,7 @@ def test_orbits_with_several_impacts(carom, dimensionless):
         assert set(entry) >= ORBIT_KEYS | {"word", "contacts"}
         assert entry["word"] == " ".join(["impact+"] * entry["impacts"])
         first, *later = entry["contacts"]
-        assert first == {"kind": "impact", "plane": 0, "time": 0.0} | {
+        assert first == {"kind": "impact", "touchdown_bearing": 1, "time": 0.0} | {
             key: entry[key] for key in ("angle", "radial_speed", "angular_speed")
         }
         assert len(later) == entry["impacts"] - 1
@@ -193,7 +193,7 @@ def test_a_shock_is_read_as_a_study_reads_it_and_echoed(carom, machine):
     assert len(value["impacts"]) == len(during.contacts) + len(after.contacts) > len(after.contacts)
     assert [stage["begins"] for stage in value["stages"]] == [0.0, shock.duration]
     hardest = max(part.contacts.normal_impulse.max() for part in motion.parts)
-    assert value["loads"]["impulse"] == pytest.approx(hardest, rel=1e-9)
+    assert value["touchdown_bearings"][0]["loads"]["impulse"] == pytest.approx(hardest, rel=1e-9)
     taken = value["disturbance"]
     assert taken["words"] == (
         "Shock of the base: half-sine, 20 g for 11 ms at 30°; angles count from the x axis that turns with the shaft, as it lies when the "
@@ -256,16 +256,18 @@ def test_loads_are_compared_with_stated_limits(carom, machine, tmp_path):
     value = document(carom("simulate", path, "--kick", "12.894 mm/s,2 rad", "--json"))
     _, out, _ = carom("simulate", path, "--kick", "12.894 mm/s,2 rad")
 
-    impulse, heat = value["limits"]
+    (bearing,) = value["touchdown_bearings"]
+    impulse, heat = bearing["limits"]
     assert (impulse["name"], impulse["limit_si"], impulse["exceeded"]) == ("impulse", 5.0, False)
-    assert impulse["value_si"] == value["loads"]["impulse_si"] < 5.0
+    assert impulse["value_si"] == bearing["loads"]["impulse_si"] < 5.0
     assert (heat["name"], heat["exceeded"], heat["endless"]) == ("heat", True, True)
     assert heat["reached_after_si"] == pytest.approx(
-        (1000.0 - value["loads"]["heat_si"]) / value["loads"]["lasting_power_si"]
+        (1000.0 - bearing["loads"]["heat_si"]) / bearing["loads"]["lasting_power_si"]
     )
     assert "Heat of friction: 538 J; it goes on with 1.01 kW." in out
     assert "Normal impulse of an impact: 3.04 N s, limit 5 N s: kept." in out
-    assert "limits" not in document(carom("simulate", machine, "--kick", "12.894 mm/s,2 rad", "--json"))
+    (unlimited,) = document(carom("simulate", machine, "--kick", "12.894 mm/s,2 rad", "--json"))["touchdown_bearings"]
+    assert unlimited["limits"] == []
 
 
 @pytest.mark.parametrize("options", [("--kick", "13 mm/s"), ("--start", "0,0,0,0")])

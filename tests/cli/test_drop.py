@@ -29,11 +29,11 @@ def test_the_motion_is_that_of_simulate(carom):
     assert code == 0
     _, out, _ = carom("simulate", MACHINE, "--drop", "--until", "20 ms", "--json")
     simulated = json.loads(out)
-    (plane,) = dropped["planes"]
+    (bearing,), (simulated_bearing,) = (each["touchdown_bearings"] for each in (dropped, simulated))
     assert dropped["disturbance"] == simulated["disturbance"]
-    assert plane["loads"]["force_si"] == simulated["loads"]["force_si"]
-    assert plane["contacts"] == len(simulated["contacts"])
-    assert plane["limits"] == simulated["limits"]
+    assert simulated_bearing.items() > bearing.items()
+    assert bearing["contacts"] == len(simulated["contacts"])
+    assert bearing["limits"]
 
 
 def test_what_it_is_released_from(carom):
@@ -63,7 +63,7 @@ def test_a_bearing_on_a_mount(carom):
     mounted = json.loads(out)
     assert (code, err) == (0, "")
     assert mounted["disturbance"]["words"] == fixed["disturbance"]["words"]
-    soft, hard = (each["planes"][0]["loads"] for each in (mounted, fixed))
+    soft, hard = (each["touchdown_bearings"][0]["loads"] for each in (mounted, fixed))
     assert soft["force_si"] < 0.6 * hard["force_si"]
     # The peak force is k δ^1.5 but for what the rate adds.
     assert soft["force_si"] == pytest.approx(2e10 * soft["depth_si"] ** 1.5, rel=1e-2)

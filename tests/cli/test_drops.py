@@ -33,7 +33,7 @@ def test_a_drop_as_a_document(carom):
     assert found["outcome"] == "at-rest"
     assert [impact["time"] for impact in found["impacts"]] == motion.contacts.time.tolist()
     assert [contact["kind"] for contact in found["contacts"]] == ["slide"]
-    assert {"final", "time", "loads", "scales_si"} <= found.keys()
+    assert {"final", "time", "touchdown_bearings", "scales_si"} <= found.keys()
     assert "stages" not in found
 
 
@@ -72,7 +72,8 @@ def test_contacts_with_a_bearing_that_gives_way(carom, tmp_path):
     first, second, *_ = found["contacts"]
     assert not found["impacts"]
     assert len(found["contacts"]) == len(falls["contacts"]) + len(levitates["contacts"])
-    assert (first["plane"], first["lasts"], second["plane"], second["lasts"]) == (0, True, 0, False)
+    assert (first["touchdown_bearing"], second["touchdown_bearing"]) == (1, 1)
+    assert (first["lasts"], second["lasts"]) == (True, False)
     assert first["end"] == second["start"] == levitates["begins"]
     assert first["start"] < first["peak_time"] <= first["end"] <= second["peak_time"] < second["end"]
     # Beside the wall's force others hardly count in so short a time.
@@ -222,17 +223,17 @@ def test_a_bearing_that_gives_way_tells_its_loads_after_any_disturbance(carom, o
     words = " ".join(out.split())
     _, out, _ = carom(*command, "--json")
     document = json.loads(out)
-    (plane,) = document["planes"]
-    peak = plane["loads"]["force_si"]
+    (bearing,) = document["touchdown_bearings"]
+    peak = bearing["loads"]["force_si"]
     # The limits of the table are compared with the loads of the whole motion, once.
     assert f"ms after {since}" in words
     assert words.count("normal force:") == 1
-    assert document["limits"] == plane["limits"]
-    assert document["loads"]["force_si"] == peak > 1000.0
-    assert plane["loads"]["pressure_si"] > 1e9
+    assert bearing["limits"]
+    assert peak > 1000.0
+    assert bearing["loads"]["pressure_si"] > 1e9
     forces = [entry["peak_force_si"] for entry in document["contacts"]]
     assert max(forces) == pytest.approx(peak, rel=1e-12)
-    assert len(forces) == plane["contacts"]
+    assert len(forces) == bearing["contacts"]
     # Its wall has a law of its own, and no coefficient of restitution.
     assert "d" not in document["parameters"]
     assert document["touchdown"]["law"] == "hunt-crossley"
@@ -242,10 +243,10 @@ def test_what_is_hit_during_a_shock_counts(carom):
     """The hardest contact of this shock comes while it lasts."""
     _, out, _ = carom("simulate", BALLS, "--shock", "20 g, 5 ms", "--until", "30 ms", "--json")
     document = json.loads(out)
-    first, second = document["stages"]
-    assert document["loads"]["force_si"] == first["loads"]["force_si"] > 2.0 * second["loads"]["force_si"]
-    assert document["planes"][0]["force_at_si"] < 5e-3
-    assert document["planes"][0]["fastest_race_si"] > document["planes"][0]["race_at_end_si"] > 0.0
+    whole, first, second = (each["touchdown_bearings"][0] for each in (document, *document["stages"]))
+    assert whole["loads"]["force_si"] == first["loads"]["force_si"] > 2.0 * second["loads"]["force_si"]
+    assert whole["force_at_si"] < 5e-3
+    assert whole["fastest_race_si"] > whole["race_at_end_si"] > 0.0
 
 
 def test_a_bearing_on_a_mount_without_weight(carom):

@@ -1,9 +1,11 @@
 """A flexible machine on the command line: what works does, and what does not says so in one line."""
 
+import csv
 import json
 from pathlib import Path
 
 import pytest
+import xarray
 
 import carom as cm
 
@@ -12,7 +14,7 @@ pytestmark = pytest.mark.jit_only
 MACHINE = "examples/tum-flexible-rotor.toml"
 
 
-def test_a_drop_tells_both_planes(carom):
+def test_a_drop_tells_both_bearings(carom):
     code, out, err = carom("drop", MACHINE, "--until", "20 ms")
     words = " ".join(out.split())
     assert (code, err) == (0, "")
@@ -21,7 +23,7 @@ def test_a_drop_tells_both_planes(carom):
     _, out, _ = carom("drop", MACHINE, "--until", "20 ms", "--json")
     found = json.loads(out)
     loads = cm.motions.drop_loads(cm.simulate(cm.load(MACHINE), cm.drop(), "20 ms"))
-    for entry, plane in zip(found["planes"], loads.planes, strict=True):
+    for entry, plane in zip(found["touchdown_bearings"], loads.planes, strict=True):
         assert entry["loads"]["force_si"] == plane.loads.si()["force"]
     assert cm.models.model_from(found["rotor"]).scales == loads.scales
 
@@ -32,14 +34,45 @@ def test_a_motion_with_all_its_stages(carom):
     assert "The fall:" in out
     code, out, _ = carom("simulate", MACHINE, "--drop", "--until", "10 ms", "--json")
     assert code == 0
-    assert {entry["plane"] for entry in json.loads(out)["contacts"]} <= {0, 1}
+    assert {entry["touchdown_bearing"] for entry in json.loads(out)["contacts"]} <= {1, 2}
+
+
+def test_a_motion_is_logged_at_all_touchdown_bearings(carom, tmp_path):
+    """In words, as CSV, as netCDF and as JSON, counted from 1 everywhere."""
+    table, log, until = tmp_path / "log.csv", tmp_path / "log.nc", "15 ms"
+    command = ("simulate", MACHINE, "--kick", "495 mm/s,30 deg", "--until", until)
+    case = cm.load(MACHINE)
+    motion = cm.simulate(case, cm.kick("495 mm/s", "30 deg"), until)
+    each = [motion.seen_at(plane) for plane in (0, 1)]
+    first, second = (len(seen.touches) for seen in each)
+    assert min(first, second) > 1
+
+    _, out, _ = carom(*command, "--csv", str(table), "--netcdf", str(log))
+    words = " ".join(out.split())
+    assert f"{first + second} contacts ({first} at touchdown bearing 1 and {second} at touchdown bearing 2)" in words
+    assert all(f"At the end at touchdown bearing {number}, in the fixed frame" in words for number in (1, 2))
+    with table.open(encoding="utf-8") as stream:
+        rows = [(int(row["touchdown_bearing [1]"]), float(row["start [s]"])) for row in csv.DictReader(stream)]
+    starts = [(seen.plane + 1, start) for seen in each for start in seen.touches.to_dataset()["start"].values.tolist()]
+    assert rows == sorted(starts, key=lambda entry: entry[1])
+    with xarray.open_dataset(log, engine="h5netcdf", decode_times=False) as read:
+        assert list(zip(read["touchdown_bearing"].values, read["start"].values, strict=True)) == rows
+        assert sorted(read["contact_touchdown_bearing"].values) == sorted(number for number, _ in rows)
+
+    found = json.loads(carom(*command, "--json")[1])
+    assert [entry["touchdown_bearing"] for entry in found["contacts"]] == [number for number, _ in rows]
+    for number, (entry, seen) in enumerate(zip(found["touchdown_bearings"], each, strict=True), start=1):
+        assert (entry["touchdown_bearing"], entry["contacts"]) == (number, len(seen.touches))
+        place = seen.position([motion.time], "fixed")[0] * seen.scales.length
+        assert complex(*entry["final"]["place_si"]) == pytest.approx(place, abs=1e-12)
+        assert entry["loads"]["force_si"] == seen.touches.to_dataset()["peak_force"].max()
 
 
 @pytest.mark.parametrize("options", [("--shock", "5 g, 11 ms"), ("--blade-loss", "30 g mm"), ("--kick", "5 mm/s")])
 def test_without_weight_other_disturbances_work(carom, options):
     code, out, err = carom("simulate", MACHINE, *options, "--until", "20 ms", "--set", "gravity=0")
     assert (code, err) == (0, "")
-    assert "At the end, in the fixed frame" in out
+    assert "At the end at touchdown bearing 2, in the fixed frame" in " ".join(out.split())
 
 
 PLANAR = [
@@ -147,7 +180,7 @@ def test_orbits_tell_steady_motions(carom):
     model = cm.load(MACHINE, ["gravity=0"]).parameters
     assert [each["motion"] for each in found] == ["levitation", *["sliding backward whirl"] * 3]
     held, whirl = found[:2]
-    assert (held["state"], held["planes"]) == ("stable", [])
+    assert (held["state"], held["touchdown_bearings"]) == ("stable", [])
     assert held["radius_si"] == pytest.approx(model.system.rest_radius * model.scales.length)
     # Kept by a force that is that of the wall at this depth: 1e7 N/m.
     assert whirl["normal_force_si"] == pytest.approx(1e7 * (whirl["radius_si"] - 0.2e-3), rel=1e-6)

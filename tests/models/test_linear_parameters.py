@@ -97,7 +97,7 @@ def test_planes_together_and_one_by_one():
     assert at_planes("surface_speed", radius_ratio_1=50.0) == [51.0, 40.0]
     assert at_planes("restitution", d=0.5) == [0.5, 0.5]
     assert [given.value(name) for name in ("mu_1", "mu_2", "d", "radius_ratio_2")] == [0.1, 0.2, 0.9, 39.0]
-    assert axis(given, "mu_2").field.words == "coefficient of friction at plane 2"
+    assert axis(given, "mu_2").field.words == "coefficient of friction at touchdown bearing 2"
     assert "mu_1" not in planar(PAPER).varied
     with pytest.raises(InputError, match="mu_1, mu_2 are those of each plane"):
         given.value("mu")

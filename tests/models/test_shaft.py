@@ -359,7 +359,7 @@ def test_impulses_at_a_rigid_wall_are_those_that_brake_the_shaft(laws):
     motion = cm.simulate(rotor, start, 30.0)
     contacts = motion.log_of(motion.is_impact)
     assert len(contacts) >= 3
-    radius = rotor.system.arrays.surface_speed[contacts.plane] - 1.0
+    radius = rotor.system.arrays.surface_speed[contacts.touchdown_bearing - 1] - 1.0
     ends = [
         each[:, int(rotor.system.arrays.shaft[0]) + 1].real for each in (motion.arrivals, motion.segment_amplitudes[1:])
     ]
@@ -367,7 +367,7 @@ def test_impulses_at_a_rigid_wall_are_those_that_brake_the_shaft(laws):
     assert radius * contacts.tangential_impulse / 2.0 == pytest.approx(jumps, rel=1e-12)
     assert (
         np.abs(contacts.tangential_impulse)
-        <= rotor.system.arrays.friction[contacts.plane] * contacts.normal_impulse + 1e-14
+        <= rotor.system.arrays.friction[contacts.touchdown_bearing - 1] * contacts.normal_impulse + 1e-14
     ).all()
     assert contacts.drive_work == pytest.approx(-(ends[1] ** 2 - ends[0] ** 2)[motion.is_impact], rel=1e-12)
     assert (contacts.contact_work <= 0.0).all()

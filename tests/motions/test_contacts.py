@@ -69,7 +69,7 @@ class TestContactLog:
             "time": (log.time / 184.2, "s"),
             "angle": (log.angle, "rad"),
             "radial_speed": (log.radial_speed * 0.7e-3 * 184.2, "m/s"),
-            "plane": (log.plane, "1"),
+            "touchdown_bearing": (log.touchdown_bearing, "1"),
             "angular_speed": (log.angular_speed * 184.2, "rad/s"),
             "radial_speed_after": (log.radial_speed_after * 0.7e-3 * 184.2, "m/s"),
             "angular_speed_after": (log.angular_speed_after * 184.2, "rad/s"),

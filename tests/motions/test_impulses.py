@@ -48,7 +48,7 @@ def test_momentum_changes_by_the_logged_impulses():
         assert np.array_equal(hits, np.flatnonzero(motion.is_impact))
         push = (-log.normal_impulse + 1j * log.tangential_impulse) * np.exp(1j * log.angle)
         given = np.zeros((len(hits), len(rotor.mass)), complex)
-        np.add.at(given, events, push[:, None] * rotor.planes.conj()[log.plane])
+        np.add.at(given, events, push[:, None] * rotor.planes.conj()[log.touchdown_bearing - 1])
         _, before = coordinates(motion, motion.arrivals[hits])
         _, after = coordinates(motion, motion.segment_amplitudes[1:][hits])
         changed = (after - before) @ rotor.mass.T
@@ -100,7 +100,7 @@ def test_forces_and_impulses_add_up_to_the_change_of_momentum():
         for events in (motion.is_impact, motion.is_landing):
             log = motion.log_of(events)
             push = (-log.normal_impulse + 1j * log.tangential_impulse) * np.exp(1j * log.angle)
-            supplied += push @ rotor.planes.conj()[log.plane]
+            supplied += push @ rotor.planes.conj()[log.touchdown_bearing - 1]
         change = (motion.final.velocity - motion.start.velocity) @ rotor.mass.T
         change += (motion.final.position - motion.start.position) @ rotor.damping.T
         assert np.abs(change - supplied).max() < 1e-10

@@ -13,7 +13,7 @@ RUBBING = Word.of(Kind.LIFT, Kind.LAND, Kind.SLIDE_FORWARD)
 
 def test_text_and_counts():
     word = Word((Segment(Kind.IMPACT_FORWARD), Segment(Kind.IMPACT_STOPPED, 1)))
-    assert str(word) == "impact+ impact0@1"
+    assert str(word) == "impact+ impact0@2"
     assert word.impacts == 2
     assert word.flies
     assert str(RUBBING) == "lift land slide+"
@@ -44,7 +44,7 @@ def test_impossible_words_are_refused(kinds):
 
 
 def test_contact_stays_at_its_plane():
-    with pytest.raises(InputError, match="slide\\+@1"):
+    with pytest.raises(InputError, match="slide\\+@2"):
         Word((Segment(Kind.LIFT), Segment(Kind.LAND), Segment(Kind.SLIDE_FORWARD, 1)))
 
 

@@ -159,7 +159,7 @@ def test_two_planes_of_which_one_is_rigid():
         motion = cm.simulate(model, cm.State(np.zeros(2), velocity * np.array([1.0, 0.4j])), settle=True)
         if motion.multiplicity:
             orbit = orbit_of_motion(motion)
-            assert str(orbit.word) == "slide+@1 free@1 lift@1"
+            assert str(orbit.word) == "slide+@2 free@2 lift@2"
             assert orbit.links.size < 1e-12
             assert orbit.admissible
             return

@@ -16,7 +16,10 @@ pytestmark = pytest.mark.jit_only
 def test_equilibria_are_drawn_in_the_circle_of_each_plane():
     found = carom.find_equilibria(tilting().model)
     figure = found.plot("rotor on two bearings")
-    assert [panel.get_title() for panel in figure.axes] == ["co-rotating frame, plane 1", "co-rotating frame, plane 2"]
+    assert [panel.get_title() for panel in figure.axes] == [
+        "co-rotating frame, touchdown bearing 1",
+        "co-rotating frame, touchdown bearing 2",
+    ]
     for plane, panel in enumerate(figure.axes):
         drawn = [line.get_xydata() for line in panel.lines if line.get_gid() != "wall"]
         assert len(drawn) == sum(abs(at.places[plane]) <= 3.0 for at in found)
@@ -41,14 +44,14 @@ def test_energies_and_motions_of_two_planes_are_drawn():
 def test_orbits_at_several_planes_are_drawn_in_the_circle_that_they_strike():
     ends = np.array([[1.0, 0.8], [1.0, -0.7]])
     found = carom.find_orbits(tilting(damping=0.02 * ends.T @ ends).model, impacts=2, guesses=120)
-    (second,) = (orbit for orbit in found if str(orbit.word) == "impact+@1")
+    (second,) = (orbit for orbit in found if str(orbit.word) == "impact+@2")
     for drawn in second.plot().axes:
         (line,) = (line for line in drawn.lines if line.get_gid() == "path")
         assert np.hypot(*line.get_xydata()[0]) == pytest.approx(1.0, abs=1e-12)
-        assert "plane 2" in drawn.get_title()
+        assert "touchdown bearing 2" in drawn.get_title()
     carom.plots.radius(second)
     both = carom.plots.equilibria_and_orbits(found, carom.find_equilibria(found.rotor), plane=1)
-    assert "plane 2" in both.axes[0].get_title()
+    assert "touchdown bearing 2" in both.axes[0].get_title()
     with pytest.raises(InputError, match="plane = 2"):
         carom.plots.equilibria_and_orbits(found, plane=2)
     with pytest.raises(InputError, match="plane = 2"):

@@ -26,7 +26,11 @@ def test_motion_of_any_rotor():
     assert type(rotor).from_attributes(document["rotor"]).attributes() == rotor.attributes()
     assert document["start"]["V"] == [[0.5, 0.0], [0.0, 0.1]]
     assert np.shape(document["final"]["U"]) == (2, 2)
-    assert [entry["time"] for entry in document["impacts"]] == motion.contacts.time.tolist() != []
+    logs = [motion.seen_at(plane).contacts for plane in (0, 1)]
+    assert [entry["time"] for entry in document["impacts"]] == sorted(np.concatenate([log.time for log in logs]))
+    here = [[entry for entry in document["impacts"] if entry["touchdown_bearing"] == number] for number in (1, 2)]
+    assert list(map(len, here)) == list(map(len, logs))
+    assert all(here)
 
 
 def test_motion_of_the_planar_rotor_has_its_parameters():
@@ -46,10 +50,10 @@ def test_contacts_with_walls_that_give_way():
 
     logs = [motion.seen_at(plane).touches for plane in (0, 1)]
     assert len(contacts) == sum(map(len, logs))
-    assert {entry["plane"] for entry in contacts} == {0, 1}
+    assert {entry["touchdown_bearing"] for entry in contacts} == {1, 2}
     assert [entry["start"] for entry in contacts] == sorted(np.concatenate([log.start for log in logs]).tolist())
     assert {entry["kind"] for entry in contacts} == {"slide", "roll"}
-    here = [entry for entry in contacts if entry["plane"] == 1]
+    here = [entry for entry in contacts if entry["touchdown_bearing"] == 2]
     assert [entry["end"] for entry in here] == logs[1].end.tolist()
     assert [entry["impulse_si"] for entry in here] == (logs[1].normal_impulse * scales.impulse).tolist()
     assert [entry["peak_force_si"] for entry in here] == (logs[1].peak_force * scales.force).tolist()

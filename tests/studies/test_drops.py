@@ -66,7 +66,7 @@ def test_a_rigid_wall_has_impulses_in_place_of_forces():
     assert "peak force" not in told
     assert told["whirl at the end"].startswith("none: it turned by")
     assert "it goes on with" in told["slip energy (heat)"]
-    (plane,) = found.document()["planes"]
+    (plane,) = found.document()["touchdown_bearings"]
     assert plane["force_at"] is None
     assert plane["loads"]["force_is_of_lasting_contact"]
 
@@ -87,7 +87,7 @@ def test_no_contact():
 
 def test_as_json(whirl):
     document = json.loads(as_json(whirl.document()))
-    (plane,) = document["planes"]
+    (plane,) = document["touchdown_bearings"]
     (loads,) = whirl.loads.planes
     assert document["time_si"] == pytest.approx(60e-3)
     assert (document["outcome"], document["settled_at"]) == ("time-reached", None)

@@ -72,7 +72,7 @@ def test_forces_are_those_of_the_worst_motion(studied):
     largest = max(plane.loads.si()["force"] for plane in loads.planes)
     assert max(each.force for each in trial.planes) == pytest.approx(largest)
     for each in trial.planes:
-        clearance = MACHINE.clearances[each.plane - 1]
+        clearance = MACHINE.clearances[each.touchdown_bearing - 1]
         assert each.radius > clearance if each.contacts else each.radius < clearance
     (check,) = trial.checks
     assert check.exceeded == (largest > 300.0)
@@ -139,7 +139,7 @@ def test_of_motions_without_contact_the_orbit_is_told_not_the_start():
         widest = 0.0
         for number in range(DIRECTIONS):
             motion = cm.simulate(rotor, cm.kick(required.kick, 2.0 * math.pi * number / DIRECTIONS), 300.0)
-            radii = motion.seen_at(each.plane - 1).radius(np.linspace(0.0, 300.0, 50_001))
-            widest = max(widest, radii.max() * MACHINE.clearances[each.plane - 1])
+            radii = motion.seen_at(each.touchdown_bearing - 1).radius(np.linspace(0.0, 300.0, 50_001))
+            widest = max(widest, radii.max() * MACHINE.clearances[each.touchdown_bearing - 1])
         assert each.radius == pytest.approx(widest, rel=1e-3)
     assert trial.worst.time > 100.0

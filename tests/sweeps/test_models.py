@@ -46,9 +46,9 @@ def test_one_plane_of_several_is_varied():
         [rotor.touchdowns[0].friction, 0.2],
     ]
     data = run_sweep(plan).dataset
-    assert data["mu_2"].attrs["long_name"] == "coefficient of friction at plane 2"
+    assert data["mu_2"].attrs["long_name"] == "coefficient of friction at touchdown bearing 2"
     labels = cm.plots.sweep_map(data, "recovered").axes[0].get_xlabel()
-    assert labels.startswith("coefficient of friction at plane 2")
+    assert labels.startswith("coefficient of friction at touchdown bearing 2")
     assert np.isfinite(data.recovered.values).all()
 
 

@@ -177,7 +177,7 @@ def forces_on(settled: SettledMotion) -> tuple[float, float]:
     first = first_of_period(motion, settled.multiplicity) if settled.multiplicity else len(hits) // 2
     late = np.isin(np.arange(len(motion.is_impact)), hits[first:])
     log, widths = motion.log_of(late & motion.is_impact), motion.rotor.system.widths
-    last = log.normal_impulse / widths[log.plane]
+    last = log.normal_impulse / widths[log.touchdown_bearing - 1]
     touching = settled.outcome in (Outcome.FORWARD_RUB, Outcome.BACKWARD_WHIRL, Outcome.ROLLING)
     impulse = float(last.max()) if len(last) and not touching else 0.0
     if (motion.segment_phases == Phase.FLIGHT).all():

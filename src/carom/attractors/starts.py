@@ -220,7 +220,7 @@ def known_starts(machine: Subject, orbits: Sequence[Orbit]) -> tuple[Start, ...]
     for plane in np.flatnonzero(
         (arrays.friction > 0.0) & (np.abs(arrays.mobility) <= 1.0 + ON_WALL).all(axis=0)
     ).tolist():
-        at = f" at plane {plane + 1}" if len(arrays.rows) > 1 else ""
+        at = f" at touchdown bearing {plane + 1}" if len(arrays.rows) > 1 else ""
         starts.append(_whirling(rotor, plane, float(arrays.surface_speed[plane]), f"rolling{at}"))
     return tuple(starts)
 

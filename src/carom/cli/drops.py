@@ -80,54 +80,31 @@ def taken(case: Case, released: Drop) -> tuple[Model, State, Echo]:
 
 
 def motion_document(case: Case, motion: Trajectory) -> dict[str, Any]:
-    """Return the document of a motion: of all its stages if it has several, with times from its beginning.
-
-    Where a wall gives way it has what each plane bears, as ``carom drop`` tells it.
-    """
+    """Return the document of a motion: of all its stages if it has several, with times from its beginning."""
     from carom.models import model_of
     from carom.models.subjects import rotor_document
-    from carom.motions import drop_loads
     from carom.studies import trajectory_document
-    from carom.studies.load_tables import load_entries
 
-    documents = [trajectory_document(part, case.limits) for part in motion.parts]
-    document, planes = documents[-1], load_entries(drop_loads(motion), case.limits)
+    document = trajectory_document(motion, case.limits)
     if case.gravity:
         gravity = {"acceleration_si": case.gravity.acceleration, "direction": case.gravity.direction}
         document |= rotor_document(model_of(case)) | {"gravity": gravity}
-    if len(documents) > 1:
-        document = _joined(motion, documents) | {"loads": planes[motion.plane]["loads"]}
-        if case.limits.stated:
-            document["limits"] = planes[motion.plane]["limits"]
     if case.touchdown:
         document["touchdown"] = {"law": case.touchdown.law, **case.touchdown.given}
-    return document | ({"planes": planes} if any(plane["gives_way"] for plane in planes) else {})
-
-
-def _joined(motion: Trajectory, documents: list[dict[str, Any]]) -> dict[str, Any]:
-    """The documents of stages as one, with those beside it."""
-    document = documents[-1] | {"start": documents[0]["start"], "time": motion.begins + motion.time}
-    for key, times in (("impacts", ("time",)), ("contacts", ("start", "end", "peak_time"))):
-        document[key] = [
-            entry | {name: part.begins + entry[name] for name in times if name in entry}
-            for part, own in zip(motion.parts, documents, strict=True)
-            for entry in own[key]
-        ]
-    begun = [{"begins": part.begins} | own for part, own in zip(motion.parts, documents, strict=True)]
-    return document | {"stages": begun}
+    return document
 
 
 def print_parts(console: Console, case: Case, motion: Trajectory, kind: str) -> None:
     """Print how a motion after a disturbance of a kind ended, and its contacts, stage by stage; then what the bearing bears in all."""
     from carom.cli.load_tables import print_checks, print_tables
-    from carom.cli.tables import print_motion
+    from carom.cli.motion_tables import print_motion
     from carom.motions import drop_loads
     from carom.motions.contacts import yields
     from carom.parameters.told import told
     from carom.studies.load_checks import checks_of_planes
     from carom.studies.load_tables import load_tables
 
-    together = len(motion.parts) > 1 or yields(motion.rotor.system, motion.plane)
+    together = len(motion.parts) > 1 or len(motion.at_each) > 1 or yields(motion.rotor.system, motion.plane)
     for part in motion.parts:
         if len(motion.parts) > 1:
             console.print()

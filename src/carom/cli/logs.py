@@ -45,9 +45,10 @@ def check_file(option: str, path: str) -> None:
 
 
 def write_csv(motion: Trajectory, path: str) -> None:
-    """Write impacts and lasting contacts as CSV in order of time, in SI units if the machine is known.
+    """Write impacts and lasting contacts at all touchdown bearings as CSV in order of time, in SI units if the machine is known.
 
-    A lasting contact fills only ``kind``, ``time`` and ``end``.  Of a wall that gives way each contact is a row of its own table.
+    A lasting contact fills only ``kind``, ``time``, ``end`` and ``touchdown_bearing``.  Of walls that give way each contact is a row of its own
+    table.
     """
     from carom.motions.contacts import yields
 
@@ -71,16 +72,18 @@ def _impacts(motion: Trajectory) -> tuple[list[str], list[list[object]]]:
     rows: list[tuple[float, list[object]]] = []
     for time, *values in zip(log["time"].values.tolist(), *(column.values.tolist() for column in rest), strict=True):
         rows.append((time, ["impact", time, "", *values]))
-    scale = motion.rotor.scales.time if motion.rotor.scales else 1.0
-    for contact in _lasting(motion):
+    scale = _time_scale(motion)
+    for bearing, contact in _lasting(motion):
         start, end = contact.start * scale, contact.end * scale
-        rows.append((start, [f"{contact.kind} ({contact.phase.label})", start, end, *[""] * len(rest)]))
+        # The bearing is the first column of the table of impacts after the time.
+        row = [f"{contact.kind} ({contact.phase.label})", start, end, bearing, *[""] * (len(rest) - 1)]
+        rows.append((start, row))
 
     return header, [row for _, row in sorted(rows, key=lambda entry: entry[0])]
 
 
 def _touches(motion: Trajectory) -> tuple[list[str], list[list[object]]]:
-    """Heading and rows of contacts with a wall that gives way."""
+    """Heading and rows of contacts with walls that give way."""
     table = _log(motion)
     rest = [column for name, column in table.items() if name != "phase"]
     header = ["kind", *(f"{column.name} [{column.attrs['units']}]" for column in rest)]
@@ -89,26 +92,34 @@ def _touches(motion: Trajectory) -> tuple[list[str], list[list[object]]]:
 
 
 def _log(motion: Trajectory) -> xarray.Dataset:
-    """Impacts of all stages of a motion, or contacts with walls that give way, with times from its start."""
+    """Impacts, or contacts with walls that give way, of all stages and at all touchdown bearings, in order of time from the beginning."""
     import xarray
 
-    from carom.motions.contacts import yields
+    logs = []
+    for part in motion.parts:
+        for seen in part.at_each:
+            log = seen.log.to_dataset()
+            for name in {"time", "start", "end", "peak_time"}.intersection(log):
+                log[name].values += part.begins * _time_scale(part)
+            logs.append(log)
+    (dimension,) = logs[0].dims
+    whole = xarray.concat(logs, dimension) if len(logs) > 1 else logs[0]
+    order = np.argsort(whole["time" if "time" in whole else "start"].values, kind="stable")
+    return whole.isel({dimension: order})
 
-    gives_way = yields(motion.rotor.system, motion.plane)
-    tables = [part.touches if gives_way else part.contacts for part in motion.parts]
-    logs = [table.to_dataset() for table in tables]
-    for part, log in zip(motion.parts, logs, strict=True):
-        for name in ("start", "end", "peak_time") if gives_way else ("time",):
-            log[name].values += part.begins * (part.rotor.scales.time if part.rotor.scales else 1.0)
-    return xarray.concat(logs, tables[0].dimension) if len(logs) > 1 else logs[0]
+
+def _time_scale(motion: Trajectory) -> float:
+    """Seconds of the unit of time, if known."""
+    return motion.rotor.scales.time if motion.rotor.scales else 1.0
 
 
-def _lasting(motion: Trajectory) -> list[LastingContact]:
-    """Lasting contacts of all stages of a motion, with times from its start."""
+def _lasting(motion: Trajectory) -> list[tuple[int, LastingContact]]:
+    """Lasting contacts of all stages, each with its touchdown bearing from 1, with times from the beginning."""
     return [
-        replace(contact, start=part.begins + contact.start, end=part.begins + contact.end)
+        (seen.plane + 1, replace(contact, start=part.begins + contact.start, end=part.begins + contact.end))
         for part in motion.parts
-        for contact in part.lasting_contacts
+        for seen in part.at_each
+        for contact in seen.lasting_contacts
     ]
 
 
@@ -121,23 +132,25 @@ def write_netcdf(motion: Trajectory, path: str) -> None:
 
 def _dataset(motion: Trajectory) -> xarray.Dataset:
     from carom.models.subjects import numbers_of
-    from carom.motions.contacts import in_units, phase_flags
+    from carom.motions.contacts import NUMBERED, in_units, phase_flags
 
     scales, numbers = motion.rotor.scales, numbers_of(motion.rotor)
     dataset, contacts = _log(motion), _lasting(motion)
     for name in ("start", "end"):
-        times = np.array([getattr(contact, name) for contact in contacts], float)
+        times = np.array([getattr(contact, name) for _, contact in contacts], float)
         dataset[f"contact_{name}"] = in_units("contact", times, "time", f"{name} of lasting contact", scales)
     flags = phase_flags(phase for phase in Phase if phase is not Phase.FLIGHT)
-    phases = np.array([contact.phase for contact in contacts], np.int8)
+    phases = np.array([contact.phase for _, contact in contacts], np.int8)
+    bearings = np.array([bearing for bearing, _ in contacts], np.int64)
+    dataset["contact_touchdown_bearing"] = in_units("contact", bearings, "1", NUMBERED, None)
     dataset["contact_phase"] = ("contact", phases, {"long_name": "kind of lasting contact", **flags})
     dataset.attrs = {
         "Conventions": "CF-1.11",
-        "title": "Contacts of a rotor with its touchdown bearing",
+        "title": "Contacts of a rotor with its touchdown bearings",
         "source": f"carom {version('carom')}",
         "outcome": motion.outcome.label,
         "comment": motion.outcome.meaning,
-        "end_time": (motion.begins + motion.time) * (scales.time if scales else 1.0),
+        "end_time": (motion.begins + motion.time) * _time_scale(motion),
         **(numbers or motion.rotor.attributes()),
     }
     return dataset

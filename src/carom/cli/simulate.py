@@ -102,33 +102,33 @@ def _write(out: str, case: Case, motion: Trajectory, echo: Echo, tell: Reporter,
     """
     from carom import plots
     from carom.motions.ledger import energy_ledger
+    from carom.plots.words import contacts_in_words
 
     with output_directory(out, case) as output:
         for place, part in enumerate(motion.parts):
             tell(place / len(motion.parts))
-            shown, title = _shown(part) if decaying else (part, None)
-            mark = f"-{place + 1}" if place else ""
-            output.figure(f"motion{mark}", plots.motion(shown, title=title))
-            tell((place + 0.5) / len(motion.parts))
-            touched = len(shown.contacts) or shown.lasting_contacts
-            over_time = plots.touchdown(shown, energy_ledger(shown)) if touched else plots.radius(shown, case.zones)
-            output.figure(f"touchdown{mark}" if touched else f"radius{mark}", over_time)
+            whole, ends = _shown(part) if decaying else (part, "")
+            for shown in whole.at_each:
+                mark = f"-{place + 1}" if place else ""
+                mark += f"-bearing-{shown.plane + 1}" if len(whole.at_each) > 1 else ""
+                title = f"{contacts_in_words(shown)} \N{EM DASH} {ends}" if ends else None
+                output.figure(f"motion{mark}", plots.motion(shown, title=title))
+                touched = len(shown.contacts) or shown.lasting_contacts
+                over_time = plots.touchdown(shown, energy_ledger(shown)) if touched else plots.radius(shown, case.zones)
+                output.figure(f"touchdown{mark}" if touched else f"radius{mark}", over_time)
         output.document("simulation", _document(case, motion, echo))
 
 
-def _shown(motion: Trajectory) -> tuple[Trajectory, str | None]:
-    """Return the motion to draw, and its title if that of the motion does not say it."""
+def _shown(motion: Trajectory) -> tuple[Trajectory, str]:
+    """Return the motion to draw, and how it ends, if that of what is drawn does not say it."""
     from carom.motions.simulation import simulate as follow
     from carom.outcome import Outcome
-    from carom.plots.words import counted, time_in_words
     from carom.report.figures import until_decayed
 
     if motion.outcome is not Outcome.LEVITATED or motion.begins:
-        return motion, None
+        return motion, ""
     rotor = motion.rotor
-    longer = follow(rotor, motion.start, until_decayed(rotor, motion.time))
-    time = time_in_words(longer.time, rotor.scales)
-    return longer, f"{counted(len(longer.contacts), 'impact')} in {time} \N{EM DASH} returns to levitation"
+    return follow(rotor, motion.start, until_decayed(rotor, motion.time)), "returns to levitation"
 
 
 def _read(case: Case, ways: dict[str, str | None]) -> tuple[Model, State | Kick, Echo]:

@@ -26,10 +26,10 @@ WHIRL = Outcome.BACKWARD_WHIRL.words
 
 
 class Steady(NamedTuple):
-    """A circular motion: its words, the planes in contact, whirl speed in the fixed frame in ``Ω``, radius, normal force, and what is known of it."""
+    """A circular motion: its words, the touchdown bearings in contact (from 1), whirl speed in the fixed frame in ``Ω``, radius, normal force, and what is known of it."""
 
     motion: str
-    planes: tuple[int, ...]
+    touchdown_bearings: tuple[int, ...]
     whirl_speed: float
     radius: float
     normal_force: float
@@ -41,7 +41,7 @@ def steady_of(rotor: Model) -> list[Steady]:
     found = [
         Steady(
             STEADY_WORDS["rub" if each.kind == "rub" else "contact-free"],
-            tuple(each.planes),
+            tuple(plane + 1 for plane in each.planes),
             1.0,
             each.radius,
             each.normal_force,
@@ -57,7 +57,7 @@ def steady_of(rotor: Model) -> list[Steady]:
         for whirl in slipping_whirls(rotor, contact.wall.stiffness, exponent_of(contact.wall), plane=plane):
             force = whirl.normal_force * float(rotor.system.arrays.masses[plane])
             state = "stability not judged" if whirl.slips else "rolls before it gets there"
-            found.append(Steady(WHIRL, (plane,), -whirl.speed, whirl.radius, force, state))
+            found.append(Steady(WHIRL, (plane + 1,), -whirl.speed, whirl.radius, force, state))
     return found
 
 
@@ -68,7 +68,7 @@ def _state(status: str, stable: bool) -> str:
 def steady_document(case: Case) -> dict[str, Any]:
     """Return the same as plain data."""
     rotor = model_of(case)
-    entries = [{**each._asdict(), "planes": list(each.planes)} for each in steady_of(rotor)]
+    entries = [{**each._asdict(), "touchdown_bearings": list(each.touchdown_bearings)} for each in steady_of(rotor)]
     own = [{**each, **in_si(each, rotor.scales, radius="length", normal_force="force")} for each in entries]
     return {**rotor_document(rotor), "steady": own}
 
@@ -80,7 +80,7 @@ def print_steady(console: Console, case: Case) -> None:
     table = plain_table(
         "Steady motions",
         "motion",
-        "plane",
+        "touchdown bearing",
         "whirl",
         "radius",
         "normal force",
@@ -88,11 +88,11 @@ def print_steady(console: Console, case: Case) -> None:
         no_wrap=("whirl", "radius", "normal force"),
     )
     for each in steady_of(rotor):
-        planes = ", ".join(map(str, each.planes)) or "none"
+        bearings = ", ".join(map(str, each.touchdown_bearings)) or "none"
         rate = each.whirl_speed * (scales.speed if scales else 1.0) / math.tau
         whirl = f"{number(rate, 4)} Hz" if scales else f"{number(each.whirl_speed, 4)} Ω"
         sizes = told(each.radius, "length", scales, 4), told(each.normal_force, "force", scales, 4)
-        table.add_row(each.motion, planes, whirl, *sizes, each.state)
+        table.add_row(each.motion, bearings, whirl, *sizes, each.state)
     console.print(fitted(console, table))
     console.print()
     if rotor.system.mirrored is not None:

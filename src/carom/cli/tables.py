@@ -2,30 +2,19 @@
 
 from __future__ import annotations
 
-import cmath
 import dataclasses
-import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import fields
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-import numpy as np
 from rich.console import Console
 from rich.padding import Padding
 from rich.table import Table
 from rich.text import Text
 
-from carom.attractors import MotionName
-from carom.attractors.settled import settled_motion
 from carom.cli.fitting import fitted, plain_table
-from carom.models.weight import weight_of
-from carom.motions import TouchLog, Trajectory, touchdown_loads
-from carom.motions.contacts import yields
-from carom.outcome import Outcome, Phase
-from carom.parameters.indentation import indentation_of_hit
-from carom.parameters.told import number, told_angle
-from carom.studies import FlexibleStudy, Study, Wording, check_loads
+from carom.studies import FlexibleStudy, Study, Wording
 from carom.studies.advice_facts import CHANGES
 from carom.studies.facts import Topic, about, paragraphs
 from carom.studies.summaries import (
@@ -36,7 +25,7 @@ from carom.studies.summaries import (
     simple_motion_rows,
     threshold_rows,
 )
-from carom.studies.wording import counted, no_rigid_wall
+from carom.studies.wording import counted
 
 if TYPE_CHECKING:
     from carom.closed_forms.equilibria import Equilibrium
@@ -44,8 +33,6 @@ if TYPE_CHECKING:
     from carom.orbits.single_impact import OrbitSet
     from carom.parameters import Case
 
-FIRST_EVENTS, LAST_EVENTS = 20, 8
-"""Numbers of contacts shown at the beginning and at the end of a long log."""
 MOST_NUMBERS = 40
 """Number of orbits above which the tables of numbers leave out virtual ones."""
 TEXT_WIDTH = 110
@@ -174,79 +161,11 @@ def _print_numbers(console: Console, shown: Sequence[Orbit]) -> None:
             style = "" if orbit.admissible else "dim"
             numbers = (orbit.period, orbit.radial_speed, orbit.angle, orbit.angular_speed)
             values.add_row(orbit.name, *(f"{value:.10g}" for value in numbers), style=style)
-            factors = "   ".join(map(_complex, orbit.multipliers.values))
+            factors = "   ".join(map(complex_words, orbit.multipliers.values))
             multipliers.add_row(orbit.name, f"{orbit.multipliers.spectral_radius:.6g}", factors, style=style)
         for table in (values, multipliers):
             console.print()
             console.print(fitted(console, table))
-
-
-def print_motion(console: Console, case: Case, motion: Trajectory, *, loads: bool = True) -> None:
-    """Print how a motion ended, and its contacts, with the ``loads`` on the touchdown bearing unless these are told elsewhere."""
-    say = Wording(case.parameters.scales)
-    log, contacts, touches = motion.contacts, motion.lasting_contacts, motion.touches
-    if motion.outcome is not Outcome.TRIGGERED:
-        console.print(Text(_end_words(motion), style="bold"))
-    if motion.multiplicity:
-        console.print(f"It repeats after {counted(motion.multiplicity, 'impact')}.")
-    turns = number(motion.time / (2.0 * math.pi), 3)
-    followed = f"Followed for {say.time(motion.time)} ({turns} turns of the shaft)" if motion.time else "Known at once"
-    counts = [(len(log), "impact"), (len(contacts), "lasting contact")]
-    if yields(motion.rotor.system, motion.plane):
-        counts = [(len(touches), "contact")]
-    console.print(f"{followed}: {', '.join(counted(*count) for count in counts)}.")
-    if len(log):
-        soft = no_rigid_wall(indentation_of_hit(case.parameters, float(log.radial_speed.max())))
-        hardest = f"Hardest hit: normal impulse {say.impulse(float(log.normal_impulse.max()))}"
-        console.print(f"{hardest}{'; ' if soft else ''}{soft}.")
-    if len(log) or contacts:
-        if loads:
-            _print_loads(console, say, case, motion)
-        console.print()
-        console.print(fitted(console, _events(say, motion)))
-    final = motion.final
-    console.print()
-    if weight_of(motion.rotor) is not None or len(motion.rotor.system.rest) > 1:
-        console.print(_final_words(say, motion))
-        return
-    console.print(
-        f"At the end: U = {_complex(final.position)} c_r, U' = {_complex(final.velocity)} c_r Ω (co-rotating frame), "
-        f"r = {say.radius(abs(final.position))}"
-    )
-
-
-def _final_words(say: Wording, motion: Trajectory) -> str:
-    """Where a rotor that weighs something, or the first plane of one with several coordinates, is at the end, and how fast, in the fixed frame."""
-    (seen,), (rate,) = motion.at_plane(np.array([motion.time]))
-    turn = cmath.exp(1j * (motion.begins + motion.time))
-    place, speed = complex(seen) * turn, complex(rate + 1j * seen) * turn
-    return (
-        f"At the end, in the fixed frame: {say.radius(abs(place))} from the centre at {told_angle(cmath.phase(place))}, moving with "
-        f"{say.velocity(abs(speed))} at {told_angle(cmath.phase(speed))}"
-    )
-
-
-def _end_words(motion: Trajectory) -> str:
-    """Say how a motion ended; a forward rub by the name that studies give it."""
-    if motion.outcome is not Outcome.FORWARD_RUB:
-        return motion.outcome.meaning
-    settled = settled_motion(motion)
-    name = MotionName(motion.outcome, drifting=not settled.synchronous)
-    how = "turns with the shaft" if settled.synchronous else "slides in the sense of rotation"
-    return f"The rotor ends in {name}: it stays in contact with the touchdown bearing and {how}."
-
-
-def _print_loads(console: Console, say: Wording, case: Case, motion: Trajectory) -> None:
-    """Print the loads on the touchdown bearing, and the limits that are stated for it."""
-    loads = touchdown_loads(motion)
-    if loads.force > 0.0:
-        power = f"friction power up to {say.power(loads.power)}"
-        console.print(f"Lasting contact: normal force up to {say.force(loads.force)}, {power}.")
-    goes_on = f"; it goes on with {say.power(loads.lasting_power)}" if loads.lasting_power > 0.0 else ""
-    console.print(f"Heat of friction: {say.energy(loads.heat)}{goes_on}.")
-    for check in check_loads(loads, case.limits):
-        words = f"{check.words[0].upper()}{check.words[1:]}."
-        console.print(Text(words, style="bold" if check.exceeded else ""))
 
 
 def _motions(rows: list[MotionRow], title: str, width: int) -> Table:
@@ -288,80 +207,8 @@ def _thresholds(study: Study) -> Table:
     return table
 
 
-def _events(say: Wording, motion: Trajectory) -> Table:
-    """Return the table of impacts and lasting contacts in order of time; the middle of a long log is left out."""
-    speed, impulse, slip = (told(1.0).partition(" ")[2] for told in (say.velocity, say.impulse, say.slip))
-    time = f"time, {'ms' if say.scales else '1/Ω'}"
-    speeds, slips = f"speed towards wall, {speed}", f"slip, {slip}"
-    normal, friction = f"normal impulse, {impulse}", f"friction impulse, {impulse}"
-    angle = "angle" if weight_of(motion.rotor) is None else "fixed angle"
-    numbers = (time, angle, speeds, normal, friction, slips)
-    headings = (time, "contact", angle, speeds, "whirl", normal, friction, slips)
-    table = plain_table("Contacts", *headings, right=numbers, no_wrap=(*numbers, "whirl"))
-    rows = _event_rows(say, motion)
-    hidden = len(rows) - FIRST_EVENTS - LAST_EVENTS
-    if hidden > 1:
-        rows = [*rows[:FIRST_EVENTS], ("…",), *rows[-LAST_EVENTS:]]
-        table.caption, table.caption_justify = f"… {number(hidden, 12)} more: --csv FILE has all", "left"
-    for row in rows:
-        table.add_row(*row)
-    return table
-
-
-def _event_rows(say: Wording, motion: Trajectory) -> list[tuple[str, ...]]:
-    log = motion.contacts
-    # Weight has a direction in the fixed frame alone.
-    angles = log.angle if weight_of(motion.rotor) is None else log.angle + motion.begins + log.time
-    factor = 1.0 if say.scales is None else 1e3 * say.scales.time
-
-    def moment(time: float) -> str:
-        return number(factor * time, 7)
-
-    entries: list[tuple[float, tuple[str, ...]]] = []
-    for place, time in enumerate(log.time.tolist()):
-        row = (
-            moment(motion.begins + time),
-            "impact",
-            f"{math.degrees(math.remainder(angles[place], 2.0 * math.pi)):.1f}°",
-            _number_of(say.velocity(float(log.radial_speed[place]))),
-            "forward" if log.angular_speed[place] > -1.0 else "backward",
-            _number_of(say.impulse(float(log.normal_impulse[place]))),
-            _number_of(say.impulse(float(log.tangential_impulse[place]))),
-            "stops" if log.sticks[place] else _number_of(say.slip(float(log.slip_after[place]))),
-        )
-        entries.append((time, row))
-    if yields(motion.rotor.system, motion.plane):
-        return _touch_rows(say, motion.touches, motion.begins, moment)
-    for contact in motion.lasting_contacts:
-        words = f"{contact.phase.label.replace('-', ' ')} for {say.time(contact.end - contact.start)}"
-        entries.append((contact.start, (moment(motion.begins + contact.start), words)))
-    return [row for _, row in sorted(entries, key=lambda entry: entry[0])]
-
-
-def _touch_rows(
-    say: Wording, touches: TouchLog, begins: float, moment: Callable[[float], str]
-) -> list[tuple[str, ...]]:
-    """Rows of contacts with a wall that gives way."""
-    return [
-        (
-            moment(float(begins + touches.start[place])),
-            f"{Phase(phase).label.replace('-', ' ')} for {say.time(float(touches.duration[place]))}",
-            f"{math.degrees(touches.angle[place]):.1f}°",
-            _number_of(say.velocity(float(touches.radial_speed[place]))),
-            "forward" if touches.angular_speed[place] > -1.0 else "backward",
-            _number_of(say.impulse(float(touches.normal_impulse[place]))),
-            _number_of(say.impulse(float(touches.friction_impulse[place]))),
-        )
-        for place, phase in enumerate(touches.phase.tolist())
-    ]
-
-
-def _number_of(told: str) -> str:
-    """The number of a size such as ``60 mm/s``, for a column whose heading has the unit."""
-    return told.partition(" ")[0]
-
-
-def _complex(value: complex) -> str:
+def complex_words(value: complex) -> str:
+    """A complex number to six digits."""
     if value.imag == 0:
         return f"{value.real:.6g}"
     return f"{value.real:.6g} {'+' if value.imag >= 0 else '−'} {abs(value.imag):.6g}i"

@@ -245,4 +245,4 @@ def _at_planes(at: Equilibrium) -> str:
     """At which of several planes it is, counted from 1."""
     if len(at.places) == 1 or not at.planes:
         return ""
-    return f" at plane {in_a_line(tuple(plane + 1 for plane in at.planes))}"
+    return f" at touchdown bearing {in_a_line(tuple(plane + 1 for plane in at.planes))}"

@@ -48,7 +48,7 @@ def fields(rotor: LinearRotor) -> dict[str, Field]:
         found["speed"] = MACHINE_FIELDS["speed"]
     for name, (parameter, plane) in _planes(rotor).items():
         field = own[parameter]
-        words = f"{field.words} at plane {plane + 1}"
+        words = f"{field.words} at touchdown bearing {plane + 1}"
         found[name] = replace(field, name=name, symbol=f"{field.symbol}_{plane + 1}", words=words)
     return found
 

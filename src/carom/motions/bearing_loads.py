@@ -11,9 +11,8 @@ import numpy as np
 from carom.arguments import checked
 from carom.models import Model
 from carom.models.in_bearing import races_of
-from carom.motions.contacts import ContactLog, presses, race_speed, yields
+from carom.motions.contacts import presses, race_speed, yields
 from carom.motions.loads import TouchdownLoads, touchdown_loads
-from carom.motions.touches import TouchLog
 from carom.motions.trajectories import Trajectory
 from carom.outcome import Outcome, Phase
 from carom.parameters import Scales
@@ -189,9 +188,7 @@ def drop_loads(motion: Trajectory) -> DropLoads:
     >>> print(f"{plane.loads.si()['force']:.0f} N after {1e3 * plane.force_at * machine.parameters.scales.time:.1f} ms")
     1318 N after 6.0 ms
     """
-    planes = range(motion.segment_phases.shape[1])
-    # A motion that is seen at this plane already keeps what it knows of its contacts.
-    seen = [[part if part.plane == plane else part.seen_at(plane) for part in motion.parts] for plane in planes]
+    seen = [[part.seen_at(plane) for part in motion.parts] for plane in range(motion.segment_phases.shape[1])]
     return DropLoads(
         rotor=motion.rotor,
         outcome=motion.outcome,
@@ -259,7 +256,7 @@ class _Contacts:
 
 def _contacts(parts: list[Trajectory], soft: bool) -> _Contacts:
     """Count the contacts of a plane and find the hardest; those that go over from one stage to the next count once."""
-    logs: list[TouchLog | ContactLog] = [part.touches if soft else part.contacts for part in parts]
+    logs = [part.log for part in parts]
 
     def column(name: str) -> np.ndarray:
         return np.concatenate([getattr(log, name) for log in logs])

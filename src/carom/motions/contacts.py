@@ -26,6 +26,9 @@ UNLIKE = 1e-9
 below that are too small to tell."""
 
 
+NUMBERED = "touchdown bearing, counted from 1"
+"""What a table says of the column that names the bearing: people count from 1, indices of arrays (``plane``) count from 0."""
+
 PRESSING = (Phase.FORWARD_SLIP, Phase.BACKWARD_SLIP, Phase.ROLLING)
 """Phases in which a wall presses on the rotor."""
 
@@ -120,7 +123,7 @@ class ContactLog(Table):
     """
 
     time: np.ndarray = field(metadata=column("time", "time of impact"))
-    plane: np.ndarray = field(metadata=column("1", "contact plane"))
+    touchdown_bearing: np.ndarray = field(metadata=column("1", NUMBERED))
     angle: np.ndarray = field(metadata=column("rad", "angle of impact in the co-rotating frame"))
     radial_speed: np.ndarray = field(metadata=column("velocity", "radial speed before impact"))
     angular_speed: np.ndarray = field(metadata=column("speed", "angular speed before impact, co-rotating frame"))
@@ -176,7 +179,7 @@ class ContactLog(Table):
         unlike = np.abs(radial_after + newton) > UNLIKE * (1.0 + radial)
         return cls(
             time=times,
-            plane=planes,
+            touchdown_bearing=planes + 1,
             angle=angle,
             radial_speed=radial,
             angular_speed=angular,

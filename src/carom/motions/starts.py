@@ -179,7 +179,7 @@ def amplitudes_of(rotor: Model, state: State) -> tuple[np.ndarray, np.ndarray]:
                 rub_workspace(system.modes, len(contact), system.limits),
             )
         elif radius > 1.0 + WALL_TOLERANCE:
-            where = "" if len(contact) == 1 else f" at plane {plane + 1}"
+            where = "" if len(contact) == 1 else f" at touchdown bearing {plane + 1}"
             raise InputError(
                 "start position", state.position, f"inside the wall, |U| <= 1 (here |U| = {radius:.12g}{where})"
             )

@@ -10,6 +10,7 @@ import numpy as np
 
 from carom.core.wall_work import damper_forces_all, stored_energies_all
 from carom.motions.contacts import (
+    NUMBERED,
     PRESSING,
     Table,
     column,
@@ -40,7 +41,7 @@ class TouchLog(Table):
     the work of its damper, and what its spring holds where plane and wall part.
     """
 
-    plane: np.ndarray = field(metadata=column("1", "contact plane"))
+    touchdown_bearing: np.ndarray = field(metadata=column("1", NUMBERED))
     start: np.ndarray = field(metadata=column("time", "time of entering the wall, or the beginning of the motion"))
     end: np.ndarray = field(metadata=column("time", "time of leaving the wall, or the end of the motion"))
     duration: np.ndarray = field(metadata=column("time", "time from beginning to end"))
@@ -152,7 +153,7 @@ def touches_of(motion: Trajectory) -> TouchLog:
     angle, radial, angular = polar(*system.at_plane(motion.segment_amplitudes[first], plane))
     _, radial_after, _ = polar(*system.at_plane(motion.segment_ends[after - 1], plane))
     return TouchLog(
-        plane=np.full(len(first), plane),
+        touchdown_bearing=np.full(len(first), plane + 1),
         start=bounds[first],
         end=bounds[after],
         duration=bounds[after] - bounds[first],

@@ -17,7 +17,7 @@ from carom.core.layout import rub_workspace
 from carom.core.rub import fly_or_rub_all, forces_all
 from carom.models import Model
 from carom.motions.blows import Blows, blows_of
-from carom.motions.contacts import ContactHistory, ContactLog, LastingContact, presses
+from carom.motions.contacts import ContactHistory, ContactLog, LastingContact, presses, yields
 from carom.motions.starts import State
 from carom.outcome import InputError, Outcome, Phase
 from carom.results import Result
@@ -117,10 +117,15 @@ class Trajectory(Result):
         InputError
             There is no such plane.
         """
-        planes = self.segment_phases.shape[1]
-        if not 0 <= plane < planes:
-            raise InputError("plane", plane, f"a whole number from 0 to {planes - 1}")
-        return dataclasses.replace(self, plane=plane)
+        if not 0 <= plane < len(self.at_each):
+            raise InputError("plane", plane, f"a whole number from 0 to {len(self.at_each) - 1}")
+        return self.at_each[plane]
+
+    @cached_property
+    def at_each(self) -> tuple[Trajectory, ...]:
+        """The same motion seen at each contact plane; kept, because what it knows of its contacts takes time to find."""
+        planes = range(self.segment_phases.shape[1])
+        return tuple(self if plane == self.plane else dataclasses.replace(self, plane=plane) for plane in planes)
 
     def since(self, segment: int) -> Trajectory:
         """Return the motion from the start of one of its segments on; its stages before are left out."""
@@ -167,6 +172,11 @@ class Trajectory(Result):
         from carom.motions.touches import touches_of
 
         return touches_of(self)
+
+    @property
+    def log(self) -> ContactLog | TouchLog:
+        """:attr:`touches` if the wall at the contact plane gives way, else :attr:`contacts`."""
+        return self.touches if yields(self.rotor.system, self.plane) else self.contacts
 
     def blows(self, events: np.ndarray) -> Blows:
         """Impulses at all planes in chosen events, bool, shape (n,), in chronological order and that of the planes."""
@@ -330,6 +340,12 @@ class Trajectory(Result):
         events = self.segment_starts[1:]
         even = np.linspace(0.0, self.time, count)
         return np.unique(np.concatenate([even, events, np.nextafter(events, 0.0)]))
+
+    def end(self) -> tuple[complex, complex]:
+        """Where the contact plane is at the end, in its clearances, and how fast, in the fixed frame."""
+        (place,), (rate,) = self.at_plane(np.array([self.time]))
+        turn = np.exp(1j * (self.begins + self.time))
+        return complex(place * turn), complex((rate + 1j * place) * turn)
 
     @checked
     def position(self, times: Reals, frame: Literal["rotating", "fixed"] = "rotating") -> np.ndarray:

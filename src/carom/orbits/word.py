@@ -91,14 +91,15 @@ class Segment:
     ----------
     kind : Kind
     plane : int
-        Contact plane of the impact or of the lasting contact, or the plane that lifts off.
+        Contact plane of the impact or of the lasting contact, or the plane that lifts off, from 0.  In text a touchdown bearing other than
+        the first follows ``@``, counted from 1.
     """
 
     kind: Kind
     plane: Whole = 0
 
     def __str__(self) -> str:
-        return f"{self.kind.label}@{self.plane}" if self.plane else self.kind.label
+        return f"{self.kind.label}@{self.plane + 1}" if self.plane else self.kind.label
 
 
 @checked

@@ -30,7 +30,16 @@ from carom.plots.plane import (
     point,
 )
 from carom.plots.style import LOOKS, ONE_COLUMN, TWO_COLUMNS, Look, styled
-from carom.plots.words import clearance, counted, number, orbit_look, orbit_title, time_in_words, turns
+from carom.plots.words import (
+    clearance,
+    contacts_in_words,
+    counted,
+    number,
+    orbit_look,
+    orbit_title,
+    time_in_words,
+    turns,
+)
 
 if TYPE_CHECKING:
     from carom.motions.trajectories import Trajectory
@@ -165,9 +174,7 @@ def motion(
     wall = clearance(trajectory.scales)
     _levitation(frames[0], complex(trajectory.rotor.system.arrays.offsets[trajectory.plane]), wall)
     if axes is None:
-        time = time_in_words(trajectory.time, trajectory.scales)
-        words = f"{counted(len(trajectory.contacts), 'impact')} in {time} \N{EM DASH} {trajectory.outcome.words}"
-        figure.suptitle(title or words)
+        figure.suptitle(title or f"{contacts_in_words(trajectory)} \N{EM DASH} {trajectory.outcome.words}")
         key(figure, frames, columns=4)
     return figure
 

@@ -109,7 +109,7 @@ def equilibria_and_orbits(
     figure, whole, panels = _panels(axes, len(crowded))
     hidden = [physical[i] for closeup in crowded for i in closeup.members]
     clearance_circle(whole, 1.36, wall)
-    label_frame(whole, "rotating", scales, f"plane {plane + 1}" if planes > 1 else "")
+    label_frame(whole, "rotating", scales, f"touchdown bearing {plane + 1}" if planes > 1 else "")
     named = shown if len(shown) - len(physical) <= _MOST_VIRTUAL else physical
     _draw(whole, equilibria, shown, wall, plane, without_arrow=hidden)
     tags = [(f"({letter})", closeup.middle) for letter, closeup in zip("bc", crowded, strict=False)]
@@ -215,7 +215,7 @@ def equilibria(found: EquilibriumSet, title: str | None = None) -> Figure:
         clearance_circle(drawn, reach, wall)
         for entry in shown:
             _draw_equilibrium(drawn, entry, wall * complex(entry.places[plane]))
-        label_frame(drawn, "rotating", scales, f"plane {plane + 1}" if count > 1 else "")
+        label_frame(drawn, "rotating", scales, f"touchdown bearing {plane + 1}" if count > 1 else "")
     if title:
         figure.suptitle(title)
     key(figure, panels, columns=2)

@@ -166,7 +166,7 @@ def orbit_path(orbit: Orbit, periods: int, plane: int | None = None) -> tuple[Fl
 
 def plane_note(orbit: Orbit, note: str = "") -> str:
     """Return a note on a picture of an orbit, which names the contact plane of its first impact if there are several."""
-    plane = f"plane {orbit.word[0].plane + 1}" if len(orbit.rotor.system.contacts) > 1 else ""
+    plane = f"touchdown bearing {orbit.word[0].plane + 1}" if len(orbit.rotor.system.contacts) > 1 else ""
     return ", ".join(filter(None, (plane, note)))
 
 

@@ -10,6 +10,7 @@ from carom.parameters.told import shown_in
 from carom.plots.style import LOOKS
 
 if TYPE_CHECKING:
+    from carom.motions.trajectories import Trajectory
     from carom.orbits.orbit import Orbit
     from carom.parameters import Field, Scales
 
@@ -57,6 +58,13 @@ def number(value: float, digits: int = 4) -> str:
 def counted(count: int, noun: str) -> str:
     """Write a count with its noun: ``no impact``, ``1 impact``, ``2 impacts``."""
     return f"{count or 'no'} {noun}" if count <= 1 else f"{count} {noun}s"
+
+
+def contacts_in_words(motion: Trajectory) -> str:
+    """Write how often a motion touched in which time, and at which touchdown bearing of several: ``2 impacts in 3 ms``."""
+    noun = "contact" if motion.rotor.system.contacts[motion.plane].wall.stiffness else "impact"
+    where = f" at touchdown bearing {motion.plane + 1}" if len(motion.at_each) > 1 else ""
+    return f"{counted(len(motion.log), noun)}{where} in {time_in_words(motion.time, motion.rotor.scales)}"
 
 
 def times_larger(ratio: float) -> str:

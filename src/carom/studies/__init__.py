@@ -44,7 +44,7 @@ Read them in this order.
 
 from carom.studies.advice import Change, Margin, Recommendation
 from carom.studies.assembly import Study, study
-from carom.studies.document import found_orbits_document, orbits_document, trajectory_document
+from carom.studies.document import found_orbits_document, orbits_document
 from carom.studies.drops import DropStudy
 from carom.studies.facts import Fact
 from carom.studies.flexible_study import FlexibleStudy
@@ -54,6 +54,7 @@ from carom.studies.recovery import Recovery, find_recovery
 from carom.studies.response import UnbalanceResponse, unbalance_response
 from carom.studies.response_data import Separation, Steady, Stretch
 from carom.studies.survives import Survives
+from carom.studies.trajectory_document import trajectory_document
 from carom.studies.trials import Check, Lost, check_recovery
 from carom.studies.verdict import NOT_COVERED, Verdict
 from carom.studies.wording import Wording

@@ -20,23 +20,18 @@ from carom.bifurcations.documents import search_document
 from carom.closed_forms.sag import Levitation, SteadyMotion
 from carom.models import Jeffcott, Model, Span
 from carom.models.subjects import in_rigid_wall, rotor_document
-from carom.motions.contacts import LastingContact, yields
-from carom.motions.loads import MEASURED, TouchdownLoads, touchdown_loads
-from carom.motions.starts import State
-from carom.motions.trajectories import Trajectory
 from carom.orbits.orbit import Orbit
 from carom.orbits.single_impact import OrbitSet
-from carom.outcome import Phase
-from carom.parameters import MACHINE_FIELDS, LoadLimits, Machine, Parameters, Scales
+from carom.parameters import MACHINE_FIELDS, Machine, Parameters, Scales
 from carom.parameters.indentation import gives_way, indentation_of_force, indentation_of_hit
 from carom.results import fields_of, in_si
 from carom.studies.advice_facts import change_document
 from carom.studies.endings import came_back, hardest_impulse, touching
 from carom.studies.facts import Fact
-from carom.studies.load_checks import check_loads, loads_entry
 from carom.studies.ranges import MotionRange, Threshold
 from carom.studies.recovery import Recovery
 from carom.studies.study_data import StudyData
+from carom.studies.trajectory_document import scales_document, state_document
 from carom.studies.trials import Check
 from carom.studies.verdict import Verdict
 from carom.studies.verdict_facts import requirement_document, survived_document
@@ -90,90 +85,12 @@ def _contacts(orbit: Orbit) -> list[dict[str, Any]]:
     return [
         {
             "kind": "impact" if segment.kind.is_impact else segment.kind.label.rstrip("+-"),
-            "plane": segment.plane,
+            "touchdown_bearing": segment.plane + 1,
             "time": begin,
             **fields_of(section, "angle", "radial_speed", "angular_speed"),
         }
         for segment, begin, section in zip(orbit.word, begins, orbit.sections, strict=True)
     ]
-
-
-@checked
-def trajectory_document(trajectory: Trajectory, limits: LoadLimits | None = None) -> dict[str, Any]:
-    """Return the document of one motion with its impacts and lasting contacts; velocities are those before impacts.
-
-    Its loads are compared with limits, if some are stated.
-    """
-    keys = ("time", "angle", "radial_speed", "angular_speed", "normal_impulse")
-    impacts = zip(*fields_of(trajectory.contacts, *keys).values(), strict=True)
-    document: dict[str, Any] = {
-        **rotor_document(trajectory.rotor),
-        "start": _state(trajectory.start),
-        **fields_of(trajectory, outcome="outcome.label", meaning="outcome.meaning"),
-        **fields_of(trajectory, "multiplicity", "time"),
-        "impacts": [dict(zip(keys, impact, strict=True)) for impact in impacts],
-        "contacts": _lasting_contacts(trajectory),
-        "final": _state(trajectory.final),
-        "loads": _loads(trajectory),
-    }
-    if limits is not None and limits.stated:
-        document["limits"] = [loads_entry(check) for check in check_loads(touchdown_loads(trajectory), limits)]
-    scales = trajectory.scales
-    if scales is not None:
-        document["scales_si"] = _scales(scales)
-    return document
-
-
-def _lasting_contacts(trajectory: Trajectory) -> list[dict[str, Any]]:
-    """Stretches of lasting contact at the plane of a motion; of walls that give way whole contacts, at all planes."""
-    planes = range(trajectory.segment_phases.shape[1])
-    entries = [entry for plane in planes for entry in _touches(trajectory.seen_at(plane))]
-    if not yields(trajectory.rotor.system, trajectory.plane):
-        entries += [_stretch(contact) for contact in trajectory.lasting_contacts]
-    return sorted(entries, key=lambda entry: entry["start"])
-
-
-def _stretch(contact: LastingContact) -> dict[str, Any]:
-    return {"kind": contact.kind, "phase": contact.phase.label, **fields_of(contact, "start", "end")}
-
-
-def _touches(trajectory: Trajectory) -> list[dict[str, Any]]:
-    """Contacts of the plane of a motion with a wall that gives way, by the kind that takes most of each."""
-    touches = trajectory.touches
-    columns = fields_of(
-        touches,
-        *(
-            "plane",
-            "angle",
-            "radial_speed",
-            "radial_speed_after",
-            "peak_force",
-            "peak_time",
-            "deepest",
-            "heat",
-            "lasts",
-        ),
-        impulse="normal_impulse",
-    )
-    kinds = zip(touches.phase.tolist(), touches.start.tolist(), touches.end.tolist(), strict=True)
-    entries = []
-    for (phase, start, end), *values in zip(kinds, *columns.values(), strict=True):
-        entry = _stretch(LastingContact(Phase(phase), start, end)) | dict(zip(columns, values, strict=True))
-        si = in_si(entry, touches.scales, "impulse", "heat", peak_force="force", deepest="length")
-        entries.append(entry | si)
-    return entries
-
-
-def _loads(trajectory: Trajectory) -> dict[str, Any]:
-    """Loads of a motion, in units of the equations and in SI units."""
-    return loads_document(touchdown_loads(trajectory))
-
-
-def loads_document(loads: TouchdownLoads) -> dict[str, Any]:
-    """The same of loads that are known."""
-    document = fields_of(loads, "impacts", *MEASURED, "goes_on")
-    pressure = {} if loads.pressure is None else {"pressure_si": loads.pressure}
-    return document | in_si(document, loads.scales, *MEASURED) | pressure
 
 
 def study_document(study: StudyData, verdict: Verdict, facts: Sequence[Fact]) -> dict[str, Any]:
@@ -183,7 +100,7 @@ def study_document(study: StudyData, verdict: Verdict, facts: Sequence[Fact]) ->
         "name": case.name,
         "carom": version("carom"),
         **_orbits_of(rotor, study.equilibria, study.orbits, case.machine),
-        "scales_si": _scales(rotor.scales) if rotor.scales else None,
+        "scales_si": scales_document(rotor.scales) if rotor.scales else None,
         "zone": study.zone,
         "zone_limits": list(case.zones.limits),
         "verdict": fields_of(verdict, "level", "outcome", "reason", "headline"),
@@ -237,16 +154,6 @@ def _orbit(entry: Orbit, scales: Scales | None) -> dict[str, Any]:
         document |= {"normal_impulse_si": entry.impulse * own.impulse}
         document |= _wall(indentation_of_hit(in_rigid_wall(entry.rotor), entry.radial_speed))
     return document
-
-
-def _state(state: State) -> dict[str, Any]:
-    return fields_of(state, U="position", V="velocity")
-
-
-def _scales(scales: Scales) -> dict[str, float]:
-    return fields_of(
-        scales, "length", "time", "velocity", "acceleration", "force", "impulse", "energy", "damping", "stiffness"
-    )
 
 
 def _threshold(entry: Threshold, say: Wording) -> dict[str, Any]:
@@ -345,7 +252,7 @@ def _disturbances(found: AttractorSet, rotor: Model) -> dict[str, Any]:
 
 
 def _ending(entry: Ending) -> dict[str, Any]:
-    start = {"kind": entry.start.kind, "start": _state(entry.start.state)}
+    start = {"kind": entry.start.kind, "start": state_document(entry.start.state)}
     return start | fields_of(entry, "attractor", "time", "impacts", "hardest_impulse")
 
 

@@ -82,4 +82,4 @@ class DropStudy(Result):
         if loads.shaft is not None:
             shaft = fields_of(loads.shaft, "speed_at_end", "left_out")
             document["shaft"] = shaft | in_si(shaft, scales, speed_at_end="speed", left_out="speed")
-        return document | {"planes": load_entries(loads, case.limits)}
+        return document | {"touchdown_bearings": load_entries(loads, case.limits)}

@@ -37,6 +37,6 @@ def machine_document(study: FlexibleData, verdict: Verdict, facts: Sequence[Fact
         "complete": False,
         "trials": [each.document() for each in study.trials],
         "kicks_beyond": [{"times": times, "came_back": back} for times, back in study.beyond],
-        "drop": None if study.fall_loads is None else {"planes": load_entries(study.fall_loads, study.case.limits)},
+        "drop": None if study.fall_loads is None else {"touchdown_bearings": load_entries(study.fall_loads, study.case.limits)},
         "facts": [fact.document() for fact in facts],
     }  # fmt: skip

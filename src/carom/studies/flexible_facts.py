@@ -172,7 +172,7 @@ def _holding(study: FlexibleData) -> Iterator[Fact]:
 def _tried(study: FlexibleData) -> Iterator[Fact]:
     for trial in study.trials:
         lines = [f"{KINDS[trial.kind]} ({_size(study, trial)}), the worst of {trial.largest.total} at the full size:"]  # type: ignore[index]
-        lines += [f"touchdown bearing {each.plane}: {_plane(each)}" for each in trial.planes]
+        lines += [f"touchdown bearing {each.touchdown_bearing}: {_plane(each)}" for each in trial.planes]
         if trial.whirls:
             lines.append(f"those lost go round {listed(list(trial.whirls))}")
         yield Fact("Touchdown loads", f"{lines[0]} {'; '.join(lines[1:])}.", values=trial.document())

@@ -40,8 +40,8 @@ class AtPlane(Result):
 
     Attributes
     ----------
-    plane : int
-        From 1.
+    touchdown_bearing : int
+        Counted from 1.
     radius : float
         Largest distance of the shaft from the centre, m; beyond the clearance it is pressed into the bearing.
     force : float
@@ -51,9 +51,9 @@ class AtPlane(Result):
     contacts : int
     """
 
-    shown: ClassVar = ("plane", "radius", "force", "contact_time", "contacts")
+    shown: ClassVar = ("touchdown_bearing", "radius", "force", "contact_time", "contacts")
 
-    plane: int
+    touchdown_bearing: int
     radius: float
     force: float
     contact_time: float
@@ -111,9 +111,9 @@ class FlexibleTrial(Result):
             "ends": {str(name): count for name, count in self.ends},
             "at_largest": {"came_back": self.largest.count, "total": self.largest.total},
             "whirls": list(self.whirls),
-            "planes": [
+            "touchdown_bearings": [
                 {
-                    "plane": each.plane,
+                    "touchdown_bearing": each.touchdown_bearing,
                     "radius_si": each.radius,
                     "force_si": each.force,
                     "contact_time_si": each.contact_time,
@@ -121,7 +121,7 @@ class FlexibleTrial(Result):
                 }
                 for each in self.planes
             ],
-            "limits": [{"name": each.name, "plane": each.plane, "value_si": each.value, "limit_si": each.limit, "exceeded": each.exceeded} for each in self.checks],
+            "limits": [{"name": each.name, "touchdown_bearing": each.touchdown_bearing, "value_si": each.value, "limit_si": each.limit, "exceeded": each.exceeded} for each in self.checks],
         }  # fmt: skip
 
 
@@ -221,7 +221,7 @@ def at_plane(motions: list[Trajectory], loads: list[DropLoads], plane: int) -> A
     seen = [each.planes[plane] for each in loads]
     scales = seen[0].scales or Scales(1.0, 1.0, 1.0)  # a flexible machine has some
     return AtPlane(
-        plane=plane + 1,
+        touchdown_bearing=plane + 1,
         radius=max(_reach(motion, each) for motion, each in zip(motions, seen, strict=True)) * scales.length,
         force=max(each.loads.force for each in seen) * scales.force,
         contact_time=max(each.loads.contact_time for each in seen) * scales.time,

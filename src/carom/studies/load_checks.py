@@ -35,8 +35,8 @@ class LoadCheck:
         Whether the load goes on growing, because the motion has settled in contact.
     after : float
         Seconds after the end was known until the growing load reaches its limit: 0 if it has, infinite if it does not grow.
-    plane : int or None
-        Contact plane, from 1, of a rotor with several.
+    touchdown_bearing : int or None
+        Counted from 1, of a rotor with several.
     """
 
     name: str
@@ -44,7 +44,7 @@ class LoadCheck:
     limit: float
     endless: bool
     after: float
-    plane: int | None = None
+    touchdown_bearing: int | None = None
 
     @property
     def exceeded(self) -> bool:
@@ -55,7 +55,7 @@ class LoadCheck:
     def words(self) -> str:
         """The check in words."""
         value, limit = (LoadLimits.told(self.name, each) for each in (self.value, self.limit))
-        where = "" if self.plane is None else f" at touchdown bearing {self.plane}"
+        where = "" if self.touchdown_bearing is None else f" at touchdown bearing {self.touchdown_bearing}"
         text = f"{LIMIT_FIELDS[self.name].words}{where}: {value}, limit {limit}"
         if self.value > self.limit:
             return f"{text}: exceeded{', and it goes on' if self.endless else ''}"
@@ -99,7 +99,7 @@ def checks_of_planes(loads: DropLoads, limits: LoadLimits) -> tuple[LoadCheck, .
     """The loads of all planes against the limits that are stated; of several the checks name theirs."""
     several = len(loads.planes) > 1
     return tuple(
-        replace(check, plane=place if several else None)
+        replace(check, touchdown_bearing=place if several else None)
         for place, plane in enumerate(loads.planes, start=1)
         for check in check_loads(plane.loads, limits)
     )

@@ -5,18 +5,18 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from carom.motions import Braking, DropLoads, LastWhirl, PlaneLoads
+from carom.motions import Braking, DropLoads, LastWhirl, PlaneLoads, TouchdownLoads
+from carom.motions.loads import MEASURED
 from carom.outcome import Outcome
 from carom.parameters import MACHINE_FIELDS, LoadLimits, Scales
 from carom.parameters.told import number
 from carom.results import fields_of, in_si
-from carom.studies.document import loads_document
 from carom.studies.load_checks import check_loads, loads_entry
 from carom.studies.wording import Wording, counted
 
 
 def load_tables(loads: DropLoads, since: str) -> list[tuple[str, list[tuple[str, str]]]]:
-    """For each plane a title, empty if there is one plane alone, and labels with what they say; times count from ``since``, planes from 1."""
+    """For each plane a title, empty if there is one plane alone, and labels with what they say; times count from ``since``."""
     planes = loads.planes
     tables = [
         (f"Touchdown bearing {each.plane + 1}" if len(planes) > 1 else "", _rows(each, loads.outcome, since))
@@ -62,7 +62,6 @@ def _rows(plane: PlaneLoads, outcome: Outcome, since: str) -> list[tuple[str, st
 
 def _entry(plane: PlaneLoads, limits: LoadLimits) -> dict[str, Any]:
     names = (
-        "plane",
         "gives_way",
         "contacts",
         "bounces",
@@ -72,16 +71,22 @@ def _entry(plane: PlaneLoads, limits: LoadLimits) -> dict[str, Any]:
         "in_contact_since",
     )
     speeds = ("race_at_end", "fastest_race")
-    entry = fields_of(plane, *names, *speeds)
+    entry = {"touchdown_bearing": plane.plane + 1, **fields_of(plane, *names, *speeds)}
     times = dict.fromkeys(("force_at", "impulse_at", "in_contact_since"), "time")
     entry |= in_si(entry, plane.scales, **times, **dict.fromkeys(speeds, "speed"))
-    entry["loads"] = loads_document(plane.loads)
+    entry["loads"] = _loads_entry(plane.loads)
     if not plane.gives_way:
         # Impacts on a rigid wall have no force; this one is that of lasting contact.
         entry["loads"]["force_is_of_lasting_contact"] = True
     entry["whirl"] = None if plane.whirl is None else _whirl_entry(plane.whirl)
     entry["limits"] = [loads_entry(check) for check in check_loads(plane.loads, limits)]
     return entry
+
+
+def _loads_entry(loads: TouchdownLoads) -> dict[str, Any]:
+    document = fields_of(loads, "impacts", *MEASURED, "goes_on")
+    pressure = {} if loads.pressure is None else {"pressure_si": loads.pressure}
+    return document | in_si(document, loads.scales, *MEASURED) | pressure
 
 
 def _unit(say: Wording) -> float:

@@ -37,5 +37,5 @@ def test_the_program_can_be_run(capsys, tmp_path, monkeypatch):
     exec(compile(short, "program", "exec"), {})
     said = capsys.readouterr().out
     assert "damping ratio" in said
-    assert "plane 2: 0 contacts, 0 N" in said
+    assert "touchdown bearing 2: 0 contacts, 0 N" in said
     assert (tmp_path / "basin.png").exists()

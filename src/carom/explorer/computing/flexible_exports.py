@@ -49,7 +49,7 @@ case = cm.load(path, settings)
 motion = cm.simulate(case, cm.kick({", ".join(map(json.dumps, _kick(right, up, unit)))}), settle=True)
 print(motion.outcome.meaning)
 for plane in cm.motions.drop_loads(motion).planes:
-    print(f"plane {{plane.plane + 1}}: {{plane.contacts}} contacts, {{plane.loads.si()['force']:.0f}} N")
+    print(f"touchdown bearing {{plane.plane + 1}}: {{plane.contacts}} contacts, {{plane.loads.si()['force']:.0f}} N")
 
 kicks = VelocityKick.of(case, "{largest:.9g} {unit}")
 basin = cm.map_basins(case, cm.Grid(kicks, (12, 24)))

@@ -1,0 +1,195 @@
+"""One motion for the terminal: how it ended, its contacts at all touchdown bearings, and where it is at the end."""
+
+from __future__ import annotations
+
+import cmath
+import dataclasses
+import math
+from typing import TYPE_CHECKING, NamedTuple
+
+from rich.console import Console
+from rich.table import Table
+from rich.text import Text
+
+from carom.attractors import MotionName
+from carom.attractors.settled import settled_motion
+from carom.cli.fitting import fitted, plain_table
+from carom.cli.tables import complex_words
+from carom.models.weight import weight_of
+from carom.motions import TouchLog, Trajectory, touchdown_loads
+from carom.motions.contacts import yields
+from carom.outcome import Outcome, Phase
+from carom.parameters.indentation import indentation_of_hit
+from carom.parameters.told import number, told_angle
+from carom.studies import Wording, check_loads
+from carom.studies.wording import counted, listed, no_rigid_wall
+
+if TYPE_CHECKING:
+    from carom.parameters import Case
+
+FIRST_EVENTS, LAST_EVENTS = 20, 8
+"""Numbers of contacts shown at the beginning and at the end of a long log."""
+
+
+def print_motion(console: Console, case: Case, motion: Trajectory, *, loads: bool = True) -> None:
+    """Print how a motion ended, and its contacts, with the ``loads`` on the touchdown bearing unless these are told elsewhere."""
+    say = Wording(case.parameters.scales)
+    if motion.outcome is not Outcome.TRIGGERED:
+        console.print(Text(_end_words(motion), style="bold"))
+    if motion.multiplicity:
+        console.print(f"It repeats after {counted(motion.multiplicity, 'impact')}.")
+    turns = number(motion.time / (2.0 * math.pi), 3)
+    followed = f"Followed for {say.time(motion.time)} ({turns} turns of the shaft)" if motion.time else "Known at once"
+    console.print(f"{followed}: {_counts(motion)}.")
+    for seen in motion.at_each:
+        if len(log := seen.contacts):
+            soft = no_rigid_wall(indentation_of_hit(case.parameters, float(log.radial_speed.max())))
+            hardest = f"Hardest hit{_where(seen)}: normal impulse {say.impulse(float(log.normal_impulse.max()))}"
+            console.print(f"{hardest}{'; ' if soft else ''}{soft}.")
+    if any(len(seen.contacts) or seen.lasting_contacts for seen in motion.at_each):
+        if loads:
+            _print_loads(console, say, case, motion)
+        console.print()
+        console.print(fitted(console, _events(say, motion)))
+    final = motion.final
+    console.print()
+    if weight_of(motion.rotor) is not None or len(motion.rotor.system.rest) > 1:
+        for seen in motion.at_each:
+            console.print(_final_words(say, seen))
+        return
+    console.print(
+        f"At the end: U = {complex_words(final.position)} c_r, U' = {complex_words(final.velocity)} c_r Ω (co-rotating frame), "
+        f"r = {say.radius(abs(final.position))}"
+    )
+
+
+def _where(seen: Trajectory) -> str:
+    """Which touchdown bearing a motion is seen at, of a rotor with several."""
+    return f" at touchdown bearing {seen.plane + 1}" if len(seen.at_each) > 1 else ""
+
+
+def _counts(motion: Trajectory) -> str:
+    """Numbers of impacts and contacts, at all touchdown bearings together and at each of several."""
+    compliant = yields(motion.rotor.system, motion.plane)
+    each = [(len(seen.log), len(seen.lasting_contacts)) for seen in motion.at_each]
+    struck, lasting = (sum(numbers) for numbers in zip(*each, strict=True))
+    text = (
+        counted(struck, "contact")
+        if compliant
+        else f"{counted(struck, 'impact')}, {counted(lasting, 'lasting contact')}"
+    )
+    if len(each) == 1 or not struck:
+        return text
+    shares = [f"{number} at touchdown bearing {place}" for place, (number, _) in enumerate(each, start=1)]
+    return f"{text} ({listed(shares)})"
+
+
+def _final_words(say: Wording, seen: Trajectory) -> str:
+    """Where a rotor that weighs something, or one with several coordinates, is in a bearing at the end, and how fast, in the fixed frame."""
+    place, speed = seen.end()
+    say = dataclasses.replace(say, scales=seen.scales)
+    return (
+        f"At the end{_where(seen)}, in the fixed frame: {say.radius(abs(place))} from the centre at {told_angle(cmath.phase(place))}, "
+        f"moving with {say.velocity(abs(speed))} at {told_angle(cmath.phase(speed))}"
+    )
+
+
+def _end_words(motion: Trajectory) -> str:
+    """Say how a motion ended; a forward rub by the name that studies give it."""
+    if motion.outcome is not Outcome.FORWARD_RUB:
+        return motion.outcome.meaning
+    settled = settled_motion(motion)
+    name = MotionName(motion.outcome, drifting=not settled.synchronous)
+    how = "turns with the shaft" if settled.synchronous else "slides in the sense of rotation"
+    return f"The rotor ends in {name}: it stays in contact with the touchdown bearing and {how}."
+
+
+def _print_loads(console: Console, say: Wording, case: Case, motion: Trajectory) -> None:
+    """Print the loads on the touchdown bearing, and the limits that are stated for it."""
+    loads = touchdown_loads(motion)
+    if loads.force > 0.0:
+        power = f"friction power up to {say.power(loads.power)}"
+        console.print(f"Lasting contact: normal force up to {say.force(loads.force)}, {power}.")
+    goes_on = f"; it goes on with {say.power(loads.lasting_power)}" if loads.lasting_power > 0.0 else ""
+    console.print(f"Heat of friction: {say.energy(loads.heat)}{goes_on}.")
+    for check in check_loads(loads, case.limits):
+        words = f"{check.words[0].upper()}{check.words[1:]}."
+        console.print(Text(words, style="bold" if check.exceeded else ""))
+
+
+def _events(say: Wording, motion: Trajectory) -> Table:
+    """Return the table of impacts and lasting contacts in order of time; the middle of a long log is left out."""
+    speed, impulse, slip = (told(1.0).partition(" ")[2] for told in (say.velocity, say.impulse, say.slip))
+    time = f"time, {'ms' if say.scales else '1/Ω'}"
+    speeds, slips = f"speed towards wall, {speed}", f"slip, {slip}"
+    normal, friction = f"normal impulse, {impulse}", f"friction impulse, {impulse}"
+    angle = "angle" if weight_of(motion.rotor) is None else "fixed angle"
+    bearing = ("bearing",) if len(motion.at_each) > 1 else ()
+    after = () if yields(motion.rotor.system, motion.plane) else (slips,)
+    numbers = (time, *bearing, angle, speeds, normal, friction, *after)
+    headings = (time, *bearing, "contact", angle, speeds, "whirl", normal, friction, *after)
+    table = plain_table("Contacts", *headings, right=numbers, no_wrap=(*numbers, "whirl"))
+    rows = [row for seen in motion.at_each for row in _event_rows(dataclasses.replace(say, scales=seen.scales), seen)]
+    rows.sort(key=lambda row: row.time)
+    hidden = len(rows) - FIRST_EVENTS - LAST_EVENTS
+    shown = rows
+    if hidden > 1:
+        shown = [*rows[:FIRST_EVENTS], *rows[-LAST_EVENTS:]]
+        table.caption, table.caption_justify = f"… {number(hidden, 12)} more: --csv FILE has all", "left"
+    factor = 1e3 * say.scales.time if say.scales else 1.0
+    for place, row in enumerate(shown):
+        if hidden > 1 and place == FIRST_EVENTS:
+            table.add_row("…")
+        which = (str(row.bearing),) if bearing else ()
+        table.add_row(number(factor * (motion.begins + row.time), 7), *which, *row.cells)
+    return table
+
+
+class _Row(NamedTuple):
+    """A contact at a touchdown bearing, from 1; its time counts from the beginning of the stage."""
+
+    time: float
+    bearing: int
+    cells: tuple[str, ...]
+
+
+def _event_rows(say: Wording, seen: Trajectory) -> list[_Row]:
+    """Contacts at one bearing: impacts and lasting contacts, or those with a wall that gives way."""
+    log, bearing = seen.log, seen.plane + 1
+    slips: list[tuple[str, ...]]
+    if isinstance(log, TouchLog):
+        times, frictions, slips = log.start, log.friction_impulse, [()] * len(log)
+        kinds = [_lasting(say, *each) for each in zip(log.phase.tolist(), log.duration.tolist(), strict=True)]
+    else:
+        times, frictions, kinds = log.time, log.tangential_impulse, ["impact"] * len(log)
+        after = zip(log.sticks.tolist(), log.slip_after.tolist(), strict=True)
+        slips = [("stops" if sticks else _number_of(say.slip(slip)),) for sticks, slip in after]
+    # Weight has a direction in the fixed frame alone.
+    angles = log.angle if weight_of(seen.rotor) is None else log.angle + seen.begins + times
+    rows = []
+    for place, (time, kind, slip) in enumerate(zip(times.tolist(), kinds, slips, strict=True)):
+        cells = (
+            kind,
+            f"{math.degrees(math.remainder(angles[place], 2.0 * math.pi)):.1f}°",
+            _number_of(say.velocity(float(log.radial_speed[place]))),
+            "forward" if log.angular_speed[place] > -1.0 else "backward",
+            _number_of(say.impulse(float(log.normal_impulse[place]))),
+            _number_of(say.impulse(float(frictions[place]))),
+            *slip,
+        )
+        rows.append(_Row(time, bearing, cells))
+    if not isinstance(log, TouchLog):
+        rows += [
+            _Row(each.start, bearing, (_lasting(say, each.phase, each.end - each.start),))
+            for each in seen.lasting_contacts
+        ]
+    return rows
+
+
+def _lasting(say: Wording, phase: int, duration: float) -> str:
+    return f"{Phase(phase).label.replace('-', ' ')} for {say.time(float(duration))}"
+
+
+def _number_of(told: str) -> str:
+    """The number of a size such as ``60 mm/s``, for a column whose heading has the unit."""
+    return told.partition(" ")[0]
