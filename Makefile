@@ -17,7 +17,7 @@ unexport PYTHONDONTWRITEBYTECODE
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help demo test test-deep test-plain newest check lint types layers format coverage mutants bench docs lock clean distclean
+.PHONY: help demo test test-deep test-plain newest check lint types layers format coverage mutants bench docs wheel lock clean distclean
 
 help: ## list the targets
 	@sed -n 's/^\([a-z-]*\):[^#]*## \(.*\)/\1	\2/p' Makefile | awk -F '\t' '{ printf "make %-10s %s\n", $$1, $$2 }'
@@ -72,6 +72,9 @@ docs: $(DOCS) ## build the documentation; its examples are executed
 	$(BIN)/python tools/kernels
 	$(BIN)/sphinx-build -E -W --keep-going -j auto docs build/docs $(ARGS)
 	@echo "Documentation: $(CURDIR)/build/docs/index.html"
+
+wheel: $(TEST) ## build what would be published, and use the wheel outside of this directory
+	tools/distribution
 
 lock: ## lock the dependencies anew; ARGS=--upgrade takes the newest
 	tools/lock $(ARGS)

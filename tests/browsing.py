@@ -2,27 +2,16 @@
 
 from __future__ import annotations
 
+import os
 import shutil
 import subprocess
 import sys
 from contextlib import contextmanager
-from importlib.util import find_spec
 
-import pytest
-
-try:
-    from playwright.sync_api import expect
-except ModuleNotFoundError:
-    expect = None
-
-BROWSER = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
-IN_A_BROWSER = [
-    pytest.mark.skipif(find_spec("bokeh") is None, reason="needs the extra carom[explore]"),
-    pytest.mark.skipif(expect is None, reason="needs playwright for Python"),
-    pytest.mark.skipif(BROWSER is None, reason="no chromium, chromium-browser or google-chrome on the PATH"),
-    pytest.mark.jit_only,
-]
-"""Marks of all tests of a file in a browser."""
+NAMES = ("chromium", "chromium-browser", "google-chrome")
+BROWSER = next(filter(None, map(shutil.which, NAMES)), None)
+MUST = os.environ.get("CAROM_BROWSER") == "required"
+"""Whether tests in a browser fail where there is none, instead of being left out."""
 OPTIONS = (
     "--no-sandbox",
     "--disable-gpu",

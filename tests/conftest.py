@@ -18,6 +18,7 @@ import pkgutil  # noqa: E402
 from pathlib import Path  # noqa: E402
 
 import pytest  # noqa: E402
+from browsing import BROWSER, MUST, NAMES, OPTIONS  # noqa: E402
 from compilation import COMPILED, DEEP, compile_kernels, sized  # noqa: E402
 from hypothesis import settings  # noqa: E402
 from machines import PAPER  # noqa: E402
@@ -41,6 +42,19 @@ def pytest_sessionstart(session):
     """Compile kernels before the workers of a parallel run start: else each of them would compile the same."""
     if session.config.getoption("numprocesses", None) and not hasattr(session.config, "workerinput"):
         compile_kernels()
+
+
+@pytest.fixture(scope="module")
+def browser():
+    """Chromium without a window, closed after each file: while it runs, its loop of events is that of the process."""
+    from playwright.sync_api import sync_playwright
+
+    if BROWSER is None:
+        (pytest.fail if MUST else pytest.skip)(f"none of {', '.join(NAMES)} is on the PATH")
+    with sync_playwright() as playwright:
+        started = playwright.chromium.launch(executable_path=BROWSER, args=list(OPTIONS))
+        yield started
+        started.close()
 
 
 @pytest.fixture(scope="session")

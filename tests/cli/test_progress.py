@@ -27,15 +27,12 @@ pytestmark = pytest.mark.jit_only
 
 @pytest.mark.parametrize("command", COMMANDS)
 def test_shares_grow_to_the_end(command, monkeypatch, tmp_path, capsys):
-    if command.startswith("prove"):
-        pytest.importorskip("flint")
     words = [str(tmp_path / "out") if word == "OUT" else word for word in COMMANDS[command]]
     _shares_grow(words, monkeypatch, capsys)
 
 
 @pytest.mark.parametrize("command", ["prove", "prove along"])
 def test_shares_of_a_check_grow_to_the_end(command, monkeypatch, tmp_path, capsys):
-    pytest.importorskip("flint")
     assert main([*COMMANDS[command], "--out", str(tmp_path)]) == 0
     _shares_grow(["prove", "--check", str(tmp_path / "proof.json")], monkeypatch, capsys)
 

@@ -3,23 +3,13 @@
 from __future__ import annotations
 
 import pytest
-from browsing import BROWSER, DESK, OPTIONS, SOON, answered, said, served
+from browsing import DESK, SOON, answered, said, served
 
 
 @pytest.fixture(scope="module")
 def address(request):
     with served(request.module.MACHINE) as (_, found):
         yield found
-
-
-@pytest.fixture(scope="module")
-def browser():
-    from playwright.sync_api import sync_playwright
-
-    with sync_playwright() as playwright:
-        started = playwright.chromium.launch(executable_path=BROWSER, args=list(OPTIONS))
-        yield started
-        started.close()
 
 
 @pytest.fixture(scope="module")

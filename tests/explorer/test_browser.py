@@ -7,7 +7,8 @@ import re
 from pathlib import Path
 
 import pytest
-from browsing import DESK, IN_A_BROWSER, SOON, answered, drag, expect, fits, flown, painted, point, said, served
+from browsing import DESK, SOON, answered, drag, fits, flown, painted, point, said, served
+from playwright.sync_api import expect
 
 import carom
 from carom.explorer.computing.kicks import map_kicks
@@ -15,7 +16,7 @@ from carom.explorer.computing.motions import table_of
 from carom.explorer.computing.planes import planes_of
 from carom.models import Jeffcott
 
-pytestmark = IN_A_BROWSER
+pytestmark = pytest.mark.jit_only
 MACHINE = Path(__file__).parents[2] / "examples" / "keogh-cole.toml"
 
 

@@ -6,9 +6,10 @@ import re
 from pathlib import Path
 
 import pytest
-from browsing import DESK, IN_A_BROWSER, answered, drag, expect, fits, painted, point, said
+from browsing import DESK, answered, drag, fits, painted, point, said
+from playwright.sync_api import expect
 
-pytestmark = IN_A_BROWSER
+pytestmark = pytest.mark.jit_only
 MACHINE = Path(__file__).parents[2] / "examples" / "tum-flexible-rotor.toml"
 
 

@@ -10,7 +10,6 @@ from contextlib import contextmanager
 
 import numpy as np
 import pytest
-from browsing import BROWSER
 from flexible_pages import opened
 from linear_rotors import tilting
 
@@ -57,7 +56,6 @@ def shown(made):
 @pytest.fixture
 def figure():
     """A figure, and what it sends."""
-    pytest.importorskip("anywidget", reason="needs the extra carom[notebook]")
     with shown(carom.explorer.explore(MACHINE)) as made:
         yield made
 
@@ -112,7 +110,6 @@ def test_without_the_extra_it_says_what_to_install(monkeypatch):
 
 @pytest.mark.jit_only
 def test_a_flexible_machine_is_drawn_at_each_of_its_touchdown_bearings(browser, monkeypatch):
-    pytest.importorskip("anywidget", reason="needs the extra carom[notebook]")
     monkeypatch.setattr(flexible_kicks, "CELLS", 9)
     monkeypatch.setattr(flexible_kicks, "TIMES", (1.0,))
     flexible_kicks.opening_size.cache_clear()
@@ -131,19 +128,6 @@ def test_a_flexible_machine_is_drawn_at_each_of_its_touchdown_bearings(browser, 
 def test_another_model_than_the_planar_rotor_is_refused():
     with pytest.raises(InputError, match="the planar rotor: this result is not known for other models"):
         carom.explorer.explore(tilting().model)
-
-
-@pytest.fixture(scope="module")
-def browser():
-    if BROWSER is None:
-        pytest.skip("no chromium, chromium-browser or google-chrome on the PATH")
-    playwright = pytest.importorskip("playwright.sync_api", reason="needs playwright for Python")
-    with playwright.sync_playwright() as running:
-        started = running.chromium.launch(
-            executable_path=BROWSER, args=["--no-sandbox", "--disable-gpu", "--no-first-run"]
-        )
-        yield started
-        started.close()
 
 
 def hosted(browser, figure, colours):

@@ -13,19 +13,15 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 
 import pytest
-
-import carom
-from carom.explorer.computing.exports import Origin
-from carom.outcome import InputError
-
-pytest.importorskip("bokeh", reason="needs the extra carom[explore]")
-
 from tornado.httpclient import AsyncHTTPClient, HTTPRequest
 from tornado.websocket import WebSocketClosedError, websocket_connect
 
+import carom
 from carom.explorer import server as servers
+from carom.explorer.computing.exports import Origin
 from carom.explorer.page import planar
 from carom.explorer.server import LEFT, Explorer, _compile
+from carom.outcome import InputError
 
 MACHINE = str(Path(__file__).parents[2] / "examples" / "keogh-cole.toml")
 

@@ -5,9 +5,10 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from browsing import DESK, IN_A_BROWSER, answered, expect, fits, flown, point, said
+from browsing import DESK, answered, fits, flown, point, said
+from playwright.sync_api import expect
 
-pytestmark = IN_A_BROWSER
+pytestmark = pytest.mark.jit_only
 MACHINE = Path(__file__).parents[2] / "examples" / "balanced-rotor.toml"
 
 

@@ -266,7 +266,6 @@ def test_a_model_has_the_case_of_its_bearing(origin):
 
 @pytest.mark.jit_only
 def test_a_session_answers_with_everything(origin, monkeypatch):
-    pytest.importorskip("bokeh", reason="needs the extra carom[explore]")
     from carom.explorer.page import planar
     from carom.explorer.page.session import Session
 

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import pytest
-from browsing import DESK, IN_A_BROWSER, answered, drag, expect, fits, flown, point, said, served
+from browsing import DESK, answered, drag, fits, flown, point, said, served
+from playwright.sync_api import expect
 
-pytestmark = IN_A_BROWSER
+pytestmark = pytest.mark.jit_only
 MACHINE = """
 [machine]
 mass = "50 kg"

@@ -8,6 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+import xarray
 from compilation import sized
 from drawn_motions import EVENTS, MANY
 from hypothesis import given
@@ -119,7 +120,6 @@ class TestContactLog:
 
     @pytest.mark.parametrize("scales", [None, SCALES])
     def test_a_dataset_keeps_its_units_in_a_file(self, motion, scales, tmp_path):
-        xarray = pytest.importorskip("xarray")
         table = replace(motion.contacts, scales=scales).to_dataset()
         table.to_netcdf(tmp_path / "contacts.nc", engine="h5netcdf")
         with xarray.open_dataset(tmp_path / "contacts.nc", engine="h5netcdf", decode_times=False) as read:
@@ -220,7 +220,6 @@ def test_powers_of_a_history_sum_to_the_works_of_the_ledger():
 
 @pytest.mark.parametrize("scales", [None, SCALES])
 def test_a_history_goes_to_a_file(scales, tmp_path):
-    xarray = pytest.importorskip("xarray")
     motion = simulate(Jeffcott(PAPER.replace(gamma=0.2, d=0.5)), START, 40.0)
     table = replace(motion.history(np.linspace(0.0, 40.0, 300)), scales=scales).to_dataset()
     table.to_netcdf(tmp_path / "history.nc", engine="h5netcdf")

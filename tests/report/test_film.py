@@ -8,7 +8,6 @@ import re
 
 import numpy as np
 import pytest
-from browsing import BROWSER, OPTIONS
 
 import carom as cm
 from carom.disturbances.echo import echo_of_drop
@@ -113,30 +112,24 @@ def test_what_becomes_too_fast_later_does_not_shorten_the_film_of_what_comes_bef
 
 
 @pytest.fixture(scope="module")
-def page(balls, tmp_path_factory):
-    playwright = pytest.importorskip("playwright.sync_api")
-    if BROWSER is None:
-        pytest.skip("no chromium, chromium-browser or google-chrome on the PATH")
+def page(balls, browser, tmp_path_factory):
     case, motion = balls
     echo = echo_of_drop(motion.start, 0.0, None, case.gravity, case.parameters.scales)
     path = write_drop_report(DropStudy(case, echo, motion), str(tmp_path_factory.mktemp("film") / "out"))
-    with playwright.sync_playwright() as started:
-        browser = started.chromium.launch(executable_path=BROWSER, args=list(OPTIONS))
-        contexts = []
+    contexts = []
 
-        def open_page(**options):
-            context = browser.new_context(viewport={"width": 1280, "height": 900}, **options)
-            contexts.append(context)
-            opened, wrong = context.new_page(), []
-            opened.on("pageerror", lambda problem: wrong.append(str(problem)))
-            opened.goto(path.absolute().as_uri())
-            assert wrong == []
-            return opened
+    def open_page(**options):
+        context = browser.new_context(viewport={"width": 1280, "height": 900}, **options)
+        contexts.append(context)
+        opened, wrong = context.new_page(), []
+        opened.on("pageerror", lambda problem: wrong.append(str(problem)))
+        opened.goto(path.absolute().as_uri())
+        assert wrong == []
+        return opened
 
-        yield open_page
-        for context in contexts:
-            context.close()
-        browser.close()
+    yield open_page
+    for context in contexts:
+        context.close()
 
 
 def reading(page, name):

@@ -17,7 +17,6 @@ from carom.report.html import with_subscripts
 from carom.studies.facts import about
 from carom.studies.summaries import share_rows, survived_rows
 
-CHROMIUM = "/usr/bin/chromium"
 SOURCE = Parameters(gamma=0.1, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7)
 
 pytestmark = pytest.mark.jit_only
@@ -238,25 +237,14 @@ def test_figures_are_svg_and_png(written, monkeypatch, tmp_path):
     ]
 
 
-@pytest.fixture(scope="module")
-def chromium():
-    playwright = pytest.importorskip("playwright.sync_api")
-    if not Path(CHROMIUM).exists():
-        pytest.skip(f"needs {CHROMIUM}")
-    with playwright.sync_playwright() as started:
-        browser = started.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox", "--disable-gpu"])
-        yield browser
-        browser.close()
-
-
 def bottom(page, selector):
     return page.evaluate("chosen => document.querySelector(chosen).getBoundingClientRect().bottom", selector)
 
 
 @pytest.mark.parametrize(("width", "scheme"), [(390, "light"), (390, "dark"), (1280, "light")])
-def test_nothing_is_wider_than_the_screen(width, scheme, written, chromium):
+def test_nothing_is_wider_than_the_screen(width, scheme, written, browser):
     _, path, _ = written
-    page = chromium.new_page(viewport={"width": width, "height": 900}, color_scheme=scheme)
+    page = browser.new_page(viewport={"width": width, "height": 900}, color_scheme=scheme)
     page.goto(path.absolute().as_uri())
     page.evaluate("document.querySelector('details').open = true")
     assert page.evaluate("document.documentElement.scrollWidth") == width
@@ -267,9 +255,9 @@ def test_nothing_is_wider_than_the_screen(width, scheme, written, chromium):
     page.close()
 
 
-def test_the_first_screen_and_the_first_printed_page_hold_the_answer(written, chromium):
+def test_the_first_screen_and_the_first_printed_page_hold_the_answer(written, browser):
     _, path, _ = written
-    page = chromium.new_page(viewport={"width": 1280, "height": 900})
+    page = browser.new_page(viewport={"width": 1280, "height": 900})
     page.goto(path.absolute().as_uri())
     assert bottom(page, ".page") <= 900
     assert page.evaluate("document.documentElement.scrollHeight") <= 7100

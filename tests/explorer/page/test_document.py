@@ -8,23 +8,19 @@ import threading
 from pathlib import Path
 
 import pytest
+from bokeh.document import Document
+from bokeh.resources import Resources
 
 import carom
 from carom.explorer.background import SupersededError
 from carom.explorer.computing.exports import Origin
-
-bokeh = pytest.importorskip("bokeh", reason="needs the extra carom[explore]")
-
-from bokeh.document import Document  # noqa: E402
-from bokeh.resources import Resources  # noqa: E402
-
-from carom.explorer.page import document as documents  # noqa: E402
-from carom.explorer.page.document import fill, write_page  # noqa: E402
-from carom.explorer.page.figures import looks, make_figures  # noqa: E402
-from carom.explorer.page.kinds import kind_of  # noqa: E402
-from carom.explorer.page.models import Answers  # noqa: E402
-from carom.explorer.page.scripts import FLEXIBLE, PICTURES, PLANAR, joined  # noqa: E402
-from carom.plots import LOOKS  # noqa: E402
+from carom.explorer.page import document as documents
+from carom.explorer.page.document import fill, write_page
+from carom.explorer.page.figures import looks, make_figures
+from carom.explorer.page.kinds import kind_of
+from carom.explorer.page.models import Answers
+from carom.explorer.page.scripts import FLEXIBLE, PICTURES, PLANAR, joined
+from carom.plots import LOOKS
 
 EXAMPLES = Path(__file__).parents[3] / "examples"
 MACHINE, OF_ROTOR = str(EXAMPLES / "keogh-cole.toml"), str(EXAMPLES / "tum-flexible-rotor.toml")
