@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
 import random
 from fractions import Fraction
+from importlib.metadata import version
 
 import numpy as np
 import pytest
@@ -293,3 +295,16 @@ def test_processes_find_and_verify_the_same(document, monkeypatch):
     found = prove_kicks(machine, largest, most_impacts=most, time_limit=None, workers=2)
 
     assert found.document() == document
+
+
+def test_cells_of_a_store_are_followed_again_before_they_count(tmp_path):
+    """A whole disc said to return without an impact, with a checksum that agrees."""
+    place = tmp_path / "cells.json"
+    prove_kicks(SPINDLE, "111 mm/s", most_impacts=1, store=place, time_limit=1e-3, workers=1)
+    found = json.loads(place.read_text())
+    assert found["carom"] == version("carom")
+    changed = found | {"cells": "0", "sha256": hashlib.sha256(b"0").hexdigest()}
+    place.write_text(json.dumps(changed))
+    proof = prove_kicks(SPINDLE, "111 mm/s", most_impacts=1, store=place, time_limit=1e-3, workers=1)
+    assert proof["kicks all recover"].status == "undecided"
+    check(proof.document())

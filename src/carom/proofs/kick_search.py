@@ -14,7 +14,7 @@ from carom.outcome import CaromError
 from carom.progress import Reporter
 from carom.proofs.balls import at_precision
 from carom.proofs.evidence import NotShownError
-from carom.proofs.kick_cells import IMPACTS, LOST, OPEN, REFUTED, Cell, Tree, leaves, share_of
+from carom.proofs.kick_cells import AHEAD, IMPACTS, LOST, OPEN, REFUTED, Cell, Tree, leaves, share_of
 from carom.proofs.kick_discs import Disc, DiscData, Found, disc_of
 from carom.proofs.passages import LeftOpenError
 
@@ -32,6 +32,7 @@ _LOST_COUNTS = 1 / 4
 """How much the area of a cell whose middle does not return counts beside others."""
 
 _Result = TypeVar("_Result")
+_Listed = TypeVar("_Listed")
 
 
 def search(
@@ -39,8 +40,10 @@ def search(
 ) -> None:
     """Halve and prove cells of a tree until none is open, or for so many seconds.
 
-    ``record`` receives the tree from time to time, also when the search is interrupted.
+    What the tree says to be closed is shown again first, which the seconds leave out.  ``record`` receives the tree from time to time, also when
+    the search is interrupted.
     """
+    tell = _follow_again(disc, tree, workers, tell)
     heap: list[tuple[float, Cell]] = []
     for cell, letter in leaves(tree):
         _push(heap, cell, letter)
@@ -73,17 +76,33 @@ def search(
             record(tree)
 
 
+def _follow_again(disc: Disc, tree: Tree, workers: int, tell: Reporter) -> Reporter:
+    """Follow again what a tree says to be closed, and open what is not; return who is told of the rest."""
+    told = [cell for cell, letter in leaves(tree) if _is_closed(letter)]
+    again, rest = tell.part(0.0, 0.5 if told else 0.0), tell.part(0.5 if told else 0.0, 1.0)
+    done = 0
+    for cells, found in _each(disc, _tried, _batches_of(told), workers):
+        tree.update({cell: AHEAD if by else letter for cell, (letter, by) in zip(cells, found, strict=True)})
+        done += len(cells)
+        again(done / len(told), f"{done} of {len(told)} cells followed again")
+    return rest
+
+
+def _is_closed(letter: str) -> bool:
+    return _returns(letter) or _ends(letter)
+
+
+def _batches_of(listed: list[_Listed]) -> Callable[[], Iterator[list[_Listed]]]:
+    """Batches of a list, which go on where those asked for before have ended."""
+    ahead = iter([listed[first : first + BATCH] for first in range(0, len(listed), BATCH)])
+    return lambda: ahead
+
+
 def show_all(disc: Disc, tree: Tree, workers: int, tell: Reporter) -> None:
     """Show what is said of all cells that are proven; :class:`~carom.proofs.evidence.NotShownError` if it is not so."""
-    told = [(cell, letter) for cell, letter in leaves(tree) if letter in IMPACTS or letter == REFUTED]
+    told = [(cell, letter) for cell, letter in leaves(tree) if _is_closed(letter)]
     done = 0
-    ahead = iter(range(0, len(told), BATCH))
-
-    def batches() -> Iterator[list[tuple[Cell, str]]]:
-        for first in ahead:
-            yield told[first : first + BATCH]
-
-    for cells, problem in _each(disc, _shown, batches, workers):
+    for cells, problem in _each(disc, _shown, _batches_of(told), workers):
         if problem:
             raise NotShownError(problem)
         done += len(cells)

@@ -7,6 +7,7 @@ import json
 import math
 import os
 from collections.abc import Iterable, Mapping
+from importlib.metadata import version
 from pathlib import Path
 from typing import Annotated, Any, NamedTuple
 
@@ -75,7 +76,7 @@ def prove_kicks(
         When to end the search, in s or with a unit; with ``None`` when nothing is open.
     store : path, optional
         File for the cells: an interrupted search goes on from there, and one that was ended by its time does with further time.
-        The cells in it are taken as they are; :func:`~carom.proofs.check` verifies all.
+        What it says to be proven is proven again before it counts, beyond the time limit.
     workers : int, optional
         Processes; by default as many as there are cores.
 
@@ -155,10 +156,10 @@ def _content(disc: Disc) -> dict[str, Any]:
 
 
 def _store(place: Path, disc: Disc, tree: Tree) -> None:
-    """Write the cells so far, with a checksum against damage."""
+    """Write the cells so far, with the version that has found them and a checksum against damage."""
     cells = written(tree)
     digest = hashlib.sha256(cells.encode()).hexdigest()
-    write_whole(place, json.dumps({**_content(disc), "sha256": digest, "cells": cells}).encode())
+    write_whole(place, json.dumps({**_content(disc), "carom": version("carom"), "sha256": digest, "cells": cells}).encode())
 
 
 def _stored(place: Path, disc: Disc) -> Tree:
@@ -168,6 +169,7 @@ def _stored(place: Path, disc: Disc) -> Tree:
         cells = found.pop("cells")
         if found.pop("sha256") != hashlib.sha256(cells.encode()).hexdigest():
             raise ValueError("damaged")
+        found.pop("carom")
         tree = read(cells, len(disc.along))
     except OSError as problem:
         raise InputError("store", shown(place), f"cannot be read: {problem.strerror or problem}") from None
