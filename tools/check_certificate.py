@@ -12,7 +12,8 @@ One line is printed for each claim:
     claims nothing the certificate leaves it open
     refused        it is false, is written in a way that is not known, is missing or there twice, or could not be confirmed
 
-The exit code is 0 if nothing is refused, else 1.
+The exit code is 0 if every claim is checked or claims nothing, 1 if something is refused, and 3 if nothing is refused but claims are left that
+are not covered; the last line says so.
 
 How claims are decided. Time is in 1/Omega, length in clearances, and the frame turns with the shaft. Between impacts
 
@@ -1031,9 +1032,10 @@ def check(text: str) -> Report:
     for key, times in Counter((c["about"], c["kind"]) for c in claims).items():
         if times > 1:
             report.add("refused", f"{key[0]}: {key[1]}", "it is there twice")
-    theorem = THEOREMS.get(document["theorem"])
+    theorem = THEOREMS.get(str(document["theorem"]))
     if theorem is None:
         raise RefusedError(f"the theorem {document['theorem']!r} is not known to this program")
+    refuse_unknown(document)
     if any(value.startswith("[") for value in hypotheses["exact"].values()):
         for claim in claims:
             report.add("not covered", f"{claim['about']}: {claim['kind']}", "the hypotheses are a box of machines")
@@ -1124,7 +1126,7 @@ def check_machine(document: dict, exact: dict[str, Exact], report: Report) -> No
                 r"(rub|orbit) \d+|B\d+,\S+", claim["about"]
             ):
                 raise RefusedError("there is no such thing, or no such claim about it")
-            return "not covered|a claim of a kind that this program does not know"
+            return "not covered|this program does not decide such claims"
         if claim["status"] == "undecided":
             return "claims nothing"
         if fact.true is None and problem:
@@ -2172,7 +2174,7 @@ def decide_interval(claim: dict, intervals: Intervals | None, along: Along) -> s
         change = re.fullmatch(r"(?:birth|period doubling|neimark-sacker) of (B\d+,[a-d])", kind)
         if change:
             return check_change(along, claim, change[1])
-    return "not covered|a claim of a kind that this program does not know"
+    return "not covered|this program does not decide such claims"
 
 
 def points_of(along: Along, claims: list[dict], report: Report) -> dict[tuple[str, str], dict[str, Fact] | str]:
@@ -2224,7 +2226,7 @@ def check_along(document: dict, exact: dict[str, Exact], report: Report) -> None
                 if isinstance(facts, str):
                     raise RefusedError(facts)
                 fact = facts.get(kind[len(first) :].strip())
-                return judge(claim, fact) if fact else "not covered|a claim of a kind that this program does not know"
+                return judge(claim, fact) if fact else "not covered|this program does not decide such claims"
         raise RefusedError("the point itself is missing")
 
     report.each(claims, decide)
@@ -2765,7 +2767,7 @@ def check_kicks(document: dict, exact: dict[str, Exact], report: Report) -> None
     def decide(claim: dict) -> str:
         pattern = patterns.get(claim["kind"]) if claim["about"] == about else None
         if pattern is None:
-            return "not covered|a claim of a kind that this program does not know"
+            return "not covered|this program does not decide such claims"
         match = re.fullmatch(pattern, claim["statement"])
         if not match:
             raise RefusedError("its statement is not known to this program")
@@ -2959,7 +2961,7 @@ def check_box_kicks(document: dict, exact: dict[str, Exact], report: Report) -> 
             or box.ends[0][0].power
             or box.ends[0][1].power
         ):
-            return "not covered|a claim of a kind that this program does not know"
+            return "not covered|this program does not decide such claims"
         where = intervals_of((slow or match)[1], box.entries[0][0])
         if slow:
             name = "speed_si" if box.si else "speed"
@@ -2989,6 +2991,115 @@ THEOREMS = {
     "kicks of a box of machines": check_box_kicks,
 }
 
+# What each theorem may claim, as "about: kind"; its options; and what a reader may expect that it does not claim.
+_STEADY = "levitation: (inside|stable)", r"rub \d+: (solution|pressed|attracts sliding)"
+_WHIRL = (
+    "whirl: (rolls|rolls above|attracts sliding|reached by sliding|slips|slips steadily|absent|absent below|only rubs below)",
+    "ball at rub 1: (slides in|bounces in)",
+)
+_SINGLE = (
+    *_STEADY,
+    *_WHIRL,
+    "machine: (periods|slip|orbits)",
+    "kick: harmless",
+    r"B\d+,\S+: (solution|outward|inside|slip|admissible|stable)",
+)
+_ALONG = (
+    "(fold|speed-fold|period-doubling|neimark-sacker|grazing|slip-stop|non-smooth-hopf|boundary-equilibrium|rub-fold): of .+",
+    r"\S+ in \[\S+, \S+\]: (orbits|(birth|period doubling|neimark-sacker) of B\d+,[a-d])",
+    r"B\d+,[a-d]: (exists|admissible|stable)",
+    "machine: (slip|all-single-impact-orbits)",
+    "levitation: inside",
+    "rub [12]: (pressed|attracts sliding)",
+    "whirl: (rolls|absent)",
+    "kick: harmless( outside of gaps)?",
+)
+_KICKS = "(recover|all recover|do not recover)"
+_NO_BASINS = (
+    "which disturbances lead to an orbit or to levitation: basins, and recovery from kicks above the harmless speed"
+)
+_DISC_LEAVES_OUT = (
+    "that what is open does not return, or that it does; why it is open is told by the search",
+    "that the impacts stated happen: they are bounds from above",
+    "anything beyond the largest size, of starts other than levitation, or of walls that give way",
+)
+
+
+class Form(NamedTuple):
+    """What certificates of a theorem look like."""
+
+    names: tuple[str, ...]
+    options: tuple[str, ...]
+    not_claimed: tuple[str, ...]
+
+
+FORMS = {
+    "states": Form(
+        ("states: (recover|lost|all recover)",),
+        ("states_up_to",),
+        (
+            "that states faster than the speed that is shown do not return, but for those that are named",
+            "how many impacts there are on the way, how hard they are, or how long it takes",
+            "anything of a rotor with weight, of walls that give way, or of a shaft whose speed changes",
+        ),
+    ),
+    "single-impact orbits": Form(
+        _SINGLE,
+        ("longest_period", "cells"),
+        (
+            "that there are no orbits with several impacts a period, with impacts and lasting contact, or irregular motions",
+            _NO_BASINS,
+            "that a rub attracts what begins outside of the ball that is told",
+            "which slides and whirls repeat that are not told, or that there is no whirl that bounces",
+        ),
+    ),
+    "orbits of several impacts": Form(
+        (*_SINGLE, r"orbit \d+: (exists|admissible|stable)"),
+        ("longest_period", "cells", "impacts"),
+        (
+            "that there are no other orbits with two or more impacts a period: those listed are what a search found",
+            "that there are no orbits with lasting contact or with impacts that stop the slip, and no irregular motions",
+            _NO_BASINS,
+        ),
+    ),
+    "along a parameter": Form(
+        _ALONG,
+        ("along", "from", "to", "blocks", "narrowest"),
+        (
+            "what is said to be open on an interval, but for the points listed there",
+            "that there are no other bifurcation points there: those listed are what a search in double precision found",
+            "that the orbit at a point has the name it is listed by",
+            "that there are no orbits with several impacts a period, with lasting contact, or irregular motions",
+            "which disturbances lead to an orbit or to levitation: basins, and recovery from kicks",
+        ),
+    ),
+    **{
+        about: Form((f"{about}: {_KICKS}",), (kind.option, "most_impacts"), _DISC_LEAVES_OUT)
+        for about, kind in DISCS.items()
+    },
+    "kicks of a box of machines": Form(
+        (f"kicks: ({_KICKS}|all recover outside of gaps)", "kicks, .+: recover"),
+        ("kicks_up_to", "most_impacts", "box"),
+        (
+            *_DISC_LEAVES_OUT,
+            "anything of machines with parameters outside of the intervals, or whose parameters move while they are kicked",
+        ),
+    ),
+}
+
+
+def refuse_unknown(document: dict) -> None:
+    """Refuse options, claims, and lists of what is not claimed, that certificates of the theorem do not have."""
+    form = FORMS[document["theorem"]]
+    if not isinstance(document["options"], dict) or sorted(document["options"]) != sorted(form.options):
+        raise RefusedError(f"the options must be {', '.join(form.options)}")
+    if document["not_claimed"] != list(form.not_claimed):
+        raise RefusedError("what it says is not claimed is not what this theorem leaves out")
+    for claim in document["claims"]:
+        name = f"{claim['about']}: {claim['kind']}"
+        if not any(re.fullmatch(known, name) for known in form.names):
+            raise RefusedError(f"there is no such claim: {name}")
+
 
 def main(arguments: list[str]) -> int:
     if len(arguments) != 1 or arguments[0] in ("-h", "--help"):
@@ -2999,11 +3110,23 @@ def main(arguments: list[str]) -> int:
     except (RefusedError, OSError, UnicodeDecodeError) as problem:
         print(f"refused: {problem}")
         return 1
+    except (TypeError, AttributeError, LookupError, ValueError, ArithmeticError) as problem:
+        print(f"refused: it is not written as certificates are ({problem})")
+        return 1
     for verdict, what, why in report.lines:
         print(f"{verdict:14} {what}{f' ({why})' if why else ''}")
     counts = Counter(verdict for verdict, _, _ in report.lines)
     print(", ".join(f"{number} {verdict}" for verdict, number in sorted(counts.items())))
-    return int(report.refused > 0)
+    if report.refused:
+        print("The certificate is refused.")
+        return 1
+    if counts["not covered"]:
+        print(
+            f"Not the whole certificate is confirmed: {counts['not covered']} claims are not covered by this program."
+        )
+        return 3
+    print("Everything that it claims is confirmed.")
+    return 0
 
 
 if __name__ == "__main__":

@@ -104,8 +104,10 @@ def test_it_is_run_with_a_file_and_prints_a_line_for_each_claim(tmp_path, paper)
     file = tmp_path / "proof.json"
     file.write_text(json.dumps(paper), encoding="utf-8")
     done = subprocess.run([sys.executable, "-I", PROGRAM, file], capture_output=True, text=True, check=False)
-    assert (done.returncode, done.stderr) == (0, "")
-    assert len(done.stdout.splitlines()) == len(paper["claims"]) + 2
+    assert (done.returncode, done.stderr) == (3, "")
+    *lines, last = done.stdout.splitlines()
+    assert len(lines) == len(paper["claims"]) + 2
+    assert re.fullmatch(r"Not the whole certificate is confirmed: \d+ claims are not covered by this program\.", last)
     file.write_text(json.dumps(changed(paper, "B1,d", "stable", status="refuted")), encoding="utf-8")
     done = subprocess.run([sys.executable, "-I", PROGRAM, file], capture_output=True, text=True, check=False)
     assert done.returncode == 1
@@ -113,6 +115,24 @@ def test_it_is_run_with_a_file_and_prints_a_line_for_each_claim(tmp_path, paper)
     assert (
         subprocess.run([sys.executable, PROGRAM, tmp_path / "none"], capture_output=True, check=False).returncode == 1
     )
+
+
+@pytest.fixture(scope="module")
+def kinds(paper, doubled, along, kicks, box, states):
+    """A certificate of each kind."""
+    return {document["theorem"]: document for document in (paper, doubled, along, kicks, box, states)}
+
+
+def test_claims_options_and_lists_that_are_not_known_are_refused_in_every_kind(kinds):
+    assert set(kinds) | {"shocks", "unbalance steps"} == set(PROGRAM_OF.THEOREMS) == set(PROGRAM_OF.FORMS)
+    for document in kinds.values():
+        unknown = {**document["claims"][0], "kind": "recovers at once"}
+        for change in (
+            {"claims": [*document["claims"], unknown]},
+            {"options": {**document["options"], "further": 1}},
+            {"not_claimed": document["not_claimed"][1:]},
+        ):
+            assert len(refused({**document, **change})) == 1
 
 
 MACHINES = {
@@ -381,6 +401,10 @@ def test_boxes_of_kicks_that_are_forged_are_refused(box):
     assert refused({**box, "claims": [*box["claims"], {**more, "statement": told.format(0)}]})
 
 
-def test_all_states_are_not_covered():
-    states = prove_states({**PAPER, "gamma": "1"}, "1").document()
+@pytest.fixture(scope="module")
+def states():
+    return prove_states({**PAPER, "gamma": "1"}, "1").document()
+
+
+def test_all_states_are_not_covered(states):
     assert {verdict for verdict, what, _ in report_of(states).lines if "states" in what} == {"not covered"}

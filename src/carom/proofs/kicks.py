@@ -159,7 +159,9 @@ def _store(place: Path, disc: Disc, tree: Tree) -> None:
     """Write the cells so far, with the version that has found them and a checksum against damage."""
     cells = written(tree)
     digest = hashlib.sha256(cells.encode()).hexdigest()
-    write_whole(place, json.dumps({**_content(disc), "carom": version("carom"), "sha256": digest, "cells": cells}).encode())
+    write_whole(
+        place, json.dumps({**_content(disc), "carom": version("carom"), "sha256": digest, "cells": cells}).encode()
+    )
 
 
 def _stored(place: Path, disc: Disc) -> Tree:
