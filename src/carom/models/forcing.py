@@ -75,7 +75,7 @@ def with_forces(system: System, forces: Sequence[Force]) -> System:
     for exponent, together in _merged(pushes):
         push = np.sum([modes.left[:, place] @ values for values, place in together], axis=0)
         modes = modes.driven_by(exponent, push)
-    return modal_system(
+    made = modal_system(
         exponents=modes.exponents,
         driven=modes.driven,
         free=modes.free,
@@ -98,6 +98,7 @@ def with_forces(system: System, forces: Sequence[Force]) -> System:
         **_mirrored(modes, slice(last, last + planes), slice(last + first, None)),
         **{name: arrays[name] for name in ("offsets", "masses", *Wall._fields)},
     )
+    return replace(made, growth=system.growth) if system.growth else made
 
 
 def _mirrored(modes: _Modes, columns: slice, states: slice) -> dict[str, Any]:

@@ -60,6 +60,8 @@ class System(ModeArrays):
     mirrored : ndarray of complex, shape (N, 2n), optional
         Amplitudes per conjugate of a coordinate, then of a rate, times ``e^{−2it}``, where bearings act differently in two directions
         (:mod:`carom.models.mirror`); by default they do not.
+    growth : float
+        Rate, in ``Ω``, at which a motion grows that these modes leave out; 0, the default, if none does.
     """
 
     rest: np.ndarray
@@ -71,6 +73,12 @@ class System(ModeArrays):
     shaft: ShaftModes | None = None
     clearances: tuple[float, ...] | None = None
     mirrored: np.ndarray | None = None
+    growth: float = 0.0
+
+    @property
+    def decay(self) -> float:
+        """Rate at which the slowest free motion decays, in ``Ω``; negative if one grows."""
+        return min(super().decay, -self.growth) if self.growth else super().decay
 
     def own_records(self) -> tuple[np.record, np.record]:
         """The arrays and the table as :func:`carom.core.advance.advance` takes them: copies where it sets entries of them."""

@@ -24,6 +24,7 @@
 ``reduction``             few vectors in place of all coordinates
 ``equations``             equations of motion in SI units
 ``flexible_machine``      :class:`FlexibleMachine`: the rotor with all that is attached to it
+``free_motions``          free motions of a machine, and which of them grow
 ``machine_parameters``    named parameters of a machine and of its parts
 ``reduced_machine``       :class:`ReducedMachine`: by a few vectors, as a model
 ``flexible_model``        :class:`FlexibleModel`: that model, with the parameters of the machine

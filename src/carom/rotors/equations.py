@@ -59,8 +59,8 @@ class Equations(NamedTuple):
             across=none(np.stack([damping, stiffness])),
         )
 
-    def exponents(self, speed: float) -> tuple[np.ndarray, np.ndarray]:
-        """Exponents (N,) of the free motion at a speed, 1/s, and the coordinates (n, N) of each, where nothing depends on the direction."""
+    def generator(self, speed: float) -> np.ndarray:
+        """Matrix (N, N) of the free motion at a speed, 1/s, of coordinates and of the velocities of those with mass, where nothing depends on the direction."""
         heavy = np.asarray(self.mass.any(axis=1))
         n, masses = len(heavy), self.mass[heavy, heavy][:, None]
         spin = (self.damping - 1j * speed * self.gyroscopic)[np.ix_(heavy, heavy)]
@@ -68,8 +68,12 @@ class Equations(NamedTuple):
         matrix[np.flatnonzero(heavy), n + np.arange(heavy.sum())] = 1.0
         matrix[np.flatnonzero(~heavy), :n] = -self.stiffness[~heavy]
         matrix[n:, :n], matrix[n:, n:] = -self.stiffness[heavy] / masses, -spin / masses
-        values, vectors = np.linalg.eig(matrix)
-        return values, vectors[:n]
+        return matrix
+
+    def exponents(self, speed: float) -> tuple[np.ndarray, np.ndarray]:
+        """Exponents (N,) of the free motion at a speed, 1/s, and the coordinates (n, N) of each, where nothing depends on the direction."""
+        values, vectors = np.linalg.eig(self.generator(speed))
+        return values, vectors[: len(self.mass)]
 
     def response(self, speed: float) -> np.ndarray:
         """Coordinates (n,) of the whirl with which the rotor answers its unbalance, at time zero, where nothing depends on the direction."""
@@ -196,6 +200,8 @@ def _damping(rotor: FreeRotor, basis: Basis) -> np.ndarray:
     if rotor.damping_rates is not None:
         matrix[: basis.modes], matrix[:, : basis.modes] = 0.0, 0.0
         matrix[range(basis.modes), range(basis.modes)] = rotor.damping_rates[: basis.modes]
+    beside = range(basis.modes, len(basis.frequencies))
+    matrix[beside, beside] += 2.0 * basis.damping_ratio * basis.frequencies[basis.modes :]
     return 0.5 * (matrix + matrix.T)
 
 

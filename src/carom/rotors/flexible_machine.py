@@ -16,6 +16,7 @@ from carom.parameters import Field, Gravity
 from carom.rotors.attachments import TouchdownPlane, Unbalance
 from carom.rotors.entries import read_entries
 from carom.rotors.equations import loops_of, row_of
+from carom.rotors.free_motions import Slowest, slowest_of
 from carom.rotors.free_rotor import FreeRotor
 from carom.rotors.machine_parameters import (
     WHOLE,
@@ -183,7 +184,7 @@ class FlexibleMachine:
         total = len(self.rotor.free_modes.frequencies)
         for modes in range(RIGID + 1, total):
             found = ReducedMachine(self, self.basis(modes))
-            if found.error <= accuracy:
+            if found.error <= accuracy and found.comes_back:
                 return found
         return self.with_modes(total)
 
@@ -196,6 +197,11 @@ class FlexibleMachine:
     def whole(self) -> ReducedMachine:
         """The machine with all modes: nothing is reduced."""
         return self.with_modes(len(self.rotor.free_modes.frequencies))
+
+    @property
+    def slowest(self) -> Slowest:
+        """What decides whether it levitates at its speed, from all its modes: no reduction does."""
+        return slowest_of(self.whole.equations, self.speed)
 
     @cached_property
     def model(self) -> Model:

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 from carom.arguments import checked
 from carom.models import Limit, LinearRotor, Model, Rates
 from carom.models.stages import Around
+from carom.models.system import System
 from carom.outcome import InputError, shown
 from carom.parameters import Field, read_quantity
 from carom.rotors.documents import document_of, part_from
@@ -37,6 +38,13 @@ class FlexibleModel(LinearRotor):
     """
 
     reduced: Any = None
+
+    @cached_property
+    def system(self) -> System:
+        """Modes, contact planes and contact law; it knows whether a motion of the machine grows that its vectors leave out."""
+        slowest, speed = self.reduced.machine.slowest, self.reduced.machine.speed
+        growth = float(slowest.exponents.real.max()) / speed if slowest.grows else 0.0
+        return dataclasses.replace(super().system, growth=growth)
 
     @cached_property
     def _own(self) -> dict[str, Field]:

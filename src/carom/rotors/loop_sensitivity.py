@@ -14,7 +14,8 @@ from carom.outcome import InputError
 from carom.results import Result
 from carom.rotors.equations import block, loops_of, row_of
 from carom.rotors.flexible_machine import FlexibleMachine
-from carom.rotors.whirls import motions_at, speeds_of
+from carom.rotors.free_motions import motions_at
+from carom.rotors.whirls import speeds_of
 
 LIMITS = {"A": 3.0, "B": 4.0, "C": 5.0}
 """Largest peak of the sensitivity in each zone of ISO 14839-3:2006; above lies zone D."""
@@ -40,20 +41,25 @@ class Sensitivity(Result):
         Largest size of each.
     peak_frequencies : ndarray, shape (B,)
         Where it is, rad/s.
+    stable : bool
+        Whether no free motion of the machine grows; of an unstable loop the sensitivity measures no margin.
     """
 
     frequencies: np.ndarray
     values: np.ndarray
     peaks: np.ndarray
     peak_frequencies: np.ndarray
+    stable: bool
 
     figure: ClassVar[str] = "sensitivity"
     shown: ClassVar = ("peaks", "peak_frequencies", "zones")
     rests_on: ClassVar = ()
 
     @property
-    def zones(self) -> tuple[str, ...]:
-        """Zone of ISO 14839-3 of each bearing."""
+    def zones(self) -> tuple[str, ...] | None:
+        """Zone of ISO 14839-3 of each bearing; ``None`` of an unstable loop, which has none."""
+        if not self.stable:
+            return None
         return tuple(
             next((zone for zone, limit in LIMITS.items() if peak <= limit), "D") for peak in self.peaks.tolist()
         )
@@ -88,8 +94,9 @@ def sensitivity(flexible: FlexibleMachine, frequencies: Sequence[float] | None =
         max((each for each in places if each[1] == number), key=lambda each: peaks[each][0])
         for number in range(values.shape[2])
     ]
-    told = (np.array(each) for each in zip(*(peaks[place] for place in worst), strict=True))
-    return Sensitivity(listed, np.stack([values[:, *place] for place in worst], axis=1), *told)
+    highest, at = (np.array(each) for each in zip(*(peaks[place] for place in worst), strict=True))
+    sizes = np.stack([values[:, *place] for place in worst], axis=1)
+    return Sensitivity(listed, sizes, highest, at, not flexible.slowest.grows)
 
 
 def _usual(machine: FlexibleMachine) -> np.ndarray:

@@ -21,6 +21,7 @@ from carom.rotors.bearing_limits import limits_of_bearings
 from carom.rotors.controllers import PID
 from carom.rotors.equations import Equations, equations_of, loops_of
 from carom.rotors.flexible_model import FlexibleModel
+from carom.rotors.free_motions import slowest_of
 from carom.rotors.reduction import Basis
 
 if TYPE_CHECKING:
@@ -30,6 +31,10 @@ UNHELD = "levitation"
 """What errors name where nothing holds the rotor."""
 SLOWEST = 3e-7
 """Rate of an integrator, in ``Ω``, up to which its motion and the steady one under weight are one mode but for rounding."""
+DAMPING_RATIOS = (0.0, 0.01, 0.03, 0.1, 0.3, 1.0)
+"""Of the vectors that are no modes; the first with which the reduced rotor comes back where the whole machine does is taken."""
+SLOWER = 0.5
+"""Rate at which the reduced rotor comes back, over that of the whole machine, that is enough."""
 ROUNDED = 1e-6
 """Share of its stiffness up to which a bearing has none, and frequency in ``Ω`` up to which a motion is no whirl."""
 
@@ -86,10 +91,29 @@ class ReducedMachine(Result):
     @cached_property
     def equations(self) -> Equations:
         """Equations of motion in SI units."""
+        return self._equations(self.damped)
+
+    def _equations(self, basis: Basis) -> Equations:
         at = self.machine
-        return equations_of(
-            at.rotor, self.basis, at.bearings, at.touchdowns, at.unbalances, at.supports, restart=at.speed
-        )
+        return equations_of(at.rotor, basis, at.bearings, at.touchdowns, at.unbalances, at.supports, restart=at.speed)
+
+    @cached_property
+    def damped(self) -> Basis:
+        """The vectors, those that are no modes damped until their motion grows no more than those of the whole machine."""
+        if self.modes == self.vectors or self.machine.slowest.grows:
+            return self.basis
+        ways = [self.basis._replace(damping_ratio=each) for each in DAMPING_RATIOS]
+        return next((each for each in ways if self._comes_back(self._equations(each))), self.basis)
+
+    @property
+    def comes_back(self) -> bool:
+        """Whether the reduced rotor comes back where the whole machine does."""
+        return self.machine.slowest.grows or self._comes_back(self.equations)
+
+    def _comes_back(self, equations: Equations) -> bool:
+        whole = self.machine.slowest
+        own = slowest_of(equations, self.machine.speed).exponents.real.max()
+        return bool(own <= SLOWER * min(float(whole.exponents.real.max()), 0.0) + whole.rounding)
 
     def of(self, machine: FlexibleMachine) -> ReducedMachine:
         """By the same vectors, a machine with another value of a parameter, on none of which they depend."""
@@ -102,21 +126,40 @@ class ReducedMachine(Result):
         Raises
         ------
         InputError
-            There are magnetic bearings, and a motion on them grows; or an integrator is so slow that under weight it cannot be told from none.
+            There are magnetic bearings or supports, and a motion of the machine with all its modes grows, or of these vectors alone; or an
+            integrator is so slow that under weight it cannot be told from none.
         """
         rotor = self.unchecked
-        if (self.machine.bearings or self.machine.supports) and (rate := rotor.system.decay) <= 0.0:
-            worst = rotor.system.exponents[rotor.system.exponents.real.argmax()] + 1j
-            speed = self.machine.speed
-            hertz = worst.imag * speed / (2.0 * math.pi)
-            # One that has gone far before it has turned by a tenth of a radian is no whirl to a reader.
-            turns = abs(worst.imag) > max(ROUNDED, 0.1 * worst.real)
-            what = f"a whirl of {hertz:.4g} Hz" if turns else "a displacement to one side"
-            grows = f"unstable: {what} grows with {-rate * speed:.4g} 1/s"
-            raise InputError(UNHELD, grows, f"controllers that hold the rotor at this speed{self._weak}")
+        if self.machine.bearings or self.machine.supports:
+            self._check_levitation()
         if self.machine.gravity is not None:
             self._check_integrators(rotor)
         return rotor
+
+    def _check_levitation(self) -> None:
+        """Refuse a machine of which a motion grows, of all its modes, and vectors that do not come back where it does."""
+        slowest, speed = self.machine.slowest, self.machine.speed
+        worst = complex(slowest.exponents[0])
+        needed = f"controllers that hold the rotor at this speed{self._weak}"
+        if slowest.grows:
+            more = len(slowest.exponents) - 1
+            others = f", {more} more slowly" if more else ""
+            told = f"unstable: {self._named(worst)} grows with {worst.real:.4g} 1/s{others}"
+            raise InputError(UNHELD, told, needed)
+        if abs(worst) <= slowest.rounding:
+            raise InputError(UNHELD, "not stable: a displacement to one side does not come back", needed)
+        if self.unchecked.system.decay < 0.0 and not self.comes_back:
+            grown = complex(slowest_of(self.equations, speed).exponents[0])
+            told = f"{self.vectors} vectors, of which {self._named(grown)} grows that the machine does not have"
+            raise InputError("reduction", told, "more modes, or a smaller accuracy")
+
+    def _named(self, exponent: complex) -> str:
+        """A motion that grows, by its exponent, 1/s."""
+        # One that has gone far before it has turned by a tenth of a radian is no whirl to a reader.
+        if abs(exponent.imag) <= max(ROUNDED * self.machine.speed, 0.1 * exponent.real):
+            return "a displacement to one side"
+        sense = "" if self.equations.mirrored else "forward " if exponent.imag > 0.0 else "backward "
+        return f"a {sense}whirl of {abs(exponent.imag) / (2.0 * math.pi):.4g} Hz"
 
     @property
     def _weak(self) -> str:

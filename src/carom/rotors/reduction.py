@@ -32,19 +32,23 @@ class Basis(NamedTuple):
     """rad/s, shape (v,)."""
     modes: int
     """How many are modes of the free rotor."""
+    damping_ratio: float = 0.0
+    """Of the others, beside what the shaft damps them: their motion is none of the rotor, and with controllers it may grow where the rotor's does not."""
 
 
 def rubin_basis(rotor: FreeRotor, rows: Sequence[np.ndarray], modes: int) -> Basis:
     """Vectors of a rotor: its first modes, and one for each row (n,) of what forces act on or sensors measure."""
     free = rotor.free_modes
-    modes = min(modes, len(free.frequencies))
+    total = len(free.frequencies)
+    if modes >= total:
+        return Basis(free.shapes, free.frequencies, total)
     kept = free.shapes[:, :modes]
-    if modes == len(free.frequencies):
-        return Basis(kept, free.frequencies, modes)
     beside = np.stack([free.flexibility(row, modes) for row in rows], axis=1)
     beside /= np.sqrt(np.einsum("ni,nm,mi->i", beside, rotor.stiffness_matrix, beside))
     energies, turn = np.linalg.eigh(beside.T @ rotor.stiffness_matrix @ beside)
     beside = beside @ turn[:, energies > DEPENDENT * energies[-1]]
+    if modes + beside.shape[1] >= total:
+        return Basis(free.shapes, free.frequencies, total)
     root = np.linalg.cholesky(beside.T @ rotor.mass_matrix @ beside)
     beside = np.linalg.solve(root, beside.T).T
     squares, turn = np.linalg.eigh(beside.T @ rotor.stiffness_matrix @ beside)

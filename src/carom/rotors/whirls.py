@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import ClassVar, NamedTuple
+from typing import ClassVar
 
 import numpy as np
 
@@ -13,15 +13,13 @@ from carom.arguments import Count, Positive, checked
 from carom.outcome import InputError, shown
 from carom.results import Result
 from carom.rotors.branches import followed
-from carom.rotors.equations import Equations
 from carom.rotors.flexible_machine import FlexibleMachine
+from carom.rotors.free_motions import STRAIGHT, growing, motions_at
 
 SLOW = 12
 """Whirls that are listed by default."""
 STANDING = 0.1
 """Frequency over the size of an exponent up to which a motion has faded before it goes round: a damping ratio of 0.995."""
-STRAIGHT = 1e-9
-"""Sense up to which a whirl counts as going to and fro along lines."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -89,7 +87,8 @@ def find_whirls(flexible: FlexibleMachine, speed: Positive | None = None, count:
     speed : float, optional
         Speed of the shaft, rad/s; by default that of the machine.
     count : int
-        How many, from the one with the lowest frequency on.  Motions without a sense, such as those of integrators and filters, are left out.
+        How many, from the one with the lowest frequency on; whirls that grow follow, however fast they go round.  Motions without a sense, such
+        as those of integrators and filters, are left out.
 
     See Also
     --------
@@ -99,42 +98,18 @@ def find_whirls(flexible: FlexibleMachine, speed: Positive | None = None, count:
     whole = flexible.whole
     found = motions_at(whole.equations, at)
     shapes, opposite = (whole.basis.shapes[::2] @ each[: whole.vectors] for each in (found.ahead, found.behind))
-    whirls = [
-        Whirl(complex(exponent), shape / size, other / size)
-        for exponent, shape, other in zip(found.exponents, shapes.T, opposite.T, strict=True)
-        for size in [_largest(np.abs(shape) + np.abs(other))]
-    ]
-    turning = [each for each in whirls if each.sense != "none"]
-    return tuple(sorted(turning, key=lambda each: each.frequency)[:count])
+    grow = growing(found.exponents)
+    order = [place for place in np.argsort(np.abs(found.exponents.imag)) if turns(found.exponents[place])]
+    return tuple(
+        Whirl(complex(found.exponents[place]), shapes[:, place] / size, opposite[:, place] / size)
+        for rank, place in enumerate(order)
+        if rank < count or grow[place]
+        for size in [_largest(np.abs(shapes[:, place]) + np.abs(opposite[:, place]))]
+    )
 
 
 def _largest(sizes: np.ndarray) -> float:
     return float(sizes.max()) or 1.0
-
-
-class Motions(NamedTuple):
-    """Free motions of a machine, each once: ``ahead e^{λt} + behind e^{λ̄t}``."""
-
-    exponents: np.ndarray
-    """1/s, shape (N,)."""
-    ahead: np.ndarray
-    """Coordinates, shape (n, N)."""
-    behind: np.ndarray
-
-
-def motions_at(equations: Equations, speed: float) -> Motions:
-    """Free motions at a speed, 1/s; of two conjugate exponents that stand for one motion the one whose sense prevails."""
-    if not equations.mirrored:
-        exponents, coordinates = equations.exponents(speed)
-        return Motions(exponents, coordinates, np.zeros_like(coordinates))
-    exponents, coordinates = equations.both.exponents(speed)
-    ahead, behind = np.split(coordinates, 2)
-    heavy = equations.mass.any(axis=1)
-    prevails = np.linalg.norm(ahead[heavy], axis=0) - np.linalg.norm(behind[heavy], axis=0)
-    # Of one to and fro along lines neither does.
-    level = STRAIGHT * np.linalg.norm(coordinates, axis=0)
-    chosen = (prevails > level) | ((np.abs(prevails) <= level) & (exponents.imag > 0.0)) | (exponents.imag == 0.0)
-    return Motions(exponents[chosen], ahead[:, chosen], behind[:, chosen].conj())
 
 
 def roundness(shape: np.ndarray, opposite: np.ndarray) -> float:
@@ -157,14 +132,17 @@ class Campbell(Result):
         first.  NaN where it fades before it goes round.  Where supports act differently in two directions the sign of the imaginary part says
         which sense prevails, and may change along a column.
     machine : FlexibleMachine
+    levitates : ndarray of bool, shape (m,)
+        Whether no free motion grows at this speed, listed or not.
     """
 
     speeds: np.ndarray
     exponents: np.ndarray
     machine: FlexibleMachine
+    levitates: np.ndarray
 
     figure: ClassVar[str] = "campbell"
-    shown: ClassVar = ("speeds", "frequencies", "damping_ratios")
+    shown: ClassVar = ("speeds", "frequencies", "damping_ratios", "levitates")
     rests_on: ClassVar = ()
 
     @property
@@ -177,11 +155,6 @@ class Campbell(Result):
         """Damping ratios, shape (m, k)."""
         return np.asarray(-self.exponents.real / np.abs(self.exponents))
 
-    @property
-    def levitates(self) -> np.ndarray:
-        """Whether all whirls of the list fade, at each speed, shape (m,)."""
-        return np.asarray(np.nanmax(self.exponents.real, axis=1) < 0.0)
-
 
 @checked
 def campbell(flexible: FlexibleMachine, speeds: Sequence[float], count: Count = SLOW) -> Campbell:
@@ -193,7 +166,7 @@ def campbell(flexible: FlexibleMachine, speeds: Sequence[float], count: Count = 
     speeds : sequence of float
         rad/s, above 0.
     count : int
-        How many whirls: those that are among so many slowest ones at any of the speeds, so the list may be longer.
+        How many whirls: those that are among so many slowest ones at any of the speeds, and those that grow at one, so the list may be longer.
 
     Raises
     ------
@@ -209,11 +182,13 @@ def campbell(flexible: FlexibleMachine, speeds: Sequence[float], count: Count = 
     rows = followed(flexible.whole.equations, listed[order])
     found = np.empty_like(rows)
     found[order] = rows
+    grow = growing(found)
     found[~turns(found)] = np.nan
     slow = np.argsort(np.where(np.isnan(found), np.inf, np.abs(found.imag)), axis=1)[:, :count]
-    chosen = np.array([place for place in np.unique(slow).tolist() if not np.isnan(found[:, place]).all()], int)
+    drawn = np.isin(np.arange(found.shape[1]), slow) | (grow & ~np.isnan(found)).any(axis=0)
+    chosen = np.flatnonzero(drawn & ~np.isnan(found).all(axis=0))
     chosen = chosen[np.argsort(found[order[0], chosen].imag)]
-    return Campbell(listed, found[:, chosen], flexible)
+    return Campbell(listed, found[:, chosen], flexible, np.asarray(~grow.any(axis=1)))
 
 
 def turns(exponents: np.ndarray) -> np.ndarray:

@@ -14,6 +14,7 @@ from carom.studies.flexible_trials import DIRECTIONS, AtPlane, FlexibleTrial
 from carom.studies.levitation_facts import (
     bearing_facts,
     critical_speed_facts,
+    other_speeds_words,
     response_words,
     whirl_words,
     zone_words,
@@ -87,7 +88,7 @@ def _doubts(study: FlexibleData) -> list[str]:
     """What stands against the machine although all came back."""
     found = []
     loops = study.levitation.sensitivity
-    if loops is not None and (zones := sorted(set(loops.zones) & set("CD"))):
+    if loops is not None and (zones := sorted(set(loops.zones or ()) & set("CD"))):
         found.append(f"sensitivity in zone {zones[-1]} of ISO 14839-3")
     if not study.levitation.met:
         found.append("a critical speed is nearer than API 617 allows")
@@ -137,6 +138,7 @@ def _levitation(study: FlexibleData) -> Iterator[Fact]:
     found, worst = study.levitation, study.levitation.least_damped
     text = whirl_words(found.machine.speed, found.whirls)
     yield Fact("Levitation", text, "Whirls", values={"damping_ratio": worst.damping_ratio})
+    yield Fact("Levitation", other_speeds_words(found.campbell), "Other speeds")
     if found.at_speed is not None:
         yield Fact("Levitation", response_words(found.at_speed), "Unbalance response")
     share = study.rotor.system.rest_radius

@@ -107,6 +107,10 @@ class FlexibleLevitation(Result):
                 {"frequency_hz": each.frequency, "sense": each.sense, "damping_ratio": each.damping_ratio}
                 for each in self.whirls
             ],
+            "levitates_over_speed": [
+                {"speed_rpm": speed * 30.0 / math.pi, "levitates": bool(holds)}
+                for speed, holds in zip(self.campbell.speeds.tolist(), self.campbell.levitates, strict=True)
+            ],
             "critical_speeds": [
                 {
                     "bearing": each.bearing,
@@ -142,13 +146,14 @@ class FlexibleLevitation(Result):
                 "zone": self.at_speed.zones[0],
             }
         if self.sensitivity is not None:
+            count = len(self.sensitivity.peaks)
             found["sensitivity"] = [
                 {"bearing": number, "peak": float(peak), "frequency_hz": float(at) / (2.0 * math.pi), "zone": zone}
                 for number, (peak, at, zone) in enumerate(
                     zip(
                         self.sensitivity.peaks,
                         self.sensitivity.peak_frequencies,
-                        self.sensitivity.zones,
+                        self.sensitivity.zones or [None] * count,
                         strict=True,
                     ),
                     start=1,

@@ -5,8 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 
+import numpy as np
+
 from carom.parameters.told import number
-from carom.rotors import FlexibleResponse, Whirl
+from carom.rotors import Campbell, FlexibleResponse, Whirl
 from carom.studies.facts import Fact
 from carom.studies.flexible_levitation import Critical, FlexibleLevitation
 from carom.studies.response_words import micrometres, rpm
@@ -20,10 +22,24 @@ _HERTZ = 2.0 * math.pi
 def whirl_words(speed: float, whirls: Sequence[Whirl]) -> str:
     """The least damped of the whirls at a speed, rad/s."""
     worst = min(whirls, key=lambda each: each.damping_ratio)
+    kind = f"the {len(whirls)} slowest whirls" if worst.damping_ratio >= 0.0 else "all whirls"
     return (
-        f"At {rpm(speed)} the least damped of the {len(whirls)} slowest whirls is one of {number(worst.frequency, 3)} Hz, {worst.sense}, with a "
+        f"At {rpm(speed)} the least damped of {kind} is one of {number(worst.frequency, 3)} Hz, {worst.sense}, with a "
         f"damping ratio of {number(worst.damping_ratio, 2)}."
     )
+
+
+def other_speeds_words(found: Campbell) -> str:
+    """Whether a free motion grows at other speeds of the shaft, with the same gains and supports."""
+    looked = f"{len(found.speeds)} speeds from {rpm(found.speeds[0])} to {rpm(found.speeds[-1])}"
+    if found.levitates.all():
+        return f"No free motion of the machine grows at any of {looked}."
+    ends = np.flatnonzero(np.diff(np.concatenate([[False], ~found.levitates, [False]]).astype(int)))
+    parts = [
+        f"{'at' if last == first else 'from'} {rpm(found.speeds[first])}{'' if last == first else f' to {rpm(found.speeds[last])}'}"
+        for first, last in zip(ends[::2].tolist(), (ends[1::2] - 1).tolist(), strict=True)
+    ]
+    return f"Of {looked}, a free motion grows {listed(parts)}: the rotor does not levitate there."
 
 
 def response_words(at_speed: FlexibleResponse) -> str:
@@ -79,12 +95,17 @@ def bearing_facts(found: FlexibleLevitation) -> Iterator[Fact]:
     """Sensitivity of the loops, and whirls of which a node lies at a bearing."""
     loops = found.sensitivity
     if loops is not None:
-        rows = zip(loops.peaks.tolist(), loops.peak_frequencies.tolist(), loops.zones, strict=True)
-        told = [
-            f"{number(peak, 3)} ({number(20.0 * math.log10(peak), 3)} dB) at {number(at / _HERTZ, 3)} Hz, zone {zone}, of bearing {place}"
-            for place, (peak, at, zone) in enumerate(rows, start=1)
-        ]
-        yield Fact("Magnetic bearings", f"Largest sensitivity: {listed(told)} ({SENSITIVITY_LIMITS}).", "Sensitivity")
+        if loops.zones is None:
+            text = "No sensitivity is told of a loop that is unstable: it measures how far a stable one is from that."
+            yield Fact("Magnetic bearings", text, "Sensitivity")
+        else:
+            rows = zip(loops.peaks.tolist(), loops.peak_frequencies.tolist(), loops.zones, strict=True)
+            told = [
+                f"{number(peak, 3)} ({number(20.0 * math.log10(peak), 3)} dB) at {number(at / _HERTZ, 3)} Hz, zone {zone}, of bearing {place}"
+                for place, (peak, at, zone) in enumerate(rows, start=1)
+            ]
+            text = f"Largest sensitivity: {listed(told)} ({SENSITIVITY_LIMITS})."
+            yield Fact("Magnetic bearings", text, "Sensitivity")
     for each in found.collocations:
         name = f"the {each.whirl.sense} whirl of {number(each.whirl.frequency, 3)} Hz (damping ratio {number(each.whirl.damping_ratio, 2)})"
         if each.opposed:

@@ -99,16 +99,16 @@ def levitating(case: Case, reduced: ReducedMachine, top: float) -> Levitating:
     """Compute how a machine levitates, with its response up to a speed in rad/s."""
     machine = reduced.machine
     every = find_whirls(machine, count=ALL)
-    growing = [each for each in every if each.damping_ratio < 0.0]
-    listed = (*every[:WHIRLS], *(each for each in growing if each not in every[:WHIRLS]))
+    grows = [each.exponent.real > machine.slowest.rounding for each in every]
+    listed = tuple(each for rank, each in enumerate(every) if rank < WHIRLS or grows[rank])
     worst = min(listed, key=lambda each: each.damping_ratio)
     try:
         share, why = reduced.model.system.rest_radius, ""
     except InputError as problem:
-        grows = problem.field == UNHELD
-        share, why = np.inf, str(problem.value).removeprefix("unstable: ") if grows else str(problem)
-    stable, holds = not why and not growing, share < 1.0
-    told = stable or bool(growing)  # what grows without going round is no whirl
+        unheld = problem.field == UNHELD
+        share, why = np.inf, str(problem.value).removeprefix("unstable: ") if unheld else str(problem)
+    stable, holds = not why, share < 1.0
+    told = stable or any(grows)  # what grows without going round is no whirl
     at_speed, speeds = None, np.empty(0)
     curves: tuple[Curve, ...] = ()
     if machine.unbalances and stable:
@@ -137,7 +137,7 @@ def levitating(case: Case, reduced: ReducedMachine, top: float) -> Levitating:
 
 def _lead(stable: bool, holds: bool, why: str) -> str:
     if not stable:
-        return f"It does not levitate: {why or 'a whirl grows'}."
+        return f"It does not levitate: {why}."
     if not holds:
         return "Cannot run without contact: its sag and whirl from unbalance would reach a touchdown bearing."
     return "It levitates: every free motion fades, and it stays clear of its touchdown bearings."
