@@ -22,6 +22,7 @@ import numpy as np
 from carom.arguments import Positive, checked
 from carom.closed_forms.known import known_of
 from carom.models import Forced, Limited, Model, Subject, model_of
+from carom.models.in_bearing import carried_by_housing
 from carom.models.mode_arrays import STEADY
 from carom.models.stages import Around, stages_of
 
@@ -109,11 +110,7 @@ def harmless_kick(machine: Subject) -> float:
     0.039821
     """
     model = model_of(machine)
-    levitation, known = _levitation(model), known_of(model.rotor if isinstance(model, Forced) else model).response
-    if levitation is None:
-        return 0.0
-    by_energy = levitation.yields * math.sqrt(_energy(model.matrices.mass, model.system.translated))
-    return float((levitation.rooms / (by_energy if known is None else known)).min())
+    return _harmless_push(model, model.system.translated)
 
 
 @checked
@@ -121,7 +118,7 @@ def harmless_shock(machine: Subject, duration: Positive) -> float:
     """Peak acceleration up to which a half-sine shock of the base provably never brings the rotor to the wall.
 
     The deviation is the convolution of the shock with the response to a kick.  So it is no larger than the largest deviation after a
-    kick (:func:`harmless_kick`) by the change of velocity over the pulse, ``2âT/π``.  For the planar rotor this bound, in ``c_r Ω²``,
+    kick (:func:`harmless_kick`; of mounts too, which are shaken) by the change of velocity over the pulse, ``2âT/π``.  For the planar rotor this bound, in ``c_r Ω²``,
     is sharp for short pulses.
 
     Parameters
@@ -130,7 +127,18 @@ def harmless_shock(machine: Subject, duration: Positive) -> float:
     duration : float
         ``T``, in ``1/Ω``.
     """
-    return harmless_kick(machine) * math.pi / (2.0 * duration)
+    model = model_of(machine)
+    return _harmless_push(model, carried_by_housing(model)) * math.pi / (2.0 * duration)
+
+
+def _harmless_push(model: Model, along: np.ndarray) -> float:
+    """Change of the velocities of all coordinates, in proportion to these, up to which the wall is not reached."""
+    levitation, known = _levitation(model), known_of(model.rotor if isinstance(model, Forced) else model).response
+    if levitation is None:
+        return 0.0
+    if known is not None and np.array_equal(along, model.system.translated):
+        return float((levitation.rooms / known).min())
+    return float((levitation.rooms / (levitation.yields * math.sqrt(_energy(model.matrices.mass, along)))).min())
 
 
 @checked

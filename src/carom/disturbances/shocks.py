@@ -5,8 +5,9 @@ translation ``t`` of the rotor as a whole, all masses feel its acceleration ``a(
 
     M Z̈ + (D − iG) Ż + K Z = F e^{iτ} − M t a(τ),
 
-if moving as a whole bends no shaft and needs no gyroscopic moment (``G t = 0``).  A touchdown bearing on a mount is shaken too.  So the accelerations of the coordinates
-change by ``−t a``, and only the translation need be known.  In the co-rotating frame, with ``t â e^{iα}/2i`` from the two exponentials of a sine, these are two forces with exponents of
+if moving as a whole bends no shaft and needs no gyroscopic moment (``G t = 0``).  Mounts of touchdown bearings are shaken too: ``t`` is the translation of
+all that the housing carries.  So the accelerations of the coordinates
+change by ``−t a``, and only that need be known.  In the co-rotating frame, with ``t â e^{iα}/2i`` from the two exponentials of a sine, these are two forces with exponents of
 their own (:mod:`carom.models.forcing`),
 
     −t (â e^{iα}/2i) e^{s₁τ} + t (â e^{iα}/2i) e^{s₂τ},   s₁ = i(ν − 1),  s₂ = −i(ν + 1).

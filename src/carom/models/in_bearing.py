@@ -95,6 +95,7 @@ class InBearing(Around):
             forcing=forcing,
             touchdowns=[touchdown],
             translation=np.eye(len(plane))[0],
+            carried=np.ones(len(plane)),
             shaft=shaft_of(self.drive, scales),
             scales=scales,
         )
@@ -218,9 +219,13 @@ def on_mount(model: Model) -> bool:
 
 
 def carried_by_housing(model: Model) -> np.ndarray:
-    """Coordinates (n,) when all that a housing carries is displaced by one against it: the rotor as a whole, and a mount."""
-    translated: np.ndarray = model.system.translated
-    return np.ones_like(translated) if on_mount(model) else translated
+    """Coordinates (n,) when all that a housing carries is displaced by one against it: the rotor as a whole, and mounts."""
+    if isinstance(model, InBearing):
+        return carried_by_housing(model.linear)
+    if isinstance(model, Around):
+        return carried_by_housing(model.rotor)
+    carried: np.ndarray | None = model.carried if isinstance(model, LinearRotor) else None
+    return model.system.translated if carried is None else carried
 
 
 def shaft_of(drive: Drive | None, scales: Scales) -> Shaft | None:

@@ -34,6 +34,7 @@ SINGULAR = 1e-14
 GYROSCOPIC = 1e-12
 """Size of the gyroscopic matrix, relative to the damping in the co-rotating frame, that is rounding."""
 _NUMBERS = ("mass", "damping", "stiffness", "forcing", "translation")
+_OTHERS = ("unlevitated", "conjugate", "carried")
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -56,6 +57,9 @@ class LinearRotor(Result):
         The contact planes.
     translation : array_like of complex, shape (n,), optional
         Coordinates when the rotor as a whole is displaced by one: the direction of kicks.  Ones by default.
+    carried : array_like of complex, shape (n,), optional
+        The same of all that stands in a housing, rotor and mounts of touchdown bearings: the direction of shocks of the base.  The
+        translation by default.
     scales : Scales, optional
         Unit of the mass matrix, unit of length (the clearance of planes that state none of their own), and speed: they convert results to SI units.
     shaft : Shaft, optional
@@ -81,6 +85,7 @@ class LinearRotor(Result):
     forcing: np.ndarray
     touchdowns: Sequence[Touchdown]
     translation: np.ndarray | None = None
+    carried: np.ndarray | None = None
     scales: Scales | None = None
     shaft: Shaft | None = None
     unlevitated: np.ndarray | None = None
@@ -105,8 +110,9 @@ class LinearRotor(Result):
                 raise InputError(name, values.tolist(), f"finite numbers of shape {shape}")
         if self.heavy.any() and self.forcing[~self.heavy].any():
             raise InputError("forcing", self.forcing.tolist(), "0 for coordinates without mass")
-        self._check_pair("unlevitated")
-        self._check_pair("conjugate")
+        self._check_others("unlevitated", (2, n, n))
+        self._check_others("conjugate", (2, n, n))
+        self._check_others("carried", (n,))
         given: Any = self.touchdowns
         listed = tuple(given) if isinstance(given, Iterable) else ()
         if not listed or not all(isinstance(each, Touchdown) and len(each.plane) == n for each in listed):
@@ -116,11 +122,11 @@ class LinearRotor(Result):
         if self.shaft is not None:
             self._check_shaft()
 
-    def _check_pair(self, name: str) -> None:
-        """Read a pair of a damping and a stiffness, if it is stated."""
+    def _check_others(self, name: str, shape: tuple[int, ...]) -> None:
+        """Read numbers that need not be stated, if they are."""
         if getattr(self, name) is None:
             return
-        values, shape = _numbers(name, getattr(self, name)), (2, *self.mass.shape)
+        values = _numbers(name, getattr(self, name))
         if values.shape != shape or not np.isfinite(values).all():
             raise InputError(name, values.tolist(), f"finite numbers of shape {shape}")
         values.flags.writeable = False
@@ -341,11 +347,10 @@ class LinearRotor(Result):
         numbers = {name: [getattr(self, name).real.tolist(), getattr(self, name).imag.tolist()] for name in _NUMBERS}
         numbers["touchdowns"] = [each.attributes() for each in self.touchdowns]
         shaft, scales = (dataclasses.asdict(part) if part else None for part in (self.shaft, self.scales))
-        pairs = {
-            name: None if pair is None else [pair.real.tolist(), pair.imag.tolist()]
-            for name, pair in (("unlevitated", self.unlevitated), ("conjugate", self.conjugate))
-        }
-        others = {"shaft": shaft, **pairs}
+        others: dict[str, Any] = {"shaft": shaft}
+        for name in _OTHERS:
+            values = getattr(self, name)
+            others[name] = None if values is None else [values.real.tolist(), values.imag.tolist()]
         return {"linear_rotor": json.dumps(numbers | others), "scales": json.dumps(scales)}
 
     @classmethod
@@ -360,7 +365,7 @@ class LinearRotor(Result):
             An attribute is missing, or is not such text.
         """
         numbers, scales = (json.loads(attributes[name]) for name in ("linear_rotor", "scales"))
-        for name in (*_NUMBERS, "unlevitated", "conjugate"):
+        for name in (*_NUMBERS, *_OTHERS):
             if numbers.get(name) is not None:
                 real, imaginary = numbers[name]
                 numbers[name] = np.array(real) + 1j * np.array(imaginary)

@@ -32,6 +32,8 @@ class Equations(NamedTuple):
     """Displacement at each touchdown bearing, relative to its mount, shape (P, n)."""
     currents: np.ndarray
     """Current of each bearing, A, per coordinate, shape (B, n)."""
+    carried: np.ndarray
+    """Coordinates, shape (n,), when rotor and mounts are displaced by 1 m."""
     across: np.ndarray
     """``D′`` and ``K′``, shape (2, n, n): of supports that act differently in two directions, with and without magnetic bearings."""
 
@@ -147,6 +149,9 @@ def equations_of(
     mass[free, free], stiffness[free, free] = np.eye(vectors), np.diag(basis.frequencies**2)
     damping[free, free] = _damping(rotor, basis)
     gyroscopic[free, free] = _gyroscopic(rotor, basis)
+    # The translation of the whole rotor is the first vector.
+    carried = np.zeros(size)
+    carried[0], carried[vectors:first] = np.sqrt(rotor.mass), 1.0
     planes = np.concatenate([loops.touchdowns @ basis.shapes, np.zeros((len(touchdowns), size - vectors))], axis=1)
     for place, (plane, mount) in enumerate(mounts, vectors):
         mass[place, place], stiffness[place, place] = mount.mount_mass or 0.0, mount.mount_stiffness or 0.0
@@ -170,7 +175,7 @@ def equations_of(
     forcing = np.zeros(size, complex)
     for each in unbalances:
         forcing[free] += each.size * np.exp(1j * each.angle) * (row_of(rotor, each.node) @ basis.shapes)
-    return Equations(mass, damping, gyroscopic, stiffness, forcing, left, planes, currents, held.across)
+    return Equations(mass, damping, gyroscopic, stiffness, forcing, left, planes, currents, carried, held.across)
 
 
 class _Supported(NamedTuple):

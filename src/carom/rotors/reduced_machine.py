@@ -247,6 +247,7 @@ class ReducedMachine(Result):
             forcing=given.forcing / (scales.length * size),
             touchdowns=[self._touchdown(*each) for each in planes],
             translation=np.eye(len(given.mass))[0],
+            carried=given.carried / size,
             scales=scales,
             unlevitated=np.stack([once * left, twice * given.unlevitated[1]]),
             conjugate=np.stack([once * given.across[0], twice * given.across[1]]) if given.mirrored else None,
