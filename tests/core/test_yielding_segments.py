@@ -102,3 +102,10 @@ def test_contact_longer_than_can_be_followed_is_no_segment():
     rotor, word = Yielding(LAWS[0]).model, Word.of(Kind.SLIDE_FORWARD)
     links = links_of(rotor, word, Start(np.array([[1.1 + 0j, 0.1j]]), np.array([1e6])))
     assert not np.isfinite(links.residual).all()
+
+
+@pytest.mark.parametrize("law", LAWS, ids=str)
+def test_a_guess_at_the_centre_has_no_residual(law):
+    rotor, word = Yielding(law, mu=0.3, surface_speed=1.4).model, Word.of(Kind.SLIDE_FORWARD)
+    links = links_of(rotor, word, Start(np.array([[0.0, 0.3 + 0.1j]]), np.array([0.2])))
+    assert not np.isfinite(links.size)

@@ -134,6 +134,8 @@ class EquilibriumSet(Members[Equilibrium]):
             found += "; rubs at more planes were searched by Newton's method from many starts, so there may be others"
         if planes > 1 and curved:
             found += "; rubs at several planes, one of them in such a wall, were not searched"
+        if self.rotor.system.races is not None:
+            found += "; rubs without slip, in which a race turns along, were not searched"
         return f"{found}. Rubs that are possible at every angle, such as those of a balanced rotor, are not listed."
 
 

@@ -22,6 +22,10 @@ method from many starts, which proves nothing about their number; only those wit
 
 is a sum of powers, all of whose positive roots are found (:func:`positive_roots`); rubs at several planes, one of them such a wall,
 are not searched.
+
+*A race that turns* is driven by friction up to the speed ``q = gμN/|λ|`` of its surface (:mod:`carom.core.surfaces`).  The contact slips at rest
+only while that is less than the speed of the rotor's surface; a race without drag always catches up.  Rubs without slip, in which the race
+turns along, are not searched.
 """
 
 from __future__ import annotations
@@ -52,7 +56,7 @@ def rub_forces(system: System) -> list[tuple[tuple[int, ...], np.ndarray, np.nda
 
     Rubs that are not isolated, such as those of a balanced rotor, are left out.
     """
-    receptance = -system.arrays["rows"] @ np.linalg.solve(system.generator, system.arrays["columns"])
+    receptance = -system.arrays["rows"] @ _statically(system, system.arrays["columns"])
     lever = receptance * (1.0 + 1j * system.arrays["friction"])
     walls = [contact.wall for contact in system.contacts]
     curved = np.array([exponent_of(wall) for wall in walls]) != 1.0
@@ -76,9 +80,31 @@ def rub_forces(system: System) -> list[tuple[tuple[int, ...], np.ndarray, np.nda
             found += [
                 (planes, *pair)
                 for pair in pairs
-                if (count <= COUNTED or pair[0].min() > 0.0) and (depths(system, planes, pair[0]) > -1.0).all()
+                if (count <= COUNTED or pair[0].min() > 0.0)
+                and (depths(system, planes, pair[0]) > -1.0).all()
+                and _slips(system, planes, pair[0])
             ]
     return found
+
+
+def _statically(system: System, pushes: np.ndarray) -> np.ndarray:
+    """Amplitudes ``M⁻¹ p`` of pushes (N, m) or (N,), of the free modes alone: a race moves no plane, and its decay may be zero."""
+    amplitudes, free = np.zeros(pushes.shape, complex), system.free
+    amplitudes[free] = np.linalg.solve(system.generator[np.ix_(free, free)], pushes[free])
+    return amplitudes
+
+
+def _slips(system: System, planes: tuple[int, ...], forces: np.ndarray) -> bool:
+    """Whether the races at planes in contact stay slower than the rotor's surface there."""
+    if system.races is None:
+        return True
+    arrays, chosen = system.arrays, list(planes)
+    decays = np.zeros(len(arrays["race"]))
+    decays[system.races.planes] = -system.races.exponents
+    driven = arrays["race_gain"][chosen] * arrays["friction"][chosen] * np.abs(forces)
+    surface = arrays["surface_speed"][chosen] + depths(system, planes, forces)
+    slips = (arrays["race"][chosen] < 0) | (driven < surface * decays[chosen])
+    return bool(slips.all())
 
 
 def exponent_of(wall: Wall) -> float:
@@ -98,6 +124,8 @@ def depths(system: System, planes: tuple[int, ...], forces: np.ndarray) -> np.nd
 
 def all_found(system: System) -> bool:
     """Whether :func:`rub_forces` finds all rubs that are isolated."""
+    if system.races is not None:
+        return False
     curved = any(exponent_of(contact.wall) != 1.0 for contact in system.contacts)
     return len(system.contacts) <= (1 if curved else COUNTED)
 
@@ -106,8 +134,7 @@ def static_state(system: System, planes: tuple[int, ...], forces: np.ndarray, pl
     """Amplitudes of the rotor at rest under contact forces at some planes in given directions, shape (N,)."""
     chosen = list(planes)
     pushes = (1.0 + 1j * system.arrays["friction"][chosen]) * forces * places
-    amplitudes: np.ndarray = np.linalg.solve(system.generator, system.arrays["columns"][:, chosen] @ pushes)
-    return amplitudes
+    return _statically(system, system.arrays["columns"][:, chosen] @ pushes)
 
 
 def _one_plane(h: complex, rest: complex) -> list[tuple[np.ndarray, np.ndarray]]:

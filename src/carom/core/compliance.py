@@ -59,7 +59,8 @@ def indent(rotor, plane, k, work):
         products += depth[j] * depth[k + 1 - j]
         direction -= depth[j] * normal[k - j]
     depth[k + 1] = (square - products) / (2.0 * radius)
-    normal[k] = direction / radius
+    # Of a complex number divided by zero Numba raises: a guess of an orbit may pass through the centre.
+    normal[k] = complex(direction.real / radius, direction.imag / radius)
     work.rate[plane, k] = (k + 1.0) * depth[k + 1]
     work.push[plane, k] = force_coefficient(k, depth, work.rate[plane], work.power[plane], wall_of(rotor, plane))
     along, pressed = rotor.surface_speed[plane] + depth[0] if k == 0 else depth[k], 0j

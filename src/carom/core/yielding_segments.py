@@ -149,7 +149,7 @@ def _indent(plane, k, rub, varied, real):
         direction -= real[DEPTH, j] * rub.normal[plane, k - j]
     for j in range(1, k + 1):
         direction -= rub.depth[plane, j] * varied[NORMAL, k - j]
-    varied[NORMAL, k] = direction / radius
+    varied[NORMAL, k] = complex(direction.real / radius, direction.imag / radius)
     for j in range(k + 1):
         local += varied[NORMAL, j].conjugate() * rub.speed[plane, k - j]
         local += rub.normal[plane, j].conjugate() * varied[SPEED, k - j]

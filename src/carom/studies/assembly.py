@@ -232,8 +232,8 @@ def _case_of(machine: Subject) -> Case:
 
 
 def _orbits(rotor: Model, known: bool) -> OrbitSet:
-    """Orbits with one impact a period; none where magnetic bearings have limits, at which no orbits are known."""
-    if rotor.system.limits:
+    """Orbits with one impact a period; none of a rotor of which no orbits are known, as its bearings have limits or a race turns."""
+    if rotor.system.unrepeated is not None:
         return OrbitSet.none(rotor)
     return orbits_within_reach(rotor) if known else find_orbits(rotor, impacts=1)
 

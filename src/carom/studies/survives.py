@@ -41,7 +41,7 @@ class Survives(Result):
         Kicks out of levitation; sizes in ``c_r Ω``.
     shock : SmallestLoss or None
         Half-sine shocks of the base of ``duration``; sizes are peaks in ``c_r Ω²``.  ``None`` where none is required and the
-        usual duration is not known in turns, or is too many.
+        usual duration is not known in turns, or is too many, or where the state after a shock is more than places and speeds.
     duration : float
         Duration of the shocks, in ``1/Ω``.
     blade_loss : SmallestLoss or None
@@ -105,6 +105,8 @@ def _duration(rotor: Model, required: Required) -> float:
     """Duration of the shocks: that required, otherwise the usual one where times are known; else 0."""
     if required.shock:
         return required.shock.duration
+    if rotor.system.unsteady is not None:
+        return 0.0
     usual = SHOCK_DURATION / rotor.scales.time if rotor.scales else 0.0
     return usual if usual <= LONGEST_SHOCK else 0.0
 
