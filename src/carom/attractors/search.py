@@ -97,7 +97,7 @@ class AttractorSet(Members[Attractor]):
         """Smallest kick tried that did not come back to levitation, in ``c_r Ω``; ``None`` if all did."""
         kicks = [ending for ending in self.endings if ending.start.kind == "kick"]
         pushes = [
-            self.rotor.system.translation_velocity(ending.start.state.velocity)
+            self.rotor.system.translation_velocity(ending.start.state.velocity, ending.start.state.time)
             for ending in kicks
             if not ending.recovered
         ]

@@ -14,9 +14,11 @@ from carom.arguments import Positive, Seed, Whole, checked
 from carom.closed_forms.equilibria import find_equilibria
 from carom.closed_forms.known import known_of
 from carom.disturbances import FASTEST, AnyState, KickPlane, Plan, Starts, VelocityKick
-from carom.disturbances.coordinates import ON_WALL
+from carom.disturbances.coordinates import INSTANT, ON_WALL
+from carom.disturbances.echo import ITS_INSTANT
 from carom.disturbances.following import require_start
-from carom.models import Model, Subject, model_of
+from carom.disturbances.plans import INSTANTS
+from carom.models import Model, Subject, depends_on_instant, model_of
 from carom.motions.starts import Kick, State
 from carom.orbits.orbit import Orbit
 from carom.outcome import STEADY_WORDS
@@ -82,7 +84,7 @@ class DisturbanceSet:
     Three in five are velocity kicks of the levitating rotor, uniform over the area of the disc of kick velocities up to
     ``fastest``: each in a ring of its own among rings of equal area, at any place of it.  The rest start within the clearance,
     with positions uniform over its disc and velocities in the fixed frame uniform over the disc up to ``fastest``.  If the
-    rotor cannot levitate, all of them are starts of this second kind.
+    rotor cannot levitate, all of them are starts of this second kind.  Where the instant of the turn matters each has one of its own.
 
     Attributes
     ----------
@@ -132,8 +134,13 @@ class DisturbanceSet:
         (radii, speeds), (places, directions) = (random.random((self.count - kicks, 2)).T for _ in range(2))
         shares = radii, places, speeds, directions
         values = (coordinate.at(share) for coordinate, share in zip(anywhere.coordinates, shares, strict=True))
-        kicked = VelocityKick(self.fastest).starts(rotor, sizes, angles)
-        return Starts.joined([kicked, anywhere.starts(rotor, *values)])
+        parts = [VelocityKick(self.fastest).starts(rotor, sizes, angles), anywhere.starts(rotor, *values)]
+        if depends_on_instant(rotor):
+            instants = INSTANT.at(np.random.default_rng([self.seed, INSTANTS]).random(self.count))
+            first, others = instants[:kicks], instants[kicks:]
+            parts[0] = VelocityKick(self.fastest).starts(rotor, sizes, angles, instant=first)
+            parts[1] = parts[1].at(others)
+        return Starts.joined(parts)
 
     def words(self, rotor: Model) -> str:
         """Describe the disturbances for a given rotor."""
@@ -144,6 +151,8 @@ class DisturbanceSet:
         if self.count > kicks:
             parts.append(f"{self.count - kicks} starts anywhere in the clearance")
         found = f"{' and '.join(parts)}, at up to {told(self.fastest, 'velocity', rotor.scales)} in the fixed frame"
+        if depends_on_instant(rotor):
+            found += f", each {ITS_INSTANT}"
         return f"{self.count} disturbances (seed {self.seed}): {found}"
 
     def general_words(self, scales: Scales | None) -> str:

@@ -10,7 +10,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from carom.basins.brackets import MOST_CHECKS, ROUND, TOLERANCE, Bracket, SmallestLoss, lost
+from carom.basins.brackets import MOST_CHECKS, ROUND, TOLERANCE, Bracket, Found, SmallestLoss, lost
 from carom.basins.families import UNBALANCE
 from carom.closed_forms.harmless import harmless_blade_loss
 from carom.disturbances import BladeLoss, Starts
@@ -89,7 +89,7 @@ class _Search(Bracket):
             if not len(gone):
                 continue
             if self.best is None or after < self.best[1]:
-                self.best = 0.0, after, float(some[gone[0]]), Outcome(int(outcomes[gone[0]]))
+                self.best = Found(0.0, after, float(some[gone[0]]), Outcome(int(outcomes[gone[0]])))
             return True
         return False
 
@@ -99,7 +99,7 @@ class _Search(Bracket):
             middle = 0.5 * (low + high)
             low, high = (low, middle) if self.loses(middle) else (middle, high)
         if self.best is not None:
-            self.best = low, *self.best[1:]
+            self.best = self.best._replace(recovered=low)
         return low
 
     def draw(self, low: float, high: float, seed: int) -> float | None:

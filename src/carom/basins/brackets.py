@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
@@ -38,6 +38,9 @@ class SmallestLoss(Result):
         Its direction in rad.  For a kick or shock as in :mod:`carom.disturbances`; for a step the direction from the
         eccentricity after the step to the one before it, relative to the one after; for the loss of a blade the phase of the
         unbalance after it; for a release the place on the wall.
+    instant : float or None
+        Angle in rad by which the shaft has turned when it comes, since the co-rotating frame coincided with the fixed one; ``None`` where
+        the instant does not matter.
     outcome : Outcome or None
         Outcome of the motion after it.
     backward : bool
@@ -49,7 +52,8 @@ class SmallestLoss(Result):
         smallest starts are lost already.
     fresh : int
         Number of starts up to ``all_back`` that are independent of the search: 2,000 drawn uniformly over the area of the
-        disc beyond the harmless size (of releases: over places and speeds), and 720 directions over a full turn at that size.
+        disc beyond the harmless size (of releases: over places and speeds), and 720 directions over a full turn at that size; where the
+        instant matters each at one of its own.
     harmless : float
         Size up to which contact is proven to be impossible in any direction; 0 where nothing is proven.
     largest : float
@@ -69,6 +73,7 @@ class SmallestLoss(Result):
     kind: str
     size: float | None
     angle: float | None
+    instant: float | None
     outcome: Outcome | None
     backward: bool
     recovered: float
@@ -85,6 +90,7 @@ class SmallestLoss(Result):
         "kind",
         "size",
         "angle",
+        "instant",
         "outcome",
         "recovered",
         "all_back",
@@ -99,6 +105,7 @@ class SmallestLoss(Result):
         """The bracket in a line."""
         told = {name: self.line_of(name, getattr(self, name)) for name in ("size", "all_back", "harmless", "largest")}
         lost = f"none lost up to {told['largest']}" if self.size is None else f"smallest lost {told['size']}"
+        lost += "" if self.instant is None else " at the worst instant of the turn"
         back = "" if self.all_back is None else f", all back up to {told['all_back']}"
         return f"{lost}{back}, harmless up to {told['harmless']}"
 
@@ -118,6 +125,16 @@ class SmallestLoss(Result):
         return -math.expm1(math.log(1.0 - CONFIDENCE) / drawn) if drawn else 1.0
 
 
+class Found(NamedTuple):
+    """A bracket in one direction, and at one instant where that matters."""
+
+    recovered: float
+    size: float
+    angle: float
+    outcome: Outcome
+    instant: float | None = None
+
+
 class Bracket:
     """What a search has tried, and the best bracket: a recovered size, the smallest lost size, its direction and its outcome.
 
@@ -133,15 +150,16 @@ class Bracket:
     def __init__(self, **given: Any) -> None:
         self.given = given
         self.tried = 0
-        self.best: tuple[float, float, float, Outcome] | None = None
+        self.best: Found | None = None
 
     def result(self, all_back: float | None, fresh: int) -> SmallestLoss:
         """Result of the search so far; ``all_back`` is the largest size up to which all came back."""
-        recovered, size, angle, outcome = self.best or (all_back or 0.0, None, None, None)
+        recovered, size, angle, outcome, instant = self.best or (all_back or 0.0, None, None, None, None)
         return SmallestLoss(
             **self.given,
             size=size,
             angle=None if angle is None else math.remainder(angle, TURN),
+            instant=None if instant is None else instant % TURN,
             outcome=outcome,
             backward=angle is not None and self.turns > 1 and angle % (2.0 * TURN) >= TURN,
             recovered=recovered,

@@ -16,6 +16,7 @@ from carom.attractors.naming import name_motions
 from carom.basins.dataset import Mapped, dataset_of, provenance
 from carom.basins.shares import Share
 from carom.disturbances import Coordinate, Plan, Starts
+from carom.disturbances.echo import instants_words
 from carom.disturbances.following import NO_START, follow, require_start
 from carom.models import Model, Subject, model_of
 from carom.motions.ensembles import MOST_EVENTS, Endings
@@ -92,6 +93,11 @@ class Basin(Mapped):
         return self.plan.model.coordinates
 
     @property
+    def instants(self) -> str:
+        """At which instants of the turn they come, in words; empty where that does not matter."""
+        return instants_words(self.rotor, self.plan)
+
+    @property
     def outcomes(self) -> np.ndarray:
         """Codes of :class:`~carom.outcome.Outcome`, −1 where there is no start."""
         return self.dataset["outcome"].values
@@ -151,7 +157,7 @@ class Basin(Mapped):
     @property
     def share_recovered(self) -> Share:
         """Share that returns to levitation; starts that were given up count as lost.  Cells of a disc weigh by their area."""
-        return Share.over(self.plan, self.recovered, self.exists, self.scales)
+        return Share.over(self.plan, self.recovered, self.exists, self.scales, at=self.instants)
 
     @checked
     def share_of(self, motion: str) -> Share:
@@ -165,7 +171,7 @@ class Basin(Mapped):
         if motion not in self.motions:
             raise InputError("motion", motion, f"one of: {', '.join(self.motions)}")
         chosen = self.dataset["motion"].values == self.motions.index(motion)
-        return Share.over(self.plan, chosen, self.exists, self.scales, f"end in {motion}")
+        return Share.over(self.plan, chosen, self.exists, self.scales, f"end in {motion}", self.instants)
 
 
 @checked

@@ -15,9 +15,10 @@ import numpy as np
 from carom.arguments import checked
 from carom.attractors import MotionName
 from carom.disturbances import Disturbance, Grid, Plan, Sample, Starts
+from carom.disturbances.coordinates import INSTANT
 from carom.disturbances.following import NO_START
 from carom.files.netcdf import load, save
-from carom.models import Model, jeffcott_of, model_from
+from carom.models import Model, depends_on_instant, jeffcott_of, model_from
 from carom.models.subjects import parameters_of
 from carom.motions.ensembles import Endings
 from carom.outcome import Outcome
@@ -32,7 +33,7 @@ def plan_of(document: Mapping[str, Any]) -> Plan:
     """Plan from its description in the attributes of a dataset; an unknown kind of disturbance is refused."""
     model = Disturbance.from_description(document["model"])
     if "cells" in document:
-        return Grid(model, tuple(document["cells"]))
+        return Grid(model, tuple(document["cells"]), document["instant"])
     return Sample(model, document["starts"], document["seed"])
 
 
@@ -80,7 +81,9 @@ class Mapped(Stored):
 def provenance(rotor: Model, plan: Plan) -> dict[str, str]:
     """Attributes that are needed to repeat the computation."""
     how: dict[str, object] = (
-        {"cells": plan.shape} if isinstance(plan, Grid) else {"starts": plan.count, "seed": plan.seed}
+        {"cells": plan.shape, "instant": plan.instant}
+        if isinstance(plan, Grid)
+        else {"starts": plan.count, "seed": plan.seed}
     )
     return {
         "Conventions": "CF-1.11",
@@ -141,6 +144,9 @@ def dataset_of(
     }
     if rotor.scales:
         variables["time"][1].update(si_units="s", si_factor=rotor.scales.time)
+    if depends_on_instant(rotor):
+        words = {"units": INSTANT.units[0], "long_name": INSTANT.words}
+        variables[INSTANT.name] = plan.instants().reshape(starts.exists.shape), words
     # The starts of a rotor of several coordinates have one axis more.
     several = (*dimensions, "coordinate")
     return xarray.Dataset(

@@ -60,7 +60,7 @@ def basin_document(
         **rotor_document(basin.rotor),
         "disturbances": {
             **json.loads(attributes["disturbances"]),
-            "words": plan_words(basin.plan, basin.rotor.value("rho"), scales),
+            "words": plan_words(basin.plan, basin.rotor.value("rho"), scales, at=basin.instants),
         },
         "criteria": attributes["criteria"],
         "source": attributes["source"],
@@ -97,6 +97,7 @@ def _loss(smallest: SmallestLoss | None, basin: Basin, kind: str) -> dict[str, A
         name: found.size if found else None,
         f"{name}_bracket": [found.all_back, found.size] if found else None,
         f"{name}_angle": found.angle if found else None,
+        f"{name}_instant": found.instant if found else None,
         f"{name}_outcome": found.outcome.label if found and found.outcome else None,
         f"{name}_tolerance": found.tolerance if found else None,
         f"{several}_tried": found.tried if found else None,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -21,7 +21,7 @@ from carom.disturbances import (
     VelocityKick,
 )
 from carom.disturbances.coordinates import TURN, complex_of, displaced
-from carom.models import Model
+from carom.models import Model, depends_on_instant
 from carom.outcome import InputError
 
 UNBALANCE = "unbalance"
@@ -32,16 +32,18 @@ WHIRL = 2.0
 
 @dataclass(frozen=True)
 class Family:
-    """Disturbances by size and direction; directions above one turn mean backward whirl."""
+    """Disturbances by size and direction, on some machines also by instant; directions above one turn mean backward whirl."""
 
     kind: str
     quantity: str
     """Property of the scales by which sizes are converted."""
     largest: float
     harmless: float
-    starts: Callable[[np.ndarray, np.ndarray], Starts]
+    starts: Callable[..., Starts]
     turns: int = 1
     by_area: bool = True
+    timed: bool = False
+    """Whether starts take instants after sizes and directions."""
 
     def drawn(self, shares: np.ndarray, below: float) -> np.ndarray:
         """Sizes between the harmless one and another by numbers uniform from 0 to 1: uniform over the area of the ring."""
@@ -65,23 +67,28 @@ def by_size(model: Disturbance) -> bool:
 
 def family_of(rotor: Model, model: Disturbance) -> Family:
     """Family of starts through which a disturbance is searched."""
+    return replace(_by_size_and_direction(rotor, model), timed=depends_on_instant(rotor))
+
+
+def _by_size_and_direction(rotor: Model, model: Disturbance) -> Family:
     if type(model) is KickPlane:
         model = VelocityKick(model.fastest)
     if type(model) is UnbalanceStep:
         step, now = model, rotor.value("rho")
 
-        def changed(sizes: np.ndarray, angles: np.ndarray) -> Starts:
+        def changed(sizes: np.ndarray, angles: np.ndarray, *instants: np.ndarray) -> Starts:
             x, y = now + sizes * np.cos(angles), sizes * np.sin(angles)
-            return step.starts(rotor, np.hypot(x, y), np.arctan2(y, x))
+            return step.starts_on(rotor, np.hypot(x, y), np.arctan2(y, x), *instants)
 
         return Family(step.kind, UNBALANCE, step.largest + now, harmless_unbalance_step(rotor), changed)
     if type(model) is ContactRelease:
 
-        def released(sizes: np.ndarray, places: np.ndarray) -> Starts:
+        def released(sizes: np.ndarray, places: np.ndarray, *instants: np.ndarray) -> Starts:
             cosine, sine = np.cos(places), np.sin(places)
             forward = np.where(np.mod(places, 2.0 * TURN) < TURN, sizes, -sizes)
             speed = forward / (rotor.system.planes_translated.max() or 1.0)
-            return displaced(rotor, complex_of(cosine, sine), complex_of(-speed * sine, speed * cosine))
+            found = displaced(rotor, complex_of(cosine, sine), complex_of(-speed * sine, speed * cosine))
+            return found.at(*instants) if instants else found
 
         return Family(model.kind, size_coordinate(model).scale, WHIRL, 0.0, released, turns=2, by_area=False)
     if not by_size(model):
@@ -93,7 +100,7 @@ def family_of(rotor: Model, model: Disturbance) -> Family:
         harmless = harmless_shock(rotor, model.duration)
     size = model.coordinates[0]
     return Family(
-        model.kind, size.scale, size.high, harmless, lambda *at: model.starts(rotor, *at), by_area=size.over_disc
+        model.kind, size.scale, size.high, harmless, lambda *at: model.starts_on(rotor, *at), by_area=size.over_disc
     )
 
 

@@ -18,8 +18,10 @@ from carom.basins.integrity_measures import safe_size
 from carom.basins.losses import smallest_lost
 from carom.basins.shares import Population, Share
 from carom.disturbances import BaseShock, Grid, KickPlane, Plan, Sample, Starts, VelocityKick
+from carom.disturbances.coordinates import INSTANT
+from carom.disturbances.echo import instants_words
 from carom.disturbances.following import NO_START, follow_machines
-from carom.models import Axis, Model, Subject, axis, model_of
+from carom.models import Axis, Model, Subject, axis, depends_on_instant, model_of
 from carom.models.axes import Ends, read_interval, usual_range
 from carom.motions.ensembles import MOST_EVENTS
 from carom.motions.settling import PATIENCE
@@ -54,7 +56,8 @@ class GainMap(Mapped):
         levitation to return to: inside the wall, and stable), ``integrity`` (for kicks and shocks on a grid: largest size up to which none is lost,
         as a fraction of the largest one), ``basin_entropy`` and ``boundary_basin_entropy`` (of the outcomes, on a
         grid).  For kicks also ``smallest_unrecovered_kick`` (of those tried, in ``c_r Ω`` of the present machine) and
-        ``smallest_unrecovered_kick_angle`` (rad, co-rotating frame), NaN where all come back.
+        ``smallest_unrecovered_kick_angle`` (rad, co-rotating frame), NaN where all come back; and where the instant of the turn matters
+        ``smallest_unrecovered_kick_instant`` (rad by which the shaft has turned).
     """
 
     figure: ClassVar[str] = "gain_map"
@@ -95,7 +98,7 @@ class GainMap(Mapped):
     @property
     def population(self) -> Population:
         """Of what the shares are shares."""
-        return Population.of_model(self.plan.model, self.rotor.scales)
+        return Population.of_model(self.plan.model, self.rotor.scales, instants_words(self.rotor, self.plan))
 
     @property
     def limits(self) -> dict[str, int]:
@@ -210,7 +213,7 @@ def measured(
     )
     followed = zip(nodes, there, follow_machines(after, CHUNK, **limits), strict=True)
     for (plan, _), (moved, starts), ends in followed:
-        measures = _measures(plan, ends.outcomes, rotor.scales)
+        measures = _measures(plan, ends.outcomes, rotor.scales, instants_words(moved, plan))
         if isinstance(plan.model, VelocityKick | KickPlane):
             measures |= _smallest(rotor.scales, moved, starts, ends.outcomes)
         yield measures
@@ -225,15 +228,15 @@ def _machine(rotor: Model, plan: Plan, axes: tuple[Axis, Axis], node: tuple[floa
     return moved, plan.rescaled(rotor.scales, moved.scales).starts(moved)
 
 
-def _measures(plan: Plan, outcomes: np.ndarray, present: Scales | None) -> dict[str, Any]:
+def _measures(plan: Plan, outcomes: np.ndarray, present: Scales | None, at: str) -> dict[str, Any]:
     """Measures of one machine from the outcomes of its starts."""
     exists, back = outcomes != NO_START, outcomes == Outcome.LEVITATED
     if not exists.any():
-        population = Population.of_model(plan.model, present)
+        population = Population.of_model(plan.model, present, at)
         none = Share(0.0, 0.0, 0.0, 0, plan.count, isinstance(plan, Sample), population)
         nothing = dict.fromkeys(_WORDS, 0.0) | {"share": none}
         return nothing | {"basin_entropy": math.nan, "boundary_basin_entropy": math.nan}
-    share = Share.over(plan, back, exists, present)
+    share = Share.over(plan, back, exists, present, at=at)
     given_up = Share.over(plan, exists & (outcomes < Outcome.LEVITATED), exists, present)
     measures: dict[str, Any] = {
         "recovered": share.fraction,
@@ -256,10 +259,11 @@ def _measures(plan: Plan, outcomes: np.ndarray, present: Scales | None) -> dict[
 
 def _smallest(present: Scales | None, rotor: Model, starts: Starts, outcomes: np.ndarray) -> dict[str, float]:
     """The smallest kick tried from which a machine does not recover, in the present machine's units of velocity."""
-    speed, direction = smallest_lost(rotor, starts, outcomes) or (math.nan, math.nan)
+    speed, direction, instant = smallest_lost(rotor, starts, outcomes) or (math.nan, math.nan, math.nan)
     if rotor.scales is not None and present is not None:
         speed *= rotor.scales.velocity / present.velocity
-    return {"smallest_unrecovered_kick": speed, "smallest_unrecovered_kick_angle": direction}
+    found = {"smallest_unrecovered_kick": speed, "smallest_unrecovered_kick_angle": direction}
+    return found | ({"smallest_unrecovered_kick_instant": instant} if depends_on_instant(rotor) else {})
 
 
 _WORDS = {
@@ -275,8 +279,9 @@ _WORDS = {
 _KICK_WORDS = {
     "smallest_unrecovered_kick": "smallest kick tried that does not come back, in c_r Omega of the present machine",
     "smallest_unrecovered_kick_angle": "its direction, from the real axis of the co-rotating frame",
+    "smallest_unrecovered_kick_instant": INSTANT.words,
 }
-_UNITS = {"smallest_unrecovered_kick_angle": "rad"}
+_UNITS = {"smallest_unrecovered_kick_angle": "rad", "smallest_unrecovered_kick_instant": "rad"}
 
 
 def _dataset(axes: tuple[Axis, Axis], values: list[np.ndarray], measures: list[dict[str, Any]]) -> xarray.Dataset:

@@ -6,11 +6,13 @@ the smallest size found that does not.
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from carom.arguments import Count, checked
 from carom.basins.blade_losses import smallest_blade_loss
-from carom.basins.brackets import MOST_CHECKS, ROUND, TOLERANCE, Bracket, SmallestLoss, lost
+from carom.basins.brackets import MOST_CHECKS, ROUND, TOLERANCE, Bracket, Found, SmallestLoss, lost
 from carom.basins.families import Family, family_of
 from carom.disturbances import BladeLoss, Disturbance, Starts
 from carom.disturbances.coordinates import TURN
@@ -24,10 +26,16 @@ TOGETHER = 768
 """About as many starts of a scan are followed at once, at a few sizes; larger ones only if none of them is lost."""
 NARROWED = 4
 """Factor by which the spacing of directions is reduced from one round of refinement to the next."""
+GOLDEN = (5.0**0.5 - 1.0) / 2.0
+"""Share of a turn between instants of neighbouring directions: pairs are then spread evenly over both."""
 BESIDE = 8
 """Directions to each side of the best one so far, in each round."""
 BELOW = 24
 """Sizes up to the best one so far, tried in each direction."""
+PAIRS, COARSER = 4, 4
+"""Where the instant matters, as many times more pairs of direction and instant are scanned than directions else, at fewer sizes."""
+NEAR, CLOSER = 32, 2.5
+"""Pairs about the best one so far in each round, and the factor by which their distance from it is reduced to the next."""
 DRAWN = 2000
 """Fresh starts below the smallest loss."""
 
@@ -46,7 +54,8 @@ def smallest_loss(
 ) -> SmallestLoss:
     """Search for the smallest disturbance of a kind that does not return to levitation, finer than any grid.
 
-    All directions are scanned at increasing sizes between the proven harmless one (zero where nothing is proven, see
+    Where the end depends on the instant of the turn at which a disturbance comes (:func:`carom.models.depends_on_instant`), all that is
+    said here of directions holds of pairs of direction and instant.  All directions are scanned at increasing sizes between the proven harmless one (zero where nothing is proven, see
     :func:`~carom.closed_forms.harmless_kick`) and the largest, up to the first at which some
     are lost.  In each of these directions the size is refined by bisection.  Then directions ever closer to the best one are scanned and
     bisected below the best size so far, until they are ``tolerance`` rad apart.  Finally fresh starts are drawn below
@@ -95,17 +104,20 @@ def smallest_loss(
     search = _Search(rotor, family, tolerance, threads)
     if family.harmless >= family.largest:
         return search.result(family.largest, 0)
+    all_round = _all_round(family, directions)
+    if family.timed:
+        sizes = max(1, sizes // COARSER)
     if family.harmless == 0.0:
-        search.scan(_all_round(family, directions), np.zeros(1))
+        search.scan(all_round, np.zeros(1))
         if search.best is not None:
             return search.result(None, 0)
     levels = family.harmless + (family.largest - family.harmless) * np.arange(sizes + 1) / sizes
     tell = Reporter.of(progress, "looking for the smallest that is lost")
-    search.scan(_all_round(family, directions), levels)
+    search.scan(all_round, levels)
     search.refine(TURN / directions)
     for number in range(MOST_CHECKS):
         tell(0.5 + 0.5 * number / MOST_CHECKS)
-        below = family.largest if search.best is None else search.best[0]
+        below = family.largest if search.best is None else search.best.recovered
         if below <= family.harmless:
             break
         before = search.best
@@ -118,8 +130,10 @@ def smallest_loss(
 
 
 def _all_round(family: Family, directions: int) -> np.ndarray:
-    """Evenly spaced directions over all turns of a family."""
-    return TURN * np.arange(family.turns * directions) / directions
+    """Evenly spaced directions over all turns of a family, shape (1, n), or with instants, shape (2, n)."""
+    count = directions * (PAIRS if family.timed else 1)
+    angles = TURN * np.arange(family.turns * count) / count
+    return np.stack([angles, TURN * (GOLDEN * np.arange(angles.size) % 1.0)]) if family.timed else angles[None]
 
 
 class _Search(Bracket):
@@ -132,21 +146,21 @@ class _Search(Bracket):
         self.turns = family.turns
 
     def scan(self, angles: np.ndarray, levels: np.ndarray) -> None:
-        """Scan directions at increasing sizes, the first of which is known to recover, up to that at which some are lost.
+        """Scan angles (k, n) at increasing sizes, the first of which is known to recover, up to that at which some are lost.
 
         These are bisected below it; what is lost farther out cannot be smaller.  A single size is only tried, not bisected.
         """
         bisect = len(levels) > 1
-        sizes, together = levels[bisect:], max(1, TOGETHER // len(angles))
+        sizes, together = levels[bisect:], max(1, TOGETHER // angles.shape[1])
         for begin in range(0, len(sizes), together):
-            outcomes, gone = self._follow(sizes[None, begin : begin + together], angles[:, None])
+            outcomes, gone = self._follow(sizes[None, begin : begin + together], angles[:, :, None])
             if gone.any():
                 break
         else:
             return
         place = int(gone.any(axis=0).argmax())
         hit, first = np.flatnonzero(gone[:, place]), begin + place
-        ends, angles = outcomes[hit, place], angles[hit]
+        ends, angles = outcomes[hit, place], angles[:, hit]
         low, high = (np.full(len(hit), levels[each]) for each in (first, first + bisect))
         while ((high - low) > self.tolerance * high).any():
             middle = 0.5 * (low + high)
@@ -154,16 +168,28 @@ class _Search(Bracket):
             low, high = np.where(gone, low, middle), np.where(gone, middle, high)
             ends = np.where(gone, found, ends)
         place = int(high.argmin())
-        if self.best is None or high[place] < self.best[1]:
-            self.best = float(low[place]), float(high[place]), float(angles[place]), Outcome(int(ends[place]))
+        if self.best is None or high[place] < self.best.size:
+            direction, *instant = angles[:, place].tolist()
+            self.best = Found(float(low[place]), float(high[place]), direction, Outcome(int(ends[place])), *instant)
 
     def refine(self, apart: float) -> None:
-        """Scan directions to both sides of the best one, with ever smaller spacing."""
+        """Scan directions to both sides of the best one, or pairs all around it, ever closer."""
+        if self.family.timed:
+            self._refine_pairs(apart)
+            return
         while self.best is not None and apart > self.tolerance:
             apart /= NARROWED
-            _, size, angle, _ = self.best
-            beside = angle + apart * np.delete(np.arange(-BESIDE, BESIDE + 1), BESIDE)
-            self.scan(beside, np.linspace(self.family.harmless, size, BELOW + 1))
+            beside = self.best.angle + apart * np.delete(np.arange(-BESIDE, BESIDE + 1), BESIDE)
+            self.scan(beside[None], np.linspace(self.family.harmless, self.best.size, BELOW + 1))
+
+    def _refine_pairs(self, apart: float) -> None:
+        """Scan pairs spread over discs about the best one, from two distances between pairs of the first scan down to the tolerance."""
+        reach, number = 2.0 * math.sqrt(apart * TURN / PAIRS), np.arange(NEAR) + 0.5
+        spread = np.sqrt(number / NEAR) * np.array([np.cos(TURN * GOLDEN * number), np.sin(TURN * GOLDEN * number)])
+        while self.best is not None and reach > self.tolerance:
+            at = np.array([[self.best.angle], [self.best.instant]])
+            self.scan(at + reach * spread, np.linspace(self.family.harmless, self.best.size, BELOW // 2 + 1))
+            reach /= CLOSER
 
     def draw(self, below: float, seed: int) -> int:
         """Try fresh starts up to a size, and all directions at it; bisect the lost ones; return how many were tried."""
@@ -171,27 +197,30 @@ class _Search(Bracket):
         random = np.random.default_rng(seed)
         sizes = np.append(family.drawn(random.random(DRAWN), below), np.full(ROUND, below))
         span = TURN * family.turns
-        angles = np.append(span * random.random(DRAWN), span * (np.arange(ROUND) + random.random()) / ROUND)
+        angles = np.append(span * random.random(DRAWN), span * (np.arange(ROUND) + random.random()) / ROUND)[None]
+        if family.timed:
+            angles = np.append(angles, TURN * random.random(angles.shape), axis=0)
         _, gone = self._follow(sizes, angles)
         for place in np.flatnonzero(gone)[sizes[gone].argsort()]:
-            if self.best is None or sizes[place] < self.best[1]:
-                self.scan(angles[place : place + 1], np.linspace(family.harmless, sizes[place], BELOW + 1))
+            if self.best is None or sizes[place] < self.best.size:
+                self.scan(angles[:, place : place + 1], np.linspace(family.harmless, sizes[place], BELOW + 1))
         return len(sizes)
 
     def _follow(self, sizes: np.ndarray, angles: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Outcomes, and which starts are lost; impossible and undecided starts do not count as lost."""
-        sizes, angles = np.broadcast_arrays(sizes, angles)
-        starts = self.family.starts(sizes, angles)
+        sizes, *at = np.broadcast_arrays(sizes, *angles)
+        starts = self.family.starts(sizes, *at)
         outcomes = follow(self.rotor, starts, threads=self.threads).outcomes
         outcomes[~starts.exists] = Outcome.GRAZING
         self.tried += int(np.count_nonzero(starts.exists & ~starts.undecided))
         return outcomes, lost(outcomes)
 
 
-def smallest_lost(rotor: Model, kicks: Starts, outcomes: np.ndarray) -> tuple[float, float] | None:
-    """Speed and direction of the smallest lost one among kicks; ``None`` if none is lost."""
-    gone = rotor.system.translation_velocity(kicks.velocities[kicks.exists & lost(outcomes)])
-    if not gone.size:
+def smallest_lost(rotor: Model, kicks: Starts, outcomes: np.ndarray) -> tuple[float, float, float] | None:
+    """Speed, direction and instant of the smallest lost one among kicks; ``None`` if none is lost."""
+    chosen = kicks.some(kicks.exists & lost(outcomes))
+    if not chosen.exists.size:
         return None
-    smallest = gone[np.abs(gone).argmin()]
-    return float(abs(smallest)), float(np.angle(smallest))
+    gone = rotor.system.translation_velocity(chosen.velocities, chosen.begins)
+    place = int(np.abs(gone).argmin())
+    return float(abs(gone[place])), float(np.angle(gone[place])), float(chosen.begins[place])

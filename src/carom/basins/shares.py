@@ -16,6 +16,7 @@ from carom.arguments import Whole, checked
 from carom.attractors import AttractorSet, DisturbanceSet, exact_interval
 from carom.attractors.intervals import CONFIDENCE as CONFIDENCE
 from carom.disturbances import Disturbance, Plan, Sample, VelocityKick
+from carom.disturbances.echo import ANY_INSTANT, ITS_INSTANT, instants_words
 from carom.parameters import Scales
 from carom.results import fields_of
 
@@ -34,21 +35,24 @@ class Population:
         The same in SI units, where the machine is known.
     words : str
         Such as ``"kicks up to 166 mm/s"``.
+    at : str
+        At which instants, where these matter, such as ``"at any instant of the turn"``.
     """
 
     of: str = "starts"
     up_to: float | None = None
     up_to_si: float | None = None
     words: str = "starts"
+    at: str = ""
 
     @classmethod
-    def of_model(cls, model: Disturbance, scales: Scales | None) -> Population:
-        """All disturbances of a model, whose sizes are given for these scales."""
-        size = model.size
+    def of_model(cls, model: Disturbance, scales: Scales | None, at: str = "") -> Population:
+        """All disturbances of a model, whose sizes are given for these scales, at the instants ``at``."""
+        size, when = model.size, f" {at}" if at else ""
         if size is None:
-            return cls(model.noun, words=model.noun)
+            return cls(model.noun, words=model.noun + when, at=at)
         si = size.high * size.si(scales) if scales else None
-        return cls(model.noun, size.high, si, f"{model.noun} up to {size.told(size.high, scales)}")
+        return cls(model.noun, size.high, si, f"{model.noun} up to {size.told(size.high, scales)}{when}", at)
 
 
 STARTS = Population()
@@ -96,10 +100,16 @@ class Share:
 
     @classmethod
     def over(
-        cls, plan: Plan, chosen: np.ndarray, exists: np.ndarray, scales: Scales | None, does: str = "come back"
+        cls,
+        plan: Plan,
+        chosen: np.ndarray,
+        exists: np.ndarray,
+        scales: Scales | None,
+        does: str = "come back",
+        at: str = "",
     ) -> Share:
         """Share of the disturbances of a plan that are chosen, among those that exist; cells of a grid weigh by their area."""
-        population = Population.of_model(plan.model, scales)
+        population = Population.of_model(plan.model, scales, at)
         count, total = int((chosen & exists).sum()), int(exists.sum())
         if isinstance(plan, Sample):
             return cls.of(count, total, drawn=True, population=population, does=does)
@@ -120,7 +130,9 @@ class Share:
             interval = f"{percent(self.low).removesuffix(' %')} to {percent(self.high)} with 95 % confidence"
             how = f"{self.count:,} of {self.total:,} drawn; {interval}"
         else:
-            how = f"{self.count:,} of {self.total:,} cells of a grid, weighed by area, each represented by its middle: no sampling error"
+            drawn = self.population.at == ANY_INSTANT
+            error = f", {ITS_INSTANT}" if drawn else ": no sampling error"
+            how = f"{self.count:,} of {self.total:,} cells of a grid, weighed by area, each represented by its middle{error}"
         return f"{percent(self.fraction)} of {self.population.words} {self.does} ({how})"
 
     @property
@@ -128,7 +140,8 @@ class Share:
         """The share as plain data for JSON."""
         of = self.population
         si = {} if of.up_to_si is None else {"up_to_si": of.up_to_si}
-        return fields_of(of, "of", "up_to") | si | fields_of(self, estimate="fraction", low="low", high="high")
+        when = {"at": of.at} if of.at else {}
+        return fields_of(of, "of", "up_to") | si | when | fields_of(self, estimate="fraction", low="low", high="high")
 
 
 @checked
@@ -143,12 +156,12 @@ def share_of_kicks(found: AttractorSet) -> Share | None:
         return None
     back = np.array([ending.recovered for ending in kicks])
     if isinstance(sample, DisturbanceSet):
-        population = Population.of_model(VelocityKick(sample.fastest), scales)
+        population = Population.of_model(VelocityKick(sample.fastest), scales, instants_words(found.rotor))
         return Share.of(int(back.sum()), len(kicks), drawn=True, population=population)
     exists = sample.starts(found.rotor).exists
     chosen = np.zeros(exists.shape, bool)
     chosen[exists] = back
-    return Share.over(sample, chosen, exists, scales)
+    return Share.over(sample, chosen, exists, scales, at=instants_words(found.rotor, sample))
 
 
 def percent(share: float) -> str:

@@ -19,7 +19,7 @@ from carom.parameters import Case, InTerms, Scales, in_terms_of
 
 def print_basin(screen: Console, basin: Basin, smallest: SmallestLoss | None, harmless: float) -> None:
     """Print the disturbances tried, where they end, and the smallest that is lost."""
-    screen.print(f"Disturbances: {plan_words(basin.plan, basin.rotor.value('rho'), basin.scales)}.")
+    screen.print(f"Disturbances: {plan_words(basin.plan, basin.rotor.value('rho'), basin.scales, at=basin.instants)}.")
     drawn = basin.share_recovered.drawn
     numbers = ("starts", "share", *(["95 % interval"] if drawn else []), "known after (median)")
     table = plain_table("", "where they end", *numbers, right=numbers)

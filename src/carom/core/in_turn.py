@@ -12,7 +12,9 @@ EVENT_LIMIT = int(Outcome.EVENT_LIMIT)
 
 
 @kernel
-def advance_in_turn(rotor, table, motions, duration, most_events, contacts, log, memory, work, rub, outcomes, events):
+def advance_in_turn(
+    rotor, table, motions, clocks, duration, most_events, contacts, log, memory, work, rub, outcomes, events
+):
     """Advance motions in place; one does not depend on the others, to the last bit.
 
     Parameters
@@ -21,6 +23,8 @@ def advance_in_turn(rotor, table, motions, duration, most_events, contacts, log,
         See :func:`~carom.core.advance.advance`.
     motions : complex array, shape (M, N)
         Amplitudes at the start; overwritten by those at the end.
+    clocks : float array, shape (M,)
+        Times at the start, less whole turns: where the axes of limits are.
     duration : float
     most_events : int
         Events after which a motion is given up.
@@ -32,7 +36,7 @@ def advance_in_turn(rotor, table, motions, duration, most_events, contacts, log,
     for i in range(motions.shape[0]):
         forget(memory)
         if rotor.limit_bounds.shape[0] > 0:
-            memory.clock, rub.clock = 0.0, 0.0
+            memory.clock, rub.clock = clocks[i], clocks[i]
             set_limits(rotor, motions[i], rub)
             memory.limited[:] = rub.limited
         outcomes[i], events[i], time = EVENT_LIMIT, 0, 0.0

@@ -59,14 +59,14 @@ class BladeLoss(Disturbance):
         """Return the machine with the unbalance after the loss."""
         return rotor.replace(rho=self.eccentricity_after)
 
-    def starts(self, rotor: Model, *values: np.ndarray) -> Starts:
+    def starts(self, rotor: Model, *values: np.ndarray, instant: np.ndarray | float = 0.0) -> Starts:
         """Levitation of the machine before the loss, in the frame in which the phase of the unbalance stays the same.
 
-        Under weight it goes round its sag, and the unbalance after the loss is then at that phase in the fixed frame.
+        Under weight it goes round its sag; this frame coincides with the fixed one at instant zero.
         """
         from carom.models.weight import refuse_unsteady
 
-        (phase,) = values
+        phase, begun = np.broadcast_arrays(*values, instant)
         levitates = rotor.system.rest_radius < 1.0
         if levitates:
             refuse_unsteady(rotor)
@@ -80,12 +80,12 @@ class BladeLoss(Disturbance):
         # What goes round against the shaft turns the other way with the phase.
         opposite = None if rotor.system.mirrored is None else (cosine + 1j * sine) * rotor.system.rest_mirrored
         if levitates:
-            positions, velocities = sagged(rotor, positions, opposite)
+            positions, velocities = sagged(rotor, positions, opposite, begun)
         else:
             velocities = np.zeros_like(positions)
-        return Starts(positions, velocities, none | levitates, none, none, np.zeros(np.shape(phase)))
+        return Starts(positions, velocities, none | levitates, none, none, np.zeros(np.shape(phase))).at(begun)
 
-    def release(self, machine: Subject, phase: float = 0.0) -> tuple[Model, State]:
+    def release(self, machine: Subject, phase: float = 0.0, instant: float = 0.0) -> tuple[Model, State]:
         """Return the machine after the loss and the state in which it starts, for :func:`carom.simulate`.
 
         Parameters
@@ -94,6 +94,8 @@ class BladeLoss(Disturbance):
             Before the loss.
         phase : float
             Phase of the unbalance after the loss relative to the one before, rad.
+        instant : float
+            Angle by which the shaft has turned at the loss, rad, since the frame of :meth:`starts` coincided with the fixed one.
 
         Raises
         ------
@@ -104,11 +106,12 @@ class BladeLoss(Disturbance):
         from carom.motions.starts import State
 
         rotor = model_of(machine)
-        starts = self.starts(rotor, np.array(own_size("phase", phase, "angle", None)))
+        turned, begun = own_size("phase", phase, "angle", None), own_size("instant", instant, "angle", None)
+        starts = self.starts(rotor, np.array(turned), instant=begun)
         if not starts.exists:
             radius = f"|U*| = {rotor.system.rest_radius:.6g}"
             raise InputError("disturbance", radius, "needs levitation inside the wall before the loss")
-        return self.machine_after(rotor), State.of(starts.positions, starts.velocities)
+        return self.machine_after(rotor), State.of(starts.positions, starts.velocities, time=float(starts.begins))
 
     def lost(self, rotor: Model, phase: float) -> float:
         """Unbalance lost if the unbalance after it has this phase: ``|ρ'e^{iβ} − ρ|``, in ``m c_r``."""

@@ -58,11 +58,11 @@ class VelocityKick(Disturbance):
             "direction", "direction of the kick"
         )
 
-    def starts(self, rotor: Model, *values: np.ndarray) -> Starts:
+    def starts(self, rotor: Model, *values: np.ndarray, instant: np.ndarray | float = 0.0) -> Starts:
         """Levitation with the velocity changed."""
         speed, direction = values
         velocity = complex_of(speed * np.cos(direction), speed * np.sin(direction))
-        return _kicked(rotor, velocity)
+        return _kicked(rotor, velocity, instant)
 
 
 @dataclass(frozen=True)
@@ -102,14 +102,14 @@ class KickPlane(Disturbance):
         """Whether kicks are no larger than the largest, but for rounding."""
         return np.asarray(np.hypot(radial, tangential) <= self.fastest * (1.0 + 1e-12))
 
-    def starts(self, rotor: Model, *values: np.ndarray) -> Starts:
+    def starts(self, rotor: Model, *values: np.ndarray, instant: np.ndarray | float = 0.0) -> Starts:
         """Levitation with the velocity changed; there is no start beyond the largest kick."""
         radial, tangential = values
         outward = outward_from(rotor)
         velocity = complex_of(
             outward.real * radial - outward.imag * tangential, outward.imag * radial + outward.real * tangential
         )
-        kicked = _kicked(rotor, velocity)
+        kicked = _kicked(rotor, velocity, instant)
         return kicked._replace(exists=kicked.exists & self.within(radial, tangential))
 
 
@@ -159,34 +159,35 @@ class BaseShock(Disturbance):
         peak = Coordinate("peak_acceleration", "peak acceleration of the base", 0.0, self.peak, "acceleration", True)
         return peak, angle_coordinate("direction", "direction of the shock")
 
-    def starts(self, rotor: Model, *values: np.ndarray) -> Starts:
-        """State at the end of the pulse."""
+    def starts(self, rotor: Model, *values: np.ndarray, instant: np.ndarray | float = 0.0) -> Starts:
+        """State at the end of the pulse, which begins at the instant."""
         from carom.disturbances.shocks import states_after_shocks
-        from carom.models.stages import stages_of
+        from carom.models.stages import depends_on_instant, stages_of
 
-        peaks, directions = np.broadcast_arrays(*values)
+        peaks, directions, begun = np.broadcast_arrays(*values, instant)
         if rotor.system.rest_radius >= 1.0:
             return displaced(rotor, np.zeros(peaks.shape, complex), np.zeros(peaks.shape), False)
         rotor.system.refuse_unsteady()
         positions, velocities, undecided, touched = states_after_shocks(
-            stages_of(rotor)[0].rotor, peaks, self.duration, directions
+            stages_of(rotor)[0].rotor, peaks, self.duration, directions, begun
         )
-        # Without forces that change with time, and axes of bearings, nothing depends on it.
-        begins = np.full(peaks.shape, self.duration if rotor.system.timed else 0.0)
+        begins = begun + self.duration if depends_on_instant(rotor) else np.zeros(peaks.shape)
         return Starts(positions, velocities, np.ones(peaks.shape, bool), undecided, touched, begins)
 
-    def stages(self, machine: Subject, direction: float = 0.0) -> tuple[Staged, State]:
+    def stages(self, machine: Subject, direction: float = 0.0, instant: float = 0.0) -> tuple[Staged, State]:
         """Return the machine under the largest shock and then without, and its start at levitation, for :func:`carom.simulate`.
 
         Contacts during the shock are part of the motion.  Stages of the machine begin when the shock is over.  A machine with weight
-        levitates about its static sag when the shock begins, at time zero: then the frames coincide, so that the phase of its unbalance
-        and the direction of the shock count from the same axis as that of its weight.
+        levitates about its static sag when the shock begins.
 
         Parameters
         ----------
         machine : Machine, Case, Parameters or model
         direction : float
             Of the acceleration, rad.
+        instant : float
+            Angle by which the shaft has turned when the shock begins, rad, since the frame that turns with it coincided with the fixed
+            one: under weight it says where this points.
 
         Raises
         ------
@@ -201,10 +202,11 @@ class BaseShock(Disturbance):
         further = stages_of(model_of(machine))
         rotor = further[0].rotor
         size = cmath.rect(self.peak, own_size("direction", direction, "angle", None)) / 2j
-        pulse = Stage(shaken(rotor, self.duration, size), Trigger(time=self.duration))
-        return Staged((pulse, *further)), Kick(0.0).state(rotor)
+        start = Kick(0.0, instant=instant).state(rotor)
+        pulse = Stage(shaken(rotor, self.duration, size, start.time), Trigger(time=self.duration))
+        return Staged((pulse, *further)), start
 
-    def release(self, machine: Subject, direction: float = 0.0) -> State:
+    def release(self, machine: Subject, direction: float = 0.0, instant: float = 0.0) -> State:
         """Return the state at the end of one shock of the largest peak, for :func:`carom.simulate`.
 
         Contacts during the pulse are part of it.
@@ -223,9 +225,8 @@ class BaseShock(Disturbance):
         from carom.models import model_of
         from carom.motions.starts import State
 
-        starts = self.starts(
-            model_of(machine), np.array([self.peak]), np.array([own_size("direction", direction, "angle", None)])
-        )
+        turned, begun = own_size("direction", direction, "angle", None), own_size("instant", instant, "angle", None)
+        starts = self.starts(model_of(machine), np.array([self.peak]), np.array([turned]), instant=begun)
         if not starts.exists[0]:
             radius = f"|U*| = {model_of(machine).system.rest_radius:.6g}"
             raise InputError("disturbance", radius, "needs levitation inside the wall before the shock")
@@ -244,10 +245,11 @@ def outward_from(machine: Subject) -> complex:
     return rest / abs(rest) if rest else cmath.rect(1.0, rotor.unbalance_phase)
 
 
-def _kicked(rotor: Model, velocity: np.ndarray) -> Starts:
+def _kicked(rotor: Model, velocity: np.ndarray, instant: np.ndarray | float) -> Starts:
     """Levitation with the velocity of the rotor as a whole changed."""
-    positions, velocities = rotor.system.kicked(velocity)
+    velocity, begins = np.broadcast_arrays(velocity, np.asarray(instant, float))
+    positions, velocities = rotor.system.kicked(velocity, begins)
     if len(rotor.system.rest) == 1:
         positions, velocities = positions[..., 0], velocities[..., 0]
     none = np.zeros(velocity.shape, bool)
-    return Starts(positions, velocities, none | (rotor.system.rest_radius < 1.0), none, none, np.zeros(none.shape))
+    return Starts(positions, velocities, none | (rotor.system.rest_radius < 1.0), none, none, begins.copy())

@@ -92,6 +92,10 @@ def angle_coordinate(name: str, words: str) -> Coordinate:
     return Coordinate(name, words, 0.0, TURN, periodic=True)
 
 
+INSTANT = angle_coordinate("instant", "angle by which the shaft has turned at that instant")
+"""At angle zero the frame that turns with the shaft coincides with the fixed one."""
+
+
 def speed_coordinate(name: str, words: str, low: float, high: float, over_disc: bool = False) -> Coordinate:
     """A speed."""
     return Coordinate(name, words, low, high, "velocity", over_disc)
@@ -116,7 +120,7 @@ class Starts(NamedTuple):
     touched : ndarray of bool
         Whether the rotor has already met the wall, during a shock or because it starts there.
     begins : ndarray
-        Times at which they are taken, in ``1/Ω``, since the disturbance began: under weight they say where this points.
+        Times at which they are taken, in ``1/Ω``: angles by which the shaft has turned since the frames coincided.
     """
 
     positions: np.ndarray
@@ -139,22 +143,30 @@ class Starts(NamedTuple):
         flat = [part.some(np.ones(part.exists.shape, bool)) for part in parts]
         return cls(*(np.concatenate(alike) for alike in zip(*flat, strict=True)))
 
+    def at(self, instant: np.ndarray | float) -> Starts:
+        """The same states in the co-rotating frame at other instants."""
+        return self._replace(begins=np.broadcast_to(np.asarray(instant, float), self.exists.shape).copy())
+
     def some(self, chosen: np.ndarray) -> Starts:
         """Some of the starts, one-dimensional: those where ``chosen`` is true."""
         return Starts(*(values[chosen] for values in self))
 
 
-def sagged(rotor: Model, positions: np.ndarray, opposite: np.ndarray | None = None) -> tuple[np.ndarray, np.ndarray]:
+def sagged(
+    rotor: Model, positions: np.ndarray, opposite: np.ndarray | None = None, instant: np.ndarray | float = 0.0
+) -> tuple[np.ndarray, np.ndarray]:
     """Positions of rotors at rest in the turning frame with the static sag added, and the velocities of that, which stands still.
 
-    ``opposite`` are positions of what goes round against the shaft, twice as fast in its frame.
+    ``opposite`` are positions, at instant zero, of what goes round against the shaft, twice as fast in its frame.
     """
     if rotor.system.forced is None:
         return positions, np.zeros_like(positions)
     sag = rotor.system.shapes @ rotor.system.outer
-    placed = positions + (sag if len(sag) > 1 else sag[0])
-    velocities = np.broadcast_to(-1j * (sag if len(sag) > 1 else sag[0]), placed.shape).copy()
+    turn = complex_of(np.cos(instant), -np.sin(instant))
+    sags = np.multiply.outer(turn, sag) if len(sag) > 1 else turn * sag[0]
+    placed, velocities = positions + sags, np.broadcast_to(-1j * sags, np.broadcast(positions, sags).shape).copy()
     if opposite is not None:
+        opposite = opposite * (turn**2)[..., None] if len(sag) > 1 else opposite * turn**2
         placed, velocities = placed + opposite, velocities - 2j * opposite
     return placed, velocities
 

@@ -10,11 +10,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from carom.disturbances.plans import Grid, Plan
+from carom.models import depends_on_instant
 from carom.parameters import MACHINE_FIELDS, Scales
 from carom.parameters.told import number, told, told_angle
 from carom.results import in_si
 
 if TYPE_CHECKING:
+    from carom.models import Model
     from carom.motions.starts import State
     from carom.parameters import Gravity
 
@@ -28,6 +30,10 @@ _NAMES = {
     "slice": "positions at one velocity",
     "state": "positions and velocities",
 }
+
+
+ANY_INSTANT = "at any instant of the turn"
+ITS_INSTANT = "at an instant of its own"
 
 
 @dataclass(frozen=True)
@@ -165,10 +171,21 @@ def _moving_at(place: complex, rate: complex, scales: Scales | None) -> Echo:
     )
 
 
-def plan_words(plan: Plan, before: float | None, scales: Scales | None, *, drawn: str | None = None) -> str:
+def instants_words(rotor: Model, plan: Plan | None = None) -> str:
+    """At which instants of the turn disturbances come, where these matter, of a plan or of any sample; else nothing."""
+    if not depends_on_instant(rotor):
+        return ""
+    if isinstance(plan, Grid) and plan.instant is not None:
+        return f"at the instant at which the shaft has turned by {told_angle(plan.instant)}"
+    return ANY_INSTANT
+
+
+def plan_words(
+    plan: Plan, before: float | None, scales: Scales | None, *, drawn: str | None = None, at: str = ""
+) -> str:
     """Say which disturbances a plan tries on a machine with an eccentricity ``before`` them, in clearances, if there is one.
 
-    ``drawn`` says how a sample is drawn where its own seed does not count.
+    ``drawn`` says how a sample is drawn where its own seed does not count, ``at`` at which instants they come.
     """
     model = plan.model
     if isinstance(plan, Grid):
@@ -176,6 +193,8 @@ def plan_words(plan: Plan, before: float | None, scales: Scales | None, *, drawn
     else:
         how = drawn or f"a sample (seed {plan.seed})"
     parts = [f"{plan.count} {_NAMES.get(model.kind, model.noun)}", how]
+    if at:
+        parts[0] += f", {f'each {ITS_INSTANT}' if at == ANY_INSTANT else at}"
     if model.size is not None:
         size = model.size
         parts.append(f"{size.words} up to {_both(size.high, size.scale, scales)}")

@@ -5,12 +5,13 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
+from inspect import signature
 from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 import numpy as np
 
 from carom.arguments import checked, is_number
-from carom.disturbances.coordinates import Coordinate, Starts
+from carom.disturbances.coordinates import INSTANT, Coordinate, Starts
 from carom.outcome import InputError, shown
 from carom.parameters import Scales, own_size, usual_kick
 
@@ -78,15 +79,36 @@ class Disturbance:
         """Values of the coordinates drawn by numbers uniform from 0 to 1, shape (number, coordinates)."""
         return tuple(coordinate.at(share) for coordinate, share in zip(self.coordinates, shares.T, strict=True))
 
-    def starts(self, rotor: Model, *values: np.ndarray) -> Starts:
+    def starts(self, rotor: Model, *values: np.ndarray, instant: np.ndarray | float = 0.0) -> Starts:
         """Starts of free motion.
 
         Parameters
         ----------
         *values : ndarray
             One array for each coordinate, broadcast against each other.
+        instant : ndarray
+            Angle by which the shaft has turned when the disturbance comes; asked for only of machines on which that matters
+            (:func:`carom.models.depends_on_instant`).
         """
         raise NotImplementedError
+
+    def coordinates_on(self, rotor: Model) -> tuple[Coordinate, ...]:
+        """Coordinates by which the disturbance varies on a machine: those of the model, and the instant where that matters."""
+        from carom.models import depends_on_instant
+
+        return (*self.coordinates, INSTANT) if depends_on_instant(rotor) else self.coordinates
+
+    def starts_on(self, rotor: Model, *values: np.ndarray) -> Starts:
+        """Starts of free motion by the coordinates on a machine."""
+        from carom.models import depends_on_instant
+
+        if not depends_on_instant(rotor):
+            return self.starts(rotor, *values)
+        if "instant" not in signature(self.starts).parameters:
+            allowed = "one whose starts take the instant, on a machine on which that matters (weight, limits, axes of bearings)"
+            raise InputError("disturbance", self.kind, allowed)
+        *own, instant = values
+        return self.starts(rotor, *own, instant=instant)
 
     def machine_after(self, rotor: Model) -> Model:
         """Return the machine after the disturbance, by default the same one."""

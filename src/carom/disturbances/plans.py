@@ -3,19 +3,24 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Self, TypeAlias
 
 import numpy as np
 
 from carom.arguments import Count, Seed, Whole, checked
-from carom.disturbances.coordinates import Starts
+from carom.disturbances.coordinates import INSTANT, Starts
 from carom.disturbances.model import Disturbance
 from carom.outcome import InputError
 from carom.parameters import Scales
 
 if TYPE_CHECKING:
     from carom.models import Model
+
+
+INSTANTS = 1
+"""Stream of random numbers of instants: sizes and directions are the same on machines on which the instant does not matter."""
 
 
 @dataclass(frozen=True)
@@ -38,6 +43,9 @@ class Grid(_Plan):
     model : Disturbance
     shape : tuple of int
         Cells along each coordinate.
+    instant : float, optional
+        Angle in rad by which the shaft has turned when they come, on a machine on which that matters; by default each cell has one of
+        its own, drawn at random, so that shares are averages over the turn.
 
     See Also
     --------
@@ -52,6 +60,7 @@ class Grid(_Plan):
     """
 
     shape: tuple[int, ...]
+    instant: float | None = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "shape", tuple(map(int, self.shape)))  # as JSON and hashes need them, not NumPy's
@@ -86,7 +95,14 @@ class Grid(_Plan):
         """Starts, arrays of the shape of the grid."""
         from carom.models import model_of
 
-        return self.model.starts(model_of(rotor), *np.meshgrid(*self.values(), indexing="ij"))
+        values = np.meshgrid(*self.values(), indexing="ij")
+        return _begun(self.model, model_of(rotor), values, self.instants().reshape(self.shape))
+
+    def instants(self) -> np.ndarray:
+        """Instant of each cell, one-dimensional."""
+        if self.instant is not None:
+            return np.full(self.count, float(self.instant))
+        return INSTANT.at(np.random.default_rng([0, INSTANTS]).random(self.count))
 
 
 @checked
@@ -94,7 +110,7 @@ class Grid(_Plan):
 class Sample(_Plan):
     """A seeded random sample; a longer one of the same seed begins with the shorter.
 
-    It is uniform in every coordinate, but uniform over the area where sizes in all directions fill a disc (kicks, shocks,
+    It is uniform in every coordinate, and in the instant where that matters, but uniform over the area where sizes in all directions fill a disc (kicks, shocks,
     steps of the unbalance, states).
 
     Attributes
@@ -139,7 +155,17 @@ class Sample(_Plan):
         """Starts, arrays of shape (count,)."""
         from carom.models import model_of
 
-        return self.model.starts(model_of(rotor), *self.values())
+        return _begun(self.model, model_of(rotor), self.values(), self.instants())
+
+    def instants(self) -> np.ndarray:
+        """Instant of each start, shape (count,), on a machine on which that matters."""
+        return INSTANT.at(np.random.default_rng([self.seed, INSTANTS]).random(self.count))
+
+
+def _begun(model: Disturbance, rotor: Model, values: Sequence[np.ndarray], instants: np.ndarray) -> Starts:
+    """Starts by values of the coordinates, at instants where these matter."""
+    known = len(model.coordinates_on(rotor)) > len(values)
+    return model.starts_on(rotor, *values, *((instants,) if known else ()))
 
 
 Plan: TypeAlias = Grid | Sample

@@ -37,26 +37,30 @@ from carom.motions.ensembles import MOST_EVENTS
 from carom.outcome import Outcome
 
 LOGGED = 256
+TURN = 2.0 * math.pi
 
 
-def shaken(rotor: Model, duration: float, size: complex) -> Forced:
-    """The rotor under the two forces of a half-sine pulse of this duration in ``1/Ω``, with ``size = â e^{iα}/2i``."""
+def shaken(rotor: Model, duration: float, size: complex, begins: float = 0.0) -> Forced:
+    """The rotor under the two forces of a half-sine pulse of this duration in ``1/Ω``, with ``size = â e^{iα}/2i``, from a time."""
     frequency, push = math.pi / duration, size * carried_by_housing(rotor)
-    return Forced(rotor, (Force(1j * (frequency - 1.0), -push), Force(-1j * (frequency + 1.0), push)))
+    exponents = 1j * (frequency - 1.0), -1j * (frequency + 1.0)
+    first, second = (Force(each, cmath.exp(-each * begins) * push) for each in exponents)
+    return Forced(rotor, (first._replace(accelerations=-first.accelerations), second))
 
 
 def states_after_shocks(
-    rotor: Model, peaks: np.ndarray, duration: float, directions: np.ndarray
+    rotor: Model, peaks: np.ndarray, duration: float, directions: np.ndarray, begins: np.ndarray | float = 0.0
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     """State at the end of half-sine pulses that hit a rotor that levitates inside the wall.
 
-    Peak accelerations of the housing are in ``c_r Ω²``, directions in rad, the duration in ``1/Ω``.  Return positions
+    Peak accelerations of the housing are in ``c_r Ω²``, directions in rad, durations and times at which the pulses begin in ``1/Ω``.  Return positions
     (on the wall where the rotor is in contact then) and velocities in the co-rotating frame, for ``n > 1`` coordinates
     with a last axis of that length; whether the wall was
     grazed so nearly that double precision cannot decide, and whether it was reached during the pulse.
     """
+    begins = np.broadcast_to(begins, peaks.shape)
     if rotor.system.mirrored is not None:
-        return _states_one_by_one(rotor, peaks, duration, directions)
+        return _states_one_by_one(rotor, peaks, duration, directions, begins)
     system = shaken(rotor, duration, 1.0).system
     at_rest = np.append(rotor.system.rest, np.zeros_like(rotor.system.rest))
     # Levitation under weight goes round a circle; its amplitudes are those of the weight, whatever the shock.
@@ -65,7 +69,11 @@ def states_after_shocks(
     unit, weight = (whole - steady).tolist(), steady.tolist()
     # Number by number: the last bit of array arithmetic depends on the place in the array.
     sizes = [cmath.rect(*pair) / 2j for pair in zip(peaks.ravel().tolist(), directions.ravel().tolist(), strict=True)]
-    each = [[size * value + constant for value, constant in zip(unit, weight, strict=True)] for size in sizes]
+    turns = [cmath.exp(STEADY * time) for time in begins.ravel().tolist()]
+    each = [
+        [size * value + turn * constant for value, constant in zip(unit, weight, strict=True)]
+        for size, turn in zip(sizes, turns, strict=True)
+    ]
     motions = np.array(each, complex).reshape(-1, system.modes)
     planes = len(system.arrays["rows"])
     contacts = np.full((len(motions), planes), AWAY)
@@ -76,7 +84,10 @@ def states_after_shocks(
         rub_workspace(system.modes, planes, system.limits),
     )
     tools = log, memory(system.modes, limits=system.limits), work, rub
-    advance_in_turn(system.arrays, system.table, motions, duration, MOST_EVENTS, contacts, *tools, outcomes, events)
+    clocks = np.mod(begins.ravel(), TURN)
+    advance_in_turn(
+        system.arrays, system.table, motions, clocks, duration, MOST_EVENTS, contacts, *tools, outcomes, events
+    )
     positions, velocities = np.split(_states(system.basis, motions) + at_rest, 2, axis=1)
     if rotor.system.is_planar:
         touches = contacts[:, 0] != AWAY
@@ -92,14 +103,14 @@ def states_after_shocks(
 
 
 def _states_one_by_one(
-    rotor: Model, peaks: np.ndarray, duration: float, directions: np.ndarray
+    rotor: Model, peaks: np.ndarray, duration: float, directions: np.ndarray, begins: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     """:func:`states_after_shocks` where bearings act differently in two directions: the motion is no multiple of that of another shock."""
-    start = np.concatenate(rotor.system.kicked(0.0))[None]
     planes, limits = len(rotor.system.arrays["rows"]), rotor.system.limits
     found, undecided, touched = [], [], []
-    for peak, direction in zip(peaks.ravel().tolist(), directions.ravel().tolist(), strict=True):
-        system = shaken(rotor, duration, cmath.rect(peak, direction) / 2j).system
+    for peak, direction, begun in zip(*(each.ravel().tolist() for each in (peaks, directions, begins)), strict=True):
+        system = shaken(rotor, duration, cmath.rect(peak, direction) / 2j, begun).system
+        start = np.concatenate(rotor.system.kicked(0.0, begun))[None]
         modes = system.modes
         tools = (
             EventLog.empty(LOGGED, modes, planes, limits),
@@ -107,13 +118,16 @@ def _states_one_by_one(
             workspace(modes),
             rub_workspace(modes, planes, limits),
         )
-        motion, contact = system.amplitudes_of(start), np.full((1, planes), AWAY)
+        motion, contact = system.amplitudes_of(start, begun), np.full((1, planes), AWAY)
         outcomes, events = np.zeros((2, 1), np.int64)
-        advance_in_turn(system.arrays, system.table, motion, duration, MOST_EVENTS, contact, *tools, outcomes, events)
+        clock = np.array([begun % TURN])
+        advance_in_turn(
+            system.arrays, system.table, motion, clock, duration, MOST_EVENTS, contact, *tools, outcomes, events
+        )
         found.append(system.states_of(motion)[0])
         undecided.append(outcomes[0] != Outcome.TIME_REACHED)
         touched.append(events[0] > 0)
-    positions, velocities = np.split(np.reshape(found, (-1, start.shape[1])), 2, axis=1)
+    positions, velocities = np.split(np.reshape(found, (-1, 2 * len(rotor.system.rest))), 2, axis=1)
     shape = peaks.shape + (rotor.system.rest.shape if len(rotor.system.rest) > 1 else ())
     return (
         positions.reshape(shape),

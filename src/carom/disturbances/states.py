@@ -69,12 +69,12 @@ class UnbalanceStep(Disturbance):
             angle_coordinate("phase_before", "phase of the unbalance before the step, relative to that after it"),
         )
 
-    def starts(self, rotor: Model, *values: np.ndarray) -> Starts:
+    def starts(self, rotor: Model, *values: np.ndarray, instant: np.ndarray | float = 0.0) -> Starts:
         """Levitation with the old unbalance; under weight about the static sag."""
         from carom.models.directions import whirl_of
         from carom.models.weight import refuse_unsteady
 
-        eccentricity, phase = values
+        eccentricity, phase, begun = np.broadcast_arrays(*values, instant)
         refuse_unsteady(rotor)
         push = cmath.rect(1.0, rotor.unbalance_phase) * rotor.system.translated
         response, opposite = whirl_of(rotor, rotor.matrices.mass @ push)
@@ -98,7 +98,7 @@ class UnbalanceStep(Disturbance):
             response.real * cosine - response.imag * sine, response.imag * cosine + response.real * sine
         )
         none = np.zeros(there.shape, bool)
-        return Starts(*sagged(rotor, positions, behind), there, none, touched, np.zeros(there.shape))
+        return Starts(*sagged(rotor, positions, behind, begun), there, none, touched, np.zeros(there.shape)).at(begun)
 
 
 @checked
@@ -123,14 +123,14 @@ class ContactRelease(Disturbance):
         """Angle of the contact point on the wall."""
         return (angle_coordinate("angle", "place on the wall"),)
 
-    def starts(self, rotor: Model, *values: np.ndarray) -> Starts:
+    def starts(self, rotor: Model, *values: np.ndarray, instant: np.ndarray | float = 0.0) -> Starts:
         """States on the wall, moving along it."""
         (angle,) = values
         cosine, sine = np.cos(angle), np.sin(angle)
         carried, surface_speed = rotor.system.planes_translated, rotor.system.arrays.surface_speed
         rate = {"fixed": 0.0, "rotating": 1.0, "rolling": 1.0 - float(surface_speed[carried.argmax()])}[self.motion]
         speed = rate / carried.max() if carried.any() else rate
-        return displaced(rotor, complex_of(cosine, sine), complex_of(-speed * sine, speed * cosine))
+        return displaced(rotor, complex_of(cosine, sine), complex_of(-speed * sine, speed * cosine)).at(instant)
 
 
 @dataclass(frozen=True)
@@ -156,12 +156,14 @@ class StateSlice(Disturbance):
         """Both components of the position."""
         return length_coordinate("x", "position Re U", -1.0, 1.0), length_coordinate("y", "position Im U", -1.0, 1.0)
 
-    def starts(self, rotor: Model, *values: np.ndarray) -> Starts:
+    def starts(self, rotor: Model, *values: np.ndarray, instant: np.ndarray | float = 0.0) -> Starts:
         """All positions inside the wall."""
         x, y = np.broadcast_arrays(*values)
         positions = complex_of(x, y)
         there = within(positions)
-        return displaced(rotor, np.where(there, positions, 0.0), np.full(positions.shape, self.velocity), there)
+        return displaced(rotor, np.where(there, positions, 0.0), np.full(positions.shape, self.velocity), there).at(
+            instant
+        )
 
 
 @dataclass(frozen=True)
@@ -196,11 +198,11 @@ class AnyState(Disturbance):
         """Speed in the fixed frame."""
         return self.coordinates[2]
 
-    def starts(self, rotor: Model, *values: np.ndarray) -> Starts:
+    def starts(self, rotor: Model, *values: np.ndarray, instant: np.ndarray | float = 0.0) -> Starts:
         """The given states, in the co-rotating frame."""
         radius, angle, speed, direction = np.broadcast_arrays(*values)
         return displaced(
             rotor,
             complex_of(radius * np.cos(angle), radius * np.sin(angle)),
             complex_of(speed * np.cos(direction), speed * np.sin(direction)),
-        )
+        ).at(instant)

@@ -38,7 +38,7 @@ from carom.models.model import Matrices, Model, Rates
 from carom.models.race import Race
 from carom.models.shaft import Shaft
 from carom.models.spans import Edge, Span
-from carom.models.stages import Forced, Stage, Staged, Trigger
+from carom.models.stages import Forced, Stage, Staged, Trigger, depends_on_instant
 from carom.models.subjects import Subject, case_of, jeffcott_of, model_from, model_of, planar_case_of
 from carom.models.system import System
 from carom.models.touchdown import FallingRestitution, HuntCrossley, KelvinVoigt, Rigid, Touchdown
@@ -71,6 +71,7 @@ __all__ = [
     "Trigger",
     "axis",
     "case_of",
+    "depends_on_instant",
     "jeffcott_of",
     "model_from",
     "model_of",

@@ -294,6 +294,15 @@ def forces_of(model: Model) -> tuple[Force, ...]:
     return (*forces_of(model.rotor), *model.forces) if isinstance(model, Forced) else ()
 
 
+def depends_on_instant(model: Model) -> bool:
+    """Whether the end of a disturbance depends on the instant of the turn at which it comes: on where the unbalance then points.
+
+    So it does where something stands in the fixed frame in any stage: weight or another force, bearings that act differently in two
+    directions, limits of magnetic bearings along their axes.
+    """
+    return any(stage.rotor.system.timed for stage in stages_of(model))
+
+
 def stages_of(model: Model) -> tuple[Stage, ...]:
     """Stages in which a model moves; of most there is one without an end."""
     return model.stages if isinstance(model, Staged) else (Stage(model),)

@@ -135,7 +135,7 @@ class System(ModeArrays):
 
     @property
     def timed(self) -> bool:
-        """Whether it matters when a motion begins."""
+        """Whether it matters when a motion begins: something stands in the fixed frame, past which the unbalance turns."""
         return bool(self.outer.any() or self.limits or self.mirrored is not None)
 
     @property
@@ -252,18 +252,37 @@ class System(ModeArrays):
         position = np.einsum("...k,nk->...n", amplitudes, self.shapes) + self.rest
         return position, np.einsum("...k,nk->...n", amplitudes, self.rates)
 
-    def kicked(self, push: complex | np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Coordinates and their rates, both (..., n), just after the levitating rotor gets velocities (...) as a whole."""
+    def kicked(self, push: complex | np.ndarray, time: float | np.ndarray = 0.0) -> tuple[np.ndarray, np.ndarray]:
+        """Coordinates and their rates, both (..., n), just after the rotor, levitating at a time, gets velocities (...) as a whole."""
         velocities = np.multiply.outer(push, self.translated)
         if self.forced is None:
             return np.broadcast_to(self.rest, velocities.shape), velocities
-        position, velocity = np.split(self.states_of((self.forced + self._unbalanced)[None])[0], 2)
+        position, velocity = np.split(self._levitation(time), 2, axis=-1)
         return np.broadcast_to(position, velocities.shape), velocities + velocity
 
-    def translation_velocity(self, velocities: np.ndarray) -> np.ndarray:
+    def _levitation(self, time: float | np.ndarray) -> np.ndarray:
+        """States (..., 2n) of the levitating rotor at times (...)."""
+        if not np.any(time):
+            return self.states_of((self.forced_at(0.0) + self._unbalanced)[None])[0]
+        # Mode by mode, of parts: the last bit of a complex product, and of one of matrices, depends on the place in the array.
+        still = self.states_of(self._unbalanced[None])[0]
+        parts = np.multiply.outer(np.ones(np.shape(time)), np.array([still.real, still.imag]))
+        forced = self.forced_at(0.0)
+        for mode in np.flatnonzero(forced).tolist():
+            exponent, along = complex(self.arrays["exponents"][mode]), self.basis[:, mode] * forced[mode]
+            angle = exponent.imag * np.asarray(time)
+            size = np.exp(exponent.real * np.asarray(time))
+            cosine, sine = (np.asarray(size * turned)[..., None] for turned in (np.cos(angle), np.sin(angle)))
+            parts[..., 0, :] += along.real * cosine - along.imag * sine
+            parts[..., 1, :] += along.imag * cosine + along.real * sine
+        states: np.ndarray = parts[..., 0, :] + 1j * parts[..., 1, :]
+        return states
+
+    def translation_velocity(self, velocities: np.ndarray, time: float | np.ndarray = 0.0) -> np.ndarray:
         """Velocities (...) of the rotor as a whole from the rates (..., n) of the coordinates: the inverse of :meth:`kicked`."""
         if self.forced is not None:
-            velocities = velocities - self.kicked(0.0)[1].reshape(np.shape(self.rest)[len(self.rest) == 1 :])
+            _, levitating = self.kicked(np.zeros(np.shape(time)), time)
+            velocities = velocities - (levitating if len(self.rest) > 1 else levitating[..., 0])
         if self.translation is None:
             return velocities
         moves = self.translation if len(self.rest) > 1 else self.translation[0]

@@ -13,7 +13,7 @@ from carom.core.layout import rub_workspace
 from carom.core.phases import AWAY, FLIGHT
 from carom.core.rub import phase_in_wall
 from carom.core.wall import set_on_wall
-from carom.models import Model, System
+from carom.models import Model, System, depends_on_instant
 from carom.models.weight import levitation_of, weight_of
 from carom.outcome import InputError
 from carom.parameters import Scales, own_size
@@ -92,10 +92,14 @@ class Kick:
     angle : float or str
         Direction in the co-rotating frame, from its real axis, from which the phase of the unbalance counts too: in rad, or text
         with a unit, such as ``"30 deg"``.
+    instant : float or str
+        Angle by which the shaft has turned when it comes, since the co-rotating frame coincided with the fixed one, the same way:
+        where something stands in the fixed frame, such as weight, it says where this points.
     """
 
     speed: float | str
     angle: float | str = 0.0
+    instant: float | str = 0.0
 
     def state(self, rotor: Model) -> State:
         """Return the state just after the kick, which moves the rotor as a whole.
@@ -109,12 +113,14 @@ class Kick:
             levitation_of(rotor)
         speed = own_size("kick speed", self.speed, "velocity", rotor.scales)
         push = cmath.rect(speed, own_size("kick angle", self.angle, "angle", rotor.scales))
-        position, velocity = (values if len(values) > 1 else values[0] for values in rotor.system.kicked(push))
-        return State.of(position, velocity)
+        instant = own_size("instant", self.instant, "angle", rotor.scales) if depends_on_instant(rotor) else 0.0
+        kicked = rotor.system.kicked(push, instant)
+        position, velocity = (values if len(values) > 1 else values[0] for values in kicked)
+        return State.of(position, velocity, time=instant)
 
 
 @checked
-def kick(speed: float | str, angle: float | str = 0.0) -> Kick:
+def kick(speed: float | str, angle: float | str = 0.0, instant: float | str = 0.0) -> Kick:
     """Velocity kick out of the contact-free equilibrium.
 
     Parameters
@@ -123,6 +129,9 @@ def kick(speed: float | str, angle: float | str = 0.0) -> Kick:
         In ``c_r Ω``, or text with a unit, such as ``"50 mm/s"``.
     angle : float or str
         Its direction in the co-rotating frame, from its real axis: in rad, or text with a unit, such as ``"30 deg"``.
+    instant : float or str
+        Angle by which the shaft has turned when it comes, the same way: it matters under weight, with limits of the magnetic bearings,
+        and where bearings act differently in two directions.
 
     See Also
     --------
@@ -133,9 +142,9 @@ def kick(speed: float | str, angle: float | str = 0.0) -> Kick:
     --------
     >>> import carom as cm
     >>> cm.kick("50 mm/s", "30 deg")
-    Kick(speed='50 mm/s', angle='30 deg')
+    Kick(speed='50 mm/s', angle='30 deg', instant=0.0)
     """
-    return Kick(speed, angle)
+    return Kick(speed, angle, instant)
 
 
 def time_until(until: float | str | None, scales: Scales | None, name: str = "until") -> float:

@@ -257,10 +257,11 @@ def asked_by(case: Case, disturbances: Iterable[Sample]) -> float | None:
     rotor = model_of(case)
     reached = [float(limit.asked(Centre.whirling(rotor.system.rest_radius, 1.0)))]
     for sample in disturbances:
-        starts = sample.model.starts(rotor, *coordinates_at_largest(sample, LARGEST))
+        starts = sample.model.starts_on(rotor, *coordinates_at_largest(rotor, sample, LARGEST))
         after = sample.model.machine_after(rotor)
-        for position, velocity in zip(starts.positions, starts.velocities, strict=True):
-            reached.append(largest_along(simulate(after, State.of(position, velocity), settle=True), limit))
+        for position, velocity, begun in zip(starts.positions, starts.velocities, starts.begins.tolist(), strict=True):
+            motion = simulate(after, State.of(position, velocity, time=begun), settle=True)
+            reached.append(largest_along(motion, limit))
     return max(reached) / limit.most
 
 

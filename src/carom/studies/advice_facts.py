@@ -178,7 +178,7 @@ def lost_words(study: StudyData, lost: Lost) -> str:
     along = lost.model.coordinates
     sizes = [
         f"{each.words} {each.told(value, study.wording.scales)}"
-        for each, value in zip(along, lost.values, strict=True)
+        for each, value in zip(along, lost.values, strict=False)
         if not each.periodic
     ]
     ends = f", which ends in {motion_words(lost.motion)}" if lost.motion else ""

@@ -18,7 +18,8 @@ from carom.arguments import Count, Seed, checked
 from carom.attractors import MotionName
 from carom.attractors.naming import name_motions
 from carom.basins.shares import Population, Share
-from carom.disturbances import Disturbance, Sample, Starts
+from carom.disturbances import Coordinate, Disturbance, Sample, Starts
+from carom.disturbances.echo import instants_words
 from carom.disturbances.following import follow
 from carom.models import Axis, Model, Subject, axis, model_of
 from carom.results import Result
@@ -41,7 +42,7 @@ class Lost:
     ----------
     model : Disturbance
     values : tuple of float
-        Its coordinates, in the order of ``model.coordinates``.
+        Its coordinates, in the order of ``model.coordinates``; where it matters the instant is the last.
     motion : MotionName or None
         Where it ended; ``None`` where the rotor cannot levitate.
     """
@@ -149,7 +150,7 @@ class Trial:
         counts = np.zeros((2, len(models), 2), int)  # drawn or at the largest size, kind, came back and tried
         example: Lost | None = None
         for place, values, row in self._portions(value, again=stop):
-            starts: Starts = models[place].starts(rotor, *values)
+            starts: Starts = models[place].starts_on(rotor, *values)
             ends = follow(models[place].machine_after(rotor), starts, threads=self.threads)
             gone = np.flatnonzero(~ends.recovered)
             if row is not None:
@@ -161,7 +162,7 @@ class Trial:
                     example = Lost(models[place], tuple(values[:, gone[0]].tolist()), names[0] if names else None)
                 if stop:
                     break
-        of = [Population.of_model(model, rotor.scales) for model in models]
+        of = [Population.of_model(model, rotor.scales, instants_words(rotor)) for model in models]
         drawn, largest = (
             tuple(Share.of(*kind, drawn=True, population=each) for kind, each in zip(row, of, strict=True))
             for row in counts.tolist()
@@ -179,8 +180,9 @@ class Trial:
         random = np.random.default_rng([self.seed, 0, np.float64(value).view(np.uint64).item()])
         drawn = []
         for place, sample in enumerate(self.disturbances):
-            yield place, _coordinates(sample, random, AT_LARGEST, largest=True), 1
-            drawn.append(_coordinates(sample, random, sample.count))
+            along = sample.model.coordinates_on(self.rotor)
+            yield place, _coordinates(along, random, AT_LARGEST, largest=True), 1
+            drawn.append(_coordinates(along, random, sample.count))
         for place, values in enumerate(drawn):
             yield place, values[:, :FIRST_LOOK], 0
         for place, values in enumerate(drawn):
@@ -191,25 +193,26 @@ class Trial:
         """Variants of lost disturbances, coordinates (k, VARIANTS): changes of all sizes, within the ranges."""
         chosen = lost[:, self.variation.integers(lost.shape[1], size=VARIANTS)]
         sizes = np.exp(self.variation.uniform(math.log(FINEST), 0.0, VARIANTS))
-        for row, along in zip(chosen, self.disturbances[place].model.coordinates, strict=True):
+        for row, along in zip(chosen, self.disturbances[place].model.coordinates_on(self.rotor), strict=True):
             row += sizes * self.variation.standard_normal(VARIANTS) * (along.high - along.low)
             if not along.periodic:
                 np.clip(row, along.low, along.high, out=row)
         return chosen
 
 
-def _coordinates(sample: Sample, random: np.random.Generator, count: int, largest: bool = False) -> np.ndarray:
+def _coordinates(
+    along: Sequence[Coordinate], random: np.random.Generator, count: int, largest: bool = False
+) -> np.ndarray:
     """Coordinates (k, count) of disturbances drawn like a sample; all but angles at their upper end if ``largest``."""
-    along = sample.model.coordinates
     shares = random.random((len(along), count))
     if largest:
         shares[[not each.periodic for each in along]] = 1.0
     return np.array([each.at(share) for each, share in zip(along, shares, strict=True)])
 
 
-def coordinates_at_largest(sample: Sample, count: int) -> np.ndarray:
-    """Coordinates (k, count) of disturbances of a kind at their largest size, in random directions."""
-    return _coordinates(sample, np.random.default_rng(sample.seed), count, largest=True)
+def coordinates_at_largest(rotor: Model, sample: Sample, count: int) -> np.ndarray:
+    """Coordinates (k, count) on a machine of disturbances of a kind at their largest size, in random directions."""
+    return _coordinates(sample.model.coordinates_on(rotor), np.random.default_rng(sample.seed), count, largest=True)
 
 
 def in_all(disturbances: Sequence[Sample], count: int) -> tuple[Sample, ...]:

@@ -69,6 +69,11 @@ class BasinsTask:
                     "its direction, from the real axis of the co-rotating frame",
                     unit="rad",
                 ),
+                Variable(
+                    "smallest_unrecovered_kick_instant",
+                    "angle by which the shaft has turned then, where the instant matters",
+                    unit="rad",
+                ),
             )
         return with_si(found, self.scales is not None)
 
@@ -93,7 +98,11 @@ class BasinsTask:
 
     def describe(self) -> dict[str, Any]:
         """Return what identifies the task, as plain data for JSON."""
-        number = {"cells": list(self.tried.shape)} if isinstance(self.tried, Grid) else {"starts": self.starts}
+        number = (
+            {"cells": list(self.tried.shape), "instant": self.tried.instant}
+            if isinstance(self.tried, Grid)
+            else {"starts": self.starts}
+        )
         return {"kind": self.kind, **number, "disturbance": self.tried.model.describe(), "in_si": list(self.in_si)}
 
     def model(self, scales: Scales | None) -> Disturbance:
@@ -105,7 +114,7 @@ class BasinsTask:
         from carom.basins.losses import smallest_lost
         from carom.basins.shares import Share
         from carom.disturbances.following import NO_START, follow
-        from carom.models import model_of
+        from carom.models import depends_on_instant, model_of
 
         rotor = model_of(case)
         counts = np.zeros(len(ENDINGS), np.int64)
@@ -129,15 +138,17 @@ class BasinsTask:
             found |= {"recovered": share.fraction, "recovered_low": share.low, "recovered_high": share.high}
             found["mean_impacts"] = impacts / possible
         if kicks:
-            smallest, direction = min(kicks)
+            smallest, direction, instant = min(kicks)
             found |= {"smallest_unrecovered_kick": smallest, "smallest_unrecovered_kick_angle": direction}
+            if depends_on_instant(rotor):
+                found["smallest_unrecovered_kick_instant"] = instant
             found |= in_si(found, rotor.scales, smallest_unrecovered_kick="velocity")
         return found
 
     def _batches(self, rotor: Model, seed: np.random.SeedSequence) -> Iterator[Starts]:
         model = self.model(rotor.scales)
         if isinstance(self.tried, Grid):
-            yield Grid(model, self.tried.shape).starts(rotor)
+            yield Grid(model, self.tried.shape, self.tried.instant).starts(rotor)
             return
         for batch, first in enumerate(range(0, self.starts, BATCH)):
             own = np.random.SeedSequence(seed.entropy, spawn_key=(*seed.spawn_key, batch))

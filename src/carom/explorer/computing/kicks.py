@@ -122,7 +122,7 @@ def map_kicks(rotor: Model, plane: Plane, cells: int, largest: float, progress: 
     if plane.name == "blade-loss":
         return _map_losses(rotor, rest, plane, cells, own)
     model = rest.kicks(own) if plane.name == "kick" else ShockPlane(own, plane.lasting(rotor))
-    basin = map_basins(rotor, Grid(model, (cells, cells)), progress=progress)
+    basin = map_basins(rotor, Grid(model, (cells, cells), 0.0), progress=progress)
     looks = motion_looks(basin)
     places = np.full(len(basin.motions) + 1, NOWHERE, np.uint8)
     for place, look in enumerate(looks):

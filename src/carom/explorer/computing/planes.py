@@ -45,10 +45,10 @@ class ShockPlane(Disturbance):
         """Peak acceleration."""
         return BaseShock(self.peak, self.duration).coordinates[0]
 
-    def starts(self, rotor: Model, *values: np.ndarray) -> Starts:
+    def starts(self, rotor: Model, *values: np.ndarray, instant: np.ndarray | float = 0.0) -> Starts:
         """State at the end of the pulse; there is none beyond the largest peak."""
         x, y = values
-        found = BaseShock(self.peak, self.duration).starts(rotor, np.hypot(x, y), np.arctan2(y, x))
+        found = BaseShock(self.peak, self.duration).starts(rotor, np.hypot(x, y), np.arctan2(y, x), instant=instant)
         return found._replace(exists=found.exists & (np.hypot(x, y) <= self.peak * (1.0 + 1e-12)))
 
 

@@ -35,11 +35,13 @@ class RestKick(KickPlane):
         """Radial and tangential part."""
         return KickPlane(self.fastest).coordinates
 
-    def starts(self, rotor: Model, *values: np.ndarray) -> Starts:
+    def starts(self, rotor: Model, *values: np.ndarray, instant: np.ndarray | float = 0.0) -> Starts:
         """The resting motion with the velocity of the rotor as a whole changed."""
         radial, tangential = values
         velocities = self.position / abs(self.position) * (radial + 1j * tangential)
-        there = Starts.of(np.full(velocities.shape, self.position), velocities, self.within(radial, tangential))
+        there = Starts.of(np.full(velocities.shape, self.position), velocities, self.within(radial, tangential)).at(
+            instant
+        )
         if not self.among:
             return there
         moved = velocities[..., None] * rotor.system.translated
