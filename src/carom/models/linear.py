@@ -34,7 +34,7 @@ SINGULAR = 1e-14
 GYROSCOPIC = 1e-12
 """Size of the gyroscopic matrix, relative to the damping in the co-rotating frame, that is rounding."""
 _NUMBERS = ("mass", "damping", "stiffness", "forcing", "translation")
-_OTHERS = ("unlevitated", "conjugate", "carried")
+_OTHERS = ("unlevitated", "conjugate", "carried", "regained")
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -68,6 +68,8 @@ class LinearRotor(Result):
     unlevitated : array_like of complex, shape (2, n, n), optional
         Damping and stiffness in the fixed frame that are left when levitation is lost; a drop needs it.  By default all are
         levitation for a rotor with one coordinate, and none is known for others.
+    regained : array_like, shape (n,), optional
+        What coordinates and rates are multiplied by when levitation is regained: 0 for states of controllers that are reset then.  Ones by default.
     conjugate : array_like of complex, shape (2, n, n), optional
         Damping and stiffness in the fixed frame that act on the conjugates of rates and coordinates: of bearings that act differently in two
         directions, with levitation or without it.  By default there are none.  Not with a ``shaft``.
@@ -90,6 +92,7 @@ class LinearRotor(Result):
     shaft: Shaft | None = None
     unlevitated: np.ndarray | None = None
     conjugate: np.ndarray | None = None
+    regained: np.ndarray | None = None
 
     def __post_init__(self) -> None:
         if not isinstance(self.scales, Scales | None):
@@ -113,6 +116,7 @@ class LinearRotor(Result):
         self._check_others("unlevitated", (2, n, n))
         self._check_others("conjugate", (2, n, n))
         self._check_others("carried", (n,))
+        self._check_others("regained", (n,))
         given: Any = self.touchdowns
         listed = tuple(given) if isinstance(given, Iterable) else ()
         if not listed or not all(isinstance(each, Touchdown) and len(each.plane) == n for each in listed):

@@ -19,7 +19,7 @@ from carom.models.limited import Limited
 from carom.models.linear import LinearRotor
 from carom.models.mode_arrays import EQUAL, STEADY
 from carom.models.model import Model
-from carom.models.stages import Forced, forces_of
+from carom.models.stages import Around, Forced, forces_of
 from carom.models.touchdown import Rigid, Touchdown
 from carom.outcome import InputError, shown
 from carom.parameters import Gravity
@@ -89,6 +89,14 @@ def levitation_of(model: Model) -> tuple[np.ndarray, np.ndarray]:
         )
         raise InputError("levitation", reaches, "static sag and whirl must stay inside the wall: below 1")
     return model.system.kicked(0.0)
+
+
+def carry_at_regain(model: Model) -> np.ndarray | None:
+    """Coordinates and rates with which levitation begins again per those at the end of the fall, shape (2n, 2n); ``None`` if they stay."""
+    while isinstance(model, Around):
+        model = model.rotor
+    kept = model.regained if isinstance(model, LinearRotor) else None
+    return None if kept is None else np.diag(np.concatenate([kept, kept]))
 
 
 def without_levitation(model: Model) -> Model:

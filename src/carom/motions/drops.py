@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from carom.arguments import checked
 from carom.models import Model, Stage, Staged, Subject, Trigger, model_of
 from carom.models.in_bearing import races_of
-from carom.models.weight import direction_of_fall, levitation_of, weight_of, without_levitation
+from carom.models.weight import carry_at_regain, direction_of_fall, levitation_of, weight_of, without_levitation
 from carom.motions.starts import Kick, State, time_until
 from carom.outcome import InputError, shown
 from carom.parameters import own_size
@@ -98,7 +98,7 @@ class Drop:
         if self.regained_after is None:
             return falling, start
         time = time_until(self.regained_after, rotor.scales, "regained_after")
-        return Staged((Stage(falling, Trigger(time=time)), Stage(rotor))), start
+        return Staged((Stage(falling, Trigger(time=time), carry_at_regain(rotor)), Stage(rotor))), start
 
     def unbalance_angle(self, rotor: Model) -> float:
         """Angle of the unbalance of a rotor that weighs something at the release, in the fixed frame, in rad.

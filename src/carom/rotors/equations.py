@@ -32,6 +32,8 @@ class Equations(NamedTuple):
     """Displacement at each touchdown bearing, relative to its mount, shape (P, n)."""
     currents: np.ndarray
     """Current of each bearing, A, per coordinate, shape (B, n)."""
+    regained: np.ndarray
+    """What coordinates are multiplied by when levitation is regained, shape (n,): 0 for states of controllers that are reset."""
     carried: np.ndarray
     """Coordinates, shape (n,), when rotor and mounts are displaced by 1 m."""
     across: np.ndarray
@@ -138,7 +140,7 @@ def equations_of(
     Parameters
     ----------
     restart : float
-        Rate, 1/s, with which states of controllers that are switched off fade.
+        Rate, 1/s, with which states of controllers that will be reset fade while levitation is lost.
     """
     loops = loops_of(rotor, bearings, touchdowns)
     mounts = [(plane, each.bearing) for plane, each in enumerate(touchdowns) if each.bearing.mount_mass is not None]
@@ -162,7 +164,7 @@ def equations_of(
     states = slice(first, size)
     damping[states, states] = np.eye(size - first)
     left = np.stack([damping, stiffness])
-    left[1, states, states] = restart * np.eye(size - first)
+    regained = np.ones(size)
     currents = np.zeros((len(bearings), size))
     for number, bearing in enumerate(bearings):
         pulls, seen = loops.bearings[number] @ basis.shapes, loops.sensors[number] @ basis.shapes
@@ -171,11 +173,16 @@ def equations_of(
         stiffness[free] += bearing.ki * np.outer(pulls, currents[number])
         stiffness[free, free] += bearing.ks * np.outer(pulls, pulls)
         stiffness[own, free], stiffness[own, own] = -np.outer(loop.B, seen), -loop.A
+        if bearing.at_regain == "reset":
+            # What these states do meanwhile acts on nothing; they fade, so that none is mistaken for a displacement that stays.
+            left[1, own, own], regained[own] = restart * np.eye(loop.states), 0.0
         first = own.stop
     forcing = np.zeros(size, complex)
     for each in unbalances:
         forcing[free] += each.size * np.exp(1j * each.angle) * (row_of(rotor, each.node) @ basis.shapes)
-    return Equations(mass, damping, gyroscopic, stiffness, forcing, left, planes, currents, carried, held.across)
+    return Equations(
+        mass, damping, gyroscopic, stiffness, forcing, left, planes, currents, regained, carried, held.across
+    )
 
 
 class _Supported(NamedTuple):

@@ -63,7 +63,7 @@ _QUOTIENT = ("numerator", "denominator")
 PART_ENTRIES: Mapping[str, Mapping[str, Any]] = {
     "section": {**SECTION_FIELDS, **MATERIAL_FIELDS},
     "disc": {"node": None, **DISC_FIELDS, "width": None, **by_name(*(SECTION_FIELDS[name] for name in ("outer_diameter", "inner_diameter"))), **MATERIAL_FIELDS},
-    "magnetic_bearing": {"node": None, "sensor_nodes": None, **BEARING_FIELDS, **PID_FIELDS, **dict.fromkeys((*_QUOTIENT, *_MATRICES))},
+    "magnetic_bearing": {"node": None, "sensor_nodes": None, "at_regain": None, **BEARING_FIELDS, **PID_FIELDS, **dict.fromkeys((*_QUOTIENT, *_MATRICES))},
     "support": {"node": None, **SUPPORT_FIELDS},
     "touchdown": {"node": None, "law": None, **PLANE_FIELDS, **TOUCHDOWN_FIELDS},
     "unbalance": {"node": None, **UNBALANCE_FIELDS},
@@ -315,7 +315,7 @@ def _bearing(entry: dict[str, Any]) -> MagneticBearing:
     _needed(given, {"proportional": ("proportional",), "numerator": _QUOTIENT, "A": _MATRICES}[stated[0]])
     kinds: dict[str, Callable[..., Any]] = {"proportional": PID, "numerator": TransferFunction, "A": StateSpace}
     return MagneticBearing(
-        **_of(entry, ("node", "sensor_nodes", *BEARING_FIELDS)), controller=kinds[stated[0]](**given)
+        **_of(entry, ("node", "sensor_nodes", "at_regain", *BEARING_FIELDS)), controller=kinds[stated[0]](**given)
     )
 
 

@@ -20,6 +20,8 @@ from carom.rotors.state_spaces import StateSpace, delay, lag
 
 SINGULAR = 1e12
 """Condition of the matrix of a controller above which it integrates."""
+AT_REGAIN = ("reset", "hold")
+"""What the states of a controller are when levitation that was lost is regained."""
 PADE = 3
 """Order of the approximation of a delay ``T``: its phase is right to 0.1° up to a frequency of 2/T, in rad/s."""
 BEARING_FIELDS: Mapping[str, Field] = by_name(
@@ -64,6 +66,8 @@ class MagneticBearing:
         are none.
     axis_angle : float or str, optional
         Angle of one of its axes in the fixed frame, rad; 0 by default.
+    at_regain : {"reset", "hold"}
+        The states of controller, delay and amplifier when levitation is regained: all at zero, or as they were when it was lost.
 
     Raises
     ------
@@ -82,6 +86,7 @@ class MagneticBearing:
     current_limit: float | None = None
     slew_rate_limit: float | None = None
     axis_angle: float = 0.0
+    at_regain: str = "reset"
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "node", read_node("bearing node", self.node))
@@ -94,7 +99,8 @@ class MagneticBearing:
         if self.slew_rate_limit is not None and self.amplifier_bandwidth is None:
             allowed = "none without amplifier_bandwidth: it is the amplifier whose current changes no faster"
             raise InputError("slew_rate_limit", self.slew_rate_limit, allowed)
-        _ = self.loop
+        if self.at_regain not in AT_REGAIN:
+            raise InputError("at_regain", shown(self.at_regain), f"one of {', '.join(AT_REGAIN)}")
 
     @cached_property
     def loop(self) -> StateSpace:

@@ -248,6 +248,7 @@ class ReducedMachine(Result):
             touchdowns=[self._touchdown(*each) for each in planes],
             translation=np.eye(len(given.mass))[0],
             carried=given.carried / size,
+            regained=given.regained,
             scales=scales,
             unlevitated=np.stack([once * left, twice * given.unlevitated[1]]),
             conjugate=np.stack([once * given.across[0], twice * given.across[1]]) if given.mirrored else None,
