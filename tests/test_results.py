@@ -224,7 +224,7 @@ def test_a_machine_shows_what_its_file_says_and_what_follows():
 
 def test_a_machine_shows_what_is_stated_of_its_bearing(tmp_path):
     file = tmp_path / "<b>.toml"
-    stated = '[limits]\nimpulse = "5 N s"\nimpacts = 20\n[survive]\nkick = "50 mm/s"\nshock = "5 g, 11 ms"\nblade_loss_after = "2000 g mm"\n'
+    stated = '[limits]\nimpulse = "5 N s"\nimpacts = 20\n[survive]\nkick = "50 mm/s"\nshock = "5 g, 11 ms"\nblade_loss = "2000 g mm"\n'
     file.write_text(Path("examples/keogh-cole.toml").read_text("utf-8") + stated, "utf-8")
     case = carom.load(file)
     assert "normal impulse of an impact 5 N s, impacts of a touchdown 20\n" in repr(case)

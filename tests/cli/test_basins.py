@@ -245,33 +245,33 @@ def test_levitation_is_not_needed_for_releases(carom, machine):
 def test_which_unbalances_are_survived(carom, machine, tmp_path):
     quiet = ("--set", "eccentricity=10 um", "--set", "damping=3000 N s/m")
     words = ("basins", machine, *quiet, "--disturbance", "blade-loss", "--grid", "24")
-    code, out, err = carom(*words, "--after", "0.4 mm", "--json")
+    code, out, err = carom(*words, "--change", "0.4 mm", "--json")
     assert (code, err) == (0, "")
     document = json.loads(out)
-    assert " at levitation, a grid of 24, phase of the unbalance after the loss" in document["disturbances"]["words"]
-    assert document["disturbances"]["model"] == {"kind": "blade-loss", "eccentricity_after": pytest.approx(4 / 7)}
+    assert " at levitation, a grid of 24, phase of the change of the unbalance" in document["disturbances"]["words"]
+    assert document["disturbances"]["model"] == {"kind": "blade-loss", "change": pytest.approx(4 / 7), "node": None}
     low, high = document["smallest_unrecovered_blade_loss_bracket"]
     assert 0.0 < low < high < 4 / 7
-    assert document["smallest_unrecovered_blade_loss_si"] == pytest.approx(high * 0.7e-3)
-    assert document["blade_losses_tried"] > document["blade_losses_tried_afresh"] == 1020
+    assert document["smallest_unrecovered_blade_loss_si"] == pytest.approx(high * 50.0 * 0.7e-3)
+    assert document["blade_losses_tried"] > document["blade_losses_tried_afresh"] == 396
     assert document["harmless_blade_loss"] < low
     assert document["smallest_unrecovered_kick"] is None
-    code, out, _ = carom(*words, "--after", f"{50.0 * 0.4e-3 * 1e6} g mm", "--out", tmp_path / "out")
+    code, out, _ = carom(*words, "--change", f"{50.0 * 0.4e-3 * 1e6} g mm", "--out", tmp_path / "out")
     assert code == 0
     assert "24 losses of a blade at levitation" in out
-    assert "500 g mm) to 0.4 mm (0.57143 c_r, 20,000 g mm)" in out
-    assert "every unbalance from the present one up to" in out
+    assert "500 g mm) by 0.4 mm (0.57143 c_r, 20,000 g mm)" in out
+    assert "Smallest change of the unbalance by a loss of a blade found that does not come back" in out
     assert (tmp_path / "out" / "figures" / "basins.png").is_file()
 
 
 @pytest.mark.parametrize(
     ("options", "words"),
     [
-        ((), "--after = nothing given: needed for a blade-loss"),
-        (("--after", "3 kg"), "--after = 3 kg: must be a length"),
-        (("--after", "-2 g mm"), "--after = -2 g mm: must be an eccentricity or an unbalance above 0"),
-        (("--after", "0.1 mm"), "eccentricity_after = 0.142857: more than the present one, 0.428571"),
-        (("--after", "0.5 mm", "--before", "1 mm"), "allowed only with --disturbance unbalance-step"),
+        ((), "--change = nothing given: needed for a blade-loss"),
+        (("--change", "3 kg"), "--change = 3 kg: must be an unbalance"),
+        (("--change", "-2 g mm"), "--change = -2 g mm: must be an eccentricity or an unbalance above 0"),
+        (("--change", "0.1 mm", "--node", "x"), "--node = x: must be the number of a node"),
+        (("--change", "0.5 mm", "--before", "1 mm"), "allowed only with --disturbance unbalance-step"),
     ],
 )
 def test_unbalances_that_cannot_be_tried(carom, machine, options, words):
@@ -389,7 +389,7 @@ def test_losses_of_a_blade_under_gravity(carom):
         "examples/dropped-rotor.toml",
         "--disturbance",
         "blade-loss",
-        "--after",
+        "--change",
         "60 um",
         "--grid",
         "4",

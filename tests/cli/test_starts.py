@@ -38,6 +38,7 @@ def test_plain_disturbances_are_dimensionless_without_scales():
     assert read_kick("0.4,0.2", None) == Kick(0.4, 0.2)
     assert read_kick("1,2", None) == Kick(1.0, 2.0)
     assert read_blade_loss("0.4,0.2", None) == (BladeLoss(0.4), 0.2)
+    assert read_blade_loss("0.4,0.2,3", None) == (BladeLoss(0.4, 3), 0.2)
     assert read_positive("--peak", "3", "acceleration", None) == 3.0
 
 
@@ -178,7 +179,7 @@ def test_options_state_what_must_be_survived_in_place_of_the_file(tmp_path):
         ("kick", "60", "--kick = 60: must be a velocity in m/s"),
         ("shock", "5 g, 3", "--shock = 3: must be a time in s"),
         ("blade_loss", "1", "--blade-loss = 1: must be an unbalance in kg m"),
-        ("blade_loss", "50 kg m", "--blade-loss = 50.0: gives an eccentricity of 1428.57 clearances"),
+        ("blade_loss", "50 kg m", "--blade-loss = 50.0: gives a change of the eccentricity of 1428.57 clearances"),
     ],
 )
 def test_bad_requirements_name_the_option(option, text, words):

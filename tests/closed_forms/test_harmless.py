@@ -32,9 +32,8 @@ def of_size(rotor, kind, factor):
     if kind == "shock":
         sizes = np.full(ANGLES.shape, factor * harmless_shock(rotor, 0.4))
         return rotor, BaseShock(float(sizes[0]), 0.4).starts(rotor, sizes, ANGLES)
-    present = rotor.value("rho")
-    loss = BladeLoss(present + factor * harmless_blade_loss(rotor))
-    return loss.machine_after(rotor), loss.starts(rotor, np.zeros(1))
+    loss = BladeLoss(factor * harmless_blade_loss(rotor)).starts(rotor, np.zeros(1))
+    return loss.after[0], loss
 
 
 @pytest.mark.jit_only

@@ -138,13 +138,15 @@ def test_shocks_end_as_their_stages_do():
 
 
 @pytest.mark.parametrize("phase", [0.0, 1.1])
-def test_before_the_loss_of_a_blade_it_levitates_with_the_unbalance_turned(phase):
+def test_before_the_loss_of_a_blade_it_levitates_and_the_frame_turns_with_the_only_unbalance(phase):
     model = REDUCED.model
-    _, state = BladeLoss(2.0 * model.value("rho")).release(model, phase)
-    before = model.replace(phi=model.value("phi") - phase)
-    position, velocity = before.system.kicked(0.0)
-    assert state.position == pytest.approx(position, abs=1e-12)
-    assert state.velocity == pytest.approx(velocity, abs=1e-12)
+    after, state = BladeLoss(2.0 * model.value("rho")).release(model, phase)
+    (before,), (changed,) = (each.rotor.reduced.machine.unbalances for each in (model, after))
+    turned = state.time
+    start = model.system.states_of(model.system.forced_at(0.0)[None])[0].reshape(2, -1) * np.exp(-1j * turned)
+    assert np.array([state.position, state.velocity]) == pytest.approx(start, abs=1e-12)
+    assert changed.angle == pytest.approx(before.angle)
+    assert changed.size * np.exp(1j * turned) == pytest.approx(before.size + 2.0 * before.size * np.exp(1j * phase))
 
 
 def test_before_a_step_of_the_unbalance_it_levitates_with_that():

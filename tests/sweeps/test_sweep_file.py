@@ -316,7 +316,7 @@ def test_sweeps_are_planned_and_laid_out_before_kernels_are_loaded(write, tmp_pa
         "kick-plane": "fastest = 1",
         "shock": 'peak = "20 g"\nduration = "11 ms"',
         "unbalance-step": 'largest = "0.2 mm"',
-        "blade-loss": 'eccentricity_after = "0.2 mm"',
+        "blade-loss": 'change = "0.2 mm"',
         "release": 'motion = "rolling"',
         "slice": "",
         "state": "fastest = 1",

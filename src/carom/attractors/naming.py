@@ -10,6 +10,7 @@ import numpy as np
 from carom.attractors.names import SYNCHRONOUS_RUB, MotionName
 from carom.attractors.settled import SAME, SettledMotion, known_orbit, same_motion, settled_motion
 from carom.closed_forms.known import known_of
+from carom.disturbances import Disturbance
 from carom.models import Model
 from carom.motions.ensembles import Endings
 from carom.motions.settling import AT_REST, REPEATING
@@ -66,6 +67,18 @@ def name_motions(
         known = orbits_of(rotor) if orbits is None else orbits
         for chosen, name in _periodic(rotor, endings, np.flatnonzero(periodic), known):
             note(chosen, name)
+    return named, tuple(names)
+
+
+def name_endings(rotor: Model, model: Disturbance, endings: Endings) -> tuple[np.ndarray, tuple[MotionName, ...]]:
+    """:func:`name_motions` after disturbances of a kind; where these change the machine, by outcome alone: each has orbits of its own."""
+    if not model.changes_machine:
+        return name_motions(rotor, endings)
+    named, names = np.full(endings.outcomes.shape, -1, np.int16), list[MotionName]()
+    for code, impacts in np.unique([endings.outcomes.ravel(), endings.multiplicities.ravel()], axis=1).T.tolist():
+        if code >= 0:
+            named[(endings.outcomes == code) & (endings.multiplicities == impacts)] = len(names)
+            names.append(MotionName(Outcome(code), impacts))
     return named, tuple(names)
 
 

@@ -15,7 +15,8 @@ from carom.attractors.naming import name_motions, orbits_of
 from carom.attractors.starts import DISTURBANCES, DisturbanceSet, disturbances_of, known_starts, starts_at
 from carom.attractors.survival import Survival
 from carom.closed_forms.known import known_of
-from carom.disturbances import Disturbance, Grid, Plan, Sample, Starts
+from carom.disturbances import Disturbance, Plan, Sample, Starts
+from carom.disturbances.following import refuse_another_machine
 from carom.models import Model, Subject, model_of
 from carom.motions.settling import PATIENCE
 from carom.motions.starts import Kick, State
@@ -193,9 +194,8 @@ def find_attractors(
         given = DisturbanceSet.of(rotor, count, seed, fastest)
     else:
         given = Sample(disturbances, count, seed) if isinstance(disturbances, Disturbance) else disturbances
+    refuse_another_machine(given)
     tried, starts = disturbances_of(rotor, given)
-    if isinstance(given, Grid | Sample):
-        rotor = given.model.machine_after(rotor)
     orbits = orbits_of(rotor)
     nearby = known_starts(rotor, orbits) if known else ()
     if nearby:

@@ -1,113 +1,163 @@
-"""The smallest unbalance after the loss of a blade that a machine does not survive.
+"""The smallest change of the unbalance by the loss of a blade that a machine does not survive, over all phases.
 
-Each unbalance is another machine, so machines are tried one by one, each with many phases: a scan upwards from the present
-unbalance to the first that is lost, bisection, and fresh unbalances and phases below it.
+What follows depends on the machine after the loss, and on where in the turn it begins.  A rotor whose unbalance changes along that before it is, after all
+changes that leave one size ``a``, the same machine in a frame that has turned.  So changes are tried in circles about a balanced rotor: few machines with many phases each.
+Of any other rotor each change leads to a machine of its own; then the circles are those of the change itself.
 """
 
 from __future__ import annotations
 
-from dataclasses import replace
+import cmath
 
 import numpy as np
 
-from carom.basins.brackets import MOST_CHECKS, ROUND, TOLERANCE, Bracket, Found, SmallestLoss, lost
+from carom.basins.brackets import MOST_CHECKS, TOLERANCE, Bracket, Found, SmallestLoss, lost
 from carom.basins.families import UNBALANCE
 from carom.closed_forms.harmless import harmless_blade_loss
-from carom.disturbances import BladeLoss, Starts
+from carom.disturbances import BladeLoss
+from carom.disturbances.blade_loss import levitating_before, starts_after
 from carom.disturbances.coordinates import TURN
 from carom.disturbances.following import follow
-from carom.models import Model
-from carom.outcome import InputError, Outcome
+from carom.models import Model, depends_on_instant
+from carom.models.unbalance import unbalance_along, with_changed_unbalance
+from carom.outcome import Outcome
 from carom.progress import Reporter
 
-PHASES, LEVELS = 360, 48
-"""Phases tried at each unbalance, and unbalances of the scan."""
-FIRST = 45
-"""Every so many of the phases are followed first; the others follow only if none of these is lost."""
-DRAWN = 300
-"""Fresh unbalances below the smallest that is lost, each with a phase of its own."""
+CIRCLES, PHASES, FIRST = 48, 360, 8
+"""Circles of the scan on each side of the unbalance before, phases on each, and as many of them that are followed first on the first of these."""
+OWN_CIRCLES, OWN_PHASES = 12, 24
+"""The same where each change leads to a machine of its own."""
+ROUNDS, BESIDE, NARROWED = 5, 4, 4
+"""Rounds of refinement about the best change so far, circles and phases on each side of it, and by how much they come closer in a round."""
+TOGETHER = 4
+"""Circles that are followed together."""
+DRAWN, AROUND = 300, 96
+"""Fresh changes up to the smallest that is lost, uniform over their disc, and phases all around at that size."""
 
 
 def smallest_blade_loss(
     rotor: Model, model: BladeLoss, *, threads: int | None = None, tell: Reporter | None = None
 ) -> SmallestLoss:
-    """Search for the smallest unbalance, from the present one up to that of the model, that is lost at some phase.
+    """Search for the smallest change of the unbalance up to that of the model that is lost at some phase.
 
-    ``size`` is the eccentricity after the loss, ``angle`` its phase relative to the unbalance before.  A model whose
-    unbalance is not larger than the present one is refused.
+    ``angle`` is its phase relative to the unbalance before.
     """
-    present, largest = rotor.value("rho"), model.eccentricity_after
-    if present >= largest:
-        allowed = f"more than the present one, {present:.6g}, in clearances: a search of what is survived begins there"
-        raise InputError("eccentricity_after", f"{largest:.6g}", allowed)
-    # Every change of the unbalance up to its harmless size is a step to at most this unbalance, at any phase.
-    proven = harmless_blade_loss(rotor) - present
-    search = _Search(rotor, model, max(proven, 0.0), threads)
-    low = max(present, min(proven, largest))
-    if proven >= largest:
-        return search.result(largest, 0)
-    levels = np.linspace(low, largest, LEVELS + 1)
-    if proven < present and search.loses(low):
-        return search.result(None, 0)
-    back = low
-    for place, level in enumerate(levels[1:].tolist()):
-        if tell is not None:
-            tell(0.7 * place / LEVELS, "looking for the smallest unbalance that is lost")
-        if search.loses(level):
-            back = search.bisect(back, level)
-            break
-        back = level
+    search, said = _Search(rotor, model, threads), tell or Reporter.of(None, "")
+    if search.harmless >= model.change:
+        return search.result(model.change)
+    search.scan(said.part(0.0, 0.6))
     for number in range(MOST_CHECKS):
-        if tell is not None:
-            tell(0.7 + 0.3 * number / MOST_CHECKS)
-        if back <= proven:
+        said(0.6 + 0.4 * number / MOST_CHECKS, "looking for smaller losses that are not survived")
+        search.refine()
+        below = model.change if search.best is None else search.best.recovered
+        if below <= search.harmless:
             break
-        found = search.draw(low, back, number)
-        if found is None:
-            return search.result(back, DRAWN + ROUND)
-        back = search.bisect(low, found)
-    return search.result(max(proven, 0.0) or None, 0)
+        best = search.best
+        fresh = search.draw(below, number)
+        if search.best is best:
+            return search.result(below, *fresh)
+    return search.result(search.harmless or None)
 
 
 class _Search(Bracket):
-    """Unbalances tried so far, and the smallest that was lost."""
+    """Changes tried so far, and the smallest that was lost.
 
-    def __init__(self, rotor: Model, model: BladeLoss, harmless: float, threads: int | None) -> None:
-        sizes = {"quantity": UNBALANCE, "harmless": harmless, "largest": model.eccentricity_after}
+    A change is told by the size ``a`` and the angle ``β`` of the place where it leads, seen from the centre of the circles; its own size is
+    the distance from ``before``, and its phase the direction from there.
+    """
+
+    def __init__(self, rotor: Model, model: BladeLoss, threads: int | None) -> None:
+        self.harmless, self.largest = harmless_blade_loss(rotor, model.node), model.change
+        sizes = {"quantity": UNBALANCE, "harmless": self.harmless, "largest": self.largest}
         super().__init__(kind=model.kind, **sizes, tolerance=TOLERANCE, scales=rotor.scales)
-        self.rotor, self.model, self.threads = rotor, model, threads
+        self.rotor, self.node, self.threads = rotor, model.node, threads
+        self.random = np.random.default_rng(0)
+        self.timed = depends_on_instant(rotor)
+        before = unbalance_along(rotor, model.node)
+        self.before, self.shared = before or 0.0, before is not None
 
-    def loses(self, after: float, phases: np.ndarray | None = None) -> bool:
-        """Whether an unbalance is lost at some phase; note it if so."""
-        tried = TURN * np.arange(PHASES) / PHASES if phases is None else phases
-        at, later = replace(self.model, eccentricity_after=after), np.arange(len(tried)) % FIRST > 0
-        for some in (tried[~later], tried[later]) if later.any() else (tried,):
-            starts: Starts = at.starts(self.rotor, some)
-            outcomes = follow(at.machine_after(self.rotor), starts, threads=self.threads).outcomes
-            gone = np.flatnonzero(lost(outcomes) & starts.exists)
-            self.tried += int(np.count_nonzero(starts.exists))
-            if not len(gone):
-                continue
-            if self.best is None or after < self.best[1]:
-                self.best = Found(0.0, after, float(some[gone[0]]), Outcome(int(outcomes[gone[0]])))
-            return True
-        return False
-
-    def bisect(self, low: float, high: float) -> float:
-        """Narrow a bracket whose upper end is lost; return its lower end."""
-        while high - low > TOLERANCE * high:
-            middle = 0.5 * (low + high)
-            low, high = (low, middle) if self.loses(middle) else (middle, high)
+    def follow(self, sizes: np.ndarray, angles: np.ndarray, instants: np.ndarray) -> np.ndarray:
+        """Whether changes that lead to these places are lost, if they come at these instants; note the smallest."""
+        places = sizes * np.exp(1j * angles)
+        changes = np.abs(places - self.before)
+        inside = (changes <= self.largest * (1.0 + 1e-12)) & (changes > self.harmless)
         if self.best is not None:
-            self.best = self.best._replace(recovered=low)
-        return low
+            inside &= changes < self.best.size
+        gone = np.zeros(places.shape, bool)
+        if not inside.any():
+            return gone
+        found = self._outcomes(sizes[inside], angles[inside], instants[inside])
+        gone[inside] = lost(found)
+        self.tried += len(found)
+        if gone.any():
+            place = int(np.where(gone, changes, np.inf).argmin())
+            outcome = Outcome(int(found[np.flatnonzero(inside) == place][0]))
+            phase = cmath.phase(complex(places[place] - self.before))
+            self.best = Found(
+                0.0, float(changes[place]), phase, outcome, float(instants[place]) if self.timed else None
+            )
+        return gone
 
-    def draw(self, low: float, high: float, seed: int) -> float | None:
-        """Try fresh unbalances in a range at fresh phases, and all phases at its upper end; return one that is lost."""
+    def _outcomes(self, sizes: np.ndarray, angles: np.ndarray, instants: np.ndarray) -> np.ndarray:
+        if not self.shared:
+            starts = starts_after(self.rotor, sizes, angles, self.node, instants)
+            return follow(self.rotor, starts, threads=self.threads).outcomes
+        levels, which = np.unique(sizes, return_inverse=True)
+        machines = [with_changed_unbalance(self.rotor, level - self.before, self.node)[0] for level in levels.tolist()]
+        starts = levitating_before(self.rotor, angles, instants)
+        return follow(machines, starts, which=which, threads=self.threads).outcomes
+
+    def any_instants(self, count: int) -> np.ndarray:
+        """Angles of the shaft, all around where it matters when a loss comes."""
+        return TURN * self.random.random(count) if self.timed else np.zeros(count)
+
+    def scan(self, tell: Reporter) -> None:
+        """Try circles, those that come nearest to the unbalance before first, as long as they have changes smaller than the best."""
+        circles, phases = (CIRCLES, PHASES) if self.shared else (OWN_CIRCLES, OWN_PHASES)
+        self.spacing = self.largest / circles, TURN / phases
+        steps = np.arange(1, circles + 1) * self.spacing[0]
+        sizes = np.concatenate([self.before + steps, self.before - steps, [self.before]]) if self.before else steps
+        sizes = sizes[sizes >= 0.0]
+        sizes = sizes[np.abs(sizes - self.before).argsort(kind="stable")]
+        angles = self.spacing[1] * np.arange(phases)
+        for first in range(0, len(sizes), TOGETHER):
+            some = sizes[first : first + TOGETHER]
+            tell(first / len(sizes), "looking for the smallest loss that is not survived")
+            if self.best is not None and np.abs(some - self.before).min() >= self.best.size:
+                break
+            self.follow(np.repeat(some, phases), np.tile(angles, len(some)), self.any_instants(phases * len(some)))
+
+    def refine(self) -> None:
+        """Try places ever closer to the best one, then halve the gap to changes of its phase that come back."""
+        circle, turn = self.spacing
+        for number in range(ROUNDS if self.best is not None else 0):
+            circle, turn = circle / NARROWED, turn / NARROWED
+            size, angle = cmath.polar(self._place(self.best.size, self.best.angle))
+            sides = np.arange(-BESIDE * NARROWED, BESIDE * NARROWED + 1)
+            sizes = np.abs(size + circle * np.arange(-BESIDE, BESIDE + 1))
+            instants = (self.best.instant or 0.0) + (
+                self.any_instants(len(sizes) * len(sides)) - self.any_instants(1)
+            ) / NARROWED**number
+            self.follow(np.repeat(sizes, len(sides)), np.tile(angle + turn * sides, len(sizes)), instants)
+        if self.best is None:
+            return
+        low, at = self.harmless, np.array([self.best.instant or 0.0])
+        while self.best.size - low > TOLERANCE * self.best.size:
+            middle = 0.5 * (low + self.best.size)
+            size, angle = cmath.polar(self._place(middle, self.best.angle))
+            if not self.follow(np.array([size]), np.array([angle]), at).any():
+                low = middle
+        self.best = self.best._replace(recovered=low)
+
+    def draw(self, below: float, seed: int) -> tuple[int, int]:
+        """Try fresh changes up to a size, and at all phases at it; return how many were tried, and how many of them were drawn."""
         random = np.random.default_rng(seed)
-        if self.loses(high, TURN * (np.arange(ROUND) + random.random()) / ROUND):
-            return high
-        for after, phase in zip(random.uniform(low, high, DRAWN), TURN * random.random(DRAWN), strict=True):
-            if self.loses(float(after), np.array([phase])):
-                return float(after)
-        return None
+        sizes = np.sqrt(self.harmless**2 + (below**2 - self.harmless**2) * random.random(DRAWN))
+        sizes = np.append(sizes, np.full(AROUND, below))
+        phases = TURN * np.append(random.random(DRAWN), (np.arange(AROUND) + random.random()) / AROUND)
+        places = self.before + sizes * np.exp(1j * phases)
+        self.follow(np.abs(places), np.angle(places), self.any_instants(len(places)))
+        return DRAWN + AROUND, DRAWN
+
+    def _place(self, size: float, phase: float) -> complex:
+        return self.before + cmath.rect(size, phase)

@@ -32,12 +32,12 @@ class SmallestLoss(Result):
         another model; of a kick plane ``"kick"``.
     size : float or None
         Smallest lost size found: change of velocity in ``c_r Ω``, peak acceleration in ``c_r Ω²``, change of the
-        eccentricity in ``c_r`` (for the loss of a blade: eccentricity after it), speed along the wall in ``c_r Ω`` (fixed
+        unbalance as an eccentricity in ``c_r``, speed along the wall in ``c_r Ω`` (fixed
         frame), or first coordinate of another model.  ``None`` where none was found.
     angle : float or None
         Its direction in rad.  For a kick or shock as in :mod:`carom.disturbances`; for a step the direction from the
         eccentricity after the step to the one before it, relative to the one after; for the loss of a blade the phase of the
-        unbalance after it; for a release the place on the wall.
+        change relative to the unbalance before it; for a release the place on the wall.
     instant : float or None
         Angle in rad by which the shaft has turned when it comes, since the co-rotating frame coincided with the fixed one; ``None`` where
         the instant does not matter.
@@ -51,9 +51,10 @@ class SmallestLoss(Result):
         Largest size up to which all starts tried came back: those of the search and ``fresh`` ones.  ``None`` where the
         smallest starts are lost already.
     fresh : int
-        Number of starts up to ``all_back`` that are independent of the search: 2,000 drawn uniformly over the area of the
-        disc beyond the harmless size (of releases: over places and speeds), and 720 directions over a full turn at that size; where the
-        instant matters each at one of its own.
+        Number of starts up to ``all_back`` that are independent of the search: ``drawn`` ones, and directions over a full turn at
+        that size; where the instant matters each at one of its own.
+    drawn : int
+        How many of them were drawn uniformly over the area of the disc beyond the harmless size (of releases: over places and speeds).
     harmless : float
         Size up to which contact is proven to be impossible in any direction; 0 where nothing is proven.
     largest : float
@@ -79,6 +80,7 @@ class SmallestLoss(Result):
     recovered: float
     all_back: float | None
     fresh: int
+    drawn: int
     harmless: float
     largest: float
     tolerance: float
@@ -121,8 +123,7 @@ class SmallestLoss(Result):
 
         ``1 − 0.05^{1/n}`` for ``n`` starts of which none is lost (Clopper and Pearson, one-sided).
         """
-        drawn = max(self.fresh - ROUND, 0)
-        return -math.expm1(math.log(1.0 - CONFIDENCE) / drawn) if drawn else 1.0
+        return -math.expm1(math.log(1.0 - CONFIDENCE) / self.drawn) if self.drawn else 1.0
 
 
 class Found(NamedTuple):
@@ -152,7 +153,7 @@ class Bracket:
         self.tried = 0
         self.best: Found | None = None
 
-    def result(self, all_back: float | None, fresh: int) -> SmallestLoss:
+    def result(self, all_back: float | None, fresh: int = 0, drawn: int = 0) -> SmallestLoss:
         """Result of the search so far; ``all_back`` is the largest size up to which all came back."""
         recovered, size, angle, outcome, instant = self.best or (all_back or 0.0, None, None, None, None)
         return SmallestLoss(
@@ -165,6 +166,7 @@ class Bracket:
             recovered=recovered,
             all_back=all_back,
             fresh=fresh,
+            drawn=drawn,
             tried=self.tried,
         )
 

@@ -12,7 +12,7 @@ import numpy as np
 
 from carom.arguments import Count, Whole, checked
 from carom.attractors import MotionName, Survival, document_of, follow_until_settled
-from carom.attractors.naming import name_motions
+from carom.attractors.naming import name_endings
 from carom.basins.dataset import Mapped, dataset_of, provenance
 from carom.basins.shares import Share
 from carom.disturbances import Coordinate, Plan, Starts
@@ -229,12 +229,11 @@ def map_basins(
     (6, 72)
     """
     rotor = model_of(machine)
-    after = disturbances.model.machine_after(rotor)
-    until = longest_time(after) if until is None else time_until(until, rotor.scales)
+    until = longest_time(rotor) if until is None else time_until(until, rotor.scales)
     starts, endings, survival = _followed(
-        rotor, disturbances, after, until, patience=patience, max_events=max_events, threads=threads, progress=progress
+        rotor, disturbances, until, patience=patience, max_events=max_events, threads=threads, progress=progress
     )
-    motions, names = name_motions(after, endings)
+    motions, names = name_endings(rotor, disturbances.model, endings)
     attributes = {
         **(source or {}),
         **provenance(rotor, disturbances),
@@ -248,15 +247,13 @@ def map_basins(
 def map_cells(machine: Subject, disturbances: Plan) -> Cells:
     """What pictures need of the basin that :func:`map_basins` finds; without a dataset, which takes longer to load than to fill."""
     rotor, plan = model_of(machine), disturbances
-    after = plan.model.machine_after(rotor)
-    _, endings, _ = _followed(rotor, plan, after, longest_time(after))
-    return Cells(plan, rotor.scales, *name_motions(after, endings))
+    _, endings, _ = _followed(rotor, plan, longest_time(rotor))
+    return Cells(plan, rotor.scales, *name_endings(rotor, plan.model, endings))
 
 
 def _followed(
     rotor: Model,
     plan: Plan,
-    after: Model,
     until: float,
     *,
     patience: int = PATIENCE,
@@ -268,6 +265,8 @@ def _followed(
     starts = plan.starts(rotor)
     require_start(rotor, starts)
     endings = follow(
-        after, starts, until=until, patience=patience, max_events=max_events, threads=threads, progress=progress
+        rotor, starts, until=until, patience=patience, max_events=max_events, threads=threads, progress=progress
     )
-    return starts, *follow_until_settled(after, endings, impacts=patience, threads=threads)
+    if plan.model.changes_machine:  # irregular motions of many machines have no half-life in common
+        return starts, endings, None
+    return starts, *follow_until_settled(rotor, endings, impacts=patience, threads=threads)

@@ -75,10 +75,10 @@ def basin_document(
     if isinstance(model, UnbalanceStep):
         proven["harmless_unbalance_step"] = harmless_unbalance_step(basin.rotor)
     if isinstance(model, BladeLoss):
-        proven["harmless_blade_loss"] = harmless_blade_loss(basin.rotor)
+        proven["harmless_blade_loss"] = harmless_blade_loss(basin.rotor, model.node)
     if isinstance(model, BaseShock):
         proven["harmless_shock"] = harmless_shock(basin.rotor, model.duration)
-    kind = "acceleration" if isinstance(model, BaseShock) else "length"
+    kind = "acceleration" if isinstance(model, BaseShock) else "unbalance" if isinstance(model, BladeLoss) else "length"
     document |= proven | in_si(proven, scales, **dict.fromkeys(proven, kind))
     if gains is not None:
         document["gains"] = _gains(gains, change, wanted)

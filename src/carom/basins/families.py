@@ -107,7 +107,7 @@ def _by_size_and_direction(rotor: Model, model: Disturbance) -> Family:
 def size_coordinate(model: Disturbance) -> Coordinate:
     """Coordinate with the description and unit of the size of a disturbance."""
     if type(model) is BladeLoss:
-        return Coordinate("eccentricity_after", "eccentricity after the loss", 0.0, math.inf, "length")
+        return Coordinate("change", "change of the unbalance", 0.0, math.inf, UNBALANCE)
     if type(model) is UnbalanceStep:
         return Coordinate("eccentricity_change", "change of the eccentricity", 0.0, math.inf, "length")
     if type(model) is ContactRelease:

@@ -208,10 +208,7 @@ def measured(
     low at once: they would not cover the true shares of 95 % of the nodes, but of all or of few.
     """
     there, back = tee(_machine(rotor, plan, axes, node) for plan, node in nodes)
-    after = (
-        (nodes[0][0].rescaled(rotor.scales, moved.scales).model.machine_after(moved), starts) for moved, starts in back
-    )
-    followed = zip(nodes, there, follow_machines(after, CHUNK, **limits), strict=True)
+    followed = zip(nodes, there, follow_machines(back, CHUNK, **limits), strict=True)
     for (plan, _), (moved, starts), ends in followed:
         measures = _measures(plan, ends.outcomes, rotor.scales, instants_words(moved, plan))
         if isinstance(plan.model, VelocityKick | KickPlane):

@@ -103,14 +103,14 @@ def smallest_loss(
     family = family_of(rotor, model)
     search = _Search(rotor, family, tolerance, threads)
     if family.harmless >= family.largest:
-        return search.result(family.largest, 0)
+        return search.result(family.largest)
     all_round = _all_round(family, directions)
     if family.timed:
         sizes = max(1, sizes // COARSER)
     if family.harmless == 0.0:
         search.scan(all_round, np.zeros(1))
         if search.best is not None:
-            return search.result(None, 0)
+            return search.result(None)
     levels = family.harmless + (family.largest - family.harmless) * np.arange(sizes + 1) / sizes
     tell = Reporter.of(progress, "looking for the smallest that is lost")
     search.scan(all_round, levels)
@@ -124,9 +124,9 @@ def smallest_loss(
         fresh = search.draw(below, number)
         if search.best is before:
             tell(1.0)
-            return search.result(below, fresh)
+            return search.result(below, fresh, DRAWN)
         search.refine(TURN / directions)
-    return search.result(family.harmless or None, 0)
+    return search.result(family.harmless or None)
 
 
 def _all_round(family: Family, directions: int) -> np.ndarray:

@@ -27,15 +27,15 @@ _OPTIONS = {
     "kick-plane": ("fastest",),
     "shock": ("peak", "duration"),
     "unbalance-step": ("before",),
-    "blade-loss": ("after",),
+    "blade-loss": ("change", "node"),
     "release": ("release",),
     "slice": (),
     "state": ("fastest",),
 }
 """Kinds of disturbances, and the options that belong to each."""
-_FIELDS = {"before": "largest", "after": "eccentricity_after", "release": "motion"}
+_FIELDS = {"before": "largest", "release": "motion"}
 """Fields of the models where they do not have the name of the option."""
-_NEEDED = {"peak": "'20 g'", "duration": "'5 ms'", "after": "'0.1 mm' or '5000 g mm'"}
+_NEEDED = {"peak": "'20 g'", "duration": "'5 ms'", "change": "'0.1 mm' or '5000 g mm'"}
 KINDS = tuple(_OPTIONS)
 
 Kind = Annotated[str, typer.Option(metavar="KIND", help=f"What happens to the rotor: {', '.join(KINDS)}.")]
@@ -58,12 +58,14 @@ Duration = Annotated[
 Before = Annotated[
     str | None, typer.Option(metavar="LENGTH", help="Largest eccentricity before an unbalance step, such as '0.1 mm'.")
 ]
-After = Annotated[
+Change = Annotated[
     str | None,
     typer.Option(
-        metavar="SIZE", help="Unbalance after the loss of a blade: eccentricity '0.1 mm' or unbalance '5000 g mm'."
+        metavar="SIZE",
+        help="By how much the loss of a blade changes the unbalance: '5000 g mm', or '0.1 mm' of eccentricity.",
     ),
 ]
+Node = Annotated[str | None, typer.Option(metavar="N", help="Node of a flexible machine at which the blade is lost.")]
 Release = Annotated[
     str | None,
     typer.Option(metavar="MOTION", help="Motion at a release from the wall: fixed (the default), rotating or rolling."),
@@ -170,7 +172,7 @@ def read_plan(
 
 
 def _model(case: Case, kind: str, sizes: dict[str, str | None]) -> Disturbance:
-    from carom.cli.starts import read_positive, read_unbalance
+    from carom.cli.starts import read_loss, read_positive
     from carom.disturbances import MODELS
 
     parameters, model, given = case.parameters, MODELS[kind], dict[str, Any]()
@@ -180,8 +182,10 @@ def _model(case: Case, kind: str, sizes: dict[str, str | None]) -> Disturbance:
             given[name] = text or "fixed"
             if given[name] not in ("fixed", "rotating", "rolling"):
                 raise InputError("--release", text, "must be fixed, rotating or rolling")
-        elif text is not None and option == "after":
-            given[name] = read_unbalance("--after", text, parameters.scales)
+        elif option == "change" and text is not None:
+            given[name] = read_loss("--change", text, parameters.scales)
+        elif option == "node":
+            given[name] = None if text is None else _node(text)
         elif text is not None:
             given[name] = read_positive(f"--{option}", text, model.measured_in[name], parameters.scales)
         elif option in _NEEDED:
@@ -191,6 +195,12 @@ def _model(case: Case, kind: str, sizes: dict[str, str | None]) -> Disturbance:
         elif option == "before":  # the unbalance whose contact-free whirl just reaches the wall
             given[name] = abs(complex(parameters.omega**2 - 1.0, parameters.gamma))
     return model(**given)
+
+
+def _node(text: str) -> int:
+    if not text.strip().isdecimal():
+        raise InputError("--node", text, "must be the number of a node, from 0 on")
+    return int(text)
 
 
 def _cells(option: str, text: str, dimensions: int) -> tuple[int, ...]:

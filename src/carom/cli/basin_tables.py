@@ -12,7 +12,7 @@ from carom.basins.families import has_sizes, size_coordinate
 from carom.basins.shares import starts_enough
 from carom.cli.fitting import fitted, plain_table
 from carom.disturbances import Coordinate
-from carom.disturbances.echo import plan_words, told_eccentricity
+from carom.disturbances.echo import plan_words
 from carom.outcome import IRREGULAR_BOUNCING, InputError, Outcome
 from carom.parameters import Case, InTerms, Scales, in_terms_of
 
@@ -115,6 +115,7 @@ _LOSSES = {
     "kick": "kick",
     "shock": "shock of this duration",
     "unbalance-step": "step of the unbalance",
+    "blade-loss": "change of the unbalance by a loss of a blade",
     "release": "release",
 }
 
@@ -135,8 +136,6 @@ def _losses(basin: Basin, smallest: SmallestLoss | None, harmless: float) -> lis
     def shown(value: float) -> str:
         return _size(size, value, basin.scales, 5)
 
-    if smallest.kind == "blade-loss":
-        return _blade_losses(basin, smallest)
     noun = _LOSSES[smallest.kind]
     lines = []
     if smallest.size is not None:
@@ -167,44 +166,14 @@ def _losses(basin: Basin, smallest: SmallestLoss | None, harmless: float) -> lis
     return lines
 
 
-def _blade_losses(basin: Basin, smallest: SmallestLoss) -> list[str]:
-    """Say which unbalances after the loss of a blade are survived."""
-
-    def shown(value: float) -> str:
-        return told_eccentricity(value, basin.scales)
-
-    lines = []
-    if smallest.size is not None and smallest.outcome is not None:
-        angle = math.degrees(smallest.angle or 0.0)
-        lines.append(
-            f"Smallest unbalance found that is not survived: {shown(smallest.size)}, {angle:+.0f} deg from the one before; "
-            f"{_ending(basin, smallest.outcome)}."
-        )
-    if smallest.all_back is None and smallest.size is not None:
-        lines.append(
-            "A change of the phase alone is already lost: search with --disturbance unbalance-step for the smallest change."
-        )
-    elif smallest.all_back is not None and smallest.fresh:
-        lines.append(
-            f"Survived, as far as {smallest.tried} trials tell: every unbalance from the present one up to {shown(smallest.all_back)}, whatever its phase. "
-            f"{smallest.fresh} of the trials are fresh: with 95 % confidence fewer than {100.0 * smallest.share_below:.2g} % of the "
-            "unbalances and phases up to it are lost."
-        )
-    if smallest.all_back is not None and smallest.size is None:
-        lines.append(f"None was lost up to the largest tried, {shown(smallest.largest)}.")
-    if smallest.harmless > basin.rotor.value("rho"):
-        lines.append(
-            f"Only unbalances up to {shown(smallest.harmless)} provably never bring the rotor to the wall, at any phase."
-        )
-    return lines
-
-
 def _where(basin: Basin, smallest: SmallestLoss) -> str:
     """Describe the direction of the smallest lost disturbance."""
     angle = smallest.angle or 0.0
     if smallest.kind == "release":
         whirl = "backward" if smallest.backward else "forward"
         return f"{'in ' + whirl + ' whirl ' if smallest.size else ''}at {angle:.4f} rad on the wall"
+    if smallest.kind == "blade-loss":
+        return f"at {math.degrees(angle):+.0f} deg from the unbalance before it"
     if smallest.kind == "unbalance-step":
         return f"from an eccentricity that differs by it at {math.degrees(angle):+.0f} deg from the heavy side"
     heavy = math.degrees(math.remainder(angle - basin.rotor.unbalance_phase, 2.0 * math.pi))

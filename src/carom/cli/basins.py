@@ -28,7 +28,8 @@ def basins(
     peak: options.Peak = None,
     duration: options.Duration = None,
     before: options.Before = None,
-    after: options.After = None,
+    change: options.Change = None,
+    node: options.Node = None,
     release: options.Release = None,
     gains: options.GainsWanted = None,
     plane: options.Plane = None,
@@ -53,7 +54,8 @@ def basins(
             "peak": peak,
             "duration": duration,
             "before": before,
-            "after": after,
+            "change": change,
+            "node": node,
             "release": release,
         }
         plan = options.read_plan(case, disturbance, sizes, grid, starts, seed)

@@ -30,9 +30,9 @@ Shock = Annotated[
 BladeLoss = Annotated[
     str | None,
     typer.Option(
-        metavar="AFTER[,PHASE]",
-        help="Instead of --start: a blade is lost at levitation; eccentricity or unbalance after it, and its phase "
-        "relative to the one before, such as '5000 g mm,30 deg'.",
+        metavar="CHANGE[,PHASE[,NODE]]",
+        help="Instead of --start: a blade is lost at levitation; by how much the unbalance changes, at which phase relative to that "
+        "before it, and at which node of a flexible machine, such as '5000 g mm,30 deg'.",
     ),
 ]
 Dropped = Annotated[

@@ -135,6 +135,7 @@ def _read(case: Case, ways: dict[str, str | None]) -> tuple[Model, State | Kick,
     """Read the machine that moves, its start and what was taken; refuse wrong input before kernels are loaded."""
     from carom.cli.starts import read_blade_loss, read_kick, read_shock, read_start
     from carom.disturbances import echo
+    from carom.models.subjects import numbers_of
 
     scales = case.parameters.scales
     chosen = {option: text for option, text in ways.items() if text is not None}
@@ -142,15 +143,15 @@ def _read(case: Case, ways: dict[str, str | None]) -> tuple[Model, State | Kick,
         given = " with ".join(f"{option} {text}" for option, text in chosen.items()) or None
         allowed = (
             "give one of --start RE,IM,VRE,VIM, --kick SPEED[,ANGLE], --shock PEAK[,DURATION[,ANGLE]], "
-            "--blade-loss AFTER[,PHASE] and --drop"
+            "--blade-loss CHANGE[,PHASE[,NODE]] and --drop"
         )
         raise InputError("--start", given, allowed)
     ((option, text),) = chosen.items()
     if option == "--blade-loss":
         loss, phase = read_blade_loss(text, scales)
         rotor = _rotor(case)
-        said = echo.echo_of_blade_loss(rotor.value("rho"), loss.eccentricity_after, phase, scales)
-        return *loss.release(rotor, phase), said
+        before = None if numbers_of(rotor) is None else rotor.value("rho")
+        return *loss.release(rotor, phase), echo.echo_of_blade_loss(loss, phase, before, scales)
     if option == "--shock":
         pulse, angle = read_shock(text, case)
         rotor = _rotor(case)

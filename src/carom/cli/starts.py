@@ -21,6 +21,7 @@ from carom.parameters import (
     Shock,
     read_quantity,
     read_size,
+    read_unbalance,
 )
 from carom.parameters.quantities import comma_advice, without_separators
 from carom.parameters.terms import SETTABLE, set_by
@@ -32,7 +33,7 @@ if TYPE_CHECKING:
     from carom.motions.starts import Kick, State
 
 _START = "must be four values RE,IM,VRE,VIM such as 0.5,0,0,0.1 or '0.3 mm,0 mm,5 mm/s,0 m/s'"
-_BLADE_LOSS = "must be AFTER or AFTER,PHASE such as ", "'0.1 mm,30 deg' or '5000 g mm,30 deg'"
+_BLADE_LOSS = "must be CHANGE, CHANGE,PHASE or CHANGE,PHASE,NODE such as ", "'0.1 mm,30 deg' or '5000 g mm,30 deg,2'"
 _KICK = "must be SPEED or SPEED,ANGLE such as ", "'50 mm/s,30 deg'"
 _WHIRL = "must be RADIUS,SPEED or RADIUS,SPEED,ANGLE such as '0.1 mm,-80 Hz,30 deg'"
 _OWN = "0.4,0.2"
@@ -87,11 +88,13 @@ def read_speed(option: str, text: str, scales: Scales | None) -> float:
 
 
 def read_blade_loss(text: str, scales: Scales | None) -> tuple[BladeLoss, float]:
-    """Read ``AFTER`` or ``AFTER,PHASE``: the unbalance after the loss of a blade, and its phase relative to the one before."""
-    after, turned = _with_angle("--blade-loss", text, _BLADE_LOSS, scales)
+    """Read ``CHANGE``, ``CHANGE,PHASE`` or ``CHANGE,PHASE,NODE``: by how much the unbalance changes, at which phase relative to that before it, and where."""
+    rest, _, last = text.rpartition(",")
+    node = int(last) if "," in rest and last.strip().isdecimal() else None
+    change, phase = _with_angle("--blade-loss", text if node is None else rest, _BLADE_LOSS, scales)
     from carom.disturbances import BladeLoss
 
-    return BladeLoss(read_unbalance("--blade-loss", after, scales)), turned
+    return BladeLoss(read_loss("--blade-loss", change, scales), node), phase
 
 
 def read_shock(text: str, machine: Case) -> tuple[BaseShock, float]:
@@ -125,7 +128,7 @@ def _size(option: str, text: str, kind: str, scales: Scales | None) -> float:
     return read_size(option, text, kind, scales, bare=False).own(scales)
 
 
-def with_requirement(case: Case, **given: str | None) -> Case:
+def with_requirement(case: Case, **given: str | int | None) -> Case:
     """Return the case with what ``--kick``, ``--shock`` and ``--blade-loss`` state in place of what its file states."""
     try:
         return replace(case, requirement=case.requirement.changed_by(Requirement.of(case, **given)))
@@ -151,17 +154,9 @@ def _above_zero(option: str, text: str, kind: str, size: float) -> float:
     return size
 
 
-def read_unbalance(option: str, text: str, scales: Scales | None) -> float:
-    """Read an unbalance as an eccentricity in clearances: a length, or text with a unit of unbalance such as ``5000 g mm``."""
-    try:
-        return read_positive(option, text, "length", scales)
-    except InputError as problem:
-        if scales is None:
-            raise
-        try:
-            size = _size(option, text, "unbalance", scales)
-        except InputError:
-            raise problem from None
+def read_loss(option: str, text: str, scales: Scales | None) -> float:
+    """Read a change of the unbalance, such as ``5000 g mm``, or of the eccentricity, in clearances."""
+    size = read_unbalance(option, text, scales).own(scales)
     if not size > 0.0:
         raise InputError(option, text, "must be an eccentricity or an unbalance above 0, such as 0.1 mm or 5000 g mm")
     return size

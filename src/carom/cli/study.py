@@ -27,9 +27,13 @@ def study(
     blade_loss: Annotated[
         str | None,
         typer.Option(
-            metavar="AFTER",
-            help="The unbalance after a loss of a blade that it must survive, such as '2000 g mm', or an eccentricity.",
+            metavar="CHANGE",
+            help="A loss of a blade that it must survive: by how much it changes the unbalance, such as '2000 g mm', or the eccentricity; "
+            "at any phase.",
         ),
+    ] = None,
+    blade_loss_node: Annotated[
+        int | None, typer.Option(metavar="NODE", help="The node of a flexible machine at which the blade is lost.")
     ] = None,
     out: Annotated[
         str | None, typer.Option(metavar="DIR", help="Write figures, study.json and report.html to this directory.")
@@ -63,7 +67,9 @@ def study(
 
     if time_limit is not None and not prove:
         raise InputError("--time-limit", shown(time_limit), "allowed only with --prove, whose proof of kicks it ends")
-    case = with_requirement(load(machine, settings or ()), kick=kick, shock=shock, blade_loss=blade_loss)
+    case = with_requirement(
+        load(machine, settings or ()), kick=kick, shock=shock, blade_loss=blade_loss, blade_loss_node=blade_loss_node
+    )
     with progress("loading") as tell:
         check_output(out)
         from carom.studies import FlexibleStudy

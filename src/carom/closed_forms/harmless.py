@@ -19,12 +19,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from carom.arguments import Positive, checked
+from carom.arguments import Positive, Whole, checked
 from carom.closed_forms.known import known_of
 from carom.models import Forced, Limited, Model, Subject, model_of
 from carom.models.in_bearing import carried_by_housing
 from carom.models.mode_arrays import STEADY
 from carom.models.stages import Around, stages_of
+from carom.models.unbalance import unbalance_push
 
 MARGIN = 1e-9
 """Share of the distance from the wall that is left for rounding."""
@@ -161,31 +162,24 @@ def harmless_unbalance_step(machine: Subject) -> float:
 
 
 @checked
-def harmless_blade_loss(machine: Subject) -> float:
-    """Change of the unbalance up to which the loss of a blade provably never brings the rotor to the wall.
+def harmless_blade_loss(machine: Subject, node: Whole | None = None) -> float:
+    """Change of the unbalance up to which the loss of a blade provably never brings the rotor to the wall, at any phase.
 
     As in :func:`harmless_unbalance_step` the deviation from the levitation whirl after the loss is bounded, but that whirl itself is
     displaced from the one before by ``u₀``.  This bound is not sharp.  The change, in ``c_r``, is the modulus of that of the complex
-    eccentricity; zero as for :func:`harmless_kick`.
+    eccentricity, at a node of a flexible machine; zero as for :func:`harmless_kick`.
     """
     model = model_of(machine)
     levitation = _levitation(model)
     if levitation is None:
         return 0.0
-    shift, deviation = _after_step(model, levitation, _push(model))
+    shift, deviation = _after_step(model, levitation, unbalance_push(model, node))
     return float((levitation.rooms / (shift + deviation)).min())
 
 
-def shift_by_unbalance(model: Model) -> float:
-    """Largest distance by which levitation shifts a contact plane per eccentricity; the unbalance keeps its distribution."""
-    return float(np.abs(model.system.planes @ _shift(model, _push(model))).max())
-
-
-def _push(model: Model) -> np.ndarray:
-    """Force of the unbalance per eccentricity; of a balanced rotor with all masses off centre by the same."""
-    mass, *_, forcing = model.matrices
-    present = model.value("rho")
-    return np.asarray(forcing / present if present else mass @ model.system.translated)
+def shift_by_unbalance(model: Model, node: int | None = None) -> np.ndarray:
+    """Displacement (n,) of levitation per change of the unbalance, in the frame that turns."""
+    return _shift(model, unbalance_push(model, node))
 
 
 def _shift(model: Model, push: np.ndarray) -> np.ndarray:

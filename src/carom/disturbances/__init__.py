@@ -10,7 +10,7 @@ co-rotating frame, from which the motion is free.
 :class:`KickPlane`       the same, given by radial and tangential parts, seen from the bearing centre
 :class:`BaseShock`       the housing is accelerated by a half-sine pulse (peak, duration, direction)
 :class:`UnbalanceStep`   the unbalance jumps to that of the machine from another size and phase
-:class:`BladeLoss`       the unbalance jumps from that of the machine to another size and phase
+:class:`BladeLoss`       the unbalance of the machine changes by a vector of a size, at any phase
 :class:`ContactRelease`  levitation is switched on with the rotor on the touchdown bearing
 :class:`StateSlice`      any position, at a given velocity
 :class:`AnyState`        any position and any velocity

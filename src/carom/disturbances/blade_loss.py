@@ -1,4 +1,4 @@
-"""Loss of a blade: the unbalance of the levitating rotor becomes another one, in size and phase."""
+"""Loss of a blade: the unbalance of the levitating rotor changes by a vector."""
 
 from __future__ import annotations
 
@@ -8,8 +8,10 @@ from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
-from carom.disturbances.coordinates import Coordinate, Starts, angle_coordinate, complex_of, sagged
+from carom.disturbances.coordinates import Coordinate, Starts, angle_coordinate, complex_of
 from carom.disturbances.model import Disturbance
+from carom.models.unbalance import with_changed_unbalance
+from carom.models.weight import refuse_unsteady
 from carom.outcome import InputError
 from carom.parameters import own_size
 
@@ -20,70 +22,49 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class BladeLoss(Disturbance):
-    """The unbalance jumps from that of the machine to another one, for example because a blade is lost.
+    """The unbalance changes by a vector of a stated size, for example because a blade is lost; its phase is free.
 
-    Before the loss the rotor whirls without contact with the unbalance of the machine; where it then is, is the start of
-    the motion of the machine with the unbalance after the loss (:meth:`machine_after`).  The phase of that unbalance
-    relative to the one before is free.  A loss of unbalance ``δ`` leads from ``ρ`` to some unbalance of at most ``ρ + δ``.
+    Before the loss the rotor whirls without contact with the unbalance of the machine; where it then is, is the start of the motion of the machine
+    with the unbalance after the loss.  These two differ by the change, so each phase leads to another machine (``after`` of
+    :class:`~carom.disturbances.Starts`).
 
     Attributes
     ----------
-    eccentricity_after : float
-        Eccentricity after the loss, in clearances: the unbalance divided by the mass of the rotor.  The unbalance of a
-        rotor of several coordinates keeps its distribution.
+    change : float
+        Size of the change of the unbalance, divided by the mass of the rotor, in clearances.
+    node : int, optional
+        Where the unbalance of a flexible machine changes; by default at the only node that has an unbalance.
 
     See Also
     --------
     carom.disturbances.UnbalanceStep : steps to the unbalance of the machine, from others
+    carom.closed_forms.harmless_blade_loss : change up to which contact is impossible
 
     Examples
     --------
     >>> import carom as cm
     >>> machine = cm.load("examples/keogh-cole.toml", ["eccentricity=0.1 mm"])
-    >>> loss = cm.disturbances.BladeLoss.of(machine, "0.2 mm")
+    >>> loss = cm.disturbances.BladeLoss.of(machine, "9000 g mm")
     >>> cm.map_basins(machine, cm.Grid(loss, (36,))).share_recovered.count
     18
     """
 
-    eccentricity_after: float
+    change: float
+    node: int | None = None
     kind: ClassVar[str] = "blade-loss"
-    noun: ClassVar[str] = "phases of the unbalance after the loss"
-    measured_in: ClassVar[dict[str, str]] = {"eccentricity_after": "length"}
+    noun: ClassVar[str] = "losses of a blade"
+    measured_in: ClassVar[dict[str, str]] = {"change": "unbalance"}
+    changes_machine: ClassVar[bool] = True
 
     @property
     def coordinates(self) -> tuple[Coordinate, ...]:
-        """Phase of the unbalance after the loss."""
-        return (angle_coordinate("phase_after", "phase of the unbalance after the loss, relative to that before it"),)
-
-    def machine_after(self, rotor: Model) -> Model:
-        """Return the machine with the unbalance after the loss."""
-        return rotor.replace(rho=self.eccentricity_after)
+        """Phase of the change."""
+        return (angle_coordinate("phase", "phase of the change of the unbalance, relative to that before it"),)
 
     def starts(self, rotor: Model, *values: np.ndarray, instant: np.ndarray | float = 0.0) -> Starts:
-        """Levitation of the machine before the loss, in the frame in which the phase of the unbalance stays the same.
-
-        Under weight it goes round its sag; this frame coincides with the fixed one at instant zero.
-        """
-        from carom.models.weight import refuse_unsteady
-
-        phase, begun = np.broadcast_arrays(*values, instant)
-        levitates = rotor.system.rest_radius < 1.0
-        if levitates:
-            refuse_unsteady(rotor)
-        cosine, sine, rest = np.cos(phase), np.sin(phase), rotor.system.rest * levitates
-        if len(rest) > 1:
-            cosine, sine = cosine[..., None], sine[..., None]
-        else:
-            rest = rest[0]
-        positions = complex_of(rest.real * cosine + rest.imag * sine, rest.imag * cosine - rest.real * sine)
-        none = np.zeros(np.shape(phase), bool)
-        # What goes round against the shaft turns the other way with the phase.
-        opposite = None if rotor.system.mirrored is None else (cosine + 1j * sine) * rotor.system.rest_mirrored
-        if levitates:
-            positions, velocities = sagged(rotor, positions, opposite, begun)
-        else:
-            velocities = np.zeros_like(positions)
-        return Starts(positions, velocities, none | levitates, none, none, np.zeros(np.shape(phase))).at(begun)
+        """Levitation of the machine before the loss, in the frame in which the phase of the unbalance stays the same."""
+        (phases,) = values
+        return starts_after(rotor, self.change, phases, self.node, instant)
 
     def release(self, machine: Subject, phase: float = 0.0, instant: float = 0.0) -> tuple[Model, State]:
         """Return the machine after the loss and the state in which it starts, for :func:`carom.simulate`.
@@ -93,9 +74,9 @@ class BladeLoss(Disturbance):
         machine : Machine, Case, Parameters or model
             Before the loss.
         phase : float
-            Phase of the unbalance after the loss relative to the one before, rad.
+            Phase of the change relative to the unbalance before, rad.
         instant : float
-            Angle by which the shaft has turned at the loss, rad, since the frame of :meth:`starts` coincided with the fixed one.
+            Angle by which the shaft has turned at the loss, rad, since the co-rotating frame coincided with the fixed one.
 
         Raises
         ------
@@ -107,12 +88,40 @@ class BladeLoss(Disturbance):
 
         rotor = model_of(machine)
         turned, begun = own_size("phase", phase, "angle", None), own_size("instant", instant, "angle", None)
-        starts = self.starts(rotor, np.array(turned), instant=begun)
-        if not starts.exists:
+        starts = self.starts(rotor, np.array([turned]), instant=begun)
+        if not starts.exists[0] or starts.after is None:
             radius = f"|U*| = {rotor.system.rest_radius:.6g}"
             raise InputError("disturbance", radius, "needs levitation inside the wall before the loss")
-        return self.machine_after(rotor), State.of(starts.positions, starts.velocities, time=float(starts.begins))
+        state = State.of(starts.positions[0], starts.velocities[0], time=float(starts.begins[0]))
+        return starts.after[0], state
 
-    def lost(self, rotor: Model, phase: float) -> float:
-        """Unbalance lost if the unbalance after it has this phase: ``|ρ'e^{iβ} − ρ|``, in ``m c_r``."""
-        return abs(cmath.rect(self.eccentricity_after, phase) - rotor.value("rho"))
+
+def starts_after(
+    rotor: Model,
+    sizes: np.ndarray | float,
+    phases: np.ndarray,
+    node: int | None = None,
+    instants: np.ndarray | float = 0.0,
+) -> Starts:
+    """Starts after changes of the unbalance of these sizes and phases at these instants, with the machine after each."""
+    sizes, phases, instants = np.broadcast_arrays(sizes, phases, instants)
+    after, turned = np.empty(phases.shape, object), np.empty(phases.shape)
+    for place in np.ndindex(phases.shape):
+        change = cmath.rect(float(sizes[place]), float(phases[place]))
+        after[place], turned[place] = with_changed_unbalance(rotor, change, node)
+    return levitating_before(rotor, turned, instants)._replace(after=after)
+
+
+def levitating_before(rotor: Model, turned: np.ndarray, instants: np.ndarray) -> Starts:
+    """Levitation at instants of the turn, seen in frames that have turned by these angles with the unbalance after it."""
+    levitates = rotor.system.rest_radius < 1.0
+    if levitates:
+        refuse_unsteady(rotor)
+    system, n = rotor.system, len(rotor.system.rest)
+    whirls = system.states_of(np.array([system.forced_at(instant) for instant in np.ravel(instants).tolist()]))
+    turn, none = complex_of(np.cos(turned), -np.sin(turned)), np.zeros(turned.shape, bool)
+    seen = whirls.reshape(*np.shape(instants), 2 * n) * turn[..., None]
+    places, speeds = (seen[..., 0], seen[..., 1]) if n == 1 else (seen[..., :n], seen[..., n:])
+    # What does not turn with the shaft, as weight, is seen in a frame that has turned as it is later in the turn.
+    begins = turned + instants if system.timed else np.zeros(turned.shape)
+    return Starts(places, speeds, none | levitates, none, none, begins)

@@ -121,6 +121,8 @@ class Starts(NamedTuple):
         Whether the rotor has already met the wall, during a shock or because it starts there.
     begins : ndarray
         Times at which they are taken, in ``1/Ω``: angles by which the shaft has turned since the frames coincided.
+    after : ndarray of object, optional
+        The machine after the disturbance, where that changes it.
     """
 
     positions: np.ndarray
@@ -129,6 +131,7 @@ class Starts(NamedTuple):
     undecided: np.ndarray
     touched: np.ndarray
     begins: np.ndarray
+    after: np.ndarray | None = None
 
     @classmethod
     def of(cls, positions: np.ndarray | complex, velocities: np.ndarray | complex, exists: np.ndarray | bool) -> Starts:
@@ -141,7 +144,9 @@ class Starts(NamedTuple):
     def joined(cls, parts: Sequence[Starts]) -> Starts:
         """All starts of several sets, one-dimensional."""
         flat = [part.some(np.ones(part.exists.shape, bool)) for part in parts]
-        return cls(*(np.concatenate(alike) for alike in zip(*flat, strict=True)))
+        *arrays, after = zip(*flat, strict=True)
+        machines = None if any(each is None for each in after) else np.concatenate(after)
+        return cls._make((*map(np.concatenate, arrays), machines))
 
     def at(self, instant: np.ndarray | float) -> Starts:
         """The same states in the co-rotating frame at other instants."""
@@ -149,7 +154,7 @@ class Starts(NamedTuple):
 
     def some(self, chosen: np.ndarray) -> Starts:
         """Some of the starts, one-dimensional: those where ``chosen`` is true."""
-        return Starts(*(values[chosen] for values in self))
+        return Starts._make(None if values is None else values[chosen] for values in self)
 
 
 def sagged(

@@ -16,6 +16,7 @@ from carom.parameters.told import number, told, told_angle
 from carom.results import in_si
 
 if TYPE_CHECKING:
+    from carom.disturbances.blade_loss import BladeLoss
     from carom.models import Model
     from carom.motions.starts import State
     from carom.parameters import Gravity
@@ -85,12 +86,20 @@ def echo_of_shock(peak: float, duration: float, angle: float, phase: float, scal
     return Echo("shock", words, sizes)
 
 
-def echo_of_blade_loss(before: float, after: float, turned: float, scales: Scales | None) -> Echo:
-    """A loss of a blade, by the eccentricities before and after it, in clearances, and the angle between them."""
+def echo_of_blade_loss(loss: BladeLoss, phase: float, before: float | None, scales: Scales | None) -> Echo:
+    """A loss of a blade at a phase relative to the unbalance before, whose eccentricity is told for rotors with one unbalance alone."""
     kind, noun = ("unbalance", "unbalance") if scales else ("length", "eccentricity")
-    first, last = (told(size, kind, scales) for size in (before, after))
-    words = f"Loss of a blade: {noun} from {first} to {last}, turned by {told_angle(turned)} in the sense of rotation"
-    return Echo("blade-loss", words, {"before": (before, kind), "after": (after, kind), "phase": (turned, "")})
+    where = "" if loss.node is None else f" at node {loss.node}"
+    words = (
+        f"Loss of a blade: the {noun}{where} changes by {told(loss.change, kind, scales)} at {told_angle(phase)} from that before it, "
+        "in the sense of rotation"
+    )
+    sizes = {"change": (loss.change, kind), "phase": (phase, "")}
+    if before is not None:
+        after = before + cmath.rect(loss.change, phase)
+        words += f": from {told(before, kind, scales)} to {told(abs(after), kind, scales)}, turned by {told_angle(cmath.phase(after))}"
+        sizes |= {"before": (before, kind), "after": (abs(after), kind)}
+    return Echo("blade-loss", words, sizes)
 
 
 def echo_of_unbalance(eccentricity: float, interval: tuple[float, float], scales: Scales) -> Echo:
@@ -200,10 +209,11 @@ def plan_words(
         parts.append(f"{size.words} up to {_both(size.high, size.scale, scales)}")
     given = model.describe()
     if model.kind == "blade-loss":
-        after = float(str(given["eccentricity_after"]))
+        node = "" if given["node"] is None else f" at node {given['node']}"
         parts.append(f"{model.coordinates[0].words}: all around")
-        start = "" if before is None else f"from {told_eccentricity(before, scales)} "
-        return f"{', '.join(parts)}; eccentricity {start}to {told_eccentricity(after, scales)}"
+        start = "" if before is None else f" from {told_eccentricity(before, scales)}"
+        change = told_eccentricity(float(str(given["change"])), scales)
+        return f"{', '.join(parts)}; eccentricity{node} changes{start} by {change}"
     if model.kind == "shock":
         parts[-1] += f" for {told(float(str(given['duration'])), 'time', scales)}"
     return ", ".join(parts)

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from carom.disturbances.coordinates import Starts
+from carom.disturbances.model import Disturbance
 from carom.models import Model
 from carom.motions.ensembles import Endings, settle
 from carom.outcome import InputError, Outcome
@@ -21,13 +22,15 @@ def follow(
 ) -> Endings:
     """Follow all starts that exist and are decided.
 
-    With several machines ``which`` has the index of the machine of each start.  Limits and endings are those of
+    With several machines ``which`` has the index of the machine of each start; starts after a disturbance that changes the machine have their own.  Limits and endings are those of
     :func:`~carom.motions.ensembles.settle`; endings have the shape of the starts.  The outcome is ``NO_START`` where there
     is no start, and ``GRAZING`` where it is undecided; all other numbers are zero there.
     """
     chosen = starts.exists & ~starts.undecided
     machines = None if which is None else which[chosen]
     begins = starts.begins[chosen]
+    if starts.after is not None:
+        machine, machines = _distinct(starts.after[chosen])
     found = settle(
         machine, starts.positions[chosen], starts.velocities[chosen], which=machines, begins=begins, **limits
     )
@@ -38,6 +41,13 @@ def follow(
     whole["outcomes"][starts.undecided] = Outcome.GRAZING
     whole["outcomes"][~starts.exists] = NO_START
     return Endings(**whole)
+
+
+def _distinct(after: np.ndarray) -> tuple[list[Model], np.ndarray]:
+    """Machines without repetition, and which of them each is."""
+    places: dict[int, int] = {}
+    which = np.array([places.setdefault(id(each), len(places)) for each in after], np.int64)
+    return [after[place] for place in np.unique(which, return_index=True)[1]], which
 
 
 def follow_machines(machines: Iterable[tuple[Model, Starts]], chunk: int, **limits: Any) -> Iterator[Endings]:
@@ -73,3 +83,11 @@ def require_start(rotor: Model, starts: Starts) -> None:
             else f"|U*| = {rotor.system.rest_radius:.6g}",
             "one that is possible: out of levitation inside the wall (|U*| < 1, with the static sag), or a start inside the wall",
         )
+
+
+def refuse_another_machine(disturbances: object) -> None:
+    """Refuse a kind of disturbance, or a plan of one, that changes the machine."""
+    model = getattr(disturbances, "model", disturbances)
+    if isinstance(model, Disturbance) and model.changes_machine:
+        allowed = "one that leaves the machine as it is; carom.map_basins follows this one"
+        raise InputError("disturbances", model.kind, allowed)

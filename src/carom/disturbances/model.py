@@ -13,14 +13,14 @@ import numpy as np
 from carom.arguments import checked, is_number
 from carom.disturbances.coordinates import INSTANT, Coordinate, Starts
 from carom.outcome import InputError, shown
-from carom.parameters import Scales, own_size, usual_kick
+from carom.parameters import Scales, own_size, own_unbalance, usual_kick
 
 if TYPE_CHECKING:
     from carom.models import Model, Subject
 
 FASTEST = usual_kick(None)
 """Largest speed in ``c_r Ω`` of a disturbance that is made without a machine."""
-_SIZES = ("fastest", "peak", "duration", "largest", "eccentricity_after")
+_SIZES = ("fastest", "peak", "duration", "largest", "change")
 
 
 @dataclass(frozen=True)
@@ -39,11 +39,14 @@ class Disturbance:
     measured_in : dict of str to str
         Property of :class:`~carom.parameters.Scales` that is the unit of each field with a unit, so that a disturbance
         keeps its size in SI units where a sweep or a gain map changes the scales.
+    changes_machine : bool
+        Whether the machine after it is another one; then its starts say which.
     """
 
     kind: ClassVar[str] = ""
     noun: ClassVar[str] = "disturbances"
     measured_in: ClassVar[dict[str, str]] = {}
+    changes_machine: ClassVar[bool] = False
 
     def __init_subclass__(cls, **keywords: Any) -> None:
         super().__init_subclass__(**keywords)
@@ -110,12 +113,8 @@ class Disturbance:
         *own, instant = values
         return self.starts(rotor, *own, instant=instant)
 
-    def machine_after(self, rotor: Model) -> Model:
-        """Return the machine after the disturbance, by default the same one."""
-        return rotor
-
     @classmethod
-    def of(cls, machine: Subject, *sizes: float | str) -> Self:
+    def of(cls, machine: Subject, *sizes: float | str, **others: Any) -> Self:
         """Disturbance with sizes for a machine, such as ``VelocityKick.of(machine, "50 mm/s")``.
 
         Parameters
@@ -123,7 +122,9 @@ class Disturbance:
         machine : Machine, Case, Parameters or model
         *sizes : float or str
             Sizes of the fields with a unit, in the order of ``measured_in``: text with a unit, or numbers in the units of
-            the equations.  Without a largest speed it is :func:`~carom.parameters.usual_kick`.
+            the equations; an unbalance may be stated by its eccentricity.  Without a largest speed it is :func:`~carom.parameters.usual_kick`.
+        **others
+            Fields without a unit.
 
         Raises
         ------
@@ -136,10 +137,13 @@ class Disturbance:
 
         scales = model_of(machine).scales
         pairs = zip(cls.measured_in.items(), sizes, strict=False)
-        given = {name: own_size(name, size, kind, scales) for (name, kind), size in pairs}
+        given: dict[str, Any] = {
+            name: own_unbalance(name, size, scales) if kind == "unbalance" else own_size(name, size, kind, scales)
+            for (name, kind), size in pairs
+        }
         if "fastest" in cls.measured_in:
             given.setdefault("fastest", usual_kick(scales))
-        return cls(**given)
+        return cls(**given, **others)
 
     @checked
     def rescaled(self, before: Scales | None, after: Scales | None, names: Collection[str] | None = None) -> Self:

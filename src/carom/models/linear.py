@@ -150,11 +150,8 @@ class LinearRotor(Result):
     def _check_shaft(self) -> None:
         """Refuse a shaft whose speed changes where the matrices would change with it, or where it has no response to its unbalance."""
         if self.conjugate is not None:
-            raise InputError(
-                "shaft",
-                shown(self.shaft),
-                "None where bearings act differently in two directions: its speed stays as it is",
-            )
+            allowed = "None where bearings act differently in two directions: its speed stays as it is"
+            raise InputError("shaft", shown(self.shaft), allowed)
         if np.abs(self.matrices.gyroscopic).max() > GYROSCOPIC * np.abs(self.damping).max():
             raise InputError(
                 "shaft", shown(self.shaft), "None for a rotor with a gyroscopic matrix: its modes change with the speed"
@@ -303,6 +300,22 @@ class LinearRotor(Result):
     def unbalance_phase(self) -> float:
         """Angle of the unbalance in the co-rotating frame, in rad: that of its force on the rotor as a whole."""
         return float(np.angle(np.vdot(self.translation, self.forcing)))
+
+    def unbalance_push(self, node: int | None = None) -> np.ndarray:
+        """See :func:`carom.models.unbalance.unbalance_push`: all masses are off centre by the same, along the translation."""
+        linear_parameters.refuse_node(node)
+        return np.asarray(self.mass @ self.translation * np.exp(1j * self.unbalance_phase))
+
+    def unbalance_along(self, node: int | None = None) -> float | None:
+        """See :func:`carom.models.unbalance.unbalance_along`."""
+        return linear_parameters.forcing_along(self, self.unbalance_push(node))
+
+    def with_changed_unbalance(self, change: complex, node: int | None = None) -> tuple[Self, float]:
+        """See :func:`carom.models.unbalance.with_changed_unbalance`."""
+        push, before = self.unbalance_push(node), self.unbalance_along(node)
+        if before is None:
+            return dataclasses.replace(self, forcing=self.forcing + change * push), 0.0
+        return dataclasses.replace(self, forcing=abs(before + change) * push), float(np.angle(before + change))
 
     @property
     def stated_limits(self) -> tuple[Limit, ...]:

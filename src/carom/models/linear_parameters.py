@@ -33,6 +33,9 @@ SAME = {"friction": "mu", "restitution": "d", "unbalance_phase": "phi"}
 _EXACT = {"mu": "friction", "d": "restitution", "radius_ratio": "surface_speed"}
 """Parameters of the planes by which there are derivatives, and what each changes of a wall."""
 
+ROUNDING = 1e-12
+"""Part of an unbalance across another one, relative to it, that is rounding."""
+
 
 def fields(rotor: LinearRotor) -> dict[str, Field]:
     """Fields of all parameters by name."""
@@ -139,6 +142,19 @@ def moved(rotor: LinearRotor, name: str, given: float | str) -> dict[str, Any]:
     more = (factor - 1.0) * damping
     multiplied = _times(rotor.unlevitated, factor, 1.0)
     return {"damping": rotor.damping + more, "stiffness": rotor.stiffness + 1j * more, "unlevitated": multiplied}
+
+
+def refuse_node(node: int | None) -> None:
+    """Refuse a node of a rotor that is given by matrices or numbers."""
+    if node is not None:
+        raise InputError("node", node, "left out: only the shaft of a flexible machine has nodes")
+
+
+def forcing_along(rotor: LinearRotor, push: np.ndarray) -> float | None:
+    """How many times a push the forcing is; ``None`` if it is not along that."""
+    times = float((np.vdot(push, rotor.forcing) / np.vdot(push, push)).real)
+    apart = np.linalg.norm(rotor.forcing - times * push)
+    return times if apart <= ROUNDING * np.linalg.norm(rotor.forcing) else None
 
 
 def _times(pair: np.ndarray | None, damping: float, stiffness: float) -> np.ndarray | None:

@@ -100,7 +100,7 @@ class Case(Tabular):
     Raises
     ------
     InputError
-        `parameters` or `requirement` are something else, there is gravity without scales, or the unbalance after the loss of a blade is out of range for the
+        `parameters` or `requirement` are something else, there is gravity without scales, or the change of the unbalance by the loss of a blade is out of range for the
         mass and clearance of the machine.
     """
 
@@ -177,7 +177,7 @@ class Case(Tabular):
             parts.append(f"shocks up to {told(peak, 'acceleration', scales)}, {told(duration, 'time', scales)}")
         if required.blade_loss:
             kind = "unbalance" if scales else "length"
-            parts.append(f"an unbalance of {told(required.blade_loss, kind, scales)} after the loss of a blade")
+            parts.append(f"a loss of a blade of {told(required.blade_loss, kind, scales)}")
         return "; ".join(parts)
 
     def replace(self, /, **changes: Any) -> Case:

@@ -6,15 +6,14 @@ import dataclasses
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from decimal import Decimal
-from typing import Any, Literal, get_args
+from typing import Any, Literal, cast, get_args
 
 from carom.arguments import checked
 from carom.outcome import InputError, Problems, shown
 from carom.parameters.fields import DIMENSIONLESS_FIELDS, Field, unknown_names
 from carom.parameters.quantities import read_quantity
 from carom.parameters.scaling import Scales
-from carom.parameters.sizes import read_size
+from carom.parameters.sizes import read_size, read_unbalance
 
 GRAVITY = 9.80665
 """Standard acceleration of free fall, m/s²."""
@@ -25,7 +24,8 @@ Source = Literal["file", "option", "default"]
 SURVIVE_ENTRIES: Mapping[str, tuple[str, str]] = {
     "kick": ("velocity kick out of levitation", '"100 mm/s"'),
     "shock": ("half-sine shock of the base: peak and duration", '"5 g, 11 ms"'),
-    "blade_loss_after": ("unbalance after the loss of a blade, or its eccentricity", '"2000 g mm"'),
+    "blade_loss": ("change of the unbalance by the loss of a blade, or of its eccentricity", '"2000 g mm"'),
+    "blade_loss_node": ("node of a flexible machine at which the unbalance changes", "2"),
 }
 """Entries of a ``[survive]`` table, in words and with an example; each may be left out."""
 _NUMBER = Field("", "", "", "a number", "", 1e-300, 1e300, "0.4")
@@ -66,12 +66,15 @@ class Required:
     shock : Shock or None
         Peak in ``c_r Ω²``, duration in ``1/Ω``.
     blade_loss : float or None
-        Eccentricity after the loss of a blade, in ``c_r``.
+        Size of the change of the unbalance by the loss of a blade, divided by the mass, in ``c_r``; at any phase.
+    blade_loss_node : int or None
+        Node of a flexible machine at which it changes.
     """
 
     kick: float
     shock: Shock | None
     blade_loss: float | None
+    blade_loss_node: int | None = None
 
 
 @dataclass(frozen=True)
@@ -89,7 +92,9 @@ class Requirement:
     shock : Shock, optional
         Half-sine shock of the base, in m/s² and s (or ``c_r Ω²`` and ``1/Ω``).
     blade_loss : float, optional
-        Unbalance after the loss of a blade, kg m (or eccentricity in ``c_r``).
+        Size of the change of the unbalance by the loss of a blade, kg m (or divided by the mass, in ``c_r``).
+    blade_loss_node : int, optional
+        Node of a flexible machine at which it changes; by default the only one that has an unbalance.
     source : {"file", "option", "default"}
         Where the numbers come from; ``"default"`` if none is given.
 
@@ -111,6 +116,7 @@ class Requirement:
     shock: Shock | None = None
     blade_loss: float | None = None
     source: Source = "option"
+    blade_loss_node: int | None = None
 
     def __post_init__(self) -> None:
         _check(self, *(name for name in ("kick", "blade_loss") if getattr(self, name) is not None))
@@ -118,7 +124,9 @@ class Requirement:
             raise InputError("shock", shown(self.shock), f"must be a carom.parameters.Shock, or None; {_TEXT}")
         if shown(self.source) not in get_args(Source):
             raise InputError("source", shown(self.source), f"must be one of: {', '.join(get_args(Source))}")
-        if (self.kick, self.shock, self.blade_loss) == (None, None, None):
+        if self.blade_loss_node is not None and not _is_node(self.blade_loss_node):
+            raise InputError("blade_loss_node", shown(self.blade_loss_node), "must be the number of a node, from 0 on")
+        if (self.kick, self.shock, self.blade_loss, self.blade_loss_node) == (None,) * 4:
             object.__setattr__(self, "source", "default")
 
     @checked
@@ -146,20 +154,20 @@ class Requirement:
         Raises
         ------
         InputError
-            The unbalance after the loss of a blade gives an eccentricity that is out of range.
+            The change of the unbalance by the loss of a blade gives an eccentricity that is out of range.
         """
         kick = usual_kick(scales) if self.kick is None else self.kick / (scales.velocity if scales else 1.0)
-        shock, after = self.shock, self.blade_loss
+        shock, change = self.shock, self.blade_loss
         if scales and shock:
             shock = Shock(shock.peak / scales.acceleration, shock.duration / scales.time)
-        if after is not None:
-            after /= scales.unbalance if scales else 1.0
+        if change is not None:
+            change /= scales.unbalance if scales else 1.0
             rho = DIMENSIONLESS_FIELDS["rho"]
-            if not rho.contains(after):
-                gives = f"gives an eccentricity of {after:.6g} clearances, which {rho.allowed}"
-                name = "[survive] blade_loss_after" if self.source == "file" else "blade_loss"
+            if not rho.contains(change):
+                gives = f"gives a change of the eccentricity of {change:.6g} clearances, which {rho.allowed}"
+                name = "[survive] blade_loss" if self.source == "file" else "blade_loss"
                 raise InputError(name, self.blade_loss, gives)
-        return Required(kick, shock, after)
+        return Required(kick, shock, change, self.blade_loss_node)
 
     def to_toml(self, has_scales: bool = True) -> str:
         """Return the text of a table that is read as this requirement; nothing if nothing is stated."""
@@ -170,11 +178,15 @@ class Requirement:
         if self.shock is not None:
             lines.append(f'shock = "{self.shock.peak!r}{acceleration}, {self.shock.duration!r}{time}"')
         if self.blade_loss is not None:
-            lines.append(f'blade_loss_after = "{self.blade_loss!r}{unbalance}"')
+            lines.append(f'blade_loss = "{self.blade_loss!r}{unbalance}"')
+        if self.blade_loss_node is not None:
+            lines.append(f"blade_loss_node = {self.blade_loss_node}")
         return "\n".join(["[survive]", *lines]) + "\n" if lines else ""
 
     @classmethod
-    def of(cls, machine: Any, *, kick: Any = None, shock: Any = None, blade_loss: Any = None) -> Requirement:
+    def of(
+        cls, machine: Any, *, kick: Any = None, shock: Any = None, blade_loss: Any = None, blade_loss_node: Any = None
+    ) -> Requirement:
         """Read what a machine must survive from text with units.
 
         Parameters
@@ -187,7 +199,9 @@ class Requirement:
         shock : str, optional
             Peak and duration, such as ``"5 g, 11 ms"``; 11 ms if the duration is left out.
         blade_loss : str or float, optional
-            Unbalance after the loss, such as ``"2000 g mm"``, or eccentricity, such as ``"0.1 mm"``.
+            Size of the change of the unbalance, such as ``"2000 g mm"``, or of its eccentricity, such as ``"0.1 mm"``.
+        blade_loss_node : int, optional
+            Node of a flexible machine at which it changes.
 
         Raises
         ------
@@ -197,9 +211,8 @@ class Requirement:
         numbers = getattr(machine, "parameters", machine)
         if not hasattr(numbers, "scales"):
             raise InputError("machine", shown(machine), "a Machine, a Case, Parameters or a model")
-        names = {"kick": "kick", "shock": "shock", "blade_loss_after": "blade_loss"}
-        entries = {"kick": kick, "shock": shock, "blade_loss_after": blade_loss}
-        return _read(entries, names, numbers.scales, "option")
+        entries = {"kick": kick, "shock": shock, "blade_loss": blade_loss, "blade_loss_node": blade_loss_node}
+        return _read(entries, {name: name for name in entries}, numbers.scales, "option")
 
     @classmethod
     @checked
@@ -257,11 +270,12 @@ def _check(values: object, *names: str) -> None:
 def _read(entries: Mapping[str, Any], names: Mapping[str, str], scales: Scales | None, source: Source) -> Requirement:
     """Read the entries that are given; ``names`` are what errors call them."""
     problems, found = Problems(), dict[str, Any]()
-    for name, read in (("kick", _read_kick), ("shock", _read_shock), ("blade_loss_after", _read_unbalance)):
+    readers = {"kick": _read_kick, "shock": _read_shock, "blade_loss": _read_loss, "blade_loss_node": _read_node}
+    for name, read in readers.items():
         if entries.get(name) is not None:
             found[name] = problems.attempt(read, names[name], entries[name], scales)
     problems.raise_all()
-    return Requirement(found.get("kick"), found.get("shock"), found.get("blade_loss_after"), source)
+    return Requirement(**found, source=source)
 
 
 def _read_kick(name: str, given: object, scales: Scales | None) -> float:
@@ -277,17 +291,22 @@ def _read_shock(name: str, given: object, scales: Scales | None) -> Shock:
     return Shock(peak, _size(name, parts[1], "time", scales) if len(parts) == 2 else SHOCK_DURATION)
 
 
-def _read_unbalance(name: str, given: object, scales: Scales | None) -> float:
-    if scales is None:
-        return _size(name, given, "length", scales)
-    try:
-        return _size(name, given, "unbalance", scales)
-    except InputError as problem:
-        try:
-            eccentricity = _size(name, given, "length", scales)
-        except InputError:
-            raise problem from None
-    return float(Decimal(repr(eccentricity)) * Decimal(repr(scales.mass)))
+def _read_loss(name: str, given: object, scales: Scales | None) -> float:
+    size = read_unbalance(name, given if scales is None or isinstance(given, str) else shown(given), scales)
+    if not size.value > 0.0:
+        raise InputError(name, shown(given), "must be above 0")
+    return size.value
+
+
+def _read_node(name: str, given: object, scales: Scales | None) -> int:
+    number = int(given) if isinstance(given, str) and given.strip().isdecimal() else given
+    if not _is_node(number):
+        raise InputError(name, shown(given), "must be the number of a node, from 0 on")
+    return int(cast("int", number))
+
+
+def _is_node(given: object) -> bool:
+    return isinstance(given, int) and not isinstance(given, bool) and given >= 0
 
 
 def _size(name: str, given: object, kind: str, scales: Scales | None) -> float:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import replace
+from decimal import Decimal
 from typing import NamedTuple
 
 from carom.arguments import checked
@@ -98,3 +99,26 @@ def read_size(name: str, given: object, kind: str, scales: Scales | None, bare: 
 def own_size(name: str, given: object, kind: str, scales: Scales | None) -> float:
     """Convert text with a unit to the units of the equations; a number is already in these."""
     return read_size(name, given, kind, scales).own(scales)
+
+
+def read_unbalance(name: str, given: object, scales: Scales | None) -> Size:
+    """Read an unbalance, or the eccentricity that it is of the whole mass; without scales a number in clearances."""
+    if scales is None:
+        return read_size(name, given, "length", scales)
+    try:
+        return read_size(name, given, "unbalance", scales, bare=False)
+    except InputError as problem:
+        try:
+            eccentricity = read_size(name, given, "length", scales, bare=False)
+        except InputError:
+            raise problem from None
+    return Size(float(Decimal(repr(eccentricity.value)) * Decimal(repr(scales.mass))), True, "unbalance")
+
+
+def own_unbalance(name: str, given: object, scales: Scales | None) -> float:
+    """Convert text with a unit of an unbalance or an eccentricity to clearances; a number is already in these."""
+    return (
+        read_unbalance(name, given, scales).own(scales)
+        if isinstance(given, str)
+        else own_size(name, given, "unbalance", scales)
+    )

@@ -51,18 +51,16 @@ def dial(basin: Basin, motions: list[MotionLook], title: str | None) -> Figure:
     coordinate = basin.coordinates[0]
     if basin.plan.model.kind == "blade-loss":
         axes.text(0.36, 0.05, "unbalance before", ha="center", va="bottom", fontsize=7)
-        axes.set_title(f"phase of the unbalance after the loss\n{_step_of_unbalance(basin)}")
+        axes.set_title(f"phase of the change by the loss\n{_change_of_unbalance(basin)}")
     else:
         axes.set_title(coordinate.words)
     return finish(figure, motions, title, [], columns=1)
 
 
-def _step_of_unbalance(basin: Basin) -> str:
-    """Eccentricity before and after the loss of a blade."""
-    ends = [basin.rotor.value("rho"), float(str(basin.plan.model.describe()["eccentricity_after"]))]
-    factor, unit = told_in("length", basin.scales)
-    before, after = (number(factor * end, 3) for end in ends)
-    return f"eccentricity from {before} to {after} {unit}"
+def _change_of_unbalance(basin: Basin) -> str:
+    """By how much the loss of a blade changes the unbalance."""
+    factor, unit = told_in("unbalance" if basin.scales else "length", basin.scales)
+    return f"of the unbalance by {number(factor * float(str(basin.plan.model.describe()['change'])), 3)} {unit}"
 
 
 def _painted_ring(basin: Basin, motions: list[MotionLook], wall: float = 1.0) -> tuple[Figure, Axes]:

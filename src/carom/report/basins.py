@@ -15,7 +15,7 @@ from carom.studies.verdict_facts import lost_kinds, required_kinds
 from carom.studies.wording import entry_words
 
 CELLS: dict[Kind, tuple[int, ...]] = {"kick": (120, 120), "shock": (24, 60), "blade_loss": (120,)}
-"""Cells of a basin: both parts of a kick, peak and direction of a shock, phase of the unbalance after the loss of a blade."""
+"""Cells of a basin: both parts of a kick, peak and direction of a shock, phase of the change of the unbalance by the loss of a blade."""
 BEYOND = 1.5
 """Largest disturbance of a basin relative to the smallest that is lost, where all that must be survived came back."""
 
@@ -27,8 +27,8 @@ _MISSING = {
 _SEEN: dict[Kind, str] = {
     "kick": "Each point is a kick of the levitating rotor, the farther out the harder, and its colour says where it ends.",
     "shock": "Each point is a shock of the base, the farther out the harder, and its colour says where it ends.",
-    "blade_loss": "Each angle is the phase of the unbalance that the loss of a blade leaves, counted from the right, where it was "
-    "before, and its colour says where it ends.",
+    "blade_loss": "Each angle is the phase of the change of the unbalance by the loss of a blade, counted from the right, where the unbalance "
+    "is before it, and its colour says where it ends.",
 }
 
 
@@ -83,7 +83,7 @@ def _disturbances(study: Study, kind: Kind) -> Disturbance:
     """Disturbances up to what must be survived, or beyond the smallest that is lost if that is larger."""
     size, _ = _required(study, kind)
     if kind == "blade_loss":
-        return BladeLoss(size)
+        return BladeLoss(size, study.required.blade_loss_node)
     found = getattr(study.survives, kind, None)
     reach = size if found is None or found.size is None or found.size <= size else BEYOND * found.size
     return (

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import cmath
 import dataclasses
 import json
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
+
+import numpy as np
 
 from carom.arguments import checked
 from carom.models import Limit, LinearRotor, Model, Rates
@@ -15,7 +19,9 @@ from carom.models.stages import Around
 from carom.models.system import System
 from carom.outcome import InputError, shown
 from carom.parameters import Field, read_quantity
+from carom.rotors.attachments import UNBALANCE_FIELDS, Unbalance
 from carom.rotors.documents import document_of, part_from
+from carom.rotors.equations import row_of
 from carom.rotors.machine_parameters import unknown, varied_in_model
 
 if TYPE_CHECKING:
@@ -134,6 +140,41 @@ class FlexibleModel(LinearRotor):
         ]
         made: FlexibleModel = reduced.of(dataclasses.replace(reduced.machine, unbalances=unbalances)).unchecked
         return made
+
+    def unbalance_push(self, node: int | None = None) -> np.ndarray:
+        """See :func:`carom.models.unbalance.unbalance_push`; at a node, with the phase of the unbalance there, otherwise of that of the rotor as a whole."""
+        reduced, (node, own) = self.reduced, self._unbalance_at(node)
+        push, size = np.zeros(len(self.mass), complex), math.sqrt(reduced.machine.rotor.mass)
+        push[: reduced.vectors] = size * (row_of(reduced.machine.rotor, node) @ reduced.basis.shapes)
+        return push * cmath.exp(1j * (cmath.phase(own) if own else self.unbalance_phase))
+
+    def unbalance_along(self, node: int | None = None) -> float | None:
+        """See :func:`carom.models.unbalance.unbalance_along`."""
+        node, own = self._unbalance_at(node)
+        others = any(each.node != node for each in self.reduced.machine.unbalances)
+        return None if others else abs(own) / self.reduced.scales.unbalance
+
+    def with_changed_unbalance(self, change: complex, node: int | None = None) -> tuple[FlexibleModel, float]:
+        """See :func:`carom.models.unbalance.with_changed_unbalance`."""
+        changed, turned = super().with_changed_unbalance(change, node)
+        reduced, (node, own) = self.reduced, self._unbalance_at(node)
+        unit = cmath.rect(reduced.scales.unbalance, cmath.phase(own) if own else self.unbalance_phase)
+        size, angle = cmath.polar((own + change * unit) * cmath.exp(-1j * turned))
+        others = [each for each in reduced.machine.unbalances if each.node != node]
+        at_node = [Unbalance(node, size, angle)] if size and UNBALANCE_FIELDS["size"].contains(size) else []
+        machine = dataclasses.replace(reduced.machine, unbalances=[*others, *at_node])
+        return dataclasses.replace(changed, reduced=reduced.of(machine)), turned
+
+    def _unbalance_at(self, node: int | None) -> tuple[int, complex]:
+        """A node, by default that of the only unbalance, and the unbalance there, kg m."""
+        machine = self.reduced.machine
+        nodes = sorted({each.node for each in machine.unbalances})
+        if node is None and len(nodes) != 1:
+            allowed = "the node at which the unbalance changes, where not one node alone has an unbalance"
+            raise InputError("blade_loss_node", None, f"{allowed}; such as that of a disc")
+        at = nodes[0] if node is None else node
+        machine.rotor.check_node("blade_loss_node", at)
+        return at, complex(sum(cmath.rect(each.size, each.angle) for each in machine.unbalances if each.node == at))
 
     @checked
     def rates(self, name: str) -> Rates | None:

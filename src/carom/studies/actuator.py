@@ -258,8 +258,9 @@ def asked_by(case: Case, disturbances: Iterable[Sample]) -> float | None:
     reached = [float(limit.asked(Centre.whirling(rotor.system.rest_radius, 1.0)))]
     for sample in disturbances:
         starts = sample.model.starts_on(rotor, *coordinates_at_largest(rotor, sample, LARGEST))
-        after = sample.model.machine_after(rotor)
-        for position, velocity, begun in zip(starts.positions, starts.velocities, starts.begins.tolist(), strict=True):
+        machines = [rotor] * len(starts.positions) if starts.after is None else starts.after
+        each = zip(machines, starts.positions, starts.velocities, starts.begins.tolist(), strict=True)
+        for after, position, velocity, begun in each:
             motion = simulate(after, State.of(position, velocity, time=begun), settle=True)
             reached.append(largest_along(motion, limit))
     return max(reached) / limit.most

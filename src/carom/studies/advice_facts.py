@@ -238,7 +238,7 @@ def _disturbances(study: StudyData) -> str:
     if required.shock:
         text += f"; shocks of up to {say.acceleration(required.shock.peak)} over {say.time(required.shock.duration)}"
     if required.blade_loss:
-        text += f"; losses of a blade that leave an unbalance of {say.unbalance(required.blade_loss)}"
+        text += f"; losses of a blade of {say.unbalance(required.blade_loss)}"
     return f"{text}; of faster ones, and of other kinds, nothing is said"
 
 

@@ -18,6 +18,7 @@ from carom.closed_forms.known import known_of
 from carom.closed_forms.sag import steady_motions
 from carom.closed_forms.thresholds import Gain
 from carom.disturbances import Disturbance, Plan, Sample
+from carom.disturbances.following import refuse_another_machine
 from carom.models import Model, Subject, case_of, model_of
 from carom.orbits.single_impact import OrbitSet, find_orbits, orbits_within_reach
 from carom.outcome import InputError, shown
@@ -141,7 +142,7 @@ def study(
     case = _case_of(machine)
     if requirement is not None:
         case = replace(case, requirement=requirement)
-    _refuse_another_machine(case, disturbances)
+    refuse_another_machine(disturbances)
     tell = Reporter.of(progress, "study")
     rotor = model_of(case)
     if (reduced := reduced_of(rotor)) is not None:
@@ -251,11 +252,3 @@ def _present(rotor: Model, tried: tuple[Sample, ...]) -> Check:
     """Follow fresh disturbances at the machine's own gains; more of them if all came back."""
     first = check_recovery(rotor, in_all(tried, FIRST), seed=SEED)
     return check_recovery(rotor, in_all(tried, FRESH), seed=SEED) if first.recovers else first
-
-
-def _refuse_another_machine(case: Case, disturbances: Plan | Disturbance | None) -> None:
-    """Refuse disturbances that change the machine."""
-    model, rotor = getattr(disturbances, "model", disturbances), model_of(case)
-    if isinstance(model, Disturbance) and model.machine_after(rotor) is not rotor:
-        allowed = "one that leaves the machine as it is: study the machine after it, or follow it with map_basins"
-        raise InputError("disturbances", model.kind, allowed)

@@ -109,7 +109,7 @@ def _size(study: FlexibleData, trial: FlexibleTrial) -> str:
     if trial.kind == "shock" and study.required.shock is not None:
         return f"shocks of up to {say.acceleration(trial.size)}, {say.time(study.required.shock.duration)}"
     if trial.kind == "blade_loss":
-        return f"losses of a blade that leave {say.unbalance(trial.size)}"
+        return f"losses of a blade of {say.unbalance(trial.size)}"
     return f"kicks of up to {say.velocity(trial.size)}"
 
 

@@ -18,7 +18,7 @@ from carom.parameters.told import number
 from carom.results import fields_of
 
 DIRECTIONS = 24
-"""Directions of a shock, and phases of the unbalance after the loss of a blade, that are followed at their full size."""
+"""Directions of a shock, and phases of the change of the unbalance by the loss of a blade, that are followed at their full size."""
 
 
 @dataclass(frozen=True)
@@ -200,4 +200,4 @@ def _of_required(rotor: Model, required: Required) -> Iterator[Trajectory]:
             shock = BaseShock(required.shock.peak, required.shock.duration)
             yield simulate(*shock.stages(rotor, angle), settle=True)
         if required.blade_loss:
-            yield simulate(*BladeLoss(required.blade_loss).release(rotor, angle), settle=True)
+            yield simulate(*BladeLoss(required.blade_loss, required.blade_loss_node).release(rotor, angle), settle=True)

@@ -84,7 +84,7 @@ def on_other_walls(rotor: Model, disturbances: Sequence[Sample]) -> tuple[OtherW
 
 def _ends(rotor: Model, drawn: Sequence[Sample]) -> np.ndarray:
     """Kind of motion in which each disturbance ends."""
-    followed = (follow(each.model.machine_after(rotor), each.starts(rotor)) for each in drawn)
+    followed = (follow(rotor, each.starts(rotor)) for each in drawn)
     return np.concatenate([ends.outcomes for ends in followed])
 
 

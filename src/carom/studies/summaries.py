@@ -104,7 +104,7 @@ def survived_rows(study: StudyData) -> list[SurvivedRow]:
     rows = []
     for name, found in study.survives.items():
         size = study.wording.size_of(name)
-        of = {"shock": f" of {study.wording.time(study.survives.duration)}", "blade_loss": ", unbalance after it"}
+        of = {"shock": f" of {study.wording.time(study.survives.duration)}", "blade_loss": ", change of the unbalance"}
         up_to = found.largest if found.size is None else found.all_back
         rows.append(
             SurvivedRow(

@@ -11,12 +11,15 @@ import math
 from dataclasses import dataclass, replace
 from typing import Literal
 
+import numpy as np
+
 from carom.attractors.starts import KICKS_SHARE
 from carom.basins import SmallestLoss, smallest_loss
 from carom.closed_forms.harmless import shift_by_unbalance
 from carom.disturbances import AnyState, BaseShock, BladeLoss, Disturbance, Sample, VelocityKick
 from carom.disturbances.blows import LONGEST_SHOCK
 from carom.models import Model
+from carom.models.unbalance import unbalance_along
 from carom.parameters import DIMENSIONLESS_FIELDS, SHOCK_DURATION, Required, Scales
 from carom.progress import Reporter
 from carom.results import Result
@@ -26,7 +29,7 @@ Kind = Literal["kick", "shock", "blade_loss"]
 REACH = 4.0
 """Largest kick and shock searched, as a multiple of what must be survived or is proven to be harmless."""
 BELOW = 0.999
-"""Largest unbalance searched, relative to that with which levitation would fill the clearance."""
+"""Largest unbalance after a loss of a blade, relative to that with which levitation would fill the clearance."""
 OF_ANOTHER_KIND = 0.2
 """Number of shocks, and of losses of a blade, relative to that of kicks and other starts, where such are required."""
 
@@ -45,7 +48,7 @@ class Survives(Result):
     duration : float
         Duration of the shocks, in ``1/Ω``.
     blade_loss : SmallestLoss or None
-        Sizes are eccentricities after the loss of a blade, in ``c_r``, at the worst phase.
+        Sizes are changes of the unbalance by the loss of a blade, as eccentricities in ``c_r``, at the worst phase.
     """
 
     kick: SmallestLoss
@@ -76,9 +79,9 @@ def survives(rotor: Model, required: Required, tell: Reporter) -> Survives | Non
         peak = required.shock.peak if required.shock else math.pi * required.kick / (2.0 * duration)
         shock = _reaching(rotor, BaseShock(peak, duration))
     tell(0.9, "the smallest loss of a blade that is lost")
-    blade_loss = None
-    if largest_levitating(rotor) > rotor.value("rho"):
-        blade_loss = smallest_loss(rotor, BladeLoss(largest_levitating(rotor)))
+    blade_loss, largest = None, largest_change(rotor)
+    if largest > 0.0:
+        blade_loss = smallest_loss(rotor, BladeLoss(largest))
     return Survives(kick, shock, duration, blade_loss)
 
 
@@ -87,18 +90,18 @@ def comes_to_rest(rotor: Model) -> bool:
     return rotor.system.rest_radius < 1.0 and rotor.system.decay > 0.0
 
 
-def largest_levitating(rotor: Model) -> float:
-    """Largest eccentricity, in ``c_r``, of the losses of a blade that are searched.
+def largest_change(rotor: Model) -> float:
+    """Largest change of the unbalance, in ``c_r``, after which the rotor can levitate at any phase.
 
-    Zero for a model whose unbalance cannot be varied, and under weight, where the sag takes its part of the clearance.
+    Larger ones that add to the unbalance before lead to no levitation inside the wall; just below it motions do not settle.  Zero for a model whose
+    unbalance is not known by one number.
     """
-    varied = "rho" in rotor.varied and rotor.system.forced is None
-    return largest_unbalance(rotor) if varied else 0.0
-
-
-def largest_unbalance(rotor: Model) -> float:
-    """Eccentricity, in ``c_r``, just below that with which levitation fills the clearance: there motions do not settle."""
-    return min(BELOW / shift_by_unbalance(rotor), DIMENSIONLESS_FIELDS["rho"].highest)
+    system, before = rotor.system, unbalance_along(rotor) if "rho" in rotor.varied else None
+    if before is None or system.mirrored is not None:
+        return 0.0
+    sags = np.abs(system.arrays["rows"] @ system.outer)
+    shifts = np.abs(system.planes @ shift_by_unbalance(rotor))
+    return min(float((BELOW * (1.0 - sags) / shifts).min()), DIMENSIONLESS_FIELDS["rho"].highest) - before
 
 
 def _duration(rotor: Model, required: Required) -> float:
@@ -145,5 +148,5 @@ def required_disturbances(required: Required, count: int, seed: int = 0) -> tupl
     if required.shock:
         models.append((BaseShock(required.shock.peak, required.shock.duration), more))
     if required.blade_loss:
-        models.append((BladeLoss(required.blade_loss), more))
+        models.append((BladeLoss(required.blade_loss, required.blade_loss_node), more))
     return tuple(Sample(model, number, seed) for model, number in models)

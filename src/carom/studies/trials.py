@@ -16,7 +16,7 @@ import numpy as np
 
 from carom.arguments import Count, Seed, checked
 from carom.attractors import MotionName
-from carom.attractors.naming import name_motions
+from carom.attractors.naming import name_endings
 from carom.basins.shares import Population, Share
 from carom.disturbances import Coordinate, Disturbance, Sample, Starts
 from carom.disturbances.echo import instants_words
@@ -151,14 +151,14 @@ class Trial:
         example: Lost | None = None
         for place, values, row in self._portions(value, again=stop):
             starts: Starts = models[place].starts_on(rotor, *values)
-            ends = follow(models[place].machine_after(rotor), starts, threads=self.threads)
+            ends = follow(rotor, starts, threads=self.threads)
             gone = np.flatnonzero(~ends.recovered)
             if row is not None:
                 counts[row, place] += ends.recovered.size - len(gone), ends.recovered.size
             if len(gone):
                 self.last[place] = values[:, gone[:KEPT]]
                 if example is None:
-                    _, names = name_motions(models[place].machine_after(rotor), ends[gone[:1]])
+                    _, names = name_endings(rotor, models[place], ends[gone[:1]])
                     example = Lost(models[place], tuple(values[:, gone[0]].tolist()), names[0] if names else None)
                 if stop:
                     break

@@ -50,7 +50,7 @@ def _required(study: StudyData) -> Fact:
             f"shocks of up to {say.acceleration(required.shock.peak)} over {say.time(required.shock.duration)}"
         )
     if required.blade_loss:
-        parts.append(f"the loss of a blade that leaves an unbalance of {say.unbalance(required.blade_loss)}")
+        parts.append(f"the loss of a blade that changes the unbalance by {say.unbalance(required.blade_loss)}")
     how = _CHOSEN[source]
     if source == "default" and say.scales is None:
         how = "chosen by carom"
@@ -69,6 +69,7 @@ def requirement_document(study: StudyData) -> dict[str, Any]:
         "kick": required.kick,
         "shock": fields_of(shock, "peak", "duration") if shock else None,
         "blade_loss": required.blade_loss,
+        "blade_loss_node": required.blade_loss_node,
     }
     if scales is not None:
         stated = study.case.requirement.complete(scales)
@@ -96,7 +97,7 @@ def _survived(study: StudyData, name: Kind, found: SmallestLoss) -> Fact:
     if name == "shock" and study.survives is not None:
         of = f"of {study.wording.time(study.survives.duration)}, "
     elif name == "blade_loss":
-        of = "unbalance after it, at the worst phase: "
+        of = "change of the unbalance, at the worst phase: "
     return Fact(
         "Verdict",
         f"{of}{', '.join(parts)}",

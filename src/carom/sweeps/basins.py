@@ -121,9 +121,8 @@ class BasinsTask:
         if rotor.system.decay < 0.0 and not rotor.system.levitates:
             return {"levitates": False, "possible": 0, "counts": counts}
         impacts, kicks = 0, []
-        after = self.model(rotor.scales).machine_after(rotor)
         for starts in self._batches(rotor, seed):
-            endings = follow(after, starts, threads=1)
+            endings = follow(rotor, starts, threads=1)
             counts += np.array([endings.count(ending) for ending in ENDINGS])
             impacts += int(endings.impacts.sum())
             if self._kicks and (kick := smallest_lost(rotor, starts, endings.outcomes)):

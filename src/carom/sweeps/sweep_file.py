@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 import os
 from collections.abc import Iterable, Mapping
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias, TypeVar, cast
 
@@ -23,6 +24,7 @@ from carom.parameters import (
     Scales,
     Zones,
     read_size,
+    read_unbalance,
     unknown_name,
     usual_kick,
 )
@@ -316,7 +318,7 @@ def _size(
     if not scale:
         return given, False
     if not isinstance(field.default, complex):
-        size = read_size(where, given, scale, scales)
+        size = (read_unbalance if scale == "unbalance" else partial(read_size, kind=scale))(where, given, scales=scales)
         return size.value, size.in_si
     parts = [read_size(where, part, scale, scales) for part in given] if isinstance(given, list) else []
     if len(parts) != 2 or parts[0].in_si != parts[1].in_si:

@@ -58,9 +58,7 @@ def find_loss(rotor: Model, plane: Plane, largest: float, progress: ShowProgress
     scales = rotor.scales
     try:
         found = smallest_loss(rotor, plane.by_size(rotor, largest), progress=progress)
-    except InputError as problem:
-        if plane.name == "blade-loss" and rotor.system.rest_radius < 1.0:
-            return Loss(None, "–", str(problem))
+    except InputError:
         return Loss(None, "none comes back", "there is no stable levitation to come back to")
     if found.size is None:
         return Loss(

@@ -9,11 +9,13 @@ from functools import lru_cache
 import numpy as np
 
 from carom.basins import Share, map_basins
-from carom.disturbances import BladeLoss, Grid
-from carom.disturbances.following import NO_START, follow_machines
+from carom.disturbances import Grid
+from carom.disturbances.blade_loss import levitating_before
+from carom.disturbances.following import NO_START, follow
 from carom.explorer.computing.planes import Plane, ShockPlane
 from carom.explorer.computing.rest import Rest, rest_of
 from carom.models import Model
+from carom.models.unbalance import with_changed_unbalance
 from carom.outcome import InputError, Outcome
 from carom.plots.cells import MotionLook, motion_looks
 from carom.plots.style import OUTCOMES
@@ -138,22 +140,20 @@ def _ending(look: MotionLook) -> Ending:
 def _map_losses(rotor: Model, rest: Rest, plane: Plane, cells: int, largest: float) -> KickMap:
     """The same of losses of a blade.
 
-    Each unbalance is another machine.  So there are few of them, each with many phases, and a cell shows the nearest; motions are told by
-    their outcome alone.
+    Changes that leave one size of the unbalance lead to one machine.  So a cell shows the nearest of few sizes, each with many phases; motions are told
+    by their outcome alone.
     """
-    levels, phases = cells // 2, 2 * cells
-    turned = math.tau * np.arange(phases) / phases
-    losses = [BladeLoss(largest * (level + 0.5) / levels) for level in range(levels)]
-    followed = follow_machines(
-        [(one.machine_after(rotor), one.starts(rotor, turned)) for one in losses], levels * phases
-    )
-    ends = [(found.outcomes, found.impacts > 0) for found in followed]
-    middles = (np.arange(cells) + 0.5) * 2.0 / cells - 1.0
-    sizes = np.hypot(middles[:, None], middles[None, :])
-    level = np.minimum((levels * sizes).astype(int), levels - 1)
-    phase = np.rint(np.arctan2(middles[None, :], middles[:, None]) / math.tau * phases).astype(int) % phases
-    outcomes, touched = (np.stack(part)[level, phase] for part in zip(*ends, strict=True))
-    outcomes = np.where(sizes <= 1.0, outcomes, NO_START)
+    before, middles = rotor.value("rho"), (np.arange(cells) + 0.5) * 2.0 / cells - 1.0
+    changes = largest * (middles[:, None] + 1j * middles[None, :])
+    exists = np.abs(changes) <= largest
+    after, width = (before + changes)[exists], 2.0 * largest / cells
+    phases = math.ceil(math.tau * (before + largest) / width)
+    levels, which = np.unique(np.rint(np.abs(after) / width), return_inverse=True)
+    machines = [with_changed_unbalance(rotor, level * width - before)[0] for level in levels.tolist()]
+    turned = np.rint(np.angle(after) / math.tau * phases) / phases * math.tau
+    found = follow(machines, levitating_before(rotor, turned, np.zeros(turned.shape)), which=which)
+    outcomes, touched = np.full(exists.shape, NO_START), np.zeros(exists.shape, bool)
+    outcomes[exists], touched[exists] = found.outcomes, found.impacts > 0
     exists = outcomes != NO_START
     if not exists.any():
         raise InputError(

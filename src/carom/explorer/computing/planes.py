@@ -20,7 +20,7 @@ from carom.models import Model, model_of
 from carom.motions import State
 from carom.parameters import SHOCK_DURATION, Case, Scales
 from carom.parameters.told import shown_in, told, told_angle
-from carom.studies.survives import largest_unbalance
+from carom.studies.survives import largest_change
 
 Name = Literal["kick", "shock", "blade-loss"]
 
@@ -93,7 +93,7 @@ class Plane:
         return {
             "kick": ("kick outward", "kick with the rotation"),
             "shock": ("shock along 0°", "shock across it"),
-            "blade-loss": ("unbalance after, along the present one", "across it"),
+            "blade-loss": ("change along the unbalance", "change across it"),
         }[self.name]
 
     @property
@@ -137,9 +137,8 @@ class Plane:
                 state,
                 f"A shock of {words} for {told(lasting, 'time', rotor.scales)} at {turned}, drawn from its end,",
             )
-        _, state = BladeLoss(size).release(rotor, angle)
-        after = rotor.replace(rho=size)
-        return after, state, f"A loss of a blade that leaves {words}, turned by {turned},"
+        after, state = BladeLoss(size).release(rotor, angle)
+        return after, state, f"A loss of a blade that changes the unbalance by {words} at {turned}"
 
 
 def planes_of(case: Case) -> tuple[Plane, ...]:
@@ -159,11 +158,10 @@ def planes_of(case: Case) -> tuple[Plane, ...]:
         peak = si(needed.shock.peak, "acceleration") if needed.shock else None
         usual = peak or si(math.pi * needed.kick / (2.0 * duration), "acceleration")
         planes.append(Plane("shock", "acceleration", peak, usual, si(duration, "time")))
-    if levitates:
+    if levitates and (most := largest_change(rotor)) > 0.0:
         scale = "unbalance" if scales else "length"
-        after = si(needed.blade_loss, scale) if needed.blade_loss else None
-        usual = after or si(0.5 * largest_unbalance(rotor), scale)
-        planes.append(Plane("blade-loss", scale, after, usual))
+        change = si(needed.blade_loss, scale) if needed.blade_loss else None
+        planes.append(Plane("blade-loss", scale, change, change or si(0.5 * most, scale)))
     return tuple(planes)
 
 

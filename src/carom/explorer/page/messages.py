@@ -103,8 +103,7 @@ def plane_harmless(found: KickMap, rotor: Model) -> float:
         return harmless_kick(rotor)
     if found.plane.name == "shock":
         return harmless_shock(rotor, found.plane.lasting(rotor))
-    # Changes of the present unbalance up to this size.
-    return max(harmless_blade_loss(rotor) - rotor.value("rho"), 0.0)
+    return harmless_blade_loss(rotor)
 
 
 def _sentence(found: KickMap, share: Share, words: str) -> str:
