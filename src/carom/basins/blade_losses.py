@@ -130,14 +130,15 @@ class _Search(Bracket):
     def refine(self) -> None:
         """Try places ever closer to the best one, then halve the gap to changes of its phase that come back."""
         circle, turn = self.spacing
-        for number in range(ROUNDS if self.best is not None else 0):
+        for number in range(ROUNDS):
+            if self.best is None:
+                return
             circle, turn = circle / NARROWED, turn / NARROWED
             size, angle = cmath.polar(self._place(self.best.size, self.best.angle))
             sides = np.arange(-BESIDE * NARROWED, BESIDE * NARROWED + 1)
             sizes = np.abs(size + circle * np.arange(-BESIDE, BESIDE + 1))
-            instants = (self.best.instant or 0.0) + (
-                self.any_instants(len(sizes) * len(sides)) - self.any_instants(1)
-            ) / NARROWED**number
+            away = self.any_instants(len(sizes) * len(sides)) - self.any_instants(1)
+            instants = (self.best.instant or 0.0) + away / NARROWED**number
             self.follow(np.repeat(sizes, len(sides)), np.tile(angle + turn * sides, len(sizes)), instants)
         if self.best is None:
             return

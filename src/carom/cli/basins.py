@@ -74,18 +74,18 @@ def basins(
         harmless, smallest = harmless_kick(rotor), None
         if harmless > 0.0 and has_sizes(plan.model):
             smallest = smallest_loss(rotor, plan.model, threads=threads, progress=tell.part(share, 2.0 * share))
-        found, change = (None, None) if asked is None else _map(rotor, plan, asked, threads, source, tell)
+        found, least = (None, None) if asked is None else _map(rotor, plan, asked, threads, source, tell)
         if found is None or asked is None:
             document = basin_document(basin, smallest, harmless)
         else:
-            document = basin_document(basin, smallest, harmless, found, change, asked.wanted, asked.told_by)
+            document = basin_document(basin, smallest, harmless, found, least, asked.wanted, asked.told_by)
         if out is not None:
             tell(0.97, "drawing")
             with output_directory(out, case) as output:
                 output.figure("basins", basin.plot(smallest))
                 basin.save(output.directory / "basins.nc")
                 if found is not None and asked is not None:
-                    output.figure("gain-map", found.plot(change, told_by=asked.told_by))
+                    output.figure("gain-map", found.plot(least, told_by=asked.told_by))
                     found.save(output.directory / "gains.nc")
                 output.document("basins", document)
     if as_json:
@@ -95,7 +95,7 @@ def basins(
 
         print_basin(console(), basin, smallest, harmless)
         if found is not None and asked is not None:
-            print_gains(console(), found, change, asked.wanted, asked.told_by)
+            print_gains(console(), found, least, asked.wanted, asked.told_by)
     say_where(out)
 
 
