@@ -67,7 +67,7 @@ NotNegative = Annotated[float, Kind(lambda number: number >= 0.0, "a finite numb
 """A finite number above 0."""
 Infinity = Annotated[Any, Kind(lambda number: isinstance(number, float) and math.isinf(number), "infinity")]
 """Infinity, where a number may also be that: ``float | Infinity``."""
-Reals = Annotated["np.ndarray", Kind(lambda values: _kind_of_numbers(values) in "iuf", "finite real numbers")]
+Reals = Annotated["np.ndarray", Kind(lambda values: kind_of_numbers(values) in "iuf", "finite real numbers")]
 """Array of finite real numbers."""
 
 
@@ -174,10 +174,12 @@ def is_number(value: Any) -> bool:
     return _is_real(value) or (isinstance(value, Complex) and not isinstance(value, Real) and cmath.isfinite(value))
 
 
-def _kind_of_numbers(value: Any) -> str:
-    """Code of NumPy for the kind of a number or of an array of numbers, all finite; ``-`` for anything else."""
+def kind_of_numbers(value: Any) -> str:
+    """Code of NumPy for the kind of a number or of an array of numbers, all finite and none masked; ``-`` for anything else."""
     import numpy as np
 
+    if isinstance(value, np.ma.MaskedArray):
+        return "-"
     try:
         values = np.asarray(value)
     except (TypeError, ValueError, OverflowError):
@@ -185,7 +187,7 @@ def _kind_of_numbers(value: Any) -> str:
     return values.dtype.kind if values.dtype.kind in "iufc" and np.isfinite(values).all() else "-"
 
 
-_NUMBERS = Kind(lambda value: _kind_of_numbers(value) != "-", "finite numbers")
+_NUMBERS = Kind(lambda value: kind_of_numbers(value) != "-", "finite numbers")
 _ANYTHING = Kind(lambda value: True, "anything")
 _PLAIN: Mapping[Any, Kind] = {
     Any: _ANYTHING,

@@ -163,3 +163,28 @@ def test_the_program_ends_without_a_last_look_for_garbage():
     code = "import gc, sys; from carom.__main__ import run; sys.argv[1:] = ['--version']; run(); print(gc.get_freeze_count())"
     ended = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert int(ended.stdout.split()[-1]) > 10_000
+
+
+def test_a_sigterm_removes_unfinished_files(tmp_path):
+    code = """
+import os, pathlib, signal, sys
+from carom.cli import app
+from carom.files import unfinished
+
+def wait(**_):
+    with unfinished(pathlib.Path("."), folder=True):
+        print(*os.listdir())
+        os.kill(os.getpid(), signal.SIGTERM)
+
+app.app = wait
+sys.exit(app.main(["study"]))
+"""
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False, cwd=tmp_path)
+    assert done.stdout.strip().endswith(".part")
+    assert (done.returncode, list(tmp_path.iterdir())) == (143, [])
+
+
+def test_without_an_error_stream_the_exit_code_is_told():
+    for redirected in ("2>&-", "2>/dev/full"):
+        command = f"{sys.executable} -m carom study no-such-file.toml {redirected}"
+        assert subprocess.run(["sh", "-c", command], check=False).returncode == 2

@@ -160,3 +160,12 @@ def test_rotors_of_several_coordinates_are_dropped_in_stages():
 def test_a_kick_out_of_levitation_that_is_not_there_is_refused():
     with pytest.raises(InputError, match=r"^levitation = up to 1.97 clearances"):
         cm.simulate(HEAVY.replace(stiffness="1e5 N/m"), cm.kick(0.1))
+
+
+def test_a_given_release_does_not_ask_whether_levitation_would_hold():
+    """Its spring would sag by two thousand clearances, and plays no part."""
+    machine = cm.load("examples/dropped-rotor.toml", ["stiffness=1 kN/m"])
+    with pytest.raises(InputError, match=r"^levitation = "):
+        cm.simulate(machine, cm.drop(), 1.0)
+    for given in (cm.State(0j), Whirl(0.5, 0.0)):
+        assert cm.simulate(machine, cm.drop(given), 1.0).time == 1.0

@@ -36,7 +36,7 @@ class TestStarts:
         motion = simulate(Jeffcott(PAPER.replace(gamma=0.3)), kick(0.0), 100.0)
         assert np.allclose(motion.position(motion.sample(50)), motion.start.position, rtol=0, atol=1e-15)
 
-    @pytest.mark.parametrize("radius", [1.0 + 2e-12, 1.1, 1e300])
+    @pytest.mark.parametrize("radius", [1.0 + 2e-12, 1.1, 1e11])
     def test_outside_the_wall(self, rotor, radius):
         with pytest.raises(InputError, match=r"^start position = .*inside the wall, \|U\| <= 1") as caught:
             simulate(rotor, State(radius * cmath.exp(1j)), 1.0)
@@ -123,5 +123,28 @@ def test_a_motion_goes_on_from_where_another_has_ended():
     assert later.final.velocity == pytest.approx(whole.final.velocity, abs=1e-12)
     # Without weight a state says everything, whatever the time.
     assert cm.simulate(heavy.rotor, start, 11.0).final.time == 0.0
-    with pytest.raises(InputError, match=r"^start time = nan: a finite number"):
+    with pytest.raises(InputError, match=r"^start time = nan: a real number"):
         cm.simulate(heavy, cm.State(0.2, time=math.nan), 1.0)
+
+
+@pytest.mark.parametrize(
+    ("state", "says"),
+    [
+        (State(0.1, time=1j), "^start time = 1j: a real number"),
+        (State(0.1, time=1e308), "^start time = 1e\\+308: a real number, up to 1e\\+12"),
+        (State(0.1, velocity=1e99), "^start velocity = 1e\\+99: a speed up to 1e\\+12"),
+        (State(np.ma.masked), "^start position = --: finite numbers"),
+        (State(0.1, races=5), "^start races = 5: 0 finite"),
+        (State(0.1, shaft=(1j, 0)), "^start shaft = .*: 0 finite"),
+    ],
+)
+def test_a_state_of_other_things_than_numbers_is_refused(state, says):
+    with pytest.raises(InputError, match=says):
+        simulate(PAPER, state, 1.0)
+
+
+def test_a_time_that_no_computer_awaits_is_refused_in_the_unit_of_who_asks():
+    machine = cm.load("examples/keogh-cole.toml")
+    says = r"^until = 1e12 s: a finite time above 0, .*, up to 5.429e\+06 s \(1e\+09/Omega\); without it a motion is followed until"
+    with pytest.raises(InputError, match=says):
+        simulate(machine, kick("1 mm/s"), "1e12 s")

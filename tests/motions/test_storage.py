@@ -9,7 +9,8 @@ import pytest
 import xarray
 from machines import PAPER
 
-from carom.motions import State, Trajectory, simulate
+from carom.loading import load
+from carom.motions import State, Trajectory, drop, simulate
 from carom.outcome import InputError
 from carom.parameters import Scales
 
@@ -51,6 +52,18 @@ def test_a_motion_without_contact_is_kept_too(tmp_path):
     assert read.final == quiet.final
 
 
+def test_a_motion_of_several_stages_is_kept_with_all_of_them(tmp_path):
+    machine = load("examples/dropped-rotor.toml")
+    written = simulate(machine, drop(State(0j), regained_after="8 ms"), "20 ms")
+    assert len(written.parts) == 2
+    written.save(tmp_path / "stages.nc")
+    read = Trajectory.load(tmp_path / "stages.nc")
+    for one, other in zip(written.parts, read.parts, strict=True):
+        assert (one.begins, one.time, one.outcome) == (other.begins, other.time, other.outcome)
+        times = np.linspace(0.0, one.time, 50)
+        np.testing.assert_array_equal(one.at(times), other.at(times))
+
+
 def test_the_course_says_what_its_numbers_mean(motion):
     times = np.linspace(0.0, 20.0, 101)
     course = motion.to_dataset(times)
@@ -80,11 +93,12 @@ def test_a_file_that_holds_no_motion_is_refused(motion, tmp_path):
     with pytest.raises(InputError, match="damaged"):
         Trajectory.load(path)
 
-    from carom.files.netcdf import load, save
+    from carom.files.netcdf import load as load_dataset
+    from carom.files.netcdf import save
     from carom.motions.storage import SEGMENTS
 
     motion.save(path)
-    dataset = load(path, SEGMENTS)
+    dataset = load_dataset(path, SEGMENTS)
     for changes in ({"outcome": "FLYING"}, {"parameters": "{}"}, {"start": "[1]"}):
         save(dataset.assign_attrs(changes), path)
         with pytest.raises(InputError, match="must hold a motion that carom has written"):

@@ -273,3 +273,20 @@ def test_two_bearings_at_one_node_are_refused(load, kind, name):
     again = SMALL[start : end if end > 0 else None]
     with pytest.raises(InputError, match=f"^{name} node = 1: a node of its own for each"):
         load(SMALL + again)
+
+
+@pytest.mark.filterwarnings("ignore::carom.outcome.CaromWarning")
+def test_numbers_that_no_modes_come_from_are_refused_by_their_field(tmp_path):
+    """Eight micrometres for eight millimetres, and sections without number."""
+    section = '[[section]]\nlength = "1 mm"\nouter_diameter = "8 mm"\n'
+    first, rest = TEXT.index("[[section]]"), TEXT.index("[[disc]]")
+    for text, says in (
+        (
+            TEXT.replace('outer_diameter = "8 mm"', 'outer_diameter = "8 um"'),
+            r"^\[\[section\]\] 1: outer_diameter = 8e-06:",
+        ),
+        (TEXT[:first] + 501 * section + TEXT[rest:], r"\[\[section\]\] = 501 tables: at most 500 tables; neighbouring"),
+    ):
+        (tmp_path / "machine.toml").write_text(text, encoding="utf-8")
+        with pytest.raises(InputError, match=says):
+            cm.load(tmp_path / "machine.toml")

@@ -346,3 +346,11 @@ def test_too_many_chunks_are_refused(write):
     changes = {"damping": axis.format("gamma"), "speed": axis.format("mu")}
     with pytest.raises(InputError, match="chunk = 1: gives 4000000 chunks, at most 1000000 are allowed; 4 or more"):
         load_sweep(write(top=GOOD["top"] + "\nchunk = 1", **changes))
+
+
+def test_more_points_than_any_computer_follows_are_refused_at_once(write):
+    axis = "[axes.{}]\nfrom = 0.1\nto = 0.9\ncount = 1000000"
+    with pytest.raises(
+        InputError, match=r"^axes = 1000000 x 1000000 = 1000000000000 points: at most 1000000000: fewer"
+    ):
+        load_sweep(write(damping=axis.format("gamma"), speed=axis.format("mu")))

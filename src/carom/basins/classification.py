@@ -21,9 +21,9 @@ from carom.disturbances.following import NO_START, follow, require_start
 from carom.models import Model, Subject, model_of
 from carom.motions.ensembles import MOST_EVENTS, Endings
 from carom.motions.settling import PATIENCE, longest_time
-from carom.motions.starts import Until, time_until
+from carom.motions.starts import Until
 from carom.outcome import STEADY_WORDS, InputError, Outcome
-from carom.parameters import Scales
+from carom.parameters import Scales, own_time
 from carom.progress import ShowProgress, shows_progress
 
 CRITERIA = (
@@ -229,7 +229,7 @@ def map_basins(
     (6, 72)
     """
     rotor = model_of(machine)
-    until = longest_time(rotor) if until is None else time_until(until, rotor.scales)
+    until = longest_time(rotor) if until is None else own_time("until", until, rotor.scales)
     starts, endings, survival = _followed(
         rotor, disturbances, until, patience=patience, max_events=max_events, threads=threads, progress=progress
     )

@@ -23,9 +23,9 @@ from carom.models import Axis, Subject, model_of
 from carom.models.axes import Ends
 from carom.motions import Drop, State, Whirl, drop_loads, simulate
 from carom.motions.bearing_loads import DropLoads
-from carom.motions.starts import Until, time_until
+from carom.motions.starts import Until
 from carom.outcome import STEADY_WORDS, InputError
-from carom.parameters import Case, LoadLimits, Scales
+from carom.parameters import Case, LoadLimits, Scales, own_time
 from carom.parameters.told import number
 from carom.progress import Reporter, ShowProgress, shows_progress
 
@@ -216,7 +216,7 @@ def map_drops(
     present = [present_of(rotor, released, varied) for varied in axes]
     values = [values_of(*each) for each in zip(axes, present, ranges, shape, strict=True)]
     nodes = [moved(rotor, released, axes, (float(x), float(y))) for x in values[0] for y in values[1]]
-    longest = None if until is None else time_until(until, scales) * scales.time
+    longest = None if until is None else own_time("until", until, scales) * scales.time
     tell, rows = Reporter.of(progress, "following drops"), list[_Row]()
     for row in _followed(nodes, longest, max_events, threads or available_cores()):
         rows.append(row)

@@ -7,11 +7,12 @@ import io
 import json
 import math
 import os
+import signal
 import sys
 import threading
 import warnings
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any
@@ -101,14 +102,15 @@ def main(arguments: Sequence[str] | None = None) -> int:
     arguments : sequence of str, optional
         Command and options; by default those of the process.
     """
-    if sys.stdout is None:  # closed by the caller: discard the output
-        sys.stdout = Path(os.devnull).open("w")  # noqa: SIM115
+    for name in ("stdout", "stderr"):
+        if getattr(sys, name) is None:  # closed by the caller: discard the output
+            setattr(sys, name, Path(os.devnull).open("w"))  # noqa: SIM115
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):  # terminals that cannot show Greek letters get escapes
             stream.reconfigure(errors="backslashreplace")
     words = list(sys.argv[1:] if arguments is None else arguments) or ["--help"]
     try:
-        with _lost_interrupts_repeated(), _warnings_on_one_line():
+        with _lost_interrupts_repeated(), _warnings_on_one_line(), _ended_in_order():
             code = app(args=words, prog_name="carom", standalone_mode=False)
             sys.stdout.flush()
     except BrokenPipeError:
@@ -201,6 +203,23 @@ def _lost_interrupts_repeated() -> Iterator[None]:
 
 
 @contextmanager
+def _ended_in_order() -> Iterator[None]:
+    """Let a SIGTERM, as of a queue whose time is up, end the process as an error does, so that unfinished files are removed."""
+
+    def end(number: int, _: object) -> None:
+        raise SystemExit(128 + number)
+
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    usual = signal.signal(signal.SIGTERM, end)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGTERM, usual)
+
+
+@contextmanager
 def _warnings_on_one_line() -> Iterator[None]:
     """Show a warning of carom itself as one line, without its place in the code."""
     usual = warnings.showwarning
@@ -220,7 +239,8 @@ def _warnings_on_one_line() -> Iterator[None]:
 
 def _complain(message: str) -> None:
     """Print an error or a warning on one line."""
-    print(f"carom: {_on_one_line(message)}", file=sys.stderr)  # noqa: T201
+    with suppress(OSError):  # the exit code is told, even where the line cannot be
+        print(f"carom: {_on_one_line(message)}", file=sys.stderr)  # noqa: T201
 
 
 def _on_one_line(message: str) -> str:

@@ -19,6 +19,7 @@ from carom.parameters import (
     Requirement,
     Scales,
     Shock,
+    own_time,
     read_quantity,
     read_size,
     read_unbalance,
@@ -139,7 +140,7 @@ def with_requirement(case: Case, **given: str | int | None) -> Case:
 
 def read_time(text: str, scales: Scales | None, option: str = "--until") -> float:
     """Read a time above 0, in ``1/Ω`` or with a unit of time."""
-    return _above_zero(option, text, "time", read_size(option, text, "time", scales).own(scales))
+    return own_time(option, text, scales)
 
 
 def read_positive(option: str, text: str, kind: str, scales: Scales | None) -> float:

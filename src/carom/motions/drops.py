@@ -10,9 +10,9 @@ from carom.arguments import checked
 from carom.models import Model, Stage, Staged, Subject, Trigger, model_of
 from carom.models.in_bearing import races_of
 from carom.models.weight import carry_at_regain, direction_of_fall, levitation_of, weight_of, without_levitation
-from carom.motions.starts import Kick, State, time_until
+from carom.motions.starts import Kick, State
 from carom.outcome import InputError, shown
-from carom.parameters import own_size
+from carom.parameters import own_size, own_time
 
 
 @checked
@@ -97,7 +97,7 @@ class Drop:
         falling = without_levitation(rotor)
         if self.regained_after is None:
             return falling, start
-        time = time_until(self.regained_after, rotor.scales, "regained_after")
+        time = own_time("regained_after", self.regained_after, rotor.scales)
         return Staged((Stage(falling, Trigger(time=time), carry_at_regain(rotor)), Stage(rotor))), start
 
     def unbalance_angle(self, rotor: Model) -> float:
@@ -126,10 +126,10 @@ class Drop:
 
     def _moving(self, rotor: Model) -> State:
         """State at the release, with the races as the model has them."""
-        if isinstance(self.at, State):
-            return self.at
+        if self.at is not None:
+            return self.at if isinstance(self.at, State) else self.at.state(rotor)
         position, velocity = (values if len(values) > 1 else values[0] for values in levitation_of(rotor))
-        return State.of(position, velocity) if self.at is None else self.at.state(rotor)
+        return State.of(position, velocity)
 
 
 @checked

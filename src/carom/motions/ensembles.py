@@ -20,8 +20,9 @@ from carom.motions.settling import (
     low_interval,
     may_be_low,
 )
-from carom.motions.starts import LARGEST_SPEED, WALL_TOLERANCE, State, Until, time_until
+from carom.motions.starts import LARGEST_SPEED, WALL_TOLERANCE, State, Until
 from carom.outcome import InputError, Outcome
+from carom.parameters import own_time
 from carom.progress import Reporter, ShowProgress, shows_progress
 from carom.results import Result
 
@@ -175,7 +176,7 @@ def settle(
     which, started = (np.broadcast_to(values, shape).ravel() for values in (which, started))
     _check_starts(positions, velocities, all(rotor.system.is_planar for rotor in rotors))
     for rotor in rotors if until is not None or patience == 0 else ():
-        time_until(until, rotor.scales)
+        own_time("until", until, rotor.scales)
     positions, velocities = (values.reshape(len(which), *coordinates) for values in (positions, velocities))
     limits, threads = Limits(until, patience, max_events), threads or available_cores()
     tell = Reporter.of(progress, "following starts")

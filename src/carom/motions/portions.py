@@ -19,8 +19,9 @@ from carom.core.phases import AWAY, FLIGHT
 from carom.models import Stage
 from carom.motions.settling import begin_limits, fresh_memory, settled, time_limit
 from carom.motions.simulation import follow, tools
-from carom.motions.starts import WALL_TOLERANCE, State, amplitudes_of, time_until
+from carom.motions.starts import WALL_TOLERANCE, State, amplitudes_of
 from carom.outcome import Outcome, Phase
+from carom.parameters import own_time
 
 PORTION = 16_384
 """Most starts of one machine in a portion of work that threads share: some milliseconds to a second of work."""
@@ -106,7 +107,7 @@ def settle_parts(parts: list[Part], limits: Limits, threads: int) -> Iterator[in
 def _settle_part(part: Part, limits: Limits) -> int:
     """Follow motions of a part until none is left; return how many this call has followed."""
     rotor, trigger = part.stage.rotor, part.stage.trigger
-    until = time_limit(rotor, trigger) if limits.until is None else time_until(limits.until, rotor.scales)
+    until = time_limit(rotor, trigger) if limits.until is None else own_time("until", limits.until, rotor.scales)
     # What has settled may still be ended by a time.
     memory = fresh_memory(rotor, limits.patience if trigger.time == np.inf else 0, absorb=True, trigger=trigger)
     if not rotor.system.is_planar or trigger.watches_contact or (limits.until is not None and part.elapsed.any()):

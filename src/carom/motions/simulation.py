@@ -26,9 +26,10 @@ from carom.motions.settling import (
     settled,
     time_limit,
 )
-from carom.motions.starts import Kick, State, Until, amplitudes_of, time_until
+from carom.motions.starts import Kick, State, Until, amplitudes_of
 from carom.motions.trajectories import Trajectory
 from carom.outcome import Outcome
+from carom.parameters import own_time
 from carom.progress import Reporter, ShowProgress, shows_progress
 
 CHUNK = 4096
@@ -94,7 +95,7 @@ def simulate(
         model, start = start.stages(machine)
     state = start.state(model) if isinstance(start, Kick) else start
     settle = until is None if settle is None else settle
-    end = None if until is None and settle else time_until(until, model.scales)
+    end = None if until is None and settle else own_time("until", until, model.scales)
     options = _Options(settle, stop_at_chatter, patience, max_events, Reporter.of(progress, "simulating"))
     parts: list[Trajectory] = []
     for stage in stages_of(model):

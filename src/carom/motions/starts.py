@@ -8,7 +8,7 @@ from typing import Annotated, Any
 
 import numpy as np
 
-from carom.arguments import Kind, checked
+from carom.arguments import Kind, checked, kind_of_numbers
 from carom.core.layout import rub_workspace
 from carom.core.phases import AWAY, FLIGHT
 from carom.core.rub import phase_in_wall
@@ -16,10 +16,14 @@ from carom.core.wall import set_on_wall
 from carom.models import Model, System, depends_on_instant
 from carom.models.weight import levitation_of, weight_of
 from carom.outcome import InputError
-from carom.parameters import Scales, own_size
+from carom.parameters import own_size
 
-LARGEST_SPEED = 1e100
-"""Largest speed of a start: for far larger ones the bounds that prove a flight contact-free overflow."""
+LARGEST_SPEED = 1e12
+"""Largest speed of a start: far larger ones cross the clearance in less than a double tells apart from no time."""
+FARTHEST = 1e12
+"""Farthest place and largest time of a start: of larger ones no digits are left, of the wall or of a turn."""
+_REALS, _NUMBERS = "iuf", "iufc"
+"""Kinds of numbers of NumPy, without and with complex ones."""
 WALL_TOLERANCE = 1e-12
 """Distance from ``|U| = 1`` within which a start counts as on the wall."""
 _TIME = "a finite time above 0, in 1/Omega or with a unit, such as '2 s'"
@@ -147,14 +151,6 @@ def kick(speed: float | str, angle: float | str = 0.0, instant: float | str = 0.
     return Kick(speed, angle, instant)
 
 
-def time_until(until: float | str | None, scales: Scales | None, name: str = "until") -> float:
-    """Time to follow a motion, in ``1/Ω``, from a number or text with a unit; refuse what is no time above 0."""
-    time = until if until is None else own_size(name, until, "time", scales)
-    if time is None or time <= 0.0:
-        raise InputError(name, until, _TIME)
-    return time
-
-
 def amplitudes_of(rotor: Model, state: State) -> tuple[np.ndarray, np.ndarray]:
     """Amplitudes of a start, and its state of contact at each plane (see :func:`carom.core.advance.advance`)."""
     system = rotor.system
@@ -164,12 +160,14 @@ def amplitudes_of(rotor: Model, state: State) -> tuple[np.ndarray, np.ndarray]:
         values = np.asarray(given)
         if values.shape != coordinates:
             raise InputError(f"start {name}", given, f"{len(system.rest)} coordinate(s)")
-        if not (values.dtype.kind in "iufc" and np.isfinite(values).all()):
+        if kind_of_numbers(given) not in _NUMBERS:
             raise InputError(f"start {name}", given, "finite numbers")
     if np.abs(state.velocity).max() > LARGEST_SPEED:
         raise InputError("start velocity", state.velocity, f"a speed up to {LARGEST_SPEED:g}")
-    if not np.isfinite(state.time):
-        raise InputError("start time", state.time, "a finite number")
+    if np.abs(state.position).max() > FARTHEST:
+        raise InputError("start position", state.position, f"a place up to {FARTHEST:g} clearances from the centre")
+    if np.ndim(state.time) or kind_of_numbers(state.time) not in _REALS or abs(state.time) > FARTHEST:
+        raise InputError("start time", state.time, f"a real number, up to {FARTHEST:g} in 1/Omega")
     amplitudes = system.amplitudes(state.position, state.velocity, state.time)
     if state.races:
         _set_races(system, state.races, amplitudes)
@@ -201,7 +199,7 @@ def amplitudes_of(rotor: Model, state: State) -> tuple[np.ndarray, np.ndarray]:
 def _set_races(system: System, speeds: tuple[float, ...], amplitudes: np.ndarray) -> None:
     """Set the speeds of the surfaces of the races that turn."""
     places = () if system.races is None else system.arrays["race"][system.races.planes]
-    if len(speeds) != len(places) or not np.isfinite(speeds).all():
+    if np.shape(speeds) != (len(places),) or kind_of_numbers(speeds) not in _REALS:
         raise InputError("start races", speeds, f"{len(places)} finite number(s), one for each race that turns")
     amplitudes[np.array(places, int)] = speeds
 
@@ -209,7 +207,7 @@ def _set_races(system: System, speeds: tuple[float, ...], amplitudes: np.ndarray
 def _set_shaft(system: System, turn: tuple[float, ...], amplitudes: np.ndarray) -> None:
     """Set speed and angle of a shaft whose speed changes."""
     count = 0 if system.shaft is None else 2
-    if len(turn) != count or not np.isfinite(turn).all():
+    if np.shape(turn) != (count,) or kind_of_numbers(turn) not in _REALS:
         raise InputError("start shaft", turn, f"{count} finite numbers: speed and angle of a shaft whose speed changes")
     place = system.arrays["shaft"][0]
     amplitudes[place], amplitudes[place + 1] = cmath.rect(1.0, turn[1]), turn[0]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+from dataclasses import replace
 from importlib.metadata import version
 from typing import TYPE_CHECKING, Any
 
@@ -44,56 +45,69 @@ def trajectory_dataset(motion: Trajectory, times: np.ndarray | None = None) -> x
 
 
 def save_trajectory(motion: Trajectory, path: str | os.PathLike[str]) -> None:
-    """Write a motion as netCDF, completely or not at all, so that :func:`load_trajectory` gives the same motion."""
+    """Write a motion as netCDF, completely or not at all, so that :func:`load_trajectory` gives the same motion.
+
+    Each of its stages has dimensions, variables and attributes of its own, those after the first with its number.
+    """
     import xarray
 
-    if motion.earlier:
-        raise InputError("motion", f"{len(motion.parts)} stages", "a motion of one stage: save each of motion.parts")
-    columns: dict[str, Any] = {
-        "segment_starts": ("segment", motion.segment_starts, {"units": "1/Omega"}),
-        "segment_phases": (("segment", "plane"), motion.segment_phases, phase_flags(Phase)),
-        "event_planes": ("event", motion.event_planes),
-        "segment_amplitudes": (("segment", "mode", "part"), _parts(motion.segment_amplitudes)),
-        "arrivals": (("event", "mode", "part"), _parts(motion.arrivals)),
-        "segment_limits": (("segment", "axis"), motion.segment_limits),
-    }
-    attributes = _provenance(motion) | {
-        "start": json.dumps(_numbers(motion.start)),
-        "final": json.dumps(_numbers(motion.final)),
-        "begins": motion.begins,
-        "end_time": motion.time,
-        "multiplicity": motion.multiplicity,
-        "plane": motion.plane,
-    }
+    columns: dict[str, Any] = {}
+    attributes: dict[str, Any] = {"parts": len(motion.parts)}
+    for number, part in enumerate(motion.parts):
+        mark = _mark(number)
+        segment, event, mode, axis, plane = (f"{name}{mark}" for name in ("segment", "event", "mode", "axis", "plane"))
+        own: dict[str, Any] = {
+            "segment_starts": (segment, part.segment_starts, {"units": "1/Omega"}),
+            "segment_phases": ((segment, plane), part.segment_phases, phase_flags(Phase)),
+            "event_planes": (event, part.event_planes),
+            "segment_amplitudes": ((segment, mode, "part"), _parts(part.segment_amplitudes)),
+            "arrivals": ((event, mode, "part"), _parts(part.arrivals)),
+            "segment_limits": ((segment, axis), part.segment_limits),
+        }
+        told = _provenance(part) | {
+            "start": json.dumps(_numbers(part.start)),
+            "final": json.dumps(_numbers(part.final)),
+            "begins": part.begins,
+            "end_time": part.time,
+            "multiplicity": part.multiplicity,
+            "plane": part.plane,
+        }
+        columns |= {f"{name}{mark}": values for name, values in own.items()}
+        attributes |= {f"{name}{mark}": value for name, value in told.items()}
     netcdf.save(xarray.Dataset(columns, attrs=attributes), path)
+
+
+def _mark(number: int) -> str:
+    """What names of a stage end with."""
+    return f"_{number + 1}" if number else ""
 
 
 def load_trajectory(path: str | os.PathLike[str]) -> Trajectory:
     """Read a motion that :func:`save_trajectory` has written; refuse a file that is damaged or holds no motion."""
     dataset = netcdf.load(path, SEGMENTS)
-    attributes = dataset.attrs
     try:
-        rotor = model_from(attributes)
-        start, final = (_state(json.loads(attributes[name])) for name in ("start", "final"))
-        outcome = Outcome[attributes["outcome"]]
+        parts = tuple(_stage(dataset, _mark(number)) for number in range(int(dataset.attrs["parts"])))
     except (KeyError, TypeError, ValueError) as problem:
         raise InputError("file", str(path), f"must hold a motion that carom has written ({problem})") from None
-    amplitudes, arrivals = (dataset[name].values[..., 0] + 1j * dataset[name].values[..., 1] for name in COMPLEX)
+    return replace(parts[-1], earlier=parts[:-1])
+
+
+def _stage(dataset: xarray.Dataset, mark: str) -> Trajectory:
+    """One stage of a motion, whose names end with a mark."""
+    told = {name.removesuffix(mark): value for name, value in dataset.attrs.items() if name.endswith(mark)}
+    columns: dict[str, Any] = {name: dataset[f"{name}{mark}"].values for name in SEGMENTS}
+    columns |= {name: columns[name][..., 0] + 1j * columns[name][..., 1] for name in COMPLEX}
+    start, final = (_state(json.loads(told[name])) for name in ("start", "final"))
     return Trajectory(
-        rotor=rotor,
+        rotor=model_from(told),
         start=start,
-        outcome=outcome,
-        time=float(attributes["end_time"]),
+        outcome=Outcome[told["outcome"]],
+        time=float(told["end_time"]),
         final=final,
-        multiplicity=int(attributes["multiplicity"]),
-        segment_starts=dataset["segment_starts"].values,
-        segment_phases=dataset["segment_phases"].values,
-        event_planes=dataset["event_planes"].values,
-        segment_amplitudes=amplitudes,
-        arrivals=arrivals,
-        segment_limits=dataset["segment_limits"].values,
-        plane=int(attributes["plane"]),
-        begins=float(attributes["begins"]),
+        multiplicity=int(told["multiplicity"]),
+        plane=int(told["plane"]),
+        begins=float(told["begins"]),
+        **columns,
     )
 
 

@@ -58,7 +58,7 @@ from carom.parameters.requirement import (
 )
 from carom.parameters.scaling import UNITS, Scales
 from carom.parameters.settings import SETTINGS, field_to_set
-from carom.parameters.sizes import Size, own_size, own_unbalance, read_size, read_unbalance
+from carom.parameters.sizes import Size, own_size, own_time, own_unbalance, read_size, read_unbalance
 from carom.parameters.terms import ENTRIES, HELPER_FIELDS, SETTABLE, TERM_FIELDS, TERMS, field_to_vary
 from carom.parameters.touchdown_bearing import TOUCHDOWN_FIELDS, TouchdownBearing
 
@@ -103,6 +103,7 @@ __all__ = [
     "field_to_vary",
     "in_terms_of",
     "own_size",
+    "own_time",
     "own_unbalance",
     "read_quantity",
     "read_size",

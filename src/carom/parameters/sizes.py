@@ -31,6 +31,11 @@ _GRAVITIES = re.compile(r"(.*[0-9.])\s*g\s*", re.DOTALL)
 """Accelerations such as ``20 g``, as engineers write shocks; in tables of units ``g`` is the gram."""
 
 
+_TIME = "a finite time above 0, in 1/Omega or with a unit, such as '2 s'"
+LONGEST_TIME = 1e9
+"""Longest time to follow a motion, in ``1/Ω``: more than a hundred million turns, which take hours."""
+
+
 class Size(NamedTuple):
     """A size as it was given.
 
@@ -122,3 +127,17 @@ def own_unbalance(name: str, given: object, scales: Scales | None) -> float:
         if isinstance(given, str)
         else own_size(name, given, "unbalance", scales)
     )
+
+
+@checked
+def own_time(name: str, given: object, scales: Scales | None) -> float:
+    """Time to follow a motion, in units of the equations; refuse what is none above 0, and what no computer awaits."""
+    if given is None:
+        raise InputError(name, None, _TIME)
+    time = read_size(name, given, "time", scales).own(scales)
+    if not 0.0 < time <= LONGEST_TIME:
+        own = f"{LONGEST_TIME:g}/Omega"
+        most = own if scales is None else f"{LONGEST_TIME * scales.time:.4g} s ({own})"
+        advice = "; without it a motion is followed until its end is known" if name.endswith("until") else ""
+        raise InputError(name, given, f"{_TIME}, up to {most}{advice}")
+    return time

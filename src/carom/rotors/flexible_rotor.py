@@ -60,6 +60,9 @@ class FlexibleRotor(FreeRotor):
             if not all(isinstance(each, kind) for each in listed) or (kind is Section and not listed):
                 raise InputError(name, shown(given), f"a sequence of carom.rotors.{kind.__name__}")
             object.__setattr__(self, name, listed)
+        if len(self.sections) > MOST_ELEMENTS:
+            allowed = f"at most {MOST_ELEMENTS}; neighbouring sections of one diameter are one section"
+            raise InputError("sections", len(self.sections), allowed)
         if not isinstance(self.damping, Damping):
             allowed = "carom.rotors.ModalDamping, such as ModalDamping(0.005), or ProportionalDamping"
             raise InputError("damping", shown(self.damping), allowed)
@@ -67,10 +70,16 @@ class FlexibleRotor(FreeRotor):
         longest = self.length / ELEMENTS if given is None else read_quantity(LONGEST, given)
         object.__setattr__(self, "longest_element", longest)
         if sum(self.divisions) > MOST_ELEMENTS:
-            allowed = f"a length with which the shaft has at most {MOST_ELEMENTS} elements, such as {self.length / ELEMENTS:.3g} m"
+            allowed = f"a length with which the shaft has at most {MOST_ELEMENTS} elements, such as {max(self.length / ELEMENTS, 2.0 * longest):.3g} m"
             raise InputError("longest_element", shown(longest if given is None else given), allowed)
         for disc in self.discs:
             self.check_node("disc node", disc.node)
+
+    def _refused_modes(self) -> InputError:
+        place, thin = min(enumerate(self.sections), key=lambda each: each[1].outer_diameter)
+        thickest = max(section.outer_diameter for section in self.sections)
+        allowed = f"a diameter nearer to that of the others (up to {thickest:g} m): beside them it bends like a hair; is its unit right?"
+        return InputError(f"[[section]] {place + 1}: outer_diameter", thin.outer_diameter, allowed)
 
     @property
     def length(self) -> float:

@@ -106,7 +106,16 @@ class FreeRotor(ABC):
     @cached_property
     def free_modes(self) -> FreeModes:
         """All modes of the rotor at rest, free in space: translation, tilt, and bending from the lowest on."""
-        return free_modes(self.mass_matrix, self.stiffness_matrix, self.translation, self.tilt)
+        try:
+            with np.errstate(divide="raise", over="raise", invalid="raise"):
+                return free_modes(self.mass_matrix, self.stiffness_matrix, self.translation, self.tilt)
+        except (np.linalg.LinAlgError, FloatingPointError):
+            raise self._refused_modes() from None
+
+    def _refused_modes(self) -> InputError:
+        """The error of numbers of so different sizes that no modes can be found."""
+        allowed = "stiffness and masses of one rotor: with these numbers its modes are lost in rounding"
+        return InputError("K", f"from {self.stiffness_matrix.diagonal().min():g} on", allowed)
 
     @cached_property
     def translation(self) -> np.ndarray:

@@ -34,7 +34,7 @@ from carom.rotors.controllers import PID, PID_FIELDS, TransferFunction
 from carom.rotors.damping import MODAL_FIELDS, PROPORTIONAL_FIELDS, ModalDamping, ProportionalDamping
 from carom.rotors.discs import DISC_FIELDS, Disc
 from carom.rotors.flexible_machine import ACCURACY, FlexibleMachine
-from carom.rotors.flexible_rotor import LONGEST, FlexibleRotor
+from carom.rotors.flexible_rotor import LONGEST, MOST_ELEMENTS, FlexibleRotor
 from carom.rotors.free_rotor import FreeRotor
 from carom.rotors.machine_parameters import unknown
 from carom.rotors.magnetic_bearing import BEARING_FIELDS, MagneticBearing
@@ -256,8 +256,14 @@ def _warn_of_proportions(machine: FlexibleMachine) -> None:
 
 def _each(tables: MachineTables, kind: str, problems: Problems, read: Callable[[dict[str, Any]], _Part]) -> list[_Part]:
     """The parts of all tables of a kind; errors name their table."""
-    found = []
-    for number, entry in enumerate(tables.parts.get(kind, []), start=1):
+    found: list[_Part] = []
+    listed = tables.parts.get(kind, [])
+    if len(listed) > MOST_ELEMENTS:
+        advice = "; neighbouring sections of one diameter are one section" if kind == "section" else ""
+        allowed = f"at most {MOST_ELEMENTS} tables{advice}"
+        problems.errors.append(InputError(f"[[{kind}]]", f"{len(listed)} tables", allowed))
+        return found
+    for number, entry in enumerate(listed, start=1):
         known = PART_ENTRIES[kind]
         errors = [unknown_name(name, given, known, f"[[{kind}]]") for name, given in entry.items() if name not in known]
         try:

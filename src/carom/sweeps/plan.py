@@ -27,6 +27,8 @@ if TYPE_CHECKING:
 else:
     Model = Subject = object  # imported when a plan is made, and refused there
 
+MOST_POINTS = 1_000_000_000
+"""Largest number of points of a sweep: a point takes a thousandth of a second at least."""
 MOST_CHUNKS = 1_000_000
 """Largest number of chunks of a sweep: each chunk is several files."""
 SECONDS_A_CHUNK = 4.0
@@ -194,6 +196,9 @@ def cut(shape: tuple[int, ...], task: Task, chunk: int | None) -> tuple[int, ...
     allowed; too many are refused.
     """
     points = math.prod(shape)
+    if points > MOST_POINTS:
+        allowed = f"at most {MOST_POINTS}: fewer values along an axis, or fewer axes"
+        raise InputError("axes", f"{' x '.join(map(str, shape))} = {points} points", allowed)
     wanted = chunk or max(int(SECONDS_A_CHUNK / task.seconds), -(-points // (MOST_CHUNKS // 4)), 1)
     sizes = []
     for count in reversed(shape):
