@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from decimal import Decimal
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -41,6 +41,14 @@ KINDS = tuple(_OPTIONS)
 Kind = Annotated[str, typer.Option(metavar="KIND", help=f"What happens to the rotor: {', '.join(KINDS)}.")]
 Cells = Annotated[
     str | None, typer.Option(metavar="NxM", help="Cells of size and direction, or of x and y; N for releases.")
+]
+Instant = Annotated[
+    str | None,
+    typer.Option(
+        metavar="ANGLE",
+        help="Angle by which the shaft has turned when they come, such as '90 deg', where that matters (weight, limits of the magnetic bearings, "
+        "bearings that differ in two directions); by default each cell has an instant of its own.",
+    ),
 ]
 Starts = Annotated[int | None, typer.Option(metavar="N", help="Instead of a grid: a seeded sample of this size.")]
 Seed = Annotated[int | None, typer.Option(metavar="S", help="Seed of the sample, by default 0.")]
@@ -169,6 +177,19 @@ def read_plan(
     if grid is None:
         return Grid(model, (RELEASES,) if dimensions == 1 else (CELLS, CELLS))
     return Grid(model, _cells("--grid", grid, dimensions))
+
+
+def at_instant(plan: Plan, instant: str | None, case: Case) -> Plan:
+    """The same plan, the cells of a grid at one instant of the turn if it is given."""
+    from carom.cli.starts import read_instant
+    from carom.disturbances import Grid
+    from carom.models import model_of
+
+    if instant is None:
+        return plan
+    if not isinstance(plan, Grid):
+        raise InputError("--instant", instant, "allowed only with a grid: the starts of a sample come at any instant")
+    return replace(plan, instant=read_instant(instant, model_of(case)))
 
 
 def _model(case: Case, kind: str, sizes: dict[str, str | None]) -> Disturbance:

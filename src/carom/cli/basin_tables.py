@@ -154,7 +154,7 @@ def _losses(basin: Basin, smallest: SmallestLoss | None, harmless: float) -> lis
         lines.append(
             f"Up to {shown(smallest.all_back)} all that were tried came back, {smallest.fresh} of them fresh: with 95 % confidence "
             f"fewer than {100.0 * smallest.share_below:.2g} % of those{beyond} up to that size are lost. As far as {smallest.tried} trials "
-            f"tell, the smallest that is lost {said}."
+            f"tell, the smallest that is lost{' in any direction, at any instant of the turn,' if basin.instants else ''} {said}."
         )
     elif smallest.size is not None:
         lines.append(
@@ -177,7 +177,10 @@ def _where(basin: Basin, smallest: SmallestLoss) -> str:
     if smallest.kind == "unbalance-step":
         return f"from an eccentricity that differs by it at {math.degrees(angle):+.0f} deg from the heavy side"
     heavy = math.degrees(math.remainder(angle - basin.rotor.unbalance_phase, 2.0 * math.pi))
-    return f"in direction {angle:.4f} rad ({heavy:+.0f} deg from the heavy side)"
+    turned = (
+        "" if smallest.instant is None else f" when the shaft has turned by {math.degrees(smallest.instant):.0f} deg"
+    )
+    return f"in direction {angle:.4f} rad ({heavy:+.0f} deg from the heavy side){turned}"
 
 
 def _measures(basin: Basin) -> list[str]:

@@ -22,6 +22,7 @@ def basins(
     settings: Settings = None,
     disturbance: options.Kind = "kick",
     grid: options.Cells = None,
+    instant: options.Instant = None,
     starts: options.Starts = None,
     seed: options.Seed = None,
     fastest: options.Fastest = None,
@@ -58,7 +59,7 @@ def basins(
             "node": node,
             "release": release,
         }
-        plan = options.read_plan(case, disturbance, sizes, grid, starts, seed)
+        plan = options.at_instant(options.read_plan(case, disturbance, sizes, grid, starts, seed), instant, case)
         asked = options.read_gains(case, gains, plane, x, y, wanted)
         check_output(out)
         source = _source(machine, settings)

@@ -35,6 +35,14 @@ BladeLoss = Annotated[
         "before it, and at which node of a flexible machine, such as '5000 g mm,30 deg'.",
     ),
 ]
+Instant = Annotated[
+    str | None,
+    typer.Option(
+        metavar="ANGLE",
+        help="Angle by which the shaft has turned when it happens, such as '90 deg', by default 0: then the x axis that turns with the shaft "
+        "passes that of the room. It matters under weight, with limits of the magnetic bearings and where bearings act differently in two directions.",
+    ),
+]
 Dropped = Annotated[
     bool,
     typer.Option(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
@@ -27,6 +28,7 @@ def simulate(
     kick: options.Kick = None,
     shock: options.Shock = None,
     blade_loss: options.BladeLoss = None,
+    instant: options.Instant = None,
     drop: options.Dropped = False,
     regained_after: options.BackAfter = None,
     until: options.Until = None,
@@ -49,10 +51,16 @@ def simulate(
     _check_logs(logs)
     if regained_after is not None and not drop:
         raise InputError("--regained-after", regained_after, "allowed only with --drop")
+    if instant is not None and drop:
+        raise InputError(
+            "--instant", instant, "not allowed with --drop; carom drop --phase sets where the unbalance is"
+        )
     ways = {"--start": start, "--kick": kick, "--shock": shock, "--blade-loss": blade_loss}
     with progress("simulating (the kernels are compiled on first use)") as tell:
         end = None if until is None else read_time(until, case.parameters.scales)
-        rotor, given, echo = taken(case, read_release(case, ways, regained_after)) if drop else _read(case, ways)
+        rotor, given, echo = (
+            taken(case, read_release(case, ways, regained_after)) if drop else _read(case, ways, instant)
+        )
         motion = _follow(rotor, given, kick, end, tell if out is None else tell.part(0.0, 0.4))
         _write_logs(logs, motion)
         if out is not None:
@@ -131,9 +139,9 @@ def _shown(motion: Trajectory) -> tuple[Trajectory, str]:
     return follow(rotor, motion.start, until_decayed(rotor, motion.time)), "returns to levitation"
 
 
-def _read(case: Case, ways: dict[str, str | None]) -> tuple[Model, State | Kick, Echo]:
+def _read(case: Case, ways: dict[str, str | None], given_instant: str | None) -> tuple[Model, State | Kick, Echo]:
     """Read the machine that moves, its start and what was taken; refuse wrong input before kernels are loaded."""
-    from carom.cli.starts import read_blade_loss, read_kick, read_shock, read_start
+    from carom.cli.starts import read_blade_loss, read_instant, read_kick, read_shock, read_start
     from carom.disturbances import echo
     from carom.models.subjects import numbers_of
 
@@ -151,18 +159,24 @@ def _read(case: Case, ways: dict[str, str | None]) -> tuple[Model, State | Kick,
         loss, phase = read_blade_loss(text, scales)
         rotor = _rotor(case)
         before = None if numbers_of(rotor) is None else rotor.value("rho")
-        return *loss.release(rotor, phase), echo.echo_of_blade_loss(loss, phase, before, scales)
+        instant = read_instant(given_instant, rotor)
+        said = echo.echo_of_blade_loss(loss, phase, before, scales)
+        return *loss.release(rotor, phase, instant), echo.echo_at(said, rotor, instant)
     if option == "--shock":
         pulse, angle = read_shock(text, case)
         rotor = _rotor(case)
+        instant = read_instant(given_instant, rotor)
         said = echo.echo_of_shock(pulse.peak, pulse.duration, angle, rotor.unbalance_phase, scales)
-        return *pulse.stages(rotor, angle), said
+        return *pulse.stages(rotor, angle, instant), echo.echo_at(said, rotor, instant)
     if option == "--kick":
         kick, rotor = read_kick(text, scales), _rotor(case)
+        instant = read_instant(given_instant, rotor)
         said = echo.echo_of_kick(float(kick.speed), float(kick.angle), rotor.unbalance_phase, scales)
-        return rotor, kick, said
+        return rotor, replace(kick, instant=instant), echo.echo_at(said, rotor, instant)
     state, rotor = read_start(text, scales, case.touchdown is not None and case.touchdown.yields), _rotor(case)
-    return rotor, state, echo.echo_of_start(state, rotor.unbalance_phase, scales)
+    instant = read_instant(given_instant, rotor)
+    said = echo.echo_of_start(state, rotor.unbalance_phase, scales)
+    return rotor, replace(state, time=instant), echo.echo_at(said, rotor, instant)
 
 
 def _rotor(case: Case) -> Model:

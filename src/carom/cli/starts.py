@@ -29,7 +29,7 @@ from carom.parameters.terms import SETTABLE, set_by
 
 if TYPE_CHECKING:
     from carom.disturbances import BaseShock, BladeLoss
-    from carom.models import Axis
+    from carom.models import Axis, Model
     from carom.motions.drops import Whirl
     from carom.motions.starts import Kick, State
 
@@ -76,6 +76,18 @@ def read_whirl(text: str, scales: Scales | None) -> Whirl:
     from carom.motions.drops import Whirl
 
     return Whirl(*sizes, place)
+
+
+def read_instant(text: str | None, rotor: Model, option: str = "--instant") -> float:
+    """Read the angle by which the shaft has turned at a disturbance, by default 0; refuse it where it says nothing."""
+    if text is None:
+        return 0.0
+    from carom.models import depends_on_instant
+
+    if not depends_on_instant(rotor):
+        allowed = "allowed only under weight, with limits of the magnetic bearings, or where bearings act differently in two directions"
+        raise InputError(option, text, allowed)
+    return _angle(option, text, rotor.scales)
 
 
 def read_phase(option: str, text: str, scales: Scales | None) -> float:

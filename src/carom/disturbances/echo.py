@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import cmath
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -73,6 +73,14 @@ def echo_of_kick(speed: float, angle: float, phase: float, scales: Scales | None
     """A velocity kick out of levitation; ``phase`` is that of the unbalance, as in the other echoes."""
     words = f"Kick: {told(speed, 'velocity', scales)} at {told_angle(angle)}; {angles_words(phase)}"
     return Echo("kick", words, {"speed": (speed, "velocity"), "angle": (angle, "")})
+
+
+def echo_at(echo: Echo, rotor: Model, instant: float) -> Echo:
+    """The same, with the instant of the turn where that matters."""
+    if not depends_on_instant(rotor):
+        return echo
+    words = f"{echo.words}; the shaft has turned by {told_angle(instant)} since the x axis that turns with it passed that of the room"
+    return replace(echo, words=words, sizes={**echo.sizes, "instant": (instant, "")})
 
 
 def echo_of_shock(peak: float, duration: float, angle: float, phase: float, scales: Scales | None) -> Echo:

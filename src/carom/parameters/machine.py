@@ -51,7 +51,8 @@ class Machine(Tabular, pydantic.BaseModel):
     speed : float or str
         Rotational speed Ω, rad/s; text in rpm, rev/s, rad/s or deg/s.
     unbalance_phase : float or str, optional
-        Phase φ of the unbalance, rad; 0 by default.  It only fixes from where angles on the rotor are counted.
+        Phase φ of the unbalance, rad; 0 by default.  It fixes from where angles on the rotor are counted, and under weight where the unbalance
+        is at time zero; shares and smallest sizes do not depend on it, since disturbances are drawn at any instant of the turn.
     friction : float or str
         Coefficient μ of friction between rotor and touchdown bearing.
     restitution : float or str

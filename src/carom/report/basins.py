@@ -7,7 +7,8 @@ from matplotlib.figure import Figure
 from carom import plots
 from carom.basins import Cells, map_cells
 from carom.disturbances import BaseShock, BladeLoss, Disturbance, Grid, KickPlane
-from carom.models import Model, axis
+from carom.disturbances.echo import ITS_INSTANT
+from carom.models import Model, axis, depends_on_instant
 from carom.parameters import in_terms_of
 from carom.studies import Study
 from carom.studies.survives import Kind
@@ -40,7 +41,8 @@ def decisive(study: Study) -> Kind:
 
 def caption(study: Study) -> str:
     """What is to be seen."""
-    return _SEEN[decisive(study)]
+    words = _SEEN[decisive(study)]
+    return f"{words} Each comes {ITS_INSTANT}." if depends_on_instant(study.rotor) else words
 
 
 def draw(study: Study) -> Figure:

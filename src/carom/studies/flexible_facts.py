@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
+from carom.disturbances.echo import ITS_INSTANT
+from carom.models import depends_on_instant
 from carom.outcome import Outcome
 from carom.parameters.told import number
 from carom.rotors import ReducedMachine
@@ -118,6 +120,7 @@ def _survived(study: FlexibleData) -> Iterator[Fact]:
     for trial in study.trials:
         drawn, largest = trial.drawn, trial.largest
         text = f"{drawn.count} of {drawn.total} {_size(study, trial)} came back, and {largest.count} of {largest.total} at the full size in all directions"
+        text += f", each {ITS_INSTANT}" if depends_on_instant(study.rotor) else ""
         yield Fact("Verdict", text, KINDS[trial.kind], "sampled", trial.document(), disturbances=trial.kind)  # type: ignore[index]
     if study.beyond:
         kick = study.required.kick

@@ -12,7 +12,9 @@ import numpy as np
 
 from carom.attractors import MotionName
 from carom.basins import Share, map_basins
+from carom.basins.losses import GOLDEN
 from carom.disturbances import BaseShock, BladeLoss, Disturbance, Sample, VelocityKick
+from carom.disturbances.coordinates import TURN
 from carom.models import Model
 from carom.motions import Trajectory, drop_loads, kick, simulate
 from carom.motions.bearing_loads import DropLoads, PlaneLoads
@@ -24,7 +26,8 @@ from carom.studies.load_checks import LoadCheck, checks_of_planes
 from carom.studies.verdict_facts import KINDS
 
 DIRECTIONS = 12
-"""Directions of a kick or a shock, and phases of the change of the unbalance by the loss of a blade, that are followed at their full size."""
+"""Directions of a kick or a shock, and phases of the change of the unbalance by the loss of a blade, that are followed at their full size; each
+at an instant of its own, where this matters."""
 TIMES = (1.0, 2.0, 4.0, 8.0)
 """Multiples of the required kick that are tried in these directions."""
 SEED = 1
@@ -127,34 +130,37 @@ class FlexibleTrial(Result):
 
 def trials_of(case: Case, rotor: Model, required: Required, count: int, tell: Reporter) -> tuple[FlexibleTrial, ...]:
     """Follow the kinds of disturbances that must be survived: drawn up to their size, and at it in all directions."""
-    kinds: list[tuple[str, float, Disturbance, Callable[[float], _Followed]]] = []
+    kinds: list[tuple[str, float, Disturbance, Callable[[float, float], _Followed]]] = []
     kicks = VelocityKick(required.kick)
-    kinds.append(("kick", required.kick, kicks, lambda angle: _kicked(rotor, required.kick, angle)))
+    kinds.append(("kick", required.kick, kicks, lambda *at: _kicked(rotor, required.kick, *at)))
     if required.shock is not None:
         shock = BaseShock(required.shock.peak, required.shock.duration)
-        kinds.append(("shock", shock.peak, shock, lambda angle: _ended(*shock.stages(rotor, angle))))
+        kinds.append(("shock", shock.peak, shock, lambda *at: _ended(*shock.stages(rotor, *at))))
     if required.blade_loss is not None:
         loss = BladeLoss(required.blade_loss, required.blade_loss_node)
-        kinds.append(("blade_loss", required.blade_loss, loss, lambda angle: _ended(*loss.release(rotor, angle))))
+        kinds.append(("blade_loss", required.blade_loss, loss, lambda *at: _ended(*loss.release(rotor, *at))))
     found = []
     for place, (kind, size, model, at) in enumerate(kinds):
         part = tell.part(place / len(kinds), (place + 1) / len(kinds))
         part(0.0, f"disturbances: {KINDS[kind].lower()}")  # type: ignore[index]
         basin = map_basins(rotor, Sample(model, count, SEED))
         ends = Counter({name: basin.share_of(name).count for name in basin.motions})
-        followed = [at(2.0 * math.pi * number / DIRECTIONS) for number in range(DIRECTIONS)]
+        followed = [at(*pair) for pair in all_round()]
         found.append(_trial(kind, size, basin.share_recovered, ends, followed, case.limits))
     return tuple(found)
+
+
+def all_round() -> list[tuple[float, float]]:
+    """Directions all around, each with an instant of the turn of its own, spread evenly over both, rad."""
+    numbers = np.arange(DIRECTIONS)
+    return list(zip((TURN * numbers / DIRECTIONS).tolist(), (TURN * (GOLDEN * numbers % 1.0)).tolist(), strict=True))
 
 
 def kicks_beyond(rotor: Model, required: Required) -> tuple[tuple[float, int], ...]:
     """Multiples of the required kick, and how many of those in all directions came back; up to the first of which some are lost."""
     found = []
     for times in TIMES:
-        back = sum(
-            _kicked(rotor, times * required.kick, 2.0 * math.pi * number / DIRECTIONS).back
-            for number in range(DIRECTIONS)
-        )
+        back = sum(_kicked(rotor, times * required.kick, *pair).back for pair in all_round())
         found.append((times, back))
         if back < DIRECTIONS:
             break
@@ -168,8 +174,8 @@ class _Followed(NamedTuple):
     back: bool
 
 
-def _kicked(rotor: Model, speed: float, angle: float) -> _Followed:
-    return _ended(rotor, kick(speed, angle).state(rotor))
+def _kicked(rotor: Model, speed: float, angle: float, instant: float) -> _Followed:
+    return _ended(rotor, kick(speed, angle, instant).state(rotor))
 
 
 def _ended(rotor: Model, start: Any) -> _Followed:

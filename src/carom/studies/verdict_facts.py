@@ -6,6 +6,8 @@ from collections.abc import Iterator
 from typing import Any, Literal
 
 from carom.basins import Share, SmallestLoss
+from carom.disturbances.echo import ANY_INSTANT
+from carom.models import depends_on_instant
 from carom.outcome import REGULAR_BOUNCING, STEADY_WORDS, Outcome
 from carom.results import fields_of, in_si
 from carom.studies.endings import ending_words
@@ -93,11 +95,13 @@ def _survived(study: StudyData, name: Kind, found: SmallestLoss) -> Fact:
             parts.append(f"all tried came back up to {size(found.all_back)}")
         ends = lost_to(study, name, found)
         parts.append(f"smallest lost {size(found.size)}{ends and f' ({ends})'}")
-    label, of = KINDS[name], ""
+    label, of, timed = KINDS[name], "", depends_on_instant(study.rotor)
     if name == "shock" and study.survives is not None:
         of = f"of {study.wording.time(study.survives.duration)}, "
     elif name == "blade_loss":
-        of = "change of the unbalance, at the worst phase: "
+        of = f"change of the unbalance, at the worst phase{' and instant of the turn' if timed else ''}: "
+    if timed and name != "blade_loss":
+        of += f"{ANY_INSTANT}, "
     return Fact(
         "Verdict",
         f"{of}{', '.join(parts)}",
@@ -122,7 +126,7 @@ def survived_document(study: StudyData, name: Kind, found: SmallestLoss) -> dict
     sizes = fields_of(
         found, harmless_up_to="harmless", all_up_to="all_back", smallest_lost="size", searched_up_to="largest"
     )
-    document = sizes | fields_of(found, "tried", "fresh", "angle")
+    document = sizes | fields_of(found, "tried", "fresh", "angle", "instant")
     document["lost_to"] = None if found.outcome is None else found.outcome.label
     if name == "shock" and study.survives is not None:
         document["duration"] = study.survives.duration

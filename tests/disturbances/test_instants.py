@@ -1,0 +1,83 @@
+"""Where something stands in the fixed frame the instant of the turn is part of a disturbance."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+import carom as cm
+from carom.attractors import DisturbanceSet
+from carom.basins.shares import Population
+from carom.disturbances import AnyState, BladeLoss, ContactRelease, Grid, Sample, UnbalanceStep, VelocityKick
+from carom.disturbances.echo import ANY_INSTANT
+from carom.models import depends_on_instant, model_of
+from carom.outcome import InputError
+
+MACHINE, PLAIN = "examples/dropped-rotor.toml", "examples/keogh-cole.toml"
+TURNED = 0.7
+
+
+def turned(angle):
+    """The machine whose unbalance is ahead by an angle, when both frames coincide."""
+    return model_of(cm.load(MACHINE)).replace(phi=model_of(cm.load(MACHINE)).value("phi") + angle)
+
+
+@pytest.mark.parametrize(
+    ("model", "values", "angles"),
+    [
+        (VelocityKick(0.3), (0.2, 1.1), (1,)),
+        (cm.BaseShock(0.2, 2.0), (0.1, 1.1), (1,)),
+        (BladeLoss(0.1), (1.1,), ()),
+        (UnbalanceStep(0.05), (0.03, 0.4), ()),
+        (AnyState(0.3), (0.5, 0.2, 0.2, 1.0), (1, 3)),
+        (ContactRelease(), (1.0,), (0,)),
+    ],
+)
+def test_an_instant_later_is_an_unbalance_ahead(model, values, angles):
+    """Only the angle between the unbalance and the room counts: the same start, seen in a frame that is turned."""
+    here = model.starts(turned(0.0), *(np.array([value]) for value in values), instant=np.array([TURNED]))
+    ahead = [np.array([value + TURNED * (place in angles)]) for place, value in enumerate(values)]
+    there = model.starts(turned(TURNED), *ahead)
+    assert here.exists.all()
+    assert here.positions * np.exp(1j * TURNED) == pytest.approx(there.positions, abs=1e-13)
+    assert here.velocities * np.exp(1j * TURNED) == pytest.approx(there.velocities, abs=1e-13)
+    assert here.begins - there.begins == pytest.approx(TURNED)
+
+
+def test_levitation_at_many_instants_is_that_at_each():
+    assert not depends_on_instant(model_of(cm.load(PLAIN)))
+    weighs = turned(0.0)
+    times = np.array([0.0, 0.4, 2.5])
+    together = weighs.system.kicked(np.zeros(3), times)
+    for place, time in enumerate(times.tolist()):
+        alone = weighs.system.states_of(weighs.system.forced_at(time)[None])[0]
+        assert [complex(part[place, 0]) for part in together] == pytest.approx(alone.tolist(), abs=1e-15)
+    assert weighs.system.translation_velocity(together[1][:, 0], times) == pytest.approx(0.0, abs=1e-15)
+
+
+def test_samples_are_over_the_instant_where_it_matters():
+    kicks, weighs, plain = VelocityKick(0.2), turned(0.0), model_of(cm.load(PLAIN))
+    for plan in (Sample(kicks, 400, 3), Grid(kicks, (20, 20)), DisturbanceSet(400, 3, 0.2)):
+        begins = plan.starts(weighs).begins
+        assert np.unique(begins).size == 400
+        assert np.histogram(begins, 4, (0.0, 2.0 * math.pi))[0].min() > 70
+        assert not plan.starts(plain).begins.any()
+    # Sizes and directions do not depend on whether the instant matters.
+    heavy, light = (Sample(kicks, 50, 3).starts(each) for each in (weighs, turned(0.0).rotor))
+    pushes = weighs.system.translation_velocity(heavy.velocities, heavy.begins)
+    assert pushes == pytest.approx(light.velocities, abs=1e-15)
+    one = Grid(kicks, (4, 6), 0.3)
+    assert (one.starts(weighs).begins == 0.3).all()
+    assert Population.of_model(kicks, None, ANY_INSTANT).words.endswith("c_r Ω at any instant of the turn")
+
+
+def test_an_own_disturbance_must_take_the_instant():
+    class Still(VelocityKick):
+        def starts(self, rotor, *values):
+            return super().starts(rotor, *values)
+
+    assert Sample(Still(0.1), 3).starts(model_of(cm.load(PLAIN))).exists.all()
+    with pytest.raises(InputError, match="one whose starts take the instant"):
+        Sample(Still(0.1), 3).starts(turned(0.0))
