@@ -134,8 +134,11 @@ def test_page_basins_study_and_sweep_give_one_share(settings):
     assert max(low for low, _ in samples) < min(high for _, high in samples)
     for cells in (page, grid):
         assert max(low for low, _ in samples) - 0.01 < cells.fraction < min(high for _, high in samples) + 0.01
-    told = basin_message(map_kicks(rotor, kicks, 20, 2.0 * kicks.usual), rotor)
-    assert told["share_remark"].startswith("of kicks up to 166 mm/s, by area: ")
+    found = map_kicks(rotor, kicks, 20, 2.0 * kicks.usual)
+    assert basin_message(found, rotor)["share_remark"].startswith("of kicks up to 166 mm/s, by area: ")
+    coarse = basin_message(found, rotor, coarse=True)
+    assert coarse["sentence"].startswith("Coarse so far: ")
+    assert (coarse["lost"], coarse["lost_size"]) == ("–", 0.0)
 
 
 @pytest.mark.jit_only

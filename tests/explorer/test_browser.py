@@ -182,7 +182,9 @@ def test_typed_units_place_slider_and_cursor(page, name, text, value):
     assert said(page, "carom.begun.parts.cursor.location") == pytest.approx(value, rel=1e-11)
     low, high = (float(page.locator(f'[data-name="{name}"]').get_attribute(f"data-{end}")) for end in ("low", "high"))
     share = math.log(value / low) / math.log(high / low) if name == "stiffness" else (value - low) / (high - low)
-    assert float(page.locator(f'[data-name="{name}"] .slider').input_value()) == pytest.approx(1000 * share, abs=1)
+    assert float(page.locator(f'[data-name="{name}"] .slider').input_value()) == pytest.approx(
+        1000 * share, abs=1
+    )  # its steps
 
 
 def test_two_pages_are_independent(page, open_page):

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import pytest
 from browsing import DESK, answered, fits, flown, point, said
 from playwright.sync_api import expect
+
+from carom.explorer.computing.kicks import TRIED
 
 pytestmark = pytest.mark.jit_only
 MACHINE = Path(__file__).parents[2] / "examples" / "balanced-rotor.toml"
@@ -55,7 +58,7 @@ def test_it_opens_on_a_green_core_with_arms_and_on_a_kick_that_returns_beside_on
     back, lost = said(page, "carom.basin.kicks")
     largest, smallest = said(page, "[carom.basin.message.largest, carom.basin.message.lost_size]")
     sizes = [(kick["first"] ** 2 + kick["second"] ** 2) ** 0.5 for kick in (back, lost)]
-    assert sizes[0] == pytest.approx(sizes[1], rel=0.1)
+    assert abs(sizes[0] - sizes[1]) < largest / TRIED  # the width of a ring
     # The first is in an arm: beyond kicks that are lost, and in the picture.
     assert smallest < sizes[0] < largest
     share = said(page, "carom.basin.message.endings.find((one) => one.back).share")
@@ -207,3 +210,43 @@ def test_nothing_moves_by_itself_where_motion_is_not_wished_or_a_link_was_follow
         page.wait_for_function("() => window.carom && carom.sweep && carom.sweep.state === 'over'")
         assert said(page, "carom.number") == 1
         context.close()
+
+
+def test_the_address_keeps_from_where_the_flights_are_seen(page, open_page):
+    page.get_by_label("seen from outside").check()
+    again = open_page(said(page, "location.hash"))
+    assert said(again, "carom.flights.map((one) => one.frame)") == ["fixed", "fixed"]
+    again.close()
+    page.locator("#reset").click()
+    expect(page.get_by_label("turns with the shaft")).to_be_checked()
+    assert said(page, "carom.flights.map((one) => one.frame)") == ["rotating", "rotating"]
+
+
+def luminance(colour: str) -> float:
+    """Relative luminance of WCAG 2.2, of ``#rrggbb`` or ``rgb(r, g, b)``."""
+    numbers = re.findall("[0-9a-f]{2}", colour) if colour.startswith("#") else re.findall(r"\d+", colour)
+    parts = [int(one, 16 if colour.startswith("#") else 10) / 255.0 for one in numbers[:3]]
+    linear = [part / 12.92 if part <= 0.04045 else ((part + 0.055) / 1.055) ** 2.4 for part in parts]
+    return sum(weight * part for weight, part in zip((0.2126, 0.7152, 0.0722), linear, strict=True))
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_what_is_told_of_before_a_change_says_so_and_can_be_read(page, scheme):
+    page.emulate_media(color_scheme=scheme)
+    page.evaluate(
+        "() => { document.getElementById('headline').classList.add('old'); carom.panels.pale('hardest', true); }"
+    )
+    said_so = "[getComputedStyle(document.getElementById('headline'), '::before'), getComputedStyle(document.getElementById('hardest').parentNode.querySelector('h3'), '::after')].map((one) => one.content)"
+    assert all("efore the change" in words for words in said(page, said_so))
+    for name in ("headline", "hardest", "hardest-remark"):
+        ink, opacity = said(
+            page,
+            f"[getComputedStyle(document.getElementById('{name}')).color, getComputedStyle(document.getElementById('{name}')).opacity]",
+        )
+        for paper in ("--paper", "--card"):
+            under = luminance(said(page, f"getComputedStyle(document.documentElement).getPropertyValue('{paper}')"))
+            low, high = sorted((luminance(ink), under))
+            assert opacity == "1"
+            assert (high + 0.05) / (low + 0.05) >= 4.5  # level AA
+    page.emulate_media(color_scheme="light")
+    page.evaluate("() => carom.panels.pale('hardest', false)")

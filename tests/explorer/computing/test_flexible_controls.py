@@ -7,7 +7,13 @@ import dataclasses
 import pytest
 from flexible_machines import munich
 
-from carom.explorer.computing.flexible_controls import SINGLE, controls_of_machine, machine_with, values_of_machine
+from carom.explorer.computing.flexible_controls import (
+    SINGLE,
+    controls_of_machine,
+    in_entries,
+    machine_with,
+    values_of_machine,
+)
 from carom.outcome import InputError
 from carom.parameters import TouchdownBearing
 from carom.rotors import TransferFunction
@@ -74,3 +80,24 @@ def test_a_curved_stiffness_is_told_in_its_own_unit():
     for text in ("2e9", "2e9 N/m^1.5"):
         changed = machine_with(machine, controls, {"touchdown_stiffness": text})
         assert changed.touchdowns[0].bearing.stiffness == 2e9
+
+
+@pytest.mark.parametrize(
+    ("text", "eccentricity"), [("G 2.5", 2.5e-3 / 200.0), ("G2.5", 2.5e-3 / 200.0), ("20 um", 20e-6)]
+)
+def test_an_unbalance_may_be_typed_as_a_balance_grade_at_the_speed_set_or_as_an_eccentricity(text, eccentricity):
+    machine, typed = munich(), {"unbalance": text, "speed": "200 rad/s"}
+    found = machine_with(machine, named(machine), typed)
+    assert found.unbalances[0].size == pytest.approx(
+        machine.rotor.mass * eccentricity, rel=1e-8
+    )  # nine digits are told
+    told = in_entries(machine, named(machine), typed)["unbalance"]
+    assert machine.replace(unbalance=told).unbalances == found.unbalances  # as the copied options say it
+
+
+def test_of_several_unbalances_each_has_an_equal_part_of_a_grade():
+    machine = munich()
+    machine = dataclasses.replace(machine, unbalances=(machine.unbalances[0],) * 2)
+    for name in ("unbalance", "unbalance_2"):
+        found = machine_with(machine, named(machine), {name: "G 2.5"})
+        assert found.unbalances[1].size == pytest.approx(0.5 * machine.rotor.mass * 2.5e-3 / machine.speed, rel=1e-8)

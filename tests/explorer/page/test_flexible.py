@@ -72,6 +72,8 @@ def test_a_machine_is_answered_with_everything_and_the_picture_is_filled_in(page
     pictures = answers["basin"]
     counts = [int(re.search(r": (\d+) followed", each["share_remark"])[1]) for each in pictures]
     assert counts == sorted(counts)
+    assert [each["coarse"] for each in pictures] == [*[True] * (len(pictures) - 2), False, False]
+    assert all(each["lost"] == "–" and each["lost_size"] == 0.0 for each in pictures if each["coarse"])
     assert counts[0] < counts[-1] == (pictures[-1]["cells"] != 255).sum()
     assert [name for name, _ in page.seen].index("told") > [name for name, _ in page.seen].index("basin")
     assert "--set 'derivative=6 A s/m'" in answers["exports"][-1]["options"]

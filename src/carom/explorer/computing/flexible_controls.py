@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, replace
 
 from carom.explorer.computing.controls import Control, with_unit
 from carom.outcome import InputError, Problems, shown
-from carom.parameters import Field, read_quantity
+from carom.parameters import MACHINE_FIELDS, SETTINGS, TERM_FIELDS, Field, read_quantity
 from carom.rotors import FlexibleMachine
 
 SHAFT, MAGNETS, TOUCHDOWNS, SINGLE = (
@@ -123,13 +124,37 @@ def values_of_machine(machine: FlexibleMachine, controls: Mapping[str, Control])
     return found
 
 
+def in_entries(
+    machine: FlexibleMachine, controls: Mapping[str, Control], settings: Mapping[str, str]
+) -> dict[str, str]:
+    """Settings with each unbalance that is stated by a term, as ``G 2.5`` or by an eccentricity, as what ``--set`` reads.
+
+    A grade is that of the whole rotor at the speed that is set with it; its unbalances have equal parts of it.
+    """
+    texts = {name: str(text) for name, text in settings.items()}
+    try:
+        speed = (
+            read_quantity(SETTINGS["speed"], with_unit("rpm", texts["speed"])) if "speed" in texts else machine.speed
+        )
+    except InputError:  # refused where it is read
+        speed = machine.speed
+    for name, text in texts.items():
+        if not name.startswith("unbalance") or name not in controls:
+            continue
+        for field, per_unit in ((TERM_FIELDS["balance_grade"], 1e-3 / speed), (MACHINE_FIELDS["eccentricity"], 1.0)):
+            with suppress(InputError):
+                size = read_quantity(field, with_unit(controls[name].unit, text)) * per_unit * machine.rotor.mass
+                texts[name] = f"{1e6 * size / len(machine.unbalances):.9g} g mm"
+    return texts
+
+
 def machine_with(
     machine: FlexibleMachine, controls: Mapping[str, Control], settings: Mapping[str, str]
 ) -> FlexibleMachine:
     """The machine with other values of its controls, as texts in the units of the page or of their own; refuse all that cannot be used at once."""
     problems, texts = Problems(), {}
     fields = machine.varied
-    for name, text in settings.items():
+    for name, text in in_entries(machine, controls, settings).items():
         if name not in controls:
             problems.errors.append(InputError(shown(name), shown(text), f"one of: {', '.join(controls)}"))
             continue

@@ -8,7 +8,7 @@ from collections.abc import Mapping
 
 from carom.explorer.computing.controls import Control
 from carom.explorer.computing.exports import Origin, mark_of
-from carom.explorer.computing.flexible_controls import controls_of_machine, machine_with, values_of_machine
+from carom.explorer.computing.flexible_controls import controls_of_machine, in_entries, machine_with, values_of_machine
 from carom.explorer.computing.flexible_exports import as_program, as_set, as_simulate, settings_of
 from carom.explorer.computing.flexible_kicks import (
     COARSE,
@@ -106,7 +106,9 @@ class FlexibleKind:
 
     def exports(self, shown: Shown) -> Message:
         """What can be copied."""
-        settings = settings_of(self.origin, self.controls, shown.settings)
+        settings = settings_of(
+            self.origin, self.controls, in_entries(shown.subject.machine, self.controls, shown.settings)
+        )
         (right, up), unit = self.kicks(shown)[0], self._shown_in[1]
         return {
             "options": as_set(settings),

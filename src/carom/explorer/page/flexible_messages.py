@@ -7,11 +7,10 @@ from typing import Any
 
 import numpy as np
 
-from carom.basins.shares import percent
 from carom.explorer.computing.flexible_kicks import KickPicture
 from carom.explorer.computing.flexible_levitation import Levitating
 from carom.explorer.computing.flexible_motion import AtPlane, FlexibleMotion
-from carom.explorer.page.messages import units_message
+from carom.explorer.page.messages import WAITS, sentence, shown_share, units_message
 from carom.models import Model
 from carom.outcome import STEADY_WORDS
 from carom.parameters.fields import RPM
@@ -60,14 +59,16 @@ def picture_message(found: KickPicture, rotor: Model, required: float, begun: fl
     """The picture of kicks as far as it is filled in; `required` is in units of the equations, `begun` is the first range in the unit that people are told."""
     factor, unit = shown_in("velocity", rotor.scales)
     cells, endings = found.cells
-    lost, whole = found.smallest_lost, found.share_up_to(np.inf)
+    coarse = not found.whole
+    lost, whole = None if coarse else found.smallest_lost, found.share_up_to(np.inf)
     judged, share = required, found.share_up_to(required * (1.0 + 1e-9))
     if required > found.largest * (1.0 + 1e-9) or share.total < FEW:
         judged, share = found.largest, whole
-    so_far = "" if found.whole else " so far"
+    so_far = " so far" if coarse else ""
     words = f"kicks up to {told(judged, 'velocity', rotor.scales)}"
     return {
         "kind": "kick",
+        "coarse": coarse,
         "nouns": ["kick", "kicks"],
         "axes": ["kick to the right", "kick upward"],
         "cells": cells,
@@ -78,26 +79,18 @@ def picture_message(found: KickPicture, rotor: Model, required: float, begun: fl
         "rest": STEADY_WORDS["contact-free"],
         "levitates": True,
         "endings": [asdict(ending) for ending in endings],
-        "share": percent(found.share.fraction) if whole.total else "–",
+        "share": shown_share(found.share, coarse) if whole.total else "–",
         "share_remark": f"by area, of kicks up to {told(found.largest, 'velocity', rotor.scales)}: {whole.total:,} followed{so_far}",
-        "sentence": _sentence(share.count, share.total, words),
+        "sentence": sentence(share, words, coarse) if share.total else f"Following {words} …",
         "harmless": 0.0,
         "lost_size": 0.0 if lost is None else factor * lost,
-        "lost": "none" if lost is None else told(lost, "velocity", rotor.scales),
-        "lost_remark": f"of {whole.total:,} kicks followed{so_far}; smaller ones may be lost too",
+        "lost": "–" if coarse else "none" if lost is None else told(lost, "velocity", rotor.scales),
+        "lost_remark": WAITS if coarse else f"of {whole.total:,} kicks followed; smaller ones may be lost too",
         "rest_position": [0.0, 0.0],
         "outward": [1.0, 0.0],
         "legend_rest": LOOKS["contact-free"].colour,
         "opening": begun,
     }
-
-
-def _sentence(back: int, total: int, words: str) -> str:
-    if total == 0:
-        return f"Following {words} …"
-    if back == total:
-        return f"All {total:,} {words} that were tried come back to levitation."
-    return f"{back:,} of {total:,} {words} that were tried come back to levitation."
 
 
 def flexible_motion_message(motion: FlexibleMotion, rotor: Model) -> Message:

@@ -53,14 +53,19 @@ def units_message(scales: Scales | None) -> Message:
     return message
 
 
-def basin_message(found: KickMap, rotor: Model) -> Message:
+WAITS = "told when the picture is fine"
+"""What a coarse picture says of the smallest that is lost."""
+
+
+def basin_message(found: KickMap, rotor: Model, coarse: bool = False) -> Message:
     """The picture of a basin, its legend, and what is read off it; sizes in the unit that people are told."""
     plane, scales = found.plane, rotor.scales
     factor, unit = plane.shown(scales)
-    lost, share, words = found.smallest_lost, *judged_share(found, rotor)
+    lost, (share, words) = None if coarse else found.smallest_lost, judged_share(found, rotor)
     required = None if plane.required is None else plane.own(plane.required, scales)
     return {
         "kind": plane.name,
+        "coarse": coarse,
         "nouns": list(plane.nouns),
         "axes": list(plane.axes),
         "cells": found.cells,
@@ -71,15 +76,15 @@ def basin_message(found: KickMap, rotor: Model) -> Message:
         "rest": found.rest.words,
         "levitates": found.rest.levitates,
         "endings": [asdict(ending) for ending in found.endings],
-        "share": percent(share.fraction),
-        "share_remark": f"of {words}, by area: {share.count:,} of {share.total:,} cells of this picture",
-        "sentence": _sentence(found, share, words),
+        "share": shown_share(share, coarse),
+        "share_remark": f"of {words}, by area: {share.count:,} of {share.total:,} cells of {'a coarse' if coarse else 'this'} picture",
+        "sentence": sentence(share, words, coarse)
+        if found.rest.levitates
+        else f"It cannot levitate with these values. The kicks disturb {found.rest.words}.",
         "harmless": plane_harmless(found, rotor) / found.largest,
         "lost_size": 0.0 if lost is None else factor * lost,
-        "lost": "none" if lost is None else told(lost, plane.scale, scales),
-        "lost_remark": f"no {plane.nouns[0]} of the picture is lost"
-        if lost is None
-        else "smallest of the picture; a finer search follows",
+        "lost": "–" if coarse else "none" if lost is None else told(lost, plane.scale, scales),
+        "lost_remark": WAITS if coarse else f"of {found.share.total:,} {plane.nouns[1]} tried; a finer search follows",
         "rest_position": [found.rest.place.real, found.rest.place.imag],
         "outward": [found.rest.outward.real, found.rest.outward.imag] if plane.name == "kick" else [1.0, 0.0],
         "legend_rest": LOOKS["contact-free"].colour if found.rest.levitates else LOOKS["rub"].colour,
@@ -106,12 +111,22 @@ def plane_harmless(found: KickMap, rotor: Model) -> float:
     return harmless_blade_loss(rotor)
 
 
-def _sentence(found: KickMap, share: Share, words: str) -> str:
-    if not found.rest.levitates:
-        return f"It cannot levitate with these values. The kicks disturb {found.rest.words}."
+def sentence(share: Share, words: str, coarse: bool) -> str:
+    """What comes back of those that were tried; a coarse picture says nothing of all or none."""
+    tried = f"of {share.total:,} {words} that were tried"
+    if coarse:
+        return f"Coarse so far: {share.count:,} {tried} came back to levitation."
     if share.count in (0, share.total):
-        return f"{'All' if share.count else 'None'} of the {words} {'come' if share.count else 'comes'} back to levitation."
-    return f"{percent(share.fraction)} of {words} come back to levitation."
+        whole = "All" if share.count else "None"
+        return f"{whole} {tried} {'come' if share.count else 'comes'} back to levitation."
+    return f"{percent(share.fraction)} {tried} come back to levitation."
+
+
+def shown_share(share: Share, coarse: bool) -> str:
+    """A share as a large number: one of a coarse picture that is nothing or all is no per cent."""
+    if coarse and share.count in (0, share.total):
+        return f"{share.count:,} of {share.total:,}"
+    return percent(share.fraction)
 
 
 def motion_message(motion: KickedMotion, rotor: Model) -> Message:

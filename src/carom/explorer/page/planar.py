@@ -161,7 +161,7 @@ class PlanarKind:
         """Picture that is computed fast enough to follow a dragged slider, as fine as that allows."""
         self._largest(shown)  # which takes seconds the first time, and would be taken for the cost of the picture
         cells, began = self._cells(PATIENCE, COARSE), time.perf_counter()
-        message = self._picture(shown, cells, tell)
+        message = self._picture(shown, cells, tell, coarse=True)
         cost = (time.perf_counter() - began) / message["size"] ** 2
         self._cost = min(cost, 0.5 * (self._cost + cost))  # a single slow machine has little effect
         return message
@@ -174,14 +174,14 @@ class PlanarKind:
         cells = int(min(most, max(COARSEST, (patience / self._cost) ** 0.5)))
         return most if cells > 0.85 * most else cells
 
-    def _picture(self, shown: Shown, cells: int, tell: Tell) -> Message:
+    def _picture(self, shown: Shown, cells: int, tell: Tell, coarse: bool = False) -> Message:
         rotor, plane = shown.subject.rotor, self._plane(shown)
         found = map_kicks(rotor, plane, cells, self._largest(shown), tell)
         name, factor = plane.name, plane.shown(rotor.scales)[0]
         if name not in self._pairs:
             self._pairs[name] = tuple((factor * one, factor * other) for one, other in telling_pair(found))
         opening = self._ranges.get(name, self._largest(shown)) / plane.per_unit(rotor.scales)
-        return {**messages.basin_message(found, rotor), "opening": opening}
+        return {**messages.basin_message(found, rotor, coarse), "opening": opening}
 
     def _loss(self, shown: Shown, tell: Tell) -> Message:
         rotor, plane = shown.subject.rotor, self._plane(shown)

@@ -3,7 +3,7 @@
 carom.address = {};
 
 (() => {
-  const machine = at("controls").dataset.machine, views = ["show", "range", "kick", "other", "ring"];
+  const machine = at("controls").dataset.machine, views = ["show", "range", "kick", "other", "ring", "frame"];
   const depth = () => (history.state && history.state.depth) || 0;
   const told = () => at("undo").toggleAttribute("disabled", depth() === 0);
 

@@ -4,8 +4,8 @@
   carom.on("basin", (message) => {
     if (message.refused) return;
     if (exact.loss !== message.number) carom.panels.tile("lost", message.lost, message.lost_remark);
-    if (exact.hardest !== message.number) at("hardest").classList.add("old");
-    if (exact.verdict !== message.number) for (const card of ["headline", "advice", "tried"]) at(card).classList.add("old");
+    if (exact.hardest && exact.hardest !== message.number) carom.panels.pale("hardest", true);
+    if (exact.verdict && exact.verdict !== message.number) for (const card of ["headline", "advice", "tried"]) at(card).classList.add("old");
     if (carom.held) for (const what of ["motion", "beside", "figures", "table"]) carom.panels.pale(what, true);
   });
   carom.on("loss", (message) => {
@@ -14,6 +14,7 @@
   });
   carom.on("hardest", (message) => {
     exact.hardest = message.number;
+    carom.panels.pale("hardest", false);
     carom.panels.tile("hardest", message.refused ? "–" : message.value, message.refused || message.remark);
   });
   // Proven is only what is asked for: the picture of another machine, range or kind of disturbance shows nothing of it.

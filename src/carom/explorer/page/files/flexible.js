@@ -15,7 +15,7 @@ carom.follows = true; // a dragged slider waits for how the machine levitates, n
   carom.on("levitating", (message) => {
     carom.controls.arrived(message.number);
     // What contact does is pale until it is known of this machine.
-    for (const what of ["motion", "figures", "basin", "told"]) if ((carom.known[what] || 0) < message.number) pale(what, true);
+    for (const what of ["motion", "figures", "basin", "told"]) if (carom.known[what] < message.number) pale(what, true);
     if (message.refused) { at("headline").textContent = message.refused; at("advice").textContent = ""; return; }
     at("headline").textContent = message.lead;
     at("advice").textContent = message.more;

@@ -29,10 +29,9 @@ carom.panels = { exports: null };
   });
   for (const wish of ["cancel", "resume"]) at(wish).addEventListener("click", () => { carom.requests[wish] += 1; });
 
-  const tile = (name, value, remark, old = false) => {
+  const tile = (name, value, remark) => {
     at(name).textContent = value;
     at(`${name}-remark`).textContent = remark;
-    at(name).classList.toggle("old", old);
   };
   carom.panels.tile = tile;
   // What does not come with the picture belongs to one machine: it is pale until it is known of the present one.

@@ -79,12 +79,12 @@ carom.stage = {};
   };
 
   // The ring stands at the smallest that is lost, until it is pulled to a size of which one wishes to know what comes back inside.
-  const ringOf = (message) => state.ring || (smallest.number >= message.number ? smallest.size : message.lost_size);
+  const ringOf = (message) => state.ring || (message.coarse ? 0 : smallest.number >= message.number ? smallest.size : message.lost_size);
   const note = () => {
     const message = basin.message, [one, many] = message.nouns, [share, cells] = basin.ring ? basin.shareWithin(basin.ring) : [1, 0];
     at("ring-note").textContent = basin.ring
-      ? `${share > 0.999 && share < 1 ? "almost 100" : short(100 * share, 3)} % of the ${many} inside the ring come back${cells < 30 ? " (few cells; narrow the range)" : ""}. Drag the ring to ask about another size.`
-      : `No ${one} of this picture is lost.`;
+      ? `${message.coarse ? "Coarse so far: about " : ""}${share > 0.999 && share < 1 ? "almost 100" : short(100 * share, 3)} % of the ${many} inside the ring come back${cells < 30 ? " (few cells; narrow the range)" : ""}. Drag the ring to ask about another size.`
+      : message.coarse ? "The picture is coarse: what is lost, and what comes back inside a ring, is told when it is fine." : `None of the ${many} tried is lost.`;
     legend(message);
   };
   const ringed = () => { basin.setRing(ringOf(basin.message)); note(); };
@@ -143,10 +143,10 @@ carom.stage = {};
   };
   slots.forEach((name, slot) => carom.on(name, moved(slot)));
   at("replay").addEventListener("click", () => { for (const one of flights) one.play(); });
-  for (const choice of document.querySelectorAll('input[name="frame"]')) {
-    const turn = () => { for (const one of flights) one.turnWith(choice.value); };
+  const choices = [...document.querySelectorAll('input[name="frame"]')], frames = choices.map((one) => one.value);
+  for (const choice of choices) {
     if (choice.checked) for (const one of flights) one.frame = choice.value;
-    choice.addEventListener("change", turn);
+    choice.addEventListener("change", () => { for (const one of flights) one.turnWith(choice.value); carom.address.keep(); });
   }
 
   at("range").addEventListener("input", () => {
@@ -170,12 +170,16 @@ carom.stage = {};
   carom.stage.kept = () => ({
     ...(state.kind !== "kick" && { show: state.kind }), ...(state.largest && { range: short(state.largest) }),
     ...(state.kicks && Object.fromEntries(state.kicks.map((kick, slot) => [kept[slot], pair(kick)]))), ...(state.ring && { ring: short(state.ring) }),
+    ...(!choices.find((one) => one.checked).defaultChecked && { frame: flights[0].frame }),
   });
   carom.stage.reset = () => carom.stage.restore({});
   carom.stage.restore = (given) => {
     const number = (text) => (Number(text) > 0 && Number.isFinite(Number(text)) ? Number(text) : null);
     const kick = (text) => { const [first, second] = (text || "").split(",").map(Number); return Number.isFinite(first) && Number.isFinite(second) && text ? { first, second } : null; };
     const both = slots.map((_, slot) => kick(given[kept[slot]])), known = [...at("kind").options].some((one) => one.value === given.show);
+    const frame = frames.includes(given.frame) ? given.frame : choices.find((one) => one.defaultChecked).value;
+    for (const one of choices) one.checked = one.value === frame;
+    for (const one of flights) if (one.frame !== frame) one.turnWith(frame);
     pointed = null;
     if (both.includes(null)) for (const one of flights) one.clear();
     Object.assign(state, { kind: known ? given.show : "kick", largest: number(given.range), kicks: both.includes(null) ? null : both, active: 0, ring: number(given.ring) });
