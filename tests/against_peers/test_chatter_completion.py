@@ -137,4 +137,5 @@ def test_loop_with_other_heights_completes_as_derived(chatter):
         assert abs(velocity - expected_velocity) < ROUNDING
         if rebound.sticks == (chatter in STICKING.values()):
             predicted = abs(float(chatter.rotor.predicted_error(rebound)))
-            assert abs(position - exact) == pytest.approx(predicted, rel=0.1, abs=ROUNDING)
+            # Of the leading order, from which the earliest completion of all differs by 6.4 %, and each later one by less.
+            assert abs(position - exact) == pytest.approx(predicted, rel=0.07, abs=ROUNDING)

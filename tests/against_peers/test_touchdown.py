@@ -85,11 +85,12 @@ def test_stiff_wall_converges_with_the_root_of_its_stiffness(touchdown, nearest)
         errors.append(np.abs(soft.position - position).max())
         ends.append(np.array([soft.position[-1] - position[-1], soft.velocity[-1] - velocity[-1]]))
     factors = np.divide(errors[:-1], errors[1:])
-    np.testing.assert_allclose(factors, np.sqrt(10.0), rtol=0.15)
+    # What is left of the next order falls by √10 too: at most 9.9 and 3.2 % were measured.
+    assert (np.abs(factors / np.sqrt(10.0) - 1.0) < [0.11, 0.035]).all()
     assert errors[-1] < nearest
     # Without the term in 1/√k there remains one in 1/k.
     limits = [np.abs(np.sqrt(10.0) * fine - rough).max() / (np.sqrt(10.0) - 1.0) for rough, fine in pairwise(ends)]
-    assert limits[0] / limits[1] == pytest.approx(10.0, rel=0.15)
+    assert limits[0] / limits[1] == pytest.approx(10.0, rel=0.03)  # 2.1 % of the next order
     assert limits[1] < nearest / 10.0
 
 
@@ -107,7 +108,8 @@ def test_overdamped_wall_converges_where_nothing_rebounds():
         )
         errors.append(np.abs(soft.position - position).max())
         assert soft.phases[-2:] == [compliant_wall.RELEASED, compliant_wall.FLIGHT]
-    assert np.divide(errors[:-1], errors[1:]) == pytest.approx(10.0, rel=0.5)
+    # Of first order in 1/c, with a rest that falls from 38 to 8 %.
+    assert (np.abs(np.divide(errors[:-1], errors[1:]) / 10.0 - 1.0) < [0.4, 0.09]).all()
     assert errors[-1] < 2e-5
 
 

@@ -96,7 +96,7 @@ def test_what_has_not_repeated_but_approaches_an_orbit_becomes_periodic():
     assert character.kind == "periodic"
     assert character.orbit.impacts == 1
     assert character.exponents.across[0] == pytest.approx(
-        np.log(abs(character.orbit.multipliers.values[0])) / 3.0, rel=0.2
+        np.log(abs(character.orbit.multipliers.values[0])) / 3.0, rel=5e-3
     )
 
 

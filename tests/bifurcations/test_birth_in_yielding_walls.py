@@ -118,7 +118,7 @@ def test_the_orbits_born_on_a_rigid_wall_are_born_on_a_spring_too(stiffness, sma
     first, second = np.abs(errors)
     assert second.max() < 1e-2
     assert second == pytest.approx(
-        0.1 * first, rel=0.05
+        0.1 * first, rel=0.01
     )  # in proportion to the gap: it shrinks into the boundary equilibrium
 
 
@@ -151,7 +151,7 @@ def test_the_shorter_orbit_ends_where_its_flight_has_no_time():
     assert (np.diff(stiffnesses) < 0.0).all()
     # Near its end the stiffness changes by the square of the time of flight.
     _, end = np.polyfit(flights[-3:] ** 2, stiffnesses[-3:], 1)
-    assert end == pytest.approx(35.7, abs=0.05)
+    assert end == pytest.approx(35.7, abs=0.05)  # three digits are told of it
 
     times, law, gap = (*unknowns[:2], flights[-1]), voigt(unknowns[2]), 1e-4
     orbit = orbit_near(rotor_in(law, beside(gap)), WORD, Scaled(law).start(times, gap, beside(gap)))
@@ -197,7 +197,9 @@ def test_without_stiffness_at_the_edge_levitation_goes_on_smoothly_until_it_fold
 
     below, above = small_rubs(0.999 * outside), small_rubs(1.001 * outside)
     assert len(below) == 2
-    assert below == pytest.approx([depth, depth], rel=0.1)
+    # They part by the root of 0.001, at which their mean stays the depth of the fold.
+    assert below == pytest.approx([depth, depth], rel=0.03)
+    assert np.mean(below) == pytest.approx(depth, rel=1e-3)
     assert not above
 
 

@@ -228,7 +228,7 @@ def test_beyond_the_onset_the_chatter_becomes_many_impacts(chatter):
     leaders = branch.multipliers[real, 0].real
     onset = point.orbit.multipliers.values[0].real
     assert leaders.min() < onset < leaders.max()
-    assert leaders.min() == pytest.approx(onset, rel=0.05)
+    assert leaders.min() == pytest.approx(onset, rel=0.04)  # the first step of the branch lies beside the onset
     kinds = {each.kind: each for each in branch.special}
     assert list(kinds) == ["vanishing-impact", "period-doubling", "grazing"]
     # Those beside the doubling are motions: impacts of 1e-7 arrive at a time that rounding shifts by 1e-9.

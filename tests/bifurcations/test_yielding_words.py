@@ -72,7 +72,7 @@ def test_two_orbits_meet_in_the_fold(branch, special):
     orbits = [orbit_near(rotor, branch.word, start) for start in pair]
     assert sorted(orbit.stable for orbit in orbits) == [False, True]
     apart = [abs(orbit.period - point.period) for orbit in orbits]
-    assert apart[0] == pytest.approx(apart[1], rel=0.1)
+    assert apart[0] == pytest.approx(apart[1], rel=0.02)  # the root of the distance in γ is 0.014
     beyond = dataclasses.replace(VOIGT, gamma=point.value + 1e-4).model
     assert all(orbit_near(beyond, branch.word, start) is None for start in pair)
 

@@ -116,4 +116,4 @@ def test_a_kick_that_is_known_to_return_at_once_is_drawn_until_it_has_decayed(dr
     assert "returns to levitation" in path.get_suptitle()
     (line,) = (line for line in radius.axes[0].lines if line.get_label() == "radius")
     assert np.ptp(line.get_xdata()) > 1.0
-    assert line.get_ydata()[-1] == pytest.approx(line.get_ydata()[0], rel=0.05)
+    assert line.get_ydata()[-1] == pytest.approx(line.get_ydata()[0], rel=0.01)

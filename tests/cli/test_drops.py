@@ -78,10 +78,10 @@ def test_contacts_with_a_bearing_that_gives_way(carom, tmp_path):
     assert first["start"] < first["peak_time"] <= first["end"] <= second["peak_time"] < second["end"]
     # Beside the wall's force others hardly count in so short a time.
     change = (first["radial_speed"] - second["radial_speed_after"]) * scales["velocity"]
-    assert first["impulse_si"] + second["impulse_si"] == pytest.approx(5.0 * change, rel=0.05)
+    assert first["impulse_si"] + second["impulse_si"] == pytest.approx(5.0 * change, rel=0.01)
     deepest = first["radial_speed"] * scales["velocity"] * math.sqrt(5.0 / 1e8)
     assert 0.8 * deepest < first["deepest_si"] < 1.05 * deepest
-    assert first["peak_force_si"] == pytest.approx(1e8 * first["deepest_si"], rel=0.05)
+    assert first["peak_force_si"] == pytest.approx(1e8 * first["deepest_si"], rel=0.02)  # and 1.3 % of damping
 
 
 def test_a_drop_in_words_is_seen_from_the_fixed_frame(carom):

@@ -422,11 +422,13 @@ def test_a_householder_step_errs_by_the_fourth_power():
     """On ``e^{2t} + t²/2 − 1``, which vanishes at zero, and on its negative."""
     for side in (1.0, -1.0):
         errors = []
-        for distance in (1e-1, 1e-2):
+        for distance in (1e-2, 1e-3):
             power = math.exp(2.0 * distance)
             derivatives = (power + 0.5 * distance**2 - 1.0, 2.0 * power + distance, 4.0 * power + 1.0, 8.0 * power)
             errors.append(abs(distance + events.householder_step(*(side * value for value in derivatives))))
-        assert math.log10(errors[0] / errors[1]) == pytest.approx(4.0, abs=0.3)
+        assert math.log10(errors[0] / errors[1]) == pytest.approx(
+            4.0, abs=0.015
+        )  # the next order changes the ratio by 2.5 %
 
 
 def test_sizes_of_terms_bound_rounding_and_derivatives():

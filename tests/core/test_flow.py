@@ -134,7 +134,7 @@ def test_nudge_is_exact_to_third_order(lower, upper):
         moved = start.copy()
         nudge(arrays, moved, time)
         errors.append(np.abs(moved - exact_flight(arrays, start, time)).max())
-    assert errors[0] / errors[1] == pytest.approx(16.0, rel=0.1)
+    assert errors[0] / errors[1] == pytest.approx(16.0, rel=0.01)
 
 
 def test_nudge_backward_undoes_a_nudge():

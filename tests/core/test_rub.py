@@ -197,7 +197,7 @@ def test_order_of_the_series(parameters, angle, rate, phase):
                 points.append((math.log(factor), math.log(error)))
     assert len(points) >= 4
     slope, intercept = np.polyfit(*np.array(points).T, 1)
-    assert slope == pytest.approx(ORDER + 1, abs=2.0)
+    assert slope == pytest.approx(ORDER + 1, abs=1.4)  # between 19.6 and 21.9: the error passes zero between
     assert math.exp(intercept) < 1e-15
 
 
@@ -571,7 +571,7 @@ def test_a_short_hop_is_followed_to_its_landing():
             start = amplitudes.copy()
             time, returned = lift_off(rotor, np.array([FLIGHT]), amplitudes, 1.0, work)
             assert returned
-            assert time == pytest.approx(-4 * change / bend, rel=0.2)
+            assert time == pytest.approx(-4 * change / bend, rel=0.01)
             with mpmath.workdps(40):
                 assert time == pytest.approx(_hop(parameters, angle, rate, time), rel=1e-6)
             assert np.abs(amplitudes - start).max() < 1.0

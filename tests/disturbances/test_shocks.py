@@ -103,7 +103,7 @@ def test_a_short_shock_is_a_kick():
         position, velocity, _ = after(machine, math.pi * change / (2.0 * duration), duration, 0.7)
         apart.append(abs(velocity + cmath.rect(change, 0.7)) + abs(position - rest))
     assert apart[1] < 2e-3
-    assert apart[0] / apart[1] == pytest.approx(10.0, rel=0.05)
+    assert apart[0] / apart[1] == pytest.approx(10.0, rel=1e-3)
 
 
 @pytest.mark.parametrize("detuned", [0.0, 1e-9, 1e-5, 1e-2])

@@ -145,4 +145,4 @@ def test_strong_damping_stops_a_rebound_at_once():
         parameters = PAPER.replace(gamma=gamma, omega=0.1, rho=0.0)
         motion = simulate(Jeffcott(parameters), on_wall(0.0, 0.0, 1.0), 20.0 / gamma)
         gap = 1.0 - abs(motion.final.position)
-        assert gap == pytest.approx(parameters.d / gamma, rel=0.05)
+        assert gap == pytest.approx(parameters.d / gamma, rel=0.2 / gamma)  # the pull to the centre is left out

@@ -196,7 +196,7 @@ def test_what_the_drive_would_do_in_flight_is_told():
     fall = 10.0  # √(2/g) in 1/Ω, until the first contact
     assert found.left_out >= 3.0 / 50.0 * fall * (1.0 - 1e-12)
     # The ledger has the work of the same torque, at the speed of each flight.
-    assert found.left_out * 50.0 == pytest.approx(ledger.drive_left_out[-1], rel=0.1)
+    assert found.left_out * 50.0 == pytest.approx(ledger.drive_left_out[-1], rel=1e-3)
     assert "left out in flight" in str(cm.studies.load_tables.load_tables(cm.motions.drop_loads(motion), "the release"))
     still = cm.models.Forced(dataclasses.replace(bare, shaft=None), rotor.forces)
     assert cm.motions.drop_loads(cm.simulate(still, cm.State(0.0, 0.0), 25.0)).shaft is None

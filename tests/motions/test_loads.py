@@ -194,4 +194,4 @@ def test_the_rigid_limit():
             [abs(getattr(loads, name) / getattr(rigid, name) - 1.0) for name in ("impulse", "heat", "restitution_loss")]
         )
     assert np.max(errors[1]) < 1e-3
-    assert np.log10(np.divide(*errors)) == pytest.approx(1.0, abs=0.1)
+    assert np.log10(np.divide(*errors)) == pytest.approx(1.0, abs=0.02)  # 0.014 of the next order

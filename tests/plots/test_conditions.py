@@ -27,7 +27,9 @@ def test_roots_lie_on_the_zero_line_and_are_named(damped, read):
     assert _names(axes) == [r"$B_{\mathrm{1,a/c}}$", r"$B_{\mathrm{1,b/d}}$"]
     (curve,) = read.lines(axes, "condition")
     crossings = np.flatnonzero(np.diff(np.sign(curve.get_ydata())))
-    np.testing.assert_allclose(curve.get_xdata()[crossings], damped.ms * np.array(damped.orbits.periods), atol=0.05)
+    periods, drawn = damped.ms * np.array(damped.orbits.periods), curve.get_xdata()
+    assert (drawn[crossings] <= periods).all()
+    assert (periods <= drawn[crossings + 1]).all()
 
 
 def test_roots_with_virtual_orbits_only_are_hollow(weak, read):

@@ -65,13 +65,13 @@ def test_wishes_of_the_user_are_kept(damped):
     buffer = io.BytesIO()
     figure.savefig(buffer, format="png", dpi=50)
     wide = int.from_bytes(buffer.getvalue()[16:20], "big")
-    assert wide == pytest.approx(50 * plots.TWO_COLUMNS, abs=1.0)
+    assert wide == pytest.approx(50 * plots.TWO_COLUMNS, abs=1.0)  # whole pixels
 
 
 def test_notebooks_show_a_figure(damped):
     picture = plots.radius(damped.orbits["B1,d"])._repr_png_()
     assert picture.startswith(b"\x89PNG")
-    assert int.from_bytes(picture[16:20], "big") == pytest.approx(150 * plots.TWO_COLUMNS, abs=1.0)
+    assert int.from_bytes(picture[16:20], "big") == pytest.approx(150 * plots.TWO_COLUMNS, abs=1.0)  # whole pixels
 
 
 def test_a_canvas_of_the_user_draws_the_same(damped):

@@ -141,7 +141,7 @@ def test_coefficient_of_the_period_doubling_is_that_of_the_simulated_map(paper):
     found = np.mean(np.diff(pairs) / (-2 * pairs[:-1] ** 3))
 
     b = paper["period-doubling of B1,d supercritical"].enclosures["b"].value
-    assert found == pytest.approx(b, rel=0.05)
+    assert found == pytest.approx(b, rel=0.04)  # 3.4 % of the next order at these distances
 
 
 def test_supercritical_orbit_of_twice_the_period_is_born_where_it_is_said():

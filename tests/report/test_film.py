@@ -175,7 +175,7 @@ def test_slider_contacts_and_curves_lead_to_their_instant(page, balls):
     opened.locator(".strips .area").first.scroll_into_view_if_needed()
     area = opened.locator(".strips .area").first.bounding_box()
     opened.mouse.click(area["x"] + 0.5 * area["width"], area["y"] + 20)
-    assert seconds(opened) == pytest.approx(30.0, abs=0.1)
+    assert seconds(opened) == pytest.approx(30.0, abs=0.1)  # the area has 0.06 ms a pixel
 
 
 def test_who_wants_no_motion_is_shown_one_contact_after_another(page, balls):

@@ -47,8 +47,12 @@ def test_balancing_changes_sizes_and_nothing_else():
     wild = StateSpace([[0.0, 1.0], [-1e12, -1e3]], [0.0, 1e9], [1e-3, 0.0], 0.1)
     tame = wild.balanced()
     assert tame.at(AT) == pytest.approx(wild.at(AT), rel=1e-12)
-    assert abs(tame.A[0, 1]) == pytest.approx(abs(tame.A[1, 0]), rel=1.0)
-    assert abs(tame.A[0, 1]) == pytest.approx(1e6, rel=1.0)
+    # Osborne's balance: beside the diagonal, what comes into each state is of the size of what goes out of it; of all
+    # states together, where the entries of B and C decide, a few sweeps come within 2.2 %.
+    whole = np.block([[tame.A, tame.B[:, None]], [tame.C[None], np.zeros((1, 1))]])
+    np.fill_diagonal(whole, 0.0)
+    for state in range(2):
+        assert np.linalg.norm(whole[state]) == pytest.approx(np.linalg.norm(whole[:, state]), rel=0.03)
 
 
 def test_one_after_the_other():

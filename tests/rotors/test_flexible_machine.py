@@ -111,7 +111,7 @@ def test_a_stiff_rotor_moves_as_a_rigid_one_on_its_controllers():
             exact -= missing / slope
         errors.append(np.abs(found - exact).min())
     assert errors[1] < 1e-3 * abs(exact)
-    assert errors[0] / errors[1] == pytest.approx(10.0, rel=0.1)
+    assert errors[0] / errors[1] == pytest.approx(10.0, rel=1e-3)
 
 
 def test_without_integral_the_rotor_sags_by_its_weight():

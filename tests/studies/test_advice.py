@@ -129,7 +129,7 @@ def test_what_a_change_asks_for_is_the_largest_along_fresh_motions():
         motion = simulate(rotor, cm.State(rotor.equilibrium, kick), settle=True)
         largest = max(largest, largest_along(motion, limit) / limit.most)
     # Both samples have the largest kicks, in other directions.
-    assert asked == pytest.approx(largest, rel=0.25) or asked > largest
+    assert asked > 0.99 * largest
 
 
 def test_zone_d_is_told():
