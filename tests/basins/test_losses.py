@@ -11,6 +11,7 @@ from machines import PAPER
 
 import carom
 from carom.basins import smallest_loss
+from carom.basins.brackets import Bracket, Found
 from carom.basins.losses import DIRECTIONS, SIZES
 from carom.disturbances import StateSlice, VelocityKick
 from carom.outcome import InputError, Outcome
@@ -192,3 +193,19 @@ def test_levitation_that_grows_has_nothing_to_come_back_to():
     for rotor in (carom.models.Jeffcott(growing), as_matrices(carom.models.Jeffcott(growing))):
         with pytest.raises(InputError, match="stable levitation"):
             smallest_loss(rotor, VelocityKick(1.0))
+
+
+class _Striped(Bracket):
+    """Lost in one direction of two beside the best, as next to a fractal boundary."""
+
+    def lost_at(self, sizes, angles):
+        return angles > self.best.angle
+
+
+def test_a_smallest_loss_whose_neighbours_come_back_is_said_to_be_sensitive():
+    search = _Striped(kind="kick", quantity="velocity", harmless=0.1, largest=1.0, tolerance=1e-3, scales=None)
+    assert search.result(1.0).sensitivity == ""
+    search.best = Found(0.4, 0.4004, 0.3, Outcome.FORWARD_RUB)
+    found = search.result(0.4)
+    assert 0 < found.neighbours_lost < found.neighbours
+    assert f"sensitive: {found.neighbours - found.neighbours_lost} of 32 within 1e-09 of it come back" in found.words

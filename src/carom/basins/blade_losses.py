@@ -107,6 +107,12 @@ class _Search(Bracket):
         starts = levitating_before(self.rotor, angles, instants)
         return follow(machines, starts, which=which, threads=self.threads).outcomes
 
+    def lost_at(self, sizes: np.ndarray, angles: np.ndarray) -> np.ndarray:
+        """Which changes of these sizes and phases, at the instant of the best one, are lost."""
+        places = self.before + sizes * np.exp(1j * angles)
+        instant = 0.0 if self.best is None else self.best.instant or 0.0
+        return lost(self._outcomes(np.abs(places), np.angle(places), np.full(places.shape, instant)))
+
     def any_instants(self, count: int) -> np.ndarray:
         """Angles of the shaft, all around where it matters when a loss comes."""
         return TURN * self.random.random(count) if self.timed else np.zeros(count)

@@ -17,6 +17,8 @@ from carom.results import Result
 TOLERANCE = 1e-3
 ROUND = 720
 """Directions over a full turn among the fresh starts, at the upper end of their sizes."""
+NEIGHBOURS, BESIDE_LOST = 32, 1e-9
+"""Disturbances beside the smallest lost one that are followed to see whether it is lost for itself, and how far from it relative to its size."""
 MOST_CHECKS = 8
 """Number of times that fresh starts may reduce the smallest loss."""
 
@@ -55,6 +57,9 @@ class SmallestLoss(Result):
         that size; where the instant matters each at one of its own.
     drawn : int
         How many of them were drawn uniformly over the area of the disc beyond the harmless size (of releases: over places and speeds).
+    neighbours_lost, neighbours : int
+        Of so many disturbances beside the smallest lost one, up to ``beside`` of its size away in any direction, how many are lost too.
+        Fewer than all: beside a basin boundary of fine structure, where rounding decides.
     harmless : float
         Size up to which contact is proven to be impossible in any direction; 0 where nothing is proven.
     largest : float
@@ -87,6 +92,8 @@ class SmallestLoss(Result):
     tried: int
     quantity: str = ""
     scales: Scales | None = None
+    neighbours_lost: int = 0
+    neighbours: int = 0
 
     shown: ClassVar[tuple[str, ...]] = (
         "kind",
@@ -96,6 +103,8 @@ class SmallestLoss(Result):
         "outcome",
         "recovered",
         "all_back",
+        "neighbours_lost",
+        "neighbours",
         "fresh",
         "harmless",
         "largest",
@@ -109,6 +118,7 @@ class SmallestLoss(Result):
         lost = f"none lost up to {told['largest']}" if self.size is None else f"smallest lost {told['size']}"
         lost += "" if self.instant is None else " at the worst instant of the turn"
         back = "" if self.all_back is None else f", all back up to {told['all_back']}"
+        lost += f" ({self.sensitivity})" if self.sensitivity else ""
         return f"{lost}{back}, harmless up to {told['harmless']}"
 
     def kind_of(self, name: str) -> str:
@@ -116,6 +126,12 @@ class SmallestLoss(Result):
         return (
             self.quantity if name in ("size", "recovered", "all_back", "harmless", "largest") else super().kind_of(name)
         )
+
+    @property
+    def sensitivity(self) -> str:
+        """How many of its neighbours come back in spite of it; empty if none does."""
+        back = self.neighbours - self.neighbours_lost
+        return f"sensitive: {back} of {self.neighbours} within {BESIDE_LOST:.0e} of it come back" if back else ""
 
     @property
     def share_below(self) -> float:
@@ -153,11 +169,24 @@ class Bracket:
         self.tried = 0
         self.best: Found | None = None
 
+    def lost_at(self, sizes: np.ndarray, angles: np.ndarray) -> np.ndarray:
+        """Which disturbances of these sizes and angles, at the instant of the best one, are lost."""
+        raise NotImplementedError
+
+    def _neighbours_lost(self) -> int:
+        """How many of the neighbours of the best one are lost."""
+        if self.best is None:
+            return 0
+        away = BESIDE_LOST * np.random.default_rng(NEIGHBOURS).uniform(-1.0, 1.0, (2, NEIGHBOURS))
+        return int(np.count_nonzero(self.lost_at(self.best.size * (1.0 + away[0]), self.best.angle + away[1])))
+
     def result(self, all_back: float | None, fresh: int = 0, drawn: int = 0) -> SmallestLoss:
         """Result of the search so far; ``all_back`` is the largest size up to which all came back."""
         recovered, size, angle, outcome, instant = self.best or (all_back or 0.0, None, None, None, None)
         return SmallestLoss(
             **self.given,
+            neighbours_lost=self._neighbours_lost(),
+            neighbours=0 if self.best is None else NEIGHBOURS,
             size=size,
             angle=None if angle is None else math.remainder(angle, TURN),
             instant=None if instant is None else instant % TURN,

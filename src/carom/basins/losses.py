@@ -206,6 +206,15 @@ class _Search(Bracket):
                 self.scan(angles[:, place : place + 1], np.linspace(family.harmless, sizes[place], BELOW + 1))
         return len(sizes)
 
+    def lost_at(self, sizes: np.ndarray, angles: np.ndarray) -> np.ndarray:
+        """Which disturbances of these sizes and angles, at the instant of the best one, are lost."""
+        at = (
+            [angles]
+            if self.best is None or self.best.instant is None
+            else [angles, np.full(angles.shape, self.best.instant)]
+        )
+        return self._follow(sizes, np.array(at))[1]
+
     def _follow(self, sizes: np.ndarray, angles: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Outcomes, and which starts are lost; impossible and undecided starts do not count as lost."""
         sizes, *at = np.broadcast_arrays(sizes, *angles)

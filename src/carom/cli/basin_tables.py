@@ -141,7 +141,9 @@ def _losses(basin: Basin, smallest: SmallestLoss | None, harmless: float) -> lis
     if smallest.size is not None:
         ending = f"; {_ending(basin, smallest.outcome)}" if smallest.outcome else ""
         where = _where(basin, smallest)
-        lines.append(f"Smallest {noun} found that does not come back: {shown(smallest.size)}, {where}{ending}.")
+        lines.append(
+            f"Smallest {noun} found that does not come back: {shown(smallest.size)}, {where}{ending}{smallest.sensitivity and f'; {smallest.sensitivity}'}."
+        )
     if smallest.all_back is None:
         lines.append("Disturbances of size zero are already lost.")
     elif smallest.fresh:

@@ -94,7 +94,8 @@ def _survived(study: StudyData, name: Kind, found: SmallestLoss) -> Fact:
         if found.all_back is not None:
             parts.append(f"all tried came back up to {size(found.all_back)}")
         ends = lost_to(study, name, found)
-        parts.append(f"smallest lost {size(found.size)}{ends and f' ({ends})'}")
+        remarks = "; ".join(each for each in (ends, found.sensitivity) if each)
+        parts.append(f"smallest lost {size(found.size)}{remarks and f' ({remarks})'}")
     label, of, timed = KINDS[name], "", depends_on_instant(study.rotor)
     if name == "shock" and study.survives is not None:
         of = f"of {study.wording.time(study.survives.duration)}, "
@@ -126,7 +127,7 @@ def survived_document(study: StudyData, name: Kind, found: SmallestLoss) -> dict
     sizes = fields_of(
         found, harmless_up_to="harmless", all_up_to="all_back", smallest_lost="size", searched_up_to="largest"
     )
-    document = sizes | fields_of(found, "tried", "fresh", "angle", "instant")
+    document = sizes | fields_of(found, "tried", "fresh", "angle", "instant", "neighbours", "neighbours_lost")
     document["lost_to"] = None if found.outcome is None else found.outcome.label
     if name == "shock" and study.survives is not None:
         document["duration"] = study.survives.duration
