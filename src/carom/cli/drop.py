@@ -14,6 +14,8 @@ if TYPE_CHECKING:
     from rich.console import Console
 
     from carom.motions.drops import Drop
+    from carom.motions.reduction_errors import ReductionError
+    from carom.motions.trajectories import Trajectory
     from carom.parameters import Case
     from carom.studies.drops import DropStudy
 
@@ -70,7 +72,7 @@ def _drop_once(case: Case, released: Drop, end: float | None, out: str | None, *
         from carom.studies.drops import DropStudy
 
         motion = follow(rotor, state, end, progress=tell if out is None else tell.part(0.0, 0.4))
-        found, page = DropStudy(case, echo, motion), None
+        found, page = DropStudy(case, echo, motion, _reduction(case, released, motion)), None
         if out is not None:
             from carom.report import write_drop_report
 
@@ -81,6 +83,13 @@ def _drop_once(case: Case, released: Drop, end: float | None, out: str | None, *
             console(errors=True).print(f"Report: {page}", soft_wrap=True)
         return
     _print(console(), found, page)
+
+
+def _reduction(case: Case, released: Drop, motion: Trajectory) -> ReductionError | None:
+    """Error of the reduction of a flexible machine along this drop."""
+    from carom.cli.drops import error_along, taken
+
+    return error_along(case, motion, lambda finer: taken(finer, released))
 
 
 def _print(console: Console, found: DropStudy, page: Path | None) -> None:
@@ -95,6 +104,8 @@ def _print(console: Console, found: DropStudy, page: Path | None) -> None:
     console.print(Text(found.headline, style="bold"), width=width)
     print_tables(console, found.tables)
     print_checks(console, found.checks)
+    if found.reduction is not None:
+        console.print(f"\n{found.reduction.words}", width=width)
     console.print()
     if page is None:
         console.print("Figures, drop.json and drop.html: add --out DIR")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from carom.outcome import InputError
@@ -14,6 +15,7 @@ if TYPE_CHECKING:
     from carom.disturbances.echo import Echo
     from carom.models import Model
     from carom.motions.drops import Drop, Whirl
+    from carom.motions.reduction_errors import ReductionError
     from carom.motions.starts import Kick, State
     from carom.motions.trajectories import Trajectory
     from carom.parameters import Case, Scales
@@ -77,6 +79,19 @@ def taken(case: Case, released: Drop) -> tuple[Model, State, Echo]:
         place, rate = rotor.system.at_plane(amplitudes, plane)
         planes.append((width * complex(place), width * complex(rate)))
     return rotor, state, echo_of_drop(state, angle, regained, case.gravity, scales, race, planes)
+
+
+def error_along(
+    case: Case, motion: Trajectory, again: Callable[[Case], tuple[Model, Any, Echo]]
+) -> ReductionError | None:
+    """Error of the reduction of a flexible machine along a motion; ``None`` of other machines.  ``again`` reads the same motion of another case."""
+    from carom.models import model_of
+    from carom.motions.reduction_errors import reduction_error
+    from carom.rotors.flexible_model import reduced_of
+
+    if (reduced := reduced_of(model_of(case))) is None:
+        return None
+    return reduction_error(reduced, motion, lambda finer: again(replace(case, parameters=finer.limited))[:2])
 
 
 def motion_document(case: Case, motion: Trajectory) -> dict[str, Any]:

@@ -15,6 +15,7 @@ from carom.outcome import InputError
 if TYPE_CHECKING:
     from carom.disturbances.echo import Echo
     from carom.models import Model
+    from carom.motions.reduction_errors import ReductionError
     from carom.motions.starts import Kick, State
     from carom.motions.trajectories import Trajectory
     from carom.parameters import Case
@@ -41,7 +42,7 @@ def simulate(
 
     The motion is followed through flights, impacts and lasting contact, exactly to rounding.
     """
-    from carom.cli.drops import read_release, taken
+    from carom.cli.drops import error_along, read_release, taken
     from carom.cli.starts import read_time
     from carom.loading import load
 
@@ -58,14 +59,22 @@ def simulate(
     ways = {"--start": start, "--kick": kick, "--shock": shock, "--blade-loss": blade_loss}
     with progress("simulating (the kernels are compiled on first use)") as tell:
         end = None if until is None else read_time(until, case.parameters.scales)
-        rotor, given, echo = (
-            taken(case, read_release(case, ways, regained_after)) if drop else _read(case, ways, instant)
-        )
+        released = read_release(case, ways, regained_after) if drop else None
+
+        def read(case: Case) -> tuple[Model, State | Kick, Echo]:
+            return _read(case, ways, instant) if released is None else taken(case, released)
+
+        rotor, given, echo = read(case)
         motion = _follow(rotor, given, kick, end, tell if out is None else tell.part(0.0, 0.4))
         _write_logs(logs, motion)
+        reduction = error_along(case, motion, read)
+        document = _document(case, motion, echo) | ({} if reduction is None else {"reduction": reduction.document()})
         if out is not None:
-            _write(out, case, motion, echo, tell.part(0.4, 1.0, "drawing"), decaying=end is None)
-    _tell(case, motion, echo, as_json=as_json)
+            _write(out, case, motion, document, tell.part(0.4, 1.0, "drawing"), decaying=end is None)
+    if as_json:
+        print_document(document)
+    else:
+        _tell(case, motion, echo, reduction)
     say_where(out)
 
 
@@ -85,15 +94,14 @@ def _write_logs(logs: dict[str, str], motion: Trajectory) -> None:
         (write_csv if option == "--csv" else write_netcdf)(motion, path)
 
 
-def _tell(case: Case, motion: Trajectory, echo: Echo, *, as_json: bool) -> None:
-    """Print the motion, for people or as JSON."""
+def _tell(case: Case, motion: Trajectory, echo: Echo, reduction: ReductionError | None) -> None:
+    """Print the motion for people."""
     from carom.cli.drops import print_parts
 
-    if as_json:
-        print_document(_document(case, motion, echo))
-        return
     console().print(f"{echo.words}.")
     print_parts(console(), case, motion, echo.kind)
+    if reduction is not None:
+        console().print(f"\n{reduction.words}")
 
 
 def _document(case: Case, motion: Trajectory, echo: Echo) -> dict[str, Any]:
@@ -103,7 +111,9 @@ def _document(case: Case, motion: Trajectory, echo: Echo) -> dict[str, Any]:
     return {"disturbance": echo.document(case.parameters.scales)} | motion_document(case, motion)
 
 
-def _write(out: str, case: Case, motion: Trajectory, echo: Echo, tell: Reporter, *, decaying: bool) -> None:
+def _write(
+    out: str, case: Case, motion: Trajectory, document: dict[str, Any], tell: Reporter, *, decaying: bool
+) -> None:
     """Write the path, its touchdown over time if there is a contact, and the document.
 
     The figures of a motion that is followed until it is proven to return to levitation show it ``decaying`` further.
@@ -124,7 +134,7 @@ def _write(out: str, case: Case, motion: Trajectory, echo: Echo, tell: Reporter,
                 touched = len(shown.contacts) or shown.lasting_contacts
                 over_time = plots.touchdown(shown, energy_ledger(shown)) if touched else plots.radius(shown, case.zones)
                 output.figure(f"touchdown{mark}" if touched else f"radius{mark}", over_time)
-        output.document("simulation", _document(case, motion, echo))
+        output.document("simulation", document)
 
 
 def _shown(motion: Trajectory) -> tuple[Trajectory, str]:

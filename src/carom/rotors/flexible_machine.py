@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -156,13 +157,18 @@ class FlexibleMachine:
         """Vectors of the reduction with so many modes of the free rotor, at least the rigid ones."""
         return rubin_basis(self.rotor, self._rows, max(modes, RIGID))
 
-    def error_of(self, basis: Basis) -> float:
-        """Change of the force in a touchdown bearing with half as many vectors more, relative to that force; 0 with all modes."""
+    def finer_than(self, basis: Basis, times: float = MORE) -> Basis | None:
+        """So many times as many vectors; ``None`` of all modes."""
         total = len(self.rotor.free_modes.frequencies)
         if basis.modes == total:
+            return None
+        return self.basis(min(total, basis.modes + math.ceil((times - 1.0) * len(basis.frequencies))))
+
+    def error_of(self, basis: Basis) -> float:
+        """Change of the force in a touchdown bearing with half as many vectors more, relative to that force; 0 with all modes."""
+        finer = self.finer_than(basis)
+        if finer is None:
             return 0.0
-        vectors = len(basis.frequencies)
-        finer = self.basis(min(total, basis.modes + round((MORE - 1.0) * vectors)))
         weight, loops = self.rotor.mass * FALL, loops_of(self.rotor, (), self.touchdowns)
         planes = zip(loops.touchdowns, self.touchdowns, self.clearances, strict=True)
         return max(contact_error(basis, finer, row, plane.stiffness(weight * room)) for row, plane, room in planes)

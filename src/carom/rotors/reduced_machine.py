@@ -35,6 +35,8 @@ DAMPING_RATIOS = (0.0, 0.01, 0.03, 0.1, 0.3, 1.0)
 """Of the vectors that are no modes; the first with which the reduced rotor comes back where the whole machine does is taken."""
 SLOWER = 0.5
 """Rate at which the reduced rotor comes back, over that of the whole machine, that is enough."""
+FINER = 2.0
+"""Times as many vectors, by which a motion is followed again to see what the others change."""
 ROUNDED = 1e-6
 """Share of its stiffness up to which a bearing has none, and frequency in ``Ω`` up to which a motion is no whirl."""
 
@@ -60,9 +62,8 @@ class ReducedMachine(Result):
     def error(self) -> float:
         """Change of the force in a touchdown bearing with half as many vectors more, relative to that force.
 
-        It is the root of the means of the squares while the first contact lasts, when the free rotor comes straight with all its mass; the
-        largest of all planes; 0 of all modes.  A rotor that comes tilted or bends on its way may differ by more: see whether results stay with
-        a smaller accuracy.
+        It is the root of the means of the squares while the first contact lasts, when the free rotor comes straight with all its mass, tilting, or in
+        its first bending mode; the largest of all planes; 0 of all modes.  Along a motion of the machine it may be more: that is told with the motion.
         """
         return self.machine.error_of(self.basis)
 
@@ -114,6 +115,17 @@ class ReducedMachine(Result):
         whole = self.machine.slowest
         own = slowest_of(equations, self.machine.speed).exponents.real.max()
         return bool(own <= SLOWER * min(float(whole.exponents.real.max()), 0.0) + whole.rounding)
+
+    @property
+    def finer(self) -> ReducedMachine | None:
+        """By twice as many vectors, and as many more as it takes to come back where the whole machine does; ``None`` of all modes."""
+        basis = self.machine.finer_than(self.basis, FINER)
+        while basis is not None:
+            found = replace(self, basis=basis)
+            if found.comes_back:
+                return found
+            basis = self.machine.finer_than(basis)
+        return None
 
     def of(self, machine: FlexibleMachine) -> ReducedMachine:
         """By the same vectors, a machine with another value of a parameter, on none of which they depend."""

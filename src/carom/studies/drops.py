@@ -11,6 +11,7 @@ from carom.disturbances.echo import Echo
 from carom.models import model_of
 from carom.models.subjects import rotor_document
 from carom.motions import DropLoads, Trajectory, drop_loads
+from carom.motions.reduction_errors import ReductionError
 from carom.outcome import Outcome
 from carom.parameters import Case
 from carom.results import Result, fields_of, in_si
@@ -31,11 +32,14 @@ class DropStudy(Result):
         What was done to it.
     motion : Trajectory
         With all its stages.
+    reduction : ReductionError or None
+        Error of the reduction of a flexible machine along it.
     """
 
     case: Case
     echo: Echo
     motion: Trajectory
+    reduction: ReductionError | None = None
 
     @cached_property
     def loads(self) -> DropLoads:
@@ -82,4 +86,6 @@ class DropStudy(Result):
         if loads.shaft is not None:
             shaft = fields_of(loads.shaft, "speed_at_end", "left_out")
             document["shaft"] = shaft | in_si(shaft, scales, speed_at_end="speed", left_out="speed")
+        if self.reduction is not None:
+            document["reduction"] = self.reduction.document()
         return document | {"touchdown_bearings": load_entries(loads, case.limits)}

@@ -9,6 +9,7 @@ from typing import ClassVar
 from carom.attractors import AttractorSet
 from carom.models import Model
 from carom.motions import DropLoads, Trajectory, drop_loads
+from carom.motions.reduction_errors import ReductionError
 from carom.parameters import Case, Required
 from carom.results import Result
 from carom.rotors import ReducedMachine
@@ -38,6 +39,8 @@ class FlexibleData(Result):
         Multiples of the required kick, and how many of twelve directions came back.
     fall : Trajectory or None
         The drop after a loss of levitation; ``None`` of a rotor without weight.
+    fall_reduction : ReductionError or None
+        Error of the reduction along that drop.
     """
 
     shown: ClassVar = ("case", "levitates")
@@ -51,6 +54,7 @@ class FlexibleData(Result):
     trials: tuple[FlexibleTrial, ...]
     beyond: tuple[tuple[float, int], ...]
     fall: Trajectory | None
+    fall_reduction: ReductionError | None = None
 
     @property
     def levitates(self) -> bool:

@@ -40,10 +40,10 @@ NOT_COVERED = (
 )
 """What a study of a flexible machine withholds."""
 REDUCTION = (
-    "Linear results are of all modes. Motions with contact are of {vectors} vectors, {modes} of them modes of the free rotor: their estimated error of contact forces "
-    "is {error} %. That is the change of the force of one straight first contact with half as many vectors more, an estimate and no bound: motions in "
-    "which the rotor bends on its way may differ by more."
+    "Whether it levitates and all linear results are of all modes. Motions with contact are of {vectors} vectors, {modes} of them modes of the free rotor: "
+    "when the free rotor comes to a touchdown bearing straight, tilting or bending, half as many vectors more change the force of the first contact by {error} %.{damped}"
 )
+DAMPED = " The vectors that are no modes have a damping ratio of {ratio}, without which one of them would grow, as no mode does."
 
 
 def facts_of_machine(study: FlexibleData) -> Iterator[Fact]:
@@ -61,14 +61,23 @@ def facts_of_machine(study: FlexibleData) -> Iterator[Fact]:
         reduction_words(reduced),
         values={"error": reduced.error, "vectors": reduced.vectors, "modes": reduced.modes},
     )
+    along = [(KINDS[trial.kind], trial.reduction) for trial in study.trials]  # type: ignore[index]
+    for kind, found in [*along, ("Drop", study.fall_reduction)]:
+        if found is not None:
+            yield Fact("Accuracy", f"{kind}, the worst: {found.words}", values=found.document())
     for each in NOT_COVERED:
         yield Fact("Not covered", each)
 
 
 def reduction_words(reduced: ReducedMachine) -> str:
     """What the reduction of a machine leaves out."""
-    error = number(100.0 * reduced.error, 2)
-    return REDUCTION.format(vectors=reduced.vectors, modes=reduced.modes, error=error)
+    ratio = reduced.damped.damping_ratio
+    return REDUCTION.format(
+        vectors=reduced.vectors,
+        modes=reduced.modes,
+        error=number(100.0 * reduced.error, 2),
+        damped=DAMPED.format(ratio=number(ratio)) if ratio else "",
+    )
 
 
 def verdict_of_machine(study: FlexibleData, facts: Sequence[Fact]) -> Verdict:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
@@ -18,10 +18,13 @@ from carom.disturbances.coordinates import TURN
 from carom.models import Model
 from carom.motions import Trajectory, drop_loads, kick, simulate
 from carom.motions.bearing_loads import DropLoads, PlaneLoads
+from carom.motions.reduction_errors import ReductionError, reduction_error
+from carom.motions.starts import State
 from carom.outcome import Outcome
 from carom.parameters import Case, LoadLimits, Required, Scales
 from carom.progress import Reporter
 from carom.results import Result
+from carom.rotors.flexible_model import reduced_of
 from carom.studies.load_checks import LoadCheck, checks_of_planes
 from carom.studies.verdict_facts import KINDS
 
@@ -86,6 +89,8 @@ class FlexibleTrial(Result):
         The worst of these against each limit that is stated.
     worst : Trajectory
         The one with the largest force, or without contact the widest orbit.
+    reduction : ReductionError or None
+        Error of the reduction along that one.
     """
 
     shown: ClassVar = ("kind", "size", "drawn", "largest", "planes")
@@ -99,6 +104,7 @@ class FlexibleTrial(Result):
     whirls: tuple[str, ...]
     checks: tuple[LoadCheck, ...]
     worst: Trajectory
+    reduction: ReductionError | None = None
 
     @property
     def survived(self) -> bool:
@@ -114,6 +120,7 @@ class FlexibleTrial(Result):
             "ends": {str(name): count for name, count in self.ends},
             "at_largest": {"came_back": self.largest.count, "total": self.largest.total},
             "whirls": list(self.whirls),
+            "reduction": None if self.reduction is None else self.reduction.document(),
             "touchdown_bearings": [
                 {
                     "touchdown_bearing": each.touchdown_bearing,
@@ -130,24 +137,34 @@ class FlexibleTrial(Result):
 
 def trials_of(case: Case, rotor: Model, required: Required, count: int, tell: Reporter) -> tuple[FlexibleTrial, ...]:
     """Follow the kinds of disturbances that must be survived: drawn up to their size, and at it in all directions."""
-    kinds: list[tuple[str, float, Disturbance, Callable[[float, float], _Followed]]] = []
+    kinds: list[tuple[str, float, Disturbance, Callable[..., tuple[Model, Any]]]] = []
     kicks = VelocityKick(required.kick)
-    kinds.append(("kick", required.kick, kicks, lambda *at: _kicked(rotor, required.kick, *at)))
+    kinds.append(("kick", required.kick, kicks, lambda rotor, *at: _kick(rotor, required.kick, *at)))
     if required.shock is not None:
         shock = BaseShock(required.shock.peak, required.shock.duration)
-        kinds.append(("shock", shock.peak, shock, lambda *at: _ended(*shock.stages(rotor, *at))))
+        kinds.append(("shock", shock.peak, shock, shock.stages))
     if required.blade_loss is not None:
         loss = BladeLoss(required.blade_loss, required.blade_loss_node)
-        kinds.append(("blade_loss", required.blade_loss, loss, lambda *at: _ended(*loss.release(rotor, *at))))
+        kinds.append(("blade_loss", required.blade_loss, loss, loss.release))
     found = []
     for place, (kind, size, model, at) in enumerate(kinds):
         part = tell.part(place / len(kinds), (place + 1) / len(kinds))
         part(0.0, f"disturbances: {KINDS[kind].lower()}")  # type: ignore[index]
         basin = map_basins(rotor, Sample(model, count, SEED))
         ends = Counter({name: basin.share_of(name).count for name in basin.motions})
-        followed = [at(*pair) for pair in all_round()]
-        found.append(_trial(kind, size, basin.share_recovered, ends, followed, case.limits))
+        pairs = all_round()
+        followed = [_ended(*at(rotor, *pair)) for pair in pairs]
+        trial = _trial(kind, size, basin.share_recovered, ends, followed, case.limits)
+        worst = next(pair for pair, each in zip(pairs, followed, strict=True) if each.motion is trial.worst)
+        found.append(replace(trial, reduction=_reduction(rotor, trial.worst, at, worst)))
     return tuple(found)
+
+
+def _reduction(
+    rotor: Model, motion: Trajectory, at: Callable[..., tuple[Model, Any]], pair: tuple[float, float]
+) -> ReductionError | None:
+    reduced = reduced_of(rotor)
+    return None if reduced is None else reduction_error(reduced, motion, lambda finer: at(finer.model, *pair))
 
 
 def all_round() -> list[tuple[float, float]]:
@@ -160,7 +177,7 @@ def kicks_beyond(rotor: Model, required: Required) -> tuple[tuple[float, int], .
     """Multiples of the required kick, and how many of those in all directions came back; up to the first of which some are lost."""
     found = []
     for times in TIMES:
-        back = sum(_kicked(rotor, times * required.kick, *pair).back for pair in all_round())
+        back = sum(_ended(*_kick(rotor, times * required.kick, *pair)).back for pair in all_round())
         found.append((times, back))
         if back < DIRECTIONS:
             break
@@ -174,8 +191,8 @@ class _Followed(NamedTuple):
     back: bool
 
 
-def _kicked(rotor: Model, speed: float, angle: float, instant: float) -> _Followed:
-    return _ended(rotor, kick(speed, angle, instant).state(rotor))
+def _kick(rotor: Model, speed: float, angle: float, instant: float) -> tuple[Model, State]:
+    return rotor, kick(speed, angle, instant).state(rotor)
 
 
 def _ended(rotor: Model, start: Any) -> _Followed:
