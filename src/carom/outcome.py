@@ -32,6 +32,7 @@ class Outcome(IntEnum):
     CHATTER = 12
     LOW_BOUNCES = 13
     TRIGGERED = 14
+    BEYOND_MODEL = 15
     LEVITATED = 20
     BOUNCING = 21
     MIXED = 22
@@ -90,6 +91,7 @@ _WORDS = {
     Outcome.CHATTER: "chatter, ends in lasting contact",
     Outcome.LOW_BOUNCES: "low bounces along the wall, undecided",
     Outcome.TRIGGERED: "goes over to the next stage",
+    Outcome.BEYOND_MODEL: "beyond the model",
     Outcome.LEVITATED: "levitation",
     Outcome.BOUNCING: "bouncing",
     Outcome.MIXED: "bouncing with rub",
@@ -123,6 +125,10 @@ _MEANINGS = {
         "whether they fade to lasting contact is not known."
     ),
     Outcome.TRIGGERED: "The trigger of its stage has ended the motion; it goes on in the next stage, if there is one.",
+    Outcome.BEYOND_MODEL: (
+        "The rotor is deeper in a touchdown bearing than the model holds, by more than one clearance: it would strike "
+        "the magnets, whose air gap usually is two; so the motion stops there."
+    ),
     Outcome.LEVITATED: "The rotor returns to levitation: no later flight can reach the wall.",
     Outcome.BOUNCING: "The rotor goes on bouncing on the touchdown bearing.",
     Outcome.MIXED: "The rotor goes on bouncing with rub: bounces and lasting contact alternate.",

@@ -131,6 +131,7 @@ OUTCOMES = MappingProxyType(
         "grazing": Look("#000000", Outcome.GRAZING.words),
         "time-reached": Look("#dcdcdc", Outcome.TIME_REACHED.words),
         "event-limit": Look("#dcdcdc", Outcome.EVENT_LIMIT.words),
+        "beyond-model": Look("#1a1a1a", Outcome.BEYOND_MODEL.words, hatch="xx"),
         "low-bounces": Look("#dcdcdc", Outcome.LOW_BOUNCES.words),
     }
 )

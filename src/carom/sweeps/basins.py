@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 ENDINGS = (
     *(outcome for outcome in Outcome if outcome.settled),
-    *(Outcome.TIME_REACHED, Outcome.EVENT_LIMIT, Outcome.GRAZING, Outcome.LOW_BOUNCES),
+    *(Outcome.TIME_REACHED, Outcome.EVENT_LIMIT, Outcome.GRAZING, Outcome.LOW_BOUNCES, Outcome.BEYOND_MODEL),
 )
 OUTCOMES = Dimension(
     "outcome",
