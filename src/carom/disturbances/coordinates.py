@@ -141,6 +141,7 @@ class Starts(NamedTuple):
         return cls(places, speeds.astype(complex), there, none, np.abs(places) >= 1.0 - ON_WALL, np.zeros(places.shape))
 
     @classmethod
+    @checked
     def joined(cls, parts: Sequence[Starts]) -> Starts:
         """All starts of several sets, one-dimensional."""
         flat = [part.some(np.ones(part.exists.shape, bool)) for part in parts]

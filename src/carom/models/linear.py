@@ -371,7 +371,8 @@ class LinearRotor(Result):
         return {"linear_rotor": json.dumps(numbers | others), "scales": json.dumps(scales)}
 
     @classmethod
-    def from_attributes(cls, attributes: Mapping[str, str]) -> LinearRotor:
+    @checked
+    def from_attributes(cls, attributes: Mapping[str, Any]) -> LinearRotor:
         """Read the attributes of a dataset that :meth:`attributes` has given.
 
         Raises

@@ -227,6 +227,7 @@ class Touchdown:
         }
 
     @classmethod
+    @checked
     def from_attributes(cls, given: Mapping[str, Any]) -> Touchdown:
         """Make it from :meth:`attributes`."""
         name, numbers = given["law"]["name"], {key: given["law"][key] for key in given["law"] if key != "name"}

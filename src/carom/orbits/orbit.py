@@ -125,6 +125,7 @@ class Orbit(Result):
     reason: str
 
     @classmethod
+    @checked
     def from_links(cls, rotor: Model, word: Word, links: Links, name: OrbitName | CountedName) -> Orbit:
         """Orbit that multiple shooting has found, with its multipliers and its admissibility checked."""
         start = links.start

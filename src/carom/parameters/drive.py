@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from carom.arguments import checked
 from carom.outcome import InputError, Problems, shown
 from carom.parameters.fields import Field, by_name, unknown_names
 from carom.parameters.quantities import read_quantity
@@ -59,6 +60,7 @@ class Drive:
         return "\n".join(["[drive]", *lines]) + "\n"
 
     @classmethod
+    @checked
     def of(cls, table: Mapping[str, Any], has_scales: bool = True) -> Drive:
         """Read a table; one beside dimensionless parameters has no mass and clearance to be compared with.
 

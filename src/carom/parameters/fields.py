@@ -10,6 +10,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from carom.arguments import checked
 from carom.outcome import InputError, shown
 
 RPM = math.pi / 30.0
@@ -237,6 +238,7 @@ _NOT_MODELLED = (
 """What is not modelled: words of its name, one of each set, and what to say."""
 
 
+@checked
 def unknown_name(name: str, given: object, known: Mapping[str, object], where: str, listed: bool = True) -> InputError:
     """Error for a name that does not exist, with the nearest name that does.
 

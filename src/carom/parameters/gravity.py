@@ -8,6 +8,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from carom.arguments import checked
 from carom.outcome import InputError, Problems, shown
 from carom.parameters.fields import Field, by_name, unknown_names
 from carom.parameters.quantities import read_quantity
@@ -70,6 +71,7 @@ class Gravity:
         return f'[gravity]\nacceleration = "{self.acceleration!r} m/s^2"\ndirection = "{self.direction!r} rad"\n'
 
     @classmethod
+    @checked
     def of(cls, table: Mapping[str, Any], has_scales: bool = True) -> Gravity:
         """Read a table; one beside dimensionless parameters has nothing to be compared with.
 

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from carom.arguments import checked
 from carom.outcome import InputError, Problems, shown
 from carom.parameters.fields import Field, by_name, unknown_names
 from carom.parameters.quantities import read_quantity
@@ -116,6 +117,7 @@ class LoadLimits:
         return "\n".join(["[limits]", *lines]) + "\n" if lines else ""
 
     @classmethod
+    @checked
     def of(cls, table: Mapping[str, Any], has_scales: bool = True) -> LoadLimits:
         """Read a table; one beside dimensionless parameters cannot be compared with anything.
 

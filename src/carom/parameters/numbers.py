@@ -138,7 +138,8 @@ class Parameters:
         return {"parameters": json.dumps(self.as_dict()), "scales": json.dumps(scales)}
 
     @classmethod
-    def from_attributes(cls, attributes: Mapping[str, str]) -> Parameters:
+    @checked
+    def from_attributes(cls, attributes: Mapping[str, Any]) -> Parameters:
         """Parameters from the attributes of a dataset that :meth:`attributes` has given.
 
         Raises

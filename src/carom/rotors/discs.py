@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from carom.arguments import checked
 from carom.outcome import InputError
 from carom.parameters import Field
 from carom.parameters.fields import by_name
@@ -53,6 +54,7 @@ class Disc:
             raise InputError("polar_inertia", self.polar_inertia, allowed)
 
     @classmethod
+    @checked
     def of_body(cls, node: int, body: Section) -> Disc:
         """Disc with the form of a hollow cylinder.
 

@@ -187,7 +187,8 @@ class FlexibleModel(LinearRotor):
         return {**super().attributes(), "flexible_machine": json.dumps(machine)}
 
     @classmethod
-    def from_attributes(cls, attributes: Mapping[str, str]) -> FlexibleModel:
+    @checked
+    def from_attributes(cls, attributes: Mapping[str, Any]) -> FlexibleModel:
         """Read the attributes of a dataset that :meth:`attributes` has given.
 
         Raises
