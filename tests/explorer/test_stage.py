@@ -234,7 +234,7 @@ def luminance(colour: str) -> float:
 def test_what_is_told_of_before_a_change_says_so_and_can_be_read(page, scheme):
     page.emulate_media(color_scheme=scheme)
     page.evaluate(
-        "() => { document.getElementById('headline').classList.add('old'); carom.panels.pale('hardest', true); }"
+        "() => { document.getElementById('headline').textContent = 'It levitates.'; document.getElementById('headline').classList.add('old'); carom.panels.pale('hardest', true); }"
     )
     said_so = "[getComputedStyle(document.getElementById('headline'), '::before'), getComputedStyle(document.getElementById('hardest').parentNode.querySelector('h3'), '::after')].map((one) => one.content)"
     assert all("efore the change" in words for words in said(page, said_so))
