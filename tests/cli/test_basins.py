@@ -398,4 +398,4 @@ def test_losses_of_a_blade_under_gravity(carom):
     words = " ".join(out.split())
     assert (code, err) == (0, "")
     assert "levitation 4 100 %" in words
-    assert "Only unbalances up to 0.030794 mm" in words
+    assert "Only those up to 163.97 g mm" in words
