@@ -105,7 +105,8 @@ def _print(console: Console, found: DropStudy, page: Path | None) -> None:
     print_tables(console, found.tables)
     print_checks(console, found.checks)
     if found.reduction is not None:
-        console.print(f"\n{found.reduction.words}", width=width)
+        console.print()
+        console.print(found.reduction.words, width=width)
     console.print()
     if page is None:
         console.print("Figures, drop.json and drop.html: add --out DIR")

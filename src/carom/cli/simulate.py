@@ -101,7 +101,8 @@ def _tell(case: Case, motion: Trajectory, echo: Echo, reduction: ReductionError 
     console().print(f"{echo.words}.")
     print_parts(console(), case, motion, echo.kind)
     if reduction is not None:
-        console().print(f"\n{reduction.words}")
+        console().print()
+        console().print(reduction.words)
 
 
 def _document(case: Case, motion: Trajectory, echo: Echo) -> dict[str, Any]:
