@@ -162,7 +162,7 @@ def _holding(study: FlexibleData) -> Iterator[Fact]:
     for entry in found:
         if entry.name.outcome is Outcome.LEVITATED:
             continue
-        by = f"{counted(entry.count, 'disturbance')} of {len(found.disturbances)} and {counted(entry.known, 'start')} in backward whirl"
+        by = ended_by(entry.count, len(found.disturbances), entry.known)
         force = (
             f", pressed with up to {number(entry.largest_force * scales.force, 3)} N"
             if scales and entry.largest_force
@@ -181,6 +181,12 @@ def _holding(study: FlexibleData) -> Iterator[Fact]:
         seen = "" if all(entry.name.outcome.settled for entry in found) else " that were followed to their end"
         text = f"None of {len(found.disturbances)} disturbances and of the starts in backward whirl{seen} ended in contact. Other motions may exist."
         yield Fact("Disturbances tried", text, evidence="sampled")
+
+
+def ended_by(count: int, drawn: int, known: int) -> str:
+    """Which of the disturbances drawn, and of the known motions, ended somewhere; those of which none did are left out."""
+    by = [f"{count} of {counted(drawn, 'disturbance')}"] if count else []
+    return listed([*by, f"{counted(known, 'start')} in backward whirl"] if known else by)
 
 
 def _tried(study: FlexibleData) -> Iterator[Fact]:
