@@ -69,6 +69,15 @@ Infinity = Annotated[Any, Kind(lambda number: isinstance(number, float) and math
 """Infinity, where a number may also be that: ``float | Infinity``."""
 Reals = Annotated["np.ndarray", Kind(lambda values: kind_of_numbers(values) in "iuf", "finite real numbers")]
 """Array of finite real numbers."""
+Truths = Annotated[
+    Any, Kind(lambda values: getattr(getattr(values, "dtype", None), "kind", "") == "b", "an array of True and False")
+]
+"""Array of ``True`` and ``False``."""
+
+
+def having(*names: str) -> Kind:
+    """Mappings in which these names are."""
+    return Kind(lambda given: all(name in given for name in names), f"a mapping with {', '.join(names)}")
 
 
 @overload

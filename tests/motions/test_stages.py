@@ -215,10 +215,10 @@ def test_bad_stages_are_refused(field, made):
         made()
 
 
-def test_a_motion_of_several_stages_is_saved_part_by_part(tmp_path):
+def test_a_motion_of_several_stages_is_saved_whole_and_part_by_part(tmp_path):
     motion = cm.simulate(Staged((Stage(ROTOR, Trigger(time=7.0)), Stage(HELPED))), KICK)
-    with pytest.raises(InputError, match="parts"):
-        motion.save(tmp_path / "whole.nc")
+    motion.save(tmp_path / "whole.nc")
+    assert [part.begins for part in cm.motions.Trajectory.load(tmp_path / "whole.nc").parts] == [0.0, 7.0]
     motion.parts[0].save(tmp_path / "first.nc")
     again = cm.motions.Trajectory.load(tmp_path / "first.nc")
     assert (again.begins, again.time, again.outcome) == (0.0, 7.0, Outcome.TRIGGERED)

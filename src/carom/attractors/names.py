@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Annotated, Any
 
-from carom.arguments import checked
+from carom.arguments import checked, having
 from carom.orbits.names import Name, OrbitName
 from carom.outcome import DRIFTING_RUB, STEADY_WORDS, Outcome
 
@@ -53,7 +53,7 @@ class MotionName(Name):
 
     @classmethod
     @checked
-    def of(cls, parts: Mapping[str, Any]) -> MotionName:
+    def of(cls, parts: Annotated[Mapping[str, Any], having("outcome", "orbit")]) -> MotionName:
         """Name from its parts as plain data, from :func:`dataclasses.asdict` or JSON."""
         orbit = OrbitName(**parts["orbit"]) if parts["orbit"] else None
         return cls(**{**parts, "outcome": Outcome(parts["outcome"]), "orbit": orbit})

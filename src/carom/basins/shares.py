@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from carom.arguments import Whole, checked
+from carom.arguments import Truths, Whole, checked
 from carom.attractors import AttractorSet, DisturbanceSet, exact_interval
 from carom.attractors.intervals import CONFIDENCE as CONFIDENCE
 from carom.disturbances import Disturbance, Plan, Sample, VelocityKick
@@ -46,6 +46,7 @@ class Population:
     at: str = ""
 
     @classmethod
+    @checked
     def of_model(cls, model: Disturbance, scales: Scales | None, at: str = "") -> Population:
         """All disturbances of a model, whose sizes are given for these scales, at the instants ``at``."""
         size, when = model.size, f" {at}" if at else ""
@@ -99,11 +100,12 @@ class Share:
         return cls(share, low, high, count, total, drawn, population, does)
 
     @classmethod
+    @checked
     def over(
         cls,
         plan: Plan,
-        chosen: np.ndarray,
-        exists: np.ndarray,
+        chosen: Truths,
+        exists: Truths,
         scales: Scales | None,
         does: str = "come back",
         at: str = "",

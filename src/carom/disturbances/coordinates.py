@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Annotated, NamedTuple
 
 import numpy as np
 
-from carom.arguments import Infinity, checked
+from carom.arguments import Infinity, Kind, Truths, checked
 from carom.outcome import InputError
 from carom.parameters import UNITS, Scales
 from carom.parameters.told import number, shown_in
@@ -134,15 +134,21 @@ class Starts(NamedTuple):
     after: np.ndarray | None = None
 
     @classmethod
-    def of(cls, positions: np.ndarray | complex, velocities: np.ndarray | complex, exists: np.ndarray | bool) -> Starts:
-        """Broadcast the arrays to one shape; none of the starts is undecided."""
+    @checked
+    def of(cls, positions: np.ndarray | complex, velocities: np.ndarray | complex, exists: Truths | bool) -> Starts:
+        """Starts of arrays of one shape and of single numbers for all of them; none of the starts is undecided."""
+        shapes = {np.shape(values) for values in (positions, velocities, exists)} - {()}
+        if len(shapes) > 1:
+            raise InputError("exists", np.shape(exists), "positions, velocities and this must have one shape")
         places, speeds, there = np.broadcast_arrays(np.asarray(positions, complex), velocities, exists)
         none = np.zeros(places.shape, bool)
         return cls(places, speeds.astype(complex), there, none, np.abs(places) >= 1.0 - ON_WALL, np.zeros(places.shape))
 
     @classmethod
     @checked
-    def joined(cls, parts: Sequence[Starts]) -> Starts:
+    def joined(
+        cls, parts: Annotated[Sequence[Starts], Kind(lambda sets: len(sets) > 0, "sets of starts, one at least")]
+    ) -> Starts:
         """All starts of several sets, one-dimensional."""
         flat = [part.some(np.ones(part.exists.shape, bool)) for part in parts]
         *arrays, after = zip(*flat, strict=True)

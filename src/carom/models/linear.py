@@ -7,11 +7,11 @@ import json
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Self
+from typing import TYPE_CHECKING, Annotated, Any, Self
 
 import numpy as np
 
-from carom.arguments import checked
+from carom.arguments import checked, having
 from carom.models import linear_parameters
 from carom.models.forcing import Force, with_forces
 from carom.models.from_modes import modal_system, second_order_system, walls_as_arrays
@@ -372,7 +372,7 @@ class LinearRotor(Result):
 
     @classmethod
     @checked
-    def from_attributes(cls, attributes: Mapping[str, Any]) -> LinearRotor:
+    def from_attributes(cls, attributes: Annotated[Mapping[str, Any], having("linear_rotor", "scales")]) -> LinearRotor:
         """Read the attributes of a dataset that :meth:`attributes` has given.
 
         Raises

@@ -294,6 +294,7 @@ def forces_of(model: Model) -> tuple[Force, ...]:
     return (*forces_of(model.rotor), *model.forces) if isinstance(model, Forced) else ()
 
 
+@checked
 def depends_on_instant(model: Model) -> bool:
     """Whether the end of a disturbance depends on the instant of the turn at which it comes: on where the unbalance then points.
 

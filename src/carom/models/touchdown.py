@@ -9,7 +9,7 @@ from typing import Annotated, Any, ClassVar, get_args
 
 import numpy as np
 
-from carom.arguments import Kind, NotNegative, Positive, checked
+from carom.arguments import Kind, NotNegative, Positive, checked, having
 from carom.core.laws.choice import LAWS
 from carom.core.wall import Wall
 from carom.models.race import Race
@@ -228,7 +228,9 @@ class Touchdown:
 
     @classmethod
     @checked
-    def from_attributes(cls, given: Mapping[str, Any]) -> Touchdown:
+    def from_attributes(
+        cls, given: Annotated[Mapping[str, Any], having("law", "plane", "friction", "surface_speed", "race")]
+    ) -> Touchdown:
         """Make it from :meth:`attributes`."""
         name, numbers = given["law"]["name"], {key: given["law"][key] for key in given["law"] if key != "name"}
         (law,) = (each for each in get_args(Law) if each.law == name)

@@ -9,7 +9,9 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
+from carom.arguments import Whole, checked
 from carom.core.friction import rebound
+from carom.models import Model
 from carom.outcome import Phase
 from carom.parameters import UNITS
 from carom.results import Result, flags
@@ -17,7 +19,7 @@ from carom.results import Result, flags
 if TYPE_CHECKING:
     import xarray
 
-    from carom.models import Model, System
+    from carom.models import System
     from carom.motions.blows import Blows
     from carom.parameters import Scales
 
@@ -150,6 +152,7 @@ class ContactLog(Table):
     dimension: ClassVar[str] = "impact"
 
     @classmethod
+    @checked
     def from_states(
         cls,
         rotor: Model,
@@ -228,10 +231,11 @@ class ContactHistory(Table):
     dimension: ClassVar[str] = "time"
 
     @classmethod
+    @checked
     def from_states(
         cls,
         rotor: Model,
-        plane: int,
+        plane: Whole,
         times: np.ndarray,
         phases: np.ndarray,
         amplitudes: np.ndarray,

@@ -70,16 +70,17 @@ class State:
         return f"State(position={self.position}, velocity={self.velocity}{''.join(turning)})"
 
     @classmethod
+    @checked
     def of(
         cls,
-        position: np.ndarray,
-        velocity: np.ndarray,
+        position: np.ndarray | complex,
+        velocity: np.ndarray | complex,
         races: tuple[float, ...] = (),
         shaft: tuple[float, ...] = (),
         time: float = 0.0,
     ) -> State:
         """State of plain numbers, or of arrays if there are several coordinates."""
-        if np.ndim(position):
+        if np.ndim(position) or np.ndim(velocity):
             return cls(position, velocity, races, shaft, time)
         return cls(complex(position), complex(velocity), races, shaft, time)
 

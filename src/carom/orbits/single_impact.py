@@ -75,6 +75,7 @@ class OrbitSet(Members[Orbit]):
     slip_stays_forward: bool
 
     @classmethod
+    @checked
     def none(cls, rotor: Model) -> OrbitSet:
         """No orbits, and none searched: of a rotor whose magnetic bearings have limits."""
         return cls(rotor, (), 1, None, np.empty(0), 0.0, complete=False, slip_stays_forward=False)

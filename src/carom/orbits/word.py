@@ -6,10 +6,11 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from enum import IntEnum
 from functools import cached_property
+from typing import Annotated
 
 import numpy as np
 
-from carom.arguments import Count, Whole, checked
+from carom.arguments import Count, Whole, checked, whole
 from carom.core import segments
 from carom.core.friction import BACKWARD, FORWARD, STOPPED
 from carom.models import System
@@ -57,7 +58,8 @@ class Kind(IntEnum):
         return _LABELS[self]
 
     @classmethod
-    def of_phase(cls, phase: int) -> Kind:
+    @checked
+    def of_phase(cls, phase: Annotated[int, whole(min(Phase), max(Phase))]) -> Kind:
         """Kind of a segment that stays at its wall, or of the flight after it has left."""
         return {
             Phase.FLIGHT: cls.LIFT,
@@ -129,7 +131,7 @@ class Word(Sequence[Segment]):
     segments: tuple[Segment, ...]
 
     def __post_init__(self) -> None:
-        if not self.segments:
+        if not len(self.segments):
             raise InputError("word", "()", "at least one segment")
         self.conditions  # noqa: B018  # raises where a segment cannot follow another
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
-from carom.arguments import checked
+from carom.arguments import Count, Infinity, Kind, checked
 from carom.outcome import InputError, Problems, shown
 from carom.parameters.fields import Field, by_name, unknown_names
 from carom.parameters.quantities import read_quantity
@@ -88,7 +88,12 @@ class LoadLimits:
         problems.raise_all()
 
     @staticmethod
-    def told(name: str, value: float, digits: int = 3) -> str:
+    @checked
+    def told(
+        name: Annotated[str, Kind(LIMIT_FIELDS.__contains__, "a load that can be limited")],
+        value: float | Infinity,
+        digits: Count = 3,
+    ) -> str:
         """Write a load that is limited, given in its SI unit, in the unit in which people say it."""
         field = LIMIT_FIELDS[name]
         return f"{number(field.in_usual_unit(value), digits)} {field.usual_unit}".rstrip()

@@ -7,9 +7,9 @@ import json
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import Annotated, Any, NamedTuple
 
-from carom.arguments import checked
+from carom.arguments import checked, having
 from carom.outcome import InputError, shown
 from carom.parameters.conversions import CONVERSIONS, root
 from carom.parameters.fields import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, PARAMETERS, PHYSICAL_PARTNER, Field
@@ -139,7 +139,7 @@ class Parameters:
 
     @classmethod
     @checked
-    def from_attributes(cls, attributes: Mapping[str, Any]) -> Parameters:
+    def from_attributes(cls, attributes: Annotated[Mapping[str, Any], having("parameters", "scales")]) -> Parameters:
         """Parameters from the attributes of a dataset that :meth:`attributes` has given.
 
         Raises
@@ -177,6 +177,7 @@ class Numbers(NamedTuple):
     units: Units | None = None
 
     @classmethod
+    @checked
     def of(cls, parameters: Parameters) -> Numbers:
         """Read the numbers of some parameters."""
         scales = parameters.scales

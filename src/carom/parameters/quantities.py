@@ -11,6 +11,7 @@ from numbers import Real
 from tokenize import TokenError
 from typing import Any
 
+from carom.arguments import checked
 from carom.outcome import shown
 from carom.parameters.common_units import COMMON_UNITS, Roots
 from carom.parameters.fields import Field
@@ -76,8 +77,13 @@ def read_quantity(field: Field, given: object) -> float:
     InputError
         If `given` is anything else, of another dimension, not finite or out of range.
     """
-    if type(given) is float and field.lowest <= given <= field.highest and not field.whole:
+    if type(given) is float and type(field) is Field and field.lowest <= given <= field.highest and not field.whole:
         return given + 0.0  # the common case first: continuation sets parameters thousands of times
+    return _read(field, given)
+
+
+@checked
+def _read(field: Field, given: object) -> float:
     if isinstance(given, str):
         number = float(_from_text(field, given))
     elif isinstance(given, Real) and not isinstance(given, bool):

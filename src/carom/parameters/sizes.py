@@ -106,6 +106,7 @@ def own_size(name: str, given: object, kind: str, scales: Scales | None) -> floa
     return read_size(name, given, kind, scales).own(scales)
 
 
+@checked
 def read_unbalance(name: str, given: object, scales: Scales | None) -> Size:
     """Read an unbalance, or the eccentricity that it is of the whole mass; without scales a number in clearances."""
     if scales is None:
@@ -120,6 +121,7 @@ def read_unbalance(name: str, given: object, scales: Scales | None) -> Size:
     return Size(float(Decimal(repr(eccentricity.value)) * Decimal(repr(scales.mass))), True, "unbalance")
 
 
+@checked
 def own_unbalance(name: str, given: object, scales: Scales | None) -> float:
     """Convert text with a unit of an unbalance or an eccentricity to clearances; a number is already in these."""
     return (

@@ -10,6 +10,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from carom.arguments import checked
 from carom.outcome import InputError, Problems, shown
 from carom.parameters.fields import MACHINE_FIELDS, Field, by_name, length_field, unknown_names
 from carom.parameters.quantities import read_quantity
@@ -251,6 +252,7 @@ class TouchdownBearing:
         return "\n".join(["[touchdown]", f'law = "{self.law}"', *lines]) + "\n"
 
     @classmethod
+    @checked
     def of(cls, table: Mapping[str, Any], has_scales: bool = True) -> TouchdownBearing:
         """Read a table; one beside dimensionless parameters has no mass and clearance to be compared with.
 

@@ -9,11 +9,11 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
 
-from carom.arguments import checked
+from carom.arguments import checked, having
 from carom.models import Limit, LinearRotor, Model, Rates
 from carom.models.stages import Around
 from carom.models.system import System
@@ -188,7 +188,7 @@ class FlexibleModel(LinearRotor):
 
     @classmethod
     @checked
-    def from_attributes(cls, attributes: Mapping[str, Any]) -> FlexibleModel:
+    def from_attributes(cls, attributes: Annotated[Mapping[str, Any], having("flexible_machine")]) -> FlexibleModel:
         """Read the attributes of a dataset that :meth:`attributes` has given.
 
         Raises
