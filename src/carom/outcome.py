@@ -33,6 +33,7 @@ class Outcome(IntEnum):
     LOW_BOUNCES = 13
     TRIGGERED = 14
     BEYOND_MODEL = 15
+    STALLED = 16
     LEVITATED = 20
     BOUNCING = 21
     MIXED = 22
@@ -92,6 +93,7 @@ _WORDS = {
     Outcome.LOW_BOUNCES: "low bounces along the wall, undecided",
     Outcome.TRIGGERED: "goes over to the next stage",
     Outcome.BEYOND_MODEL: "beyond the model",
+    Outcome.STALLED: "too stiff to be followed",
     Outcome.LEVITATED: "levitation",
     Outcome.BOUNCING: "bouncing",
     Outcome.MIXED: "bouncing with rub",
@@ -128,6 +130,11 @@ _MEANINGS = {
     Outcome.BEYOND_MODEL: (
         "The rotor is deeper in a touchdown bearing than the model holds, by more than one clearance: it would strike "
         "the magnets, whose air gap usually is two; so the motion stops there."
+    ),
+    Outcome.STALLED: (
+        "Something of the machine acts so quickly that its motion cannot be followed: a turn of the shaft would take more than ten million "
+        "steps. It may be a race with much drag and hardly any inertia, which stands still, so leave race_inertia out; or a filter, an amplifier, "
+        "a mount or a wall that answers within nanoseconds: make it slower, or leave it out."
     ),
     Outcome.LEVITATED: "The rotor returns to levitation: no later flight can reach the wall.",
     Outcome.BOUNCING: "The rotor goes on bouncing on the touchdown bearing.",

@@ -13,8 +13,9 @@ from yielding_walls import SUMS, contacts_of, free_mass, with_walls
 
 from carom.models import HuntCrossley, KelvinVoigt
 from carom.motions import State, energy_ledger, simulate, touchdown_loads
-from carom.motions.contacts import presses
+from carom.motions.contacts import presses, slip_velocity
 from carom.motions.quadrature import NODES, largest
+from carom.motions.touches import in_wall
 from carom.outcome import Phase
 from carom.parameters import Scales
 
@@ -190,3 +191,26 @@ def test_largest_values_of_functions_known_at_the_nodes():
     assert found[0] == pytest.approx(top, abs=1e-7)
     assert peaks[0] == pytest.approx(math.sin(4.0 * top + 0.3) + 0.1 * top, rel=1e-9)
     assert largest(-NODES[None])[1] == largest(np.ones((1, 16)))[1] == -1.0
+
+
+@pytest.mark.parametrize("law", [KelvinVoigt(300.0, 8.0), HuntCrossley(300.0, 0.2, 1.5)])
+def test_a_course_in_the_wall_is_that_of_its_states(law):
+    """By one series for each segment, against the amplitudes at each instant."""
+    motion = simulate(with_walls(single(1), law), State(0.3 + 0.1j, 1.2 + 0.4j), 12.0)
+    segments = np.flatnonzero(motion.segment_phases[:, 0] != Phase.FLIGHT)
+    lasts = np.diff(np.append(motion.segment_starts, motion.time))[segments]
+    elapsed = 0.5 * lasts[:, None] * (1.0 + NODES)
+    found, (amplitudes, phases) = (
+        in_wall(motion, segments, elapsed),
+        motion.amplitudes_in(np.repeat(segments[:, None], len(NODES), axis=1), elapsed),
+    )
+    normal, friction = motion.forces_of(amplitudes, phases, elapsed)
+    held, (place, _) = presses(phases[..., 0]), motion.rotor.system.at_plane(amplitudes, 0)
+    assert len(segments) > 4
+    # Rounding of a radius of one, which the wall multiplies by its stiffness.
+    assert found.depth == pytest.approx(np.abs(place) - 1.0, abs=1e-14)
+    assert found.normal == pytest.approx(normal, abs=1e-11)
+    assert found.friction == pytest.approx(friction, abs=1e-11)
+    assert found.slip == pytest.approx(
+        np.where(held, slip_velocity(motion.rotor.system, 0, amplitudes), 0.0), abs=1e-13
+    )

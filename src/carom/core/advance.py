@@ -68,7 +68,8 @@ def advance(rotor, table, amplitudes, until, contacts, log, memory, work, rub):
     Returns
     -------
     outcome : int
-        ``TIME_REACHED``, ``EVENT_LIMIT`` (log full), ``GRAZING``, ``CHATTER``, ``TRIGGERED`` or what the motion settles to.
+        ``TIME_REACHED``, ``EVENT_LIMIT`` (log full, or the time of a slice is over), ``GRAZING``, ``CHATTER``, ``TRIGGERED``
+        or what the motion settles to.
     time : float
     events : int
     """
@@ -84,7 +85,7 @@ def advance(rotor, table, amplitudes, until, contacts, log, memory, work, rub):
     if rotor.rows.shape[0] == 1:
         memory.stalled, most_stalled = 0, STALLED
     outcome = CONTACT
-    while outcome == CONTACT and events < log.times.shape[0]:
+    while outcome == CONTACT and events < log.times.shape[0] and time < memory.slice:
         slides, rubs, horizon, left = _slides(rotor, contact, state, rub), False, until - time, math.inf
         if memory.watches > 0:
             rubs = leading_plane(rotor, contact) != NOWHERE
@@ -93,11 +94,12 @@ def advance(rotor, table, amplitudes, until, contacts, log, memory, work, rub):
         if slides:
             outcome, duration, plane = _slide(rotor, contact, horizon, memory, work, rub)
         else:
+            horizon = min(horizon, memory.slice - time)
             outcome, duration, plane = _fly(rotor, table, horizon, contact, memory, work, rub)
         if outcome == TIME_REACHED and horizon >= left:
             outcome = TRIGGERED
-        time = until if outcome == TIME_REACHED else time + duration
         memory.lap += duration
+        outcome, time = _cut(outcome, time, duration, until, slides, memory)
         if outcome == CONTACT:
             _note(rotor, contact, events, time, plane, log, work, rub)
             events += 1
@@ -117,6 +119,15 @@ def advance(rotor, table, amplitudes, until, contacts, log, memory, work, rub):
     if rotor.limit_bounds.shape[0] > 0:
         copy(rub.limited, memory.limited)
     return (EVENT_LIMIT if outcome == CONTACT else outcome), time, events
+
+
+@inlined
+def _cut(outcome, time, duration, until, slides, memory):
+    """Outcome and time after a stretch; a flight that the end of a slice has cut goes on in the next call."""
+    if outcome == TIME_REACHED and not slides and memory.slice < until:
+        memory.flown += duration
+        return EVENT_LIMIT, memory.slice
+    return outcome, (until if outcome == TIME_REACHED else time + duration)
 
 
 @inlined

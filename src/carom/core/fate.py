@@ -62,6 +62,7 @@ def memory(
     contact_gap: float = 0.0,
     impact_speed: float = np.inf,
     limits: int = 0,
+    slice_time: float = np.inf,
 ) -> np.record:
     """Memory of the criteria for one motion, and the options on how far to follow it.
 
@@ -87,6 +88,8 @@ def memory(
         End with ``TRIGGERED`` at an impact with that speed or more.
     limits : int
         Number of limited quantities: ``clock`` then is the time, and ``limited`` the states of their axes, at the start of the motion.
+    slice_time : float
+        Time after which a call returns at the next event or within a flight, so that no call is deaf for long.
     """
     return record(
         reference=np.zeros(modes, np.complex128),
@@ -94,6 +97,7 @@ def memory(
         rub_position=np.asarray(rub_position, np.complex128),
         resting=np.asarray(resting, np.int64),
         patience=np.asarray(patience, np.int64),
+        slice=np.asarray(slice_time),
         recheck=np.asarray(recheck),
         stop_at_landing=np.asarray(stop_at_landing, np.int64),
         stalled=np.asarray(0, np.int64),

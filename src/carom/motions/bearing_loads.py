@@ -287,8 +287,9 @@ def _race_speeds(parts: list[Trajectory]) -> tuple[float, float] | None:
         return None
     # A stage may have further modes, such as those of a shock.
     each = [
-        race_speed(part.rotor.system, plane, np.concatenate([part.segment_amplitudes, part.segment_ends[-1:]]))
+        race_speed(part.rotor.system, plane, amplitudes)
         for part in parts
+        for amplitudes in (part.segment_amplitudes, part.last_amplitudes[None])
     ]
     speeds = np.concatenate(each) / race.radius
     return float(speeds[np.abs(speeds).argmax()]), float(speeds[-1])

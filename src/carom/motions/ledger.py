@@ -257,7 +257,10 @@ def _walls(trajectory: Trajectory, counts: np.ndarray, half: np.ndarray) -> tupl
         if not yields(trajectory.rotor.system, plane):
             continue
         motion = trajectory.seen_at(plane)
-        held += np.append(stored(motion, motion.segment_amplitudes), stored(motion, motion.segment_ends)[-1])
+        held += np.append(
+            stored(motion, motion.segment_amplitudes, motion.segment_phases[:, plane]),
+            stored(motion, motion.last_amplitudes[None], motion.segment_phases[-1:, plane]),
+        )
         lost[1:-1] -= lost_on_parting(motion)
         pressed = presses(motion.segment_phases[:, plane])
         places = np.repeat(pressed, counts)
@@ -273,7 +276,7 @@ def _races(trajectory: Trajectory, times: np.ndarray) -> tuple[np.ndarray, np.nd
     for plane in np.flatnonzero(arrays.race >= 0).tolist():
         inertia = arrays.masses[plane] / arrays.race_gain[plane]  # by the square of the radius
         speeds = race_speed(
-            system, plane, np.concatenate([trajectory.segment_amplitudes, trajectory.segment_ends[-1:]])
+            system, plane, np.concatenate([trajectory.segment_amplitudes, trajectory.last_amplitudes[None]])
         )
         kinetic += 0.5 * inertia * speeds**2
         speed = race_speed(system, plane, trajectory.amplitudes_at(times)[0])

@@ -17,7 +17,7 @@ from carom.core.lanes import lanes_record
 from carom.core.layout import rub_workspace, workspace
 from carom.core.phases import AWAY, FLIGHT
 from carom.models import Stage
-from carom.motions.settling import begin_limits, fresh_memory, settled, time_limit
+from carom.motions.settling import Progress, begin_limits, fresh_memory, settled, time_limit
 from carom.motions.simulation import follow, tools
 from carom.motions.starts import WALL_TOLERANCE, State, amplitudes_of
 from carom.outcome import Outcome, Phase
@@ -33,6 +33,8 @@ FEW_SINGLY = 8
 """The same for motions that are followed one after another, each for milliseconds to seconds."""
 MODES = 2
 """Modes of the rotors whose motions are followed side by side."""
+STOPPED = 1 << 40
+"""Count of a part beyond which its threads are told to stop, even within a motion."""
 LOGGED = 256
 """Events per kernel call for motions that are followed one after another."""
 
@@ -88,7 +90,7 @@ def settle_parts(parts: list[Part], limits: Limits, threads: int) -> Iterator[in
 
     When the caller stops iterating or is interrupted, no thread takes up another motion.
     """
-    if min(threads, len(parts)) == 1:
+    if min(threads, len(parts)) == 1 and all(len(part.motions) <= FEW for part in parts):
         yield from (_settle_part(part, limits) for part in parts)
         return
     with ThreadPoolExecutor(threads) as pool:
@@ -99,7 +101,7 @@ def settle_parts(parts: list[Part], limits: Limits, threads: int) -> Iterator[in
                 yield sum(one.result() for one in finished)
         except BaseException:
             for part in parts:
-                part.counter.numbers[0] = len(part.motions)
+                part.counter.numbers[0] = STOPPED + 1
             pool.shutdown(cancel_futures=True)
             raise
 
@@ -133,7 +135,7 @@ def _follow_singly(part: Part, until: float, limits: Limits, memory: np.record) 
         forget(memory)
         memory.resting = not rubs_known
         begin_limits(rotor.system, amplitudes, start.time, memory)
-        motion.time, motion.impacts, events, outcome = 0.0, 0, 0, Outcome.EVENT_LIMIT
+        motion.time, motion.impacts, events, outcome, progress = 0.0, 0, 0, Outcome.EVENT_LIMIT, Progress()
         while outcome is Outcome.EVENT_LIMIT and events < limits.max_events:
             log = room.first(min(LOGGED, limits.max_events - events))
             before = np.where(contact == AWAY, Phase.FLIGHT, contact)
@@ -142,6 +144,10 @@ def _follow_singly(part: Part, until: float, limits: Limits, memory: np.record) 
             motion.impacts += np.count_nonzero(log.first(count).arrivals(before, yields))
             events += count
             outcome, motion.multiplicity = settled(rotor, amplitudes, contact, outcome, memory)
+            if part.counter.numbers[0] > STOPPED:
+                return taken
+            if outcome is Outcome.EVENT_LIMIT and progress.stalls(count, time):
+                outcome = Outcome.STALLED
         motion.outcome = outcome
         motion.position, motion.velocity = rotor.system.state(amplitudes)
         taken += 1

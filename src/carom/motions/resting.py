@@ -27,7 +27,7 @@ STEADY = 1e-3
 """Relative change of the means of a block of turns, from one block to the next, below which backward whirl is steady."""
 FOLLOWED_TURNS = 64
 """Turns of the shaft over which the place of the contact is watched: whirl of 1/128 of the shaft speed goes half round the wall."""
-LOGGED, MOST_LOGS = 8192, 32
+LOGGED, MOST_LOGS = 2048, 128
 """Steps of lasting contact that are looked at together, and how often: of a rigid rotor a turn takes about eight, of one that bends hundreds."""
 
 

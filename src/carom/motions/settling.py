@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -37,6 +38,14 @@ LOW, LOW_FOR = 0.5, 200
 no rotor returns to a wall that does not keep pulling it."""
 AT_REST = 1e-6
 """Largest velocity of a rub that counts as synchronous, far above the rate at which it was recognised."""
+SLICE = 1_000_000
+"""Blocks of flight in one compiled call, times modes and contact planes: a fraction of a second, in which Ctrl-C is not heard."""
+LOOKED_AT, LEAST_PROGRESS = 32_768, 5e-7
+"""Steps after which it is asked whether a motion gets on, and the time in ``1/Ω`` that these must take on average.
+
+A slice of flight without an event counts as :data:`PER_SLICE` steps.  The stiffest walls of machines need steps of ``1e-5/Ω``.
+"""
+PER_SLICE = 4096
 WHIRLING = (Outcome.FORWARD_RUB, Outcome.BACKWARD_WHIRL, Outcome.ROLLING)
 REPEATING = (Outcome.BOUNCING, Outcome.MIXED)
 MODES = 2
@@ -74,7 +83,25 @@ def fresh_memory(
         contact_gap=trigger.contact_gap,
         impact_speed=trigger.impact_speed,
         limits=rotor.system.limits,
+        slice_time=SLICE * float(rotor.system.table.durations[0]) / rotor.system.arrays["columns"].size,
     )
+
+
+@dataclass
+class Progress:
+    """Whether a motion gets on: the steps, and the time that they took, since it was last asked."""
+
+    steps: int = 0
+    passed: float = 0.0
+
+    def stalls(self, steps: int, time: float) -> bool:
+        """Note the steps of a call, none in a slice of flight, and the time that it has passed; return whether the motion stalls."""
+        self.steps, self.passed = self.steps + (steps or PER_SLICE), self.passed + time
+        if self.steps < LOOKED_AT:
+            return False
+        stalled = self.passed < LEAST_PROGRESS * self.steps
+        self.steps, self.passed = 0, 0.0
+        return stalled
 
 
 def begin_limits(system: System, amplitudes: np.ndarray, time: float, recollection: np.record) -> np.ndarray:

@@ -19,6 +19,7 @@ from carom.motions.settling import (
     LOW_FOR,
     PATIENCE,
     REPEATING,
+    Progress,
     begin_limits,
     fresh_memory,
     low_interval,
@@ -130,7 +131,7 @@ def _follow_stage(rotor: Model, start: State, longest: float, trigger: Trigger, 
     limited = begin_limits(rotor.system, amplitudes, begins, recollection)[None]
     first = amplitudes.copy()
     logs: list[EventLog] = []
-    reached, events, outcome, multiplicity = 0.0, 0, Outcome.EVENT_LIMIT, 0
+    reached, events, outcome, multiplicity, progress = 0.0, 0, Outcome.EVENT_LIMIT, 0, Progress()
     while outcome is Outcome.EVENT_LIMIT and events < max_events:
         room = min(CHUNK, max_events - events)
         log = EventLog.empty(room, len(amplitudes), len(contact), rotor.system.limits)
@@ -145,6 +146,8 @@ def _follow_stage(rotor: Model, start: State, longest: float, trigger: Trigger, 
             break
         tell(reached / until if until > 0.0 else 1.0)
         outcome, multiplicity = settled(rotor, amplitudes, contact, outcome, recollection)
+        if outcome is Outcome.EVENT_LIMIT and progress.stalls(count, time):
+            outcome = Outcome.STALLED
     if outcome in REPEATING and not multiplicity and may_be_low(rotor, patience):
         struck = np.concatenate([log.times for log in logs])[-LOW_FOR:]
         if np.ptp(struck) < low_interval(rotor) * (len(struck) - 1):

@@ -45,7 +45,7 @@ def spin_of(trajectory: Trajectory, times: np.ndarray) -> Spin:
         braking += radius / shaft.inertia * trajectory.seen_at(plane).forces_of(amplitudes, phases, times)[1]
     held = presses(phases).any(axis=-1)
     torque = shaft.torque * speed
-    turns = shaft_speed(system, np.concatenate([trajectory.segment_amplitudes, trajectory.segment_ends[-1:]]))
+    turns = shaft_speed(system, np.concatenate([trajectory.segment_amplitudes, trajectory.last_amplitudes[None]]))
     jumps = turns[1:-1] - shaft_speed(system, trajectory.arrivals)
     return Spin(
         0.5 * shaft.inertia * turns**2,

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, ClassVar, NamedTuple
 
 import numpy as np
 
-from carom.core.wall_work import damper_forces_all, stored_energies_all
+from carom.core.wall_work import courses_in_wall, stored_energies_all
 from carom.motions.contacts import (
     NUMBERED,
     PRESSING,
@@ -17,8 +17,6 @@ from carom.motions.contacts import (
     phase_flags,
     polar,
     presses,
-    shaft_speed,
-    slip_velocity,
     yields,
 )
 from carom.motions.quadrature import NODES, WEIGHTS, largest
@@ -101,24 +99,26 @@ class InWall(NamedTuple):
 
 def in_wall(motion: Trajectory, segments: np.ndarray, elapsed: np.ndarray) -> InWall:
     """The plane of a motion in segments (k,) in which it is in its wall, at times (k, m) after the start of each."""
-    system, plane = motion.rotor.system, motion.plane
-    amplitudes, phases = motion.amplitudes_in(np.broadcast_to(segments[:, None], elapsed.shape), elapsed)
-    position, velocity = system.at_plane(amplitudes, plane)
-    normal, friction = motion.forces_of(amplitudes, phases, motion.segment_starts[segments][:, None] + elapsed)
-    radius, held = np.abs(position), presses(phases[..., plane])
-    rate = (position.conj() * velocity).real / radius
-    slip = np.where(held, slip_velocity(system, plane, amplitudes), 0.0)
+    found = np.empty((6, *elapsed.shape))
+    courses_in_wall(
+        motion.rotor.system.arrays,
+        motion.plane,
+        segments,
+        motion.segment_amplitudes,
+        motion.segment_phases,
+        motion.segment_limits,
+        np.fmod(motion.begins + motion.segment_starts[segments], 2.0 * np.pi),
+        elapsed,
+        motion.workspace(),
+        found,
+    )
+    return InWall(*found)
 
-    depths, rates = (np.ravel(values) for values in (radius - 1.0, rate))
-    damper = damper_forces_all(system.arrays, plane, depths, rates).reshape(rate.shape)
-    lost = np.where(held, damper * rate, 0.0)
-    return InWall(radius - 1.0, slip, normal, friction, lost, shaft_speed(system, amplitudes))
 
-
-def stored(motion: Trajectory, amplitudes: np.ndarray) -> np.ndarray:
-    """Energy that the spring of the plane's wall holds in a state of each segment, (n + 1, N); none where there is no contact."""
+def stored(motion: Trajectory, amplitudes: np.ndarray, phases: np.ndarray) -> np.ndarray:
+    """Energy that the spring of the plane's wall holds in states (n, N) with phases (n,) there; none where there is no contact."""
     position, _ = motion.rotor.system.at_plane(amplitudes, motion.plane)
-    held = presses(motion.segment_phases[:, motion.plane])
+    held = presses(phases)
     energy = np.zeros(len(amplitudes))
     energy[held] = stored_energies_all(motion.rotor.system.arrays, motion.plane, np.abs(position[held]) - 1.0)
     return energy
@@ -126,8 +126,9 @@ def stored(motion: Trajectory, amplitudes: np.ndarray) -> np.ndarray:
 
 def lost_on_parting(motion: Trajectory) -> np.ndarray:
     """Energy of the wall's spring that is lost in each event, (n,): where plane and wall part, less what it holds where they meet again."""
-    parted = motion.segment_phases[:, motion.plane] == Phase.SEPARATED
-    lost = stored(motion, motion.segment_ends)[:-1] - stored(motion, motion.segment_amplitudes)[1:]
+    phases = motion.segment_phases[:, motion.plane]
+    parted = phases == Phase.SEPARATED
+    lost = stored(motion, motion.arrivals, phases[:-1]) - stored(motion, motion.segment_amplitudes[1:], phases[1:])
     return np.where(parted[:-1] | parted[1:], lost, 0.0)
 
 
@@ -151,7 +152,7 @@ def touches_of(motion: Trajectory) -> TouchLog:
     takes = [np.add.reduceat(np.where(phases[segments] == kind, half, 0.0), begins) for kind in PRESSING]
     parted = np.concatenate([[0.0], np.cumsum(lost_on_parting(motion))])
     angle, radial, angular = polar(*system.at_plane(motion.segment_amplitudes[first], plane))
-    _, radial_after, _ = polar(*system.at_plane(motion.segment_ends[after - 1], plane))
+    _, radial_after, _ = polar(*system.at_plane(motion.ends_of(after - 1), plane))
     return TouchLog(
         touchdown_bearing=np.full(len(first), plane + 1),
         start=bounds[first],

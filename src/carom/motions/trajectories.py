@@ -28,6 +28,8 @@ if TYPE_CHECKING:
     from carom.motions.touches import TouchLog
     from carom.parameters import Scales
 
+TOGETHER = 4096
+"""Times for which the amplitudes of all modes are known at once, where less is asked for."""
 ROUNDING = 1e-12
 """Excess over the range of times, relative to its length, that counts as rounding."""
 
@@ -239,8 +241,14 @@ class Trajectory(Result):
     @checked
     def at_plane(self, times: Reals) -> tuple[np.ndarray, np.ndarray]:
         """Displacement of the contact plane and its rate at given times, in its clearances; see :meth:`at`."""
-        amplitudes, _ = self.amplitudes_at(np.asarray(times, float))
-        return self.rotor.system.at_plane(amplitudes, self.plane)
+        asked = np.asarray(times, float)
+        places = np.empty((2, asked.size), complex)
+        # Few at a time: the amplitudes of all modes take far more room than the place of one plane.
+        for first in range(0, asked.size, TOGETHER):
+            here = slice(first, first + TOGETHER)
+            places[:, here] = self.rotor.system.at_plane(self.amplitudes_at(asked.ravel()[here])[0], self.plane)
+        position, velocity = places.reshape(2, *asked.shape)
+        return position, velocity
 
     def amplitudes_at(self, times: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Mode amplitudes and phases at given times."""
@@ -263,18 +271,26 @@ class Trajectory(Result):
             self.segment_limits[at],
             np.fmod(self.begins + self.segment_starts[at], 2.0 * np.pi),
             elapsed.ravel(),
-            self._workspace(),
+            self.workspace(),
         )
         return moved.reshape(*segments.shape, moved.shape[1]), phases
 
     @cached_property
-    def segment_ends(self) -> np.ndarray:
-        """Mode amplitudes at the end of each segment, complex, shape (n + 1, N)."""
+    def last_amplitudes(self) -> np.ndarray:
+        """Mode amplitudes at the end, complex, shape (N,)."""
         last = np.array([len(self.segment_starts) - 1])
-        end, _ = self.amplitudes_in(last, self.time - self.segment_starts[last])
-        return np.concatenate([self.arrivals, end])
+        end: np.ndarray = self.amplitudes_in(last, self.time - self.segment_starts[last])[0][0]
+        return end
 
-    def _workspace(self) -> np.record:
+    def ends_of(self, segments: np.ndarray) -> np.ndarray:
+        """Mode amplitudes at the end of chosen segments (k,), complex, shape (k, N)."""
+        last = segments == len(self.arrivals)
+        ends = np.empty((len(segments), self.segment_amplitudes.shape[1]), complex)
+        ends[~last], ends[last] = self.arrivals[segments[~last]], self.last_amplitudes
+        return ends
+
+    def workspace(self) -> np.record:
+        """Scratch arrays of contact."""
         modes, planes = self.segment_amplitudes.shape[1], self.segment_phases.shape[1]
         return rub_workspace(modes, planes, self.rotor.system.limits)
 
@@ -298,7 +314,7 @@ class Trajectory(Result):
             phases.reshape(len(flat), phases.shape[-1]),
             self.begins + times.ravel(),
         )
-        found = forces_all(arrays, flat, phases, clocks, self._workspace())[:, self.plane]
+        found = forces_all(arrays, flat, phases, clocks, self.workspace())[:, self.plane]
         normal, friction = arrays.masses[self.plane] * found.T
         return normal.reshape(shape), friction.reshape(shape)
 

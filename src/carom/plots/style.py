@@ -133,6 +133,7 @@ OUTCOMES = MappingProxyType(
         "event-limit": Look("#dcdcdc", Outcome.EVENT_LIMIT.words),
         "beyond-model": Look("#1a1a1a", Outcome.BEYOND_MODEL.words, hatch="xx"),
         "low-bounces": Look("#dcdcdc", Outcome.LOW_BOUNCES.words),
+        "stalled": Look("#dcdcdc", Outcome.STALLED.words),
     }
 )
 """Looks of endings, by the label of their :class:`~carom.outcome.Outcome`; irregular bouncing has a look of its own.

@@ -21,7 +21,8 @@ if TYPE_CHECKING:
 
 ENDINGS = (
     *(outcome for outcome in Outcome if outcome.settled),
-    *(Outcome.TIME_REACHED, Outcome.EVENT_LIMIT, Outcome.GRAZING, Outcome.LOW_BOUNCES, Outcome.BEYOND_MODEL),
+    *(Outcome.TIME_REACHED, Outcome.EVENT_LIMIT, Outcome.GRAZING, Outcome.LOW_BOUNCES),
+    *(Outcome.BEYOND_MODEL, Outcome.STALLED),
 )
 OUTCOMES = Dimension(
     "outcome",
