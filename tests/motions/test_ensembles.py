@@ -64,11 +64,11 @@ def test_what_levitates_is_known_to_however_short_the_time(machine, until):
 
 def test_speeds_that_overflow_are_refused(machine):
     rotor = carom.models.Jeffcott(machine)
-    with pytest.raises(carom.outcome.InputError, match=r"^start velocity.*1e\+100"):
+    with pytest.raises(carom.outcome.InputError, match=r"^start velocity.*1e\+12"):
         settle(rotor, [0.0, 0.1], [1.0, 1e120j])
-    with pytest.raises(carom.outcome.InputError, match=r"^start velocity.*1e\+100"):
+    with pytest.raises(carom.outcome.InputError, match=r"^start velocity.*1e\+12"):
         carom.simulate(rotor, carom.State(0.0, 1e120), 1.0)
-    assert settle(rotor, 0.1, 1e99).outcomes not in (Outcome.LEVITATED, Outcome.TIME_REACHED)
+    assert settle(rotor, 0.1, 1e11).outcomes not in (Outcome.LEVITATED, Outcome.TIME_REACHED)
 
 
 @pytest.mark.jit_only
