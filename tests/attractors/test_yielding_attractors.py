@@ -43,16 +43,20 @@ def test_the_rub_is_that_of_the_closed_form(found):
     assert character_of(VOIGT.model, attractor).rates == pytest.approx(np.sort(rub.eigenvalues.real)[::-1])
 
 
-def test_rolling_in_the_wall_takes_the_time_of_its_turn(found):
-    attractor = found["rolling backward whirl"]
+def test_rolling_in_the_wall_takes_the_time_of_its_turn():
+    # A rotor so thin that its whirl stays less than one clearance deep: deeper ones are not followed.
+    rotor = Yielding(KelvinVoigt(1e3, 2.0), surface_speed=10.0)
+    (attractor,) = (
+        one for one in cm.find_attractors(rotor.model, count=12) if str(one.name) == "rolling backward whirl"
+    )
     position, velocity = attractor.state.position, attractor.state.velocity
     turning = (np.conj(position) * velocity).imag / abs(position) ** 2
-    after = cm.simulate(VOIGT.model, attractor.state, attractor.period).final
+    after = cm.simulate(rotor.model, attractor.state, attractor.period).final
     # The unbalance makes it uneven, so that a turn takes the period and no multiple of a speed.
     assert after.position == pytest.approx(position, abs=1e-6)
     assert after.velocity == pytest.approx(velocity, abs=1e-5)
     # The contact point is at rest, further out by the depth in the wall.
-    assert abs(turning) * abs(position) == pytest.approx(VOIGT.surface_speed + abs(position) - 1.0, rel=1e-9)
+    assert abs(turning) * abs(position) == pytest.approx(rotor.surface_speed + abs(position) - 1.0, rel=1e-9)
 
 
 def test_a_whirl_that_never_leaves_the_wall_is_an_orbit():

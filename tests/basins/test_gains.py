@@ -99,7 +99,7 @@ def test_physical_kicks_stay_what_they_are_when_the_speed_changes():
     found = map_gains(MACHINE, KICKS, ("speed", "damping"), shape=(2, 2), ranges=((120.0, 400.0), (3000.0, 6000.0)))
     slow = MACHINE.replace(speed=120.0, damping=3000.0)
     plan = Grid(VelocityKick.of(slow, "20 mm/s"), (10, 10))
-    assert plan.model.fastest == pytest.approx(KICKS.model.fastest * MACHINE.speed / slow.speed, rel=1e-12)
+    assert plan.model.fastest == pytest.approx(KICKS.model.fastest * slow.scales.time / MACHINE.scales.time, rel=1e-12)
     share = map_basins(carom.models.Jeffcott(slow), plan).share_recovered
     assert found.dataset["recovered"].values[0, 0] == pytest.approx(share.fraction, abs=0.011)
 

@@ -231,7 +231,10 @@ def test_angles_count_from_the_axis_from_which_the_unbalance_counts(machine):
         ),
         (
             ("--blade-loss", "5000 g mm,30 deg"),
-            "Loss of a blade: unbalance from 15,000 g mm to 5,000 g mm, turned by 30° in the sense of rotation",
+            (
+                "Loss of a blade: the unbalance changes by 5,000 g mm at 30° from that before it, in the sense of rotation: from 15,000 g mm "
+                "to 19,500 g mm, turned by 7.37°"
+            ),
         ),
         # at U = 0.5 and U' = 0 the rotor turns with the shaft: 0.35 mm times 184.2 rad/s
         (
