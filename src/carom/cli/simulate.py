@@ -154,7 +154,6 @@ def _read(case: Case, ways: dict[str, str | None], given_instant: str | None) ->
     """Read the machine that moves, its start and what was taken; refuse wrong input before kernels are loaded."""
     from carom.cli.starts import read_blade_loss, read_instant, read_kick, read_shock, read_start
     from carom.disturbances import echo
-    from carom.models.subjects import numbers_of
 
     scales = case.parameters.scales
     chosen = {option: text for option, text in ways.items() if text is not None}
@@ -167,6 +166,8 @@ def _read(case: Case, ways: dict[str, str | None], given_instant: str | None) ->
         raise InputError("--start", given, allowed)
     ((option, text),) = chosen.items()
     if option == "--blade-loss":
+        from carom.models.subjects import numbers_of
+
         loss, phase = read_blade_loss(text, scales)
         rotor = _rotor(case)
         before = None if numbers_of(rotor) is None else rotor.value("rho")

@@ -10,8 +10,6 @@ import numpy as np
 
 from carom.disturbances.coordinates import Coordinate, Starts, angle_coordinate, complex_of
 from carom.disturbances.model import Disturbance
-from carom.models.unbalance import with_changed_unbalance
-from carom.models.weight import refuse_unsteady
 from carom.outcome import InputError
 from carom.parameters import own_size
 
@@ -104,6 +102,8 @@ def starts_after(
     instants: np.ndarray | float = 0.0,
 ) -> Starts:
     """Starts after changes of the unbalance of these sizes and phases at these instants, with the machine after each."""
+    from carom.models.unbalance import with_changed_unbalance  # only here: it loads kernels
+
     sizes, phases, instants = np.broadcast_arrays(sizes, phases, instants)
     after, turned = np.empty(phases.shape, object), np.empty(phases.shape)
     for place in np.ndindex(phases.shape):
@@ -114,6 +114,8 @@ def starts_after(
 
 def levitating_before(rotor: Model, turned: np.ndarray, instants: np.ndarray) -> Starts:
     """Levitation at instants of the turn, seen in frames that have turned by these angles with the unbalance after it."""
+    from carom.models.weight import refuse_unsteady  # only here: it loads kernels
+
     levitates = rotor.system.rest_radius < 1.0
     if levitates:
         refuse_unsteady(rotor)

@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from carom.disturbances.plans import Grid, Plan
-from carom.models import depends_on_instant
 from carom.parameters import MACHINE_FIELDS, Scales
 from carom.parameters.told import number, told, told_angle
 from carom.results import in_si
@@ -77,6 +76,8 @@ def echo_of_kick(speed: float, angle: float, phase: float, scales: Scales | None
 
 def echo_at(echo: Echo, rotor: Model, instant: float) -> Echo:
     """The same, with the instant of the turn where that matters."""
+    from carom.models import depends_on_instant  # only here: it loads kernels
+
     if not depends_on_instant(rotor):
         return echo
     words = f"{echo.words}; the shaft has turned by {told_angle(instant)} since the x axis that turns with it passed that of the room"
@@ -190,6 +191,8 @@ def _moving_at(place: complex, rate: complex, scales: Scales | None) -> Echo:
 
 def instants_words(rotor: Model, plan: Plan | None = None) -> str:
     """At which instants of the turn disturbances come, where these matter, of a plan or of any sample; else nothing."""
+    from carom.models import depends_on_instant  # only here: it loads kernels
+
     if not depends_on_instant(rotor):
         return ""
     if isinstance(plan, Grid) and plan.instant is not None:
