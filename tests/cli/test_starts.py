@@ -51,7 +51,7 @@ def test_plain_disturbances_are_dimensionless_without_scales():
         (read_kick, "0,06 m/s", "decimals take a point, not a comma: write 0.06 m/s"),
         (read_kick, "1,500 mm/s", "a comma may mark decimals or thousands: write 1.500 mm/s or 1 500 mm/s"),
         (read_kick, "60,30", "decimals take a point, not a comma: write 60.30 with its unit"),
-        (read_blade_loss, "0.4", "this has no unit: write 0.4 mm or 0.4 m"),
+        (read_blade_loss, "0.4", "this has no unit: write 0.4 g mm or 0.4 kg m"),
         (read_blade_loss, "5,000 g mm", "write 5.000 g mm or 5 000 g mm"),
         (read_blade_loss, "0.1 mm,30", "this has no unit: write 30 deg or 30 rad"),
         (lambda text, scales: read_positive("--peak", text, "acceleration", scales), "20", "write 20 g or 20 m/s^2"),

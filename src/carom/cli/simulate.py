@@ -127,7 +127,8 @@ def _write(
         for place, part in enumerate(motion.parts):
             tell(place / len(motion.parts))
             whole, ends = _shown(part) if decaying else (part, "")
-            for shown in whole.at_each:
+            for number, shown in enumerate(whole.at_each):
+                tell((place + (number + 0.5) / len(whole.at_each)) / len(motion.parts))
                 mark = f"-{place + 1}" if place else ""
                 mark += f"-bearing-{shown.plane + 1}" if len(whole.at_each) > 1 else ""
                 title = f"{contacts_in_words(shown)} \N{EM DASH} {ends}" if ends else None
