@@ -91,7 +91,8 @@ def test_losses_of_a_blade_are_mapped():
     basin = cm.map_basins(machine, cm.Grid(loss, (8,)), until=400.0)
     phases = basin.dataset["phase"].values
     for place in (0, 5):
-        motion = cm.simulate(*loss.release(machine, float(phases[place])), 400.0, settle=True)
+        instant = float(basin.dataset["instant"].values[place])
+        motion = cm.simulate(*loss.release(machine, float(phases[place]), instant), 400.0, settle=True)
         assert basin.outcomes[place] == motion.outcome
         assert basin.dataset["impacts"].values[place] == len(motion.contacts)
 

@@ -11,6 +11,7 @@ with ``regions``, ``basins``, ``sweep``, ``paper``, ``explore``, ``template``, `
 ``fitting``          tables that fit into a narrow terminal
 ``load_tables``      what touchdown bearings bear
 ``tables``           tables of ``study``, ``simulate`` and ``orbits``
+``motion_tables``      one motion: its contacts, and where it is at the end
 ``steady``           steady motions of flexible machines
 ``basin_options``    options of ``basins``
 ``basin_tables``     what ``basins`` prints

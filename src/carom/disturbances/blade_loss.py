@@ -44,7 +44,7 @@ class BladeLoss(Disturbance):
     >>> machine = cm.load("examples/keogh-cole.toml", ["eccentricity=0.1 mm"])
     >>> loss = cm.disturbances.BladeLoss.of(machine, "9000 g mm")
     >>> cm.map_basins(machine, cm.Grid(loss, (36,))).share_recovered.count
-    18
+    20
     """
 
     change: float

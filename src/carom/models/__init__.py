@@ -23,6 +23,7 @@
 ``forcing``               :class:`Force`: forces that change with time, as modes of their own
 ``stages``                :class:`Staged`: a rotor that changes when a trigger ends a stage; :class:`Forced`: with further forces
 ``weight``                gravity, and a rotor without its levitation
+``unbalance``             a rotor with another unbalance
 ``subjects``              :func:`model_of`, :func:`case_of`: any description of a rotor -> its model, its case
 ========================  =================================================================
 """

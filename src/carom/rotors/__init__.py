@@ -17,6 +17,7 @@
 ``matrix_checks``         what matrices of a rotor must be
 ``matrix_rotor``          :class:`MatrixRotor`: a rotor by its matrices
 ``rotor_files``           :func:`read_rotor`, :func:`write_rotor`: files of matrices
+``array_reader``          the program that reads arrays of a file, in a process of its own
 ``ross_reader``           the program that reads rotors with ROSS, in a process of its own
 ``ross_import``           :func:`import_rotor`: a rotor of ROSS, or of matrices
 ``starter``               a machine file to start from, for an imported rotor

@@ -101,6 +101,7 @@ class MagneticBearing:
             raise InputError("slew_rate_limit", self.slew_rate_limit, allowed)
         if self.at_regain not in AT_REGAIN:
             raise InputError("at_regain", shown(self.at_regain), f"one of {', '.join(AT_REGAIN)}")
+        _ = self.loop
 
     @cached_property
     def loop(self) -> StateSpace:

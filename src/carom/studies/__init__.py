@@ -14,6 +14,7 @@ Read them in this order.
 ``load_checks``          loads of touchdowns against stated limits
 ``load_tables``          what touchdown bearings bear in a motion, in rows and as JSON
 ``drops``                :class:`DropStudy`: what a drop asks of the touchdown bearing, in words and as JSON
+``motion_documents``     motions as JSON, with what touchdown bearings bear
 ``actuator``             what motions ask of the magnetic bearings, against the limits of these
 ``flexible_levitation``  how a flexible machine levitates: whirls, response, sensitivity, separations
 ``flexible_trials``      disturbances of a flexible machine, and what its touchdown bearings bear
@@ -54,7 +55,7 @@ from carom.studies.recovery import Recovery, find_recovery
 from carom.studies.response import UnbalanceResponse, unbalance_response
 from carom.studies.response_data import Separation, Steady, Stretch
 from carom.studies.survives import Survives
-from carom.studies.trajectory_document import trajectory_document
+from carom.studies.motion_documents import trajectory_document
 from carom.studies.trials import Check, Lost, check_recovery
 from carom.studies.verdict import NOT_COVERED, Verdict
 from carom.studies.wording import Wording

@@ -31,7 +31,7 @@ from carom.studies.facts import Fact
 from carom.studies.ranges import MotionRange, Threshold
 from carom.studies.recovery import Recovery
 from carom.studies.study_data import StudyData
-from carom.studies.trajectory_document import scales_document, state_document
+from carom.studies.motion_documents import scales_document, state_document
 from carom.studies.trials import Check
 from carom.studies.verdict import Verdict
 from carom.studies.verdict_facts import requirement_document, survived_document
