@@ -50,12 +50,12 @@ from carom.studies.drops import DropStudy
 from carom.studies.facts import Fact
 from carom.studies.flexible_study import FlexibleStudy
 from carom.studies.load_checks import LoadCheck, WorstLoads, check_loads, worst_loads
+from carom.studies.motion_documents import trajectory_document
 from carom.studies.ranges import MotionRange, Threshold
 from carom.studies.recovery import Recovery, find_recovery
 from carom.studies.response import UnbalanceResponse, unbalance_response
 from carom.studies.response_data import Separation, Steady, Stretch
 from carom.studies.survives import Survives
-from carom.studies.motion_documents import trajectory_document
 from carom.studies.trials import Check, Lost, check_recovery
 from carom.studies.verdict import NOT_COVERED, Verdict
 from carom.studies.wording import Wording

@@ -28,10 +28,10 @@ from carom.results import fields_of, in_si
 from carom.studies.advice_facts import change_document
 from carom.studies.endings import came_back, hardest_impulse, touching
 from carom.studies.facts import Fact
+from carom.studies.motion_documents import scales_document, state_document
 from carom.studies.ranges import MotionRange, Threshold
 from carom.studies.recovery import Recovery
 from carom.studies.study_data import StudyData
-from carom.studies.motion_documents import scales_document, state_document
 from carom.studies.trials import Check
 from carom.studies.verdict import Verdict
 from carom.studies.verdict_facts import requirement_document, survived_document
