@@ -14,7 +14,7 @@ from carom.models import Limited
 from carom.motions import State, energy_ledger
 from carom.outcome import InputError, Outcome
 from carom.parameters import Gravity
-from carom.rotors import PID, MagneticBearing
+from carom.rotors import PID, FlexibleRotor, MagneticBearing, ProportionalDamping
 from carom.rotors.equations import loops_of
 
 P, INTEGRAL, D, T = 9000.0, 3e5, 10.0, 1e-4
@@ -25,7 +25,9 @@ UNTIL = 0.06
 def machine(**limits):
     """On two bearings with an integrator, a filtered derivative and, if a bandwidth is given, an amplifier each."""
     bearings = [MagneticBearing(node, KI, KS, PID(P, INTEGRAL, D, T), **limits) for node in (1, 2)]
-    return symmetric(bearings=bearings, gravity=Gravity())
+    at = symmetric(bearings=bearings, gravity=Gravity())
+    # Without damping of the shaft its highest whirls would grow.
+    return dataclasses.replace(at, rotor=FlexibleRotor(at.rotor.sections, [], ProportionalDamping(10.0, 3e-6)))
 
 
 def reference(reduced, start, angle, limits):
