@@ -346,7 +346,8 @@ def test_a_slip_stops_in_the_wall_and_what_follows_is_decided_by_the_cone(law, t
         slip = slip_in_wall(system.arrays, 0, amplitudes)
         stopped = amplitudes - system.arrays.columns[:, 0] * 1j * slip * cmath.exp(0.3j)
         stay_in_wall(system.arrays, 0, True, False, stopped)
-        assert abs(slip_in_wall(system.arrays, 0, stopped)) < 1e-15
+        # A sum of speeds cancels to their rounding.
+        assert abs(slip_in_wall(system.arrays, 0, stopped)) < 1e-15 * np.abs(system.arrays.exponents * stopped).sum()
         ends.add(int(next_phase(system.arrays, np.array([phase]), 0, stopped, rub_workspace(2))))
     assert ROLLING in ends
 
