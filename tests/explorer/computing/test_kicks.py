@@ -105,10 +105,14 @@ def test_pictures_of_shocks_and_losses_of_a_blade_are_those_of_the_library():
             size = found.sizes[place]
             angle = np.arctan2(found.middles[place[1]], found.middles[place[0]])
             if plane is losses:
-                # A cell shows the nearest of 8 sizes and 32 phases.
-                size = found.largest * (int(8 * size / found.largest) + 0.5) / 8
-                angle = 2.0 * np.pi / 32 * np.rint(angle / (2.0 * np.pi) * 32)
-                after, start = BladeLoss(size).release(rotor, angle)
+                # A cell shows the unbalance after it by the nearest of few sizes, a cell apart, and phases, at most a cell apart.
+                before, width = rotor.value("rho"), found.largest / 8
+                left = before + size * np.exp(1j * angle)
+                phases = np.ceil(2.0 * np.pi * (before + found.largest) / width)
+                turned = np.rint(np.angle(left) / (2.0 * np.pi) * phases) / phases * 2.0 * np.pi
+                shown = np.rint(abs(left) / width) * width * np.exp(1j * turned) - before
+                assert abs(shown - size * np.exp(1j * angle)) < width
+                after, start = BladeLoss(abs(shown)).release(rotor, np.angle(shown))
             else:
                 after, start = rotor, BaseShock(size, plane.lasting(rotor)).release(rotor, angle)
             if place[0] % 3 == 0:
