@@ -221,8 +221,11 @@ class _Modes:
         if not len(driven):
             return self._added(len(push), exponent, shares, 1.0)
         main = int(driven[np.abs(push[driven]).argmax()])
-        alike = self.exponents[near]
-        if len(driven) + len(pairs) > 1 and np.abs(alike - exponent).max() > EQUAL * (1.0 + abs(exponent)):
+        apart = np.abs(self.exponents - exponent)
+        # Exponents that are one number come out of an eigenvalue problem apart by its rounding over their distance from the others.
+        distance = apart[self.free & ~near & (apart > APART)].min(initial=1.0)
+        rounding = 8.0 * np.finfo(float).eps * np.abs(self.exponents).max() / distance
+        if len(driven) + len(pairs) > 1 and apart[near].max() > max(rounding, EQUAL * (1.0 + abs(exponent))):
             raise InputError("force", exponent, "an exponent not so near to two that nearly coincide")
         if len(driven) > 1:
             if len({first in pairs for first in driven.tolist()}) > 1:
