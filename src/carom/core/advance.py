@@ -8,7 +8,7 @@ from carom.compiling.decorators import expanded, inlined, kernel, separate
 from carom.core.arrivals import LANDING, rests, touch
 from carom.core.events import INSIDE, LEAVING, search
 from carom.core.fate import levitates, triggers, until_triggered
-from carom.core.flow import acceleration, copy, displacement, velocity
+from carom.core.flow import acceleration, copy, displacement, squared_modulus, velocity
 from carom.core.limits import FREE, WITHIN, at_limits, keeps_time, pass_time
 from carom.core.phases import AWAY, FLIGHT, stays
 from carom.core.planar_proofs import stays_inside
@@ -21,7 +21,7 @@ from carom.outcome import Outcome
 
 CLEAR, CONTACT, GRAZING = int(Outcome.CLEAR), int(Outcome.CONTACT), int(Outcome.GRAZING)
 TIME_REACHED, EVENT_LIMIT = int(Outcome.TIME_REACHED), int(Outcome.EVENT_LIMIT)
-TRIGGERED, LEVITATED = int(Outcome.TRIGGERED), int(Outcome.LEVITATED)
+TRIGGERED, BEYOND_MODEL, LEVITATED = int(Outcome.TRIGGERED), int(Outcome.BEYOND_MODEL), int(Outcome.LEVITATED)
 CHATTER_HEIGHT = 1e-13
 """Height of a bounce, in clearances, below which a chatter counts as complete; penetration is allowed to 1e-12 at least."""
 STALLED = 64
@@ -68,7 +68,8 @@ def advance(rotor, table, amplitudes, until, contacts, log, memory, work, rub):
     Returns
     -------
     outcome : int
-        ``TIME_REACHED``, ``EVENT_LIMIT`` (log full, or the time of a slice is over), ``GRAZING``, ``CHATTER``, ``TRIGGERED``
+        ``TIME_REACHED``, ``EVENT_LIMIT`` (log full, or the time of a slice is over), ``GRAZING``, ``CHATTER``, ``TRIGGERED``,
+        ``BEYOND_MODEL`` at the end of the first step of contact that leads further into a wall than the model holds,
         or what the motion settles to.
     time : float
     events : int
@@ -114,6 +115,8 @@ def advance(rotor, table, amplitudes, until, contacts, log, memory, work, rub):
             touches = (not slides or duration == 0.0) and plane != NOWHERE
             if memory.watches > 0 and triggers(memory, rubs, touches, duration):
                 outcome = TRIGGERED
+            if slides and _beyond(rotor, state):
+                outcome = BEYOND_MODEL
     copy(state, amplitudes)
     copy(contact, contacts)
     if rotor.limit_bounds.shape[0] > 0:
@@ -141,6 +144,16 @@ def _note(rotor, contact, event, time, plane, log, work, rub):
         log.after[event, k] = work.current[k]
     for axis in range(rub.limited.shape[0]):
         log.limited[event, axis] = rub.limited[axis]
+
+
+@inlined
+def _beyond(rotor, amplitudes):
+    """Whether a plane is further from the centre than the model holds."""
+    found = False
+    for plane in range(rotor.rows.shape[0]):
+        radius = math.sqrt(squared_modulus(displacement(rotor, plane, amplitudes)))
+        found = found or radius > rotor.farthest[plane]
+    return found
 
 
 @inlined

@@ -60,6 +60,7 @@ def rotor_record(
     law_number: np.ndarray | None = None,
     stiffness: np.ndarray | None = None,
     loss: np.ndarray | None = None,
+    farthest: np.ndarray | None = None,
     race: np.ndarray | None = None,
     race_gain: np.ndarray | None = None,
     masses: np.ndarray | None = None,
@@ -101,6 +102,8 @@ def rotor_record(
         Law of each wall along its normal, and the law's own number (:class:`~carom.core.wall.Wall`).  Rigid by default.
     stiffness, loss : ndarray, shape (P,), optional
         Of walls that give way, per effective mass of the plane.  Zero by default.
+    farthest : ndarray, shape (P,), optional
+        Distance of each plane from the centre at which a motion ends, as the model holds no further.  Infinite by default.
     race : ndarray of int, shape (P,), optional
         Mode whose real amplitude is the surface speed of the race that turns at a plane; −1, the default, without one.
     race_gain : ndarray, shape (P,), optional
@@ -173,6 +176,7 @@ def rotor_record(
         "law_number": np.zeros(planes) if law_number is None else law_number,
         "stiffness": np.zeros(planes) if stiffness is None else stiffness,
         "loss": np.zeros(planes) if loss is None else loss,
+        "farthest": np.full(planes, np.inf) if farthest is None else farthest,
         "race": np.full(planes, -1) if race is None else race,
         "race_gain": np.zeros(planes) if race_gain is None else race_gain,
         "masses": np.ones(planes) if masses is None else masses,
@@ -250,7 +254,10 @@ def _rotor_layout(modes: int, planes: int, with_shaft: bool, limits: int, mirror
             ("weights", REAL, (planes,)),
             *((name, REAL, (planes,)) for name in ("friction", "restitution", "surface_speed")),
             ("law", np.dtype(np.int64), (planes,)),
-            *((name, REAL, (planes,)) for name in ("law_number", "stiffness", "loss", "race_gain", "masses")),
+            *(
+                (name, REAL, (planes,))
+                for name in ("law_number", "stiffness", "loss", "farthest", "race_gain", "masses")
+            ),
             ("race", np.dtype(np.int64), (planes,)),
             ("free", np.dtype(np.int8), (modes,)),
             ("shaft", np.dtype(np.int64), (shafts,)),

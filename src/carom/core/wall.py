@@ -24,6 +24,8 @@ class Wall(NamedTuple):
         The law's own number.
     stiffness, loss : float
         Of a wall that gives way, per effective mass of the plane; a wall without stiffness does not.
+    farthest : float
+        Distance of the plane from the centre, in clearances, up to which a motion is followed in a wall that gives way.
     """
 
     friction: float
@@ -33,6 +35,7 @@ class Wall(NamedTuple):
     law_number: float = 0.0
     stiffness: float = 0.0
     loss: float = 0.0
+    farthest: float = math.inf
 
 
 @formula
@@ -46,13 +49,14 @@ def wall_of(rotor, plane):
         rotor.law_number[plane],
         rotor.stiffness[plane],
         rotor.loss[plane],
+        rotor.farthest[plane],
     )
 
 
 @formula
 def rigid_wall(friction, restitution, surface_speed):
     """A rigid wall, for kernels: these take no defaults."""
-    return Wall(friction, restitution, surface_speed, 0, 0.0, 0.0, 0.0)
+    return Wall(friction, restitution, surface_speed, 0, 0.0, 0.0, 0.0, math.inf)
 
 
 @inlined

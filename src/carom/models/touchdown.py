@@ -20,6 +20,13 @@ _Share = Annotated[float, Kind(lambda number: 0.0 <= number <= 1.0, "a number fr
 _Exponent = Annotated[float, Kind(lambda number: 1.0 <= number <= 2.0, "a number from 1 to 2")]
 NO_IMPULSE = 0.0
 """Coefficient of restitution in the numbers of a wall that gives way, which does not use one."""
+FARTHEST = 2.0
+"""Distance from the centre, in clearances, up to which a rotor is followed in a wall that gives way.
+
+The wall is a spring however deep the rotor is in it, and a magnet is linear however near the rotor comes; neither holds far beyond the
+clearance.  The air gap of a magnet usually is twice the clearance of its touchdown bearing, so a rotor that far out strikes the magnet; of
+one wider than ten clearances the depth then is less than a tenth of its radius, which is the arm of the friction.
+"""
 _Forward = Annotated[float, Kind(lambda number: number >= 1.0, "a number of at least 1")]
 
 
@@ -98,7 +105,7 @@ class KelvinVoigt:
     def wall(self, friction: float, surface_speed: float, mass: float) -> Wall:
         """The numbers of a wall for a plane that resists impulses with this mass."""
         own = LAWS.index(self.law), 0.0, self.stiffness / mass, self.damping / mass
-        return Wall(friction, NO_IMPULSE, surface_speed, *own)
+        return Wall(friction, NO_IMPULSE, surface_speed, *own, FARTHEST)
 
     def at_speed(self, factor: float) -> KelvinVoigt:
         """Return the same at a speed of the shaft that is larger by a factor."""
@@ -130,7 +137,7 @@ class HuntCrossley:
     def wall(self, friction: float, surface_speed: float, mass: float) -> Wall:
         """The numbers of a wall for a plane that resists impulses with this mass."""
         own = LAWS.index(self.law), self.exponent, self.stiffness / mass, self.dissipation
-        return Wall(friction, NO_IMPULSE, surface_speed, *own)
+        return Wall(friction, NO_IMPULSE, surface_speed, *own, FARTHEST)
 
     def at_speed(self, factor: float) -> HuntCrossley:
         """Return the same at a speed of the shaft that is larger by a factor."""

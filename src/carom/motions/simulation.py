@@ -29,7 +29,6 @@ from carom.motions.settling import (
 )
 from carom.motions.starts import Kick, State, Until, amplitudes_of
 from carom.motions.trajectories import Trajectory
-from carom.motions.validity import first_beyond
 from carom.outcome import Outcome
 from carom.parameters import own_time
 from carom.progress import Reporter, ShowProgress, shows_progress
@@ -137,13 +136,8 @@ def _follow_stage(rotor: Model, start: State, longest: float, trigger: Trigger, 
         log = EventLog.empty(room, len(amplitudes), len(contact), rotor.system.limits)
         outcome, time, count = follow(rotor, amplitudes, until - reached, contact, log, recollection)
         log = log.first(count)
-        if (beyond := first_beyond(rotor.system, log)) is not None:
-            log, time, outcome = log.first(beyond + 1), float(log.times[beyond]), Outcome.BEYOND_MODEL
-            amplitudes[:] = log.after[-1]
         logs.append(log._replace(times=reached + log.times))
-        reached, events = reached + time, events + len(log.times)
-        if outcome is Outcome.BEYOND_MODEL:
-            break
+        reached, events = reached + time, events + count
         tell(reached / until if until > 0.0 else 1.0)
         outcome, multiplicity = settled(rotor, amplitudes, contact, outcome, recollection)
         if outcome is Outcome.EVENT_LIMIT and progress.stalls(count, time):

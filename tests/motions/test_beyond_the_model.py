@@ -1,10 +1,12 @@
 """Motions stop where the rotor is deeper in its touchdown bearing than the model holds."""
 
+import numpy as np
 import pytest
 
 import carom as cm
 from carom.disturbances.echo import echo_of_drop
-from carom.motions.validity import MOST_DEPTH
+from carom.models import model_of
+from carom.models.touchdown import FARTHEST
 from carom.outcome import Outcome
 from carom.studies import DropStudy
 
@@ -36,8 +38,8 @@ def test_a_motion_stops_where_it_is_beyond_the_model(tmp_path):
     motion = cm.simulate(machine(tmp_path), cm.drop())
     assert motion.outcome is Outcome.BEYOND_MODEL
     radii = motion.radius(motion.segment_starts)
-    assert radii[-1] > 1.0 + MOST_DEPTH
-    assert (radii[:-1] <= 1.0 + MOST_DEPTH).all()
+    assert radii[-1] > FARTHEST
+    assert (radii[:-1] <= FARTHEST).all()
     assert motion.time == motion.segment_starts[-1]
     # Nothing before is changed by it.
     until = 0.9 * motion.time
@@ -54,3 +56,16 @@ def test_it_is_told_since_when(tmp_path):
     headline = DropStudy(case, said, motion).headline
     assert headline.startswith("Beyond the model since ")
     assert "deeper in a touchdown bearing than the model holds" in headline
+
+
+def test_a_map_ends_a_start_as_one_motion_does(tmp_path):
+    case, random = machine(tmp_path), np.random.default_rng(5)
+    speeds = 3.0 * np.sqrt(random.random(12)) * np.exp(2j * np.pi * random.random(12))
+    starts = [cm.kick(abs(speed), float(np.angle(speed))).state(model_of(case)) for speed in speeds]
+    ends = cm.settle(case, [start.position for start in starts], [start.velocity for start in starts], until=400.0)
+    alone = [cm.simulate(case, start, 400.0, settle=True) for start in starts]
+    assert ends.outcomes.tolist() == [motion.outcome for motion in alone]
+    assert {Outcome.BEYOND_MODEL, Outcome.LEVITATED} <= set(ends.outcomes.tolist())
+    beyond = ends.outcomes == Outcome.BEYOND_MODEL
+    assert (np.abs(ends.positions[beyond]) > FARTHEST).all()
+    assert [motion.time for motion in alone] == pytest.approx(ends.times.tolist(), abs=1e-6)
