@@ -1,13 +1,18 @@
-"""Motions stop where the rotor is deeper in its touchdown bearing than the model holds."""
+"""Motions stop where the rotor is deeper in its touchdown bearing than the model holds, or strikes a magnet."""
+
+import dataclasses
 
 import numpy as np
 import pytest
+from flexible_machines import munich
 
 import carom as cm
 from carom.disturbances.echo import echo_of_drop
 from carom.models import model_of
 from carom.models.touchdown import FARTHEST
-from carom.outcome import Outcome
+from carom.motions.magnets import excess_pull, magnet_reach
+from carom.outcome import InputError, Outcome
+from carom.rotors.equations import row_of
 from carom.studies import DropStudy
 
 pytestmark = pytest.mark.jit_only
@@ -69,3 +74,63 @@ def test_a_map_ends_a_start_as_one_motion_does(tmp_path):
     beyond = ends.outcomes == Outcome.BEYOND_MODEL
     assert (np.abs(ends.positions[beyond]) > FARTHEST).all()
     assert [motion.time for motion in alone] == pytest.approx(ends.times.tolist(), abs=1e-6)
+
+
+@pytest.mark.parametrize("share", [0.1, 0.26, 0.51, 0.9])
+def test_the_pull_of_a_differential_pair_is_above_the_linear_one(share):
+    gap, bias = 5e-4, 2.5
+
+    def force(place, current=0.0):
+        return (bias + current) ** 2 / (gap - place) ** 2 - (bias - current) ** 2 / (gap + place) ** 2
+
+    slope = 1e9 * force(1e-9 * gap) / gap
+    assert force(share * gap) / (slope * share * gap) - 1.0 == pytest.approx(excess_pull(share), rel=1e-6)
+
+
+def test_iron_takes_from_the_pull():
+    """Finite elements of a magnet pair, gap about 0.78 mm, slope 2.157e5 N/m: what the law without iron gives is a bound."""
+    for place, force in ((0.2e-3, 46.12), (0.4e-3, 123.37)):
+        assert 0.0 < force / (2.157e5 * place) - 1.0 < excess_pull(place / 0.78e-3)
+
+
+def test_a_motion_stops_at_a_magnet(tmp_path):
+    case = machine(tmp_path, "air_gap=0.45 mm")
+    motion = cm.simulate(case, cm.drop())
+    assert motion.outcome is Outcome.BEYOND_MODEL
+    radii = motion.radius(motion.segment_starts)
+    assert radii[-1] > 1.5 >= radii[:-1].max()
+    reach = magnet_reach(motion)
+    assert reach.struck
+    assert reach.words.startswith("The rotor strikes a magnet")
+    kicked = cm.simulate(case, cm.kick("150 mm/s"), 100.0)
+    found, farthest = magnet_reach(kicked), kicked.radius(np.linspace(0.0, kicked.time, 5000)).max()
+    assert found.share == pytest.approx(farthest / 1.5, rel=1e-3)
+    assert not found.struck
+    assert f"{100.0 * found.share:.2g} % of an air gap" in found.words
+
+
+def test_magnets_of_a_flexible_machine(tmp_path):
+    def bearings(gap):
+        return [dataclasses.replace(each, air_gap=gap) for each in munich().bearings]
+
+    machine = munich(longest_element=0.2, bearings=bearings(4e-4)).with_modes(3)
+    motion = cm.simulate(machine.model, cm.kick("495 mm/s", "30 deg"), "12 ms")
+    times = np.linspace(0.0, motion.time, 1000)
+    shapes = (
+        np.array([row_of(machine.machine.rotor, each.node) for each in machine.machine.bearings]) @ machine.basis.shapes
+    )
+    size = machine.scales.length * np.sqrt(machine.scales.mass)
+    places = size * motion.at(times)[0][:, : machine.vectors] @ shapes.T  # m
+    share = magnet_reach(motion).share
+    assert share == pytest.approx(np.abs(places).max() / 4e-4, rel=1e-3)
+    at_events = np.abs(size * motion.at(motion.segment_starts)[0][:, : machine.vectors] @ shapes.T).max(axis=1)
+    near = munich(longest_element=0.2, bearings=bearings(0.99 * at_events.max())).with_modes(3)
+    stopped = cm.simulate(near.model, cm.kick("495 mm/s", "30 deg"), "12 ms")
+    assert stopped.outcome is Outcome.BEYOND_MODEL
+    assert magnet_reach(stopped).struck
+    assert stopped.time == pytest.approx(motion.segment_starts[at_events > 0.99 * at_events.max()][0], rel=1e-9)
+
+
+def test_a_gap_narrower_than_the_clearance_is_refused(tmp_path):
+    with pytest.raises(InputError, match="larger than the clearance"):
+        machine(tmp_path, "air_gap=0.2 mm")

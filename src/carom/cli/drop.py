@@ -104,9 +104,10 @@ def _print(console: Console, found: DropStudy, page: Path | None) -> None:
     console.print(Text(found.headline, style="bold"), width=width)
     print_tables(console, found.tables)
     print_checks(console, found.checks)
-    if found.reduction is not None:
-        console.print()
-        console.print(found.reduction.words, width=width)
+    for each in (found.magnets, found.reduction):
+        if each is not None and each.words:
+            console.print()
+            console.print(each.words, width=width)
     console.print()
     if page is None:
         console.print("Figures, drop.json and drop.html: add --out DIR")

@@ -15,7 +15,6 @@ from carom.outcome import InputError
 if TYPE_CHECKING:
     from carom.disturbances.echo import Echo
     from carom.models import Model
-    from carom.motions.reduction_errors import ReductionError
     from carom.motions.starts import Kick, State
     from carom.motions.trajectories import Trajectory
     from carom.parameters import Case
@@ -45,6 +44,7 @@ def simulate(
     from carom.cli.drops import error_along, read_release, taken
     from carom.cli.starts import read_time
     from carom.loading import load
+    from carom.motions.magnets import magnet_reach
 
     case = load(machine, settings or ())
     check_output(out)
@@ -67,14 +67,15 @@ def simulate(
         rotor, given, echo = read(case)
         motion = _follow(rotor, given, kick, end, tell if out is None else tell.part(0.0, 0.4))
         _write_logs(logs, motion)
-        reduction = error_along(case, motion, read)
-        document = _document(case, motion, echo) | ({} if reduction is None else {"reduction": reduction.document()})
+        beside = {"magnets": magnet_reach(motion), "reduction": error_along(case, motion, read)}
+        known = {name: found for name, found in beside.items() if found is not None}
+        document = _document(case, motion, echo) | {name: found.document() for name, found in known.items()}
         if out is not None:
             _write(out, case, motion, document, tell.part(0.4, 1.0, "drawing"), decaying=end is None)
     if as_json:
         print_document(document)
     else:
-        _tell(case, motion, echo, reduction)
+        _tell(case, motion, echo, [found.words for found in known.values()])
     say_where(out)
 
 
@@ -94,15 +95,15 @@ def _write_logs(logs: dict[str, str], motion: Trajectory) -> None:
         (write_csv if option == "--csv" else write_netcdf)(motion, path)
 
 
-def _tell(case: Case, motion: Trajectory, echo: Echo, reduction: ReductionError | None) -> None:
-    """Print the motion for people."""
+def _tell(case: Case, motion: Trajectory, echo: Echo, beside: list[str]) -> None:
+    """Print the motion for people, and what else is known of it."""
     from carom.cli.drops import print_parts
 
     console().print(f"{echo.words}.")
     print_parts(console(), case, motion, echo.kind)
-    if reduction is not None:
+    for words in filter(None, beside):
         console().print()
-        console().print(reduction.words)
+        console().print(words)
 
 
 def _document(case: Case, motion: Trajectory, echo: Echo) -> dict[str, Any]:

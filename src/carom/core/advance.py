@@ -69,7 +69,8 @@ def advance(rotor, table, amplitudes, until, contacts, log, memory, work, rub):
     -------
     outcome : int
         ``TIME_REACHED``, ``EVENT_LIMIT`` (log full, or the time of a slice is over), ``GRAZING``, ``CHATTER``, ``TRIGGERED``,
-        ``BEYOND_MODEL`` at the end of the first step of contact that leads further into a wall than the model holds,
+        ``BEYOND_MODEL`` at the end of the first step of contact that leads further into a wall than the model holds, or at an event at which a
+        magnet is struck,
         or what the motion settles to.
     time : float
     events : int
@@ -115,7 +116,7 @@ def advance(rotor, table, amplitudes, until, contacts, log, memory, work, rub):
             touches = (not slides or duration == 0.0) and plane != NOWHERE
             if memory.watches > 0 and triggers(memory, rubs, touches, duration):
                 outcome = TRIGGERED
-            if slides and _beyond(rotor, state):
+            if (slides and _beyond(rotor, state)) or _at_magnet(rotor, state):
                 outcome = BEYOND_MODEL
     copy(state, amplitudes)
     copy(contact, contacts)
@@ -153,6 +154,18 @@ def _beyond(rotor, amplitudes):
     for plane in range(rotor.rows.shape[0]):
         radius = math.sqrt(squared_modulus(displacement(rotor, plane, amplitudes)))
         found = found or radius > rotor.farthest[plane]
+    return found
+
+
+@inlined
+def _at_magnet(rotor, amplitudes):
+    """Whether a magnet is struck."""
+    found = False
+    for magnet in range(rotor.gap_offsets.shape[0]):
+        place = rotor.gap_offsets[magnet]
+        for k in range(amplitudes.shape[0]):
+            place += rotor.gap_rows[magnet, k] * amplitudes[k]
+        found = found or squared_modulus(place) > 1.0
     return found
 
 

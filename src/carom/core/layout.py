@@ -72,6 +72,8 @@ def rotor_record(
     limits: Mapping[str, np.ndarray] | None = None,
     mirror: np.ndarray | None = None,
     mirror_columns: np.ndarray | None = None,
+    gap_rows: np.ndarray | None = None,
+    gap_offsets: np.ndarray | None = None,
 ) -> np.record:
     """A linear rotor with ``N`` moving modes and ``P`` contact planes, as the kernels see it.
 
@@ -129,6 +131,8 @@ def rotor_record(
         Mode of the turn of bearings that act differently in two directions (:mod:`carom.core.mirror`).
     mirror_columns : ndarray of complex, shape (N, P), optional
         Change of the amplitudes by the conjugate of an impulse at a plane, times that turn.
+    gap_rows, gap_offsets : ndarray of complex, shapes (G, N) and (G,), optional
+        Displacements at magnets in their air gaps, as those of the planes: a motion ends where one is larger than one.
 
     Returns
     -------
@@ -140,7 +144,7 @@ def rotor_record(
         (``Σ_k |rows|²`` over the free modes), of a shaft ``unbalance_rows`` (acceleration of the planes by its unbalance at the nominal speed), and of
         limits ``limit_pulls`` (P, L) (acceleration of the planes by what lies beyond) and ``reach``, a record in which the quantities are planes, in
         units of their bounds.
-        The fields of a shaft, of limits and of a mirror have no entries without them: kernels for such rotors are compiled without them.  A record is passed by address and its shapes are known at compile time: kernels run six
+        The fields of a shaft, of limits, of a mirror and of air gaps have no entries without them: kernels for such rotors are compiled without them.  A record is passed by address and its shapes are known at compile time: kernels run six
         times as fast as with a tuple of arrays.
     """
     modes, planes = len(exponents), len(rows)
@@ -190,11 +194,14 @@ def rotor_record(
         "mirror": [] if mirror is None else mirror,
         "mirror_columns": np.zeros((modes, 0)) if mirror_columns is None else mirror_columns,
         "limit_mirrors": np.zeros((modes, 0)),
+        "gap_rows": np.zeros((0, modes)) if gap_rows is None else gap_rows,
+        "gap_offsets": [] if gap_offsets is None else gap_offsets,
         **given,
         "limit_pulls": seen["rate_rows"].dot(given["limit_columns"]),
         "reach": tuple(reach[name] for name in _flight_layout(modes, number).names or ()),
     }
-    layout = _rotor_layout(modes, planes, shaft is not None, number, mirror is not None)
+    gaps = 0 if gap_rows is None else len(gap_rows)
+    layout = _rotor_layout(modes, planes, shaft is not None, number, mirror is not None, gaps)
     return filled(layout, tuple(fields[name] for name in layout.names or ()))
 
 
@@ -244,7 +251,7 @@ def _flight_layout(modes: int, planes: int) -> np.dtype:
 
 
 @cache
-def _rotor_layout(modes: int, planes: int, with_shaft: bool, limits: int, mirrored: bool) -> np.dtype:
+def _rotor_layout(modes: int, planes: int, with_shaft: bool, limits: int, mirrored: bool, gaps: int) -> np.dtype:
     shafts, mirrors = int(with_shaft), int(mirrored)
     return layout_of(
         (
@@ -274,6 +281,8 @@ def _rotor_layout(modes: int, planes: int, with_shaft: bool, limits: int, mirror
             ("mirror", np.dtype(np.int64), (mirrors,)),
             ("mirror_columns", COMPLEX, (modes, mirrors * planes)),
             ("limit_mirrors", COMPLEX, (modes, mirrors * limits)),
+            ("gap_rows", COMPLEX, (gaps, modes)),
+            ("gap_offsets", COMPLEX, (gaps,)),
             ("reach", _flight_layout(modes, limits), ()),
         )
     )

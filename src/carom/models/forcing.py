@@ -87,6 +87,7 @@ def with_forces(system: System, forces: Sequence[Force]) -> System:
         races=system.races,
         shaft=system.shaft,
         clearances=system.clearances,
+        magnets=system.magnets,
         rows=modes.right[:planes],
         columns=modes.left[:, :planes],
         limits={

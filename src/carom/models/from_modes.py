@@ -41,6 +41,7 @@ def modal_system(
     mirrored: np.ndarray | None = None,
     mirror_columns: np.ndarray | None = None,
     mirror: np.ndarray | None = None,
+    magnets: np.ndarray | None = None,
     **planes: np.ndarray,
 ) -> System:
     """System of these modes, in arrays of one of few sizes: each size of the kernels takes seconds to compile.
@@ -49,7 +50,7 @@ def modal_system(
     ----------
     exponents, driven, free, rows, columns, limits, mirror, mirror_columns, **planes
         See :func:`~carom.core.layout.rotor_record`.
-    rest, shapes, inverse, forced, translation, clearances, mirrored
+    rest, shapes, inverse, forced, translation, clearances, mirrored, magnets
         See :class:`System`.
     races : RaceModes, optional
         Further modes, of races that turn.
@@ -90,6 +91,8 @@ def modal_system(
         }
     if mirror is not None and mirror_columns is not None:
         planes |= {"mirror": mirror, "mirror_columns": filled(mirror_columns)}
+    if magnets is not None:
+        planes |= {"gap_rows": filled(magnets @ shapes, 1), "gap_offsets": magnets @ rest}
     arrays = rotor_record(
         limits=limits,
         exponents=filled(exponents, filler=exponents[-1]),
@@ -101,8 +104,9 @@ def modal_system(
     )
     moved = None if forced is None else filled(forced)
     conjugates = None if mirrored is None else filled(mirrored)
+    shown = filled(shapes, 1)
     return System(
-        arrays, rest, filled(shapes, 1), filled(inverse), translation, moved, races, shaft, clearances, conjugates
+        arrays, rest, shown, filled(inverse), translation, moved, races, shaft, clearances, conjugates, magnets=magnets
     )
 
 

@@ -44,6 +44,8 @@ class InBearing(Around):
         Whether stiffness and damping of the levitation act.
     drive : Drive, optional
         In SI units; without one the speed of the shaft never changes.
+    air_gap : float, optional
+        Of the magnets, m: where the rotor strikes them a motion ends.
 
     Raises
     ------
@@ -55,6 +57,7 @@ class InBearing(Around):
     bearing: TouchdownBearing
     levitates: bool = True
     drive: Drive | None = None
+    air_gap: float | None = None
 
     def __post_init__(self) -> None:
         rotor: Any = self.rotor
@@ -65,6 +68,9 @@ class InBearing(Around):
                 "a bearing that gives way, has a race, a mount or an offset; a rigid wall needs no model of its own"
             )
             raise InputError("bearing", self.bearing.words, allowed)
+        if self.air_gap is not None and self.bearing.centre:
+            allowed = "0 where the air gap is known, which counts from the place of levitation"
+            raise InputError("touchdown_offset", self.bearing.offset, allowed)
 
     @property
     def parameters(self) -> Parameters:
@@ -97,6 +103,7 @@ class InBearing(Around):
             translation=np.eye(len(plane))[0],
             carried=np.ones(len(plane)),
             shaft=shaft_of(self.drive, scales),
+            magnets=None if self.air_gap is None else np.eye(1, len(plane)) * scales.length / self.air_gap,
             scales=scales,
         )
 
@@ -171,12 +178,12 @@ class InBearing(Around):
         of_bearing = {name: changes.pop(name) for name in list(changes) if name.startswith(PREFIX)}
         bearing = self.bearing.replace(**{name.removeprefix(PREFIX): value for name, value in of_bearing.items()})
         rotor = self.rotor.replace(**changes) if changes else self.rotor
-        return InBearing(rotor, bearing, self.levitates, self.drive)
+        return replace(self, rotor=rotor, bearing=bearing)
 
     def attributes(self) -> dict[str, Any]:
         """Return the numbers as attributes of a dataset, exact to the last bit."""
         drive = asdict(self.drive) if self.drive else None
-        bearing = {**asdict(self.bearing), "levitates": self.levitates, "drive": drive}
+        bearing = {**asdict(self.bearing), "levitates": self.levitates, "drive": drive, "air_gap": self.air_gap}
         return {"touchdown_bearing": json.dumps(bearing), "rotor": json.dumps(self.rotor.attributes())}
 
 

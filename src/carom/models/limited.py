@@ -22,7 +22,20 @@ from carom.models.system import System
 from carom.outcome import InputError, shown
 from carom.parameters import ControlLimit, Field
 
-_KEPT = ("exponents", "driven", "offsets", "rows", "columns", *Wall._fields, "race", "race_gain", "masses", "free")
+_KEPT = (
+    "exponents",
+    "driven",
+    "offsets",
+    "rows",
+    "columns",
+    *Wall._fields,
+    "race",
+    "race_gain",
+    "masses",
+    "free",
+    "gap_rows",
+    "gap_offsets",
+)
 _VECTORS = ("displacement", "velocity", "accelerations", "rates")
 
 

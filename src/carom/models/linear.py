@@ -34,7 +34,7 @@ SINGULAR = 1e-14
 GYROSCOPIC = 1e-12
 """Size of the gyroscopic matrix, relative to the damping in the co-rotating frame, that is rounding."""
 _NUMBERS = ("mass", "damping", "stiffness", "forcing", "translation")
-_OTHERS = ("unlevitated", "conjugate", "carried", "regained")
+_OTHERS = ("unlevitated", "conjugate", "carried", "regained", "magnets")
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -70,6 +70,8 @@ class LinearRotor(Result):
         levitation for a rotor with one coordinate, and none is known for others.
     regained : array_like, shape (n,), optional
         What coordinates and rates are multiplied by when levitation is regained: 0 for states of controllers that are reset then.  Ones by default.
+    magnets : array_like of complex, shape (G, n), optional
+        Displacement at each magnet, in its air gap, per coordinate: motions end where one is larger than one.  By default no gap is known.
     conjugate : array_like of complex, shape (2, n, n), optional
         Damping and stiffness in the fixed frame that act on the conjugates of rates and coordinates: of bearings that act differently in two
         directions, with levitation or without it.  By default there are none.  Not with a ``shaft``.
@@ -93,6 +95,7 @@ class LinearRotor(Result):
     unlevitated: np.ndarray | None = None
     conjugate: np.ndarray | None = None
     regained: np.ndarray | None = None
+    magnets: np.ndarray | None = None
 
     def __post_init__(self) -> None:
         if not isinstance(self.scales, Scales | None):
@@ -117,6 +120,7 @@ class LinearRotor(Result):
         self._check_others("conjugate", (2, n, n))
         self._check_others("carried", (n,))
         self._check_others("regained", (n,))
+        self._check_others("magnets", (len(np.atleast_1d(self.magnets)) if self.magnets is not None else 0, n))
         given: Any = self.touchdowns
         listed = tuple(given) if isinstance(given, Iterable) else ()
         if not listed or not all(isinstance(each, Touchdown) and len(each.plane) == n for each in listed):
@@ -221,7 +225,7 @@ class LinearRotor(Result):
                 "mass, planes", mobilities.tolist(), "positive mobilities W M⁻¹ Wᴴ: an impulse must move its plane"
             )
         races = [each.race for each in self.touchdowns]
-        if n == 1 and self.planes.tolist() == [[1.0]] and races == [None] and turning is None:
+        if n == 1 and self.planes.tolist() == [[1.0]] and races == [None] and turning is None and self.magnets is None:
             return self._one_coordinate(found.exponents, complex(rest[0]))
         inverse, masses = np.zeros((len(found.basis), 2 * n), complex), 1.0 / mobilities.real
         inverse[:, np.append(np.ones(n, bool), self.heavy)] = np.linalg.inv(found.basis)
@@ -241,6 +245,7 @@ class LinearRotor(Result):
             masses=masses,
             translation=self.translation,
             clearances=tuple(each.clearance for each in self.touchdowns),
+            magnets=self.magnets,
         )
 
     def _mirrored(self, conjugate: np.ndarray) -> System:
@@ -257,6 +262,7 @@ class LinearRotor(Result):
             races=RaceModes.of([each.race for each in self.touchdowns], system.arrays["masses"]),
             translation=self.translation,
             clearances=tuple(each.clearance for each in self.touchdowns),
+            magnets=self.magnets,
         )
 
     def _check_inverses(self) -> None:

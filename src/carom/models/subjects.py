@@ -46,9 +46,10 @@ def model_of(subject: Subject) -> Model:
         return Jeffcott(subject)
     if isinstance(subject, Machine | Case):
         model = model_of(subject.parameters)
-        if isinstance(subject, Case) and (subject.touchdown or subject.drive) and isinstance(model, Jeffcott):
-            model = InBearing(model, subject.touchdown or TouchdownBearing(), drive=subject.drive)
         machine = subject.machine if isinstance(subject, Case) else subject
+        if isinstance(subject, Case) and (subject.touchdown or subject.drive) and isinstance(model, Jeffcott):
+            gap = None if machine is None else machine.air_gap
+            model = InBearing(model, subject.touchdown or TouchdownBearing(), drive=subject.drive, air_gap=gap)
         if machine is not None and machine.control_limit is not None:
             model = Limited(model, machine.control_limit)
         return weighted(model, subject.gravity) if isinstance(subject, Case) and subject.gravity else model
@@ -143,9 +144,9 @@ def model_from(attributes: Mapping[str, Any]) -> Model:
         return Limited(model_from(json.loads(attributes["rotor"])), limits_from(attributes["limits"]))
     if "touchdown_bearing" in attributes:
         bearing = json.loads(attributes["touchdown_bearing"])
-        levitates, drive = bearing.pop("levitates"), bearing.pop("drive")
+        levitates, drive, gap = bearing.pop("levitates"), bearing.pop("drive"), bearing.pop("air_gap", None)
         rotor = jeffcott_of(model_from(json.loads(attributes["rotor"])))
-        return InBearing(rotor, TouchdownBearing(**bearing), levitates, Drive(**drive) if drive else None)
+        return InBearing(rotor, TouchdownBearing(**bearing), levitates, Drive(**drive) if drive else None, gap)
     if "stages" in attributes:
         return Staged(tuple(map(_stage_from, json.loads(attributes["stages"]))))
     return Jeffcott(Parameters.from_attributes(attributes))

@@ -60,6 +60,8 @@ class System(ModeArrays):
     mirrored : ndarray of complex, shape (N, 2n), optional
         Amplitudes per conjugate of a coordinate, then of a rate, times ``e^{−2it}``, where bearings act differently in two directions
         (:mod:`carom.models.mirror`); by default they do not.
+    magnets : ndarray of complex, shape (G, n), optional
+        Displacement at each magnet, in its air gap, per coordinate, where the gap is known.
     growth : float
         Rate, in ``Ω``, at which a motion grows that these modes leave out; 0, the default, if none does.
     """
@@ -74,6 +76,7 @@ class System(ModeArrays):
     clearances: tuple[float, ...] | None = None
     mirrored: np.ndarray | None = None
     growth: float = 0.0
+    magnets: np.ndarray | None = None
 
     @property
     def decay(self) -> float:

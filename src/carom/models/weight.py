@@ -135,4 +135,5 @@ def without_levitation(model: Model) -> Model:
         scales=model.scales,
         shaft=model.shaft if isinstance(model, LinearRotor) else None,
         conjugate=model.conjugate if isinstance(model, LinearRotor) else None,
+        magnets=model.magnets if isinstance(model, LinearRotor) else None,
     )

@@ -19,6 +19,7 @@
 ``loads``           loads of a touchdown: forces, impulses, heat
 ``bearing_loads``     the same of a drop, over all stages, with race, whirl and rest
 ``courses``           a drop sampled over all stages, to be drawn
+``magnets``           how near a rotor comes to its magnets, and by how much their linear law is wrong there
 ``reduction_errors``  what the vectors left out of a flexible machine change
 ``ledger``          energies of a motion
 ``across``          energies of bearings that act differently in two directions

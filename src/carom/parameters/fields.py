@@ -192,6 +192,7 @@ PHYSICAL_PARTNER: Mapping[str, str] = {
 
 _PARTNERS = {**PHYSICAL_PARTNER, **{physical: name for name, physical in PHYSICAL_PARTNER.items()}}
 _OTHERS = {
+    "air_gap": "gap magnet_gap",
     "balance_grade": "grade quality_grade",
     "clearance": "radial_clearance",
     "current_limit": "max_current",

@@ -63,6 +63,8 @@ class Machine(Tabular, pydantic.BaseModel):
         Force a current ki (N/A) and size ks of the negative stiffness (N/m, not negative) of one of them.
     force_limit, current_limit, slew_rate_limit : float or str, optional
         Largest force (N), control current (A) and rate of this current (A/s) of one of them.
+    air_gap : float or str, optional
+        Radial air gap s0 of their magnets (m), larger than the clearance: a rotor that is there strikes them.
 
     Raises
     ------
@@ -94,6 +96,7 @@ class Machine(Tabular, pydantic.BaseModel):
     force_limit: float | None = None
     current_limit: float | None = None
     slew_rate_limit: float | None = None
+    air_gap: float | None = None
     _resolved: Resolved = pydantic.PrivateAttr()
 
     def __init__(self, /, **entries: Any) -> None:
@@ -102,6 +105,9 @@ class Machine(Tabular, pydantic.BaseModel):
     def _fill(self, resolved: Resolved, entries: Mapping[str, Any]) -> None:
         super().__init__(**resolved.values)
         self._resolved = resolved
+        if self.air_gap is not None and self.air_gap <= self.clearance:
+            allowed = f"larger than the clearance, {told_entry('clearance', self.clearance, 6)}: a rotor in contact would strike the magnets"
+            raise InputError("air_gap", shown(entries.get("air_gap", self.air_gap)), allowed)
         try:
             self.parameters  # noqa: B018
         except InputError as problem:

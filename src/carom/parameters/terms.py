@@ -135,6 +135,7 @@ HELPER_FIELDS: Mapping[str, Field] = by_name(
         1e15,
         '"5000 A/s"',
     ),
+    length_field("air_gap", "s_0", "radial air gap of a bearing's magnets", 1e-9, 1e3, '"0.5 mm"'),
 )
 """Entries that set nothing themselves: those that formulas need, and limits."""
 

@@ -29,7 +29,7 @@ BEARING_FIELDS: Mapping[str, Field] = by_name(
     Field("ks", "k_s", "stiffness of the bearing at constant current", "a stiffness", "N/m", -1e15, -1e-9, '"-1e5 N/m"', True),
     Field("delay", "", "delay of the controller", "a time", "s", 1e-9, 1.0, '"50 us"', True),
     Field("amplifier_bandwidth", "", "bandwidth of the amplifier", "an angular frequency", "rad/s", 1e-3, 1e9, '"1 kHz"'),
-    *(HELPER_FIELDS[name] for name in ("force_limit", "current_limit", "slew_rate_limit")),
+    *(HELPER_FIELDS[name] for name in ("force_limit", "current_limit", "slew_rate_limit", "air_gap")),
     Field("axis_angle", "", "angle of one of its two axes in the fixed frame, for its limits", "an angle", "rad", -10.0, 10.0, '"45 deg"', True),
 )  # fmt: skip
 
@@ -64,6 +64,8 @@ class MagneticBearing:
     force_limit, current_limit, slew_rate_limit : float or str, optional
         Largest force by the current, N, control current, A, and rate of the current, A/s; that of the rate needs an amplifier.  By default there
         are none.
+    air_gap : float or str, optional
+        Radial air gap of its magnets, m: where the rotor strikes them a motion ends; by default it is not known.
     axis_angle : float or str, optional
         Angle of one of its axes in the fixed frame, rad; 0 by default.
     at_regain : {"reset", "hold"}
@@ -85,6 +87,7 @@ class MagneticBearing:
     force_limit: float | None = None
     current_limit: float | None = None
     slew_rate_limit: float | None = None
+    air_gap: float | None = None
     axis_angle: float = 0.0
     at_regain: str = "reset"
 

@@ -264,7 +264,20 @@ class ReducedMachine(Result):
             scales=scales,
             unlevitated=np.stack([once * left, twice * given.unlevitated[1]]),
             conjugate=np.stack([once * given.across[0], twice * given.across[1]]) if given.mirrored else None,
+            magnets=self._magnets,
         )
+
+    @property
+    def _magnets(self) -> np.ndarray | None:
+        """Displacement at each magnet, in its air gap, per coordinate in units of the equations; ``None`` where no gap is known."""
+        known = [each for each in self.machine.bearings if each.air_gap is not None]
+        if not known:
+            return None
+        rows = np.zeros((len(known), len(self.equations.mass)))
+        gaps = np.array([each.air_gap for each in known])
+        seen = loops_of(self.machine.rotor, known, ()).bearings @ self.basis.shapes
+        rows[:, : self.vectors] = math.sqrt(self.scales.mass) * self.scales.length / gaps[:, None] * seen
+        return rows
 
     def _touchdown(self, plane: TouchdownPlane, clearance: float, row: np.ndarray) -> Touchdown:
         """A touchdown bearing, in units in which its own clearance is the length and energies are those of the rotor."""

@@ -11,6 +11,7 @@ from carom.disturbances.echo import Echo
 from carom.models import model_of
 from carom.models.subjects import rotor_document
 from carom.motions import DropLoads, Trajectory, drop_loads
+from carom.motions.magnets import MagnetReach, magnet_reach
 from carom.motions.reduction_errors import ReductionError
 from carom.outcome import Outcome
 from carom.parameters import Case
@@ -45,6 +46,11 @@ class DropStudy(Result):
     def loads(self) -> DropLoads:
         """What the touchdown bearing bears."""
         return drop_loads(self.motion)
+
+    @cached_property
+    def magnets(self) -> MagnetReach | None:
+        """How near the rotor comes to its magnets, where their air gaps are known."""
+        return magnet_reach(self.motion)
 
     @property
     def checks(self) -> tuple[LoadCheck, ...]:
@@ -90,4 +96,6 @@ class DropStudy(Result):
             document["shaft"] = shaft | in_si(shaft, scales, speed_at_end="speed", left_out="speed")
         if self.reduction is not None:
             document["reduction"] = self.reduction.document()
+        if self.magnets is not None:
+            document["magnets"] = self.magnets.document()
         return document | {"touchdown_bearings": load_entries(loads, case.limits)}

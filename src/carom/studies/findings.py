@@ -11,6 +11,7 @@ from carom.closed_forms.known import known_of
 from carom.closed_forms.sag import Levitation
 from carom.closed_forms.whirl import Rolling, Runaway
 from carom.models.subjects import in_rigid_wall
+from carom.motions.magnets import pull_words
 from carom.orbits.orbit import Orbit
 from carom.outcome import STEADY_WORDS, Outcome
 from carom.parameters import GRAVITY
@@ -57,6 +58,11 @@ def _levitation(study: StudyData) -> str:
     if not levitation.stable:
         return text + "But nothing damps it: a disturbance does not die out."
     text += f"Disturbances that do not reach the wall die out, with a time constant of {say.time(1.0 / decay)}."
+    if study.case.machine is not None and study.case.machine.air_gap is not None:
+        share = study.case.machine.clearance / study.case.machine.air_gap
+        text += (
+            f" Where it touches it is {number(100.0 * share, 2)} % of the air gap from the centre; {pull_words(share)}."
+        )
     return " ".join([text, *_loss_of_levitation(study)])
 
 

@@ -61,9 +61,9 @@ def facts_of_machine(study: FlexibleData) -> Iterator[Fact]:
         reduction_words(reduced),
         values={"error": reduced.error, "vectors": reduced.vectors, "modes": reduced.modes},
     )
-    along = [(KINDS[trial.kind], trial.reduction) for trial in study.trials]  # type: ignore[index]
+    along = [(KINDS[trial.kind], each) for trial in study.trials for each in (trial.magnets, trial.reduction)]  # type: ignore[index]
     for kind, found in [*along, ("Drop", study.fall_reduction)]:
-        if found is not None:
+        if found is not None and found.words:
             yield Fact("Accuracy", f"{kind}, the worst: {found.words}", values=found.document())
     for each in NOT_COVERED:
         yield Fact("Not covered", each)

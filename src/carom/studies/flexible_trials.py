@@ -6,6 +6,7 @@ import math
 from collections import Counter
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
@@ -18,6 +19,7 @@ from carom.disturbances.coordinates import TURN
 from carom.models import Model
 from carom.motions import Trajectory, drop_loads, kick, simulate
 from carom.motions.bearing_loads import DropLoads, PlaneLoads
+from carom.motions.magnets import MagnetReach, magnet_reach
 from carom.motions.reduction_errors import ReductionError, reduction_error
 from carom.motions.starts import State
 from carom.outcome import Outcome
@@ -106,6 +108,11 @@ class FlexibleTrial(Result):
     worst: Trajectory
     reduction: ReductionError | None = None
 
+    @cached_property
+    def magnets(self) -> MagnetReach | None:
+        """How near the rotor comes to its magnets along that one, where their air gaps are known."""
+        return magnet_reach(self.worst)
+
     @property
     def survived(self) -> bool:
         """Whether all that were tried came back."""
@@ -121,6 +128,7 @@ class FlexibleTrial(Result):
             "at_largest": {"came_back": self.largest.count, "total": self.largest.total},
             "whirls": list(self.whirls),
             "reduction": None if self.reduction is None else self.reduction.document(),
+            "magnets": None if self.magnets is None else self.magnets.document(),
             "touchdown_bearings": [
                 {
                     "touchdown_bearing": each.touchdown_bearing,

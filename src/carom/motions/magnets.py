@@ -1,0 +1,82 @@
+"""By how much the linear law of magnets is wrong along a motion.
+
+A differential pair with the air gap ``s₀``, the bias current ``i₀`` and the control current ``i`` pulls a rotor at ``x`` with
+
+    F = k [(i₀ + i)²/(s₀ − x)² − (i₀ − i)²/(s₀ + x)²],
+
+so without control current with ``4k i₀² s₀ x/(s₀² − x²)²``: with ``ξ = x/s₀``, ``1/(1 − ξ²)²`` times as hard as the linear law ``4k i₀² x/s₀³``.
+Saturating iron takes from that, so it is an upper bound.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from carom.motions.trajectories import Trajectory
+from carom.parameters.told import number
+from carom.results import Result
+
+SAMPLES = 20_000
+"""Instants, beside those of events, at which the place of a rotor at its magnets is looked at."""
+TOGETHER = 2_000
+
+
+def excess_pull(share: float) -> float:
+    """By how much a magnet pulls harder than in the linear law, relative to that, at a share of its air gap from the centre, without control current."""
+    return 1.0 / (1.0 - share**2) ** 2 - 1.0
+
+
+def pull_words(share: float) -> str:
+    """The same in words, to follow the place."""
+    return f"there a magnet pulls up to {number(100.0 * excess_pull(share), 2)} % harder than in this linear model (less where its iron saturates)"
+
+
+@dataclass(frozen=True, repr=False)
+class MagnetReach(Result):
+    """How near a rotor comes to its magnets while they act.
+
+    Attributes
+    ----------
+    share : float
+        Largest distance from the centre of a magnetic bearing over its air gap, while they act.
+    struck : bool
+        Whether it strikes one, whether they act or not.  A motion ends at the first event at which that is seen.
+    """
+
+    share: float
+    struck: bool
+
+    @property
+    def words(self) -> str:
+        """The same in sentences."""
+        told = "The rotor strikes a magnet: what follows is not the motion of the machine. " if self.struck else ""
+        if not 0.0 < self.share < 1.0:
+            return told.rstrip()
+        return told + (
+            f"While the magnets act the rotor comes up to {number(100.0 * self.share, 2)} % of an air gap from the centre; {pull_words(self.share)}."
+        )
+
+    def document(self) -> dict[str, Any]:
+        """As plain data for JSON."""
+        wrong = excess_pull(self.share) if self.share < 1.0 else None
+        return {"share_of_air_gap": self.share, "struck": self.struck, "excess_pull": wrong}
+
+
+def magnet_reach(motion: Trajectory) -> MagnetReach | None:
+    """How near a motion comes to the magnets; ``None`` where no air gap is known."""
+    gaps = motion.rotor.system.magnets
+    if gaps is None:
+        return None
+    reached = [(_largest(part, gaps), part.rotor.system.levitates) for part in motion.parts]
+    struck = any(share > 1.0 for share, _ in reached)
+    return MagnetReach(max((share for share, acts in reached if acts), default=0.0), struck)
+
+
+def _largest(part: Trajectory, gaps: np.ndarray) -> float:
+    times = np.concatenate([part.segment_starts, np.linspace(0.0, part.time, SAMPLES)])
+    pieces = np.array_split(times, math.ceil(len(times) / TOGETHER))
+    return max(float(np.abs(np.reshape(part.at(each)[0], (len(each), -1)) @ gaps.T).max()) for each in pieces)
