@@ -128,8 +128,8 @@ _MEANINGS = {
     ),
     Outcome.TRIGGERED: "The trigger of its stage has ended the motion; it goes on in the next stage, if there is one.",
     Outcome.BEYOND_MODEL: (
-        "The rotor is deeper in a touchdown bearing than the model holds, by more than one clearance: it would strike "
-        "the magnets, whose air gap usually is two; so the motion stops there."
+        "The rotor is more than one clearance deep in a touchdown bearing, or strikes a magnet, whose air gap usually is two clearances; "
+        "the motion goes beyond the model there, and is not followed further."
     ),
     Outcome.STALLED: (
         "Something of the machine acts so quickly that its motion cannot be followed: a turn of the shaft would take more than ten million "

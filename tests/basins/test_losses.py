@@ -75,7 +75,7 @@ def starts_of(kind, rotor, sizes, angles):
         return np.full(sizes.shape, rest), sizes * np.exp(1j * angles), np.ones(sizes.shape, bool)
     if kind == "shock":
         found = carom.BaseShock(1.0, 0.9).starts(rotor, sizes, angles)
-        return found.positions, found.velocities, found.exists & ~found.undecided
+        return found.positions, found.velocities, found.exists & (found.ended == 0)
     if kind == "unbalance-step":
         before = numbers.rho + sizes * np.exp(1j * angles)
         places = before * np.exp(1j * numbers.phi) / complex(numbers.omega**2 - 1.0, numbers.gamma)

@@ -58,7 +58,7 @@ def test_kicks_are_those_of_simulate(rotor):
         assert starts.positions[place] == pytest.approx(state.position, abs=1e-15)
         assert starts.velocities[place] == pytest.approx(state.velocity, abs=1e-15)
     assert starts.exists.all()
-    assert not starts.undecided.any()
+    assert not starts.ended.any()
 
 
 def test_a_radial_kick_points_away_from_the_centre(rotor):

@@ -75,10 +75,10 @@ def three_masses():
 )
 def test_state_after_a_shock_is_that_of_the_matrices(rotor, peak, duration, direction):
     place, speed, impacts = shaken(rotor, peak, duration, direction).after()
-    positions, velocities, undecided, touched = states_after_shocks(
+    positions, velocities, ended, touched = states_after_shocks(
         rotor.model, np.array([peak]), duration, np.array([direction])
     )
-    assert not undecided[0]
+    assert not ended[0]
     assert touched[0] == (impacts > 0)
     assert np.allclose(positions[0], place, rtol=0, atol=1e-9)
     assert np.allclose(velocities[0], speed, rtol=0, atol=1e-9)

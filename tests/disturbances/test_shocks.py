@@ -66,10 +66,10 @@ def test_without_contact(gamma, peak, duration, direction):
     machine = PAPER.replace(rho=0.1, gamma=gamma)
     place, speed, impacts = followed(machine, peak, duration, direction)
     assert impacts == 0
-    position, velocity, undecided = after(machine, peak, duration, direction)
+    position, velocity, ended = after(machine, peak, duration, direction)
     assert position == pytest.approx(place, abs=1e-10)
     assert velocity == pytest.approx(speed, abs=1e-10)
-    assert not undecided
+    assert not ended
 
 
 @pytest.mark.parametrize(("peak", "duration", "direction"), [(6.0, 1.3, 0.3), (1.5, 2.5, 2.0), (4.0, 2.0, 4.0)])
@@ -86,10 +86,10 @@ def test_with_impacts_during_the_pulse(peak, duration, direction):
 def test_pressed_to_the_wall_when_the_pulse_ends(peak, duration, direction):
     """A hard pulse and little rebound: the rotor slides along the wall at its end, and starts from there."""
     machine = PAPER.replace(rho=0.2, gamma=0.3, d=0.1)
-    position, velocity, undecided = after(machine, peak, duration, direction)
+    position, velocity, ended = after(machine, peak, duration, direction)
     assert abs(position) == pytest.approx(1.0, abs=1e-15)
     assert (position.conjugate() * velocity).real == pytest.approx(0.0, abs=1e-12)
-    assert not undecided
+    assert not ended
     found = carom.simulate(carom.models.Jeffcott(machine), carom.State(position, velocity), 1.0)
     assert found.outcome is carom.outcome.Outcome.TIME_REACHED
 
@@ -112,10 +112,10 @@ def test_in_resonance_without_damping(detuned):
     duration = math.pi / machine.omega * (1.0 + detuned)
     place, speed, impacts = followed(machine, 0.1, duration, 0.4)
     assert impacts == 0
-    position, velocity, undecided = after(machine, 0.1, duration, 0.4)
+    position, velocity, ended = after(machine, 0.1, duration, 0.4)
     assert position == pytest.approx(place, abs=1e-10)
     assert velocity == pytest.approx(speed, abs=1e-10)
-    assert not undecided
+    assert not ended
 
 
 def test_a_motion_through_the_pulse_and_after_it():

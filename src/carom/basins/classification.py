@@ -78,7 +78,7 @@ class Basin(Mapped):
     """
 
     figure: ClassVar[str] = "basin"
-    shown: ClassVar[tuple[str, ...]] = ("rotor", "coordinates", "starts", "fractions", "unresolved")
+    shown: ClassVar[tuple[str, ...]] = ("rotor", "coordinates", "starts", "fractions", "beyond_model", "unresolved")
 
     needed: ClassVar[tuple[str, ...]] = ("outcome", "motion", "time", "touched", "weight")
 
@@ -133,9 +133,14 @@ class Basin(Mapped):
         return int(self.exists.sum())
 
     @property
+    def beyond_model(self) -> int:
+        """Number of starts whose motion went beyond the model."""
+        return int((self.outcomes == Outcome.BEYOND_MODEL).sum())
+
+    @property
     def unresolved(self) -> int:
-        """Number of starts that were given up."""
-        return int((self.exists & ~self.resolved).sum())
+        """Number of starts that were given up otherwise."""
+        return int((self.exists & ~self.resolved).sum()) - self.beyond_model
 
     @cached_property
     def motions(self) -> tuple[MotionName, ...]:
@@ -156,7 +161,7 @@ class Basin(Mapped):
 
     @property
     def share_recovered(self) -> Share:
-        """Share that returns to levitation; starts that were given up count as lost.  Cells of a disc weigh by their area."""
+        """Share that returns to levitation; starts that were given up, or went beyond the model, count as lost.  Cells of a disc weigh by their area."""
         return Share.over(self.plan, self.recovered, self.exists, self.scales, at=self.instants)
 
     @checked

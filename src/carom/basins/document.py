@@ -48,7 +48,7 @@ def basin_document(
     """
     scales, attributes = basin.scales, basin.dataset.attrs
     document: dict[str, Any] = {
-        **fields_of(basin, "starts", "fractions", "unresolved", "irregular"),
+        **fields_of(basin, "starts", "fractions", "beyond_model", "unresolved", "irregular"),
         **_loss(smallest, basin, "kick"),
         "harmless_kick": harmless,
         "recovered": _share(basin.share_recovered),

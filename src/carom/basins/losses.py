@@ -221,7 +221,7 @@ class _Search(Bracket):
         starts = self.family.starts(sizes, *at)
         outcomes = follow(self.rotor, starts, threads=self.threads).outcomes
         outcomes[~starts.exists] = Outcome.GRAZING
-        self.tried += int(np.count_nonzero(starts.exists & ~starts.undecided))
+        self.tried += int(np.count_nonzero(starts.exists & (starts.ended == Outcome.CLEAR)))
         return outcomes, lost(outcomes)
 
 

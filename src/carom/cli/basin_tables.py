@@ -40,6 +40,10 @@ def print_basin(screen: Console, basin: Basin, smallest: SmallestLoss | None, ha
     if basin.irregular:
         screen.print(f"{IRREGULAR_BOUNCING.capitalize()}: {basin.irregular['survival']}.")
     screen.print(_touching(basin))
+    if basin.beyond_model:
+        screen.print(
+            f"Beyond the model: {basin.beyond_model} of {basin.starts} starts; they count as lost. {Outcome.BEYOND_MODEL.meaning}"
+        )
     if basin.unresolved:
         screen.print(f"Given up before it was known where they end: {basin.unresolved} starts; they count as lost.")
     for line in (*_losses(basin, smallest, harmless), *_measures(basin)):

@@ -200,8 +200,8 @@ def rotor_record(
         "limit_pulls": seen["rate_rows"].dot(given["limit_columns"]),
         "reach": tuple(reach[name] for name in _flight_layout(modes, number).names or ()),
     }
-    gaps = 0 if gap_rows is None else len(gap_rows)
-    layout = _rotor_layout(modes, planes, shaft is not None, number, mirror is not None, gaps)
+    magnets = 0 if gap_rows is None else len(gap_rows)
+    layout = _rotor_layout(modes, planes, shaft is not None, number, mirror is not None, magnets)
     return filled(layout, tuple(fields[name] for name in layout.names or ()))
 
 

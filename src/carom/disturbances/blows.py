@@ -10,7 +10,7 @@ import numpy as np
 
 from carom.disturbances.coordinates import Coordinate, Starts, angle_coordinate, complex_of, displaced, speed_coordinate
 from carom.disturbances.model import FASTEST, Disturbance
-from carom.outcome import InputError
+from carom.outcome import InputError, Outcome
 from carom.parameters import own_size
 
 if TYPE_CHECKING:
@@ -168,11 +168,11 @@ class BaseShock(Disturbance):
         if rotor.system.rest_radius >= 1.0:
             return displaced(rotor, np.zeros(peaks.shape, complex), np.zeros(peaks.shape), False)
         rotor.system.refuse_unsteady()
-        positions, velocities, undecided, touched = states_after_shocks(
+        positions, velocities, ended, touched = states_after_shocks(
             stages_of(rotor)[0].rotor, peaks, self.duration, directions, begun
         )
         begins = begun + self.duration if depends_on_instant(rotor) else np.zeros(peaks.shape)
-        return Starts(positions, velocities, np.ones(peaks.shape, bool), undecided, touched, begins)
+        return Starts(positions, velocities, np.ones(peaks.shape, bool), ended, touched, begins)
 
     def stages(self, machine: Subject, direction: float = 0.0, instant: float = 0.0) -> tuple[Staged, State]:
         """Return the machine under the largest shock and then without, and its start at levitation, for :func:`carom.simulate`.
@@ -220,7 +220,7 @@ class BaseShock(Disturbance):
         Raises
         ------
         InputError
-            The rotor cannot levitate inside the wall, or grazes it during the pulse so that what follows is undecided.
+            The rotor cannot levitate inside the wall, or its motion ends during the pulse, as where it grazes the wall undecidedly.
         """
         from carom.models import model_of
         from carom.motions.starts import State
@@ -230,8 +230,8 @@ class BaseShock(Disturbance):
         if not starts.exists[0]:
             radius = f"|U*| = {model_of(machine).system.rest_radius:.6g}"
             raise InputError("disturbance", radius, "needs levitation inside the wall before the shock")
-        if starts.undecided[0]:
-            words = "another peak or direction: with this one the rotor grazes the wall during the pulse, which is undecided"
+        if starts.ended[0]:
+            words = f"another peak or direction: with this one the motion ends during the pulse ({Outcome(int(starts.ended[0])).words})"
             raise InputError("peak", self.peak, words)
         return State.of(starts.positions[0], starts.velocities[0], time=float(starts.begins[0]))
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, NamedTuple
 import numpy as np
 
 from carom.arguments import Infinity, Kind, Truths, checked
-from carom.outcome import InputError
+from carom.outcome import InputError, Outcome
 from carom.parameters import UNITS, Scales
 from carom.parameters.told import number, shown_in
 
@@ -115,8 +115,9 @@ class Starts(NamedTuple):
         For a rotor of ``n > 1`` coordinates with a last axis of that length.
     exists : ndarray of bool
         Whether the disturbance is possible: the start lies inside the wall, and the rotor could levitate before.
-    undecided : ndarray of bool
-        Whether the rotor grazes the wall during the disturbance, so that double precision cannot decide what follows.
+    ended : ndarray of int
+        Code of the :class:`~carom.outcome.Outcome` that ends the motion during the disturbance already, such as ``GRAZING`` or ``BEYOND_MODEL``;
+        ``CLEAR`` where it goes on.
     touched : ndarray of bool
         Whether the rotor has already met the wall, during a shock or because it starts there.
     begins : ndarray
@@ -128,7 +129,7 @@ class Starts(NamedTuple):
     positions: np.ndarray
     velocities: np.ndarray
     exists: np.ndarray
-    undecided: np.ndarray
+    ended: np.ndarray
     touched: np.ndarray
     begins: np.ndarray
     after: np.ndarray | None = None
@@ -136,12 +137,12 @@ class Starts(NamedTuple):
     @classmethod
     @checked
     def of(cls, positions: np.ndarray | complex, velocities: np.ndarray | complex, exists: Truths | bool) -> Starts:
-        """Starts of arrays of one shape and of single numbers for all of them; none of the starts is undecided."""
+        """Starts of arrays of one shape and of single numbers for all of them; all motions go on from there."""
         shapes = {np.shape(values) for values in (positions, velocities, exists)} - {()}
         if len(shapes) > 1:
             raise InputError("exists", np.shape(exists), "positions, velocities and this must have one shape")
         places, speeds, there = np.broadcast_arrays(np.asarray(positions, complex), velocities, exists)
-        none = np.zeros(places.shape, bool)
+        none = np.full(places.shape, int(Outcome.CLEAR))
         return cls(places, speeds.astype(complex), there, none, np.abs(places) >= 1.0 - ON_WALL, np.zeros(places.shape))
 
     @classmethod

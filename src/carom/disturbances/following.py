@@ -20,13 +20,13 @@ NO_START = -1
 def follow(
     machine: Model | Sequence[Model], starts: Starts, *, which: np.ndarray | None = None, **limits: Any
 ) -> Endings:
-    """Follow all starts that exist and are decided.
+    """Follow all starts that exist and from which a motion goes on.
 
     With several machines ``which`` has the index of the machine of each start; starts after a disturbance that changes the machine have their own.  Limits and endings are those of
     :func:`~carom.motions.ensembles.settle`; endings have the shape of the starts.  The outcome is ``NO_START`` where there
-    is no start, and ``GRAZING`` where it is undecided; all other numbers are zero there.
+    is no start, and that which has ended the motion during the disturbance where one has; all other numbers are zero there.
     """
-    chosen = starts.exists & ~starts.undecided
+    chosen = starts.exists & (starts.ended == Outcome.CLEAR)
     machines = None if which is None else which[chosen]
     begins = starts.begins[chosen]
     if starts.after is not None:
@@ -38,7 +38,8 @@ def follow(
     for name, values in vars(found).items():
         whole[name] = np.zeros(chosen.shape + values.shape[1:], values.dtype)
         whole[name][chosen] = values
-    whole["outcomes"][starts.undecided] = Outcome.GRAZING
+    over = starts.ended != Outcome.CLEAR
+    whole["outcomes"][over] = starts.ended[over]
     whole["outcomes"][~starts.exists] = NO_START
     return Endings(**whole)
 

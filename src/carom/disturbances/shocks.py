@@ -57,8 +57,8 @@ def states_after_shocks(
 
     Peak accelerations of the housing are in ``c_r Ω²``, directions in rad, durations and times at which the pulses begin in ``1/Ω``.  Return positions
     (on the wall where the rotor is in contact then) and velocities in the co-rotating frame, for ``n > 1`` coordinates
-    with a last axis of that length; whether the wall was
-    grazed so nearly that double precision cannot decide, and whether it was reached during the pulse.
+    with a last axis of that length; the outcome that has ended the motion during the pulse, ``CLEAR`` where none has, and whether the wall was
+    reached during the pulse.
     """
     begins = np.broadcast_to(begins, peaks.shape)
     if rotor.system.mirrored is not None:
@@ -96,12 +96,12 @@ def states_after_shocks(
         touches = contacts[:, 0] != AWAY
         positions[touches] /= np.abs(positions[touches])
     shape = peaks.shape + (rotor.system.rest.shape if len(rotor.system.rest) > 1 else ())
-    undecided, touched = outcomes != Outcome.TIME_REACHED, events > 0
+    outcomes[outcomes == Outcome.TIME_REACHED] = Outcome.CLEAR
     return (
         positions.reshape(shape),
         velocities.reshape(shape),
-        undecided.reshape(peaks.shape),
-        touched.reshape(peaks.shape),
+        outcomes.reshape(peaks.shape),
+        (events > 0).reshape(peaks.shape),
     )
 
 
@@ -110,7 +110,7 @@ def _states_one_by_one(
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     """:func:`states_after_shocks` where bearings act differently in two directions: the motion is no multiple of that of another shock."""
     planes, limits = len(rotor.system.arrays["rows"]), rotor.system.limits
-    found, undecided, touched = [], [], []
+    found, ended, touched = [], [], []
     for peak, direction, begun in zip(*(each.ravel().tolist() for each in (peaks, directions, begins)), strict=True):
         system = shaken(rotor, duration, cmath.rect(peak, direction) / 2j, begun).system
         start = np.concatenate(rotor.system.kicked(0.0, begun))[None]
@@ -128,14 +128,14 @@ def _states_one_by_one(
             system.arrays, system.table, motion, clock, duration, MOST_EVENTS, contact, *tools, outcomes, events
         )
         found.append(system.states_of(motion)[0])
-        undecided.append(outcomes[0] != Outcome.TIME_REACHED)
+        ended.append(Outcome.CLEAR if outcomes[0] == Outcome.TIME_REACHED else outcomes[0])
         touched.append(events[0] > 0)
     positions, velocities = np.split(np.reshape(found, (-1, 2 * len(rotor.system.rest))), 2, axis=1)
     shape = peaks.shape + (rotor.system.rest.shape if len(rotor.system.rest) > 1 else ())
     return (
         positions.reshape(shape),
         velocities.reshape(shape),
-        np.reshape(undecided, peaks.shape),
+        np.reshape(ended, peaks.shape),
         np.reshape(touched, peaks.shape),
     )
 

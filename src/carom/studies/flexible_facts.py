@@ -129,6 +129,7 @@ def _survived(study: FlexibleData) -> Iterator[Fact]:
     for trial in study.trials:
         drawn, largest = trial.drawn, trial.largest
         text = f"{drawn.count} of {drawn.total} {_size(study, trial)} came back, and {largest.count} of {largest.total} at the full size in all directions"
+        text += f"; {trial.beyond_model} of {drawn.total} went beyond the model" if trial.beyond_model else ""
         text += f", each {ITS_INSTANT}" if depends_on_instant(study.rotor) else ""
         yield Fact("Verdict", text, KINDS[trial.kind], "sampled", trial.document(), disturbances=trial.kind)  # type: ignore[index]
     if study.beyond:
@@ -168,6 +169,13 @@ def _holding(study: FlexibleData) -> Iterator[Fact]:
             if scales and entry.largest_force
             else ""
         )
+        if entry.name.outcome is Outcome.BEYOND_MODEL:
+            yield Fact(
+                "Disturbances tried",
+                f"Beyond the model went {by}{force}: {Outcome.BEYOND_MODEL.meaning}",
+                motions=(entry.name,),
+            )
+            continue
         if not entry.name.outcome.settled:
             text = f"Of {by} the end is not known ({entry.name.outcome.words}){force}."
             yield Fact("Disturbances tried", text, motions=(entry.name,))

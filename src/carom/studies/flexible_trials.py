@@ -108,6 +108,11 @@ class FlexibleTrial(Result):
     worst: Trajectory
     reduction: ReductionError | None = None
 
+    @property
+    def beyond_model(self) -> int:
+        """How many of those drawn went beyond the model."""
+        return sum(count for name, count in self.ends if name.outcome is Outcome.BEYOND_MODEL)
+
     @cached_property
     def magnets(self) -> MagnetReach | None:
         """How near the rotor comes to its magnets along that one, where their air gaps are known."""
@@ -125,6 +130,7 @@ class FlexibleTrial(Result):
             "size": self.size,
             "drawn": self.drawn.document,
             "ends": {str(name): count for name, count in self.ends},
+            "beyond_model": self.beyond_model,
             "at_largest": {"came_back": self.largest.count, "total": self.largest.total},
             "whirls": list(self.whirls),
             "reduction": None if self.reduction is None else self.reduction.document(),

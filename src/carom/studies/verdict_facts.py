@@ -42,6 +42,11 @@ def verdict_facts(study: StudyData) -> Iterator[Fact]:
             "Verdict", study.kicks.words, "Certain", "proven", proven_kicks_document(study.kicks), disturbances="kick"
         )
     yield from _others(study)
+    gone = [entry for entry in study.attractors if entry.name.outcome is Outcome.BEYOND_MODEL]
+    if count := sum(entry.count for entry in gone):
+        total = len(study.attractors.disturbances)
+        text = f"{count:,} of {total:,} disturbances went beyond the model: {Outcome.BEYOND_MODEL.meaning.removesuffix('.')}"
+        yield Fact("Verdict", text, "Beyond the model", "sampled", {"count": count, "total": total})
 
 
 def _required(study: StudyData) -> Fact:
