@@ -176,6 +176,8 @@ def equations_of(
         if bearing.at_regain == "reset":
             # What these states do meanwhile acts on nothing; they fade, so that none is mistaken for a displacement that stays.
             left[1, own, own], regained[own] = restart * np.eye(loop.states), 0.0
+        elif bearing.at_regain == "running":
+            left[1, own] = stiffness[own]
         first = own.stop
     forcing = np.zeros(size, complex)
     for each in unbalances:

@@ -20,7 +20,7 @@ from carom.rotors.state_spaces import StateSpace, delay, lag
 
 SINGULAR = 1e12
 """Condition of the matrix of a controller above which it integrates."""
-AT_REGAIN = ("reset", "hold")
+AT_REGAIN = ("reset", "hold", "running")
 """What the states of a controller are when levitation that was lost is regained."""
 PADE = 3
 """Order of the approximation of a delay ``T``: its phase is right to 0.1° up to a frequency of 2/T, in rad/s."""
@@ -68,8 +68,9 @@ class MagneticBearing:
         Radial air gap of its magnets, m: where the rotor strikes them a motion ends; by default it is not known.
     axis_angle : float or str, optional
         Angle of one of its axes in the fixed frame, rad; 0 by default.
-    at_regain : {"reset", "hold"}
-        The states of controller, delay and amplifier when levitation is regained: all at zero, or as they were when it was lost.
+    at_regain : {"reset", "hold", "running"}
+        The states of controller, delay and amplifier when levitation is regained: all at zero, as they were when it was lost, or, without integral
+        gain, such as they are after measuring all the while.
 
     Raises
     ------
@@ -104,7 +105,9 @@ class MagneticBearing:
             raise InputError("slew_rate_limit", self.slew_rate_limit, allowed)
         if self.at_regain not in AT_REGAIN:
             raise InputError("at_regain", shown(self.at_regain), f"one of {', '.join(AT_REGAIN)}")
-        _ = self.loop
+        if self.at_regain == "running" and self._integrates:
+            allowed = "reset or hold for a controller that integrates: running, it would add up the place of a rotor that falls, which is not followed"
+            raise InputError("at_regain", shown(self.at_regain), allowed)
 
     @cached_property
     def loop(self) -> StateSpace:
@@ -116,10 +119,14 @@ class MagneticBearing:
             whole = whole.then(lag(self.amplifier_bandwidth))
         return whole.balanced()
 
+    @property
+    def _integrates(self) -> bool:
+        """Whether a steady displacement makes its current grow without end."""
+        return self.loop.states > 0 and bool(np.linalg.cond(self.loop.A) > SINGULAR)
+
     @cached_property
     def static_stiffness(self) -> float:
         """Stiffness against a steady displacement at its sensors and itself, ``ki C(0) + ks``, N/m; infinite with an integrator."""
-        loop = self.loop
-        if loop.states and np.linalg.cond(loop.A) > SINGULAR:
+        if self._integrates:
             return math.inf
-        return self.ki * float(loop.at(np.array(0.0)).real) + self.ks
+        return self.ki * float(self.loop.at(np.array(0.0)).real) + self.ks
