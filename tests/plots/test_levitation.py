@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 
 import numpy as np
@@ -41,6 +42,15 @@ def test_whirls_that_grow_are_hollow():
     grows = [line for name, line in lines(axes).items() if name.endswith("that grows")]
     assert grows
     assert all(line.get_markerfacecolor() == "none" for line in grows)
+
+
+def test_an_unstable_loop_has_no_zones():
+    figure = plots.sensitivity(dataclasses.replace(sensitivity(MACHINE), stable=False))
+    (axes,) = figure.axes
+    assert not axes.texts
+    assert not axes.patches
+    assert figure.get_suptitle() == "The loop is unstable: it has no zones of ISO 14839-3"
+    assert fits(figure)
 
 
 def test_sensitivity_has_its_peaks_and_zones():

@@ -73,13 +73,15 @@ def campbell(found: Campbell) -> Figure:
 @checked
 @styled
 def sensitivity(found: Sensitivity) -> Figure:
-    """Draw the size of the sensitivity of each loop over the frequency, with its peak and the zones of ISO 14839-3."""
+    """Draw the size of the sensitivity of each loop over the frequency, with its peak and the zones of ISO 14839-3, which an unstable loop has not."""
     from carom.rotors.loop_sensitivity import LIMITS
 
     figure, axes = one_axes(None, (TWO_COLUMNS, 0.62 * TWO_COLUMNS))
+    if not found.stable:
+        figure.suptitle("The loop is unstable: it has no zones of ISO 14839-3")
     top = max(_ROOM * float(found.peaks.max()), _ROOM * LIMITS["C"])
     edges = [0.0, *LIMITS.values(), top]
-    for zone, low, high, shade in zip("ABCD", edges[:-1], edges[1:], ZONE_SHADES, strict=True):
+    for zone, low, high, shade in zip("ABCD" if found.stable else "", edges[:-1], edges[1:], ZONE_SHADES, strict=False):
         axes.axhspan(low, high, color=shade, lw=0.0)
         axes.text(0.995, (low + high) / 2.0, zone, transform=axes.get_yaxis_transform(), ha="right", va="center")
     for bearing, (peak, frequency) in enumerate(zip(found.peaks, found.peak_frequencies, strict=True)):

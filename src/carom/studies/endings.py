@@ -25,6 +25,8 @@ def ending_words(outcome: Outcome, motions: Iterable[MotionName] = ()) -> str:
     The motion has its own name if it is the only one of the known motions with this outcome.  Bouncing on no known orbit may
     have been given up after its last impact that was followed, and is not told as an end.
     """
+    if outcome is Outcome.BEYOND_MODEL:
+        return f"it goes {outcome.words}"
     if not outcome.settled:
         return f"its end was not found: {outcome.words}"
     names = [name for name in motions if name.outcome is outcome]

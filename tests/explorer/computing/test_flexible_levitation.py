@@ -67,3 +67,4 @@ def test_more_is_told_by_headings():
     assert list(told) == ["Critical speeds", "Magnetic bearings", "Accuracy"]
     assert any("API 617" in text for text in told["Critical speeds"])
     assert f"{machine.vectors} vectors" in told["Accuracy"][0]
+    assert "Along a motion the error may be larger" in told["Accuracy"][1]

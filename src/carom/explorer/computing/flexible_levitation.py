@@ -23,6 +23,7 @@ from carom.studies.levitation_facts import (
 )
 from carom.studies.response_words import micrometres
 
+ALONG = "Along a motion the error may be larger: carom simulate and carom drop follow it again with twice as many vectors, and tell what that changes."
 ALL = 1000
 """More whirls than any machine has."""
 
@@ -193,4 +194,4 @@ def told_more(reduced: ReducedMachine, progress: ShowProgress = None) -> dict[st
     facts = [*critical_speed_facts(found), *bearing_facts(found)]
     topics = dict.fromkeys(str(each.topic) for each in facts)
     told = {topic: tuple(each.text for each in facts if each.topic == topic) for topic in topics}
-    return {**told, "Accuracy": (reduction_words(reduced),)}
+    return {**told, "Accuracy": (reduction_words(reduced), ALONG)}
