@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import dataclasses
 import math
+import tracemalloc
 
 import numpy as np
 import pytest
 from linear_rotors import tilting
 
 import carom as cm
-from carom.motions import Whirl, drop_loads, energy_ledger
+from carom.motions import Whirl, drop_loads, energy_ledger, follow_loads, simulation
+from carom.motions.loads import MEASURED
 from carom.outcome import Outcome
 
 pytestmark = pytest.mark.jit_only
@@ -200,3 +202,53 @@ def test_what_the_drive_would_do_in_flight_is_told():
     assert "left out in flight" in str(cm.studies.load_tables.load_tables(cm.motions.drop_loads(motion), "the release"))
     still = cm.models.Forced(dataclasses.replace(bare, shaft=None), rotor.forces)
     assert cm.motions.drop_loads(cm.simulate(still, cm.State(0.0, 0.0), 25.0)).shaft is None
+
+
+@pytest.mark.parametrize(
+    ("machine", "released", "until"),
+    [
+        (BALLS, cm.drop(race_speed="500 rpm"), "60 ms"),
+        (BALLS, cm.drop(regained_after="6 ms"), None),
+        (RIGID, cm.drop(Whirl("0.2 mm", "-150 Hz")), "60 ms"),
+        ("examples/tum-flexible-rotor.toml", cm.drop(), "80 ms"),
+    ],
+)
+def test_loads_added_up_in_pieces_are_those_of_the_whole_motion(machine, released, until, monkeypatch):
+    """Contacts that go over many pieces count once, with the impulse of all."""
+    case = cm.load(machine)
+    whole = drop_loads(cm.simulate(case, released, until))
+    monkeypatch.setattr(simulation, "CHUNK", 5)
+    found = follow_loads(case, released, until)
+    assert (found.outcome, found.time) == (whole.outcome, pytest.approx(whole.time, rel=1e-12))
+    for one, other in zip(found.planes, whole.planes, strict=True):
+        assert other.contacts
+        assert (one.contacts, one.bounces) == (other.contacts, other.bounces)
+        for name in (
+            "first",
+            "force_at",
+            "impulse_at",
+            "restitution",
+            "race_at_end",
+            "fastest_race",
+            "in_contact_since",
+        ):
+            told = getattr(other, name)
+            assert getattr(one, name) == (told if told is None else pytest.approx(told, rel=1e-9)), name
+        for name in MEASURED:
+            assert getattr(one.loads, name) == pytest.approx(getattr(other.loads, name), rel=1e-9), name
+        assert one.whirl.turned == pytest.approx(other.whirl.turned, rel=1e-6)
+
+
+def test_nothing_is_kept_of_long_contact():
+    """Two bearings and fifteen thousand steps."""
+    case = cm.load("examples/tum-flexible-rotor.toml")
+    follow_loads(case, cm.drop(), "10 ms")
+    tracemalloc.start()
+    follow_loads(case, cm.drop(), "2 s")
+    most = tracemalloc.get_traced_memory()[1]
+    tracemalloc.reset_peak()
+    motion = cm.simulate(case, cm.drop(), "2 s")
+    recorded = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert len(motion.segment_starts) > 15_000
+    assert most < 0.5 * recorded

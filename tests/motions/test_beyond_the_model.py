@@ -10,6 +10,7 @@ import carom as cm
 from carom.disturbances.echo import echo_of_drop
 from carom.models import model_of
 from carom.models.touchdown import FARTHEST
+from carom.motions import drop_loads
 from carom.motions.magnets import excess_pull, magnet_reach
 from carom.outcome import InputError, Outcome
 from carom.rotors.equations import row_of
@@ -58,7 +59,7 @@ def test_it_is_told_since_when(tmp_path):
     case = machine(tmp_path)
     motion = cm.simulate(case, cm.drop())
     said = echo_of_drop(motion.start, 0.0, None, case.gravity, case.parameters.scales)
-    headline = DropStudy(case, said, motion).headline
+    headline = DropStudy(case, said, drop_loads(motion)).headline
     assert headline.startswith("Beyond the model since ")
     assert "more than one clearance deep in a touchdown bearing" in headline
 

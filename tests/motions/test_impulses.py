@@ -9,8 +9,8 @@ from linear_rotors import random_rotor, tilting, to_fixed, touchdowns
 
 from carom.closed_forms.equilibria import find_equilibria
 from carom.models import LinearRotor
+from carom.motions import touchdown_loads
 from carom.motions.ledger import energy_ledger
-from carom.motions.loads import touchdown_loads
 from carom.motions.simulation import simulate
 from carom.motions.starts import State
 from carom.motions.trajectories import Trajectory

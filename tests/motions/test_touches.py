@@ -11,11 +11,12 @@ from linear_rotors import single, tilting
 from scipy.optimize import brentq
 from yielding_walls import SUMS, contacts_of, free_mass, with_walls
 
+from carom.core.wall_work import DEPTH, FORCE, FORCE_TIME, FRICTION, HEAT, NORMAL, POWER
 from carom.models import HuntCrossley, KelvinVoigt
 from carom.motions import State, energy_ledger, simulate, touchdown_loads
 from carom.motions.contacts import presses, slip_velocity
-from carom.motions.quadrature import NODES, largest
-from carom.motions.touches import in_wall
+from carom.motions.quadrature import NODES, WEIGHTS
+from carom.motions.touches import contact_works
 from carom.outcome import Phase
 from carom.parameters import Scales
 
@@ -180,37 +181,30 @@ def test_in_si():
     assert touchdown_loads(motion).si()["depth"] == pytest.approx(0.7e-3 * touches.deepest.max())
 
 
-def test_largest_values_of_functions_known_at_the_nodes():
-    """Against the maxima of parabolas, sines and lines, within the pieces and at their ends."""
-    places = np.array([-0.93, -0.2, 0.41, 1.7])
-    peaks, found = largest(2.0 - 0.3 * (NODES - places[:, None]) ** 2)
-    assert found == pytest.approx(np.minimum(places, 1.0), abs=1e-8)
-    assert peaks == pytest.approx(2.0 - 0.3 * (np.minimum(places, 1.0) - places) ** 2, rel=1e-14)
-    peaks, found = largest(np.sin(4.0 * NODES[None] + 0.3) + 0.1 * NODES)
-    top = (math.acos(-0.025) - 0.3) / 4.0
-    assert found[0] == pytest.approx(top, abs=1e-7)
-    assert peaks[0] == pytest.approx(math.sin(4.0 * top + 0.3) + 0.1 * top, rel=1e-9)
-    assert largest(-NODES[None])[1] == largest(np.ones((1, 16)))[1] == -1.0
+@pytest.mark.parametrize("law", [None, KelvinVoigt(300.0, 8.0), HuntCrossley(300.0, 0.2, 1.5)])
+def test_what_contact_does_in_a_step_is_that_of_its_states(law):
+    """By one series for each segment, against the amplitudes at 16 nodes for the sums, and at a thousand instants for the largest."""
+    rotor = single(1).model if law is None else with_walls(single(1), law)
+    motion = simulate(rotor, State(0.8, 1.6j) if law is None else State(0.3 + 0.1j, 1.2 + 0.4j), 12.0)
+    works = contact_works(motion)
+    segments, lasts = works.segments, motion.durations[works.segments]
 
+    def at(places):
+        elapsed = lasts[:, None] * places
+        amplitudes, phases = motion.amplitudes_in(np.repeat(segments[:, None], len(places), axis=1), elapsed)
+        normal, friction = motion.forces_of(amplitudes, phases, motion.segment_starts[segments, None] + elapsed)
+        (place, _), slip = motion.rotor.system.at_plane(amplitudes, 0), slip_velocity(rotor.system, 0, amplitudes)
+        return normal, friction, -friction * slip, (np.abs(place) - 1.0) * (law is not None)
 
-@pytest.mark.parametrize("law", [KelvinVoigt(300.0, 8.0), HuntCrossley(300.0, 0.2, 1.5)])
-def test_a_course_in_the_wall_is_that_of_its_states(law):
-    """By one series for each segment, against the amplitudes at each instant."""
-    motion = simulate(with_walls(single(1), law), State(0.3 + 0.1j, 1.2 + 0.4j), 12.0)
-    segments = np.flatnonzero(motion.segment_phases[:, 0] != Phase.FLIGHT)
-    lasts = np.diff(np.append(motion.segment_starts, motion.time))[segments]
-    elapsed = 0.5 * lasts[:, None] * (1.0 + NODES)
-    found, (amplitudes, phases) = (
-        in_wall(motion, segments, elapsed),
-        motion.amplitudes_in(np.repeat(segments[:, None], len(NODES), axis=1), elapsed),
-    )
-    normal, friction = motion.forces_of(amplitudes, phases, elapsed)
-    held, (place, _) = presses(phases[..., 0]), motion.rotor.system.at_plane(amplitudes, 0)
+    found = works.found[:, 0].T
+    normal, friction, power, _ = at(0.5 * (1.0 + NODES))
     assert len(segments) > 4
     # Rounding of a radius of one, which the wall multiplies by its stiffness.
-    assert found.depth == pytest.approx(np.abs(place) - 1.0, abs=1e-14)
-    assert found.normal == pytest.approx(normal, abs=1e-11)
-    assert found.friction == pytest.approx(friction, abs=1e-11)
-    assert found.slip == pytest.approx(
-        np.where(held, slip_velocity(motion.rotor.system, 0, amplitudes), 0.0), abs=1e-13
-    )
+    for column, sums in ((NORMAL, normal), (FRICTION, friction), (HEAT, power)):
+        assert found[column] == pytest.approx(0.5 * lasts * (sums @ WEIGHTS), abs=1e-12)
+    assert law is None or max(found[FORCE_TIME] / lasts) > 0.1
+    normal, _, power, depth = at(np.linspace(0.0, 1.0, 1001))
+    for column, values in ((FORCE, normal), (POWER, power), (DEPTH, depth)):
+        below = found[column] - values.max(axis=1)
+        assert below.min() > -1e-11
+        assert below.max() <= 1e-5 * values.max()

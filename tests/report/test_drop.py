@@ -9,6 +9,7 @@ import pytest
 
 import carom as cm
 from carom.disturbances.echo import echo_of_drop
+from carom.motions import drop_loads
 from carom.outcome import InputError
 from carom.report import write_drop_report
 from carom.studies import DropStudy
@@ -17,17 +18,22 @@ pytestmark = pytest.mark.jit_only
 
 
 @pytest.fixture(scope="module")
-def found():
+def dropped():
     case = cm.load("examples/touchdown-balls.toml")
     motion = cm.simulate(case, cm.drop(), "20 ms")
     echo = echo_of_drop(motion.start, 0.0, None, case.gravity, case.parameters.scales)
     limited = cm.parameters.LoadLimits(force="1 kN", pressure="4.2 GPa")
-    return DropStudy(replace(case, name="<b>drop</b>", limits=limited), echo, motion)
+    return DropStudy(replace(case, name="<b>drop</b>", limits=limited), echo, drop_loads(motion)), motion
 
 
 @pytest.fixture(scope="module")
-def page(found, tmp_path_factory):
-    path = write_drop_report(found, str(tmp_path_factory.mktemp("drop") / "out"))
+def found(dropped):
+    return dropped[0]
+
+
+@pytest.fixture(scope="module")
+def page(dropped, tmp_path_factory):
+    path = write_drop_report(*dropped, str(tmp_path_factory.mktemp("drop") / "out"))
     return path.read_text(encoding="utf-8")
 
 
@@ -52,7 +58,7 @@ def test_it_says_what_was_found(found, page):
     assert "&lt;b&gt;drop&lt;/b&gt;" in page
 
 
-def test_a_directory_that_cannot_be_written(found, tmp_path):
+def test_a_directory_that_cannot_be_written(dropped, tmp_path):
     (tmp_path / "file").write_text("")
     with pytest.raises(InputError, match="--out"):
-        write_drop_report(found, str(tmp_path / "file"))
+        write_drop_report(*dropped, str(tmp_path / "file"))

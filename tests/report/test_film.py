@@ -11,6 +11,7 @@ import pytest
 
 import carom as cm
 from carom.disturbances.echo import echo_of_drop
+from carom.motions import drop_loads
 from carom.report import write_drop_report
 from carom.report.film import CLEARANCE, MOST, STEP, film_of
 from carom.studies import DropStudy
@@ -115,7 +116,9 @@ def test_what_becomes_too_fast_later_does_not_shorten_the_film_of_what_comes_bef
 def page(balls, browser, tmp_path_factory):
     case, motion = balls
     echo = echo_of_drop(motion.start, 0.0, None, case.gravity, case.parameters.scales)
-    path = write_drop_report(DropStudy(case, echo, motion), str(tmp_path_factory.mktemp("film") / "out"))
+    path = write_drop_report(
+        DropStudy(case, echo, drop_loads(motion)), motion, str(tmp_path_factory.mktemp("film") / "out")
+    )
     contexts = []
 
     def open_page(**options):

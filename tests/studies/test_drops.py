@@ -9,7 +9,7 @@ import pytest
 import carom as cm
 from carom.disturbances.echo import echo_of_drop
 from carom.files import as_json
-from carom.motions import Whirl
+from carom.motions import Whirl, drop_loads
 from carom.outcome import InputError
 from carom.studies import DropStudy, check_loads
 
@@ -20,7 +20,7 @@ def dropped(machine, until=None, settings=(), **how):
     case = cm.load(f"examples/{machine}.toml", settings)
     motion = cm.simulate(case, cm.drop(**how), until)
     scales = case.parameters.scales
-    return DropStudy(case, echo_of_drop(motion.parts[0].start, 0.0, None, case.gravity, scales), motion)
+    return DropStudy(case, echo_of_drop(motion.parts[0].start, 0.0, None, case.gravity, scales), drop_loads(motion))
 
 
 @pytest.fixture(scope="module")
@@ -106,6 +106,6 @@ def test_several_planes_have_tables_of_their_own():
     rotor = tilting().model
     motion = cm.simulate(rotor, cm.kick(1.5), 20.0)
     case = cm.parameters.Case("tilting", rotor, None, cm.parameters.Zones())
-    found = DropStudy(case, cm.disturbances.echo.Echo("kick", "Kick", {}), motion)
+    found = DropStudy(case, cm.disturbances.echo.Echo("kick", "Kick", {}), drop_loads(motion))
     assert [title for title, _ in found.tables] == ["Touchdown bearing 1", "Touchdown bearing 2"]
     assert dict(found.tables[0][1])["hardest impact"].startswith("impulse ")

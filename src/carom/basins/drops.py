@@ -21,7 +21,7 @@ from carom.core.processors import available_cores
 from carom.disturbances.following import NO_START
 from carom.models import Axis, Subject, model_of
 from carom.models.axes import Ends
-from carom.motions import Drop, State, Whirl, drop_loads, simulate
+from carom.motions import Drop, State, Whirl, follow_loads
 from carom.motions.bearing_loads import DropLoads
 from carom.motions.starts import Until
 from carom.outcome import STEADY_WORDS, InputError
@@ -161,7 +161,7 @@ def map_drops(
 ) -> DropMap:
     """Drop a machine at each point of a plane of two numbers, and keep how it ends and what its touchdown bearing bears.
 
-    Each drop is followed and evaluated as :func:`carom.simulate` and :func:`carom.motions.drop_loads` would, one by one on all cores: a
+    Each drop is followed and evaluated as :func:`carom.motions.follow_loads` would, one by one on all cores: a
     race that turns and stages are followed too.  The result does not depend on the number of threads.
 
     Parameters
@@ -271,8 +271,8 @@ def _dropped(node: Node, longest: float | None, max_events: int) -> _Row:
         return _Row(None, {})
     scales: Any = rotor.scales
     until = None if longest is None else longest / scales.time
-    motion = simulate(rotor, released, until, settle=True, max_events=max_events, progress=False)
-    return _Row(MotionName(motion.outcome, motion.multiplicity), _numbers(drop_loads(motion), scales))
+    found = follow_loads(rotor, released, until, settle=True, max_events=max_events, progress=False)
+    return _Row(MotionName(found.outcome, found.multiplicity), _numbers(found, scales))
 
 
 def _numbers(found: DropLoads, scales: Scales) -> dict[str, float]:

@@ -13,11 +13,14 @@ from carom.cli.terminal import AsJson, MachineFile, Settings, check_output, cons
 if TYPE_CHECKING:
     from rich.console import Console
 
+    from carom.motions.bearing_loads import DropLoads
     from carom.motions.drops import Drop
     from carom.motions.reduction_errors import ReductionError
-    from carom.motions.trajectories import Trajectory
     from carom.parameters import Case
     from carom.studies.drops import DropStudy
+
+_DRAWN = 20_000
+"""Impacts and steps of contact that are drawn: figures need them all at once."""
 
 
 def drop(
@@ -68,15 +71,16 @@ def _drop_once(case: Case, released: Drop, end: float | None, out: str | None, *
 
     with progress("simulating (the kernels are compiled on first use)") as tell:
         rotor, state, echo = taken(case, released)
-        from carom.motions.simulation import simulate as follow
+        from carom.motions import follow_loads, simulate
         from carom.studies.drops import DropStudy
 
-        motion = follow(rotor, state, end, progress=tell if out is None else tell.part(0.0, 0.4))
-        found, page = DropStudy(case, echo, motion, _reduction(case, released, motion)), None
+        loads = follow_loads(rotor, state, end, progress=tell if out is None else tell.part(0.0, 0.4))
+        found, page = DropStudy(case, echo, loads, _reduction(case, released, loads)), None
         if out is not None:
             from carom.report import write_drop_report
 
-            page = write_drop_report(found, out, progress=tell.part(0.4, 1.0))
+            motion = simulate(rotor, state, end, settle=True, max_events=_DRAWN)
+            page = write_drop_report(found, motion, out, progress=tell.part(0.4, 1.0))
     if as_json:
         print_document(found.document())
         if page is not None:
@@ -85,11 +89,11 @@ def _drop_once(case: Case, released: Drop, end: float | None, out: str | None, *
     _print(console(), found, page)
 
 
-def _reduction(case: Case, released: Drop, motion: Trajectory) -> ReductionError | None:
+def _reduction(case: Case, released: Drop, loads: DropLoads) -> ReductionError | None:
     """Error of the reduction of a flexible machine along this drop."""
     from carom.cli.drops import error_along, taken
 
-    return error_along(case, motion, lambda finer: taken(finer, released))
+    return error_along(case, loads, lambda finer: taken(finer, released))
 
 
 def _print(console: Console, found: DropStudy, page: Path | None) -> None:
@@ -104,7 +108,7 @@ def _print(console: Console, found: DropStudy, page: Path | None) -> None:
     console.print(Text(found.headline, style="bold"), width=width)
     print_tables(console, found.tables)
     print_checks(console, found.checks)
-    for each in (found.magnets, found.reduction):
+    for each in (found.loads.magnets, found.reduction):
         if each is not None and each.words:
             console.print()
             console.print(each.words, width=width)

@@ -14,6 +14,7 @@ if TYPE_CHECKING:
 
     from carom.disturbances.echo import Echo
     from carom.models import Model
+    from carom.motions.bearing_loads import DropLoads
     from carom.motions.drops import Drop, Whirl
     from carom.motions.reduction_errors import ReductionError
     from carom.motions.starts import Kick, State
@@ -82,7 +83,7 @@ def taken(case: Case, released: Drop) -> tuple[Model, State, Echo]:
 
 
 def error_along(
-    case: Case, motion: Trajectory, again: Callable[[Case], tuple[Model, Any, Echo]]
+    case: Case, loads: DropLoads, again: Callable[[Case], tuple[Model, Any, Echo]]
 ) -> ReductionError | None:
     """Error of the reduction of a flexible machine along a motion; ``None`` of other machines.  ``again`` reads the same motion of another case."""
     from carom.models import model_of
@@ -91,7 +92,7 @@ def error_along(
 
     if (reduced := reduced_of(model_of(case))) is None:
         return None
-    return reduction_error(reduced, motion, lambda finer: again(replace(case, parameters=finer.limited))[:2])
+    return reduction_error(reduced, loads, lambda finer: again(replace(case, parameters=finer.limited))[:2])
 
 
 def motion_document(case: Case, motion: Trajectory) -> dict[str, Any]:

@@ -44,7 +44,6 @@ def simulate(
     from carom.cli.drops import error_along, read_release, taken
     from carom.cli.starts import read_time
     from carom.loading import load
-    from carom.motions.magnets import magnet_reach
 
     case = load(machine, settings or ())
     check_output(out)
@@ -66,8 +65,11 @@ def simulate(
 
         rotor, given, echo = read(case)
         motion = _follow(rotor, given, kick, end, tell if out is None else tell.part(0.0, 0.4))
+        from carom.motions import drop_loads
+
         _write_logs(logs, motion)
-        beside = {"magnets": magnet_reach(motion), "reduction": error_along(case, motion, read)}
+        loads = drop_loads(motion)
+        beside = {"magnets": loads.magnets, "reduction": error_along(case, loads, read)}
         known = {name: found for name, found in beside.items() if found is not None}
         document = _document(case, motion, echo) | {name: found.document() for name, found in known.items()}
         if out is not None:

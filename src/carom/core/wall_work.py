@@ -1,54 +1,107 @@
-"""What walls that give way take of a rotor's energy, in many states at a time."""
+"""What lasting contact does in each step of a motion: impulses, works and largest loads, from the one Taylor series of the step."""
 
 from __future__ import annotations
-
-import math
 
 import numpy as np
 
 from carom.compiling.decorators import inlined, kernel
 from carom.core.contact_series import rub_series
-from carom.core.flow import squared_modulus
 from carom.core.friction import friction_ratio
 from carom.core.laws.choice import force, stored_energy
 from carom.core.layout import ORDER
-from carom.core.phases import ROLLING, lasts, sense_of_phase
-from carom.core.wall import wall_of
+from carom.core.phases import ROLLING, lasts, sense_of_phase, stays
+from carom.core.wall import wall_of, yields
+
+COLUMNS = 9
+NORMAL, FRICTION, HEAT, LOST, DRIVEN, FORCE, FORCE_TIME, DEPTH, POWER = range(COLUMNS)
+"""What is found of a step: impulses of normal force and friction, heat of friction, work lost in the wall's damper, integral of the friction times
+the speed of the shaft; largest normal force and its time, largest depth and largest power of friction."""
+_COUNT = 8
+"""Nodes of a step: its series fall by a factor of thirty from one Legendre term to the next, so that products of two are exact to rounding."""
+_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(_COUNT)
+POINTS, SHARES = np.array([0.0, *(0.5 + 0.5 * _NODES), 1.0]), np.array([0.0, *(0.5 * _WEIGHTS), 0.0])
+"""Places in a step, its ends among them, and their shares in an integral over it."""
+_NEWTON_STEPS = 5
+"""From the highest point these leave no more than rounding of a maximum that a step can have."""
 
 
 @kernel
-def courses_in_wall(rotor, plane, segments, amplitudes, phases, limited, clocks, times, work, found):
-    """Follow a plane through segments (k,) in which it is in its wall, each from its one Taylor series, at times (k, m) after its start.
+def contact_works_all(rotor, segments, amplitudes, phases, limited, clocks, durations, work, found):
+    """What contact does at all planes in chosen segments (k,) of a motion, each of a duration (k,) and from an instant (k,).
 
-    ``found`` (6, k, m) receives depth, slip, normal force, friction, the power lost in the wall's damper and the speed of the shaft; of a
-    plane that has parted from its wall all but the first and the last are zero.  ``amplitudes``, ``phases`` and ``limited`` are those of all segments,
-    ``clocks`` (k,) the instants at the starts of the chosen ones.
+    ``amplitudes``, ``phases`` and ``limited`` are those of all segments.  ``found`` (k, P, 9) receives the columns above; of a plane that
+    has parted from its wall the depth alone, zero of one in flight.
     """
-    wall, mass = wall_of(rotor, plane), rotor.masses[plane]
+    found[:] = 0.0
     for i in range(segments.shape[0]):
         segment = segments[i]
         if rotor.limit_bounds.shape[0] > 0:
             work.clock = clocks[i]
             work.limited[:] = limited[segment]
         rub_series(rotor, phases[segment], amplitudes[segment], work)
-        phase = phases[segment, plane]
-        for j in range(times.shape[1]):
-            time, shaft = times[i, j], 1.0
-            y, v = _sum(work.position[plane], time), _sum(work.speed[plane], time)
-            if rotor.shaft.shape[0] > 0:
-                shaft = _sum(work.series[:, rotor.shaft[0] + 1], time).real
-            radius = math.sqrt(squared_modulus(y))
-            depth, rate = radius - 1.0, (y.conjugate() * v).real / radius
-            found[:, i, j] = 0.0
-            found[0, i, j], found[5, i, j] = depth, shaft
+        for plane in range(phases.shape[1]):
+            phase = phases[segment, plane]
+            if stays(phase) and yields(rotor, plane):
+                found[i, plane, DEPTH] = _highest(work.depth[plane], durations[i])[0]
             if lasts(phase):
-                push = force(depth, rate, wall)
-                grip = _sum(work.grip[plane], time)
-                if phase != ROLLING:
-                    grip = friction_ratio(sense_of_phase(phase), wall) * push
-                found[1, i, j] = _sum(work.slip[plane], time)
-                found[2, i, j], found[3, i, j] = mass * push, mass * grip
-                found[4, i, j] = mass * (push - force(depth, 0.0, wall)) * rate
+                _contact(rotor, plane, phase, durations[i], work, found[i, plane])
+
+
+@inlined
+def _contact(rotor, plane, phase, duration, work, found):
+    """Add up what a plane in contact does in a step."""
+    wall, mass, soft = wall_of(rotor, plane), rotor.masses[plane], yields(rotor, plane)
+    if phase != ROLLING:
+        ratio = friction_ratio(sense_of_phase(phase), wall)
+        for k in range(ORDER + 1):
+            work.grip[plane, k] = ratio * work.push[plane, k]
+    for j in range(1, POINTS.shape[0] - 1):
+        time, share = duration * POINTS[j], mass * duration * SHARES[j]
+        push, grip = _sum(work.push[plane], time), _sum(work.grip[plane], time)
+        shaft = 1.0
+        if rotor.shaft.shape[0] > 0:
+            shaft = _sum(work.series[:, rotor.shaft[0] + 1], time).real
+        found[NORMAL] += share * push
+        found[FRICTION] += share * grip
+        found[DRIVEN] += share * grip * shaft
+        if phase != ROLLING:
+            found[HEAT] -= share * grip * _sum(work.slip[plane], time)
+        if soft:
+            lost = push - force(_sum(work.depth[plane], time), 0.0, wall)
+            found[LOST] += share * lost * _sum(work.rate[plane], time)
+    top, time = _highest(work.push[plane], duration)
+    found[FORCE], found[FORCE_TIME] = mass * top, time
+    if phase != ROLLING:
+        for k in range(ORDER + 1):
+            power = 0.0
+            for j in range(k + 1):
+                power -= work.grip[plane, j] * work.slip[plane, k - j]
+            work.first_margin[k] = power
+        found[POWER] = mass * _highest(work.first_margin, duration)[0]
+
+
+@inlined
+def _highest(series, duration):
+    """Largest value of a real series within a step, and its time."""
+    best, at = series[0], 0.0
+    for j in range(1, POINTS.shape[0]):
+        value = _sum(series, duration * POINTS[j])
+        if value > best:
+            best, at = value, duration * POINTS[j]
+    time = at
+    for _ in range(_NEWTON_STEPS):
+        slope, bend = 0.0, 0.0
+        for k in range(ORDER, 1, -1):
+            slope = slope * time + k * series[k]
+            bend = bend * time + k * (k - 1) * series[k]
+        slope = slope * time + series[1]
+        if bend >= 0.0 or (time == 0.0 and slope <= 0.0) or (time == duration and slope >= 0.0):
+            break
+        time = min(max(time - slope / bend, 0.0), duration)
+    value = _sum(series, time)
+    if value > best:
+        best, at = value, time
+    return best, at
 
 
 @inlined

@@ -13,11 +13,13 @@
 ``resting``             whether a rotor lies on its touchdown bearing
 ``blows``           impulses at the planes in each event, also where several are struck in one instant
 ``contacts``        load on the bearing: the log of impacts, stretches of lasting contact
-``quadrature``      integrals and largest values along a motion
+``quadrature``      integrals along a motion
 ``spin``            what a shaft whose speed changes does along a motion
 ``touches``         contacts with walls that give way: impulses, peaks, depths, works
 ``loads``           loads of a touchdown: forces, impulses, heat
 ``bearing_loads``     the same of a drop, over all stages, with race, whirl and rest
+``load_sums``         both, added up piece by piece
+``last_whirl``        how a plane goes round at the end
 ``courses``           a drop sampled over all stages, to be drawn
 ``magnets``           how near a rotor comes to its magnets, and by how much their linear law is wrong there
 ``reduction_errors``  what the vectors left out of a flexible machine change
@@ -27,12 +29,13 @@
 ==================  =============================================================================
 """
 
-from carom.motions.bearing_loads import Braking, DropLoads, LastWhirl, PlaneLoads, drop_loads
+from carom.motions.bearing_loads import Braking, DropLoads, LastWhirl, PlaneLoads
 from carom.motions.contacts import ContactHistory, ContactLog, LastingContact
 from carom.motions.drops import Drop, Whirl, drop
 from carom.motions.ensembles import Endings, settle
 from carom.motions.ledger import EnergyLedger, energy_ledger
-from carom.motions.loads import TouchdownLoads, touchdown_loads
+from carom.motions.load_sums import drop_loads, follow_loads, touchdown_loads
+from carom.motions.loads import TouchdownLoads
 from carom.motions.settling import PATIENCE
 from carom.motions.simulation import simulate
 from carom.motions.spectrum import FullSpectrum, full_spectrum
@@ -62,6 +65,7 @@ __all__ = [
     "drop",
     "drop_loads",
     "energy_ledger",
+    "follow_loads",
     "full_spectrum",
     "kick",
     "settle",

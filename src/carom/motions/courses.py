@@ -11,8 +11,8 @@ import numpy as np
 from carom.models import Model
 from carom.models.in_bearing import on_mount
 from carom.models.weight import direction_of_fall
-from carom.motions.bearing_loads import drop_loads
 from carom.motions.contacts import presses, race_speed, shaft_lead, yields
+from carom.motions.load_sums import drop_loads
 from carom.motions.trajectories import Trajectory
 from carom.outcome import InputError
 from carom.parameters import Scales

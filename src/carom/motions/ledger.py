@@ -8,15 +8,16 @@ from typing import ClassVar
 import numpy as np
 
 from carom.arguments import checked
+from carom.core.wall_work import LOST
 from carom.models import Matrices
 from carom.models.excess import excess_accelerations, excess_of
 from carom.models.in_bearing import pull_of
 from carom.models.stages import forces_of
 from carom.motions.across import Across
-from carom.motions.contacts import Table, column, presses, race_speed, slip_velocity, yields
+from carom.motions.contacts import Table, column, race_speed, slip_velocity, yields
 from carom.motions.quadrature import NODES, WEIGHTS, pieces
 from carom.motions.spin import spin_of
-from carom.motions.touches import in_wall, lost_on_parting, stored
+from carom.motions.touches import contact_works, lost_on_parting, stored
 from carom.motions.trajectories import Trajectory
 from carom.outcome import InputError
 from carom.parameters import Scales
@@ -164,7 +165,7 @@ def energy_ledger(trajectory: Trajectory) -> EnergyLedger:
         skew = np.zeros_like(skew)
     across = Across(trajectory)
     kinetic, spring = _stored(trajectory, matrices, across)
-    wall, parting, dampers = _walls(trajectory, counts, half)
+    wall, parting, wall_damping = _walls(trajectory)
     races, drag = _races(trajectory, times)
     spin = spin_of(trajectory, times)
     impact, landing = (trajectory.blows(each).events for each in (trajectory.is_impact, trajectory.is_landing))
@@ -190,7 +191,7 @@ def energy_ledger(trajectory: Trajectory) -> EnergyLedger:
         # A landing stands for the last bounces of a chatter; its work is a correction to their friction.
         friction=work(slides) + at_events(landing, landings.contact_work),
         drive=drive,
-        wall_damping=work(dampers),
+        wall_damping=wall_damping,
         race_drag=work(drag),
         parting=parting,
         drive_left_out=work(spin.left_out),
@@ -249,10 +250,10 @@ def contact_power(motion: Trajectory, times: np.ndarray) -> tuple[np.ndarray, np
     return grip * slip, -(float(system.arrays.surface_speed[motion.plane]) - 1.0) * grip
 
 
-def _walls(trajectory: Trajectory, counts: np.ndarray, half: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Walls that give way: energy of their springs, what was lost on parting, both at the times of the ledger, and power of their dampers."""
-    held, lost = np.zeros((2, len(counts) + 1))
-    power = np.zeros((len(half), len(NODES)))
+def _walls(trajectory: Trajectory) -> np.ndarray:
+    """Walls that give way: energy of their springs, what was lost on parting and work of their dampers, at the times of the ledger."""
+    held, parting, damping = np.zeros((3, len(trajectory.segment_starts) + 1))
+    works = contact_works(trajectory)
     for plane in range(trajectory.segment_phases.shape[1]):
         if not yields(trajectory.rotor.system, plane):
             continue
@@ -261,12 +262,9 @@ def _walls(trajectory: Trajectory, counts: np.ndarray, half: np.ndarray) -> tupl
             stored(motion, motion.segment_amplitudes, motion.segment_phases[:, plane]),
             stored(motion, motion.last_amplitudes[None], motion.segment_phases[-1:, plane]),
         )
-        lost[1:-1] -= lost_on_parting(motion)
-        pressed = presses(motion.segment_phases[:, plane])
-        places = np.repeat(pressed, counts)
-        elapsed = half[places, None] * (1.0 + NODES)  # a segment of contact is one piece
-        power[places] -= in_wall(motion, np.flatnonzero(pressed), elapsed).lost
-    return held, np.cumsum(lost), power
+        parting[1:-1] -= lost_on_parting(motion)
+        damping[works.segments + 1] -= works.found[:, plane, LOST]
+    return np.stack([held, np.cumsum(parting), np.cumsum(damping)])
 
 
 def _races(trajectory: Trajectory, times: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

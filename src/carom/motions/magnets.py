@@ -20,8 +20,8 @@ from carom.motions.trajectories import Trajectory
 from carom.parameters.told import number
 from carom.results import Result
 
-SAMPLES = 20_000
-"""Instants, beside those of events, at which the place of a rotor at its magnets is looked at."""
+PER_TURN, SAMPLES = 32, 20_000
+"""Instants, beside those of events, at which the place of a rotor at its magnets is looked at: in a turn, and at most."""
 TOGETHER = 2_000
 
 
@@ -68,15 +68,24 @@ class MagnetReach(Result):
 
 def magnet_reach(motion: Trajectory) -> MagnetReach | None:
     """How near a motion comes to the magnets; ``None`` where no air gap is known."""
-    gaps = motion.rotor.system.magnets
+    known = None
+    for part in motion.parts:
+        known = reach_with(known, part)
+    return known
+
+
+def reach_with(known: MagnetReach | None, part: Trajectory) -> MagnetReach | None:
+    """What is known of a motion with one more stage, or piece of one."""
+    gaps, system = part.rotor.system.magnets, part.rotor.system
     if gaps is None:
-        return None
-    reached = [(_largest(part, gaps), part.rotor.system.levitates) for part in motion.parts]
-    struck = any(share > 1.0 for share, _ in reached)
-    return MagnetReach(max((share for share, acts in reached if acts), default=0.0), struck)
+        return known
+    before, share = known or MagnetReach(0.0, False), _largest(part, gaps)
+    return MagnetReach(max(before.share, share if system.levitates else 0.0), before.struck or share > 1.0)
 
 
 def _largest(part: Trajectory, gaps: np.ndarray) -> float:
-    times = np.concatenate([part.segment_starts, np.linspace(0.0, part.time, SAMPLES)])
+    begun = part.segment_starts[0]
+    even = np.linspace(begun, part.time, min(SAMPLES, math.ceil(PER_TURN * (part.time - begun) / math.tau) + 2))
+    times = np.concatenate([part.segment_starts, even])
     pieces = np.array_split(times, math.ceil(len(times) / TOGETHER))
     return max(float(np.abs(np.reshape(part.at(each)[0], (len(each), -1)) @ gaps.T).max()) for each in pieces)

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import Any
 
 from carom.models import Model
-from carom.motions.contacts import yields
-from carom.motions.simulation import simulate
-from carom.motions.trajectories import Trajectory
+from carom.motions.bearing_loads import DropLoads, FirstContact
+from carom.motions.load_sums import follow_loads
 from carom.parameters.told import number
 from carom.results import Result
 from carom.rotors import ReducedMachine
@@ -63,49 +62,26 @@ class ReductionError(Result):
         return {"vectors": self.vectors, "finer": self.finer, "first_peak_changes": changes, "error": self.error}
 
 
-class _Peak(NamedTuple):
-    """The largest force of a first contact, and times since the beginning of the motion."""
-
-    force: float
-    start: float
-    time: float
-
-
 def reduction_error(
-    reduced: ReducedMachine, motion: Trajectory, again: Callable[[ReducedMachine], tuple[Model, Any]]
+    reduced: ReducedMachine, loads: DropLoads, again: Callable[[ReducedMachine], tuple[Model, Any]]
 ) -> ReductionError | None:
-    """Compare a motion with that of twice as many vectors; ``None`` of all modes, and of a motion without contact with compliant bearings.
+    """Compare the loads of a motion with those by twice as many vectors; ``None`` of all modes, and without contact with compliant bearings.
 
     ``again`` gives the rotor and the start of the same motion by other vectors.
     """
-    first = list(_first_peaks(motion))
+    first = [plane.first for plane in loads.planes]
     touched = [each for each in first if each is not None]
     finer = reduced.finer
     if finer is None or not touched:
         return None
-    until = max(LATER * each.time + 2.0 * (each.time - each.start) for each in touched)
-    rotor, start = again(finer)
-    followed = _first_peaks(simulate(rotor, start, until, max_events=MOST_EVENTS))
-    changes = tuple(_change(*pair) for pair in zip(first, followed, strict=True))
+    until = max(LATER * each.peak_time + 2.0 * (each.peak_time - each.start) for each in touched)
+    followed = follow_loads(*again(finer), until, max_events=MOST_EVENTS)
+    changes = tuple(_change(one, plane.first) for one, plane in zip(first, followed.planes, strict=True))
     return ReductionError(reduced.vectors, finer.vectors, changes)
 
 
-def _change(one: _Peak | None, other: _Peak | None) -> float | None:
+def _change(one: FirstContact | None, other: FirstContact | None) -> float | None:
     if one is None:  # what the finer one touches after that is not looked at
         return None
     forces = one.force, 0.0 if other is None else other.force
     return abs(forces[0] - forces[1]) / max(forces)
-
-
-def _first_peaks(motion: Trajectory) -> Iterator[_Peak | None]:
-    """For each touchdown bearing the peak of its first contact; ``None`` without one, or of a rigid bearing, whose impacts have no force."""
-    for plane in range(motion.segment_phases.shape[1]):
-        logs = ((part.begins, part.seen_at(plane).touches) for part in motion.parts if yields(part.rotor.system, plane))
-        yield next(
-            (
-                _Peak(float(log.peak_force[0]), begins + float(log.start[0]), begins + float(log.peak_time[0]))
-                for begins, log in logs
-                if len(log) and log.peak_force[0] > 0.0
-            ),
-            None,
-        )

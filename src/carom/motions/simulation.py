@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
@@ -28,7 +29,7 @@ from carom.motions.settling import (
     time_limit,
 )
 from carom.motions.starts import Kick, State, Until, amplitudes_of
-from carom.motions.trajectories import Trajectory
+from carom.motions.trajectories import Trajectory, joined
 from carom.outcome import Outcome
 from carom.parameters import own_time
 from carom.progress import Reporter, ShowProgress, shows_progress
@@ -91,6 +92,40 @@ def simulate(
     >>> len(motion.contacts)
     257
     """
+    stages: list[list[Trajectory]] = []
+    pieces = stretches(
+        machine,
+        start,
+        until,
+        settle=settle,
+        stop_at_chatter=stop_at_chatter,
+        patience=patience,
+        max_events=max_events,
+        progress=progress,
+    )
+    for piece in pieces:
+        if not stages or stages[-1][-1].outcome is Outcome.TRIGGERED:
+            stages.append([])
+        stages[-1].append(piece)
+    *earlier, last = map(joined, stages)
+    return dataclasses.replace(last, earlier=tuple(earlier)) if earlier else last
+
+
+def stretches(
+    machine: Subject,
+    start: State | Kick | Drop,
+    until: Until | None = None,
+    *,
+    settle: bool | None = None,
+    stop_at_chatter: bool = False,
+    patience: int = PATIENCE,
+    max_events: int = 1_000_000,
+    progress: ShowProgress = None,
+) -> Iterator[Trajectory]:
+    """Follow a start as :func:`simulate` does, in pieces of at most :data:`CHUNK` events.
+
+    Times of a piece count from the beginning of its stage; that of its first segment is where the piece before ends, with the event there.
+    """
     model = model_of(machine)
     if isinstance(start, Drop):
         model, start = start.stages(machine)
@@ -98,16 +133,16 @@ def simulate(
     settle = until is None if settle is None else settle
     end = None if until is None and settle else own_time("until", until, model.scales)
     options = _Options(settle, stop_at_chatter, patience, max_events, Reporter.of(progress, "simulating"))
-    parts: list[Trajectory] = []
+    passed = 0.0
     for stage in stages_of(model):
-        longest = time_limit(stage.rotor, stage.trigger) if end is None else end - sum(part.time for part in parts)
-        parts.append(_follow_stage(stage.rotor, state, longest, stage.trigger, options))
-        if parts[-1].outcome is not Outcome.TRIGGERED:
-            break
-        ended = parts[-1].final
-        begins = parts[-1].begins + parts[-1].time
+        longest = time_limit(stage.rotor, stage.trigger) if end is None else end - passed
+        for piece in _follow_stage(stage.rotor, state, longest, stage.trigger, options):
+            yield piece
+        if piece.outcome is not Outcome.TRIGGERED:
+            return
+        passed += piece.time
+        ended, begins = piece.final, piece.begins + piece.time
         state = State.of(*stage.carried(ended.position, ended.velocity), ended.races, ended.shaft, begins)
-    return dataclasses.replace(parts[-1], earlier=tuple(parts[:-1])) if len(parts) > 1 else parts[0]
 
 
 class _Options(NamedTuple):
@@ -118,58 +153,64 @@ class _Options(NamedTuple):
     tell: Reporter
 
 
-def _follow_stage(rotor: Model, start: State, longest: float, trigger: Trigger, options: _Options) -> Trajectory:
+def _follow_stage(
+    rotor: Model, start: State, longest: float, trigger: Trigger, options: _Options
+) -> Iterator[Trajectory]:
     """Follow a start through one stage, for so long at most, or until its trigger ends it."""
     settle, stop_at_chatter, patience, max_events, tell = options
     begins = start.time
     # What has settled may still be ended by a time.
     settle, until = settle and trigger.time == np.inf, min(longest, trigger.time)
     amplitudes, contact = amplitudes_of(rotor, start)
-    phases = np.where(contact == AWAY, FLIGHT, contact)[None]
     recollection = fresh_memory(rotor, patience if settle else 0, stop_at_chatter, trigger=trigger)
-    limited = begin_limits(rotor.system, amplitudes, begins, recollection)[None]
-    first = amplitudes.copy()
-    logs: list[EventLog] = []
+    limited = begin_limits(rotor.system, amplitudes, begins, recollection)
+    first = np.where(contact == AWAY, FLIGHT, contact), amplitudes.copy(), limited
     reached, events, outcome, multiplicity, progress = 0.0, 0, Outcome.EVENT_LIMIT, 0, Progress()
-    while outcome is Outcome.EVENT_LIMIT and events < max_events:
-        room = min(CHUNK, max_events - events)
-        log = EventLog.empty(room, len(amplitudes), len(contact), rotor.system.limits)
+    begun, struck, ended = 0.0, np.zeros(0), False
+    room = EventLog.empty(min(CHUNK, max_events), len(amplitudes), len(contact), rotor.system.limits)
+    while not ended:
+        log = room.first(max_events - events)
         outcome, time, count = follow(rotor, amplitudes, until - reached, contact, log, recollection)
         log = log.first(count)
-        logs.append(log._replace(times=reached + log.times))
+        log = log._replace(times=reached + log.times)
         reached, events = reached + time, events + count
+        struck = np.append(struck, log.times)[-LOW_FOR:]
         tell(reached / until if until > 0.0 else 1.0)
         outcome, multiplicity = settled(rotor, amplitudes, contact, outcome, recollection)
         if outcome is Outcome.EVENT_LIMIT and progress.stalls(count, time):
             outcome = Outcome.STALLED
-    if outcome in REPEATING and not multiplicity and may_be_low(rotor, patience):
-        struck = np.concatenate([log.times for log in logs])[-LOW_FOR:]
-        if np.ptp(struck) < low_interval(rotor) * (len(struck) - 1):
+        low = outcome in REPEATING and not multiplicity and may_be_low(rotor, patience)
+        if low and np.ptp(struck) < low_interval(rotor) * (len(struck) - 1):
             outcome = Outcome.LOW_BOUNCES
-    if outcome is Outcome.TIME_REACHED:
-        reached, outcome = until, Outcome.TRIGGERED if until == trigger.time else outcome
-    position, velocity = rotor.system.state(amplitudes)
-    return Trajectory(
-        rotor=rotor,
-        start=start,
-        outcome=outcome,
-        time=reached,
-        final=State.of(
-            position,
-            velocity,
-            rotor.system.race_speeds(amplitudes),
-            rotor.system.shaft_turn(amplitudes),
-            begins + reached if rotor.system.timed else 0.0,
-        ),
-        multiplicity=multiplicity,
-        segment_starts=np.concatenate([np.zeros(1), *(log.times for log in logs)]),
-        segment_phases=np.concatenate([phases, *(log.phases for log in logs)]),
-        event_planes=np.concatenate([log.planes for log in logs]),
-        segment_amplitudes=np.concatenate([first[None], *(log.after for log in logs)]),
-        arrivals=np.concatenate([log.before for log in logs]),
-        segment_limits=np.concatenate([limited, *(log.limited for log in logs)]),
-        begins=begins,
-    )
+        if outcome is Outcome.TIME_REACHED:
+            reached, outcome = until, Outcome.TRIGGERED if until == trigger.time else outcome
+        ended = outcome is not Outcome.EVENT_LIMIT or events >= max_events
+        if not ended and not count:  # a slice of a flight, which goes on
+            continue
+        state = amplitudes if ended else log.after[-1]
+        time = reached if ended else float(log.times[-1])
+        yield Trajectory(
+            rotor=rotor,
+            start=start,
+            outcome=outcome,
+            time=time,
+            final=State.of(
+                *rotor.system.state(state),
+                rotor.system.race_speeds(state),
+                rotor.system.shaft_turn(state),
+                begins + time if rotor.system.timed else 0.0,
+            ),
+            multiplicity=multiplicity,
+            segment_starts=np.append(begun, log.times),
+            segment_phases=np.concatenate([first[0][None], log.phases]),
+            event_planes=log.planes.copy(),
+            segment_amplitudes=np.concatenate([first[1][None], log.after]),
+            arrivals=log.before.copy(),
+            segment_limits=np.concatenate([first[2][None], log.limited]),
+            begins=begins,
+        )
+        if not ended:
+            begun, first = time, (log.phases[-1].copy(), log.after[-1].copy(), log.limited[-1].copy())
 
 
 def tools(rotor: Model) -> tuple[np.record, ...]:

@@ -8,7 +8,20 @@ from typing import TYPE_CHECKING, ClassVar, NamedTuple
 
 import numpy as np
 
-from carom.core.wall_work import courses_in_wall, stored_energies_all
+from carom.core.wall_work import (
+    COLUMNS,
+    DEPTH,
+    DRIVEN,
+    FORCE,
+    FORCE_TIME,
+    FRICTION,
+    HEAT,
+    LOST,
+    NORMAL,
+    POWER,
+    contact_works_all,
+    stored_energies_all,
+)
 from carom.motions.contacts import (
     NUMBERED,
     PRESSING,
@@ -19,7 +32,6 @@ from carom.motions.contacts import (
     presses,
     yields,
 )
-from carom.motions.quadrature import NODES, WEIGHTS, largest
 from carom.outcome import Phase
 from carom.parameters import Scales
 
@@ -84,35 +96,36 @@ class TouchLog(Table):
         return dataset
 
 
-class InWall(NamedTuple):
-    """A plane in a wall that gives way, at some instants; arrays of one shape."""
+class ContactWorks(NamedTuple):
+    """What contact does in the segments of a motion in which a plane is at its wall, by the columns of :mod:`carom.core.wall_work`."""
 
-    depth: np.ndarray
-    slip: np.ndarray
-    normal: np.ndarray
-    friction: np.ndarray
-    lost: np.ndarray
-    """Power lost in the wall's damper."""
-    shaft: np.ndarray
-    """Speed of the shaft, in ``Ω``."""
+    segments: np.ndarray
+    """Numbers of these segments, shape (k,)."""
+    found: np.ndarray
+    """For each of them and each plane, shape (k, P, 9)."""
+
+    def at(self, plane: int, segments: np.ndarray) -> np.ndarray:
+        """Columns at a plane, shape (9, n), of some of these segments."""
+        columns: np.ndarray = self.found[np.searchsorted(self.segments, segments), plane].T
+        return columns
 
 
-def in_wall(motion: Trajectory, segments: np.ndarray, elapsed: np.ndarray) -> InWall:
-    """The plane of a motion in segments (k,) in which it is in its wall, at times (k, m) after the start of each."""
-    found = np.empty((6, *elapsed.shape))
-    courses_in_wall(
+def contact_works(motion: Trajectory) -> ContactWorks:
+    """Add up the contact at all planes over each segment of a motion."""
+    segments = np.flatnonzero((motion.segment_phases != Phase.FLIGHT).any(axis=1))
+    found = np.empty((len(segments), motion.segment_phases.shape[1], COLUMNS))
+    contact_works_all(
         motion.rotor.system.arrays,
-        motion.plane,
         segments,
         motion.segment_amplitudes,
         motion.segment_phases,
         motion.segment_limits,
         np.fmod(motion.begins + motion.segment_starts[segments], 2.0 * np.pi),
-        elapsed,
+        motion.durations[segments],
         motion.workspace(),
         found,
     )
-    return InWall(*found)
+    return ContactWorks(segments, found)
 
 
 def stored(motion: Trajectory, amplitudes: np.ndarray, phases: np.ndarray) -> np.ndarray:
@@ -132,24 +145,23 @@ def lost_on_parting(motion: Trajectory) -> np.ndarray:
     return np.where(parted[:-1] | parted[1:], lost, 0.0)
 
 
-def touches_of(motion: Trajectory) -> TouchLog:
-    """Contacts with the wall at the plane of a motion; none if that is rigid."""
+def touches_of(motion: Trajectory, works: ContactWorks | None = None) -> TouchLog:
+    """Contacts with the wall at the plane of a motion, whose :func:`contact_works` may be known; none if that is rigid."""
     system, plane = motion.rotor.system, motion.plane
     phases = motion.segment_phases[:, plane]
     inside = (phases != Phase.FLIGHT) & yields(system, plane)
     first, after = np.flatnonzero(np.diff(np.concatenate([[0], inside, [0]]))).reshape(-1, 2).T
     bounds, segments = np.append(motion.segment_starts, motion.time), np.flatnonzero(inside)
-    half = 0.5 * np.diff(bounds)[segments]
-    at = in_wall(motion, segments, half[:, None] * (1.0 + NODES))
+    at = (works or contact_works(motion)).at(plane, segments)
     begins = np.searchsorted(segments, first)
     edges = np.append(begins, len(segments))
 
-    def total(values: np.ndarray) -> np.ndarray:
-        return np.add.reduceat(half * (values @ WEIGHTS), begins)
+    def total(column: int) -> np.ndarray:
+        return np.add.reduceat(at[column], begins)
 
-    forces, places = largest(at.normal)
-    hardest = np.array([begin + forces[begin:end].argmax() for begin, end in pairwise(edges)], int)
-    takes = [np.add.reduceat(np.where(phases[segments] == kind, half, 0.0), begins) for kind in PRESSING]
+    hardest = np.array([begin + at[FORCE, begin:end].argmax() for begin, end in pairwise(edges)], int)
+    lasted = motion.durations[segments]
+    takes = [np.add.reduceat(np.where(phases[segments] == kind, lasted, 0.0), begins) for kind in PRESSING]
     parted = np.concatenate([[0.0], np.cumsum(lost_on_parting(motion))])
     angle, radial, angular = polar(*system.at_plane(motion.segment_amplitudes[first], plane))
     _, radial_after, _ = polar(*system.at_plane(motion.ends_of(after - 1), plane))
@@ -165,14 +177,14 @@ def touches_of(motion: Trajectory) -> TouchLog:
         angular_speed=angular,
         radial_speed=radial,
         radial_speed_after=radial_after,
-        normal_impulse=total(at.normal),
-        friction_impulse=total(at.friction),
-        peak_force=forces[hardest],
-        peak_time=bounds[segments[hardest]] + half[hardest] * (1.0 + places[hardest]),
-        deepest=np.maximum.reduceat(largest(at.depth)[0], begins),
-        peak_power=np.maximum.reduceat(largest(-at.friction * at.slip)[0], begins),
-        heat=-total(at.friction * at.slip),
-        normal_loss=total(at.lost) + parted[np.minimum(after, len(parted) - 1)] - parted[first],
-        drive_work=-(system.contacts[plane].wall.surface_speed - 1.0) * total(at.friction * at.shaft),
+        normal_impulse=total(NORMAL),
+        friction_impulse=total(FRICTION),
+        peak_force=at[FORCE, hardest],
+        peak_time=bounds[segments[hardest]] + at[FORCE_TIME, hardest],
+        deepest=np.maximum.reduceat(at[DEPTH], begins),
+        peak_power=np.maximum.reduceat(at[POWER], begins),
+        heat=total(HEAT),
+        normal_loss=total(LOST) + parted[np.minimum(after, len(parted) - 1)] - parted[first],
+        drive_work=-(system.contacts[plane].wall.surface_speed - 1.0) * total(DRIVEN),
         scales=motion.scales,
     )

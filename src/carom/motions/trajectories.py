@@ -148,6 +148,11 @@ class Trajectory(Result):
             earlier=(),
         )
 
+    @property
+    def durations(self) -> np.ndarray:
+        """Duration of each segment, shape (n + 1,)."""
+        return np.diff(self.segment_starts, append=self.time)
+
     @cached_property
     def is_impact(self) -> np.ndarray:
         """Which of the ``n`` events are impacts, bool, shape (n,)."""
@@ -380,3 +385,22 @@ class Trajectory(Result):
         """Distance of the contact plane from its bearing centre, in its clearances."""
         radius: np.ndarray = np.abs(self.at_plane(times)[0])
         return radius
+
+
+def joined(pieces: list[Trajectory]) -> Trajectory:
+    """Join pieces of one stage, each of which ends where the next begins, with a segment that has no duration yet."""
+
+    def per_segment(name: str) -> np.ndarray:
+        *before, last = (getattr(piece, name) for piece in pieces)
+        return np.concatenate([*(each[:-1] for each in before), last])
+
+    return dataclasses.replace(
+        pieces[-1],
+        start=pieces[0].start,
+        segment_starts=per_segment("segment_starts"),
+        segment_phases=per_segment("segment_phases"),
+        event_planes=np.concatenate([piece.event_planes for piece in pieces]),
+        segment_amplitudes=per_segment("segment_amplitudes"),
+        arrivals=np.concatenate([piece.arrivals for piece in pieces]),
+        segment_limits=per_segment("segment_limits"),
+    )

@@ -11,6 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from carom.arguments import Positive, checked
+from carom.outcome import Outcome
 from carom.plots.figure import StyledFigure
 from carom.plots.plane import MANY_POINTS, Floats, clearance_circle, key, label_frame, point
 from carom.plots.style import LOOKS, TWO_COLUMNS, Look, styled
@@ -197,13 +198,20 @@ def drop_loads(motion: Trajectory, until: Positive | None = None, title: str | N
         axes.set_title(f"({letter})", loc="left", y=1.0)
     if len(spans) > 1:
         grid[0, 0].set_title("the first contacts", y=1.0)
-        grid[0, 1].set_title("until it rests or whirls" if end < followed else "the whole drop", y=1.0)
+        grid[0, 1].set_title(_whole(motion, end), y=1.0)
         for axes in grid[:, 1]:
             axes.set_ylabel("")
     if title:
         figure.suptitle(title)
     key(figure, grid.ravel().tolist(), columns=5)
     return figure
+
+
+def _whole(motion: Trajectory, end: float) -> str:
+    """What of a drop is shown up to a time from the release."""
+    if end < motion.begins + motion.time:
+        return "until it rests or whirls"
+    return "as far as it is recorded" if motion.outcome is Outcome.EVENT_LIMIT else "the whole drop"
 
 
 def _column(panels: np.ndarray, course: Course, *, last: bool) -> None:

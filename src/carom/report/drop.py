@@ -8,11 +8,12 @@ from carom import plots
 from carom.arguments import checked
 from carom.files import staged_directory, write_json
 from carom.files.directory import FIGURES
+from carom.motions import Trajectory
 from carom.progress import Reporter, ShowProgress, shows_progress
 from carom.report.film import Film, film_of, film_script
 from carom.report.html import InlineFigure, inline_figure, page_template, versions
 from carom.studies.drops import DropStudy
-from carom.studies.wording import machine_heading
+from carom.studies.wording import Wording, machine_heading
 
 DROP_PAGE, DROP_NUMBERS = "drop.html", "drop.json"
 _ORBIT = (
@@ -29,11 +30,13 @@ _WALLS = {
 
 @checked
 @shows_progress
-def write_drop_report(found: DropStudy, directory: str, *, progress: ShowProgress = None) -> Path:
+def write_drop_report(found: DropStudy, motion: Trajectory, directory: str, *, progress: ShowProgress = None) -> Path:
     """Write ``drop.html``, ``drop.json`` and the figures of a drop, as SVG and PNG; return the path of the page.
 
     Parameters
     ----------
+    motion : Trajectory
+        The same drop as far as it is to be drawn.
     directory : str
         Target directory, created if it does not exist.  Files of an earlier drop are replaced; other files stay.
 
@@ -44,15 +47,18 @@ def write_drop_report(found: DropStudy, directory: str, *, progress: ShowProgres
     """
     tell, inline, names = Reporter.of(progress, "drawing"), list[InlineFigure](), list[str]()
     films = list[tuple[str, Film]]()
-    planes = found.loads.planes
+    planes, drawn, cut = found.loads.planes, motion.begins + motion.time, ""
+    if drawn < found.loads.time and not motion.outcome.settled:
+        say = Wording(found.case.parameters.scales)
+        cut = f" Drawn: the first {say.time(drawn)} of {say.time(found.loads.time)}."
     with staged_directory(directory, "--out") as place, plots.heading(machine_heading(found.case)):
         (place / FIGURES).mkdir()
         for done, plane in enumerate(planes):
             tell(done / len(planes))
-            motion, mark = found.motion.seen_at(plane.plane), f"-{plane.plane + 1}" if len(planes) > 1 else ""
-            which = f" Touchdown bearing {plane.plane + 1}." if mark else ""
-            films.append((f"film{plane.plane}-", film_of(motion)))
-            orbit, loads = plots.drop_orbit(motion), plots.drop_loads(motion)
+            seen, mark = motion.seen_at(plane.plane), f"-{plane.plane + 1}" if len(planes) > 1 else ""
+            which = (f" Touchdown bearing {plane.plane + 1}." if mark else "") + cut
+            films.append((f"film{plane.plane}-", film_of(seen)))
+            orbit, loads = plots.drop_orbit(seen), plots.drop_loads(seen)
             captions = {"orbit": (orbit, _ORBIT), "loads": (loads, _SOFT if plane.gives_way else _RIGID)}
             for name, (figure, caption) in captions.items():
                 paths = plots.save(figure, place / FIGURES / f"drop-{name}{mark}")

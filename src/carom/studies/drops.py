@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
 from typing import Any
 
 from carom.attractors import MotionName
 from carom.disturbances.echo import Echo
 from carom.models import model_of
 from carom.models.subjects import rotor_document
-from carom.motions import DropLoads, Trajectory, drop_loads
-from carom.motions.magnets import MagnetReach, magnet_reach
+from carom.motions import DropLoads
 from carom.motions.reduction_errors import ReductionError
 from carom.outcome import Outcome
 from carom.parameters import Case
@@ -31,26 +29,16 @@ class DropStudy(Result):
         The machine, with the limits of its touchdown bearing.
     echo : Echo
         What was done to it.
-    motion : Trajectory
-        With all its stages.
+    loads : DropLoads
+        What the touchdown bearing bears.
     reduction : ReductionError or None
         Error of the reduction of a flexible machine along it.
     """
 
     case: Case
     echo: Echo
-    motion: Trajectory
+    loads: DropLoads
     reduction: ReductionError | None = None
-
-    @cached_property
-    def loads(self) -> DropLoads:
-        """What the touchdown bearing bears."""
-        return drop_loads(self.motion)
-
-    @cached_property
-    def magnets(self) -> MagnetReach | None:
-        """How near the rotor comes to its magnets, where their air gaps are known."""
-        return magnet_reach(self.motion)
 
     @property
     def checks(self) -> tuple[LoadCheck, ...]:
@@ -96,6 +84,6 @@ class DropStudy(Result):
             document["shaft"] = shaft | in_si(shaft, scales, speed_at_end="speed", left_out="speed")
         if self.reduction is not None:
             document["reduction"] = self.reduction.document()
-        if self.magnets is not None:
-            document["magnets"] = self.magnets.document()
+        if loads.magnets is not None:
+            document["magnets"] = loads.magnets.document()
         return document | {"touchdown_bearings": load_entries(loads, case.limits)}

@@ -9,7 +9,7 @@ from typing import Any
 from carom.attractors import DisturbanceSet, find_attractors
 from carom.models import Model
 from carom.models.weight import weight_of
-from carom.motions import drop, simulate
+from carom.motions import drop, drop_loads, simulate
 from carom.motions.reduction_errors import reduction_error
 from carom.parameters import Case
 from carom.progress import Reporter
@@ -70,5 +70,5 @@ def study_of_machine(case: Case, rotor: Model, reduced: ReducedMachine, tell: Re
     fall = None
     if weight_of(rotor) is not None and holds:
         fall = simulate(rotor, drop(), f"{FALLING} s", max_events=MOST_EVENTS)
-    along = None if fall is None else reduction_error(reduced, fall, lambda finer: (finer.model, drop()))
+    along = None if fall is None else reduction_error(reduced, drop_loads(fall), lambda finer: (finer.model, drop()))
     return FlexibleStudy(case, rotor, reduced, levitation, found, trials, beyond, fall, along)

@@ -178,7 +178,9 @@ def _reduction(
     rotor: Model, motion: Trajectory, at: Callable[..., tuple[Model, Any]], pair: tuple[float, float]
 ) -> ReductionError | None:
     reduced = reduced_of(rotor)
-    return None if reduced is None else reduction_error(reduced, motion, lambda finer: at(finer.model, *pair))
+    return (
+        None if reduced is None else reduction_error(reduced, drop_loads(motion), lambda finer: at(finer.model, *pair))
+    )
 
 
 def all_round() -> list[tuple[float, float]]:
