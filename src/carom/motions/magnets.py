@@ -20,8 +20,8 @@ from carom.motions.trajectories import Trajectory
 from carom.parameters.told import number
 from carom.results import Result
 
-PER_TURN, SAMPLES = 32, 20_000
-"""Instants, beside those of events, at which the place of a rotor at its magnets is looked at: in a turn, and at most."""
+PER_TURN, SAMPLES = 1000, 5000
+"""Instants, beside those of events, at which the place of a rotor at its magnets is looked at: in a turn, and at most in a stage or piece of one."""
 TOGETHER = 2_000
 
 
