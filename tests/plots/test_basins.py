@@ -163,7 +163,7 @@ def test_shares_at_each_size_are_stacked_to_a_hundred(rotor):
         (Grid(KickPlane(1.0), (10, 10)), ("kick outward (mm/s)", "kick in the sense of rotation (mm/s)")),
         (Grid(StateSlice(), (12, 12)), ("Re $U$ (mm)", "Im $U$ (mm)")),
         (Grid(ContactRelease("rotating"), (20,)), ("released from the wall, at rest in the co-rotating frame",)),
-        (Grid(BladeLoss.of(MACHINE, "0.25 mm"), (20,)), ("phase of the change by the loss", "by 12,500 g mm")),
+        (Grid(BladeLoss.of(MACHINE, "0.25 mm"), (20,)), ("phase of the change of unbalance", "12,500 g mm")),
         (
             Sample(AnyState(1.0), 100),
             ("share of 100 positions with velocities up to 129 mm/s (%), with 95 % confidence",),

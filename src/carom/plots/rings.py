@@ -51,16 +51,16 @@ def dial(basin: Basin, motions: list[MotionLook], title: str | None) -> Figure:
     coordinate = basin.coordinates[0]
     if basin.plan.model.kind == "blade-loss":
         axes.text(0.36, 0.05, "unbalance before", ha="center", va="bottom", fontsize=7)
-        axes.set_title(f"phase of the change by the loss\n{_change_of_unbalance(basin)}")
+        axes.set_title(f"phase of the change of unbalance,\n{_change_of_unbalance(basin)}")
     else:
         axes.set_title(coordinate.words)
     return finish(figure, motions, title, [], columns=1)
 
 
 def _change_of_unbalance(basin: Basin) -> str:
-    """By how much the loss of a blade changes the unbalance."""
+    """How much the loss of a blade changes the unbalance."""
     factor, unit = told_in("unbalance" if basin.scales else "length", basin.scales)
-    return f"of the unbalance by {number(factor * float(str(basin.plan.model.describe()['change'])), 3)} {unit}"
+    return f"{number(factor * float(str(basin.plan.model.describe()['change'])), 5)} {unit}"
 
 
 def _painted_ring(basin: Basin, motions: list[MotionLook], wall: float = 1.0) -> tuple[Figure, Axes]:
