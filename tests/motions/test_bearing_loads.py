@@ -11,7 +11,7 @@ import pytest
 from linear_rotors import tilting
 
 import carom as cm
-from carom.motions import Whirl, drop_loads, energy_ledger, follow_loads, simulation
+from carom.motions import Whirl, drop_loads, energy_ledger, follow_loads, settling, simulation
 from carom.motions.loads import MEASURED
 from carom.outcome import Outcome
 
@@ -252,3 +252,10 @@ def test_nothing_is_kept_of_long_contact():
     tracemalloc.stop()
     assert len(motion.segment_starts) > 15_000
     assert most < 0.5 * recorded
+
+
+def test_a_rotor_without_levitation_is_followed_for_a_time_that_is_stated():
+    case = cm.load(BALLS)
+    falling, _ = cm.drop().stages(case)
+    assert settling.longest_time(falling) == pytest.approx(3000.0 * math.pi)
+    assert settling.longest_time(cm.models.model_of(case)) >= settling.SHORTEST_LIMIT

@@ -93,7 +93,7 @@ DropUntil = Annotated[
     typer.Option(
         "--until",
         metavar="T",
-        help="Follow the drop to this time, such as '200 ms'; by default until it is known where it ends.",
+        help="Follow the drop to this time, such as '200 ms'; by default until it is known where it ends, at most for 1,500 turns of the shaft.",
     ),
 ]
 Mapped = Annotated[

@@ -17,6 +17,7 @@ from carom.core.limits import set_limits
 from carom.core.planar_proofs import fades_to_rolling, planar_proofs
 from carom.models import Model, System
 from carom.models.stages import NEVER, Trigger
+from carom.models.weight import weight_of
 from carom.motions.recurrence import least_recurrence
 from carom.motions.resting import goes_round, lies
 from carom.outcome import Outcome
@@ -31,6 +32,11 @@ LONG_FLIGHT = 3e4
 TIME_CONSTANTS = 40.0
 SHORTEST_LIMIT, LONGEST_LIMIT = 2e5, 2e7
 """Smallest and largest time, in ``1/Ω``, that a motion is given to settle: seconds of computing."""
+FALLING_TURNS = 1_500
+"""Turns of the shaft for which a rotor without levitation is followed: whirl and rest are known after 1,024 turns at the latest.
+
+Of a rotor that bends, contact without end may neither settle nor repeat.  A shaft that loses its speed is given its time to stand.
+"""
 CHATTER = 15.0
 """Impacts of a chatter, times ``|ln d|``, until its bounces are too low to be told from lasting contact."""
 LOW, LOW_FOR = 0.5, 200
@@ -205,6 +211,8 @@ def time_limit(rotor: Model, trigger: Trigger) -> float:
 
 
 def longest_time(rotor: Model) -> float:
-    """Time limit in ``1/Ω`` for a motion to settle: TIME_CONSTANTS time constants of free flight, within bounds."""
+    """Time limit in ``1/Ω`` for a motion to settle: TIME_CONSTANTS time constants of free flight, within bounds; else :data:`FALLING_TURNS`."""
     decay = rotor.system.decay
+    if weight_of(rotor) is not None and not rotor.system.levitates and rotor.system.shaft is None:
+        return 2.0 * math.pi * FALLING_TURNS
     return min(max(TIME_CONSTANTS / decay, SHORTEST_LIMIT), LONGEST_LIMIT) if decay > 0.0 else SHORTEST_LIMIT

@@ -61,7 +61,7 @@ def simulate(
         On the wall (``|U| = 1`` to within 1e-12) or inside it.  After a drop the rotor of the motion is the one that falls.
     until : float or str, optional
         Time to follow it, in ``1/Ω`` or text with a unit, such as ``"2 s"``; by default to where it settles, at most
-        for :func:`~carom.motions.settling.longest_time`.
+        for :func:`~carom.motions.settling.longest_time`, which is 1,500 turns of the shaft after a drop.
     settle : bool
         End as soon as the final motion is known (criteria in :mod:`carom.core.fate`); by default only without ``until``.
     stop_at_chatter : bool
