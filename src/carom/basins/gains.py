@@ -267,7 +267,7 @@ _WORDS = {
     "recovered": "share of the disturbances that comes back to levitation, by area",
     "recovered_low": "lower end of its 95 % confidence interval (of a grid: the share)",
     "recovered_high": "upper end of its 95 % confidence interval (of a grid: the share)",
-    "unresolved": "share given up before it was known where it ends",
+    "unresolved": "share given up, or gone beyond the model, before it was known where it ends",
     "levitates": "1 where the rotor levitates without contact and no motion about that grows, else 0",
     "integrity": "size up to which no disturbance is lost, as a fraction of the largest one",
     "basin_entropy": "basin entropy of the outcomes",

@@ -24,8 +24,7 @@ FARTHEST = 2.0
 """Distance from the centre, in clearances, up to which a rotor is followed in a wall that gives way.
 
 The wall is a spring however deep the rotor is in it, and a magnet is linear however near the rotor comes; neither holds far beyond the
-clearance.  The air gap of a magnet usually is twice the clearance of its touchdown bearing, so a rotor that far out strikes the magnet; of
-one wider than ten clearances the depth then is less than a tenth of its radius, which is the arm of the friction.
+clearance.  The air gap of a magnet usually is twice the clearance of its touchdown bearing, so a rotor that far out strikes the magnet.
 """
 _Forward = Annotated[float, Kind(lambda number: number >= 1.0, "a number of at least 1")]
 
