@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import compress
 from typing import ClassVar
 
 import numpy as np
@@ -18,6 +19,7 @@ from carom.closed_forms.known import known_of
 from carom.disturbances import Disturbance, Plan, Sample, Starts
 from carom.disturbances.following import refuse_another_machine
 from carom.models import Model, Subject, model_of
+from carom.motions.budget import NOT_FOLLOWED
 from carom.motions.settling import PATIENCE
 from carom.motions.starts import Kick, State
 from carom.outcome import IRREGULAR_BOUNCING, InputError, Outcome
@@ -48,6 +50,8 @@ class AttractorSet(Members[Attractor]):
         The disturbances; ``None`` if they were given one by one.
     patience : int
         Impacts without recurrence after which bouncing counts as irregular.
+    asked : int
+        Number of disturbances that were to be followed; those that the budget of a study did not suffice for are left out.
     """
 
     rests_on: ClassVar[tuple[str, ...]] = ("mora2014", "brent1980")
@@ -60,6 +64,7 @@ class AttractorSet(Members[Attractor]):
     endings: tuple[Ending, ...]
     sample: DisturbanceSet | Plan | None
     patience: int
+    asked: int
 
     def rows(self) -> list[tuple[str, str]]:
         """Each motion found, and how many starts ended on it."""
@@ -113,10 +118,11 @@ class AttractorSet(Members[Attractor]):
 
     def words(self) -> str:
         """Say which disturbances were tried."""
+        followed = f", of which {len(self.disturbances)} were followed" if len(self.disturbances) < self.asked else ""
         if isinstance(self.sample, DisturbanceSet):
-            return self.sample.words(self.rotor)
+            return self.sample.words(self.rotor) + followed
         kind = f" of the kind {self.sample.model.kind}" if self.sample else ""
-        return f"{len(self.disturbances)} given disturbances{kind}"
+        return f"{self.asked} given disturbances{kind}{followed}"
 
     @property
     def argument(self) -> str:
@@ -205,6 +211,9 @@ def find_attractors(
         raise InputError("count", count, "at least one start to follow")
     divisor = 1 if rotor.system.is_planar else SLOWER
     ends, lasted, survival = follow_in_stages(rotor, starts, patience, threads, tell.part(0.0, 0.9), divisor)
+    followed = ends.outcomes != NOT_FOLLOWED
+    asked, tried = sum(each.disturbance for each in tried), list(compress(tried, followed))
+    starts, ends, lasted = starts.some(followed), ends[followed], lasted[followed]
     index, names = name_motions(rotor, ends, orbits)
     touched = starts.touched | (ends.impacts > 0) | (ends.outcomes > Outcome.LEVITATED)
     endings = tuple(
@@ -225,4 +234,4 @@ def find_attractors(
         members.append(attractor_of(names[name], endings, state))
     ordered = sorted(members, key=lambda member: (not member.settled, -member.count, -member.known))
     tell(1.0)
-    return AttractorSet(rotor, tuple(ordered), endings, None if isinstance(given, Sequence) else given, patience)
+    return AttractorSet(rotor, tuple(ordered), endings, None if isinstance(given, Sequence) else given, patience, asked)

@@ -11,6 +11,7 @@ import numpy as np
 from carom.arguments import Count, Reals, Whole, checked
 from carom.attractors.intervals import CONFIDENCE, exact_interval
 from carom.models import Model, Subject, model_of
+from carom.motions.budget import NOT_FOLLOWED
 from carom.motions.ensembles import Endings, settle
 from carom.motions.settling import REPEATING
 from carom.outcome import Outcome
@@ -178,13 +179,18 @@ def measure_survival(
 
 
 def follow_further(rotor: Model, endings: Endings, chosen: np.ndarray, **limits: Any) -> Endings:
-    """Follow chosen motions of an ensemble, bool of its shape, from where they are; times and impacts are added up."""
+    """Follow chosen motions of an ensemble, bool of its shape, from where they are; times and impacts are added up.
+
+    Those that the events of a question do not suffice for stay as they are.
+    """
     before = endings[chosen]
     reached = before.begins + before.times
     further = settle(rotor, before.positions, before.velocities, begins=reached, **limits)
     whole = {name: values.copy() for name, values in vars(endings).items()}
+    followed = further.outcomes != NOT_FOLLOWED
+    places, further = tuple(each[followed] for each in np.nonzero(chosen)), further[followed]
     for name, values in vars(further).items():
-        whole[name][chosen] = values + (whole[name][chosen] if name in ("times", "impacts") else 0)
+        whole[name][places] = values + (whole[name][places] if name in ("times", "impacts") else 0)
     whole["begins"] = endings.begins.copy()
     return Endings(**whole)
 

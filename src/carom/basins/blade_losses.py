@@ -20,13 +20,14 @@ from carom.disturbances.coordinates import TURN
 from carom.disturbances.following import follow
 from carom.models import Model, depends_on_instant
 from carom.models.unbalance import unbalance_along, with_changed_unbalance
+from carom.motions.budget import BudgetSpentError
 from carom.outcome import Outcome
 from carom.progress import Reporter
 
 CIRCLES, PHASES, FIRST = 48, 360, 8
 """Circles of the scan on each side of the unbalance before, phases on each, and as many of them that are followed first on the first of these."""
 OWN_CIRCLES, OWN_PHASES = 12, 24
-"""The same where each change leads to a machine of its own."""
+"""The same where each change leads to a machine of its own, or motions are followed one after another."""
 ROUNDS, BESIDE, NARROWED = 5, 4, 4
 """Rounds of refinement about the best change so far, circles and phases on each side of it, and by how much they come closer in a round."""
 TOGETHER = 4
@@ -45,6 +46,14 @@ def smallest_blade_loss(
     search, said = _Search(rotor, model, threads), tell or Reporter.of(None, "")
     if search.harmless >= model.change:
         return search.result(model.change)
+    try:
+        return _searched(search, model, said)
+    except BudgetSpentError:
+        return search.unfinished()
+
+
+def _searched(search: _Search, model: BladeLoss, said: Reporter) -> SmallestLoss:
+    """The search to its end."""
     search.scan(said.part(0.0, 0.6))
     for number in range(MOST_CHECKS):
         said(0.6 + 0.4 * number / MOST_CHECKS, "looking for smaller losses that are not survived")
@@ -119,7 +128,8 @@ class _Search(Bracket):
 
     def scan(self, tell: Reporter) -> None:
         """Try circles, those that come nearest to the unbalance before first, as long as they have changes smaller than the best."""
-        circles, phases = (CIRCLES, PHASES) if self.shared else (OWN_CIRCLES, OWN_PHASES)
+        many = self.shared and self.rotor.system.is_planar
+        circles, phases = (CIRCLES, PHASES) if many else (OWN_CIRCLES, OWN_PHASES)
         self.spacing = self.largest / circles, TURN / phases
         steps = np.arange(1, circles + 1) * self.spacing[0]
         sizes = np.concatenate([self.before + steps, self.before - steps, [self.before]]) if self.before else steps
@@ -132,6 +142,8 @@ class _Search(Bracket):
             if self.best is not None and np.abs(some - self.before).min() >= self.best.size:
                 break
             self.follow(np.repeat(some, phases), np.tile(angles, len(some)), self.any_instants(phases * len(some)))
+            if self.best is None:
+                self.back = float(np.abs(some - self.before).max())
 
     def refine(self) -> None:
         """Try places ever closer to the best one, then halve the gap to changes of its phase that come back."""

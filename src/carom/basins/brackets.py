@@ -10,6 +10,7 @@ import numpy as np
 
 from carom.basins.shares import CONFIDENCE
 from carom.disturbances.coordinates import TURN
+from carom.motions.budget import NOT_FOLLOWED, BudgetSpentError
 from carom.outcome import Outcome
 from carom.parameters import Scales
 from carom.results import Result
@@ -68,6 +69,9 @@ class SmallestLoss(Result):
         Relative width to which the smallest loss is bisected, and angle in rad between the last directions tried.
     tried : int
         Number of starts followed.
+    complete : bool
+        Whether the search came to its end.  Otherwise the budget of a study ended it (:mod:`carom.motions.budget`): smaller sizes may be
+        lost, and ``all_back`` is that of the directions scanned alone.
     quantity : str
         Property of the scales by which sizes are converted to SI units.
     scales : Scales or None
@@ -94,6 +98,7 @@ class SmallestLoss(Result):
     scales: Scales | None = None
     neighbours_lost: int = 0
     neighbours: int = 0
+    complete: bool = True
 
     shown: ClassVar[tuple[str, ...]] = (
         "kind",
@@ -115,11 +120,13 @@ class SmallestLoss(Result):
     def words(self) -> str:
         """The bracket in a line."""
         told = {name: self.line_of(name, getattr(self, name)) for name in ("size", "all_back", "harmless", "largest")}
-        lost = f"none lost up to {told['largest']}" if self.size is None else f"smallest lost {told['size']}"
+        lost = f"none lost up to {told['largest']}" if self.complete else "none lost"
+        lost = lost if self.size is None else f"smallest lost {told['size']}"
         lost += "" if self.instant is None else " at the worst instant of the turn"
         back = "" if self.all_back is None else f", all back up to {told['all_back']}"
         lost += f" ({self.sensitivity})" if self.sensitivity else ""
-        return f"{lost}{back}, harmless up to {told['harmless']}"
+        ended = "" if self.complete else ", search not finished"
+        return f"{lost}{back}, harmless up to {told['harmless']}{ended}"
 
     def kind_of(self, name: str) -> str:
         """Sizes are of one kind."""
@@ -168,6 +175,12 @@ class Bracket:
         self.given = given
         self.tried = 0
         self.best: Found | None = None
+        self.back = 0.0  # up to here all directions scanned came back
+
+    def unfinished(self) -> SmallestLoss:
+        """Result of a search that was ended."""
+        below = self.back > self.given["harmless"] and (self.best is None or self.best.size > self.back)
+        return self.result(self.back if below else None, complete=False)
 
     def lost_at(self, sizes: np.ndarray, angles: np.ndarray) -> np.ndarray:
         """Which disturbances of these sizes and angles, at the instant of the best one, are lost."""
@@ -180,13 +193,16 @@ class Bracket:
         away = BESIDE_LOST * np.random.default_rng(NEIGHBOURS).uniform(-1.0, 1.0, (2, NEIGHBOURS))
         return int(np.count_nonzero(self.lost_at(self.best.size * (1.0 + away[0]), self.best.angle + away[1])))
 
-    def result(self, all_back: float | None, fresh: int = 0, drawn: int = 0) -> SmallestLoss:
-        """Result of the search so far; ``all_back`` is the largest size up to which all came back."""
+    def result(self, all_back: float | None, fresh: int = 0, drawn: int = 0, *, complete: bool = True) -> SmallestLoss:
+        """Result of the search so far; ``all_back`` is the largest size up to which all came back.
+
+        The neighbours are followed only where the search came to its end: otherwise nothing is left to follow them with.
+        """
         recovered, size, angle, outcome, instant = self.best or (all_back or 0.0, None, None, None, None)
         return SmallestLoss(
             **self.given,
-            neighbours_lost=self._neighbours_lost(),
-            neighbours=0 if self.best is None else NEIGHBOURS,
+            neighbours_lost=self._neighbours_lost() if complete else 0,
+            neighbours=NEIGHBOURS if complete and self.best is not None else 0,
             size=size,
             angle=None if angle is None else math.remainder(angle, TURN),
             instant=None if instant is None else instant % TURN,
@@ -197,9 +213,18 @@ class Bracket:
             fresh=fresh,
             drawn=drawn,
             tried=self.tried,
+            complete=complete,
         )
 
 
 def lost(outcomes: np.ndarray) -> np.ndarray:
-    """Which outcomes are not levitation; those that double precision cannot decide do not count as lost."""
+    """Which outcomes are not levitation; those that double precision cannot decide do not count as lost.
+
+    Raises
+    ------
+    BudgetSpentError
+        Some were not followed.
+    """
+    if (outcomes == NOT_FOLLOWED).any():
+        raise BudgetSpentError("the events of this question are spent")
     return (outcomes != Outcome.LEVITATED) & (outcomes != Outcome.GRAZING)

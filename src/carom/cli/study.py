@@ -7,7 +7,6 @@ from typing import Annotated
 import typer
 
 from carom.cli.terminal import AsJson, MachineFile, Settings, check_output, console, print_document, progress
-from carom.outcome import InputError, shown
 
 
 def study(
@@ -48,7 +47,9 @@ def study(
     time_limit: Annotated[
         str | None,
         typer.Option(
-            metavar="T", help="With --prove, end the proof of kicks after T, such as '10 min'; by default 30 s."
+            metavar="T",
+            help="Follow no further motions after T, such as '2 min', and say what was not reached; with --prove it also ends the "
+            "proof of kicks, by default after 30 s.",
         ),
     ] = None,
     as_json: AsJson = False,
@@ -65,8 +66,6 @@ def study(
     from carom.cli.starts import with_requirement
     from carom.loading import load
 
-    if time_limit is not None and not prove:
-        raise InputError("--time-limit", shown(time_limit), "allowed only with --prove, whose proof of kicks it ends")
     case = with_requirement(
         load(machine, settings or ()), kick=kick, shock=shock, blade_loss=blade_loss, blade_loss_node=blade_loss_node
     )
@@ -76,7 +75,7 @@ def study(
         from carom.studies import study as study_case
 
         share_of_study = 1.0 if out is None else 0.4
-        given = {} if time_limit is None else {"proof_time": time_limit}
+        given = {} if time_limit is None else {"proof_time": time_limit, "time_limit": time_limit}
         result = study_case(case, proofs=prove, **given, progress=tell.part(0.0, share_of_study))  # type: ignore[arg-type]
         report = None
         if out is not None:

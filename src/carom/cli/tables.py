@@ -50,6 +50,7 @@ _STYLES: dict[State, str] = {
 _LEVELS = {
     "no-contact-free-motion": "bold red",
     "may-not-come-back": "bold yellow",
+    "not-decided": "bold yellow",
     "all-tried-came-back": "bold green",
 }
 

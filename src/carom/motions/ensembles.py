@@ -12,6 +12,7 @@ from carom.arguments import Count, Reals, Whole, checked
 from carom.core.processors import available_cores
 from carom.models import Model, Stage, Subject, model_of
 from carom.models.stages import stages_of
+from carom.motions.budget import NOT_FOLLOWED, present_question
 from carom.motions.portions import Limits, motions_from, parts_of, settle_parts
 from carom.motions.settling import (
     LOW_FOR,
@@ -181,6 +182,7 @@ def settle(
     limits, threads = Limits(until, patience, max_events), threads or available_cores()
     tell = Reporter.of(progress, "following starts")
     endings = _followed(rotors, which, positions, velocities, started, limits, threads, tell)
+    present_question().count(endings.outcomes)
     return endings.reshaped(*shape)
 
 
@@ -244,14 +246,22 @@ def _in_stage(
 ) -> Endings:
     """Endings in one stage of each machine, with times that count from its beginning."""
     # The starts of each machine are followed together, in portions; their endings are put back into the order of the starts.
-    order = slice(None) if len(stages) == 1 else np.argsort(which, kind="stable")
+    order, question = slice(None) if len(stages) == 1 else np.argsort(which, kind="stable"), present_question()
+    if len(stages) == 1 and question.left < np.inf:
+        # Those that the events of a question suffice for are a fair part of all.
+        order = np.random.default_rng(len(which)).permutation(len(which))
     positions, velocities, begins, elapsed = (values[order] for values in starts)
     motions = motions_from(positions, velocities, begins + elapsed)
-    parts = parts_of(stages, which[order], motions, elapsed, threads)
+    purse = question.purse(len(motions))
+    parts = parts_of(stages, which[order], motions, elapsed, purse, threads)
     done = 0
     for finished in settle_parts(parts, limits, threads):
         done += finished
         tell(done / len(motions))
+    question.pay(purse)
+    missed = ~purse.followed
+    motions[missed] = np.zeros((), motions.dtype)
+    motions.outcome[missed] = NOT_FOLLOWED
     endings = _endings(motions, order, starts[2])
     ends = np.array([stage.trigger.time for stage in stages])[which]
     endings.outcomes[(endings.outcomes == Outcome.TIME_REACHED) & (endings.times >= ends)] = Outcome.TRIGGERED

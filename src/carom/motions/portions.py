@@ -17,7 +17,8 @@ from carom.core.lanes import lanes_record
 from carom.core.layout import rub_workspace, workspace
 from carom.core.phases import AWAY, FLIGHT
 from carom.models import Stage
-from carom.motions.settling import Progress, begin_limits, fresh_memory, settled, time_limit
+from carom.motions.budget import START, Purse
+from carom.motions.settling import PER_SLICE, Progress, begin_limits, fresh_memory, settled, time_limit
 from carom.motions.simulation import follow, tools
 from carom.motions.starts import WALL_TOLERANCE, State, amplitudes_of
 from carom.outcome import Outcome, Phase
@@ -61,17 +62,20 @@ def motions_from(positions: np.ndarray, velocities: np.ndarray, times: np.ndarra
 class Part(NamedTuple):
     """Motions of one machine; all threads that hold the same part take motions from it by its shared counter.
 
-    ``elapsed`` are the times, shape (M,), that earlier stages have taken.
+    ``elapsed`` are the times, shape (M,), that earlier stages have taken; ``first`` is the number of its first motion among all that the
+    purse pays.
     """
 
     stage: Stage
     motions: np.ndarray
     counter: np.record
     elapsed: np.ndarray
+    purse: Purse
+    first: int
 
 
 def parts_of(
-    stages: Sequence[Stage], which: np.ndarray, motions: np.recarray, elapsed: np.ndarray, threads: int
+    stages: Sequence[Stage], which: np.ndarray, motions: np.recarray, elapsed: np.ndarray, purse: Purse, threads: int
 ) -> list[Part]:
     """Parts for threads to take up: each as often as threads may follow it; motions are sorted by the number of their stage."""
     parts: list[Part] = []
@@ -79,7 +83,7 @@ def parts_of(
     for stage, first, last in zip(stages, ends, ends[1:], strict=False):
         for begins in range(first, last, PORTION):
             chosen = slice(begins, min(begins + PORTION, last))
-            part = Part(stage, motions[chosen], fresh_counter(), elapsed[chosen])
+            part = Part(stage, motions[chosen], fresh_counter(), elapsed[chosen], purse, begins)
             few = FEW if stage.rotor.system.is_planar else FEW_SINGLY
             parts += [part] * min(threads, 1 + len(part.motions) // few)
     return parts
@@ -114,6 +118,9 @@ def _settle_part(part: Part, limits: Limits) -> int:
     memory = fresh_memory(rotor, limits.patience if trigger.time == np.inf else 0, absorb=True, trigger=trigger)
     if not rotor.system.is_planar or trigger.watches_contact or (limits.until is not None and part.elapsed.any()):
         return _follow_singly(part, until, limits, memory)
+    if not part.purse.suffices(part.first):
+        return 0
+    part.purse.costs[part.first : part.first + len(part.motions)] = 1
     task = Task(rotor.system.arrays, rotor.system.table, min(until, trigger.time), limits.max_events)
     # Without the compiler, NumPy warns of divisions in lanes that do not use the result.
     with np.errstate(all="ignore"):
@@ -125,8 +132,11 @@ def _follow_singly(part: Part, until: float, limits: Limits, memory: np.record) 
     rotor, taken, rubs_known = part.stage.rotor, 0, not memory.resting
     yields = rotor.system.arrays["stiffness"] > 0.0
     planes, limits_of_bearings = len(rotor.system.arrays["rows"]), rotor.system.limits
+    most_events = min(limits.max_events, part.purse.longest)
     scratch, room = tools(rotor), EventLog.empty(LOGGED, rotor.system.modes, planes, limits_of_bearings)
     while (number := int(next_number(part.counter.numbers))) < len(part.motions):
+        if not part.purse.suffices(part.first + number):
+            return taken
         motion = part.motions[number]
         elapsed = 0.0 if limits.until is None else float(part.elapsed[number])
         end = min(until - elapsed, part.stage.trigger.time)
@@ -135,20 +145,22 @@ def _follow_singly(part: Part, until: float, limits: Limits, memory: np.record) 
         forget(memory)
         memory.resting = not rubs_known
         begin_limits(rotor.system, amplitudes, start.time, memory)
-        motion.time, motion.impacts, events, outcome, progress = 0.0, 0, 0, Outcome.EVENT_LIMIT, Progress()
-        while outcome is Outcome.EVENT_LIMIT and events < limits.max_events:
-            log = room.first(min(LOGGED, limits.max_events - events))
+        motion.time, motion.impacts, outcome, progress = 0.0, 0, Outcome.EVENT_LIMIT, Progress()
+        events, cost = 0, START
+        while outcome is Outcome.EVENT_LIMIT and events < most_events:
+            log = room.first(min(LOGGED, most_events - events))
             before = np.where(contact == AWAY, Phase.FLIGHT, contact)
             outcome, time, count = follow(rotor, amplitudes, end - motion.time, contact, log, memory, scratch)
             motion.time += time
             motion.impacts += np.count_nonzero(log.first(count).arrivals(before, yields))
-            events += count
+            # A slice of flight has no event.
+            events, cost = events + count, cost + (count if count or outcome is not Outcome.EVENT_LIMIT else PER_SLICE)
             outcome, motion.multiplicity = settled(rotor, amplitudes, contact, outcome, memory)
             if part.counter.numbers[0] > STOPPED:
                 return taken
             if outcome is Outcome.EVENT_LIMIT and progress.stalls(count, time):
                 outcome = Outcome.STALLED
-        motion.outcome = outcome
+        motion.outcome, part.purse.costs[part.first + number] = outcome, cost
         motion.position, motion.velocity = rotor.system.state(amplitudes)
         taken += 1
     return taken

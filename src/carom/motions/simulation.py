@@ -15,6 +15,7 @@ from carom.core.layout import rub_workspace, workspace
 from carom.core.phases import AWAY, FLIGHT
 from carom.models import Model, Subject, Trigger, model_of
 from carom.models.stages import stages_of
+from carom.motions.budget import present_question
 from carom.motions.drops import Drop
 from carom.motions.settling import (
     LOW_FOR,
@@ -93,6 +94,7 @@ def simulate(
     257
     """
     stages: list[list[Trajectory]] = []
+    question = present_question()
     pieces = stretches(
         machine,
         start,
@@ -100,13 +102,14 @@ def simulate(
         settle=settle,
         stop_at_chatter=stop_at_chatter,
         patience=patience,
-        max_events=max_events,
+        max_events=min(max_events, question.longest),
         progress=progress,
     )
     for piece in pieces:
         if not stages or stages[-1][-1].outcome is Outcome.TRIGGERED:
             stages.append([])
         stages[-1].append(piece)
+    question.follow(sum(len(piece.segment_starts) for stage in stages for piece in stage))
     *earlier, last = map(joined, stages)
     return dataclasses.replace(last, earlier=tuple(earlier)) if earlier else last
 

@@ -11,8 +11,7 @@ from carom.disturbances.echo import ITS_INSTANT
 from carom.models import Model, axis, depends_on_instant
 from carom.parameters import in_terms_of
 from carom.studies import Study
-from carom.studies.survives import Kind
-from carom.studies.verdict_facts import lost_kinds, required_kinds
+from carom.studies.survives import Kind, required_kinds
 from carom.studies.wording import entry_words
 
 CELLS: dict[Kind, tuple[int, ...]] = {"kick": (120, 120), "shock": (24, 60), "blade_loss": (120,)}
@@ -23,6 +22,7 @@ BEYOND = 1.5
 _MISSING = {
     "no-change-needed": "No change is needed: all that was tried of what it must survive came back.",
     "no-change-found": "No change is advised: no damping or stiffness tried brings all back.",
+    "not-decided": "No change is advised: too few of the disturbances that it must survive could be followed.",
     "nothing-buildable": "No change is advised: those that help ask for more than the magnetic bearings can give.",
 }
 _SEEN: dict[Kind, str] = {
@@ -35,8 +35,8 @@ _SEEN: dict[Kind, str] = {
 
 def decisive(study: Study) -> Kind:
     """The kind of disturbance that is shown: of those that must be survived the one most often lost, otherwise kicks."""
-    lost = lost_kinds(study)
-    return min(lost, key=lambda entry: entry[1].fraction)[0] if lost else "kick"
+    lost = study.lost_kinds
+    return min(lost, key=lambda entry: entry[1].fraction if entry[1] else 1.0)[0] if lost else "kick"
 
 
 def caption(study: Study) -> str:
@@ -59,7 +59,7 @@ def draw(study: Study) -> Figure:
         entry, value = entry_words(change.terms.entry), in_terms_of(study.case, change.parameter, change.present).text
         panels = [(f"now\n{entry} {value}", here), (f"after the change\n{entry} {change.terms.text}", there)]
     with plots.heading(study.case.name):  # the panels say the values
-        return plots.basin_pair(panels, None if kind == "blade_loss" else _required(study, kind)[0])
+        return plots.basin_pair(panels, None if kind == "blade_loss" else _required(study, kind))
 
 
 def drawable(study: Study) -> bool:
@@ -76,14 +76,14 @@ def of_kicks(study: Study, largest: float) -> Cells:
     return _basin(study.rotor, KickPlane(largest), "kick")
 
 
-def _required(study: Study, kind: Kind) -> tuple[float, int]:
-    """Size of a kind that must be survived, and its place among the disturbances followed."""
-    return next((size, place) for each, size, place in required_kinds(study) if each == kind)
+def _required(study: Study, kind: Kind) -> float:
+    """Size of a kind that must be survived."""
+    return dict(required_kinds(study.required))[kind]
 
 
 def _disturbances(study: Study, kind: Kind) -> Disturbance:
     """Disturbances up to what must be survived, or beyond the smallest that is lost if that is larger."""
-    size, _ = _required(study, kind)
+    size = _required(study, kind)
     if kind == "blade_loss":
         return BladeLoss(size, study.required.blade_loss_node)
     found = getattr(study.survives, kind, None)

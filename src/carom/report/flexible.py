@@ -28,6 +28,7 @@ SECTION = "study"
 _MARKS = {
     "no-contact-free-motion": "var(--bad)",
     "may-not-come-back": "var(--warn)",
+    "not-decided": "var(--warn)",
     "all-tried-came-back": plots.OUTCOMES["levitated"].colour,
 }
 

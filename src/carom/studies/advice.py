@@ -8,7 +8,8 @@ current of magnetic bearings would have to change faster than it can, the next v
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from typing import Literal
 
@@ -19,23 +20,27 @@ from carom.closed_forms.thresholds import FOLD, ROLLING, WALL
 from carom.closed_forms.whirl import Runaway
 from carom.disturbances import Sample
 from carom.models import Edge, Span, model_of
+from carom.motions.budget import BudgetSpentError
 from carom.parameters import Case, InTerms, in_terms_of
-from carom.parameters.conversions import CONVERSIONS
 from carom.results import Result
 from carom.studies.actuator import asked_by
 from carom.studies.facts import Evidence
-from carom.studies.recovery import Recovery
+from carom.studies.questions import FEWEST
+from carom.studies.recovery import Recovery, power_of
 from carom.studies.trials import Check, check_recovery, in_all
 
-Kind = Literal["change", "no-change-needed", "nothing-buildable", "no-change-found"]
+Kind = Literal["change", "no-change-needed", "nothing-buildable", "no-change-found", "not-decided"]
 Bound = Literal["at least", "at most", "about"]
 
 MARGINS = (0.05, 0.1, 0.2, 0.4)
 """Relative distances of the advised damping or stiffness from the end of a range, tried until a check passes."""
 FARTHER = (1.0, 2.0, 4.0)
 """Still farther ones, tried for the sake of the magnetic bearings."""
-CHECKED = 10_000
-"""Number of disturbances of the check."""
+GAIN_FACTOR = 4.0
+"""Greatest factor by which damping or stiffness is advised to change: noise and the current that a controller asks for grow as much, and bearings that
+levitate a machine today seldom have more in reserve."""
+CHECKED, CHECKED_SINGLY = 10_000, 1000
+"""Number of disturbances of the check, and that of rotors whose motions are followed one after another."""
 SEED = 2
 """Seed of these disturbances.  No search uses it, so the check is a fresh sample."""
 
@@ -125,7 +130,7 @@ class Recommendation(Result):
 
     Attributes
     ----------
-    kind : {"change", "no-change-needed", "nothing-buildable", "no-change-found"}
+    kind : {"change", "no-change-needed", "nothing-buildable", "no-change-found", "not-decided"}
     changes : tuple of Change
         Alternatives, the least change first; with ``"nothing-buildable"`` those that ask for more than the magnetic bearings can
         give.
@@ -150,21 +155,30 @@ class Recommendation(Result):
 
 
 def recommend(
-    case: Case, disturbances: Sequence[Sample], recoveries: Sequence[Recovery], needed: bool
+    case: Case, disturbances: Sequence[Sample], recoveries: Sequence[Recovery], needed: bool | None
 ) -> Recommendation:
-    """Recommend a value of each parameter along which recovery was searched."""
+    """Recommend a value of each parameter along which recovery was searched; ``needed`` is ``None`` where that is not decided."""
+    if needed is None:
+        return Recommendation("not-decided", (), ())
     if not needed:
         margins = [_nearest(recovery) for recovery in recoveries]
         return Recommendation("no-change-needed", (), tuple(margin for margin in margins if margin))
-    advisers = [_Adviser(case, tuple(disturbances), recovery) for recovery in recoveries]
-    found = [change for adviser in advisers if (change := adviser.least())]
-    if not found:
-        found = [change for adviser in advisers if (change := adviser.least_wanted())]
+    # Where the samples see no loss at the present value, they cannot say at which others there is none.
+    advisers = [_Adviser(case, tuple(disturbances), each) for each in recoveries if not each.holds_present]
+    found = _found(adviser.least for adviser in advisers) or _found(adviser.least_wanted for adviser in advisers)
     if not found:
         return Recommendation("no-change-found", (), ())
     buildable = [change for change in found if change.buildable]
     ordered = sorted(buildable or found, key=lambda change: abs(math.log(change.ratio)))
     return Recommendation("change" if buildable else "nothing-buildable", tuple(ordered), ())
+
+
+def _found(searches: Iterable[Callable[[], Change | None]]) -> list[Change]:
+    """The changes that are found before the budget of a study ends the search."""
+    found: list[Change] = []
+    with suppress(BudgetSpentError):
+        found.extend(change for search in searches if (change := search()))  # what is found before stays
+    return found
 
 
 def evidence_of(edge: Edge) -> Evidence:
@@ -188,13 +202,7 @@ def _nearest(recovery: Recovery) -> Margin | None:
 
 def _margin(recovery: Recovery, value: float, edge: Edge) -> Margin:
     """Distance of a value from an edge, relative to the damping or stiffness there."""
-    return Margin(recovery.along.name, edge, abs((value / edge.value) ** _power(recovery) - 1.0))
-
-
-def _power(recovery: Recovery) -> int:
-    """Power of the parameter that is proportional to what the machine has: the stiffness to that of ``ω``."""
-    name = recovery.along.name
-    return CONVERSIONS[name].power if name in CONVERSIONS else 1
+    return Margin(recovery.along.name, edge, abs((value / edge.value) ** power_of(recovery.along) - 1.0))
 
 
 def _happens(edge: Edge) -> bool:
@@ -261,7 +269,7 @@ class _Adviser:
     def _values(self, span: Span) -> Iterator[tuple[float, bool]]:
         """Values inside a span, the nearest first, and whether they are only for the sake of the bearings."""
         near, far = (edge.value for edge in self._ends(span))
-        inward = math.copysign(1.0, far - near) / _power(self.recovery)
+        inward = math.copysign(1.0, far - near) / power_of(self.recovery.along)
         middle = math.sqrt(near * far)
         for margin in MARGINS + FARTHER:
             value = near * (1.0 + margin) ** inward
@@ -276,8 +284,12 @@ class _Adviser:
 
     def _checked(self, terms: InTerms) -> Check:
         value = with_setting(self.case, terms).parameters.value(self.name)
-        sample = in_all(self.disturbances, CHECKED)
-        return check_recovery(self.recovery.rotor, sample, along=self.name, value=value, seed=SEED)
+        planar = self.recovery.rotor.system.is_planar
+        sample = in_all(self.disturbances, CHECKED if planar else CHECKED_SINGLY)
+        check = check_recovery(self.recovery.rotor, sample, along=self.name, value=value, seed=SEED)
+        if min(share.total for share in check.returned) < FEWEST:
+            raise BudgetSpentError("too few disturbances could be followed")
+        return check
 
     def _change(self, terms: InTerms, check: Check, span: Span | None, forced: tuple[Check, ...]) -> Change:
         value, present = check.value, self.present
@@ -302,7 +314,7 @@ class _Adviser:
             present,
             value,
             terms,
-            (value / present) ** _power(self.recovery) if present > 0.0 else math.inf,
+            (value / present) ** power_of(self.recovery.along) if present > 0.0 else math.inf,
             bound,
             margin,
             far,

@@ -12,24 +12,29 @@ from carom.outcome import Outcome
 from carom.parameters import in_terms_of
 from carom.parameters.told import number, told_entry
 from carom.results import fields_of, in_si
-from carom.studies.advice import Change, Margin, evidence_of
+from carom.studies.advice import GAIN_FACTOR, Change, Margin, evidence_of
 from carom.studies.endings import motion_words
 from carom.studies.facts import Evidence, Fact
 from carom.studies.ranges import event_words
+from carom.studies.recovery import Recovery, power_of
 from carom.studies.study_data import StudyData
 from carom.studies.trials import Check, Lost
 from carom.studies.verdict_facts import judged
 from carom.studies.wording import Wording, counted, entry_words, present_values
 
-CHANGES = ("Change", "Or", "For all starts")
+CHANGES = ("Change", "Or")
 """Labels of the changes that help."""
 BEYOND = "Beyond the limits"
 """Label of the changes that ask for more than the magnetic bearings can give."""
-_NONE_NEEDED = "none needed for what the machine must survive"
 _NOTHING_BUILDABLE = (
     "nothing that the magnetic bearings can give helps: every change found that brings all back asks for more than their "
     "limits, so that the real machine moves otherwise; larger limits, less unbalance or a larger clearance are needed"
 )
+_NO_CHANGE = {
+    "no-change-needed": "none needed for what the machine must survive",
+    "not-decided": "not decided: too few of the disturbances that the machine must survive could be followed",
+    "nothing-buildable": _NOTHING_BUILDABLE,
+}
 _HOW_SURE = (
     "closed form: exact; searched: complete lists of orbits at values close together; sampled: seeded random "
     "disturbances, so that rare ones may end elsewhere."
@@ -44,32 +49,29 @@ def advice_facts(study: StudyData) -> Iterator[Fact]:
         names = ("mass", "clearance", "eccentricity")
         told = ", ".join([told, *(f"{name} {told_entry(name, getattr(machine, name))}" for name in names)])
     yield _fact("Machine", told)
-    level, outcome, _ = judged(study)
+    _, outcome, _ = judged(study)
     verb = "levitates, with sag and whirl out to" if study.heavy else "levitates at"
     levitates = f"{verb} {_place(say, study.equilibria[0].radius)}, zone {study.zone}"
     yield _fact("Now", levitates if study.levitates else outcome.lower(), "closed form")
     recommended = study.recommendation
     unbuildable = recommended.kind == "nothing-buildable"
-    enough = level == "all-tried-came-back"
-    first = "For all starts" if enough else "Change"
-    if enough and recommended.kind != "no-change-needed":
-        yield _fact("Change", _NONE_NEEDED, "sampled")
-    if unbuildable:
-        yield _fact(first, _NOTHING_BUILDABLE, "sampled")
+    if recommended.kind in _NO_CHANGE:
+        yield _fact("Change", _NO_CHANGE[recommended.kind], "sampled")
     for place, change in enumerate(recommended.changes):
-        label = BEYOND if unbuildable else "Or" if place else first
+        label = BEYOND if unbuildable else "Or" if place else "Change"
         yield _fact(label, _change(study, change), values=change_document(study, change))
         yield from _details(study, change)
     if recommended.kind == "no-change-found":
-        yield _fact(first, _none_found(study), "sampled")
-    elif recommended.kind == "no-change-needed":
-        yield _fact("Change", _NONE_NEEDED, "sampled")
-        for margin in recommended.margins:
-            present = _in_both(study, margin.parameter, present=study.case.parameters.value(margin.parameter))
-            values = present | _margin_document(study, margin)
-            yield _fact(
-                "Margin", _own_margin(say, present["present"], margin), evidence_of(margin.edge), values, detail=True
-            )
+        yield _fact("Change", _none_found(study), "sampled")
+    for margin in recommended.margins:
+        present = _in_both(study, margin.parameter, present=study.case.parameters.value(margin.parameter))
+        values = present | _margin_document(study, margin)
+        yield _fact(
+            "Margin", _own_margin(say, present["present"], margin), evidence_of(margin.edge), values, detail=True
+        )
+    for recovery in () if recommended.kind in ("no-change-needed", "not-decided") else study.recoveries:
+        if recovery.searched and recovery.complete and not recovery.spans:
+            yield _fact("Not by this gain", _not_by(study, recovery), "sampled")
     yield _fact("Disturbances", _disturbances(study))
     proven = "Only what is called proven is."
     if study.proof is not None:
@@ -219,22 +221,32 @@ def _where(edge: Edge) -> str:
 
 
 def _none_found(study: StudyData) -> str:
-    """The ranges in which a change was looked for."""
-    say = study.wording
-    ranges = [
-        f"{say.name(entry.parameter)} from {' to '.join(say.value(entry.parameter, edge.value) for edge in entry.searched)}"
-        for entry in study.ranges
-        if entry.motion == "single-impact" and entry.searched is not None
-    ]
-    if not ranges:
+    """Whether a change was looked for to the end."""
+    if not all(entry.complete for entry in study.recoveries):
+        return "none found, but the search for one was not finished"
+    if not any(entry.searched for entry in study.recoveries):
         return "none found: no range of damping or stiffness could be searched"
-    return f"none found that brings back all that must be survived, of {' and '.join(ranges)}, each alone"
+    return "none found that brings back all that must be survived"
+
+
+def _not_by(study: StudyData, found: Recovery) -> str:
+    """In which range of a gain no value brings all back."""
+    say, along = study.wording, found.along
+    ends = found.searched[0].low, found.searched[-1].high
+    low, high = (say.value(along.name, edge.value) for edge in ends)
+    present = along.value(found.rotor)
+    times = max((high.value / present) ** power_of(along) for high in ends[1:]) if present > 0.0 else math.inf
+    beyond = (
+        f"; a controller can hardly give more than {number(GAIN_FACTOR)} times of it"
+        if times >= GAIN_FACTOR * 0.999
+        else ""
+    )
+    return f"no {say.name(along.name)} from {low} to {high} brings back all that must be survived{beyond}"
 
 
 def _disturbances(study: StudyData) -> str:
     say, required = study.wording, study.required
-    text = "velocity kicks out of levitation and starts spread over the clearance"
-    text += f", both of up to {say.velocity(required.kick)} as seen in the room"
+    text = f"velocity kicks out of levitation of up to {say.velocity(required.kick)}"
     if required.shock:
         text += f"; shocks of up to {say.acceleration(required.shock.peak)} over {say.time(required.shock.duration)}"
     if required.blade_loss:

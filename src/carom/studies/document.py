@@ -29,6 +29,7 @@ from carom.studies.advice_facts import change_document
 from carom.studies.endings import came_back, hardest_impulse, touching
 from carom.studies.facts import Fact
 from carom.studies.motion_documents import scales_document, state_document
+from carom.studies.questions import unfinished_document
 from carom.studies.ranges import MotionRange, Threshold
 from carom.studies.recovery import Recovery
 from carom.studies.study_data import StudyData
@@ -108,12 +109,14 @@ def study_document(study: StudyData, verdict: Verdict, facts: Sequence[Fact]) ->
         "survives": {name: survived_document(study, name, found) for name, found in study.survives.items()}
         if study.survives
         else None,
-        "share": study.share.document if study.share else None,
+        "share": study.share.document if study.share and study.share.total else None,
+        "not_reached": unfinished_document(study.unfinished),
         "facts": [fact.document() for fact in facts],
         "thresholds": [_threshold(entry, say) for entry in study.thresholds],
         "ranges": [_range(entry) for entry in study.ranges],
         "boundaries": [_boundary(entry, say) for entry in study.boundaries],
         "present": _check(study.present) if study.present else None,
+        "elsewhere": fields_of(study.elsewhere, tried="total", came_back="count") if study.elsewhere else None,
         "recovery": [_recovery(entry, say) for entry in study.recoveries],
         "recommendation": {
             "kind": study.recommendation.kind,
@@ -198,6 +201,7 @@ def _recovery(entry: Recovery, say: Wording) -> dict[str, Any]:
         "searched": _spans(entry.searched),
         "spans": _spans(entry.spans),
         "ends": [[edge.motion or edge.kind for edge in span] for span in entry.spans],
+        "complete": entry.complete,
         "values": [_check(check) | say.in_si(name, value=check.value) for check in entry.checks],
     }
 
@@ -205,7 +209,7 @@ def _recovery(entry: Recovery, say: Wording) -> dict[str, Any]:
 def _check(check: Check) -> dict[str, Any]:
     example = check.example
     return {
-        "value": check.value,
+        **fields_of(check, "value", "tried", "asked"),
         "kinds": [fields_of(share, tried="total", came_back="count") for share in check.returned],
         "at_their_largest": [fields_of(share, tried="total", came_back="count") for share in check.largest],
         "lost": None

@@ -26,6 +26,7 @@ Topic = Literal[
     "Touchdown loads",
     "Drop",
     "Accuracy",
+    "Not reached",
     "Not covered",
 ]
 

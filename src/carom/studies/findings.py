@@ -312,10 +312,12 @@ def _recovery_words(say: Wording, found: Recovery, name: str) -> str:
     if found.motions and not found.range_of("single-impact"):
         return f"At which {name} all that must be survived comes back was not searched."
     if not found.searched:
-        return f"There is no {name} in the range searched without another motion that can hold the rotor."
-    if not found.spans:
-        return f"At no {name} tried all that must be survived came back."
+        return f"There is no {name} in the range searched at which the rotor levitates."
+    if not found.complete:
+        return f"The search for the {name} at which all that must be survived comes back was not finished."
     low, high = say.value(along, found.searched[0].low.value), say.value(along, found.searched[-1].high.value)
+    if not found.spans:
+        return f"At no {name} tried from {low} to {high} all that must be survived came back."
     each = min(check.tried for check in found.clear)
     ends = {(edge.motion, edge.value) for span in found.spans for edge in span if edge.motion}
     met = [f"some end in {motion_words(motion)} beyond {say.value(along, value)}" for motion, value in sorted(ends)]

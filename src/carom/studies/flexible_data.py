@@ -7,8 +7,10 @@ from functools import cached_property
 from typing import ClassVar
 
 from carom.attractors import AttractorSet
+from carom.basins import Share
 from carom.models import Model
 from carom.motions import DropLoads, Trajectory, drop_loads
+from carom.motions.budget import Question
 from carom.motions.reduction_errors import ReductionError
 from carom.parameters import Case, Required
 from carom.results import Result
@@ -36,11 +38,13 @@ class FlexibleData(Result):
     trials : tuple of FlexibleTrial
         What must be survived, one kind after another; empty where the rotor does not levitate without contact.
     beyond : tuple of tuple
-        Multiples of the required kick, and how many of twelve directions came back.
+        Multiples of the required kick, and how many of the directions tried came back.
     fall : Trajectory or None
         The drop after a loss of levitation; ``None`` of a rotor without weight.
     fall_reduction : ReductionError or None
         Error of the reduction along that drop.
+    unfinished : tuple of Question
+        The questions for which the budget of events, or a time limit, did not suffice.
     """
 
     shown: ClassVar = ("case", "levitates")
@@ -52,14 +56,21 @@ class FlexibleData(Result):
     levitation: FlexibleLevitation
     attractors: AttractorSet
     trials: tuple[FlexibleTrial, ...]
-    beyond: tuple[tuple[float, int], ...]
+    beyond: tuple[tuple[float, Share], ...]
     fall: Trajectory | None
     fall_reduction: ReductionError | None = None
+    unfinished: tuple[Question, ...] = ()
 
     @property
     def levitates(self) -> bool:
         """Whether it runs without contact; a machine whose controllers do not hold it is refused before."""
         return self.rotor.system.rest_radius < 1.0
+
+    @property
+    def elsewhere(self) -> Share:
+        """Of the starts spread over the clearance, which nothing requires to come back, how many did."""
+        ends = [each.recovered for each in self.attractors.disturbances if each.start.kind == "start"]
+        return Share.of(sum(ends), len(ends), drawn=True)
 
     @property
     def required(self) -> Required:

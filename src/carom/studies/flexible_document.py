@@ -10,6 +10,7 @@ from carom.models.subjects import rotor_document
 from carom.studies.facts import Fact
 from carom.studies.flexible_data import FlexibleData
 from carom.studies.load_tables import load_entries
+from carom.studies.questions import unfinished_document
 from carom.studies.verdict import Verdict
 
 
@@ -36,7 +37,9 @@ def machine_document(study: FlexibleData, verdict: Verdict, facts: Sequence[Fact
         ],
         "complete": False,
         "trials": [each.document() for each in study.trials],
-        "kicks_beyond": [{"times": times, "came_back": back} for times, back in study.beyond],
+        "kicks_beyond": [{"times": times, "came_back": back.count, "tried": back.total} for times, back in study.beyond],
         "drop": None if study.fall_loads is None else {"touchdown_bearings": load_entries(study.fall_loads, study.case.limits)},
+        "elsewhere": {"came_back": study.elsewhere.count, "tried": study.elsewhere.total},
+        "not_reached": unfinished_document(study.unfinished),
         "facts": [fact.document() for fact in facts],
     }  # fmt: skip

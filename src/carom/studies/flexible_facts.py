@@ -12,7 +12,7 @@ from carom.rotors import ReducedMachine
 from carom.studies.endings import motion_words
 from carom.studies.facts import Fact, about
 from carom.studies.flexible_data import FlexibleData
-from carom.studies.flexible_trials import DIRECTIONS, AtPlane, FlexibleTrial
+from carom.studies.flexible_trials import AtPlane, FlexibleTrial
 from carom.studies.levitation_facts import (
     bearing_facts,
     critical_speed_facts,
@@ -23,6 +23,7 @@ from carom.studies.levitation_facts import (
 )
 from carom.studies.load_checks import checks_of_planes
 from carom.studies.load_tables import load_tables
+from carom.studies.questions import FEWEST, unfinished_facts
 from carom.studies.response_words import micrometres, rpm
 from carom.studies.verdict import Verdict
 from carom.studies.verdict_facts import KINDS
@@ -49,6 +50,7 @@ DAMPED = " The vectors that are no modes have a damping ratio of {ratio}, withou
 def facts_of_machine(study: FlexibleData) -> Iterator[Fact]:
     """List all facts, in the order in which they are told."""
     yield from _survived(study)
+    yield from _besides(study)
     yield from _levitation(study)
     yield from critical_speed_facts(study.levitation)
     yield from bearing_facts(study.levitation)
@@ -65,6 +67,7 @@ def facts_of_machine(study: FlexibleData) -> Iterator[Fact]:
     for kind, found in [*along, ("Drop", study.fall_reduction)]:
         if found is not None and found.words:
             yield Fact("Accuracy", f"{kind}, the worst: {found.words}", values=found.document())
+    yield from unfinished_facts(study.unfinished)
     for each in NOT_COVERED:
         yield Fact("Not covered", each)
 
@@ -90,6 +93,9 @@ def verdict_of_machine(study: FlexibleData, facts: Sequence[Fact]) -> Verdict:
     if lost:
         outcome = f"Does not come back from all that it must survive, vibration in zone {study.zone} of ISO 14839-2"
         return Verdict("may-not-come-back", outcome, f"some are lost of: {listed(lost)}", survived)
+    if min(trial.drawn.total for trial in study.trials) < FEWEST:
+        outcome = f"Not decided whether it comes back from what it must survive, vibration in zone {study.zone} of ISO 14839-2"
+        return Verdict("not-decided", outcome, "too few disturbances could be followed", survived)
     outcome = f"Came back each time from what it must survive, vibration in zone {study.zone} of ISO 14839-2"
     doubts = ["no guarantee, as disturbances are samples", *_doubts(study)]
     return Verdict("all-tried-came-back", outcome, "; ".join(doubts), survived)
@@ -108,9 +114,6 @@ def _doubts(study: FlexibleData) -> list[str]:
     loads = study.fall_loads
     if loads is not None and any(check.exceeded for check in checks_of_planes(loads, study.case.limits)):
         found.append("a limit of a touchdown bearing is exceeded in a drop")
-    held = [entry for entry in study.attractors.touching if entry.count or entry.known]
-    if held:
-        found.append(f"{listed([motion_words(entry.name) for entry in held])} can hold the rotor, once there")
     return found
 
 
@@ -128,23 +131,49 @@ def _survived(study: FlexibleData) -> Iterator[Fact]:
     """For each kind what came back."""
     for trial in study.trials:
         drawn, largest = trial.drawn, trial.largest
-        text = f"{drawn.count} of {drawn.total} {_size(study, trial)} came back, and {largest.count} of {largest.total} at the full size in all directions"
+        text = f"{drawn.count} of {drawn.total} {_size(study, trial)} came back, and {largest.count} of {largest.total} at the full size in as many directions"
         text += f"; {trial.beyond_model} of {drawn.total} went beyond the model" if trial.beyond_model else ""
         text += f", each {ITS_INSTANT}" if depends_on_instant(study.rotor) else ""
         yield Fact("Verdict", text, KINDS[trial.kind], "sampled", trial.document(), disturbances=trial.kind)  # type: ignore[index]
     if study.beyond:
         kick = study.required.kick
-        whole = [times for times, back in study.beyond if back == DIRECTIONS]
+        whole = [(times, back.total) for times, back in study.beyond if back.count == back.total]
         times, back = study.beyond[-1]
-        parts = (
-            [f"at {study.wording.velocity(max(whole) * kick)} all {DIRECTIONS} directions tried came back"]
-            if whole
-            else []
-        )
-        if back < DIRECTIONS:
-            parts.append(f"at {study.wording.velocity(times * kick)} {back} of {DIRECTIONS} did")
-        values = {"times": [each for each, _ in study.beyond], "came_back": [each for _, each in study.beyond]}
+        parts = [
+            f"at {study.wording.velocity(most * kick)} all {tried} directions tried came back"
+            for most, tried in whole[-1:]
+        ]
+        if back.count < back.total:
+            parts.append(f"at {study.wording.velocity(times * kick)} {back.count} of {back.total} did")
+        values = {"times": [each for each, _ in study.beyond], "came_back": [each.count for _, each in study.beyond]}
         yield Fact("Verdict", "; ".join(parts), "Larger kicks", "sampled", values, disturbances="kick")
+
+
+def _besides(study: FlexibleData) -> Iterator[Fact]:
+    """What belongs to the headline besides what must be survived: the drop with its loads, and starts elsewhere."""
+    loads, say = study.fall_loads, study.wording
+    if loads is not None:
+        told = [
+            f"{(title or 'touchdown bearing').lower()} {', '.join(f'{label} {words}' for label, words in rows if label in _HEADLINE)}"
+            for title, rows in load_tables(loads, "the release")
+        ]
+        limits = study.case.limits
+        stated = "" if limits.stated else "; no limit of a touchdown bearing is stated to compare them with"
+        text = f"{loads.outcome.words} after {say.time(loads.time)}; {'; '.join(told)}{stated}"
+        yield Fact("Verdict", text, "Drop", "sampled")
+    found = study.elsewhere
+    if found.total:
+        held = [entry for entry in study.attractors.touching if entry.count or entry.known]
+        ends = (
+            f"; {listed([motion_words(entry.name) for entry in held])} can hold the rotor, once there" if held else ""
+        )
+        text = (
+            f"{found.count} of {found.total} starts spread over the clearance came back; nothing requires them to{ends}"
+        )
+        yield Fact("Verdict", text, "Elsewhere", "sampled", disturbances="state")
+
+
+_HEADLINE, _WHIRL = ("peak force", "depth"), "whirl at the end"
 
 
 def _levitation(study: FlexibleData) -> Iterator[Fact]:
@@ -227,8 +256,7 @@ def _fall(study: FlexibleData) -> Iterator[Fact]:
     )
     for title, rows in load_tables(loads, "the release"):
         told = dict(rows)
-        named = ("peak force", "depth", "whirl at the end")
-        chosen = [told["contacts"], *(f"{label} {told[label]}" for label in named if label in told)]
+        chosen = [told["contacts"], *(f"{label} {told[label]}" for label in (*_HEADLINE, _WHIRL) if label in told)]
         yield Fact("Drop", f"{title}: {'; '.join(chosen)}.")
     for check in checks_of_planes(loads, study.case.limits):
         yield Fact("Drop", f"{check.words}.")

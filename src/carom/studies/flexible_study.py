@@ -10,6 +10,7 @@ from carom.attractors import DisturbanceSet, find_attractors
 from carom.models import Model
 from carom.models.weight import weight_of
 from carom.motions import drop, drop_loads, simulate
+from carom.motions.budget import Budget
 from carom.motions.reduction_errors import reduction_error
 from carom.parameters import Case
 from carom.progress import Reporter
@@ -20,6 +21,7 @@ from carom.studies.flexible_document import machine_document
 from carom.studies.flexible_facts import facts_of_machine, verdict_of_machine
 from carom.studies.flexible_levitation import levitation_of_machine
 from carom.studies.flexible_trials import MOST_EVENTS, kicks_beyond, trials_of
+from carom.studies.questions import DESCRIBED, EVENTS_OF_FLEXIBLE
 from carom.studies.verdict import Verdict
 
 DRAWN = 200
@@ -54,21 +56,24 @@ class FlexibleStudy(FlexibleData):
         return machine_document(self, self.verdict, self.facts)
 
 
-def study_of_machine(case: Case, rotor: Model, reduced: ReducedMachine, tell: Reporter) -> FlexibleStudy:
+def study_of_machine(
+    case: Case, rotor: Model, reduced: ReducedMachine, budget: Budget, tell: Reporter
+) -> FlexibleStudy:
     """Study a flexible machine."""
     required = case.requirement.own(rotor.scales)
     tell(0.0, "whirls, response and sensitivity of all modes")
     levitation = levitation_of_machine(reduced.machine)
     tell(0.1, "where disturbances end (the kernels are compiled on first use)")
     disturbances = DisturbanceSet(count=DRAWN, fastest=required.kick)
-    found = find_attractors(rotor, disturbances, progress=tell.part(0.1, 0.4))
+    with budget.question(DESCRIBED, EVENTS_OF_FLEXIBLE[DESCRIBED]):
+        found = find_attractors(rotor, disturbances, progress=tell.part(0.1, 0.4))
     holds = rotor.system.rest_radius < 1.0
-    trials = trials_of(case, rotor, required, DRAWN, tell.part(0.4, 0.7)) if holds else ()
+    trials = trials_of(case, rotor, required, DRAWN, budget, tell.part(0.4, 0.7)) if holds else ()
     tell(0.7, "larger kicks")
-    beyond = kicks_beyond(rotor, required) if holds else ()
+    beyond = kicks_beyond(rotor, required, trials[0], budget) if trials else ()
     tell(0.85, "the drop")
     fall = None
     if weight_of(rotor) is not None and holds:
         fall = simulate(rotor, drop(), f"{FALLING} s", max_events=MOST_EVENTS)
     along = None if fall is None else reduction_error(reduced, drop_loads(fall), lambda finer: (finer.model, drop()))
-    return FlexibleStudy(case, rotor, reduced, levitation, found, trials, beyond, fall, along)
+    return FlexibleStudy(case, rotor, reduced, levitation, found, trials, beyond, fall, along, budget.unfinished)

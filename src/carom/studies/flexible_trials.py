@@ -4,21 +4,26 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, partial
 from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
 from carom.attractors import MotionName
-from carom.basins import Share, map_basins
+from carom.attractors.naming import name_endings
+from carom.basins import Share
 from carom.basins.losses import GOLDEN
+from carom.basins.shares import Population
 from carom.disturbances import BaseShock, BladeLoss, Disturbance, Sample, VelocityKick
 from carom.disturbances.coordinates import TURN
+from carom.disturbances.echo import instants_words
+from carom.disturbances.following import follow, require_start
 from carom.models import Model
 from carom.motions import Trajectory, drop_loads, kick, simulate
 from carom.motions.bearing_loads import DropLoads, PlaneLoads
+from carom.motions.budget import Budget, present_question
 from carom.motions.magnets import MagnetReach, magnet_reach
 from carom.motions.reduction_errors import ReductionError, reduction_error
 from carom.motions.starts import State
@@ -28,12 +33,15 @@ from carom.progress import Reporter
 from carom.results import Result
 from carom.rotors.flexible_model import reduced_of
 from carom.studies.load_checks import LoadCheck, checks_of_planes
+from carom.studies.questions import ALL_ROUND, DRAWN, EVENTS_OF_FLEXIBLE, LARGER
 from carom.studies.verdict_facts import KINDS
 
 DIRECTIONS = 12
 """Directions of a kick or a shock, and phases of the change of the unbalance by the loss of a blade, that are followed at their full size; each
 at an instant of its own, where this matters."""
-TIMES = (1.0, 2.0, 4.0, 8.0)
+IN_TURN, LEAST_DIRECTIONS = (0, 4, 8, 2, 6, 10, 1, 5, 9, 3, 7, 11), 3
+"""Order in which they are followed, and how many of them are in any case."""
+TIMES = (2.0, 4.0, 8.0)
 """Multiples of the required kick that are tried in these directions."""
 SEED = 1
 LOOKED, SAMPLES = 100, 20_000
@@ -149,7 +157,9 @@ class FlexibleTrial(Result):
         }  # fmt: skip
 
 
-def trials_of(case: Case, rotor: Model, required: Required, count: int, tell: Reporter) -> tuple[FlexibleTrial, ...]:
+def trials_of(
+    case: Case, rotor: Model, required: Required, count: int, budget: Budget, tell: Reporter
+) -> tuple[FlexibleTrial, ...]:
     """Follow the kinds of disturbances that must be survived: drawn up to their size, and at it in all directions."""
     kinds: list[tuple[str, float, Disturbance, Callable[..., tuple[Model, Any]]]] = []
     kicks = VelocityKick(required.kick)
@@ -164,14 +174,30 @@ def trials_of(case: Case, rotor: Model, required: Required, count: int, tell: Re
     for place, (kind, size, model, at) in enumerate(kinds):
         part = tell.part(place / len(kinds), (place + 1) / len(kinds))
         part(0.0, f"disturbances: {KINDS[kind].lower()}")  # type: ignore[index]
-        basin = map_basins(rotor, Sample(model, count, SEED))
-        ends = Counter({name: basin.share_of(name).count for name in basin.motions})
-        pairs = all_round()
-        followed = [_ended(*at(rotor, *pair)) for pair in pairs]
-        trial = _trial(kind, size, basin.share_recovered, ends, followed, case.limits)
-        worst = next(pair for pair, each in zip(pairs, followed, strict=True) if each.motion is trial.worst)
+        drawn, all_round = (EVENTS_OF_FLEXIBLE[each] // len(kinds) for each in (DRAWN, ALL_ROUND))
+        with budget.question(DRAWN.format(_WORDS[kind]), drawn):
+            share, ends = _drawn(rotor, model, count)
+        with budget.question(ALL_ROUND.format(_WORDS[kind]), all_round):
+            tried = list(_all_round(partial(at, rotor)))
+        trial = _trial(kind, size, share, ends, [each for _, each in tried], case.limits)
+        worst = next(pair for pair, each in tried if each.motion is trial.worst)
         found.append(replace(trial, reduction=_reduction(rotor, trial.worst, at, worst)))
     return tuple(found)
+
+
+_WORDS = {"kick": "kicks", "shock": "shocks", "blade_loss": "losses of a blade"}
+
+
+def _drawn(rotor: Model, model: Disturbance, count: int) -> tuple[Share, Counter[MotionName]]:
+    """Of disturbances that are drawn, the share that comes back, and where they end."""
+    starts = Sample(model, count, SEED).starts(rotor)
+    require_start(rotor, starts)
+    ends = follow(rotor, starts)
+    ends = ends[ends.outcomes >= 0]
+    index, names = name_endings(rotor, model, ends)
+    population = Population.of_model(model, rotor.scales, instants_words(rotor))
+    share = Share.of(int(ends.recovered.sum()), ends.outcomes.size, drawn=True, population=population)
+    return share, Counter(names[place] for place in index.tolist())
 
 
 def _reduction(
@@ -189,15 +215,26 @@ def all_round() -> list[tuple[float, float]]:
     return list(zip((TURN * numbers / DIRECTIONS).tolist(), (TURN * (GOLDEN * numbers % 1.0)).tolist(), strict=True))
 
 
-def kicks_beyond(rotor: Model, required: Required) -> tuple[tuple[float, int], ...]:
-    """Multiples of the required kick, and how many of those in all directions came back; up to the first of which some are lost."""
-    found = []
-    for times in TIMES:
-        back = sum(_ended(*_kick(rotor, times * required.kick, *pair)).back for pair in all_round())
-        found.append((times, back))
-        if back < DIRECTIONS:
-            break
+def kicks_beyond(
+    rotor: Model, required: Required, kicks: FlexibleTrial, budget: Budget
+) -> tuple[tuple[float, Share], ...]:
+    """Multiples of the required kick, and how many of those all around came back; up to the first of which some are lost."""
+    found = [(1.0, kicks.largest)]
+    with budget.question(LARGER, EVENTS_OF_FLEXIBLE[LARGER]) as question:
+        for times in TIMES:
+            if found[-1][1].count < found[-1][1].total or not question.affords():
+                break
+            back = [each.back for _, each in _all_round(partial(_kick, rotor, times * required.kick))]
+            found.append((times, Share.of(sum(back), len(back), drawn=False)))
     return tuple(found)
+
+
+def _all_round(at: Callable[..., tuple[Model, Any]]) -> Iterator[tuple[tuple[float, float], _Followed]]:
+    """Motions all around, each with its direction and instant; where the events do not suffice, in the first directions, which are apart."""
+    directions, question = all_round(), present_question()
+    for tried, place in enumerate(IN_TURN):
+        if question.affords() or tried < LEAST_DIRECTIONS:
+            yield directions[place], _ended(*at(*directions[place]))
 
 
 class _Followed(NamedTuple):

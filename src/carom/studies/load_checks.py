@@ -12,6 +12,7 @@ from carom.attractors import AttractorSet, MotionName
 from carom.disturbances import BaseShock, BladeLoss
 from carom.models import Model
 from carom.motions import DropLoads, TouchdownLoads, Trajectory, drop_loads, simulate, touchdown_loads
+from carom.motions.budget import present_question
 from carom.outcome import InputError
 from carom.parameters import LIMIT_FIELDS, LoadLimits, Required
 from carom.parameters.told import number
@@ -169,9 +170,10 @@ def worst_loads(found: AttractorSet, limits: LoadLimits, required: Required | No
         The shock of the base and the loss of a blade that must be survived are followed too, at their full size, each in 24
         directions; a shock from its beginning, with the contacts while it lasts.
     """
+    question = present_question()
     checked: list[tuple[str, Sequence[LoadCheck]]] = []
     for ending in found.disturbances:
-        if ending.touched:
+        if ending.touched and question.affords():
             motion = simulate(ending.rotor, ending.start.state, settle=True)
             checked.append((ending.attractor, check_loads(touchdown_loads(motion), limits)))
     for motion in _of_required(found.rotor, required) if required else ():
@@ -195,9 +197,10 @@ def _of_required(rotor: Model, required: Required) -> Iterator[Trajectory]:
     """Motions after the shock and the loss of a blade that must be survived, in all directions; none without levitation."""
     if rotor.system.rest_radius >= 1.0:
         return
+    question = present_question()
     for angle in (2.0 * math.pi * place / DIRECTIONS for place in range(DIRECTIONS)):
-        if required.shock:
+        if required.shock and question.affords():
             shock = BaseShock(required.shock.peak, required.shock.duration)
             yield simulate(*shock.stages(rotor, angle), settle=True)
-        if required.blade_loss:
+        if required.blade_loss and question.affords():
             yield simulate(*BladeLoss(required.blade_loss, required.blade_loss_node).release(rotor, angle), settle=True)

@@ -1,8 +1,8 @@
 """Which values of a parameter leave only recovery: the one answer to this, for any rotor, parameter and disturbances.
 
-Where the motions of the planar rotor are known along the parameter (:mod:`carom.studies.ranges`), it is looked for where the
-rotor levitates and no other motion can hold it, and elsewhere only if nothing is found there.  Then simulation decides
-(:mod:`carom.studies.trials`): between a value that loses some disturbances and one that loses none, the end is bisected.  This
+It is looked for where the rotor levitates, whether other motions can hold it there or not, for what must be survived may never reach them.
+Simulation decides (:mod:`carom.studies.trials`): between a value that loses some disturbances and one that loses none, the end is
+bisected; where a known motion of the planar rotor appears or vanishes there (:mod:`carom.studies.ranges`), that is the end.  This
 is evidence, not proof: each value has a number of disturbances tried, and the ends are no better than these.
 """
 
@@ -16,12 +16,14 @@ from typing import ClassVar
 
 import numpy as np
 
-from carom.arguments import Count, Seed, checked
+from carom.arguments import Count, Positive, Seed, checked
 from carom.disturbances import Sample
 from carom.models import Axis, Edge, Model, Span, Subject, axis, model_of
 from carom.models.axes import Ends, read_interval, usual_range
 from carom.models.spans import paired, spans_where
+from carom.motions.budget import BudgetSpentError
 from carom.outcome import InputError
+from carom.parameters.conversions import CONVERSIONS
 from carom.parameters.told import told_along
 from carom.progress import Reporter, ShowProgress, shows_progress
 from carom.results import Result
@@ -54,9 +56,12 @@ class Recovery(Result):
         Where values were tried; empty where the orbits of the planar rotor could not be searched.
     spans : tuple of Span
         Where every disturbance came back, disjoint, in ascending order.  Beyond an end of kind ``"simulated"`` one ended in the
-        motion named there; other ends are those of the range searched.
+        motion named there; at other ends a known motion of the planar rotor appears or vanishes, or the search ends.
     checks : tuple of Check
         Every value tried, in ascending order.  Where some are lost, the disturbances after the first losses were not followed.
+    complete : bool
+        Whether the search came to its end.  Otherwise the budget of a study ended it (:mod:`carom.motions.budget`): there are no spans, and
+        nothing is known of values that were not tried.
     """
 
     shown: ClassVar[tuple[str, ...]] = ("rotor", "searched", "spans", "checks")
@@ -68,6 +73,7 @@ class Recovery(Result):
     searched: tuple[Span, ...]
     spans: tuple[Span, ...]
     checks: tuple[Check, ...]
+    complete: bool = True
 
     def line_of(self, name: str, value: object) -> str:
         """Spans are told in the unit of the parameter."""
@@ -80,6 +86,11 @@ class Recovery(Result):
     def clear(self) -> tuple[Check, ...]:
         """The values at which nothing was lost."""
         return tuple(check for check in self.checks if check.recovers)
+
+    @property
+    def holds_present(self) -> bool:
+        """Whether every disturbance came back around the present value."""
+        return self.span_at(self.along.value(self.rotor)) is not None
 
     @checked
     def span_at(self, value: float) -> Span | None:
@@ -99,7 +110,7 @@ def find_recovery(
     disturbances: Sequence[Sample],
     *,
     within: Ends | None = None,
-    present: Check | None = None,
+    factor: Positive | None = None,
     seed: Seed = 0,
     threads: Count | None = None,
     progress: ShowProgress = None,
@@ -115,12 +126,10 @@ def find_recovery(
         Kinds of disturbances with the number drawn at each value.  Where the parameter changes the scales (shaft speed,
         clearance) they keep their size in SI units.
     within : tuple of float or str, optional
-        The range to search, in the unit of the parameter; by default where the planar rotor levitates and no other
-        simple motion can hold it, or, if nothing is found there, wherever it levitates.  For other rotors half to twice the present
-        value.
-    present : Check, optional
-        What came back at the present value (:func:`check_recovery`).  Where all did, the range around it is searched even if
-        another motion can hold the rotor there.
+        The range to search, in the unit of the parameter; by default wherever the planar rotor levitates; for other rotors half to twice the
+        present value.
+    factor : float, optional
+        Without ``within``: search only where the damping or the stiffness is at most so many times larger or smaller than now.
     seed : int
         Seed of all random numbers; each value has a sample of its own.
     threads : int, optional
@@ -158,43 +167,51 @@ def find_recovery(
         raise InputError("disturbances", None, "at least one sample of a kind of disturbance")
     tell = Reporter.of(progress, f"disturbances along {varied.name}")
     motions = motion_ranges(rotor, varied, tell.part(0.0, 0.5)) if within is None else ()
-    for searched in _places(rotor, varied, within, motions, present):
-        trial = Trial(rotor, varied, tuple(disturbances), seed, threads)
-        found = tuple(part for span in searched for part in _recovering(trial, span))
-        if found:
-            break
+    searched = _searched(rotor, varied, within, motions, factor)
+    known = [edge for entry in motions for span in entry.spans for edge in span]
+    trial = Trial(rotor, varied, tuple(disturbances), seed, threads)
+    found: tuple[Span, ...] = ()
+    complete = True
+    try:
+        found = tuple(part for span in searched for part in _recovering(trial, span, known))
+    except BudgetSpentError:
+        complete = False
     tell(1.0)
     checks = tuple(check for _, check in sorted(trial.checks.items()))
-    return Recovery(rotor, varied, tuple(disturbances), motions, searched, found, checks)
+    return Recovery(rotor, varied, tuple(disturbances), motions, searched, found, checks, complete)
 
 
-def _places(
-    rotor: Model, varied: Axis, within: Ends | None, motions: tuple[MotionRange, ...], present: Check | None
-) -> list[tuple[Span, ...]]:
-    """The intervals to search, and those to search if no value of these leaves only recovery."""
+def power_of(along: Axis) -> int:
+    """Power of a parameter that is proportional to what the machine has: the stiffness to that of ``ω``."""
+    return CONVERSIONS[along.name].power if along.name in CONVERSIONS else 1
+
+
+def _searched(
+    rotor: Model, varied: Axis, within: Ends | None, motions: tuple[MotionRange, ...], factor: float | None
+) -> tuple[Span, ...]:
+    """The intervals to search."""
+    present = varied.value(rotor)
     if not motions:
-        low, high = read_interval(varied, within or usual_range(varied, varied.value(rotor), "within"))
+        low, high = read_interval(varied, within or usual_range(varied, present, "within"))
         if not low > 0.0:
             raise InputError("within", f"{low:g} to {high:g}", "a range above 0")
-        return [(Span(Edge(low), Edge(high)),)]
+        return (Span(Edge(low), Edge(high)),)
     known = {entry.motion: entry for entry in motions}
     orbits = known.get("single-impact")
     if orbits is None or orbits.searched is None:
-        return [()]
-    levitation, others = known["contact-free"], (orbits, known["rub"])
-    spans = [span for entry in (*others, levitation) for span in entry.spans]
-    edges = [*orbits.searched, *(edge for span in spans for edge in span if edge.value in orbits.searched)]
-    levitating = spans_where(edges, levitation.exists_at)
-    alone = spans_where(
-        edges, lambda value: levitation.exists_at(value) and not any(entry.exists_at(value) for entry in others)
-    )
-    if present is not None and present.recovers and not any(varied.value(rotor) in span for span in alone):
-        return [levitating]
-    return [alone, levitating] if alone != levitating else [alone]
+        return ()
+    levitation, reach = known["contact-free"], orbits.searched
+    edges = [*reach, *(edge for span in levitation.spans for edge in span if edge.value in reach)]
+    if factor is not None and present > 0.0:
+        times = factor ** (1.0 / power_of(varied))
+        ends = max(present / times, reach.low.value), min(present * times, reach.high.value)
+        reach = Span(*map(Edge, ends))
+        edges += reach
+    return spans_where(edges, lambda value: levitation.exists_at(value) and value in reach)
 
 
-def _recovering(trial: Trial, span: Span) -> tuple[Span, ...]:
-    """The parts of an interval in which every disturbance comes back."""
+def _recovering(trial: Trial, span: Span, known: Sequence[Edge]) -> tuple[Span, ...]:
+    """The parts of an interval in which every disturbance comes back; a known edge where they begin to is their end."""
     low, high = span.low.value, span.high.value
     inset = (high / low) ** INSET
     count = int(np.clip(math.ceil(math.log(high / low) / math.log1p(STEP)), FEWEST, MOST))
@@ -213,5 +230,6 @@ def _recovering(trial: Trial, span: Span) -> tuple[Span, ...]:
         if here != there:
             beyond, inside = (value, after) if there else (after, value)
             lost = trial.checks[beyond].example
-            ends.append(Edge(inside, "simulated", certified=False, motion=lost.motion if lost else None))
+            here_lost = Edge(inside, "simulated", certified=False, motion=lost.motion if lost else None)
+            ends.append(next((edge for edge in known if edge.kind and value <= edge.value <= after), here_lost))
     return paired([*ends, span.high] if marks[-1][1] else ends)

@@ -18,6 +18,7 @@ from carom.basins.shares import Share
 from carom.disturbances import Sample, VelocityKick
 from carom.disturbances.following import follow
 from carom.models import HuntCrossley, InBearing, Jeffcott, KelvinVoigt, LinearRotor, Model, Touchdown
+from carom.motions.budget import NOT_FOLLOWED
 from carom.parameters import Scales, TouchdownBearing
 from carom.parameters.restitution import (
     damping_ratio_of,
@@ -75,10 +76,12 @@ def on_other_walls(rotor: Model, disturbances: Sequence[Sample]) -> tuple[OtherW
     own = _ends(rotor, drawn)
     found = []
     for stiffness, other in others:
-        same = own == _ends(other, drawn)
-        found.append(
-            OtherWall(stiffness, restitution, Share.of(int(same.sum()), same.size, drawn=True, does="end alike"))
-        )
+        ends = _ends(other, drawn)
+        if NOT_FOLLOWED in own or NOT_FOLLOWED in ends:
+            break
+        same = own == ends
+        share = Share.of(int(same.sum()), same.size, drawn=True, does="end alike")
+        found.append(OtherWall(stiffness, restitution, share))
     return tuple(found)
 
 

@@ -13,6 +13,7 @@ from carom.closed_forms.equilibria import Equilibrium
 from carom.closed_forms.known import Known, known_of
 from carom.closed_forms.sag import SteadyMotion
 from carom.models import Model
+from carom.motions.budget import Question
 from carom.orbits.orbit import Orbit
 from carom.orbits.single_impact import OrbitSet
 from carom.parameters import Case, Required
@@ -22,8 +23,8 @@ from carom.studies.advice import Recommendation
 from carom.studies.load_checks import WorstLoads
 from carom.studies.ranges import MotionRange, Threshold
 from carom.studies.recovery import Recovery
-from carom.studies.rigid_limit import TRIED, OtherWall, on_other_walls
-from carom.studies.survives import Survives, required_disturbances
+from carom.studies.rigid_limit import OtherWall
+from carom.studies.survives import Kind, Survives, lost_kinds
 from carom.studies.trials import Check
 from carom.studies.wording import Wording
 
@@ -49,10 +50,16 @@ class StudyData(Result):
         The sizes of kicks, shocks and losses of a blade up to which none is lost; ``None`` where there is no stable levitation.
     present : Check or None
         Fresh disturbances of what must be survived, at the machine's own gains; ``None`` where there is no stable levitation.
+    elsewhere : Share or None
+        Of starts anywhere in the clearance, as fast as the kicks that must be survived, how many came back.  Nothing requires them to.
     recoveries : tuple of Recovery
         Along damping and along stiffness: for which values each motion exists, and at which all that must be survived came back.
     recommendation : Recommendation
         The least change that leaves only recovery, with its margin and how sure it is.
+    other_walls : tuple of OtherWall
+        How disturbances end on stiffer or softer walls; none where nothing can be compared, or without stable levitation.
+    unfinished : tuple of Question
+        The questions for which the budget of events, or a time limit, did not suffice.
     loads : WorstLoads or None
         The largest loads of the disturbances against the limits of the touchdown bearing, if any are stated.
     proof : Proof or None
@@ -74,8 +81,11 @@ class StudyData(Result):
     attractors: AttractorSet
     survives: Survives | None
     present: Check | None
+    elsewhere: Share | None
     recoveries: tuple[Recovery, ...]
     recommendation: Recommendation
+    other_walls: tuple[OtherWall, ...] = ()
+    unfinished: tuple[Question, ...] = ()
     loads: WorstLoads | None = None
     proof: Proof | None = None
     kicks: ProvenKicks | None = None
@@ -128,6 +138,11 @@ class StudyData(Result):
         return self.present.returned[0] if self.present else None
 
     @property
+    def lost_kinds(self) -> list[tuple[Kind, Share | None]]:
+        """The kinds that must be survived and of which some were lost, with the share of them that came back."""
+        return lost_kinds(self.required, self.survives, self.present, self.attractors)
+
+    @property
     def thresholds(self) -> tuple[Threshold, ...]:
         """Values of a parameter at which a motion appears or vanishes."""
         return tuple(threshold for entry in self.ranges for threshold in entry.thresholds)
@@ -141,10 +156,3 @@ class StudyData(Result):
     def bearing_demand(self) -> BearingDemand | None:
         """What the motions have to do with the limits of the magnetic bearings; ``None`` if the machine has none of these."""
         return bearing_demand(self.case, self.equilibria, self.orbits, self.known.rolls, self.attractors)
-
-    @cached_property
-    def other_walls(self) -> tuple[OtherWall, ...]:
-        """How disturbances end on stiffer or softer walls; none where nothing can be compared, or without stable levitation."""
-        if self.survives is None:
-            return ()
-        return on_other_walls(self.rotor, required_disturbances(self.required, TRIED))

@@ -105,7 +105,7 @@ def survived_rows(study: StudyData) -> list[SurvivedRow]:
     for name, found in study.survives.items():
         size = study.wording.size_of(name)
         of = {"shock": f" of {study.wording.time(study.survives.duration)}", "blade_loss": ", change of the unbalance"}
-        up_to = found.largest if found.size is None else found.all_back
+        up_to = found.largest if found.size is None and found.complete else found.all_back
         rows.append(
             SurvivedRow(
                 f"{KINDS[name]}{of.get(name, '')}",
@@ -119,19 +119,23 @@ def survived_rows(study: StudyData) -> list[SurvivedRow]:
 
 
 def share_rows(study: StudyData) -> list[ShareRow]:
-    """Return a row for each kind of disturbance that must be survived, and for starts elsewhere in the clearance."""
+    """Return a row for each kind of disturbance that must be survived, and for starts elsewhere in the clearance, which nothing requires to."""
     change = study.recommendation.advised
     now = study.present.returned if study.present else ()
     after = change.check.returned if change else ()
     rows = zip_longest(map(_share_back, now), map(_share_back, after), fillvalue="none" if change else "")
     of = [share.population.words for share in now or after]
-    if of:
-        of[1] = f"starts spread over the clearance, up to {study.wording.velocity(study.required.kick)}"
-    return [ShareRow(words, here, there) for words, (here, there) in zip(of, rows, strict=True)]
+    found = [ShareRow(words, here, there) for words, (here, there) in zip(of, rows, strict=True)]
+    if study.elsewhere is not None:
+        words = f"starts spread over the clearance, up to {study.wording.velocity(study.required.kick)}, which nothing requires"
+        found.append(ShareRow(words, _share_back(study.elsewhere), ""))
+    return found
 
 
 def _share_back(share: Share) -> str:
     """A share with what it rests on."""
+    if not share.total:
+        return "none followed"
     interval = f"{percent(share.low).removesuffix(' %')} to {percent(share.high)}"
     return f"{percent(share.fraction)} ({share.count:,} of {share.total:,}; {interval})"
 
@@ -309,7 +313,9 @@ def range_rows(study: StudyData) -> list[tuple[str, ...]]:
     changes = {change.parameter: change for change in study.recommendation.changes}
     rows = [(name, *(_where(say, entry.range_of(motion)) for entry in found)) for motion, name in MOTIONS.items()]
     back = [
-        say.where(entry.along.name, entry.spans)
+        "search not finished"
+        if not entry.complete
+        else say.where(entry.along.name, entry.spans)
         if entry.searched or entry.range_of("single-impact")
         else "not searched"
         for entry in found

@@ -13,25 +13,32 @@ from typing import Literal
 
 import numpy as np
 
-from carom.attractors.starts import KICKS_SHARE
-from carom.basins import SmallestLoss, smallest_loss
+from carom.attractors import AttractorSet
+from carom.basins import Share, SmallestLoss, smallest_loss
+from carom.basins.families import family_of
+from carom.basins.losses import DIRECTIONS
 from carom.closed_forms.harmless import shift_by_unbalance
-from carom.disturbances import AnyState, BaseShock, BladeLoss, Disturbance, Sample, VelocityKick
+from carom.disturbances import BaseShock, BladeLoss, Disturbance, Sample, VelocityKick
 from carom.disturbances.blows import LONGEST_SHOCK
 from carom.models import Model
 from carom.models.unbalance import unbalance_along
+from carom.motions.budget import Budget
 from carom.parameters import DIMENSIONLESS_FIELDS, SHOCK_DURATION, Required, Scales
 from carom.progress import Reporter
 from carom.results import Result
+from carom.studies.questions import EVENTS, FEWEST, SMALLEST
+from carom.studies.trials import Check
 
 Kind = Literal["kick", "shock", "blade_loss"]
 """Kinds of disturbances that a machine may have to survive."""
+COARSE = 48
+"""Directions, and sizes, that are scanned of rotors whose motions are followed one after another."""
 REACH = 4.0
 """Largest kick and shock searched, as a multiple of what must be survived or is proven to be harmless."""
 BELOW = 0.999
 """Largest unbalance after a loss of a blade, relative to that with which levitation would fill the clearance."""
 OF_ANOTHER_KIND = 0.2
-"""Number of shocks, and of losses of a blade, relative to that of kicks and other starts, where such are required."""
+"""Number of shocks, and of losses of a blade, relative to that of kicks, where such are required."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -67,21 +74,26 @@ class Survives(Result):
         return tuple((name, entry) for name, entry in found.items() if entry is not None)
 
 
-def survives(rotor: Model, required: Required, tell: Reporter) -> Survives | None:
+def survives(rotor: Model, required: Required, budget: Budget, tell: Reporter) -> Survives | None:
     """Search for the smallest disturbance of each kind that is lost; ``None`` where there is no levitation to come back to."""
     if not comes_to_rest(rotor):
         return None
-    tell(0.0, "the smallest kick that is lost")
-    kick = _reaching(rotor, VelocityKick(required.kick))
+    words = SMALLEST.format("kick")
+    tell(0.0, words)
+    with budget.question(words, EVENTS[words]):
+        kick = _reaching(rotor, VelocityKick(required.kick))
     shock, duration = None, _duration(rotor, required)
     if duration:
-        tell(0.4, "the smallest shock that is lost")
+        words = SMALLEST.format("shock")
+        tell(0.4, words)
         peak = required.shock.peak if required.shock else math.pi * required.kick / (2.0 * duration)
-        shock = _reaching(rotor, BaseShock(peak, duration))
-    tell(0.9, "the smallest loss of a blade that is lost")
-    blade_loss, largest = None, largest_change(rotor)
+        with budget.question(words, EVENTS[words]):
+            shock = _reaching(rotor, BaseShock(peak, duration))
+    words, blade_loss, largest = SMALLEST.format("loss of a blade"), None, largest_change(rotor)
+    tell(0.9, words)
     if largest > 0.0:
-        blade_loss = smallest_loss(rotor, BladeLoss(largest))
+        with budget.question(words, EVENTS[words]):
+            blade_loss = smallest_loss(rotor, BladeLoss(largest))
     return Survives(kick, shock, duration, blade_loss)
 
 
@@ -115,10 +127,11 @@ def _duration(rotor: Model, required: Required) -> float:
 
 
 def _reaching(rotor: Model, model: VelocityKick | BaseShock) -> SmallestLoss:
-    """Search up to a multiple of a disturbance, and farther where that is proven to be harmless."""
-    found = smallest_loss(rotor, _times(model, REACH))
-    times = found.harmless / found.largest
-    return found if times * REACH < 1.0 else smallest_loss(rotor, _times(model, REACH * REACH * times))
+    """Search up to a multiple of a disturbance, or of what is proven to be harmless if that is more."""
+    family = family_of(rotor, model)
+    scanned = DIRECTIONS if rotor.system.is_planar else COARSE
+    largest = _times(model, REACH * max(1.0, family.harmless / family.largest))
+    return smallest_loss(rotor, largest, directions=scanned, sizes=scanned)
 
 
 def _times(model: VelocityKick | BaseShock, factor: float) -> VelocityKick | BaseShock:
@@ -128,22 +141,50 @@ def _times(model: VelocityKick | BaseShock, factor: float) -> VelocityKick | Bas
     return replace(model, peak=factor * model.peak)
 
 
-def meets(found: SmallestLoss, size: float) -> bool:
-    """Whether no disturbance up to a size was lost."""
-    return size <= found.largest and (found.size is None or found.size > size)
+def loses(found: SmallestLoss, size: float) -> bool:
+    """Whether some disturbances up to a size are lost, or it is larger than all that are possible."""
+    return (found.size is not None and found.size <= size) or (found.complete and size > found.largest)
+
+
+def required_kinds(required: Required) -> tuple[tuple[Kind, float], ...]:
+    """The kinds that must be survived, with their size, in the order of :func:`required_disturbances`."""
+    kinds: list[tuple[Kind, float]] = [("kick", required.kick)]
+    kinds += [("shock", required.shock.peak)] if required.shock else []
+    kinds += [("blade_loss", required.blade_loss)] if required.blade_loss else []
+    return tuple(kinds)
+
+
+def decides(present: Check | None) -> bool:
+    """Whether enough of what must be survived was followed to say that it came back, where none is lost."""
+    return present is not None and min(each.total for each in present.returned) >= FEWEST
+
+
+def lost_kinds(
+    required: Required, survives: Survives | None, present: Check | None, attractors: AttractorSet
+) -> list[tuple[Kind, Share | None]]:
+    """The kinds that must be survived and of which some were lost, with the share of them that came back, if any were drawn.
+
+    Drawn ones count, those that the search for the smallest has found, and kicks among the disturbances whose ends are described.
+    """
+    if survives is None or present is None:
+        return []
+    lost: list[tuple[Kind, Share | None]] = []
+    described = attractors.smallest_unrecovered_kick
+    for place, (kind, size) in enumerate(required_kinds(required)):
+        drawn, largest, entry = present.returned[place], present.largest[place], getattr(survives, kind)
+        seen = drawn.count < drawn.total or largest.count < largest.total
+        seen |= kind == "kick" and described is not None and described <= size
+        if seen or (entry is not None and loses(entry, size)):
+            lost.append((kind, drawn if drawn.total else None))
+    return lost
 
 
 def required_disturbances(required: Required, count: int, seed: int = 0) -> tuple[Sample, ...]:
-    """Kinds of disturbances that a machine must survive, with the number of each in a sample of about ``count``.
+    """Kinds of disturbances that a machine must survive, with the number of each; ``count`` is that of kicks.
 
-    Kicks out of levitation, uniform over the disc of their velocities; starts elsewhere in the clearance, no faster than these
-    in the fixed frame; shocks and losses of a blade where they are required.
+    Kicks out of levitation, uniform over the disc of their velocities; shocks and losses of a blade where they are required.
     """
-    kicks = round(KICKS_SHARE * count)
-    models: list[tuple[Disturbance, int]] = [
-        (VelocityKick(required.kick), kicks),
-        (AnyState(required.kick), count - kicks),
-    ]
+    models: list[tuple[Disturbance, int]] = [(VelocityKick(required.kick), count)]
     more = max(1, round(OF_ANOTHER_KIND * count))
     if required.shock:
         models.append((BaseShock(required.shock.peak, required.shock.duration), more))

@@ -22,6 +22,7 @@ from carom.disturbances import Coordinate, Disturbance, Sample, Starts
 from carom.disturbances.echo import instants_words
 from carom.disturbances.following import follow
 from carom.models import Axis, Model, Subject, axis, model_of
+from carom.motions.budget import NOT_FOLLOWED, BudgetSpentError
 from carom.results import Result
 
 FIRST_LOOK = 200
@@ -65,6 +66,8 @@ class Check(Result):
         The same for those at their largest size.
     example : Lost or None
         One that did not come back; ``None`` if all did.
+    asked : int
+        Number of disturbances that were to be followed; shares are of those that the budget of a study sufficed for.
     """
 
     shown: ClassVar[tuple[str, ...]] = ("value", "drawn", "recovers")
@@ -73,6 +76,14 @@ class Check(Result):
     returned: tuple[Share, ...]
     largest: tuple[Share, ...]
     example: Lost | None
+    asked: int
+
+    @classmethod
+    def joined(cls, checks: Sequence[Check]) -> Check:
+        """Checks of several kinds of disturbances at one value as one."""
+        returned, largest = (sum((getattr(each, name) for each in checks), ()) for name in ("returned", "largest"))
+        example = next((each.example for each in checks if each.example), None)
+        return cls(checks[0].value, returned, largest, example, sum(each.asked for each in checks))
 
     @property
     def recovers(self) -> bool:
@@ -138,9 +149,17 @@ class Trial:
         self.variation = np.random.default_rng([self.seed, 1])
 
     def recovers(self, value: float) -> bool:
-        """Whether every disturbance comes back at a value; follows no more once some are lost."""
+        """Whether every disturbance comes back at a value; follows no more once some are lost.
+
+        Raises
+        ------
+        BudgetSpentError
+            None is lost of those that were followed, and not all were.
+        """
         if value not in self.checks:
-            self.checks[value] = self.at(value, stop=True)
+            self.checks[value] = check = self.at(value, stop=True)
+            if check.recovers and check.tried < check.asked:
+                raise BudgetSpentError("the events of this question are spent")
         return self.checks[value].recovers
 
     def at(self, value: float, stop: bool = False) -> Check:
@@ -149,12 +168,15 @@ class Trial:
         models = [sample.model.rescaled(self.rotor.scales, rotor.scales) for sample in self.disturbances]
         counts = np.zeros((2, len(models), 2), int)  # drawn or at the largest size, kind, came back and tried
         example: Lost | None = None
+        asked = 0
         for place, values, row in self._portions(value, again=stop):
             starts: Starts = models[place].starts_on(rotor, *values)
             ends = follow(rotor, starts, threads=self.threads)
-            gone = np.flatnonzero(~ends.recovered)
+            followed = ends.outcomes != NOT_FOLLOWED
+            gone = np.flatnonzero(followed & ~ends.recovered)
             if row is not None:
-                counts[row, place] += ends.recovered.size - len(gone), ends.recovered.size
+                asked += followed.size
+                counts[row, place] += np.count_nonzero(ends.recovered), np.count_nonzero(followed)
             if len(gone):
                 self.last[place] = values[:, gone[:KEPT]]
                 if example is None:
@@ -167,7 +189,7 @@ class Trial:
             tuple(Share.of(*kind, drawn=True, population=each) for kind, each in zip(row, of, strict=True))
             for row in counts.tolist()
         )
-        return Check(value, drawn, largest, example)
+        return Check(value, drawn, largest, example, asked)
 
     def _portions(self, value: float, again: bool) -> Iterator[tuple[int, np.ndarray, int | None]]:
         """Disturbances of each kind for this value: the kind, coordinates (k, n), and the row in which they count.

@@ -15,6 +15,7 @@ from carom.studies.advice_facts import advice_facts
 from carom.studies.facts import Fact, about
 from carom.studies.findings import FINDINGS
 from carom.studies.proven import proven_kicks_words, proven_states_words, proven_words
+from carom.studies.questions import unfinished_facts
 from carom.studies.rigid_limit import wall_values, wall_words
 from carom.studies.study_data import StudyData
 from carom.studies.verdict_facts import KINDS, Level, judged, verdict_facts
@@ -72,7 +73,7 @@ class Verdict:
 
     Attributes
     ----------
-    level : {"no-contact-free-motion", "may-not-come-back", "all-tried-came-back"}
+    level : {"no-contact-free-motion", "may-not-come-back", "not-decided", "all-tried-came-back"}
         The verdict as a code for programs.
     outcome : str
         The verdict in a few words, with the zone of the vibration amplitude (ISO 14839-2).
@@ -120,6 +121,7 @@ def facts_of(study: StudyData) -> Iterator[Fact]:
     if study.loads is not None:
         for text in study.loads.words.split("\n"):
             yield Fact("Touchdown loads", text)
+    yield from unfinished_facts(study.unfinished)
     for text in not_covered(study):
         yield Fact("Not covered", text)
 
@@ -146,6 +148,8 @@ def verdict(study: StudyData, found: Sequence[Fact]) -> Verdict:
     ]
     if "Share" in facts:
         survived.append(f"It must survive {facts['Must survive']}; {facts['Share']}.")
+    if "Elsewhere" in facts:
+        survived.append(f"Apart from what is required: {facts['Elsewhere']}.")
     if "Certain" in facts:
         survived.append(f"Proven: {facts['Certain']}.")
     return Verdict(level, outcome, reason, tuple(survived))

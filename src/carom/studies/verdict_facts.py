@@ -15,10 +15,10 @@ from carom.studies.facts import Evidence, Fact
 from carom.studies.findings import stable_rub
 from carom.studies.proven import proven_kicks_document, states_return
 from carom.studies.study_data import StudyData
-from carom.studies.survives import Kind, meets
+from carom.studies.survives import Kind, decides, required_kinds
 from carom.studies.wording import SIZES, listed
 
-Level = Literal["no-contact-free-motion", "may-not-come-back", "all-tried-came-back"]
+Level = Literal["no-contact-free-motion", "may-not-come-back", "not-decided", "all-tried-came-back"]
 KINDS: dict[Kind, str] = {"kick": "Kick", "shock": "Shock", "blade_loss": "Blade loss"}
 """Labels of the kinds of disturbances that a machine may have to survive."""
 NEARLY_ALL = 0.95
@@ -92,7 +92,11 @@ def _survived(study: StudyData, name: Kind, found: SmallestLoss) -> Fact:
     ]
     if name == "kick" and study.kicks is not None and study.kicks.all_up_to > found.harmless:
         parts.append(f"every one comes back up to {study.kicks.told_up_to} (proven)")
-    if found.size is None:
+    if found.size is None and not found.complete:
+        if found.all_back is not None:
+            parts.append(f"all tried came back up to {size(found.all_back)}")
+        parts.append("larger ones were not reached")
+    elif found.size is None:
         most = "; with more it cannot levitate" if name == "blade_loss" else ""
         parts.append(f"all {found.tried:,} tried came back, up to {size(found.largest)}{most}")
     else:
@@ -100,7 +104,10 @@ def _survived(study: StudyData, name: Kind, found: SmallestLoss) -> Fact:
             parts.append(f"all tried came back up to {size(found.all_back)}")
         ends = lost_to(study, name, found)
         remarks = "; ".join(each for each in (ends, found.sensitivity) if each)
-        parts.append(f"smallest lost {size(found.size)}{remarks and f' ({remarks})'}")
+        which = "smallest lost" if found.complete else "smallest found that is lost"
+        parts.append(f"{which} {size(found.size)}{remarks and f' ({remarks})'}")
+        if not found.complete:
+            parts.append("smaller ones were not searched to the end")
     label, of, timed = KINDS[name], "", depends_on_instant(study.rotor)
     if name == "shock" and study.survives is not None:
         of = f"of {study.wording.time(study.survives.duration)}, "
@@ -132,7 +139,9 @@ def survived_document(study: StudyData, name: Kind, found: SmallestLoss) -> dict
     sizes = fields_of(
         found, harmless_up_to="harmless", all_up_to="all_back", smallest_lost="size", searched_up_to="largest"
     )
-    document = sizes | fields_of(found, "tried", "fresh", "angle", "instant", "neighbours", "neighbours_lost")
+    document = sizes | fields_of(
+        found, "tried", "fresh", "angle", "instant", "neighbours", "neighbours_lost", "complete"
+    )
     document["lost_to"] = None if found.outcome is None else found.outcome.label
     if name == "shock" and study.survives is not None:
         document["duration"] = study.survives.duration
@@ -146,7 +155,7 @@ def _shares(study: StudyData) -> Iterator[Fact]:
         return
     upto = say.velocity(study.required.kick)
     share = study.share
-    if share is not None:
+    if share is not None and share.total:
         yield Fact(
             "Verdict",
             f"{share.words}, by the area of their disc",
@@ -155,13 +164,15 @@ def _shares(study: StudyData) -> Iterator[Fact]:
             share.document,
             disturbances="kick",
         )
-    elsewhere, sure = present.returned[1], states_return(study.states)
+    elsewhere, sure = study.elsewhere, states_return(study.states)
+    if elsewhere is None or not elsewhere.total:
+        return
     counted = f"{elsewhere.count:,} of {elsewhere.total:,} starts"
     yield Fact(
         "Verdict",
         f"every start in the clearance, of up to {upto} in the room, comes back, as did {counted} drawn"
         if sure
-        else f"{counted} spread over the clearance, of up to {upto} in the room, came back",
+        else f"{counted} spread over the clearance, of up to {upto} in the room, came back; nothing requires them to",
         "Elsewhere",
         "proven" if sure else "sampled",
         {"count": elsewhere.count, "total": elsewhere.total, **elsewhere.document},
@@ -205,12 +216,15 @@ def judged(study: StudyData) -> tuple[Level, str, str]:
     if not levitation.stable:
         why = "its levitation is not damped, so that a disturbance does not die out"
         return "no-contact-free-motion", f"Does not stay in levitation, zone {study.zone}", why
-    lost = [_lost_words(study, *found) for found in lost_kinds(study)]
+    lost = [_lost_words(study, *found) for found in study.lost_kinds]
     if lost:
         outcome = f"Does not come back from all that it must survive, zone {study.zone}"
         return "may-not-come-back", outcome, listed(lost)
+    if not decides(study.present):
+        outcome = f"Not decided whether it comes back from what it must survive, zone {study.zone}"
+        return "not-decided", outcome, "too few disturbances could be followed"
     outcome = f"Came back each time from what it must survive, zone {study.zone}"
-    if kicks_surely_return(study) and len(required_kinds(study)) == 1:
+    if kicks_surely_return(study) and len(required_kinds(study.required)) == 1:
         outcome = f"Comes back from every kick that it must survive, zone {study.zone}"
     return "all-tried-came-back", outcome, _reservations(study)
 
@@ -231,41 +245,13 @@ def _reservations(study: StudyData) -> str:
         parts.append(
             f"{study.bearing_demand.doubtful} disturbances ask for a faster current than its magnetic bearings have"
         )
-    elsewhere = study.present.returned[1] if study.present else None
-    if elsewhere is not None and elsewhere.count < elsewhere.total:
-        lost = elsewhere.total - elsewhere.count
-        parts.append(f"{lost:,} of {elsewhere.total:,} starts elsewhere in the clearance did not come back")
     return "; ".join(parts)
 
 
-def required_kinds(study: StudyData) -> tuple[tuple[Kind, float, int], ...]:
-    """The kinds that must be survived, with their size and their place among the disturbances followed."""
-    required = study.required
-    kinds: list[tuple[Kind, float]] = [("kick", required.kick)]
-    kinds += [("shock", required.shock.peak)] if required.shock else []
-    kinds += [("blade_loss", required.blade_loss)] if required.blade_loss else []
-    return tuple(
-        (kind, size, place + (place > 0)) for place, (kind, size) in enumerate(kinds)
-    )  # starts elsewhere are second
-
-
-def lost_kinds(study: StudyData) -> list[tuple[Kind, Share]]:
-    """The kinds that must be survived and of which some were lost, with the share that came back; empty if all came back."""
-    present, found = study.present, study.survives
-    if present is None or found is None:
-        return []
-    lost = []
-    for kind, size, place in required_kinds(study):
-        share, entry = present.returned[place], getattr(found, kind)
-        if share.count < share.total or (entry is not None and not meets(entry, size)):
-            lost.append((kind, share))
-    return lost
-
-
-def _lost_words(study: StudyData, kind: Kind, back: Share) -> str:
+def _lost_words(study: StudyData, kind: Kind, back: Share | None) -> str:
     """How many of a kind are lost, in words."""
     say, required = study.wording, study.required
-    lost = 1.0 - back.fraction
+    lost = 1.0 - back.fraction if back else 0.0
     many = "nearly all" if lost > NEARLY_ALL else "most" if lost > 0.5 else "some"
     if kind == "blade_loss":
         return f"{many} losses of a blade are not survived"

@@ -1,0 +1,54 @@
+"""The questions of a study, how many events each may take, and what is told where these did not suffice.
+
+An event, an impact or a step of lasting contact, takes some 10 microseconds, of a rotor of 32 modes 30; a motion without contact counts as
+60.  Motions of planar rotors on a rigid wall do not count (:mod:`carom.motions.budget`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+from carom.motions.budget import Question
+from carom.studies.facts import Fact
+from carom.studies.wording import listed
+
+DESCRIBED, PRESENT, ELSEWHERE = "where disturbances end", "the share of {} that comes back", "starts elsewhere"
+SMALLEST = "the smallest {} that is lost"
+ALONG = "recovery along {}"
+CHANGE, LOADS, WALLS = "the least change", "loads of the touchdown bearing", "other touchdown bearings"
+EVENTS = {
+    DESCRIBED: 100_000,
+    PRESENT: 300_000,
+    ELSEWHERE: 50_000,
+    SMALLEST.format("kick"): 350_000,
+    SMALLEST.format("shock"): 300_000,
+    SMALLEST.format("loss of a blade"): 200_000,
+    ALONG.format("damping"): 200_000,
+    ALONG.format("stiffness"): 200_000,
+    CHANGE: 100_000,
+    LOADS: 100_000,
+    WALLS: 100_000,
+}
+"""Events of each question, two million in all; the kinds of disturbances that must be survived share the second equally."""
+DRAWN, ALL_ROUND, LARGER = "{} up to the full size", "{} of the full size all around", "larger kicks"
+EVENTS_OF_FLEXIBLE = {DESCRIBED: 200_000, DRAWN: 400_000, ALL_ROUND: 300_000, LARGER: 100_000}
+"""The same of a flexible machine, a million in all; the kinds of disturbances that must be survived share the second and the third equally."""
+FEWEST = 60
+"""Disturbances of a kind of which none is lost for a verdict that they came back: otherwise one in twenty might be lost unseen."""
+
+
+def unfinished_facts(questions: Sequence[Question]) -> Iterator[Fact]:
+    """What was not followed to its end, and how much of it was."""
+    if questions:
+        told = [f"{each.words} ({each.followed:,} of {each.asked:,} motions)" for each in questions]
+        text = (
+            f"Not followed to the end: {listed(told)}. Each question of a study has a fixed number of events, so that "
+            "its answer does not depend on the computer; a time limit ends it earlier."
+        )
+        yield Fact("Not reached", text, values={"questions": unfinished_document(questions)})
+
+
+def unfinished_document(questions: Sequence[Question]) -> list[dict[str, Any]]:
+    """The same as plain data for JSON."""
+    return [{"question": each.words, "followed": each.followed, "asked": each.asked} for each in questions]
