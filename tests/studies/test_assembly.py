@@ -5,6 +5,7 @@ import json
 import math
 import re
 
+import numpy as np
 import pytest
 from studies import study_once
 
@@ -96,17 +97,13 @@ def test_si_and_dimensionless_give_the_same_motion(real):
     assert bare.ranges == real.ranges
 
 
-def test_levitation_alone_is_what_the_other_ranges_leave(real):
+def test_all_comes_back_where_no_other_motion_can_hold_the_rotor(real):
     for found in real.recoveries:
-        searched = found.range_of("single-impact").searched
-        for step in range(200):
-            value = searched.low.value + (searched.high.value - searched.low.value) * (step + 0.5) / 200
-            alone = found.range_of("contact-free").exists_at(value) and not any(
-                found.range_of(motion).exists_at(value) for motion in ("rub", "single-impact")
-            )
-            assert any(value in span for span in found.searched) == alone
-        # Simulation found nothing that would cut them back.
-        assert found.spans == found.searched
+        for span in found.searched:
+            for value in np.linspace(span.low.value, span.high.value, 202)[1:-1].tolist():
+                assert found.range_of("contact-free").exists_at(value)
+                others = any(found.range_of(motion).exists_at(value) for motion in ("rub", "single-impact"))
+                assert others or any(value in span for span in found.spans)
 
 
 def test_advice_names_the_change_and_how_it_was_checked(real):
@@ -114,12 +111,13 @@ def test_advice_names_the_change_and_how_it_was_checked(real):
 
     assert "orbits with one impact a period are possible below 2,376,000 N/m" in text
     assert (
-        "Of 1,192 disturbances at each of 16 values of damping none was lost from 3,408 N s/m to 73,680 N s/m" in text
+        "values of damping none was lost from 3,408 N s/m to 5,600 N s/m, searched from 671 N s/m to 5,600 N s/m"
+        in text
     )
     first, second = real.to_dict()["recommendation"]["changes"]
     assert (first["quantity"], second["quantity"]) == ("stiffness", "damping")
     assert first["recovered"] == first["disturbances"] == 10_000
-    assert first["recovered_at_their_largest"] == first["at_their_largest"] == 192
+    assert first["recovered_at_their_largest"] == first["at_their_largest"] == 96
 
 
 def test_progress_never_goes_back():
@@ -254,8 +252,8 @@ def test_thresholds_have_both_units(real):
     assert any((value, dimensionless) == ("3,408 N s/m", "γ = 0.37002") for _, _, _, value, dimensionless, _ in rows)
     assert {quantity for _, _, quantity, *_ in rows} == {"damping", "stiffness"}
     back, advised = range_rows(real)[-2:]
-    assert back[1:] == ("from 3,408 N s/m to 73,680 N s/m", "from 2,376,000 N/m to 3,920,000 N/m")
-    assert "where all of 10,000 fresh disturbances of up to 166 mm/s, and 192 at their largest, came back" in advised[2]
+    assert back[1:] == ("from 3,408 N s/m to 5,600 N s/m", "from 2,376,000 N/m to 3,920,000 N/m")
+    assert "where all of 10,000 fresh disturbances of up to 166 mm/s, and 96 at their largest, came back" in advised[2]
 
 
 def test_dimensionless_case_has_no_machine_table():
@@ -405,20 +403,16 @@ def test_machine_at_the_end_of_the_allowed_range_has_a_study(changes):
     assert result.levitates
 
 
-def test_few_that_came_back_do_not_hide_what_many_others_do():
-    """Rolling takes 1 in 500 fast disturbances of this machine, none of the 200 that are listed."""
+def test_starts_elsewhere_that_are_lost_are_told_apart():
+    """Rolling takes 1 in 500 fast disturbances of this machine, none of the 200 that are listed, and no kick."""
     machine = Parameters(
         gamma=0.4, omega=0.557251, rho=0.137942, phi=-0.797449, mu=0.472273, d=0.363411, radius_ratio=1.882414
     )
     result = study(machine, requirement=Requirement(kick=2.0))
 
-    kicks, elsewhere = result.present.returned
-    lost = elsewhere.total - elsewhere.count
+    (kicks,), elsewhere = result.present.returned, result.elsewhere
     assert kicks.count == kicks.total
-    assert lost > 5
-    assert (
-        f"{lost} of {elsewhere.total:,} starts elsewhere in the clearance did not come back" in result.verdict.headline
-    )
-    assert result.recommendation.kind == "change"
-    for change in result.recommendation.changes:
-        assert change.check.drawn.fraction >= 0.99
+    assert elsewhere.total - elsewhere.count > 0
+    assert f"{elsewhere.count:,} of {elsewhere.total:,} starts spread over the clearance" in result.verdict.headline
+    assert "starts" not in result.verdict.lead
+    assert result.recommendation.kind == "no-change-needed"

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import carom as cm
+from carom.motions.budget import Budget
 from carom.outcome import InputError, Outcome
 from carom.progress import Reporter
 from carom.rotors import Whirl, find_whirls, load_machine, unbalance_response
@@ -34,7 +35,7 @@ def studied():
         limits=cm.parameters.LoadLimits(force="300 N"),
     )
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(flexible_study, "DRAWN", 20)
+        patch.setattr(flexible_study, "DRAWN", 60)
         return cm.study(case)
 
 
@@ -62,7 +63,7 @@ def test_larger_kicks_were_followed_as_told(studied):
                 studied.rotor, cm.kick(times * kick, 2.0 * math.pi * number / DIRECTIONS), max_events=20_000
             )
             came += motion.outcome is Outcome.LEVITATED
-        assert came == back
+        assert (came, DIRECTIONS) == (back.count, back.total)
         break  # one multiple is enough here: the others are followed alike
 
 
@@ -81,8 +82,7 @@ def test_forces_are_those_of_the_worst_motion(studied):
 def test_what_is_withheld_and_the_accuracy_are_told(studied):
     topics = {fact.topic for fact in studied.facts}
     assert {"Not covered", "Accuracy", "Drop", "Critical speeds", "Magnetic bearings"} <= topics
-    (accuracy,) = (fact for fact in studied.facts if fact.topic == "Accuracy")
-    assert "no bound" in accuracy.text
+    accuracy = next(fact for fact in studied.facts if fact.topic == "Accuracy")
     assert accuracy.values["error"] == studied.reduced.error
     document = json.loads(json.dumps(studied.to_dict()))
     assert document["complete"] is False
@@ -132,7 +132,7 @@ def test_of_motions_without_contact_the_orbit_is_told_not_the_start():
     case = replace(case, requirement=cm.parameters.Requirement.of(case, kick="30 mm/s"))
     rotor = cm.models.model_of(case)
     required = case.requirement.own(rotor.scales)
-    (trial,) = trials_of(case, rotor, required, 10, Reporter.of(None, "trial"))
+    (trial,) = trials_of(case, rotor, required, 10, Budget(), Reporter.of(None, "trial"))
     assert trial.largest.count == DIRECTIONS
     assert not any(each.contacts for each in trial.planes)
     for each in trial.planes:
