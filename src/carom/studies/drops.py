@@ -55,7 +55,7 @@ class DropStudy(Result):
         elif loads.outcome is not Outcome.LEVITATED and loads.outcome.settled:
             how = ", and goes on"
         if loads.outcome is Outcome.BEYOND_MODEL:
-            return f"Beyond the model since {say.time(loads.time)} after the release, and not followed further: {loads.outcome.meaning}"
+            return f"Beyond the model since {say.time(loads.time)} after the release: {loads.outcome.meaning}"
         if not loads.outcome.settled:
             return f"Followed for {say.time(loads.time)}, and not settled by then ({loads.outcome.words})."
         name = MotionName(loads.outcome).words
