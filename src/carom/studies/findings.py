@@ -196,6 +196,8 @@ def _endings(study: StudyData) -> str:
     counts = {member.name: member.count for member in found if member.count}
     if list(counts) == [LEVITATION]:
         return "All of them came back to levitation."
+    if not counts:
+        return "None of them was followed."
     parts = [f"{count} {ending_phrase(name)}" for name, count in counts.items()]
     text = f"They ended: {listed(parts)}.{_irregular(found)}"
     touched = touching(found)

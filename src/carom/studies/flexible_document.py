@@ -31,7 +31,7 @@ def machine_document(study: FlexibleData, verdict: Verdict, facts: Sequence[Fact
                 "words": entry.words,
                 "disturbances": entry.count,
                 "known_starts": entry.known,
-                "share": [entry.share_of_disturbances, *exact_interval(entry.count, total)],
+                "share": [entry.share_of_disturbances, *(exact_interval(entry.count, total) if total else (0.0, 1.0))],
             }
             for entry in study.attractors
         ],
