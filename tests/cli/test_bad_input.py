@@ -200,7 +200,6 @@ def test_units_need_a_machine(carom, dimensionless):
         (("study",), "MACHINE"),
         (("study", "a", "b"), "b"),
         (("study", "a", "--nonsense"), "--nonsense"),
-        (("study", "a", "--time-limit", "9 s"), "only with --prove"),
         (("study", "a", "--set"), "--set"),
         (("--nonsense",), "--nonsense"),
         (("orbits", "MACHINE", "--longest-period", "long"), "--longest-period"),

@@ -112,7 +112,8 @@ def test_kicks_that_are_all_proven_are_no_sample(whole):
 def test_of_other_disturbances_nothing_is_proven(whole):
     shock = Shock(0.1, 1.0)
     more = replace(whole, case=replace(whole.case, requirement=Requirement(kick=0.5, shock=shock)))
-    present = replace(more.present, returned=(*more.present.returned, more.present.returned[0]))
+    twice = {name: 2 * getattr(more.present, name) for name in ("returned", "largest")}
+    present = replace(more.present, **twice)
     assert replace(more, present=present).verdict.outcome.startswith("Came back each time")
 
 
