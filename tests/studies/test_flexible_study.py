@@ -17,7 +17,7 @@ from carom.rotors import Whirl, find_whirls, load_machine, unbalance_response
 from carom.rotors.collocation import Collocation
 from carom.studies import flexible_study
 from carom.studies.flexible_levitation import levitation_of_machine
-from carom.studies.flexible_trials import DIRECTIONS, trials_of
+from carom.studies.flexible_trials import DIRECTIONS, all_round, trials_of
 from carom.studies.standards import required_margin
 
 pytestmark = pytest.mark.jit_only
@@ -137,8 +137,8 @@ def test_of_motions_without_contact_the_orbit_is_told_not_the_start():
     assert not any(each.contacts for each in trial.planes)
     for each in trial.planes:
         widest = 0.0
-        for number in range(DIRECTIONS):
-            motion = cm.simulate(rotor, cm.kick(required.kick, 2.0 * math.pi * number / DIRECTIONS), 300.0)
+        for pair in all_round():
+            motion = cm.simulate(rotor, cm.kick(required.kick, *pair), 300.0)
             radii = motion.seen_at(each.touchdown_bearing - 1).radius(np.linspace(0.0, 300.0, 50_001))
             widest = max(widest, radii.max() * MACHINE.clearances[each.touchdown_bearing - 1])
         assert each.radius == pytest.approx(widest, rel=1e-3)
