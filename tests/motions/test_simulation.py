@@ -6,6 +6,7 @@ import pytest
 
 import carom as cm
 from carom.motions.settling import Progress
+from carom.outcome import Outcome
 
 
 @pytest.mark.jit_only
@@ -26,3 +27,11 @@ def test_steps_that_take_next_to_no_time_stall():
     assert not any(stiff.stalls(256, 256 * 1e-5) for _ in range(300))
     assert not any(flying.stalls(0, 1.0) for _ in range(300))
     assert any(race.stalls(256, 256 * 1e-9) for _ in range(300))
+
+
+def test_a_machine_that_is_too_stiff_to_be_followed_ends_as_stalled():
+    """A race with so much drag stands still in less than a billionth of a turn, and flights have to be looked at as often."""
+    case = cm.load("examples/touchdown-balls.toml", ["touchdown_race_drag=1e8"])
+    motion = cm.simulate(case, cm.drop(), "10 ms")
+    assert motion.outcome is Outcome.STALLED
+    assert 0.0 < motion.time < 1.0
