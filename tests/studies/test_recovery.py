@@ -83,11 +83,11 @@ def test_the_same_seed_gives_the_same_range(along_damping):
 
 
 def test_shocks_and_losses_of_a_blade_are_followed_too():
-    kinds = [Sample(BaseShock(0.5, 2.0), 100), Sample(BladeLoss(0.5), 100)]
+    kinds = [Sample(BaseShock(0.5, 2.0), 100), Sample(BladeLoss(0.2), 100)]
     check = check_recovery(SOURCE.replace(gamma=0.6), kinds, seed=1)
     assert check.recovers
     assert check.tried == 392
-    # With three times the unbalance the rotor cannot levitate.
+    # After so large a change the rotor cannot levitate, whatever its phase.
     lost = check_recovery(SOURCE.replace(gamma=0.6), [Sample(BladeLoss(3.0), 100)], seed=1)
     assert lost.drawn.count == 0
     assert lost.example.model.kind == "blade-loss"
