@@ -16,6 +16,8 @@ from carom.progress import Reporter
 from carom.rotors import Whirl, find_whirls, load_machine, unbalance_response
 from carom.rotors.collocation import Collocation
 from carom.studies import flexible_study
+from carom.studies.facts import about
+from carom.studies.flexible_facts import facts_of_machine
 from carom.studies.flexible_levitation import levitation_of_machine
 from carom.studies.flexible_trials import DIRECTIONS, all_round, trials_of
 from carom.studies.standards import required_margin
@@ -77,6 +79,17 @@ def test_forces_are_those_of_the_worst_motion(studied):
         assert each.radius > clearance if each.contacts else each.radius < clearance
     (check,) = trial.checks
     assert check.exceeded == (largest > 300.0)
+
+
+def test_the_drop_stands_in_the_verdict_with_its_loads_whether_limits_are_stated_or_not(studied):
+    assert studied.fall_loads is not None
+    for limits in (studied.case.limits, cm.parameters.LoadLimits()):
+        found = replace(studied, case=replace(studied.case, limits=limits))
+        (drop,) = (fact.text for fact in about(facts_of_machine(found), "Verdict") if fact.label == "Drop")
+        assert drop.startswith(studied.fall_loads.outcome.words)
+        for plane in studied.fall_loads.planes:
+            assert f"{plane.loads.si()['force']:,.3g} N" in drop
+        assert drop.endswith("no limit of a touchdown bearing is stated to compare them with") == (not limits.stated)
 
 
 def test_what_is_withheld_and_the_accuracy_are_told(studied):

@@ -103,7 +103,7 @@ def test_a_rotor_with_two_planes_in_si_units(monkeypatch):
     monkeypatch.setattr("carom.basins.losses.DRAWN", 20)
     monkeypatch.setattr("carom.studies.survives.smallest_loss", partial(smallest_loss, directions=8, sizes=6))
     monkeypatch.setattr("carom.studies.assembly.find_orbits", partial(cm.find_orbits, guesses=50))
-    for name, count in {"PHASES": 12, "LEVELS": 6, "DRAWN": 10, "ROUND": 12}.items():
+    for name, count in {"PHASES": 12, "CIRCLES": 6, "DRAWN": 10, "AROUND": 12}.items():
         monkeypatch.setattr(f"carom.basins.blade_losses.{name}", count)
     monkeypatch.setattr("carom.basins.losses.ROUND", 24)
     rotor: LinearRotor = tilting(damping=0.3 * np.diag([1.0, 0.4])).model.replace(scales=Scales(50.0, 0.7e-3, 184.2))

@@ -105,7 +105,8 @@ class MagneticBearing:
             raise InputError("slew_rate_limit", self.slew_rate_limit, allowed)
         if self.at_regain not in AT_REGAIN:
             raise InputError("at_regain", shown(self.at_regain), f"one of {', '.join(AT_REGAIN)}")
-        if self.at_regain == "running" and self._integrates:
+        integrates = self._integrates
+        if self.at_regain == "running" and integrates:
             allowed = "reset or hold for a controller that integrates: running, it would add up the place of a rotor that falls, which is not followed"
             raise InputError("at_regain", shown(self.at_regain), allowed)
 

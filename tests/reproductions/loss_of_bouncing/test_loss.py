@@ -25,7 +25,8 @@ def few() -> LossOfBouncing:
 
 def test_samples_tell_periodic_irregular_and_ending_motions_apart():
     for gamma, impacts in ((0.083, 2), (0.0818, 6), (0.09, 1)):
-        sample = sample_bouncing(Jeffcott(machine_at(gamma)), motions=4, impacts=4000)
+        # Before they settle, motions may bounce irregularly for many thousands of impacts, how many is a matter of rounding.
+        sample = sample_bouncing(Jeffcott(machine_at(gamma)), motions=4, impacts=16_000)
         assert (sample.impacts, len(sample.speeds), sample.ended) == (impacts, impacts, False)
         assert sample.exponent < 0.0
         assert set(sample.lifetimes.destinations) == {f"{impacts}-impact bouncing"}
