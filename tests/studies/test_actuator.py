@@ -178,8 +178,8 @@ def test_disturbances_that_come_to_a_limit_are_counted_and_whether_they_come_bac
     for ending in found.disturbances:
         motion = simulate(case, ending.start.state, max(ending.time, 1e-6))
         position, velocity = motion.at(motion.sample(5000))
-        place = position * np.exp(1j * motion.sample(5000))
-        speed = (velocity + 1j * position) * np.exp(1j * motion.sample(5000))
+        turned = motion.sample(5000) + ending.start.state.time
+        place, speed = position * np.exp(1j * turned), (velocity + 1j * position) * np.exp(1j * turned)
         pull = machine.negative_stiffness * 2 / case.parameters.scales.stiffness
         force = ((QUIET.omega**2 + pull) * place + QUIET.gamma * speed) * case.parameters.scales.force
         asked.append(max(np.abs(force.real).max(), np.abs(force.imag).max()) > 1000.0)

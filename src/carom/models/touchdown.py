@@ -104,7 +104,7 @@ class KelvinVoigt:
     def wall(self, friction: float, surface_speed: float, mass: float) -> Wall:
         """The numbers of a wall for a plane that resists impulses with this mass."""
         own = LAWS.index(self.law), 0.0, self.stiffness / mass, self.damping / mass
-        return Wall(friction, NO_IMPULSE, surface_speed, *own, FARTHEST)
+        return Wall(friction, NO_IMPULSE, surface_speed, *own)
 
     def at_speed(self, factor: float) -> KelvinVoigt:
         """Return the same at a speed of the shaft that is larger by a factor."""
@@ -136,7 +136,7 @@ class HuntCrossley:
     def wall(self, friction: float, surface_speed: float, mass: float) -> Wall:
         """The numbers of a wall for a plane that resists impulses with this mass."""
         own = LAWS.index(self.law), self.exponent, self.stiffness / mass, self.dissipation
-        return Wall(friction, NO_IMPULSE, surface_speed, *own, FARTHEST)
+        return Wall(friction, NO_IMPULSE, surface_speed, *own)
 
     def at_speed(self, factor: float) -> HuntCrossley:
         """Return the same at a speed of the shaft that is larger by a factor."""
@@ -171,6 +171,9 @@ class Touchdown:
         Clearance there in the unit of length of the rotor's scales, 1 by default: results at the plane in SI units need it, the equations do not.
     bearing : carom.parameters.TouchdownBearing, optional
         Its data in SI units where it states its balls: they give a pressure, and change no motion.
+    farthest : float, optional
+        Distance from the centre, in clearances, up to which the rotor is followed in a wall that gives way: beyond it, motions end as
+        beyond the model.  By default 2.
 
     Raises
     ------
@@ -185,6 +188,7 @@ class Touchdown:
     race: Race | None = None
     clearance: Positive = 1.0
     bearing: TouchdownBearing | None = None
+    farthest: Positive = FARTHEST
 
     def __post_init__(self) -> None:
         row = np.array(self.plane, complex) if _are_numbers(self.plane) else np.empty(0)
@@ -230,6 +234,7 @@ class Touchdown:
             "race": race,
             "clearance": self.clearance,
             "bearing": None if self.bearing is None else dataclasses.asdict(self.bearing),
+            "farthest": self.farthest,
         }
 
     @classmethod
@@ -243,13 +248,13 @@ class Touchdown:
         plane = [complex(*number) for number in given["plane"]]
         race = Race(**given["race"]) if given["race"] is not None else None
         bearing = TouchdownBearing(**given["bearing"]) if given.get("bearing") is not None else None
-        return cls(
-            plane, law(**numbers), given["friction"], given["surface_speed"], race, given.get("clearance", 1.0), bearing
-        )
+        own = given.get("clearance", 1.0), bearing, given.get("farthest", FARTHEST)
+        return cls(plane, law(**numbers), given["friction"], given["surface_speed"], race, *own)
 
     def wall(self, mass: float) -> Wall:
         """The numbers of its wall, as the kernels take them, if the plane resists impulses with this mass."""
-        return self.law.wall(self.friction, self.surface_speed, mass)
+        found = self.law.wall(self.friction, self.surface_speed, mass)
+        return found._replace(farthest=self.farthest) if found.stiffness else found
 
 
 def _are_numbers(values: Any) -> bool:
