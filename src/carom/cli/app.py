@@ -12,10 +12,10 @@ import sys
 import threading
 import warnings
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, TextIO
 
 import typer
 
@@ -114,7 +114,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
             code = app(args=words, prog_name="carom", standalone_mode=False)
             sys.stdout.flush()
     except BrokenPipeError:
-        _close_quietly()
+        _close_quietly(sys.stdout)
         return FAILURE
     except BaseException as problem:  # noqa: BLE001  (last resort: a user sees no traceback)
         failure = _failure_of(problem)
@@ -146,7 +146,7 @@ class Failure:
             try:
                 print(json.dumps(document, indent=2), flush=True)  # noqa: T201
             except OSError:
-                _close_quietly()
+                _close_quietly(sys.stdout)
         return self.code
 
 
@@ -238,9 +238,11 @@ def _warnings_on_one_line() -> Iterator[None]:
 
 
 def _complain(message: str) -> None:
-    """Print an error or a warning on one line."""
-    with suppress(OSError):  # the exit code is told, even where the line cannot be
+    """Print an error or a warning on one line; the exit code is told even where the line cannot be."""
+    try:
         print(f"carom: {_on_one_line(message)}", file=sys.stderr)  # noqa: T201
+    except OSError:
+        _close_quietly(sys.stderr)
 
 
 def _on_one_line(message: str) -> str:
@@ -252,9 +254,9 @@ def _discard_unwritten_output() -> None:
     try:
         sys.stdout.flush()
     except OSError:
-        _close_quietly()
+        _close_quietly(sys.stdout)
 
 
-def _close_quietly() -> None:
-    """Redirect output whose reader has gone to the null device, because the interpreter still flushes at exit."""
-    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+def _close_quietly(stream: TextIO) -> None:
+    """Redirect output that cannot be written to the null device, because the interpreter still flushes at exit."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())

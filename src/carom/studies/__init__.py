@@ -4,6 +4,7 @@ Read them in this order.
 
 =======================  ========================================================================================
 ``assembly``             :func:`study` and the frozen :class:`Study`
+``questions``            the questions of a study, how many events each may take, and what was not reached
 ``study_data``           :class:`StudyData`: what a study has found, before it is told
 ``ranges``               for which values of a parameter each simple motion exists
 ``trials``               disturbances followed at one value of a parameter after another
