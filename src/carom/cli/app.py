@@ -36,7 +36,7 @@ from carom.cli.template import template
 from carom.cli.terminal import InterruptionError
 from carom.outcome import CaromError, CaromWarning, InputError, printable, shown
 
-FAILURE, BAD_INPUT, INTERRUPTED = 1, 2, 130
+FAILURE, BAD_INPUT, INTERRUPTED, TERMINATED = 1, 2, 130, 143
 AGAIN = 0.01
 """Seconds after which a lost interrupt is raised again."""
 
@@ -95,7 +95,8 @@ def _options(
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run a command; return its exit code.
 
-    0 for success; 1 for a failure not caused by the input; 2 for input that cannot be used; 130 if interrupted.
+    0 for success; 1 for a failure not caused by the input; 2 for input that cannot be used; 130 if interrupted; 143 if terminated, in which case the
+    process ends here.
 
     Parameters
     ----------
@@ -122,7 +123,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
         if code != INTERRUPTED:  # caught by typer, which prints nothing
             return code if isinstance(code, int) else 0
         failure = Failure(INTERRUPTED, "interrupted")
-    return failure.tell(as_json="--json" in words)
+    told = failure.tell(as_json="--json" in words)
+    if told == TERMINATED:
+        # A thread that is still in a kernel would come back to an interpreter that is gone, and abort the process.
+        _discard_unwritten_output()
+        os._exit(told)
+    return told
 
 
 @dataclass(frozen=True)
@@ -206,8 +212,8 @@ def _lost_interrupts_repeated() -> Iterator[None]:
 def _ended_in_order() -> Iterator[None]:
     """Let a SIGTERM, as of a queue whose time is up, end the process as an error does, so that unfinished files are removed."""
 
-    def end(number: int, _: object) -> None:
-        raise SystemExit(128 + number)
+    def end(_number: int, _frame: object) -> None:
+        raise SystemExit(TERMINATED)
 
     if threading.current_thread() is not threading.main_thread():
         yield
