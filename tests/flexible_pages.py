@@ -6,7 +6,6 @@ from pathlib import Path
 
 import carom
 from carom.explorer.computing.exports import Origin
-from carom.rotors.flexible_model import reduced_of
 
 MACHINE = str(Path(__file__).parents[1] / "examples" / "tum-flexible-rotor.toml")
 
@@ -18,4 +17,4 @@ def opened(*settings: str) -> Origin:
 
 def reduced(*settings: str):
     """The same by its vectors."""
-    return reduced_of(carom.models.model_of(opened(*settings).case))
+    return carom.models.model_of(opened(*settings).case).finite_elements

@@ -12,7 +12,7 @@ from machines import PAPER
 import carom as cm
 from carom.closed_forms import levitation
 from carom.models import Force, Forced, InBearing, Jeffcott, model_of
-from carom.models.weight import weight_of, weighted, without_levitation
+from carom.models.weight import weighted
 from carom.outcome import InputError
 
 HEAVY = cm.load("examples/dropped-rotor.toml")
@@ -35,7 +35,7 @@ def test_it_is_in_balance_in_the_fixed_frame(rotor):
     mass, damping, gyroscopic, stiffness, forcing = rotor.matrices
     held = levitation(rotor)
     sag, whirl = np.atleast_1d(held.sag), np.atleast_1d(held.whirl)
-    assert stiffness @ sag == pytest.approx(mass @ weight_of(rotor), abs=1e-12)
+    assert stiffness @ sag == pytest.approx(mass @ rotor.weight, abs=1e-12)
     assert (stiffness - mass + 1j * damping + gyroscopic) @ whirl == pytest.approx(forcing, abs=1e-12)
 
 
@@ -75,7 +75,7 @@ def test_a_bearing_whose_centre_is_where_the_rotor_sags_holds_it_in_the_middle()
 
 def test_a_rotor_that_nothing_holds_has_no_levitation():
     with pytest.raises(InputError, match=r"^levitation = none, nothing holds the rotor"):
-        levitation(without_levitation(model_of(HEAVY)))
+        levitation(model_of(HEAVY).without_levitation())
     with pytest.raises(InputError, match=r"^machine = forces that change in the fixed frame"):
         levitation(Forced(Jeffcott(PAPER), (Force(0.3j, np.array([0.1])),)))
 

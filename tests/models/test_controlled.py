@@ -9,7 +9,7 @@ from scipy.linalg import expm
 
 import carom as cm
 from carom.models import LinearRotor, model_from
-from carom.models.weight import levitation_of, weighted, without_levitation
+from carom.models.weight import levitation_of, weighted
 from carom.outcome import InputError
 from carom.parameters import Gravity, Scales
 
@@ -82,7 +82,7 @@ def by_size(exponents):
 @pytest.mark.parametrize("levitates", [True, False])
 @pytest.mark.parametrize("heavy", [True, False])
 def test_flights_are_those_of_first_order_equations(levitates, heavy):
-    model = controlled() if levitates else without_levitation(controlled())
+    model = controlled() if levitates else controlled().without_levitation()
     pull = Gravity().pull(SCALES) if heavy else 0.0
     system = weighted(model, Gravity()).system if heavy else model.system
     random = np.random.default_rng(0)
@@ -118,7 +118,7 @@ def test_an_integrator_that_takes_long_takes_the_whole_sag_away():
 
 def test_without_levitation_nothing_holds_it_and_its_controller_stands_by_itself():
     rotor = controlled()
-    free = without_levitation(rotor)
+    free = rotor.without_levitation()
     assert not free.matrices.stiffness[:2].any()
     assert not free.matrices.damping[:2].any()
     assert np.array_equal(free.matrices.stiffness[2:, 2:], np.eye(4))
@@ -153,7 +153,7 @@ def test_another_speed_is_the_same_machine_in_other_units():
     one, other = controlled(**flat), controlled(**flat).replace(speed=700.0)
     expected = by_size((one.system.exponents + 1j) * 1000.0)
     assert by_size((other.system.exponents + 1j) * 700.0) == pytest.approx(expected, abs=1e-8)
-    free = by_size((without_levitation(other).system.exponents + 1j) * 700.0)
+    free = by_size((other.without_levitation().system.exponents + 1j) * 700.0)
     assert free == pytest.approx(np.repeat([0.0, -1000.0], 4), abs=700.0 * 1e-7)
 
 
@@ -162,7 +162,7 @@ def test_gains_multiply_what_is_left_too():
     matrices = rotor.matrices
     left = np.stack([0.5 * matrices.damping, 0.25 * matrices.stiffness])
     partly = rotor.replace(unlevitated=left, gamma=2.0 * rotor.value("gamma"), omega=3.0 * rotor.value("omega"))
-    free = without_levitation(partly)
+    free = partly.without_levitation()
     assert np.allclose(free.matrices.damping, matrices.damping, rtol=0, atol=1e-14)
     assert np.allclose(free.matrices.stiffness, 2.25 * matrices.stiffness, rtol=0, atol=1e-14)
 

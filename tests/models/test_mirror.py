@@ -12,7 +12,6 @@ from carom.closed_forms import harmless_kick
 from carom.closed_forms.sag import levitation
 from carom.models import Force, Forced, KelvinVoigt, LinearRotor, Rigid, Touchdown, model_from
 from carom.models.limited import Limit, Limited
-from carom.models.weight import without_levitation
 from carom.motions import State, energy_ledger
 from carom.outcome import InputError, Outcome, Phase
 
@@ -236,7 +235,7 @@ def test_such_bearings_stay_when_levitation_is_lost():
         unlevitated=np.stack([DAMPING, 0.5 * STIFFNESS]),
         conjugate=ACROSS,
     )
-    left = without_levitation(rotor)
+    left = rotor.without_levitation()
     assert left.matrices.stiffness == pytest.approx(0.5 * STIFFNESS, abs=1e-14)
     assert left.conjugate.tolist() == ACROSS.tolist()
 

@@ -21,7 +21,6 @@ from carom.models import (
     Touchdown,
     model_from,
 )
-from carom.models.weight import without_levitation
 
 START = cm.State(0.2 + 0.1j, 1.0)
 SOFT = KelvinVoigt(1e3, 3.3)
@@ -222,7 +221,7 @@ def test_a_drop_against_a_general_integrator():
 
 def test_levitation_is_lost_with_the_shaft_that_the_rotor_has():
     held = single(SOFT, Shaft(6.0, 0.01))
-    falling = without_levitation(Forced(held, (Force(-1j, np.array([-0.02j])),)))
+    falling = Forced(held, (Force(-1j, np.array([-0.02j])),)).without_levitation()
     assert falling.rotor.shaft == held.shaft
     assert falling.system.shaft is not None
 

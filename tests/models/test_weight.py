@@ -9,7 +9,7 @@ from machines import PAPER
 
 import carom as cm
 from carom.models import Force, Forced, Jeffcott, LinearRotor, Stage, Staged, jeffcott_of, model_of
-from carom.models.weight import levitation_of, refuse_forces, weight_of, weighted, without_levitation
+from carom.models.weight import levitation_of, weighted
 from carom.outcome import InputError
 from carom.parameters import Gravity, Parameters, Scales
 
@@ -21,20 +21,20 @@ PULL = 9.81 / (0.25e-3 * (300.0 * math.pi) ** 2)
 def test_the_model_of_a_heavy_case_has_its_weight():
     assert isinstance(ROTOR, Forced)
     assert ROTOR.rotor == Jeffcott(HEAVY.parameters)
-    assert weight_of(ROTOR) == pytest.approx(-1j * PULL)
-    assert weight_of(Staged((Stage(ROTOR),))) == pytest.approx(-1j * PULL)
+    assert ROTOR.weight == pytest.approx(-1j * PULL)
+    assert Staged((Stage(ROTOR),)).weight == pytest.approx(-1j * PULL)
     assert model_of(HEAVY.replace(gravity=0)) == Jeffcott(HEAVY.parameters)
 
 
 def test_no_other_force_is_weight():
-    assert weight_of(Jeffcott(PAPER)) is None
-    assert weight_of(Forced(Jeffcott(PAPER), (Force(0.3j, np.array([0.1])),))) is None
+    assert Jeffcott(PAPER).weight is None
+    assert Forced(Jeffcott(PAPER), (Force(0.3j, np.array([0.1])),)).weight is None
 
 
 @pytest.mark.parametrize("changes", [{"speed": "6000 rpm"}, {"clearance": "0.4 mm"}, {"mass": "9 kg"}, {"gamma": 0.2}])
 def test_weight_keeps_its_acceleration_in_si_whatever_is_varied(changes):
     varied, again = ROTOR.replace(**changes), model_of(HEAVY.replace(**changes))
-    assert weight_of(varied) == pytest.approx(weight_of(again), rel=1e-15)
+    assert varied.weight == pytest.approx(again.weight, rel=1e-15)
     assert varied.value("omega") == pytest.approx(again.value("omega"), rel=1e-15)
 
 
@@ -42,7 +42,7 @@ def test_gravity_is_a_named_parameter():
     assert ROTOR.value("gravity") == pytest.approx(9.81, rel=1e-14)
     moved = ROTOR.replace(gravity=1.62, speed="6000 rpm")
     again = model_of(HEAVY.replace(gravity=1.62, speed="6000 rpm"))
-    assert weight_of(moved) == pytest.approx(weight_of(again), rel=1e-14)
+    assert moved.weight == pytest.approx(again.weight, rel=1e-14)
     assert moved.value("gravity") == pytest.approx(1.62, rel=1e-14)
     assert ROTOR.replace(gravity="162 cm/s^2").value("gravity") == pytest.approx(1.62, rel=1e-14)
     # A weight of zero has no direction, in which it could grow again.
@@ -63,7 +63,7 @@ def test_a_shaken_housing_keeps_its_frequency_when_the_shaft_turns_faster():
 def test_all_masses_fall_alike():
     scales = Scales(5.0, 0.25e-3, 1000.0)
     rotor = tilting().model.replace(scales=scales)
-    assert weight_of(weighted(rotor, Gravity())) == pytest.approx(Gravity().pull(scales) * rotor.system.translated)
+    assert weighted(rotor, Gravity()).weight == pytest.approx(Gravity().pull(scales) * rotor.system.translated)
     with pytest.raises(InputError, match=r"^gravity = 9.81 m/s² at -90°: a rotor with mass, clearance and speed"):
         weighted(tilting().model, Gravity())
 
@@ -81,12 +81,12 @@ def test_a_rotor_that_sags_to_the_wall_does_not_levitate():
     with pytest.raises(InputError, match=r"^levitation = up to 1.97 clearances from the centre: .* inside the wall"):
         levitation_of(model_of(HEAVY.replace(stiffness="1e5 N/m")))
     with pytest.raises(InputError, match=r"^levitation = none, nothing holds the rotor"):
-        levitation_of(without_levitation(ROTOR))
+        levitation_of(ROTOR.without_levitation())
 
 
 @pytest.mark.parametrize("rotor", [ROTOR.rotor, single(1).model], ids=["by parameters", "by matrices"])
 def test_without_levitation_no_spring_and_no_damper_acts(rotor):
-    free = without_levitation(rotor)
+    free = rotor.without_levitation()
     assert isinstance(free, LinearRotor)
     assert not free.matrices.stiffness.any()
     assert not free.matrices.damping.any()
@@ -101,7 +101,7 @@ def test_levitation_and_shaft_of_a_rotor_of_several_coordinates_are_not_told_apa
     with pytest.raises(
         InputError, match=r"^machine = .*: a rotor of one coordinate, or one that says by its unlevitated matrices"
     ):
-        without_levitation(tilting().model)
+        tilting().model.without_levitation()
 
 
 @pytest.mark.parametrize(
@@ -113,7 +113,7 @@ def test_levitation_and_shaft_of_a_rotor_of_several_coordinates_are_not_told_apa
         lambda machine: cm.map_regions(machine, cm.bifurcations.Plane("gamma", "omega", (0.1, 0.2), (0.3, 0.4))),
         cm.models.case_of,
         jeffcott_of,
-        lambda machine: refuse_forces(model_of(machine)),
+        lambda machine: model_of(machine).refuse_forces(),
     ],
 )
 def test_what_needs_a_rotor_at_rest_in_its_frame_names_gravity_and_what_works(asked):
@@ -126,5 +126,5 @@ def test_what_needs_a_rotor_at_rest_in_its_frame_names_gravity_and_what_works(as
 def test_other_forces_are_not_called_gravity():
     shaken = Forced(Jeffcott(PAPER), (Force(0.3j, np.array([0.1])),))
     with pytest.raises(InputError, match=r"^machine = a rotor under forces that change with time: "):
-        refuse_forces(shaken)
-    assert Parameters(**vars(PAPER)) == cm.models.subjects.parameters_of(shaken)
+        shaken.refuse_forces()
+    assert Parameters(**vars(PAPER)) == shaken.planar

@@ -10,7 +10,6 @@ import carom as cm
 from carom.disturbances.echo import echo_of_drop
 from carom.models import model_of
 from carom.models.touchdown import FARTHEST
-from carom.models.weight import without_levitation
 from carom.motions import drop_loads
 from carom.motions.magnets import excess_pull, magnet_reach
 from carom.outcome import InputError, Outcome
@@ -144,7 +143,7 @@ def test_air_gaps_are_seen_alike_whatever_acts_on_the_rotor(changes):
     given = munich(longest_element=0.2, supports=changes.get("supports", ()))
     bearings = [dataclasses.replace(each, air_gap=4e-4, **limits) for each in given.bearings]
     reduced, random = dataclasses.replace(given, bearings=bearings).with_modes(3), np.random.default_rng(1)
-    for model in (reduced.limited, reduced.model, without_levitation(reduced.model)):
+    for model in (reduced.limited, reduced.model, reduced.model.without_levitation()):
         system = model.system
         state = random.standard_normal((2, 1, 2 * len(system.rest)))
         (amplitudes,) = system.amplitudes_of(state[0] + 1j * state[1], 0.3)

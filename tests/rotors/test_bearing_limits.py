@@ -145,7 +145,7 @@ def test_another_speed_leaves_the_limits_as_they_are_in_si_units():
     for name in ("limit_rows", "limit_columns", "limit_bounds", "limit_couplings"):
         one, other = moved.system.arrays[name], faster.system.arrays[name]
         assert one.shape == other.shape
-    for one, other in zip(moved.listed, faster.listed, strict=True):
+    for one, other in zip(moved.listed_limits, faster.listed_limits, strict=True):
         assert one.displacement == pytest.approx(other.displacement, rel=1e-12)
         assert one.velocity == pytest.approx(other.velocity, rel=1e-12)
         assert one.accelerations == pytest.approx(other.accelerations, rel=1e-12)
@@ -161,7 +161,7 @@ def test_limits_follow_the_gains_and_bounds_that_are_set(changes):
 
     moved = made.with_modes(2).limited.replace(**changes)
 
-    for one, other in zip(moved.listed, anew.listed, strict=True):
+    for one, other in zip(moved.listed_limits, anew.listed_limits, strict=True):
         assert one.bound == other.bound
         for name in ("displacement", "velocity", "accelerations", "rates"):
             assert getattr(one, name) == pytest.approx(getattr(other, name), rel=1e-12)

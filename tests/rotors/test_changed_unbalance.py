@@ -11,10 +11,8 @@ import pytest
 
 import carom as cm
 from carom.models import model_of
-from carom.models.unbalance import with_changed_unbalance
 from carom.outcome import InputError
 from carom.rotors import Unbalance
-from carom.rotors.flexible_model import reduced_of
 
 BEFORE = (Unbalance(1, 20e-6, 0.0), Unbalance(3, 19e-6, math.pi))
 
@@ -22,28 +20,28 @@ BEFORE = (Unbalance(1, 20e-6, 0.0), Unbalance(3, 19e-6, math.pi))
 @pytest.fixture(scope="module")
 def couple():
     """Two unbalances that nearly cancel as a force and leave a couple."""
-    machine = reduced_of(model_of(cm.load("examples/uberlandia-flexible-rotor.toml"))).machine
+    machine = model_of(cm.load("examples/uberlandia-flexible-rotor.toml")).finite_elements.machine
     return dataclasses.replace(machine, unbalances=BEFORE).with_modes(2).model
 
 
 def test_only_the_node_of_the_blade_changes_by_a_vector(couple):
-    scales = reduced_of(couple).scales
+    scales = couple.finite_elements.scales
     change = cmath.rect(4e-6 / scales.unbalance, 0.5)
-    after, turned = with_changed_unbalance(couple, change, 3)
-    machine = reduced_of(after).machine
+    after, turned = couple.with_changed_unbalance(change, 3)
+    machine = after.finite_elements.machine
     other, own = machine.unbalances
     assert turned == 0.0
     assert other == BEFORE[0]
     # Its phase counts from the unbalance there.
     expected = cmath.rect(19e-6, math.pi) + cmath.rect(4e-6, math.pi + 0.5)
     assert cmath.rect(own.size, own.angle) == pytest.approx(expected, rel=1e-12)
-    made = dataclasses.replace(reduced_of(couple).machine, unbalances=machine.unbalances)
-    whole = reduced_of(couple).of(made).model
+    made = dataclasses.replace(couple.finite_elements.machine, unbalances=machine.unbalances)
+    whole = couple.finite_elements.of(made).model
     np.testing.assert_allclose(after.system.rest, whole.system.rest, rtol=1e-9)
 
 
 def test_the_node_must_be_said_where_several_have_an_unbalance(couple):
     with pytest.raises(InputError, match="blade_loss_node"):
-        with_changed_unbalance(couple, 0.1)
+        couple.with_changed_unbalance(0.1)
     with pytest.raises(InputError, match="blade_loss_node = 99"):
-        with_changed_unbalance(couple, 0.1, 99)
+        couple.with_changed_unbalance(0.1, 99)

@@ -13,7 +13,7 @@ from scipy.integrate import solve_ivp
 import carom as cm
 from carom.closed_forms import ball_pressure
 from carom.models import LinearRotor, Rigid, Touchdown, model_from
-from carom.models.weight import levitation_of, without_levitation
+from carom.models.weight import levitation_of
 from carom.orbits import find_orbits
 from carom.outcome import InputError
 from carom.parameters import Scales, TouchdownBearing
@@ -87,7 +87,7 @@ def test_two_clearances_against_an_integrator_in_si_units():
     place, velocity = (part * model.scales.length for part in levitation_of(model))
     # Rates of the co-rotating frame, in which a place at rest turns.
     start = np.concatenate([place, (velocity + 1j * place) * model.scales.speed])
-    assert without_levitation(model).scales == model.scales
+    assert model.without_levitation().scales == model.scales
     times = np.linspace(0.0, end, 20001)
     solved = solve_ivp(system.rates, (0.0, end), start, "DOP853", times, rtol=1e-9, atol=1e-13, max_step=2e-5)
     forces = np.array([system.normal(state) for state in solved.y.T])

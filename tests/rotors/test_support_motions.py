@@ -11,7 +11,6 @@ from limited_reference import clipped, follow
 
 import carom as cm
 from carom.disturbances import BaseShock, BladeLoss, UnbalanceStep
-from carom.models.weight import without_levitation
 from carom.motions import State, energy_ledger
 from carom.outcome import Outcome
 from carom.parameters import Gravity
@@ -101,7 +100,7 @@ def test_kicks_are_those_of_a_general_integrator(bound):
 
 
 def test_supports_hold_on_when_levitation_is_lost():
-    left, scales = without_levitation(REDUCED.model), REDUCED.scales
+    left, scales = REDUCED.model.without_levitation(), REDUCED.scales
     start, own = start_of(REDUCED, (0.3 + 0.1j, 0.1j))
     motion = cm.simulate(left, start, UNTIL * scales.speed)
     assert motion.segment_phases.any()
@@ -116,7 +115,7 @@ def test_supports_hold_on_when_levitation_is_lost():
 def test_a_rotor_dropped_onto_one_support_falls_on(support):
     """It tilts about that without stiffness, driven by its weight, and hardly held by the gyroscopic moment of so thin a shaft."""
     reduced = dataclasses.replace(machine(), supports=[support]).with_modes(2)
-    left, scales = without_levitation(reduced.model), reduced.scales
+    left, scales = reduced.model.without_levitation(), reduced.scales
     assert left.system.rest_radius == np.inf
     start, own = start_of(reduced, (0.05, 0.02j))
     motion = cm.simulate(left, start, 0.01 * scales.speed)

@@ -9,7 +9,7 @@ import numpy as np
 
 from carom.attractors.names import SYNCHRONOUS_RUB, MotionName
 from carom.attractors.settled import SAME, SettledMotion, known_orbit, same_motion, settled_motion
-from carom.closed_forms.known import known_of
+from carom.closed_forms.exact_results import exact_results
 from carom.disturbances import Disturbance
 from carom.models import Model
 from carom.motions.ensembles import Endings
@@ -84,7 +84,7 @@ def name_endings(rotor: Model, model: Disturbance, endings: Endings) -> tuple[np
 
 def _apart(rotor: Model, endings: Endings, chosen: np.ndarray, name: MotionName) -> Iterator[np.ndarray]:
     """Motions of one name that end in lasting contact elsewhere: at rest at another place, otherwise at other planes."""
-    if name.outcome not in LASTING or known_of(rotor).rubs:
+    if name.outcome not in LASTING or exact_results(rotor).rubs:
         yield chosen
         return
     positions = endings.positions.reshape(chosen.size, -1)
@@ -104,7 +104,7 @@ def _at_synchronous_rub(rotor: Model, endings: Endings) -> np.ndarray:
     """Which motions in forward rub are at the synchronous rub, or are proven to converge to it."""
     axes = tuple(range(endings.outcomes.ndim, endings.velocities.ndim))
     still: np.ndarray = np.abs(endings.velocities).max(axis=axes, initial=0.0) < AT_REST
-    around = known_of(rotor).around
+    around = exact_results(rotor).around
     if around is None:
         return still
     along = endings.positions.real * endings.velocities.imag - endings.positions.imag * endings.velocities.real

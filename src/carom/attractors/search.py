@@ -15,7 +15,7 @@ from carom.attractors.groups import Attractor, attractor_of
 from carom.attractors.naming import name_motions, orbits_of
 from carom.attractors.starts import DISTURBANCES, DisturbanceSet, disturbances_of, known_starts, starts_at
 from carom.attractors.survival import Survival
-from carom.closed_forms.known import known_of
+from carom.closed_forms.exact_results import exact_results
 from carom.disturbances import Disturbance, Plan, Sample, Starts
 from carom.disturbances.following import refuse_another_machine
 from carom.models import Model, Subject, model_of
@@ -128,7 +128,7 @@ class AttractorSet(Members[Attractor]):
     def argument(self) -> str:
         """The evidence for the list, in a sentence or two."""
         known = len(self.endings) - len(self.disturbances)
-        general = "" if known_of(self.rotor).rubs else f" {RECOGNISED}"
+        general = "" if exact_results(self.rotor).rubs else f" {RECOGNISED}"
         return (
             f"{self.words()}, and {known} starts next to motions known in closed form, which are left out of the shares, were "
             "simulated to where they settle. This is evidence, not proof: an attractor that none of them reaches is not listed."

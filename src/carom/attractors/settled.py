@@ -10,7 +10,7 @@ from typing import Literal
 
 import numpy as np
 
-from carom.closed_forms.known import known_of
+from carom.closed_forms.exact_results import exact_results
 from carom.continuation.roots import bracketed_root, sign_change
 from carom.motions.settling import REPEATING
 from carom.motions.trajectories import Trajectory
@@ -170,7 +170,7 @@ def forces_on(settled: SettledMotion) -> tuple[float, float]:
     motion = settled.motion
     if settled.outcome is Outcome.LEVITATED:
         return 0.0, 0.0
-    if settled.outcome is Outcome.ROLLING and (force := known_of(motion.rotor).rolling_force):
+    if settled.outcome is Outcome.ROLLING and (force := exact_results(motion.rotor).rolling_force):
         return 0.0, force
     hits = np.flatnonzero(arrives(motion))
     # Of irregular bouncing only the later half is used: the first half may be a transient.

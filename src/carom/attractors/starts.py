@@ -12,7 +12,7 @@ import numpy as np
 
 from carom.arguments import Positive, Seed, Whole, checked
 from carom.closed_forms.equilibria import find_equilibria
-from carom.closed_forms.known import known_of
+from carom.closed_forms.exact_results import exact_results
 from carom.disturbances import FASTEST, AnyState, KickPlane, Plan, Starts, VelocityKick
 from carom.disturbances.coordinates import INSTANT, ON_WALL
 from carom.disturbances.echo import ITS_INSTANT
@@ -222,7 +222,7 @@ def known_starts(machine: Subject, orbits: Sequence[Orbit]) -> tuple[Start, ...]
             words = f"a start next to the {'stable' if rub.stable else 'unstable'} {STEADY_WORDS['rub']}"
             speeds = (-NUDGE, NUDGE) if rub.stable else (-PUSH, PUSH)
             starts += [Start("rub", State(rub.position, 1j * speed * rub.position), words) for speed in speeds]
-    arrays, runaway = rotor.system.arrays, known_of(rotor).runaway
+    arrays, runaway = rotor.system.arrays, exact_results(rotor).runaway
     if runaway < math.inf:
         speed = min(1.0 + 1.001 * runaway, float(arrays.surface_speed[0]))
         starts.append(_whirling(rotor, 0, speed, "beyond the runaway speed"))

@@ -19,7 +19,6 @@ from carom.disturbances.blade_loss import levitating_before, starts_after
 from carom.disturbances.coordinates import TURN
 from carom.disturbances.following import follow
 from carom.models import Model, depends_on_instant
-from carom.models.unbalance import unbalance_along, with_changed_unbalance
 from carom.motions.budget import BudgetSpentError
 from carom.outcome import Outcome
 from carom.progress import Reporter
@@ -82,7 +81,7 @@ class _Search(Bracket):
         self.rotor, self.node, self.threads = rotor, model.node, threads
         self.random = np.random.default_rng(0)
         self.timed = depends_on_instant(rotor)
-        before = unbalance_along(rotor, model.node)
+        before = rotor.unbalance_along(model.node)
         self.before, self.shared = before or 0.0, before is not None
 
     def follow(self, sizes: np.ndarray, angles: np.ndarray, instants: np.ndarray) -> np.ndarray:
@@ -112,7 +111,7 @@ class _Search(Bracket):
             starts = starts_after(self.rotor, sizes, angles, self.node, instants)
             return follow(self.rotor, starts, threads=self.threads).outcomes
         levels, which = np.unique(sizes, return_inverse=True)
-        machines = [with_changed_unbalance(self.rotor, level - self.before, self.node)[0] for level in levels.tolist()]
+        machines = [self.rotor.with_changed_unbalance(level - self.before, self.node)[0] for level in levels.tolist()]
         starts = levitating_before(self.rotor, angles, instants)
         return follow(machines, starts, which=which, threads=self.threads).outcomes
 

@@ -19,7 +19,6 @@ from carom.disturbances.coordinates import INSTANT
 from carom.disturbances.following import NO_START
 from carom.files.netcdf import load, save
 from carom.models import Model, depends_on_instant, jeffcott_of, model_from
-from carom.models.subjects import parameters_of
 from carom.motions.ensembles import Endings
 from carom.outcome import Outcome
 from carom.parameters import Parameters
@@ -53,7 +52,7 @@ class Stored(Result):
     @property
     def parameters(self) -> Parameters:
         """Parameters of the machine, which must be a planar rotor; weight is none of them."""
-        return parameters_of(self.rotor) or jeffcott_of(self.rotor).parameters
+        return self.rotor.planar or jeffcott_of(self.rotor).parameters
 
     @checked
     def save(self, path: str | os.PathLike[str]) -> None:

@@ -24,7 +24,6 @@ from carom.basins.shares import Share, starts_enough
 from carom.closed_forms.harmless import harmless_blade_loss, harmless_shock, harmless_unbalance_step
 from carom.disturbances import BaseShock, BladeLoss, Sample, UnbalanceStep
 from carom.disturbances.echo import plan_words
-from carom.models.subjects import rotor_document
 from carom.outcome import InputError, Outcome
 from carom.parameters import Case, in_terms_of
 from carom.parameters.scaling import SCALING
@@ -57,7 +56,7 @@ def basin_document(
         "touching_recovered": int((basin.touched & basin.recovered).sum()),
         "integrity": _integrity(basin),
         "basin_entropy": _entropy(basin),
-        **rotor_document(basin.rotor),
+        **basin.rotor.document(),
         "disturbances": {
             **json.loads(attributes["disturbances"]),
             "words": plan_words(basin.plan, basin.rotor.value("rho"), scales, at=basin.instants),

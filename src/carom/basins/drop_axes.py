@@ -11,7 +11,6 @@ import numpy as np
 
 from carom.models import Axis, Model, axis
 from carom.models.axes import Ends, read_interval, usual_range
-from carom.models.weight import direction_of_fall
 from carom.motions import Drop
 from carom.outcome import InputError
 from carom.parameters import Field, own_size
@@ -91,7 +90,7 @@ def present_of(rotor: Model, released: Drop, varied: Axis) -> float:
     if varied.name not in RELEASED:
         return varied.value(rotor)
     if varied.name == "phase":
-        return math.remainder(released.unbalance_angle(rotor) - direction_of_fall(rotor), TURN) % TURN
+        return math.remainder(released.unbalance_angle(rotor) - rotor.direction_of_fall, TURN) % TURN
     given = getattr(released, varied.name)
     if given is None:
         return 0.0 if varied.name == "race_speed" else math.nan

@@ -22,7 +22,7 @@ from carom.bifurcations.steady import (
     steady_points,
 )
 from carom.bifurcations.words import continue_orbit, renamed
-from carom.closed_forms.known import known_of
+from carom.closed_forms.exact_results import exact_results
 from carom.models import Jeffcott, Model, Subject, jeffcott_of, model_of
 from carom.models.axes import Axis, Ends, axis, read_interval
 from carom.orbits.names import RubbingName
@@ -212,7 +212,7 @@ def find_bifurcations(
     limits = read_interval(along, interval)
     tell = Reporter.of(progress, "following motions")
     followed = 1.0 if not attractors else FOLLOWING_SHARE
-    follow = _follow_known if known_of(model).orbits else _follow_searched
+    follow = _follow_known if exact_results(model).orbits else _follow_searched
     found = follow(model, along, limits, tell.part(0.0, followed), impacts=impacts, virtual=virtual, lasting=lasting)
     disturbances = DisturbanceSet.of(model, attractors, seed) if attractors else None
     samples: tuple[AttractorSample, ...] = ()

@@ -88,9 +88,8 @@ def error_along(
     """Error of the reduction of a flexible machine along a motion; ``None`` of other machines.  ``again`` reads the same motion of another case."""
     from carom.models import model_of
     from carom.motions.reduction_errors import reduction_error
-    from carom.rotors.flexible_model import reduced_of
 
-    if (reduced := reduced_of(model_of(case))) is None:
+    if (reduced := model_of(case).finite_elements) is None:
         return None
     return reduction_error(reduced, loads, lambda finer: again(replace(case, parameters=finer.limited))[:2])
 
@@ -98,13 +97,12 @@ def error_along(
 def motion_document(case: Case, motion: Trajectory) -> dict[str, Any]:
     """Return the document of a motion: of all its stages if it has several, with times from its beginning."""
     from carom.models import model_of
-    from carom.models.subjects import rotor_document
     from carom.studies import trajectory_document
 
     document = trajectory_document(motion, case.limits)
     if case.gravity:
         gravity = {"acceleration_si": case.gravity.acceleration, "direction": case.gravity.direction}
-        document |= rotor_document(model_of(case)) | {"gravity": gravity}
+        document |= model_of(case).document() | {"gravity": gravity}
     if case.touchdown:
         document["touchdown"] = {"law": case.touchdown.law, **case.touchdown.given}
     return document

@@ -131,10 +131,9 @@ def write_netcdf(motion: Trajectory, path: str) -> None:
 
 
 def _dataset(motion: Trajectory) -> xarray.Dataset:
-    from carom.models.subjects import numbers_of
     from carom.motions.contacts import NUMBERED, in_units, phase_flags
 
-    scales, numbers = motion.rotor.scales, numbers_of(motion.rotor)
+    scales, numbers = motion.rotor.scales, motion.rotor.numbers
     dataset, contacts = _log(motion), _lasting(motion)
     for name in ("start", "end"):
         times = np.array([getattr(contact, name) for _, contact in contacts], float)

@@ -15,7 +15,6 @@ from carom.attractors import MotionName
 from carom.attractors.settled import settled_motion
 from carom.cli.fitting import fitted, plain_table
 from carom.cli.tables import complex_words
-from carom.models.weight import weight_of
 from carom.motions import TouchLog, Trajectory, touchdown_loads
 from carom.motions.contacts import yields
 from carom.outcome import Outcome, Phase
@@ -53,7 +52,7 @@ def print_motion(console: Console, case: Case, motion: Trajectory, *, loads: boo
         console.print(fitted(console, _events(say, motion)))
     final = motion.final
     console.print()
-    if weight_of(motion.rotor) is not None or len(motion.rotor.system.rest) > 1:
+    if motion.rotor.weight is not None or len(motion.rotor.system.rest) > 1:
         for seen in motion.at_each:
             console.print(_final_words(say, seen))
         return
@@ -123,7 +122,7 @@ def _events(say: Wording, motion: Trajectory) -> Table:
     time = f"time, {'ms' if say.scales else '1/Ω'}"
     speeds, slips = f"speed towards wall, {speed}", f"slip, {slip}"
     normal, friction = f"normal impulse, {impulse}", f"friction impulse, {impulse}"
-    angle = "angle" if weight_of(motion.rotor) is None else "fixed angle"
+    angle = "angle" if motion.rotor.weight is None else "fixed angle"
     bearing = ("bearing",) if len(motion.at_each) > 1 else ()
     after = () if yields(motion.rotor.system, motion.plane) else (slips,)
     numbers = (time, *bearing, angle, speeds, normal, friction, *after)
@@ -165,7 +164,7 @@ def _event_rows(say: Wording, seen: Trajectory) -> list[_Row]:
         after = zip(log.sticks.tolist(), log.slip_after.tolist(), strict=True)
         slips = [("stops" if sticks else _number_of(say.slip(slip)),) for sticks, slip in after]
     # Weight has a direction in the fixed frame alone.
-    angles = log.angle if weight_of(seen.rotor) is None else log.angle + seen.begins + times
+    angles = log.angle if seen.rotor.weight is None else log.angle + seen.begins + times
     rows = []
     for place, (time, kind, slip) in enumerate(zip(times.tolist(), kinds, slips, strict=True)):
         cells = (

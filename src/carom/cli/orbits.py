@@ -44,13 +44,13 @@ def orbits(
     orbits with at most N impacts that are known or that a search finds, with what it tried.
     """
     from carom.loading import load
-    from carom.models import LinearRotor, case_of
+    from carom.models import case_of, model_of
 
     given = load(machine, settings or ())
     if impacts is not None:
         _search(given, impacts, guesses, as_json)
         return
-    if isinstance(given.parameters, LinearRotor):
+    if model_of(given).planar is None:
         _print_steady(given, longest_period, as_json)
         return
     case = case_of(given)

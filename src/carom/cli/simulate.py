@@ -170,11 +170,9 @@ def _read(case: Case, ways: dict[str, str | None], given_instant: str | None) ->
         raise InputError("--start", given, allowed)
     ((option, text),) = chosen.items()
     if option == "--blade-loss":
-        from carom.models.subjects import numbers_of
-
         loss, phase = read_blade_loss(text, scales)
         rotor = _rotor(case)
-        before = None if numbers_of(rotor) is None else rotor.value("rho")
+        before = None if rotor.numbers is None else rotor.value("rho")
         instant = read_instant(given_instant, rotor)
         said = echo.echo_of_blade_loss(loss, phase, before, scales)
         return *loss.release(rotor, phase, instant), echo.echo_at(said, rotor, instant)

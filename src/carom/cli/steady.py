@@ -12,7 +12,6 @@ from carom.closed_forms.sag import steady_motions
 from carom.closed_forms.statics import exponent_of
 from carom.closed_forms.yielding_walls import slipping_whirls
 from carom.models import model_of
-from carom.models.subjects import rotor_document
 from carom.outcome import STEADY_WORDS, Outcome
 from carom.parameters import Scales
 from carom.parameters.told import number, told
@@ -70,7 +69,7 @@ def steady_document(case: Case) -> dict[str, Any]:
     rotor = model_of(case)
     entries = [{**each._asdict(), "touchdown_bearings": list(each.touchdown_bearings)} for each in steady_of(rotor)]
     own = [{**each, **in_si(each, rotor.scales, radius="length", normal_force="force")} for each in entries]
-    return {**rotor_document(rotor), "steady": own}
+    return {**rotor.document(), "steady": own}
 
 
 def print_steady(console: Console, case: Case) -> None:

@@ -11,9 +11,8 @@ import numpy as np
 from carom.arguments import checked
 from carom.closed_forms.rub_stability import sliding_rates
 from carom.closed_forms.statics import COUNTED, all_found, depths, exponent_of, rub_forces, static_state
-from carom.models import Jeffcott, Model, Subject, model_of
+from carom.models import Model, Subject, model_of
 from carom.models.excess import asks_beyond
-from carom.models.weight import refuse_forces
 from carom.outcome import Phase
 from carom.parameters import Scales
 from carom.results import Members, Result, in_a_line
@@ -174,7 +173,7 @@ def find_equilibria(machine: Subject) -> EquilibriumSet:
     """
     model = model_of(machine)
     system = model.system
-    refuse_forces(model)
+    model.refuse_forces()
     rubs = [
         _rub(model, *balance)
         for balance in rub_forces(system)
@@ -188,7 +187,7 @@ def _contact_free(model: Model) -> Equilibrium:
     system = model.system
     places = np.asarray(system.arrays["offsets"])
     # The exponents of the planar rotor are exact, others have rounding errors.
-    margin = 0.0 if isinstance(model, Jeffcott) else NEUTRAL
+    margin = 0.0 if model.has_closed_forms else NEUTRAL
     return Equilibrium(
         "contact-free",
         complex(system.rest[0]) if len(system.rest) == 1 else system.rest,

@@ -20,12 +20,10 @@ from typing import NamedTuple
 import numpy as np
 
 from carom.arguments import Positive, Whole, checked
-from carom.closed_forms.known import known_of
-from carom.models import Forced, Limited, Model, Subject, model_of
-from carom.models.in_bearing import carried_by_housing
+from carom.closed_forms.exact_results import exact_results
+from carom.models import Model, Subject, model_of
 from carom.models.mode_arrays import STEADY
-from carom.models.stages import Around, stages_of
-from carom.models.unbalance import unbalance_push
+from carom.models.stages import stages_of
 
 MARGIN = 1e-9
 """Share of the distance from the wall that is left for rounding."""
@@ -78,9 +76,7 @@ def _rooms_of_limits(model: Model) -> np.ndarray:
 def _watched(model: Model) -> tuple[np.ndarray, np.ndarray]:
     """Displacements of the planes, then what is asked of each limit, per coordinate and per rate in the fixed frame, each (P + L, n)."""
     planes = model.system.planes
-    while isinstance(model, Around) and not isinstance(model, Limited):
-        model = model.rotor
-    limits = model.listed if isinstance(model, Limited) else ()
+    limits = model.listed_limits
     shown = np.concatenate([planes, *(np.atleast_2d(each.displacement) for each in limits)])
     return shown, np.concatenate([0.0 * planes, *(np.atleast_2d(each.velocity) for each in limits)])
 
@@ -129,12 +125,12 @@ def harmless_shock(machine: Subject, duration: Positive) -> float:
         ``T``, in ``1/Ω``.
     """
     model = model_of(machine)
-    return _harmless_push(model, carried_by_housing(model)) * math.pi / (2.0 * duration)
+    return _harmless_push(model, model.carried_by_housing) * math.pi / (2.0 * duration)
 
 
 def _harmless_push(model: Model, along: np.ndarray) -> float:
     """Change of the velocities of all coordinates, in proportion to these, up to which the wall is not reached."""
-    levitation, known = _levitation(model), known_of(model.rotor if isinstance(model, Forced) else model).response
+    levitation, known = _levitation(model), exact_results(model.unforced).response
     if levitation is None:
         return 0.0
     if known is not None and np.array_equal(along, model.system.translated):
@@ -173,13 +169,13 @@ def harmless_blade_loss(machine: Subject, node: Whole | None = None) -> float:
     levitation = _levitation(model)
     if levitation is None:
         return 0.0
-    shift, deviation = _after_step(model, levitation, unbalance_push(model, node))
+    shift, deviation = _after_step(model, levitation, model.unbalance_push(node))
     return float((levitation.rooms / (shift + deviation)).min())
 
 
 def shift_by_unbalance(model: Model, node: int | None = None) -> np.ndarray:
     """Displacement (n,) of levitation per change of the unbalance, in the frame that turns."""
-    return _shift(model, unbalance_push(model, node))
+    return _shift(model, model.unbalance_push(node))
 
 
 def _shift(model: Model, push: np.ndarray) -> np.ndarray:

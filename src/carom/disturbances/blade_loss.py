@@ -102,13 +102,11 @@ def starts_after(
     instants: np.ndarray | float = 0.0,
 ) -> Starts:
     """Starts after changes of the unbalance of these sizes and phases at these instants, with the machine after each."""
-    from carom.models.unbalance import with_changed_unbalance  # only here: it loads kernels
-
     sizes, phases, instants = np.broadcast_arrays(sizes, phases, instants)
     after, turned = np.empty(phases.shape, object), np.empty(phases.shape)
     for place in np.ndindex(phases.shape):
         change = cmath.rect(float(sizes[place]), float(phases[place]))
-        after[place], turned[place] = with_changed_unbalance(rotor, change, node)
+        after[place], turned[place] = rotor.with_changed_unbalance(change, node)
     return levitating_before(rotor, turned, instants)._replace(after=after)
 
 

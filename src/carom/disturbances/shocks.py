@@ -31,7 +31,6 @@ from carom.core.in_turn import advance_in_turn
 from carom.core.layout import rub_workspace, workspace
 from carom.core.phases import AWAY
 from carom.models import Force, Forced, Model
-from carom.models.in_bearing import carried_by_housing
 from carom.models.mode_arrays import EQUAL, STEADY
 from carom.motions.ensembles import MOST_EVENTS
 from carom.outcome import Outcome
@@ -44,7 +43,7 @@ TOGETHER = 64
 
 def shaken(rotor: Model, duration: float, size: complex, begins: float = 0.0) -> Forced:
     """The rotor under the two forces of a half-sine pulse of this duration in ``1/Ω``, with ``size = â e^{iα}/2i``, from a time."""
-    frequency, push = math.pi / duration, size * carried_by_housing(rotor)
+    frequency, push = math.pi / duration, size * rotor.carried_by_housing
     exponents = 1j * (frequency - 1.0), -1j * (frequency + 1.0)
     first, second = (Force(each, cmath.exp(-each * begins) * push) for each in exponents)
     return Forced(rotor, (first._replace(accelerations=-first.accelerations), second))

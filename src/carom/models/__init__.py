@@ -11,7 +11,7 @@
 ``jeffcott``              :class:`Jeffcott`: the planar rigid rotor, by its parameters
 ``linear``                :class:`LinearRotor`: any linear rotor, by its matrices
 ``mirror``                its system where bearings act differently in two directions
-``directions``            whether they do
+``directions``            the whirl there
 ``linear_parameters``     its named parameters
 ``in_bearing``            :class:`InBearing`: the planar rotor in a touchdown bearing that gives way
 ``limited``               :class:`Limited`: a rotor on magnetic bearings that have limits
@@ -23,7 +23,6 @@
 ``forcing``               :class:`Force`: forces that change with time, as modes of their own
 ``stages``                :class:`Staged`: a rotor that changes when a trigger ends a stage; :class:`Forced`: with further forces
 ``weight``                gravity, and a rotor without its levitation
-``unbalance``             a rotor with another unbalance
 ``subjects``              :func:`model_of`, :func:`case_of`: any description of a rotor -> its model, its case
 ========================  =================================================================
 """

@@ -13,7 +13,7 @@ import numpy as np
 from carom.models.forcing import Force, with_forces
 from carom.models.jeffcott import Jeffcott
 from carom.models.linear import LinearRotor
-from carom.models.model import Matrices, Model
+from carom.models.model import Matrices
 from carom.models.race import Race
 from carom.models.shaft import Shaft
 from carom.models.stages import Around
@@ -77,6 +77,29 @@ class InBearing(Around):
         """Parameters of the rotor."""
         return self.rotor.parameters
 
+    @property
+    def races(self) -> tuple[Race | None, ...]:
+        """The race of the bearing, if it turns."""
+        return self.linear.races
+
+    def bearing_at(self, plane: int) -> TouchdownBearing:
+        """Its data."""
+        return self.bearing
+
+    @property
+    def is_on_mount(self) -> bool:
+        """Whether the touchdown bearing stands on a mount, whose place then is the second coordinate."""
+        return self.bearing.mount_mass is not None
+
+    @property
+    def carried_by_housing(self) -> np.ndarray:
+        """Rotor and mount."""
+        return self.linear.carried_by_housing
+
+    def without_levitation(self) -> InBearing:
+        """See :meth:`~carom.models.Model.without_levitation`."""
+        return replace(self, levitates=False)
+
     @cached_property
     def linear(self) -> LinearRotor:
         """The same as a linear rotor."""
@@ -92,7 +115,7 @@ class InBearing(Around):
             held = zip(matrices.items(), (*mount, given.mount_stiffness / scales.stiffness), strict=True)
             matrices = {name: np.diag([matrix[0, 0], value]) for (name, matrix), value in held}
             forcing = np.append(forcing, 0.0)
-        at = self.parameters
+        at = self.rotor.parameters
         touchdown = Touchdown(
             plane, law_of(given, scales, at.d), at.mu, at.radius_ratio + 1.0, race_of(given, at.radius_ratio, scales)
         )
@@ -185,54 +208,6 @@ class InBearing(Around):
         drive = asdict(self.drive) if self.drive else None
         bearing = {**asdict(self.bearing), "levitates": self.levitates, "drive": drive, "air_gap": self.air_gap}
         return {"touchdown_bearing": json.dumps(bearing), "rotor": json.dumps(self.rotor.attributes())}
-
-
-def bearing_of(model: Model) -> TouchdownBearing | None:
-    """The touchdown bearing of a model that is described by its data; else ``None``."""
-    if isinstance(model, InBearing):
-        return model.bearing
-    return bearing_of(model.rotor) if isinstance(model, Around) else None
-
-
-def bearing_at(model: Model, plane: int) -> TouchdownBearing | None:
-    """Data of the touchdown bearing at a plane, which may state its balls; ``None`` if they are not known."""
-    if isinstance(model, LinearRotor):
-        return model.touchdowns[plane].bearing
-    if isinstance(model, Around) and not isinstance(model, InBearing):
-        return bearing_at(model.rotor, plane)
-    return bearing_of(model)
-
-
-def pull_of(model: Model) -> tuple[Force, ...]:
-    """:attr:`InBearing.pull` of a model that has it."""
-    if isinstance(model, InBearing):
-        return model.pull
-    return pull_of(model.rotor) if isinstance(model, Around) else ()
-
-
-def races_of(model: Model) -> tuple[Race | None, ...]:
-    """The race at each plane; ``None`` where it stands still."""
-    if isinstance(model, InBearing):
-        return races_of(model.linear)
-    if isinstance(model, LinearRotor):
-        return tuple(touchdown.race for touchdown in model.touchdowns)
-    return races_of(model.rotor) if isinstance(model, Around) else (None,) * len(model.system.contacts)
-
-
-def on_mount(model: Model) -> bool:
-    """Whether the touchdown bearing stands on a mount, whose place then is the second coordinate."""
-    bearing = bearing_of(model)
-    return bearing is not None and bearing.mount_mass is not None
-
-
-def carried_by_housing(model: Model) -> np.ndarray:
-    """Coordinates (n,) when all that a housing carries is displaced by one against it: the rotor as a whole, and mounts."""
-    if isinstance(model, InBearing):
-        return carried_by_housing(model.linear)
-    if isinstance(model, Around):
-        return carried_by_housing(model.rotor)
-    carried: np.ndarray | None = model.carried if isinstance(model, LinearRotor) else None
-    return model.system.translated if carried is None else carried
 
 
 def shaft_of(drive: Drive | None, scales: Scales) -> Shaft | None:

@@ -14,14 +14,17 @@ from carom.arguments import checked
 from carom.core.planar import planar_exponents
 from carom.core.wall import Wall
 from carom.models.from_modes import second_order_system
-from carom.models.model import Matrices, Rates
+from carom.models.linear import LinearRotor
+from carom.models.linear_parameters import refuse_node
+from carom.models.model import Matrices, Model, Rates
 from carom.models.system import System
+from carom.models.touchdown import Rigid, Touchdown
 from carom.outcome import InputError, shown
 from carom.parameters import Field, Numbers, Parameters, Scales
 
 
 @dataclass(frozen=True)
-class Jeffcott:
+class Jeffcott(Model):
     """Rigid rotor on a linear isotropic bearing inside a circular clearance (Föppl–Jeffcott rotor).
 
     In the co-rotating frame ``Ü + (γ + 2i)U̇ + (ω² − 1 + iγ)U = ρe^{iφ}`` [1]_ (2.13), with the exponents
@@ -65,6 +68,46 @@ class Jeffcott:
         at = self.parameters
         mass, damping, gyroscopic, stiffness = np.reshape((1.0 + 0j, at.gamma, 0.0, at.omega**2), (4, 1, 1))
         return Matrices(mass, damping, gyroscopic, stiffness, np.array([cmath.rect(at.rho, at.phi)]))
+
+    @property
+    def planar(self) -> Parameters:
+        """Its parameters."""
+        return self.parameters
+
+    @property
+    def has_closed_forms(self) -> bool:
+        """All that are known."""
+        return True
+
+    def without_levitation(self) -> Model:
+        """See :meth:`~carom.models.Model.without_levitation`."""
+        at = self.parameters
+        mass, _, gyroscopic, _, forcing = self.matrices
+        return LinearRotor.in_fixed_frame(
+            mass=mass,
+            damping=np.zeros_like(mass),
+            stiffness=np.zeros_like(mass),
+            gyroscopic=gyroscopic,
+            forcing=forcing,
+            touchdowns=[Touchdown((1.0,), Rigid(at.d), at.mu, at.radius_ratio + 1.0)],
+            translation=self.system.translated,
+            scales=self.scales,
+        )
+
+    def unbalance_push(self, node: int | None = None) -> np.ndarray:
+        """See :meth:`~carom.models.Model.unbalance_push`."""
+        refuse_node(node)
+        return np.array([cmath.rect(1.0, self.unbalance_phase)])
+
+    def unbalance_along(self, node: int | None = None) -> float | None:
+        """See :meth:`~carom.models.Model.unbalance_along`."""
+        return self.parameters.rho
+
+    def with_changed_unbalance(self, change: complex, node: int | None = None) -> tuple[Jeffcott, float]:
+        """See :meth:`~carom.models.Model.with_changed_unbalance`."""
+        refuse_node(node)
+        after = self.parameters.rho + change
+        return self.replace(rho=abs(after)), cmath.phase(after) if after else 0.0
 
     @property
     def words(self) -> str:

@@ -146,7 +146,11 @@ class Limited(Around):
     """
 
     rotor: Model
-    limits: ControlLimit | tuple[Limit, ...]
+    limits: ControlLimit | tuple[Limit, ...] = ()
+
+    def without_levitation(self) -> Model:
+        """The rotor alone, without what its bearings give."""
+        return self.rotor.without_levitation()
 
     def __post_init__(self) -> None:
         rotor, given = self.rotor, cast("Any", self.limits)
@@ -167,7 +171,7 @@ class Limited(Around):
             object.__setattr__(self, "limits", listed)
 
     @cached_property
-    def listed(self) -> tuple[Limit, ...]:
+    def listed_limits(self) -> tuple[Limit, ...]:
         """The limits in units of the equations."""
         if not isinstance(self.limits, ControlLimit):
             return self.limits
@@ -187,7 +191,7 @@ class Limited(Around):
     @cached_property
     def system(self) -> System:
         """Modes, contact planes, contact law and limits."""
-        return with_limits(self.rotor.system, self.listed)
+        return with_limits(self.rotor.system, self.listed_limits)
 
     @property
     def words(self) -> str:
@@ -237,10 +241,3 @@ def limits_from(text: str) -> ControlLimit | tuple[Limit, ...]:
     if isinstance(given, dict):
         return ControlLimit(**given)
     return tuple(Limit(**each | {"follows": tuple(each["follows"])}) for each in given)
-
-
-def limits_of(model: Model) -> ControlLimit | tuple[Limit, ...] | None:
-    """The limits of a rotor on magnetic bearings, whatever forces act on it; ``None`` without any."""
-    if isinstance(model, Limited):
-        return model.limits
-    return limits_of(model.rotor) if isinstance(model, Around) else None

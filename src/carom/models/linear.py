@@ -16,14 +16,14 @@ from carom.models import linear_parameters
 from carom.models.forcing import Force, with_forces
 from carom.models.from_modes import modal_system, second_order_system, walls_as_arrays
 from carom.models.mirror import Doubled, mirrored_system
-from carom.models.model import Matrices, Rates
+from carom.models.model import Matrices, Model, Rates
 from carom.models.modes import modes_of
-from carom.models.race import RaceModes
+from carom.models.race import Race, RaceModes
 from carom.models.shaft import Shaft, ShaftModes
 from carom.models.system import System
 from carom.models.touchdown import Touchdown
 from carom.outcome import InputError, shown
-from carom.parameters import Field, Scales
+from carom.parameters import Field, Scales, TouchdownBearing
 from carom.results import Result
 
 if TYPE_CHECKING:
@@ -38,7 +38,7 @@ _OTHERS = ("unlevitated", "conjugate", "carried", "regained", "magnets")
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class LinearRotor(Result):
+class LinearRotor(Model, Result):
     """Rotor with ``M Ü + D U̇ + K U = F`` in the co-rotating frame and ``P`` contact planes.
 
     The coordinates are complex: displacements, or tilts, in two directions at a right angle.  All numbers are
@@ -307,17 +307,62 @@ class LinearRotor(Result):
         """Angle of the unbalance in the co-rotating frame, in rad: that of its force on the rotor as a whole."""
         return float(np.angle(np.vdot(self.translation, self.forcing)))
 
+    @property
+    def races(self) -> tuple[Race | None, ...]:
+        """The race at each touchdown bearing; ``None`` where it stands still."""
+        return tuple(touchdown.race for touchdown in self.touchdowns)
+
+    def bearing_at(self, plane: int) -> TouchdownBearing | None:
+        """Data in SI units of a touchdown bearing, which may state its balls; ``None`` if they are not known."""
+        return self.touchdowns[plane].bearing
+
+    @property
+    def carried_by_housing(self) -> np.ndarray:
+        """See :attr:`~carom.models.Model.carried_by_housing`."""
+        return self.system.translated if self.carried is None else self.carried
+
+    @property
+    def acting_on_conjugates(self) -> np.ndarray | None:
+        """See :attr:`~carom.models.Model.acting_on_conjugates`."""
+        return None if self.system.mirrored is None else self.conjugate
+
+    @property
+    def carry_at_regain(self) -> np.ndarray | None:
+        """See :attr:`~carom.models.Model.carry_at_regain`."""
+        return None if self.regained is None else np.diag(np.concatenate([self.regained, self.regained]))
+
+    def without_levitation(self) -> LinearRotor:
+        """See :meth:`~carom.models.Model.without_levitation`."""
+        if len(self.mass) > 1 and self.unlevitated is None:
+            allowed = "a rotor of one coordinate, or one that says by its unlevitated matrices what is left without its levitation"
+            raise InputError("machine", shown(self), allowed)
+        mass, _, gyroscopic, _, forcing = self.matrices
+        damping, stiffness = np.zeros((2, *mass.shape)) if self.unlevitated is None else self.unlevitated
+        return LinearRotor.in_fixed_frame(
+            mass=mass,
+            damping=damping,
+            stiffness=stiffness,
+            gyroscopic=gyroscopic,
+            forcing=forcing,
+            touchdowns=self.touchdowns,
+            translation=self.system.translated,
+            scales=self.scales,
+            shaft=self.shaft,
+            conjugate=self.conjugate,
+            magnets=self.magnets,
+        )
+
     def unbalance_push(self, node: int | None = None) -> np.ndarray:
-        """See :func:`carom.models.unbalance.unbalance_push`: all masses are off centre by the same, along the translation."""
+        """See :meth:`~carom.models.Model.unbalance_push`: all masses are off centre by the same, along the translation."""
         linear_parameters.refuse_node(node)
         return np.asarray(self.mass @ self.translation * np.exp(1j * self.unbalance_phase))
 
     def unbalance_along(self, node: int | None = None) -> float | None:
-        """See :func:`carom.models.unbalance.unbalance_along`."""
+        """See :meth:`~carom.models.Model.unbalance_along`."""
         return linear_parameters.forcing_along(self, self.unbalance_push(node))
 
     def with_changed_unbalance(self, change: complex, node: int | None = None) -> tuple[Self, float]:
-        """See :func:`carom.models.unbalance.with_changed_unbalance`."""
+        """See :meth:`~carom.models.Model.with_changed_unbalance`."""
         push, before = self.unbalance_push(node), self.unbalance_along(node)
         if before is None:
             return dataclasses.replace(self, forcing=self.forcing + change * push), 0.0

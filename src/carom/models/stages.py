@@ -6,7 +6,7 @@ import json
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
 from functools import cached_property
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -14,13 +14,25 @@ from carom.arguments import Infinity, NotNegative, Positive, checked
 from carom.models.forcing import Force, with_forces
 from carom.models.mode_arrays import EQUAL, STEADY
 from carom.models.model import Matrices, Model
+from carom.models.race import Race
 from carom.models.system import System
 from carom.outcome import InputError, shown
-from carom.parameters import SETTINGS, Field, Scales, read_quantity
+from carom.parameters import (
+    SETTINGS,
+    ControlLimit,
+    Field,
+    Parameters,
+    Scales,
+    TouchdownBearing,
+    read_quantity,
+)
 from carom.parameters.settings import GRAVITY_NAME
 
+if TYPE_CHECKING:
+    from carom.models.limited import Limit
 
-class Around:
+
+class Around(Model):
     """A model that takes its parameters, scales and matrices from another one, its ``rotor``."""
 
     rotor: Model
@@ -52,6 +64,79 @@ class Around:
     def rates(self, name: str) -> None:
         """No derivatives: differences of the equations of motion have to do."""
 
+    @property
+    def planar(self) -> Parameters | None:
+        """Those of the rotor."""
+        return self.rotor.planar
+
+    @property
+    def limits(self) -> ControlLimit | tuple[Limit, ...]:
+        """Those of the rotor."""
+        return self.rotor.limits
+
+    @property
+    def listed_limits(self) -> tuple[Limit, ...]:
+        """Those of the rotor."""
+        return self.rotor.listed_limits
+
+    @property
+    def pull(self) -> tuple[Force, ...]:
+        """That of the rotor."""
+        return self.rotor.pull
+
+    @property
+    def stated_forces(self) -> tuple[Force, ...]:
+        """Those of the rotor."""
+        return self.rotor.stated_forces
+
+    @property
+    def races(self) -> tuple[Race | None, ...]:
+        """Those of the rotor."""
+        return self.rotor.races
+
+    def bearing_at(self, plane: int) -> TouchdownBearing | None:
+        """That of the rotor."""
+        return self.rotor.bearing_at(plane)
+
+    @property
+    def is_on_mount(self) -> bool:
+        """Whether that of the rotor does."""
+        return self.rotor.is_on_mount
+
+    @property
+    def carried_by_housing(self) -> np.ndarray:
+        """Those of the rotor."""
+        return self.rotor.carried_by_housing
+
+    @property
+    def acting_on_conjugates(self) -> np.ndarray | None:
+        """Those of the rotor."""
+        return self.rotor.acting_on_conjugates
+
+    @property
+    def finite_elements(self) -> Any:
+        """Those behind the rotor."""
+        return self.rotor.finite_elements
+
+    @property
+    def carry_at_regain(self) -> np.ndarray | None:
+        """That of the rotor."""
+        return self.rotor.carry_at_regain
+
+    def unbalance_push(self, node: int | None = None) -> np.ndarray:
+        """That of the rotor: coordinates of what stands around it, such as a mount, are not pushed."""
+        push = self.rotor.unbalance_push(node)
+        return np.append(push, np.zeros(len(self.matrices.mass) - len(push)))
+
+    def unbalance_along(self, node: int | None = None) -> float | None:
+        """That of the rotor."""
+        return self.rotor.unbalance_along(node)
+
+    def with_changed_unbalance(self, change: complex, node: int | None = None) -> tuple[Any, float]:
+        """The same around the changed rotor."""
+        rotor, turned = self.rotor.with_changed_unbalance(change, node)
+        return replace(self, rotor=rotor), turned  # type: ignore[type-var]  # all that is around a rotor is a dataclass
+
 
 @dataclass(frozen=True, eq=False)
 class Forced(Around):
@@ -69,6 +154,20 @@ class Forced(Around):
 
     rotor: Model
     forces: tuple[Force, ...]
+
+    @property
+    def stated_forces(self) -> tuple[Force, ...]:
+        """Those of the rotor, and further ones."""
+        return (*self.rotor.stated_forces, *self.forces)
+
+    @property
+    def unforced(self) -> Model:
+        """The rotor without stated forces."""
+        return self.rotor.unforced
+
+    def without_levitation(self) -> Forced:
+        """See :meth:`~carom.models.Model.without_levitation`."""
+        return Forced(self.rotor.without_levitation(), self.forces)
 
     def __post_init__(self) -> None:
         _check_one_stage(self.rotor)
@@ -270,9 +369,20 @@ class Staged(Around):
         """Modes, contact planes and contact law of the first stage."""
         return self.rotor.system
 
+    @property
+    def planar(self) -> None:
+        """None: its stages may have different ones."""
+
     def replace(self, **changes: Any) -> Staged:
         """Return the rotor with other values of parameters in all stages."""
         return Staged(tuple(replace(each, rotor=each.rotor.replace(**changes)) for each in self.stages))
+
+    def with_changed_unbalance(self, change: complex, node: int | None = None) -> tuple[Staged, float]:
+        """The same in all stages."""
+        moved = [each.rotor.with_changed_unbalance(change, node) for each in self.stages]
+        return Staged(
+            tuple(replace(each, rotor=rotor) for each, (rotor, _) in zip(self.stages, moved, strict=True))
+        ), moved[0][1]
 
     def attributes(self) -> dict[str, Any]:
         """Return the stages as attributes of a dataset, exact to the last bit."""
@@ -285,13 +395,6 @@ class Staged(Around):
             for each in self.stages
         ]
         return {"stages": json.dumps(stages)}
-
-
-def forces_of(model: Model) -> tuple[Force, ...]:
-    """Forces on a rotor that change with time in its frame; of a rotor in stages those of the first."""
-    if isinstance(model, Staged):
-        return forces_of(model.rotor)
-    return (*forces_of(model.rotor), *model.forces) if isinstance(model, Forced) else ()
 
 
 @checked

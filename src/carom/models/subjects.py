@@ -17,7 +17,7 @@ from carom.models.limited import Limited, limits_from
 from carom.models.linear import LinearRotor
 from carom.models.model import Model
 from carom.models.stages import Forced, Stage, Staged, Trigger
-from carom.models.weight import refuse_forces, weighted
+from carom.models.weight import weighted
 from carom.outcome import InputError, shown
 from carom.parameters import Case, Drive, Machine, Parameters, TouchdownBearing, Zones
 
@@ -67,8 +67,8 @@ def jeffcott_of(subject: Subject) -> Jeffcott:
         It is none of these, another model, or has weight.
     """
     model = model_of(subject)
-    if isinstance(model, Jeffcott):
-        return model
+    if model.has_closed_forms:
+        return cast("Jeffcott", model)
     refuse_other_rotors(subject)
     if isinstance(model, Limited):
         allowed = (
@@ -77,7 +77,7 @@ def jeffcott_of(subject: Subject) -> Jeffcott:
         )
         raise InputError("limits", model.words_of_limits, allowed)
     if isinstance(model, Forced):
-        refuse_forces(model)
+        model.refuse_forces()
     if isinstance(model, InBearing):
         allowed = "a rigid wall that stands still, and a shaft at constant speed: this result is known for these alone; carom.simulate, carom.settle and others work"
         raise InputError("touchdown", model.words_of_bearing, allowed)
@@ -85,38 +85,9 @@ def jeffcott_of(subject: Subject) -> Jeffcott:
 
 
 def refuse_other_rotors(subject: Subject) -> None:
-    """Refuse what is no planar rotor, whatever forces act on it; a rotor of several stages is left to others."""
-    model = model_of(subject)
-    for kind in Forced, Limited:
-        model = model.rotor if isinstance(model, kind) else model
-    if isinstance(model, LinearRotor):
+    """Refuse what is no planar rotor, whatever forces act on it."""
+    if model_of(subject).planar is None:
         raise InputError("machine", shown(subject), _PLANAR)
-
-
-def parameters_of(model: Model) -> Parameters | None:
-    """Parameters of the planar rotor, whatever forces act on it; ``None`` of other models, whose numbers are matrices."""
-    if isinstance(model, Forced | Limited):
-        return parameters_of(model.rotor)
-    return model.parameters if isinstance(model, Jeffcott | InBearing) else None
-
-
-def in_rigid_wall(model: Model) -> Parameters | None:
-    """Parameters of the planar rotor in a rigid wall, whose load is compared with that of solid steel; ``None`` of other models and walls."""
-    return None if model.system.arrays["stiffness"].any() else parameters_of(model)
-
-
-def numbers_of(model: Model) -> dict[str, float] | None:
-    """Parameters of the planar rotor by name, without a restitution that its wall does not have; ``None`` of other models."""
-    parameters = parameters_of(model)
-    if parameters is None:
-        return None
-    return {name: value for name, value in parameters.as_dict().items() if name in model.varied}
-
-
-def rotor_document(rotor: Model) -> dict[str, Any]:
-    """What describes a rotor in a document: the parameters of the planar one, the attributes of any other."""
-    numbers = numbers_of(rotor)
-    return {"parameters": numbers} if numbers else {"rotor": rotor.attributes()}
 
 
 @checked

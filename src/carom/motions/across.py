@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from carom.models.directions import conjugate_of
 from carom.models.mirror import TURN
 from carom.motions.trajectories import Trajectory
 
@@ -16,7 +15,7 @@ class Across:
     """
 
     def __init__(self, trajectory: Trajectory) -> None:
-        n, pair = len(trajectory.rotor.system.rest), conjugate_of(trajectory.rotor)
+        n, pair = len(trajectory.rotor.system.rest), trajectory.rotor.acting_on_conjugates
         self.begins, self.acts = trajectory.begins, pair is not None
         damping, stiffness = np.zeros((2, n, n)) if pair is None else pair
         self.damping: np.ndarray = damping

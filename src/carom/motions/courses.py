@@ -9,8 +9,6 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from carom.models import Model
-from carom.models.in_bearing import on_mount
-from carom.models.weight import direction_of_fall
 from carom.motions.contacts import presses, race_speed, shaft_lead, yields
 from carom.motions.load_sums import drop_loads
 from carom.motions.trajectories import Trajectory
@@ -102,7 +100,7 @@ def course_of(motion: Trajectory, until: float, samples: int = EVEN) -> Course:
     return Course(
         times=times,
         place=place,
-        mount=mount if on_mount(motion.rotor) else None,
+        mount=mount if motion.rotor.is_on_mount else None,
         heavy=heavy,
         force=force,
         friction=friction,
@@ -111,14 +109,14 @@ def course_of(motion: Trajectory, until: float, samples: int = EVEN) -> Course:
         held=held,
         blows=None if yields(system, motion.plane) else _blows(parts, until),
         stages=tuple(part.begins for part in parts[1:] if part.begins < until),
-        down=direction_of_fall(motion.rotor),
+        down=motion.rotor.direction_of_fall,
         scales=motion.scales,
     )
 
 
 def _mount(rotor: Model, amplitudes: np.ndarray) -> np.ndarray:
     """Place of the mount in the frame of the rotor; zero without one."""
-    if not on_mount(rotor):
+    if not rotor.is_on_mount:
         return np.zeros(len(amplitudes), complex)
     place: np.ndarray = rotor.system.state(amplitudes)[0][:, 1]
     return place

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 
 from carom.arguments import checked
 from carom.models import Model, Stage, Staged, Subject, Trigger, model_of
-from carom.models.in_bearing import races_of
-from carom.models.weight import carry_at_regain, direction_of_fall, levitation_of, weight_of, without_levitation
+from carom.models.stages import stages_of
+from carom.models.weight import levitation_of
 from carom.motions.starts import Kick, State
 from carom.outcome import InputError, shown
 from carom.parameters import own_size, own_time
@@ -86,19 +86,19 @@ class Drop:
             or a text is no such size.
         """
         rotor = model_of(machine)
-        if weight_of(rotor) is None:
+        if rotor.weight is None:
             allowed = "a drop needs weight: a table [gravity] in the machine file, or --set gravity=9.81 for once"
             raise InputError("gravity", None, allowed)
-        if isinstance(rotor, Staged):
+        if stages_of(rotor)[0].rotor is not rotor:
             raise InputError("machine", shown(machine), "a machine of one stage: a drop makes stages of its own")
         if self.phase is not None:
             rotor = rotor.replace(phi=self.unbalance_angle(rotor))
         start = self._start(rotor)
-        falling = without_levitation(rotor)
+        falling = rotor.without_levitation()
         if self.regained_after is None:
             return falling, start
         time = own_time("regained_after", self.regained_after, rotor.scales)
-        return Staged((Stage(falling, Trigger(time=time), carry_at_regain(rotor)), Stage(rotor))), start
+        return Staged((Stage(falling, Trigger(time=time), rotor.carry_at_regain), Stage(rotor))), start
 
     def unbalance_angle(self, rotor: Model) -> float:
         """Angle of the unbalance of a rotor that weighs something at the release, in the fixed frame, in rad.
@@ -111,14 +111,14 @@ class Drop:
         if self.phase is None:
             return rotor.unbalance_phase
         ahead = own_size("phase", self.phase, "angle", rotor.scales)
-        return math.remainder(direction_of_fall(rotor) + ahead, 2.0 * math.pi)
+        return math.remainder(rotor.direction_of_fall + ahead, 2.0 * math.pi)
 
     def _start(self, rotor: Model) -> State:
         """State at the release."""
         state = self._moving(rotor)
         if self.race_speed is None:
             return state
-        radii = [race.radius for race in races_of(rotor) if race is not None]
+        radii = [race.radius for race in rotor.races if race is not None]
         if not radii:
             raise InputError("race_speed", self.race_speed, "a touchdown bearing with a race that turns: race_inertia")
         speed = own_size("race_speed", self.race_speed, "speed", rotor.scales)

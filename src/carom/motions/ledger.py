@@ -11,8 +11,6 @@ from carom.arguments import checked
 from carom.core.wall_work import LOST
 from carom.models import Matrices
 from carom.models.excess import excess_accelerations, excess_of
-from carom.models.in_bearing import pull_of
-from carom.models.stages import forces_of
 from carom.motions.across import Across
 from carom.motions.contacts import Table, column, race_speed, slip_velocity, yields
 from carom.motions.quadrature import NODES, WEIGHTS, pieces
@@ -211,7 +209,7 @@ def _work_of_jolts(trajectory: Trajectory, jolts: np.ndarray) -> np.ndarray:
 def _power_of_forces(trajectory: Trajectory, times: np.ndarray, velocity: np.ndarray) -> np.ndarray:
     """Power of the forces that change with time in the frame of the rotor, weight among them; velocities (..., n) in the fixed frame."""
     power, since = np.zeros(times.shape), trajectory.begins + times
-    for force in (*forces_of(trajectory.rotor), *pull_of(trajectory.rotor)):
+    for force in trajectory.rotor.acting_forces:
         push = trajectory.rotor.matrices.mass @ force.accelerations
         power += ((velocity.conj() @ push) * np.exp(force.exponent * since)).real
     return power

@@ -9,11 +9,10 @@ from typing import NamedTuple
 import numpy as np
 
 from carom.arguments import Count, checked
+from carom.closed_forms.exact_results import exact_results
 from carom.closed_forms.hertz import ball_pressure
-from carom.closed_forms.known import known_of
 from carom.core.wall_work import DEPTH, FORCE, HEAT, POWER
 from carom.models import Subject
-from carom.models.in_bearing import bearing_at, races_of
 from carom.motions.bearing_loads import Braking, DropLoads, FirstContact, PlaneLoads
 from carom.motions.contacts import ContactLog, presses, race_speed, yields
 from carom.motions.drops import Drop
@@ -300,9 +299,9 @@ class _AtPlane:
         """Loads up to the end of a piece."""
         rotor, scales, plane = last.rotor, last.scales, last.plane
         soft = yields(rotor.system, plane)
-        force, bearing = float(self.largest[FORCE]), bearing_at(rotor, plane)
+        force, bearing = float(self.largest[FORCE]), rotor.bearing_at(plane)
         if not soft and last.outcome is Outcome.ROLLING:
-            force = max(force, known_of(rotor).rolling_force)
+            force = max(force, exact_results(rotor).rolling_force)
         return TouchdownLoads(
             outcome=last.outcome,
             impacts=self.contacts,
@@ -330,7 +329,7 @@ class _AtPlane:
 
     def found(self, last: Trajectory) -> PlaneLoads:
         """All that is told of the plane at the end of a piece, which reaches back over the last turns."""
-        soft, race = yields(last.rotor.system, last.plane), races_of(last.rotor)[last.plane]
+        soft, race = yields(last.rotor.system, last.plane), last.rotor.races[last.plane]
         at_end = race_speed(last.rotor.system, last.plane, last.last_amplitudes)
         return PlaneLoads(
             plane=last.plane,

@@ -20,7 +20,6 @@ from carom.core.fate import BLOCK, NO_TURN, TURNS, memory
 from carom.core.layout import rub_workspace, workspace
 from carom.core.phases import lasts
 from carom.models import Model
-from carom.models.weight import weight_of
 from carom.outcome import Outcome, Phase
 
 STEADY = 1e-3
@@ -41,7 +40,7 @@ def goes_round(rotor: Model, amplitudes: np.ndarray, contact: np.ndarray, recoll
         return None
     in_step = recollection.turning != NO_TURN and recollection.turn_time >= 2 * TURNS * 2.0 * math.pi
     lasts_on = recollection.turns >= 2 * TURNS or _steady(recollection)
-    if not (in_step or lasts_on) or (weight_of(rotor) is None and not rotor.system.timed):
+    if not (in_step or lasts_on) or (rotor.weight is None and not rotor.system.timed):
         return None
     plane = next((place for place, each in enumerate(contact.tolist()) if lasts(each)), None)
     if plane is None:
@@ -75,7 +74,7 @@ def lies(rotor: Model, amplitudes: np.ndarray, contact: np.ndarray, recollection
     recollection : record of :func:`carom.core.fate.memory`
     """
     touching = np.array([lasts(int(each)) for each in contact])
-    if weight_of(rotor) is None or not touching.any():
+    if rotor.weight is None or not touching.any():
         return False
     (arrays, table), (planes, modes) = rotor.system.own_records(), rotor.system.arrays["rows"].shape
     limits, state, contact = rotor.system.limits, amplitudes.copy(), contact.copy()

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from carom.closed_forms.known import known_of
+from carom.closed_forms.exact_results import exact_results
 from carom.closed_forms.rub_stability import rub_attracts
 from carom.core.closing import PASSES, least_period
 from carom.core.event_log import EventLog
@@ -17,7 +17,6 @@ from carom.core.limits import set_limits
 from carom.core.planar_proofs import fades_to_rolling, planar_proofs
 from carom.models import Model, System
 from carom.models.stages import NEVER, Trigger
-from carom.models.weight import weight_of
 from carom.motions.recurrence import least_recurrence
 from carom.motions.resting import goes_round, lies
 from carom.outcome import Outcome
@@ -66,7 +65,7 @@ def fresh_memory(
     With a ``patience`` of zero the motion never counts as settled.  With ``absorb`` it ends as soon as it is proven to
     go over to the synchronous rub or to rolling, otherwise when it has reached them.
     """
-    known = known_of(rotor)
+    known = exact_results(rotor)
     # What goes over to lasting contact triggers there.
     absorb = absorb and trigger.contact_time == np.inf
     rub, around = known.rub if patience > 0 else None, known.around if patience > 0 and absorb else None
@@ -184,7 +183,7 @@ def low_interval(rotor: Model) -> float:
 
 def _fade(rotor: Model, arrival: np.ndarray) -> bool:
     """Whether bounces from a state just before an impact are proven to fade to rolling."""
-    proofs = planar_proofs(fading=known_of(rotor).fading)
+    proofs = planar_proofs(fading=exact_results(rotor).fading)
     return bool(fades_to_rolling(proofs, rotor.system.arrays, arrival))
 
 
@@ -213,6 +212,6 @@ def time_limit(rotor: Model, trigger: Trigger) -> float:
 def longest_time(rotor: Model) -> float:
     """Time limit in ``1/Ω`` for a motion to settle: TIME_CONSTANTS time constants of free flight, within bounds; else :data:`FALLING_TURNS`."""
     decay = rotor.system.decay
-    if weight_of(rotor) is not None and not rotor.system.levitates and rotor.system.shaft is None:
+    if rotor.weight is not None and not rotor.system.levitates and rotor.system.shaft is None:
         return 2.0 * math.pi * FALLING_TURNS
     return min(max(TIME_CONSTANTS / decay, SHORTEST_LIMIT), LONGEST_LIMIT) if decay > 0.0 else SHORTEST_LIMIT

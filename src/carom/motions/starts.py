@@ -14,7 +14,7 @@ from carom.core.phases import AWAY, FLIGHT
 from carom.core.rub import phase_in_wall
 from carom.core.wall import set_on_wall
 from carom.models import Model, System, depends_on_instant
-from carom.models.weight import levitation_of, weight_of
+from carom.models.weight import levitation_of
 from carom.outcome import InputError
 from carom.parameters import own_size
 
@@ -114,7 +114,7 @@ class Kick:
         InputError
             The text is no speed or no angle, or its unit needs scales that the rotor does not have; or the rotor sags to the wall.
         """
-        if weight_of(rotor) is not None:
+        if rotor.weight is not None:
             levitation_of(rotor)
         speed = own_size("kick speed", self.speed, "velocity", rotor.scales)
         push = cmath.rect(speed, own_size("kick angle", self.angle, "angle", rotor.scales))

@@ -12,7 +12,6 @@ from carom.core import variation
 from carom.core.event_log import EventLog
 from carom.core.fate import memory
 from carom.models import Subject, jeffcott_of, model_of
-from carom.models.weight import refuse_forces
 from carom.motions.simulation import follow, simulate
 from carom.motions.starts import LARGEST_SPEED, State
 from carom.motions.trajectories import Trajectory
@@ -109,7 +108,7 @@ def impact_map(machine: Subject, section: Section, longest_flight: Positive = 10
         The rotor does not move toward the wall, its wall gives way, or it has several coordinates, of which the section is no state.
     """
     rotor = model_of(machine)
-    refuse_forces(rotor)
+    rotor.refuse_forces()
     if rotor.system.arrays["stiffness"].any():
         raise InputError(
             "machine", "a wall that gives way", "rigid walls: contact with a wall that gives way is no impact"

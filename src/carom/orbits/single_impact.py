@@ -184,7 +184,7 @@ def find_orbits(
     if impacts is not None:
         model, tell = model_of(machine), Reporter.of(progress, "searching orbits")
         model.system.refuse_unrepeated()
-        known = [*orbits_within_reach(model), *rubbing_orbits(model)] if isinstance(model, Jeffcott) else []
+        known = [*orbits_within_reach(model), *rubbing_orbits(model)] if model.has_closed_forms else []
         there = [orbit for orbit in known if orbit.admissible]
         members, search = search_orbits(model, impacts, guesses, seed, there, tell)
         return OrbitSet(

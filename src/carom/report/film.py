@@ -13,7 +13,6 @@ from typing import Any, NamedTuple
 import numpy as np
 from markupsafe import Markup
 
-from carom.models.in_bearing import races_of
 from carom.motions import Trajectory
 from carom.motions.courses import FOLLOWED, Blows, Course, course_of, first_contacts, shown_until
 from carom.report.strips import WIDTH, Strip, Units, strips_of
@@ -268,7 +267,7 @@ def film_of(motion: Trajectory) -> Film:
     """Sample a drop at its plane for a film: as much of it as can be seen contact by contact."""
     shown = shown_until(motion)
     until, samples = _sampled(motion, min(shown, first_contacts(motion, FOLLOWED), TURNS * math.tau))
-    race = races_of(motion.rotor)[motion.plane]
+    race = motion.rotor.races[motion.plane]
     return Film(
         course=course_of(motion, until, samples),
         units=Units.of(motion.scales),

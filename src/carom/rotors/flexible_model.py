@@ -14,8 +14,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import numpy as np
 
 from carom.arguments import checked, having
-from carom.models import Limit, LinearRotor, Model, Rates
-from carom.models.stages import Around
+from carom.models import Limit, LinearRotor, Rates
 from carom.models.system import System
 from carom.outcome import InputError, shown
 from carom.parameters import Field, read_quantity
@@ -44,6 +43,12 @@ class FlexibleModel(LinearRotor):
     """
 
     reduced: Any = None
+
+    @property
+    def finite_elements(self) -> ReducedMachine:
+        """The machine and its vectors."""
+        machine: ReducedMachine = self.reduced
+        return machine
 
     @cached_property
     def system(self) -> System:
@@ -142,20 +147,20 @@ class FlexibleModel(LinearRotor):
         return made
 
     def unbalance_push(self, node: int | None = None) -> np.ndarray:
-        """See :func:`carom.models.unbalance.unbalance_push`; at a node, with the phase of the unbalance there, otherwise of that of the rotor as a whole."""
+        """See :meth:`~carom.models.Model.unbalance_push`; at a node, with the phase of the unbalance there, otherwise of that of the rotor as a whole."""
         reduced, (node, own) = self.reduced, self._unbalance_at(node)
         push, size = np.zeros(len(self.mass), complex), math.sqrt(reduced.machine.rotor.mass)
         push[: reduced.vectors] = size * (row_of(reduced.machine.rotor, node) @ reduced.basis.shapes)
         return push * cmath.exp(1j * (cmath.phase(own) if own else self.unbalance_phase))
 
     def unbalance_along(self, node: int | None = None) -> float | None:
-        """See :func:`carom.models.unbalance.unbalance_along`."""
+        """See :meth:`~carom.models.Model.unbalance_along`."""
         node, own = self._unbalance_at(node)
         others = any(each.node != node for each in self.reduced.machine.unbalances)
         return None if others else abs(own) / self.reduced.scales.unbalance
 
     def with_changed_unbalance(self, change: complex, node: int | None = None) -> tuple[FlexibleModel, float]:
-        """See :func:`carom.models.unbalance.with_changed_unbalance`."""
+        """See :meth:`~carom.models.Model.with_changed_unbalance`."""
         changed, turned = super().with_changed_unbalance(change, node)
         reduced, (node, own) = self.reduced, self._unbalance_at(node)
         unit = cmath.rect(reduced.scales.unbalance, cmath.phase(own) if own else self.unbalance_phase)
@@ -202,10 +207,3 @@ class FlexibleModel(LinearRotor):
         plain = LinearRotor.from_attributes(attributes)
         own = {field.name: getattr(plain, field.name) for field in dataclasses.fields(LinearRotor)}
         return cls(**own, reduced=part_from(given["machine"]).with_modes(given["modes"]))
-
-
-def reduced_of(model: Model) -> ReducedMachine | None:
-    """The flexible machine behind a model, with its vectors, whatever forces act on it and whatever limits its bearings have; ``None`` of other models."""
-    while isinstance(model, Around):
-        model = model.rotor
-    return model.reduced if isinstance(model, FlexibleModel) else None

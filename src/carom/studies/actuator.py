@@ -37,8 +37,6 @@ from carom.core.limits import WITHIN
 from carom.disturbances import Sample
 from carom.models import model_of
 from carom.models.excess import excess_accelerations, excess_of
-from carom.models.limited import limits_of
-from carom.models.subjects import parameters_of
 from carom.motions.simulation import simulate
 from carom.motions.starts import State
 from carom.motions.trajectories import Trajectory
@@ -78,7 +76,7 @@ class Centre(NamedTuple):
     @classmethod
     def along(cls, motion: Trajectory, times: np.ndarray) -> Centre:
         """At given times of a motion of the planar rotor; at an impact just after it."""
-        numbers: Any = parameters_of(motion.rotor)
+        numbers: Any = motion.rotor.planar
         position, turning = motion.at(times)
         velocity = turning + 1j * position
         normal, friction = motion.forces(times)
@@ -209,7 +207,7 @@ def bearing_demand(
     case: Case, equilibria: Iterable[SteadyMotion], orbits: Iterable[Orbit], roll: Rolling | None, found: AttractorSet
 ) -> BearingDemand | None:
     """What the motions of a study have to do with the limits of the magnetic bearings; ``None`` if these have none."""
-    given, slew = limits_of(model_of(case)), slew_limit_of(case)
+    given, slew = model_of(case).limits, slew_limit_of(case)
     control = given if isinstance(given, ControlLimit) else None
     equilibria = tuple(equilibria)
     if isinstance(equilibria[0], Levitation):

@@ -15,7 +15,7 @@ from typing import Literal
 
 from carom.basins.changes import WANTED
 from carom.basins.shares import percent
-from carom.closed_forms.known import known_of
+from carom.closed_forms.exact_results import exact_results
 from carom.closed_forms.thresholds import FOLD, ROLLING, WALL
 from carom.closed_forms.whirl import Runaway
 from carom.disturbances import Sample
@@ -295,7 +295,7 @@ class _Adviser:
         value, present = check.value, self.present
         case = with_setting(self.case, terms)
         rotor = model_of(case)
-        known = known_of(rotor)
+        known = exact_results(rotor)
         margin: Margin | None = None
         far: Edge | None = None
         beyond: tuple[Check, ...] = ()

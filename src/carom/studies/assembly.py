@@ -18,7 +18,7 @@ from carom.attractors import DisturbanceSet, find_attractors
 from carom.basins import Share
 from carom.bifurcations.boundary import boundary_equilibria
 from carom.closed_forms import harmless_kick
-from carom.closed_forms.known import known_of
+from carom.closed_forms.exact_results import exact_results
 from carom.closed_forms.sag import steady_motions
 from carom.closed_forms.thresholds import Gain
 from carom.disturbances import AnyState, Disturbance, Plan, Sample
@@ -30,7 +30,6 @@ from carom.outcome import InputError, shown
 from carom.parameters import Case, Field, Required, Requirement, Zones, read_quantity
 from carom.progress import Reporter, ShowProgress, shows_progress
 from carom.results import in_a_line
-from carom.rotors.flexible_model import reduced_of
 from carom.studies.advice import GAIN_FACTOR, recommend
 from carom.studies.document import study_document
 from carom.studies.facts import Fact
@@ -163,7 +162,7 @@ def study(
     tell = Reporter.of(progress, "study")
     seconds = math.inf if time_limit is None else read_quantity(TIME_LIMIT, time_limit)
     rotor = model_of(case)
-    if (reduced := reduced_of(rotor)) is not None:
+    if (reduced := rotor.finite_elements) is not None:
         if disturbances is not None or proofs:
             given, allowed = (
                 ("disturbances", disturbances) if disturbances is not None else ("proofs", proofs),
@@ -171,7 +170,7 @@ def study(
             )
             raise InputError(given[0], shown(given[1]), allowed)
         return study_of_machine(case, rotor, reduced, Budget(seconds), tell)
-    known, required = known_of(rotor).orbits, case.requirement.own(rotor.scales)
+    known, required = exact_results(rotor).orbits, case.requirement.own(rotor.scales)
     proof = kicks = states = None
     if proofs:
         proof, kicks, states = _proven(rotor, required.kick, proof_time, tell.part(0.0, 0.3))
@@ -249,7 +248,7 @@ def _case_of(machine: Subject) -> Case:
     model = model_of(machine)
     if isinstance(machine, Case):
         return machine
-    if known_of(model).orbits:
+    if exact_results(model).orbits:
         return case_of(machine)
     return Case("rotor", model, None, Zones())
 

@@ -8,7 +8,6 @@ from typing import Any
 from carom.attractors import Attractor, AttractorSet, Character, document_of, exact_interval
 from carom.basins import share_of_kicks
 from carom.models import Model
-from carom.models.subjects import rotor_document
 from carom.results import fields_of
 
 
@@ -24,7 +23,7 @@ def attractors_document(
         _attractor(entry, total, character, exponents) for entry, character in zip(found, characters, strict=True)
     ]
     return {
-        **rotor_document(rotor),
+        **rotor.document(),
         "attractors": entries,
         "share": share.document if share else None,
         "disturbances": found.words(),

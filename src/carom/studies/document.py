@@ -19,7 +19,6 @@ from carom.bifurcations.boundary import BoundaryEquilibrium
 from carom.bifurcations.documents import search_document
 from carom.closed_forms.sag import Levitation, SteadyMotion
 from carom.models import Jeffcott, Model, Span
-from carom.models.subjects import in_rigid_wall, rotor_document
 from carom.orbits.orbit import Orbit
 from carom.orbits.single_impact import OrbitSet
 from carom.parameters import MACHINE_FIELDS, Machine, Parameters, Scales
@@ -51,7 +50,7 @@ def _orbits_of(
     rotor: Model, equilibria: tuple[SteadyMotion, ...], orbits: OrbitSet, machine: Machine | None
 ) -> dict[str, Any]:
     return {
-        **rotor_document(rotor),
+        **rotor.document(),
         "machine_si": {name: getattr(machine, name) for name in MACHINE_FIELDS} if machine is not None else None,
         "machine_given": machine.given_texts if machine is not None else None,
         "equilibria": [_equilibrium(entry, rotor) for entry in equilibria],
@@ -64,7 +63,7 @@ def _orbits_of(
 def found_orbits_document(parameters: Parameters | Model, found: OrbitSet) -> dict[str, Any]:
     """Return the document of orbits with at most a number of impacts."""
     return {
-        **({"parameters": parameters.as_dict()} if isinstance(parameters, Parameters) else rotor_document(found.rotor)),
+        **({"parameters": parameters.as_dict()} if isinstance(parameters, Parameters) else found.rotor.document()),
         "impacts": found.impacts,
         "orbits": [
             {
@@ -144,7 +143,7 @@ def _equilibrium(entry: SteadyMotion, rotor: Model) -> dict[str, Any]:
         document |= fields_of(entry, "sag", "whirl")
     document |= in_si(document, scales, "radius", "normal_force")
     if scales is not None and entry.kind == "rub":
-        document |= _wall(indentation_of_force(in_rigid_wall(rotor), entry.normal_force))
+        document |= _wall(indentation_of_force(rotor.in_rigid_wall, entry.normal_force))
     return document
 
 
@@ -155,7 +154,7 @@ def _orbit(entry: Orbit, scales: Scales | None) -> dict[str, Any]:
     if own is not None:
         document |= in_si(document, own, "period", "radial_speed")
         document |= {"normal_impulse_si": entry.impulse * own.impulse}
-        document |= _wall(indentation_of_hit(in_rigid_wall(entry.rotor), entry.radial_speed))
+        document |= _wall(indentation_of_hit(entry.rotor.in_rigid_wall, entry.radial_speed))
     return document
 
 
@@ -219,7 +218,7 @@ def _check(check: Check) -> dict[str, Any]:
 
 
 def _attractor(entry: Attractor, rotor: Model) -> dict[str, Any]:
-    scales, at = rotor.scales, in_rigid_wall(rotor)
+    scales, at = rotor.scales, rotor.in_rigid_wall
     told = fields_of(entry, name="name", outcome="name.outcome.label", settled="settled")
     told |= fields_of(entry, multiplicity="name.multiplicity", period="period", whirl="whirl", count="count")
     told |= fields_of(entry, "share_of_disturbances", known_starts="known")
@@ -232,7 +231,7 @@ def _attractor(entry: Attractor, rotor: Model) -> dict[str, Any]:
 
 
 def _disturbances(found: AttractorSet, rotor: Model) -> dict[str, Any]:
-    scales, at = rotor.scales, in_rigid_wall(rotor)
+    scales, at = rotor.scales, rotor.in_rigid_wall
     touched = touching(found)
     document = {
         "seed": getattr(found.sample, "seed", None),
@@ -275,5 +274,5 @@ def _rolling(study: StudyData) -> dict[str, Any] | None:
     document = fields_of(roll, "holds", "speed", "largest_force")
     document |= in_si(document, scales, "largest_force")
     if scales is not None:
-        document |= _wall(indentation_of_force(in_rigid_wall(study.rotor), roll.largest_force))
+        document |= _wall(indentation_of_force(study.rotor.in_rigid_wall, roll.largest_force))
     return document

@@ -8,7 +8,6 @@ from typing import Any
 from carom.attractors import MotionName
 from carom.disturbances.echo import Echo
 from carom.models import model_of
-from carom.models.subjects import rotor_document
 from carom.motions import DropLoads
 from carom.motions.reduction_errors import ReductionError
 from carom.outcome import Outcome
@@ -73,7 +72,7 @@ class DropStudy(Result):
         document: dict[str, Any] = {
             "name": case.name,
             "disturbance": self.echo.document(scales),
-            **rotor_document(model_of(case)),
+            **model_of(case).document(),
             "gravity": {"acceleration_si": gravity.acceleration, "direction": gravity.direction} if gravity else {},
             "touchdown": {"law": case.touchdown.law, **case.touchdown.given} if case.touchdown else {"law": "rigid"},
             **fields_of(loads, "time", "settled_at", outcome="outcome.label", meaning="outcome.meaning"),

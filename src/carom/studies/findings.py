@@ -7,10 +7,9 @@ from collections.abc import Callable, Mapping
 from carom.attractors import AttractorSet
 from carom.attractors.names import LEVITATION
 from carom.closed_forms.equilibria import Equilibrium
-from carom.closed_forms.known import known_of
+from carom.closed_forms.exact_results import exact_results
 from carom.closed_forms.sag import Levitation
 from carom.closed_forms.whirl import Rolling, Runaway
-from carom.models.subjects import in_rigid_wall
 from carom.motions.magnets import pull_words
 from carom.orbits.orbit import Orbit
 from carom.outcome import STEADY_WORDS, Outcome
@@ -113,7 +112,7 @@ def _rub(study: StudyData) -> str:
 
 def _rub_load(study: StudyData, rub: Equilibrium) -> str:
     say, wall = study.wording, study.rotor.system.contacts[rub.plane].wall
-    indentation = indentation_of_force(in_rigid_wall(study.rotor), rub.normal_force)
+    indentation = indentation_of_force(study.rotor.in_rigid_wall, rub.normal_force)
     if gives_way(indentation):
         return f"one for which there is no model: {steel_words(indentation)}"
     friction, slip = wall.friction * rub.normal_force, wall.surface_speed
@@ -128,7 +127,7 @@ def _rub_load(study: StudyData, rub: Equilibrium) -> str:
 
 def _of_hit(study: StudyData, impulse: float) -> str:
     """Return a clause on whether the rigid wall is a valid model for the normal impulse of a hit; empty if it is."""
-    at = in_rigid_wall(study.rotor)
+    at = study.rotor.in_rigid_wall
     text = no_rigid_wall(indentation_of_hit(at, impulse / (1.0 + at.d))) if at else ""
     return f"; {text}" if text else ""
 
@@ -215,7 +214,7 @@ def _irregular(found: AttractorSet) -> str:
 
 
 def _backward_whirl(study: StudyData) -> str:
-    say, known = study.wording, known_of(study.rotor)
+    say, known = study.wording, exact_results(study.rotor)
     roll, runaway = known.rolls, known.whirl
     if roll is None or runaway is None:
         return _simulated_rolling(study)

@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from typing import Any
 
 from carom.attractors import exact_interval
-from carom.models.subjects import rotor_document
 from carom.studies.facts import Fact
 from carom.studies.flexible_data import FlexibleData
 from carom.studies.load_tables import load_entries
@@ -20,7 +19,7 @@ def machine_document(study: FlexibleData, verdict: Verdict, facts: Sequence[Fact
     reduced = study.reduced
     return {
         "name": study.case.name,
-        **rotor_document(study.rotor),
+        **study.rotor.document(),
         "verdict": {"level": verdict.level, "outcome": verdict.outcome, "reason": verdict.reason, "headline": verdict.headline},
         "reduction": {"vectors": reduced.vectors, "modes": reduced.modes, "error": reduced.error, "error_is": "an estimate, no bound"},
         "levitating": study.levitation.document(),

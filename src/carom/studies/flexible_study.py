@@ -8,7 +8,6 @@ from typing import Any
 
 from carom.attractors import DisturbanceSet, find_attractors
 from carom.models import Model
-from carom.models.weight import weight_of
 from carom.motions import drop, drop_loads, simulate
 from carom.motions.budget import Budget
 from carom.motions.reduction_errors import reduction_error
@@ -73,7 +72,7 @@ def study_of_machine(
     beyond = kicks_beyond(rotor, required, trials[0], budget) if trials else ()
     tell(0.85, "the drop")
     fall = None
-    if weight_of(rotor) is not None and holds:
+    if rotor.weight is not None and holds:
         fall = simulate(rotor, drop(), f"{FALLING} s", max_events=MOST_EVENTS)
     along = None if fall is None else reduction_error(reduced, drop_loads(fall), lambda finer: (finer.model, drop()))
     return FlexibleStudy(case, rotor, reduced, levitation, found, trials, beyond, fall, along, budget.unfinished)

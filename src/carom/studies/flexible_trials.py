@@ -31,7 +31,6 @@ from carom.outcome import Outcome
 from carom.parameters import Case, LoadLimits, Required, Scales
 from carom.progress import Reporter
 from carom.results import Result
-from carom.rotors.flexible_model import reduced_of
 from carom.studies.load_checks import LoadCheck, checks_of_planes
 from carom.studies.questions import ALL_ROUND, DRAWN, EVENTS_OF_FLEXIBLE, LARGER
 from carom.studies.verdict_facts import KINDS
@@ -203,7 +202,7 @@ def _drawn(rotor: Model, model: Disturbance, count: int) -> tuple[Share, Counter
 def _reduction(
     rotor: Model, motion: Trajectory, at: Callable[..., tuple[Model, Any]], pair: tuple[float, float]
 ) -> ReductionError | None:
-    reduced = reduced_of(rotor)
+    reduced = rotor.finite_elements
     return (
         None if reduced is None else reduction_error(reduced, drop_loads(motion), lambda finer: at(finer.model, *pair))
     )

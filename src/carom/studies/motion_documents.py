@@ -6,7 +6,6 @@ from dataclasses import replace
 from typing import Any
 
 from carom.arguments import checked
-from carom.models.subjects import rotor_document
 from carom.motions import drop_loads
 from carom.motions.contacts import LastingContact
 from carom.motions.starts import State
@@ -44,7 +43,7 @@ def trajectory_document(trajectory: Trajectory, limits: LoadLimits | None = None
 def _stage(motion: Trajectory, limits: LoadLimits) -> dict[str, Any]:
     """A stage, with what the bearings bear in it and in those before that it knows."""
     document: dict[str, Any] = {
-        **rotor_document(motion.rotor),
+        **motion.rotor.document(),
         "start": state_document(motion.start),
         **fields_of(motion, outcome="outcome.label", meaning="outcome.meaning"),
         **fields_of(motion, "multiplicity", "time"),

@@ -17,7 +17,7 @@ from carom.bifurcations.steady import steady_points
 from carom.closed_forms.equilibria import find_equilibria
 from carom.closed_forms.thresholds import Gain, Steady, ranges_of
 from carom.closed_forms.whirl import rolling
-from carom.models import Axis, Edge, Jeffcott, Model, Span, axis
+from carom.models import Axis, Edge, Jeffcott, Model, Span, axis, jeffcott_of
 from carom.models.axes import usual_range
 from carom.models.spans import spans_where
 from carom.orbits.single_impact import longest_within_reach, orbits_within_reach
@@ -116,8 +116,9 @@ def motion_ranges(rotor: Model, along: Axis, progress: ShowProgress = None) -> t
     and of the stable ones if there are not too many to follow; none where no search is possible: without damping, or with so
     little that there are too many orbits to follow or to list.
     """
-    if not isinstance(rotor, Jeffcott):
+    if not rotor.has_closed_forms:
         return ()
+    rotor = jeffcott_of(rotor)
     own = _OWN.get(along.name, along.name)
     varied = axis(rotor, own)
     values = _values(rotor, varied)

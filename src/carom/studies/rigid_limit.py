@@ -17,7 +17,8 @@ import numpy as np
 from carom.basins.shares import Share
 from carom.disturbances import Sample, VelocityKick
 from carom.disturbances.following import follow
-from carom.models import HuntCrossley, InBearing, Jeffcott, KelvinVoigt, LinearRotor, Model, Touchdown
+from carom.models import HuntCrossley, Jeffcott, KelvinVoigt, LinearRotor, Model, Touchdown
+from carom.models.in_bearing import law_of
 from carom.motions.budget import NOT_FOLLOWED
 from carom.parameters import Scales, TouchdownBearing
 from carom.parameters.restitution import (
@@ -63,13 +64,16 @@ class OtherWall:
 def on_other_walls(rotor: Model, disturbances: Sequence[Sample]) -> tuple[OtherWall, ...]:
     """Follow disturbances of a planar rotor on its wall and on others; none for other rotors, and without a restitution above zero."""
     others: list[tuple[float | None, Model]]
-    if isinstance(rotor, Jeffcott) and rotor.parameters.d > 0.0:
-        unit, restitution = rotor.scales.stiffness if rotor.scales else 1.0, rotor.parameters.d
+    if rotor.planar is None or rotor.limits or rotor.stated_forces or rotor.system.shaft is not None:
+        return ()
+    bearing = rotor.bearing_at(0)
+    if rotor.has_closed_forms and rotor.planar.d > 0.0:
+        unit, restitution = rotor.scales.stiffness if rotor.scales else 1.0, rotor.planar.d
         stiffnesses = [each / unit for each in (BEARINGS if rotor.scales else RATIOS)]
         others = [(each, _on_a_spring(rotor, each)) for each in stiffnesses]
-    elif isinstance(rotor, InBearing) and rotor.drive is None and not _has_more(rotor.bearing):
-        restitution = _restitution(rotor.linear.touchdowns[0].law, disturbances)
-        others = [(None, rotor.rotor.replace(d=restitution))]
+    elif bearing is not None and rotor.scales is not None and not _has_more(bearing):
+        restitution = _restitution(law_of(bearing, rotor.scales), disturbances)
+        others = [(None, Jeffcott(rotor.planar.replace(d=restitution)))]
     else:
         return ()
     drawn = [replace(sample, seed=SEED) for sample in in_all(disturbances, TRIED)]
@@ -91,9 +95,10 @@ def _ends(rotor: Model, drawn: Sequence[Sample]) -> np.ndarray:
     return np.concatenate([ends.outcomes for ends in followed])
 
 
-def _on_a_spring(rotor: Jeffcott, stiffness: float) -> Model:
+def _on_a_spring(rotor: Model, stiffness: float) -> Model:
     """The rotor in a Kelvin–Voigt wall that gives a free rotor the restitution of its rigid one."""
-    at, (mass, damping, _, spring, forcing) = rotor.parameters, rotor.matrices
+    at: Any = rotor.planar
+    mass, damping, _, spring, forcing = rotor.matrices
     law = KelvinVoigt(stiffness, 2.0 * damping_ratio_of(at.d) * stiffness**0.5)
     touchdown = Touchdown([1.0], law, at.mu, at.radius_ratio + 1.0)
     return LinearRotor.in_fixed_frame(

@@ -10,7 +10,7 @@ from carom.attractors import AttractorSet
 from carom.basins import Share
 from carom.bifurcations.boundary import BoundaryEquilibrium
 from carom.closed_forms.equilibria import Equilibrium
-from carom.closed_forms.known import Known, known_of
+from carom.closed_forms.exact_results import ExactResults, exact_results
 from carom.closed_forms.sag import SteadyMotion
 from carom.models import Model
 from carom.motions.budget import Question
@@ -92,9 +92,9 @@ class StudyData(Result):
     states: Proof | None = None
 
     @property
-    def known(self) -> Known:
+    def known(self) -> ExactResults:
         """Exact results of the model."""
-        return known_of(self.rotor)
+        return exact_results(self.rotor)
 
     @property
     def rubs(self) -> tuple[Equilibrium, ...]:

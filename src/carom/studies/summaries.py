@@ -12,7 +12,6 @@ from carom.attractors.names import LEVITATION, SYNCHRONOUS_RUB
 from carom.basins import Share
 from carom.basins.shares import percent
 from carom.closed_forms.sag import Levitation, SteadyMotion
-from carom.models.subjects import in_rigid_wall
 from carom.orbits.orbit import Orbit
 from carom.orbits.single_impact import OrbitSet
 from carom.outcome import STEADY_WORDS, shown
@@ -192,7 +191,7 @@ def motion_rows(study: StudyData) -> list[MotionRow]:
     ]
     simple = {LEVITATION, SYNCHRONOUS_RUB, *(orbit.name for orbit in study.orbits)}
     others = [member for member in study.attractors if member.name not in simple]
-    return rows + [_seen(study.wording, member, study.attractors, in_rigid_wall(study.rotor)) for member in others]
+    return rows + [_seen(study.wording, member, study.attractors, study.rotor.in_rigid_wall) for member in others]
 
 
 def simple_motion_rows(
@@ -206,7 +205,7 @@ def simple_motion_rows(
 
     Orbits that are not possible are left out if there are more than ``most_virtual``.
     """
-    rows = steady_rows(equilibria, say, found, in_rigid_wall(orbits.rotor))
+    rows = steady_rows(equilibria, say, found, orbits.rotor.in_rigid_wall)
     virtual = [orbit for orbit in orbits if not orbit.admissible]
     shown = [orbit for orbit in orbits if orbit.admissible or len(virtual) <= most_virtual]
     return rows + [_bounce(orbit, say, _share(found, orbit.name)) for orbit in shown]
@@ -260,7 +259,7 @@ def _bounce(orbit: Orbit, say: Wording, share: str) -> MotionRow:
     name, period, size = f"orbit {orbit.name}", say.time(orbit.period), say.velocity(orbit.radial_speed)
     if not orbit.admissible:
         return MotionRow(name, "not possible", period, size, remark=orbit.reason)
-    impulse, at = orbit.impulse, in_rigid_wall(orbit.rotor)
+    impulse, at = orbit.impulse, orbit.rotor.in_rigid_wall
     grows = "" if orbit.stable else f"disturbances grow {orbit.multipliers.instability}"
     return MotionRow(
         name,

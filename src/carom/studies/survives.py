@@ -21,7 +21,6 @@ from carom.closed_forms.harmless import shift_by_unbalance
 from carom.disturbances import BaseShock, BladeLoss, Disturbance, Sample, VelocityKick
 from carom.disturbances.blows import LONGEST_SHOCK
 from carom.models import Model
-from carom.models.unbalance import unbalance_along
 from carom.motions.budget import Budget
 from carom.parameters import DIMENSIONLESS_FIELDS, SHOCK_DURATION, Required, Scales
 from carom.progress import Reporter
@@ -108,7 +107,7 @@ def largest_change(rotor: Model) -> float:
     Larger ones that add to the unbalance before lead to no levitation inside the wall; just below it motions do not settle.  Zero for a model whose
     unbalance is not known by one number.
     """
-    system, before = rotor.system, unbalance_along(rotor) if "rho" in rotor.varied else None
+    system, before = rotor.system, rotor.unbalance_along() if "rho" in rotor.varied else None
     if before is None or system.mirrored is not None:
         return 0.0
     sags = np.abs(system.arrays["rows"] @ system.outer)

@@ -150,13 +150,13 @@ class StudyTask:
         return found | in_si(found, rotor.scales, **scaled)
 
     def _closed_forms(self, rotor: Model, zones: Zones) -> dict[str, Any]:
-        from carom.closed_forms.known import known_of
+        from carom.closed_forms.exact_results import exact_results
         from carom.closed_forms.sag import steady_motions
         from carom.orbits.single_impact import orbits_within_reach
 
         levitation, *rubs = steady_motions(rotor)
         there = [rub for rub in rubs if rub.status == "admissible"]
-        known = known_of(rotor)
+        known = exact_results(rotor)
         found = {
             "levitates": levitation.status == "admissible" and levitation.stable,
             "levitation_radius": levitation.radius,
@@ -187,7 +187,7 @@ class StudyTask:
         }
 
     def _damping(self, rotor: Model, required: Required, seed: int) -> dict[str, Any]:
-        from carom.closed_forms.known import known_of
+        from carom.closed_forms.exact_results import exact_results
         from carom.studies.recovery import find_recovery
         from carom.studies.survives import required_disturbances
 
@@ -199,7 +199,7 @@ class StudyTask:
         if found.spans and found.spans[-1].high.value == within[1]:
             least = found.spans[-1].low.value
             least = 0.0 if least == within[0] else least
-        rolls = known_of(rotor).rolls
+        rolls = exact_results(rotor).rolls
         return {"least_damping": least} | ({"rolling_damping": max(rolls.damping_bound, 0.0)} if rolls else {})
 
 

@@ -7,11 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from carom.bifurcations import Diagram, EquilibriumBranch, OrbitBranch, find_bifurcations
-from carom.closed_forms.known import known_of
+from carom.closed_forms.exact_results import exact_results
 from carom.explorer.computing.controls import Control, unit_of
 from carom.explorer.computing.rest import repeats
 from carom.models import Model
-from carom.models.limited import limits_of
 from carom.outcome import STEADY_WORDS
 from carom.plots.diagrams import BOUNDARIES, POINTS
 from carom.plots.style import LOOKS, OUTCOMES
@@ -84,11 +83,11 @@ def picture_along(rotor: Model, control: Control, progress: ShowProgress = None)
 
 def why_none(rotor: Model) -> str:
     """Why there is no diagram of the orbits of a rotor, in a sentence; nothing where there is one."""
-    if known_of(rotor).orbits:
+    if exact_results(rotor).orbits:
         return ""
     if not repeats(rotor):
         return "None are known where friction turns a race or changes the speed of the shaft."
-    if limits_of(rotor) is not None:
+    if rotor.limits:
         return "None are known where the magnetic bearings have limits."
     followed = "The program that is copied as Python follows them, in minutes."
     return f"Not computed on this page: only orbits on a rigid wall that stands still have closed forms. {followed}"

@@ -14,12 +14,11 @@ from typing import Any
 
 import numpy as np
 
-from carom.closed_forms.known import known_of
+from carom.closed_forms.exact_results import exact_results
 from carom.explorer.computing.controls import Control, controls_of, term_of, unit_of, with_unit
 from carom.explorer.computing.planes import Plane
 from carom.explorer.computing.rest import Rest, repeats
 from carom.models import Model, model_of
-from carom.models.limited import limits_of
 from carom.motions import State
 from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, Case, TouchdownBearing
 from carom.parameters.machine_file import UNUSED
@@ -166,9 +165,9 @@ motion.plot().savefig("motion.png")
 
 def _orbits(rotor: Model, along: Control) -> str:
     """The part of a program that finds orbits; none where there are none."""
-    if not repeats(rotor) or limits_of(rotor) is not None:
+    if not repeats(rotor) or rotor.limits:
         return ""
-    searched = "" if known_of(rotor).orbits else ", impacts=1"
+    searched = "" if exact_results(rotor).orbits else ", impacts=1"
     unit = unit_of(along.name)
     low, high = (float(f"{unit * end:.12g}") for end in (along.low, along.high))
     return f"""

@@ -15,7 +15,6 @@ from carom.disturbances.following import NO_START, follow
 from carom.explorer.computing.planes import Plane, ShockPlane
 from carom.explorer.computing.rest import Rest, rest_of
 from carom.models import Model
-from carom.models.unbalance import with_changed_unbalance
 from carom.outcome import InputError, Outcome
 from carom.plots.cells import MotionLook, motion_looks
 from carom.plots.style import OUTCOMES
@@ -149,7 +148,7 @@ def _map_losses(rotor: Model, rest: Rest, plane: Plane, cells: int, largest: flo
     after, width = (before + changes)[exists], 2.0 * largest / cells
     phases = math.ceil(math.tau * (before + largest) / width)
     levels, which = np.unique(np.rint(np.abs(after) / width), return_inverse=True)
-    machines = [with_changed_unbalance(rotor, level * width - before)[0] for level in levels.tolist()]
+    machines = [rotor.with_changed_unbalance(level * width - before)[0] for level in levels.tolist()]
     turned = np.rint(np.angle(after) / math.tau * phases) / phases * math.tau
     found = follow(machines, levitating_before(rotor, turned, np.zeros(turned.shape)), which=which)
     outcomes, touched = np.full(exists.shape, NO_START), np.zeros(exists.shape, bool)
@@ -172,7 +171,7 @@ def _map_losses(rotor: Model, rest: Rest, plane: Plane, cells: int, largest: flo
 
 def opening_range(rotor: Model, plane: Plane) -> float:
     """The range with which the page begins, in the units of planes: one in which a good part comes back, and a good part is lost."""
-    return _opening_range(rotor, plane)  # type: ignore[arg-type]  # a protocol cannot say that all its models are hashable
+    return _opening_range(rotor, plane)
 
 
 @lru_cache(maxsize=MACHINES)

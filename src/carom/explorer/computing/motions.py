@@ -5,9 +5,8 @@ from __future__ import annotations
 from dataclasses import asdict, dataclass
 
 from carom.closed_forms import find_equilibria
-from carom.closed_forms.known import known_of
+from carom.closed_forms.exact_results import exact_results
 from carom.models import Model
-from carom.models.limited import limits_of
 from carom.orbits import Orbit
 from carom.orbits.single_impact import orbits_within_reach
 from carom.studies import Wording
@@ -47,10 +46,10 @@ def table_of(rotor: Model) -> MotionTable:
 
     Refuse one that never rests in contact, on a race that turns or with a shaft whose speed changes.
     """
-    if not known_of(rotor).orbits:
+    if not exact_results(rotor).orbits:
         rotor.system.refuse_forces()
         steady = steady_rows(find_equilibria(rotor).members, Wording(rotor.scales))
-        why = NO_ORBITS if limits_of(rotor) is None else BESIDE_LIMITS
+        why = BESIDE_LIMITS if rotor.limits else NO_ORBITS
         return MotionTable(tuple(TableRow(**asdict(row)) for row in steady), why)
     orbits = orbits_within_reach(rotor)
     texts = {f"orbit {orbit.name}": _multipliers(orbit) for orbit in orbits if orbit.admissible}

@@ -31,7 +31,6 @@ from carom.parameters import Case, Scales
 from carom.parameters.told import shown_in, told
 from carom.rotors import ReducedMachine
 from carom.rotors.documents import document_of
-from carom.rotors.flexible_model import reduced_of
 from carom.studies.flexible_levitation import FASTEST
 
 NONE = "No kick is followed: with these values there is no levitation that it could disturb."
@@ -53,7 +52,7 @@ class FlexibleKind:
     reading = "Point at a kick: it is followed at every touchdown bearing. Kicks are as seen along the shaft, with 0° at the right. The picture is filled in, coarse at first."
 
     def __init__(self, origin: Origin) -> None:
-        found = reduced_of(model_of(origin.case))
+        found = model_of(origin.case).finite_elements
         if found is None:
             raise TypeError("no flexible machine")
         self.origin, self._reduced = origin, found

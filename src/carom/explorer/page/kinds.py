@@ -8,7 +8,6 @@ from carom.explorer.page.kind import Kind
 from carom.explorer.page.planar import PlanarKind
 from carom.models import Subject, model_of, planar_case_of
 from carom.parameters import Case, Zones
-from carom.rotors.flexible_model import reduced_of
 
 
 def kind_of(origin: Origin) -> Kind:
@@ -19,7 +18,7 @@ def kind_of(origin: Origin) -> Kind:
     InputError
         It is neither the planar rotor nor a flexible machine.
     """
-    return PlanarKind(origin) if reduced_of(model_of(origin.case)) is None else FlexibleKind(origin)
+    return PlanarKind(origin) if model_of(origin.case).finite_elements is None else FlexibleKind(origin)
 
 
 def explored_case_of(subject: Subject) -> Case:
@@ -30,7 +29,7 @@ def explored_case_of(subject: Subject) -> Case:
     InputError
         It is neither, or has what the page of its kind does not show.
     """
-    reduced = reduced_of(model_of(subject))
+    reduced = model_of(subject).finite_elements
     if reduced is None:
         return planar_case_of(subject)
     if isinstance(subject, Case):

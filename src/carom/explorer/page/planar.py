@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from carom.closed_forms.known import known_of
+from carom.closed_forms.exact_results import exact_results
 from carom.explorer.computing.controls import Control, controls_of, values_of, with_settings
 from carom.explorer.computing.diagrams import picture_along, why_none
 from carom.explorer.computing.exports import Kick, Origin, as_command, as_options, as_python, as_toml, mark_of
@@ -100,7 +100,7 @@ class PlanarKind:
         return {
             "planes": [messages.plane_message(plane, rotor.scales) for plane in self.planes.values()],
             "wall": wall_of(rotor),
-            "orbits": known_of(rotor).orbits,
+            "orbits": exact_results(rotor).orbits,
         }
 
     def words(self) -> str:

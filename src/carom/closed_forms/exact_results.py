@@ -1,12 +1,12 @@
 """Exact results on where motions end, for the models that have some: levitation apart, only the planar rotor.
 
-General code asks :func:`known_of` and does the same for every model; without exact results motions are followed until they settle.
+General code asks :func:`exact_results` and does the same for every model; without exact results motions are followed until they settle.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import lru_cache, singledispatch
+from functools import lru_cache
 
 import numpy as np
 
@@ -16,13 +16,14 @@ from carom.closed_forms.fading import fading_speed
 from carom.closed_forms.thresholds import largest_response
 from carom.closed_forms.whirl import Rolling, Runaway, hastening_speed, rolling, runaway_speed
 from carom.models import Jeffcott, Model
+from carom.parameters import Parameters
 
 ROTORS = 64
 """Size of the cache, one entry per rotor: there are many motions of few rotors."""
 
 
 @dataclass(frozen=True)
-class Known:
+class ExactResults:
     """Exact results of a model; the default values say that there are none."""
 
     rubs: bool = False
@@ -52,19 +53,21 @@ class Known:
         return self.rolls.largest_force if self.rolls else 0.0
 
 
-@singledispatch
-def known_of(model: Model) -> Known:
-    """Exact results of a model."""
-    return Known()
+def exact_results(rotor: Model) -> ExactResults:
+    """Exact results of a rotor."""
+    return _of(rotor.planar) if rotor.has_closed_forms and rotor.planar is not None else NONE
 
 
-@known_of.register
+NONE = ExactResults()
+
+
 @lru_cache(maxsize=ROTORS)
-def _of_planar_rotor(model: Jeffcott) -> Known:
+def _of(parameters: Parameters) -> ExactResults:
+    model = Jeffcott(parameters)
     rub = next((rub for rub in find_equilibria(model) if rub.attracts_sliding), None)
     whirl = runaway_speed(model)
     rolls = rolling(model)
-    return Known(
+    return ExactResults(
         rubs=True,
         orbits=True,
         rub=rub,
@@ -74,5 +77,5 @@ def _of_planar_rotor(model: Jeffcott) -> Known:
         hastening=hastening_speed(model) * (1.0 + GIVEN_UP),
         rolls=rolls,
         whirl=whirl,
-        response=largest_response(model.parameters.gamma, model.parameters.omega),
+        response=largest_response(parameters.gamma, parameters.omega),
     )
