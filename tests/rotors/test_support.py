@@ -229,7 +229,6 @@ def test_bad_supports_are_refused(changes, words):
     "verb",
     [
         lambda rotor: cm.find_equilibria(rotor),
-        lambda rotor: cm.find_orbits(rotor, impacts=2),
         lambda rotor: cm.closed_forms.small_cycles(rotor),
         lambda rotor: cm.orbits.lyapunov_exponents(rotor, cm.kick(1.0), impacts=10),
     ],

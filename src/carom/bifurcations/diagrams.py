@@ -30,7 +30,7 @@ from carom.orbits.orbit import Orbit
 from carom.orbits.rubbing import rubbing_orbits
 from carom.orbits.search import Impacts, Searched
 from carom.orbits.single_impact import find_orbits
-from carom.outcome import STEADY_WORDS
+from carom.outcome import STEADY_WORDS, InputError
 from carom.parameters import Parameters
 from carom.parameters.scaling import SCALING
 from carom.parameters.told import shown_in
@@ -207,7 +207,8 @@ def find_bifurcations(
     ['fold']
     """
     model = jeffcott_of(machine) if lasting else model_of(machine)
-    model.system.refuse_unrepeated()
+    if model.system.unrepeated is not None:
+        raise InputError("machine", *model.system.unrepeated)
     along = axis(model, parameter)
     limits = read_interval(along, interval)
     tell = Reporter.of(progress, "following motions")

@@ -43,6 +43,7 @@ def orbits(
     Lists all orbits with one impact a period, with the argument that there are no more, of a flexible machine the steady motions; or, with --impacts N, the
     orbits with at most N impacts that are known or that a search finds, with what it tried.
     """
+    from carom.closed_forms.known import known_of
     from carom.loading import load
     from carom.models import case_of, model_of
 
@@ -50,7 +51,9 @@ def orbits(
     if impacts is not None:
         _search(given, impacts, guesses, as_json)
         return
-    if model_of(given).planar is None:
+    model = model_of(given)
+    model.system.refuse_unrepeated()
+    if not known_of(model).orbits:
         _print_steady(given, longest_period, as_json)
         return
     case = case_of(given)
@@ -82,7 +85,11 @@ def _print_steady(case: Case, longest_period: str | None, as_json: bool) -> None
     from carom.cli.steady import print_steady, steady_document
 
     if longest_period is not None:
-        raise InputError("--longest-period", longest_period, "allowed only for the planar rotor")
+        raise InputError(
+            "--longest-period",
+            longest_period,
+            "allowed only where all orbits with one impact a period have closed forms: a planar rotor on a rigid wall, without weight or limits",
+        )
     if as_json:
         print_document(steady_document(case))
         return

@@ -48,7 +48,7 @@ def steady_of(rotor: Model) -> list[Steady]:
         )
         for each in steady_motions(rotor)
     ]
-    if rotor.system.forced is not None:
+    if rotor.system.forced is not None or rotor.system.races is not None:
         return found
     for plane, contact in enumerate(rotor.system.contacts):
         if not contact.wall.stiffness:
@@ -99,7 +99,11 @@ def print_steady(console: Console, case: Case) -> None:
             "Rubs and whirls are no steady motions where bearings act differently in two directions; attractors finds where motions end."
         )
         return
-    if rotor.system.forced is not None:
+    if rotor.system.races is not None:
+        console.print(
+            "Rubs and whirls on a race that turns are steady only where its torques balance: they are orbits, if there are any."
+        )
+    elif rotor.system.forced is not None:
         console.print(
             "Under weight rubs and whirls are no steady motions: leave it out by --set gravity=0 to see them."
         )

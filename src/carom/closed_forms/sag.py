@@ -120,7 +120,7 @@ def levitation(machine: Subject) -> Levitation:
     0.3924 + 0.0088 = 0.4012
     """
     model = model_of(machine)
-    model.system.refuse_unsteady()
+    model.system.refuse_unrepeated()
     system, arrays = model.system, model.system.arrays
     if system.rest_radius == np.inf:
         raise InputError("levitation", "none, nothing holds the rotor", "a rotor that is held against its weight")
@@ -149,4 +149,5 @@ def steady_motions(rotor: Model) -> tuple[SteadyMotion, ...]:
     Under weight nothing else is at rest in the frame that turns with the shaft: a rotor that lies on its bearing is found among the ends
     of simulated motions.
     """
-    return (levitation(rotor),) if rotor.system.forced is not None else find_equilibria(rotor).members
+    turning = rotor.system.forced is not None or rotor.system.races is not None
+    return (levitation(rotor),) if turning else find_equilibria(rotor).members

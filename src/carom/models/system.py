@@ -103,6 +103,11 @@ class System(ModeArrays):
         """What keeps levitation from being a whirl about a place that stays, and what is allowed instead; ``None`` if nothing does."""
         if self.races is not None:
             return "a race that turns", "races that stand still, or carom.simulate and carom.settle"
+        return self._changing
+
+    @property
+    def _changing(self) -> tuple[str, str] | None:
+        """What keeps any motion from repeating, and what is allowed instead."""
         if self.shaft is not None:
             return "a shaft whose speed changes", "one at constant speed, or carom.simulate and carom.settle"
         if self.shaken:
@@ -115,9 +120,9 @@ class System(ModeArrays):
         return bool(self.outer[~self._steady].any())
 
     def refuse_unrepeated(self) -> None:
-        """Refuse a rotor of which no orbits are known, as a race turns, the speed changes, a force changes in the fixed frame, or bearings are not alike in both directions."""
-        if self.unrepeated is not None:
-            raise InputError("machine", *self.unrepeated)
+        """Refuse a rotor whose motions repeat nothing: the speed of its shaft changes, or forces change in the fixed frame at rates of their own."""
+        if self.shaft is not None or self.shaken:
+            raise InputError("machine", *(self._changing or ("", "")))
 
     def refuse_unsteady(self) -> None:
         """Refuse a rotor that does not levitate in a whirl about a place that stays."""

@@ -149,7 +149,8 @@ def lyapunov_exponents(
         planes touch at a time while one of the contacts lasts.
     """
     rotor = model_of(machine)
-    rotor.system.refuse_unrepeated()
+    if rotor.system.unrepeated is not None:
+        raise InputError("machine", *rotor.system.unrepeated)
     state = start.state(rotor) if isinstance(start, Kick) else start
     # With weight its phase at the node is one direction more.
     directions = np.eye(2 * len(rotor.system.exponents) + int(rotor.system.forced is not None))[:, 1:]

@@ -20,6 +20,7 @@ from carom.motions.simulation import simulate
 from carom.motions.starts import State
 from carom.motions.trajectories import Trajectory
 from carom.orbits.admissibility import departure, why_virtual
+from carom.orbits.extremes import Extremes, extremes_of
 from carom.orbits.maps import Section
 from carom.orbits.names import CountedName, OrbitName
 from carom.orbits.shooting import Links, Start, converged, links_of
@@ -135,6 +136,8 @@ class Orbit(Result):
             reason = OTHER_SLIP if (links.slips < 0.0).any() else why_virtual(rotor, word, start)
         return cls(rotor, name, word, *start, multipliers_of(links), reason)
 
+    complete: ClassVar[bool] = True
+
     @property
     def start(self) -> Start:
         """Nodes and durations."""
@@ -226,6 +229,18 @@ class Orbit(Result):
         place, moving = self.rotor.system.at_plane(self._departures[0], plane)
         rebound = float((np.conj(place) * moving).real / abs(place))
         return float(self.rotor.system.arrays.masses[plane]) * (self.radial_speed - rebound)
+
+    @cached_property
+    def extremes(self) -> Extremes:
+        """Largest radius, depth and force at any touchdown bearing; ``nan`` of an orbit that is no motion."""
+        return extremes_of(self.trajectory()) if self.admissible else Extremes(np.nan, np.nan, np.nan)
+
+    @property
+    def contacts(self) -> list[tuple[str, int, float, Section]]:
+        """Kind, contact plane and time of the beginning of each segment, and the state there."""
+        begins = np.concatenate([[0.0], np.cumsum(self.durations)[:-1]]).tolist()
+        each = zip(self.word, begins, self.sections, strict=True)
+        return [(segment.kind.label, segment.plane, begin, section) for segment, begin, section in each]
 
     @property
     def impact_speeds(self) -> np.ndarray:
@@ -345,7 +360,8 @@ def orbit_near(machine: Subject, word: Word, start: Start, name: OrbitName | Cou
         The start does not fit the word and the rotor, or the word its walls.
     """
     rotor = model_of(machine)
-    rotor.system.refuse_unrepeated()
+    if rotor.system.unrepeated is not None:
+        raise InputError("machine", *rotor.system.unrepeated)
     shape = len(word), len(rotor.system.nodes.rest)
     if start.nodes.shape != shape or start.durations.shape != shape[:1]:
         raise InputError("start", start.nodes.shape, f"nodes of shape {shape} and {shape[0]} durations")

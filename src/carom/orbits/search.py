@@ -64,6 +64,8 @@ KIND = 3
 """Decimals to which the states of ends must agree to count as one."""
 KNOWN = 1e-4
 """Relative distance from a known solution below which a stretch is not tried."""
+BARREN = 100
+"""Guesses in a row without any solution after which the search ends where walls give way: there each takes hundreds of steps."""
 LEAST = 1e-9
 """Least duration of a flight, in ``1/Ω``."""
 
@@ -210,7 +212,7 @@ class Search:
         self.rotor, self.impacts = rotor, impacts
         self.found: list[Orbit] = []
         self.solutions: dict[Word, np.ndarray] = {}
-        self.motions = self.guesses = self.repeats = self.failures = self.last_new = 0
+        self.motions = self.guesses = self.repeats = self.failures = self.last_new = self.fertile = 0
         for orbit in known:
             self._add(orbit)
 
@@ -261,7 +263,8 @@ class Search:
         tried = np.zeros(self.impacts + 1, int)
         fruitless = 0
         most = max(1, round(FRUITLESS * usual_share(self.rotor) ** (1.0 / 3.0)))
-        while tried[1:].min() < guesses and fruitless < most:
+        barren = BARREN if self.rotor.system.arrays["stiffness"].any() else math.inf
+        while tried[1:].min() < guesses and fruitless < most and self.guesses - self.fertile < barren:
             before = tried.sum()
             for count, word, guess in self._stretches(self._start(random), random.uniform() < LANDING):
                 if tried[count] < guesses and not self._is_known(word, guess, KNOWN):
@@ -329,7 +332,9 @@ class Search:
             links = converged(self.rotor, word, guess)
         if links is None or not lasts(word, links.start):
             self.failures += 1
-        elif self._is_known(word, links.start, KNOWN):
+            return
+        self.fertile = self.guesses
+        if self._is_known(word, links.start, KNOWN):
             self.repeats += 1
         elif self._add(orbit_of_links(self.rotor, word, links)):
             self.last_new = self.guesses if self.found[-1].admissible else self.last_new

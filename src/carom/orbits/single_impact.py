@@ -21,6 +21,7 @@ from carom.orbits.orbit import Orbit
 from carom.orbits.rubbing import rubbing_orbits
 from carom.orbits.search import Impacts, Searched, search_orbits
 from carom.orbits.shooting import Start
+from carom.orbits.simulated_search import search_simulated
 from carom.orbits.stability import Multipliers, multipliers_of_all
 from carom.orbits.word import Kind, Word
 from carom.progress import Reporter, ShowProgress, shows_progress
@@ -66,7 +67,8 @@ class OrbitSet(Members[Orbit]):
 
     # Not narrower: without a search it is a planar rotor, whose parameters are read.
     rotor: Any
-    members: tuple[Orbit, ...]
+    # Not narrower: those of a search are closed as words of segments, or on the flow of the simulator.
+    members: tuple[Any, ...]
     impacts: int
     search: Searched | None
     periods: np.ndarray
@@ -186,7 +188,11 @@ def find_orbits(
         model.system.refuse_unrepeated()
         known = [*orbits_within_reach(model), *rubbing_orbits(model)] if model.has_closed_forms else []
         there = [orbit for orbit in known if orbit.admissible]
-        members, search = search_orbits(model, impacts, guesses, seed, there, tell)
+        members: tuple[Any, ...]
+        if model.system.unrepeated is None:
+            members, search = search_orbits(model, impacts, guesses, seed, there, tell)
+        else:
+            members, search = search_simulated(model, impacts, guesses, seed, tell)
         return OrbitSet(
             model, members, impacts, search, np.empty(0), math.inf, complete=False, slip_stays_forward=False
         )

@@ -11,17 +11,17 @@ from collections.abc import Sequence
 from importlib.metadata import version
 from typing import Any
 
-import numpy as np
-
 from carom.arguments import checked
 from carom.attractors import Attractor, AttractorSet, Ending, document_of
 from carom.bifurcations.boundary import BoundaryEquilibrium
 from carom.bifurcations.documents import search_document
 from carom.closed_forms.sag import Levitation, SteadyMotion
 from carom.models import Jeffcott, Model, Span
+from carom.orbits.happenings import RECOVERS, SATURATES
 from carom.orbits.orbit import Orbit
+from carom.orbits.simulated import SimulatedOrbit
 from carom.orbits.single_impact import OrbitSet
-from carom.parameters import MACHINE_FIELDS, Machine, Parameters, Scales
+from carom.parameters import MACHINE_FIELDS, Machine, Parameters
 from carom.parameters.indentation import gives_way, indentation_of_force, indentation_of_hit
 from carom.results import fields_of, in_si
 from carom.studies.advice_facts import change_document
@@ -54,7 +54,7 @@ def _orbits_of(
         "machine_si": {name: getattr(machine, name) for name in MACHINE_FIELDS} if machine is not None else None,
         "machine_given": machine.given_texts if machine is not None else None,
         "equilibria": [_equilibrium(entry, rotor) for entry in equilibria],
-        "orbits": [_orbit(entry, rotor.scales) for entry in orbits],
+        "orbits": [_orbit(entry) for entry in orbits],
         **fields_of(orbits, "complete", "longest_period", "argument"),
     }
 
@@ -67,8 +67,9 @@ def found_orbits_document(parameters: Parameters | Model, found: OrbitSet) -> di
         "impacts": found.impacts,
         "orbits": [
             {
-                **_orbit(entry, parameters.scales),
-                "word": str(entry.word),
+                **_orbit(entry),
+                "word": entry.segments,
+                **_extremes(entry),
                 **({} if entry.turns is None else {"turns": entry.turns}),
                 "contacts": _contacts(entry),
             }
@@ -79,17 +80,24 @@ def found_orbits_document(parameters: Parameters | Model, found: OrbitSet) -> di
     }
 
 
-def _contacts(orbit: Orbit) -> list[dict[str, Any]]:
-    """What begins each segment of a period, with the state there, before an impact."""
-    begins = np.concatenate([[0.0], np.cumsum(orbit.durations)[:-1]]).tolist()
+def _extremes(orbit: Orbit | SimulatedOrbit) -> dict[str, Any]:
+    """Largest radius, depth and force of an orbit, at any touchdown bearing; and whether all multipliers are told."""
+    found = fields_of(orbit, largest_radius="extremes.radius", deepest="extremes.depth", peak_force="extremes.force")
+    if orbit.rotor.scales is not None:
+        found |= {"peak_force_si": found["peak_force"] * orbit.rotor.scales.force}
+    return found | {"all_multipliers": orbit.complete}
+
+
+def _contacts(orbit: Orbit | SimulatedOrbit) -> list[dict[str, Any]]:
+    """What happens in a period, with the state there, before an impact."""
     return [
         {
-            "kind": "impact" if segment.kind.is_impact else segment.kind.label.rstrip("+-"),
-            "touchdown_bearing": segment.plane + 1,
-            "time": begin,
+            "kind": "impact" if kind.startswith("impact") else kind.rstrip("+-"),
+            "limit" if kind in (SATURATES, RECOVERS) else "touchdown_bearing": place + 1,
+            "time": time,
             **fields_of(section, "angle", "radial_speed", "angular_speed"),
         }
-        for segment, begin, section in zip(orbit.word, begins, orbit.sections, strict=True)
+        for kind, place, time, section in orbit.contacts
     ]
 
 
@@ -147,10 +155,10 @@ def _equilibrium(entry: SteadyMotion, rotor: Model) -> dict[str, Any]:
     return document
 
 
-def _orbit(entry: Orbit, scales: Scales | None) -> dict[str, Any]:
+def _orbit(entry: Orbit | SimulatedOrbit) -> dict[str, Any]:
     document = fields_of(entry, "name", "impacts", "period", "radial_speed", "angle", "angular_speed")
     document |= fields_of(entry, multipliers="multipliers.values") | fields_of(entry, "stable", "admissible", "reason")
-    own = entry.rotor.system.scales_at(entry.word[0].plane, scales)
+    own = entry.scales
     if own is not None:
         document |= in_si(document, own, "period", "radial_speed")
         document |= {"normal_impulse_si": entry.impulse * own.impulse}

@@ -1,0 +1,177 @@
+"""The flow of any machine over a time, as a map of real numbers: where a simulated motion ends, and how that depends on its start.
+
+A state is its coordinates and their rates, real parts before imaginary parts, and the speeds of races that turn.  Derivatives are central
+differences of the certified flow along which the same happens in the same order; they hold for every law of contact, several bearings that
+touch at a time, and limits.  Their error is some 1e-8 of the derivative.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from carom.core.limits import LOWER, UPPER
+from carom.core.rub import rest_on_wall
+from carom.models import Model
+from carom.motions.simulation import simulate
+from carom.motions.starts import State
+from carom.motions.trajectories import Trajectory
+from carom.orbits.happenings import Happening, happenings
+from carom.outcome import CaromError, Outcome, Phase
+
+STEPS = (3e-6, 1e-6, 1e-7)
+"""Steps of the central differences, relative to one plus the size of the state: the first at which the same happens on both sides."""
+MOST_EVENTS = 40_000
+"""Events of a period."""
+TURN, QUARTER = 2.0 * math.pi, 0.5 * math.pi
+
+
+@dataclass(frozen=True)
+class Flow:
+    """The flow of a rotor from a time on.
+
+    Attributes
+    ----------
+    rotor : Model
+    begins : float
+        Time at which motions begin, in ``1/Ω``.
+    rests : tuple of (int, bool)
+        Contact planes that lie on rigid walls at the beginning, and whether they roll: states are put there before they are followed.
+    """
+
+    rotor: Model
+    begins: float = 0.0
+    rests: tuple[tuple[int, bool], ...] = ()
+
+    @classmethod
+    def at(cls, motion: Trajectory, time: float) -> tuple[Flow, np.ndarray]:
+        """The flow from an instant of a motion, and the state there."""
+        system = motion.rotor.system
+        amplitudes, phases = (found[0] for found in motion.amplitudes_at(np.array([time])))
+        rigid = (phases != Phase.FLIGHT) & (system.arrays["stiffness"] == 0.0)
+        rests = tuple((int(plane), bool(phases[plane] == Phase.ROLLING)) for plane in np.flatnonzero(rigid))
+        flow = cls(motion.rotor, motion.begins + time if system.timed else 0.0, rests)
+        position, velocity = system.state(amplitudes)
+        return flow, flow.vector(State.of(position, velocity, system.race_speeds(amplitudes)))
+
+    @staticmethod
+    def vector(state: State) -> np.ndarray:
+        """Real numbers of a state."""
+        values = np.concatenate([np.atleast_1d(state.position), np.atleast_1d(state.velocity)])
+        return np.concatenate([values.real, values.imag, state.races])
+
+    def state(self, vector: np.ndarray) -> State:
+        """State of real numbers, on the walls where it begins there."""
+        system = self.rotor.system
+        n = len(system.rest)
+        values = vector[: 2 * n] + 1j * vector[2 * n : 4 * n]
+        position, velocity = values[:n], values[n:]
+        if self.rests:
+            amplitudes = system.amplitudes(position, velocity, self.begins)
+            for plane, rolls in self.rests:
+                rest_on_wall(system.arrays, plane, amplitudes, rolls)
+            position, velocity = (np.atleast_1d(each) for each in system.state(amplitudes))
+        races = tuple(vector[4 * n :].tolist())
+        if n == 1:
+            return State(complex(position[0]), complex(velocity[0]), races, time=self.begins)
+        return State(position, velocity, races, time=self.begins)
+
+    def follow(self, vector: np.ndarray, duration: float) -> Trajectory | None:
+        """Motion from a state; ``None`` if it goes beyond the model, or has too many events."""
+        try:
+            motion = simulate(self.rotor, self.state(vector), duration, settle=False, max_events=MOST_EVENTS)
+        except CaromError:
+            return None
+        return motion if motion.outcome is Outcome.TIME_REACHED else None
+
+    def end(self, vector: np.ndarray, duration: float) -> np.ndarray:
+        """State after a time; ``nan`` where the motion is not known."""
+        motion = self.follow(vector, duration)
+        return np.full(len(vector), np.nan) if motion is None else self.vector(motion.final)
+
+    def change(self, vector: np.ndarray, direction: np.ndarray, duration: float, same: list[Happening]) -> np.ndarray:
+        """Derivative of the end along a direction: with the step at which on both sides the same happens, or else with the least."""
+        size = 1.0 + float(np.abs(vector).max())
+        found = np.full(len(vector), np.nan)
+        for step in STEPS:
+            side = step * size / float(np.abs(direction).max()) * direction
+            motions = [self.follow(vector + sign * side, duration) for sign in (1.0, -1.0)]
+            first, last = motions
+            if first is None or last is None:
+                continue
+            found = self.vector(first.final) - self.vector(last.final)
+            found = found * (float(np.abs(direction).max()) / (2.0 * step * size))
+            if all(_alike(happenings(each), same) for each in (first, last)):
+                break
+        return found
+
+    def derivative(self, vector: np.ndarray, duration: float, same: list[Happening]) -> np.ndarray:
+        """Derivative of the end by the start, shape (n, n)."""
+        columns = [self.change(vector, direction, duration, same) for direction in np.eye(len(vector))]
+        return np.array(columns).T
+
+    def rate(self, vector: np.ndarray, duration: float) -> np.ndarray:
+        """Rate of change of the end with the time that is followed."""
+        step = STEPS[0] * max(1.0, duration)
+        motion = self.follow(vector, duration + step)
+        if motion is None:
+            return np.full(len(vector), np.nan)
+        system, times = self.rotor.system, np.array([duration - step, duration + step])
+        if duration < step:
+            times = np.array([duration, duration + step])
+        amplitudes, _ = motion.amplitudes_at(times)
+        ends = [self.vector(State.of(*system.state(each), system.race_speeds(each))) for each in amplitudes]
+        rate: np.ndarray = (ends[1] - ends[0]) / float(np.ptp(times))
+        return rate
+
+
+def _alike(first: list[Happening], second: list[Happening]) -> bool:
+    return [each[:2] for each in first] == [each[:2] for each in second]
+
+
+def saturates(motion: Trajectory) -> bool:
+    """Whether a magnetic bearing is at a limit at some time of a motion."""
+    return bool(np.isin(motion.segment_limits, (UPPER, LOWER)).any())
+
+
+def repeats_after(motion: Trajectory) -> float | None:
+    """Time of which the period of a motion is a multiple, in ``1/Ω``; ``None`` where it can have any.
+
+    Whole turns of the shaft where something stands in the fixed frame; quarters of a turn where only saturation does, as limits are alike along
+    both axes.
+    """
+    system = motion.rotor.system
+    if system.outer.any() or system.mirrored is not None:
+        return TURN
+    return QUARTER if saturates(motion) else None
+
+
+def krylov(apply: Callable[[np.ndarray], np.ndarray], start: np.ndarray, size: int) -> tuple[np.ndarray, np.ndarray]:
+    """Arnoldi's basis (n, k) of the space that a linear map spans from a start, and the map in it, shape (k + 1, k)."""
+    basis = [start / np.linalg.norm(start)]
+    columns: list[np.ndarray] = []
+    for _ in range(min(size, len(start))):
+        moved = apply(basis[-1])
+        column = np.zeros(len(basis) + 1)
+        for _ in range(2):
+            for place, each in enumerate(basis):
+                part = float(each @ moved)
+                column[place] += part
+                moved = moved - part * each
+        column[-1] = np.linalg.norm(moved)
+        columns.append(column)
+        if not column[-1] > KRYLOV_END * np.linalg.norm(column):
+            break
+        basis.append(moved / column[-1])
+    known = len(columns)
+    matrix = np.zeros((known + 1, known))
+    for place, column in enumerate(columns):
+        matrix[: len(column), place] = column
+    return np.array(basis[:known]).T, matrix
+
+
+KRYLOV_END = 1e-7
+"""Part of a new direction, relative to the whole, below which it is the error of the differences."""

@@ -1,0 +1,105 @@
+"""What happens along a motion, in chronological order: impacts, contact that begins, changes or ends, and limits that are met and left."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from carom.core.limits import LOWER, UPPER
+from carom.core.margins import local_motion
+from carom.motions.trajectories import Trajectory
+from carom.orbits.word import Kind
+from carom.outcome import Phase
+
+INSTANT = 1e-12
+SATURATES, RECOVERS = "saturate", "unsaturate"
+
+
+class Happening(NamedTuple):
+    """One of them.
+
+    Attributes
+    ----------
+    label : str
+        That of a :class:`~carom.orbits.word.Kind`; or ``"saturate"``, ``"unsaturate"``.
+    place : int
+        Contact plane, from 0; of limits twice the number of the limited quantity, plus one for its second axis.
+    event : int
+        Event of the motion.
+    time : float
+        In ``1/Ω``, since the motion began.
+    arrives : bool
+        Whether the rotor arrives at a wall there.
+    """
+
+    label: str
+    place: int
+    event: int
+    time: float
+    arrives: bool
+
+    @property
+    def limits(self) -> bool:
+        """Whether a limit is met or left."""
+        return self.label in (SATURATES, RECOVERS)
+
+    def __str__(self) -> str:
+        if self.limits:
+            return f"{self.label}@{self.place // 2 + 1}{'xy'[self.place % 2]}"
+        return f"{self.label}@{self.place + 1}" if self.place else self.label
+
+
+def happenings(motion: Trajectory) -> list[Happening]:
+    """Read them from the events of a motion; impacts that lead to lasting contact without anything in between are one landing."""
+    found: list[Happening] = []
+    times, impacts = motion.segment_starts[1:], motion.is_impact
+    phases, yields = motion.segment_phases, motion.rotor.system.arrays["stiffness"] > 0.0
+    limited = np.isin(motion.segment_limits, (UPPER, LOWER))
+    changes = (np.diff(phases, axis=0) != 0).any(axis=1) | impacts
+    if limited.size:
+        changes |= (limited[1:] != limited[:-1]).any(axis=1)
+    kinds = impact_kinds(motion)
+    for event in np.flatnonzero(changes).tolist():
+        time = float(times[event])
+        if time <= INSTANT:  # where it begins on a wall it is put to rest there
+            continue
+        if impacts[event]:
+            found.append(Happening(Kind(kinds[event]).label, int(motion.event_planes[event]), event, time, True))
+        for plane in np.flatnonzero(phases[event] != phases[event + 1]).tolist():
+            before, after = phases[event, plane], phases[event + 1, plane]
+            if before == Phase.FLIGHT and not yields[plane]:
+                _land(found, plane, event, time)
+            arrives = bool(before == Phase.FLIGHT and yields[plane])
+            found.append(Happening(Kind.of_phase(int(after)).label, plane, event, time, arrives))
+        if limited.size:
+            for axis in np.flatnonzero(limited[event] != limited[event + 1]).tolist():
+                label = SATURATES if limited[event + 1, axis] else RECOVERS
+                found.append(Happening(label, axis, event, time, False))
+    return found
+
+
+def _land(found: list[Happening], plane: int, event: int, time: float) -> None:
+    """Make the impacts that lead to a landing one chatter."""
+    begun = Happening(Kind.LAND.label, plane, event, time, False)
+    while found and found[-1].place == plane and found[-1].label.startswith("impact"):
+        begun = found.pop()._replace(label=Kind.LAND.label, arrives=False)
+    found.append(begun)
+
+
+def impact_kinds(motion: Trajectory) -> np.ndarray:
+    """Kinds of the impacts of a motion from the states before them, shape (n,); of other events they mean nothing."""
+    arrays, planes = motion.rotor.system.arrays, motion.event_planes
+    if not len(planes):
+        return np.zeros(0, int)
+    _, _, slip, _, _, spare = local_motion(arrays, np.maximum(planes, 0), motion.arrivals).T
+    sliding = np.where(slip > 0.0, Kind.IMPACT_FORWARD, Kind.IMPACT_BACKWARD)
+    kinds: np.ndarray = np.where(spare >= 0.0, Kind.IMPACT_STOPPED, sliding)
+    # Without friction the direction of the slip changes nothing: one motion has one word, that of the closed form.
+    return np.where(arrays.friction[planes] > 0.0, kinds, Kind.IMPACT_FORWARD)
+
+
+def told(found: Sequence[Happening]) -> str:
+    """The same as text."""
+    return " ".join(map(str, found))

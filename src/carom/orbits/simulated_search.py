@@ -1,0 +1,204 @@
+"""The search for periodic motions of any machine: ends of simulated motions, and stretches of them that nearly come back."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator
+
+import numpy as np
+
+from carom.models import Model
+from carom.motions.settling import AT_REST, REPEATING
+from carom.motions.simulation import simulate
+from carom.motions.starts import Kick, State
+from carom.motions.trajectories import Trajectory
+from carom.orbits.flow import repeats_after
+from carom.orbits.recognising import arrives, first_of_period
+from carom.orbits.search import FASTEST, KIND, Searched, random_starts
+from carom.orbits.simulated import OFF_PERIOD, SimulatedOrbit, close, numbered, quietest, same_simulated
+from carom.outcome import Outcome
+from carom.progress import Reporter
+
+SETTLED, FRESH, GUESSES = 120, 60, 150
+"""Motions followed until they settle, fresh ones afterwards, and stretches of further ones that are tried for each number of impacts."""
+GIVEN_UP = 2000
+"""Events after which a motion that does not settle is given up."""
+SECONDS = 20.0
+"""Time of the processor after which no further motions are followed, and no further stretches tried."""
+SLOWEST = 0.01
+"""Least speed of the starts, relative to the largest, evenly spread over its logarithm."""
+FEW = 2
+"""Coordinates up to which random places and velocities of all of them are starts too; those of many are kicked as a whole."""
+FOLLOWED, IN_WALL = 400.0, 40
+"""Time in ``1/Ω`` for which a motion is followed for stretches, and events logged of one contact, about."""
+NEAR = 0.5
+"""Distance of the ends of a stretch, relative to one plus the size of the state, up to which it is tried."""
+BARREN = 40
+"""Stretches in a row that lead to nothing new, after which the search ends."""
+LONGEST = 16.0 * np.pi
+"""Time, in ``1/Ω``, within which a whirl must come back to count as periodic: eight turns of the shaft."""
+SAMPLES, RETURNS = 6001, 1e-4
+WHIRLS = (Outcome.BACKWARD_WHIRL, Outcome.ROLLING, Outcome.FORWARD_RUB, Outcome.AT_REST)
+
+
+def search_simulated(
+    rotor: Model, impacts: int, guesses: int | None, seed: int, tell: Reporter
+) -> tuple[tuple[SimulatedOrbit, ...], Searched]:
+    """Search periodic motions with at most a number of impacts a period, of any machine, and say what was tried."""
+    search = _Search(rotor, impacts)
+    settled = search.ends(SETTLED, np.random.default_rng([seed, 1]), tell.part(0.0, 0.4))
+    for orbit, _ in settled[1]:
+        search.add(orbit)
+    search.guess(guesses or GUESSES, np.random.default_rng([seed, 2]), tell.part(0.4, 0.8))
+    fresh, ends = search.ends(FRESH, np.random.default_rng([seed, 3]), tell.part(0.8, 1.0))
+    listed = sum(count for orbit, count in ends if search.knows(orbit))
+    others = sum(count for orbit, count in ends if not search.knows(orbit) and orbit.impacts <= impacts)
+    for orbit, _ in ends:
+        search.add(orbit)
+    found = sorted(search.found, key=lambda orbit: (orbit.impacts, orbit.period))
+    counts: dict[int, int] = {}
+    named = []
+    for orbit in found:
+        counts[orbit.impacts] = counts.get(orbit.impacts, 0) + 1
+        named.append(numbered(orbit, counts[orbit.impacts]))
+    done = (settled[0], search.motions, search.guesses, search.repeats, search.failures, search.last_new)
+    return tuple(named), Searched(*done, 0, fresh, listed, others)
+
+
+class _Search:
+    """What a search has found and tried so far."""
+
+    def __init__(self, rotor: Model, impacts: int) -> None:
+        self.rotor, self.impacts = rotor, impacts
+        self.found: list[SimulatedOrbit] = []
+        self.motions = self.guesses = self.repeats = self.failures = self.last_new = 0
+
+    def knows(self, orbit: SimulatedOrbit) -> bool:
+        """Whether an orbit is known."""
+        return any(same_simulated(orbit, other) for other in self.found)
+
+    def add(self, orbit: SimulatedOrbit) -> bool:
+        """Note an orbit with few enough impacts; return whether it is new."""
+        if self.knows(orbit):
+            return False
+        if orbit.impacts <= self.impacts:
+            self.found.append(orbit)
+        return True
+
+    def ends(
+        self, count: int, random: np.random.Generator, tell: Reporter
+    ) -> tuple[int, list[tuple[SimulatedOrbit, int]]]:
+        """Periodic motions on which motions from random starts end, each with the number of these, and how many were followed."""
+        begun, followed = time.process_time(), 0
+        found: list[tuple[SimulatedOrbit | None, int]] = []
+        kinds: dict[tuple[Outcome, int, bytes], int] = {}
+        left = np.array_split(np.arange(count), max(1, count // 10))
+        for part in left:
+            for _ in part:
+                start = start_of(self.rotor, random)
+                motion = simulate(self.rotor, start, patience=GIVEN_UP, max_events=GIVEN_UP)
+                state = motion.rotor.system.states_of(motion.last_amplitudes[None])
+                kind = motion.outcome, motion.multiplicity, state.round(KIND).tobytes()
+                if kind not in kinds:
+                    kinds[kind] = len(found)
+                    found.append((periodic_of(motion), 0))
+                orbit, number = found[kinds[kind]]
+                found[kinds[kind]] = orbit, number + 1
+            followed += len(part)
+            tell(followed / count)
+            if time.process_time() - begun > SECONDS / 2:
+                break
+        return followed, [(orbit, number) for orbit, number in found if orbit is not None]
+
+    def guess(self, guesses: int, random: np.random.Generator, tell: Reporter) -> None:
+        """Close stretches of motions that nearly come back."""
+        begun, barren, idle = time.process_time(), 0, 0
+        while self.guesses < guesses * self.impacts and barren < BARREN and idle < BARREN:
+            if time.process_time() - begun > SECONDS:
+                return
+            before = self.guesses
+            for motion, begin, period in self._stretches(start_of(self.rotor, random)):
+                self.guesses += 1
+                orbit = close(motion, begin, period)
+                if orbit is None:
+                    self.failures += 1
+                elif not self.add(orbit):
+                    self.repeats += 1
+                else:
+                    self.last_new, barren = self.guesses, -1
+                barren += 1
+            self.motions += 1
+            idle = 0 if self.guesses > before else idle + 1
+            tell(self.guesses / (guesses * self.impacts))
+
+    def _stretches(self, start: State) -> Iterator[tuple[Trajectory, float, float]]:
+        """For each number of impacts the stretch of a motion that comes back closest: the motion, where it begins, and how long it is."""
+        most = IN_WALL * 4 * (self.impacts + 1)
+        motion = simulate(self.rotor, start, FOLLOWED, settle=False, max_events=most)
+        events = np.flatnonzero(arrives(motion))
+        if len(events) < 2:
+            return
+        times = motion.segment_starts[1:][events]
+        states, unit = motion.rotor.system.states_of(motion.arrivals[events]), repeats_after(motion)
+        for count in range(1, self.impacts + 1):
+            spans = times[count:] - times[:-count]
+            apart = np.abs(states[count:] - states[:-count]).max(axis=1, initial=0.0)
+            apart = apart / (1.0 + np.abs(states[count:]).max(axis=1, initial=0.0))
+            if unit is not None:
+                whole = np.round(spans / unit)
+                apart = np.where((whole > 0) & (np.abs(spans - whole * unit) < OFF_PERIOD * unit), apart, np.inf)
+            if len(apart) and apart.min() < NEAR:
+                place = int(np.argmin(apart))
+                before = float(times[place - 1]) if place else 0.0
+                # A stretch begins in a flight: at an impact a state has two velocities.
+                begin = 0.5 * (before + float(times[place]))
+                yield motion, begin, float(spans[place])
+
+
+def start_of(rotor: Model, random: np.random.Generator) -> State:
+    """A random start: a kick out of levitation, or of few coordinates also any place and velocity."""
+    speed = FASTEST * float(SLOWEST ** random.uniform())
+    if rotor.system.levitates and (len(rotor.system.rest) > FEW or random.uniform() < 0.5):
+        angle, instant = random.uniform(0.0, 2.0 * np.pi, 2).tolist()
+        return Kick(speed, angle, instant).state(rotor)
+    positions, velocities = random_starts(rotor, random, 1, on_wall=bool(random.uniform() < 0.5))
+    whirl = -1j * positions[0] * random.uniform()
+    return State.of(positions[0], velocities[0] * (speed / FASTEST) + whirl)
+
+
+def periodic_of(motion: Trajectory) -> SimulatedOrbit | None:
+    """Close the periodic motion on which a motion of any machine has settled; ``None`` if it has not, or repeats nothing."""
+    if motion.outcome in REPEATING and motion.multiplicity:
+        times = motion.segment_starts[1:][arrives(motion)]
+        begun = first_of_period(motion, motion.multiplicity)
+        span = motion.time - float(times[begun])
+    elif motion.outcome in WHIRLS and np.abs(motion.final.velocity).max() > AT_REST:
+        span = _first_return(motion)
+    else:
+        return None
+    if not span > 0.0:
+        return None
+    later = simulate(motion.rotor, motion.final, 2.1 * span, settle=False)
+    once = simulate(motion.rotor, motion.final, span, settle=False)
+    return close(later, quietest(once), span) if later.outcome is Outcome.TIME_REACHED else None
+
+
+def _first_return(motion: Trajectory) -> float:
+    """Time after which a whirl comes back to where it is, as samples tell; 0 if it does not."""
+    later = simulate(motion.rotor, motion.final, LONGEST, settle=False)
+    if later.outcome is not Outcome.TIME_REACHED:
+        return 0.0
+    unit = repeats_after(later)
+    times = np.linspace(0.0, LONGEST, SAMPLES) if unit is None else unit * np.arange(LONGEST / unit)
+    amplitudes, _ = later.amplitudes_at(times)
+    states = later.rotor.system.states_of(amplitudes)
+    apart = np.abs(states - states[0]).max(axis=1)
+    if unit is not None:
+        near = np.flatnonzero(apart[1:] < RETURNS * (1.0 + np.abs(states[0]).max()))
+        return float(times[1:][near[0]]) if len(near) else 0.0
+    away = np.flatnonzero(apart > 0.5 * apart.max())
+    back = (
+        np.flatnonzero((apart[1:-1] < 0.1 * apart.max()) & (apart[1:-1] <= apart[2:]) & (apart[1:-1] <= apart[:-2])) + 1
+    )
+    back = back[back > away[0]]
+    return float(times[back[0]]) if len(back) else 0.0
