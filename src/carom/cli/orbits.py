@@ -43,7 +43,6 @@ def orbits(
     Lists all orbits with one impact a period, with the argument that there are no more, of a flexible machine the steady motions; or, with --impacts N, the
     orbits with at most N impacts that are known or that a search finds, with what it tried.
     """
-    from carom.closed_forms.known import known_of
     from carom.loading import load
     from carom.models import case_of, model_of
 
@@ -53,7 +52,7 @@ def orbits(
         return
     model = model_of(given)
     model.system.refuse_unrepeated()
-    if not known_of(model).orbits:
+    if not model.has_closed_forms:
         _print_steady(given, longest_period, as_json)
         return
     case = case_of(given)
