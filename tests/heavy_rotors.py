@@ -8,8 +8,8 @@ from compliant_reference import KelvinVoigt as ReferenceKelvinVoigt
 from compliant_reference import Plane, Rotor
 
 import carom as cm
-from carom.models import Force, Forced, HuntCrossley, Jeffcott, KelvinVoigt, LinearRotor
-from carom.models.touchdown import Rigid, Touchdown
+from carom.models import Force, Forced, HuntCrossley, Jeffcott, KelvinVoigt, LinearRotor, Rigid
+from carom.models.touchdown import Touchdown
 from carom.orbits import orbit_of_motion
 from carom.parameters import Parameters
 

@@ -11,8 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from carom.models import LinearRotor
-from carom.models.touchdown import Rigid, Touchdown
+from carom.models import LinearRotor, Rigid
+from carom.models.touchdown import Touchdown
 
 TOLERANCE = 1e-12
 

@@ -15,8 +15,8 @@ from machines import PAPER
 import carom as cm
 from carom.arguments import checked
 from carom.disturbances import BladeLoss, ContactRelease, Sample, VelocityKick
-from carom.models import LinearRotor
-from carom.models.touchdown import Rigid, Touchdown
+from carom.models import LinearRotor, Rigid
+from carom.models.touchdown import Touchdown
 from carom.outcome import InputError
 from carom.parameters import MACHINE_FIELDS, Case, Machine, Scales
 from carom.sweeps import plan_sweep

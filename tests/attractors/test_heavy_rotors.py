@@ -13,8 +13,7 @@ import carom as cm
 from carom.attractors import Attractor, character_of, find_attractors
 from carom.attractors.settled import settled_motion
 from carom.attractors.survival import follow_further
-from carom.models import Force, Forced, Jeffcott, model_of
-from carom.models.touchdown import Rigid
+from carom.models import Force, Forced, Jeffcott, Rigid, model_of
 from carom.orbits import Kind
 from carom.orbits.recognising import whole_turns
 from carom.outcome import Outcome

@@ -10,8 +10,7 @@ from yielding_rotors import Yielding
 import carom as cm
 from carom.closed_forms import ContactSystem, find_equilibria, non_smooth_hopf, small_cycles
 from carom.continuation.roots import bracketed_root
-from carom.models import HuntCrossley, KelvinVoigt
-from carom.models.touchdown import Rigid
+from carom.models import HuntCrossley, KelvinVoigt, Rigid
 from carom.motions.starts import State
 from carom.orbits import Kind, Segment, Word, orbit_near
 from carom.orbits.recognising import arrives, segments_of

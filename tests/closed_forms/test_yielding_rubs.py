@@ -10,8 +10,8 @@ import carom as cm
 from carom.closed_forms.power_sums import positive_roots
 from carom.closed_forms.rub_stability import sliding_rates
 from carom.closed_forms.statics import depths
-from carom.models import HuntCrossley, KelvinVoigt, LinearRotor
-from carom.models.touchdown import Rigid, Touchdown
+from carom.models import HuntCrossley, KelvinVoigt, LinearRotor, Rigid
+from carom.models.touchdown import Touchdown
 from carom.outcome import Outcome, Phase
 
 LAWS = [

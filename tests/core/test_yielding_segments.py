@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 from yielding_rotors import Yielding, packed, two_planes
 
-from carom.models import HuntCrossley, KelvinVoigt
-from carom.models.touchdown import Rigid
+from carom.models import HuntCrossley, KelvinVoigt, Rigid
 from carom.orbits.shooting import Start, links_of
 from carom.orbits.word import Kind, Segment, Word
 from tests.core.test_segments import differences

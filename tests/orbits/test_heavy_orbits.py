@@ -11,8 +11,7 @@ from heavy_rotors import ONE, PHASE, RIGID, SIX, SOFT, THREE, heavy, of_two_coor
 from scipy.optimize import brentq, linear_sum_assignment
 
 import carom as cm
-from carom.models import Force, Forced, Jeffcott, KelvinVoigt
-from carom.models.touchdown import Rigid
+from carom.models import Force, Forced, Jeffcott, KelvinVoigt, Rigid
 from carom.orbits import Kind, Word, find_orbits, lyapunov_exponents, orbit_exponents, orbit_near
 from carom.orbits.shooting import Start, links_of, pack_free, unpack_free
 from carom.outcome import InputError

@@ -8,8 +8,8 @@ from scipy.optimize import linear_sum_assignment
 from yielding_rotors import Yielding, packed, two_planes
 
 import carom as cm
-from carom.models import HuntCrossley, KelvinVoigt, LinearRotor
-from carom.models.touchdown import Rigid, Touchdown
+from carom.models import HuntCrossley, KelvinVoigt, LinearRotor, Rigid
+from carom.models.touchdown import Touchdown
 from carom.orbits import Kind, Section, Segment, Word, impact_map, orbit_near, orbit_of_motion
 from carom.orbits.shooting import Start
 from carom.outcome import InputError

@@ -16,9 +16,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from carom.core.force_change import force_change
 from carom.core.friction import FORWARD, friction_ratio
-from carom.core.laws.choice import force_coefficient
+from carom.core.laws.choice import force_change, force_coefficient
 from carom.models import System
 from carom.outcome import Phase
 

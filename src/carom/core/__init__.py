@@ -13,7 +13,6 @@ Nothing here knows units, files or results.  A kernel sees a rotor as the arrays
 ``wall``               numbers of a wall, and planes at it
 ``wall_work``          what walls that give way take of the energy
 ``laws``               laws of a wall along its normal
-``force_change``       how the force of a wall that gives way changes
 ``friction``           arrivals and lasting contact with Coulomb friction
 ``phases``             states of contact of a plane
 ``joint``              impacts of several planes in one instant

@@ -2,7 +2,7 @@
 
 Such a segment slides or rolls in the wall, or has parted from it and comes back without force (:mod:`carom.core.compliance`).  A small
 change of the motion has Taylor series of its own, by the derivatives of the recurrences of :mod:`carom.core.contact_series`:
-of ``r² = |y|²``, of ``rn = y``, of the law's force (:mod:`carom.core.force_change`), and of the friction that rolling needs.
+of ``r² = |y|²``, of ``rn = y``, of the law's force (:mod:`carom.core.laws.choice.force_change`), and of the friction that rolling needs.
 """
 
 from __future__ import annotations
@@ -13,9 +13,8 @@ from carom.compiling.decorators import inlined, kernel
 from carom.core.compliance import next_form
 from carom.core.contact_series import rub_series
 from carom.core.flow import flight_increments
-from carom.core.force_change import force_change
 from carom.core.friction import BACKWARD, FORWARD, friction_ratio, spare_grip
-from carom.core.laws.choice import force_rounding, press_coefficient, press_rounding
+from carom.core.laws.choice import force_change, force_rounding, press_coefficient, press_rounding
 from carom.core.layout import ORDER
 from carom.core.phases import AWAY, ROLLING, SEPARATED, sense_of_phase
 from carom.core.segments import (

@@ -27,6 +27,10 @@
 ========================  =================================================================
 """
 
+from carom.core.laws.falling import FallingRestitution
+from carom.core.laws.hunt_crossley import HuntCrossley
+from carom.core.laws.kelvin_voigt import KelvinVoigt
+from carom.core.laws.rigid import Rigid
 from carom.models.axes import Axis, axis
 from carom.models.forcing import Force
 from carom.models.from_modes import second_order_system
@@ -41,7 +45,7 @@ from carom.models.spans import Edge, Span
 from carom.models.stages import Forced, Stage, Staged, Trigger, depends_on_instant
 from carom.models.subjects import Subject, case_of, jeffcott_of, model_from, model_of, planar_case_of
 from carom.models.system import System
-from carom.models.touchdown import FallingRestitution, HuntCrossley, KelvinVoigt, Rigid, Touchdown
+from carom.models.touchdown import Touchdown
 
 __all__ = [
     "Axis",

@@ -10,6 +10,9 @@ from typing import Any
 
 import numpy as np
 
+from carom.core.laws.hunt_crossley import HuntCrossley
+from carom.core.laws.kelvin_voigt import KelvinVoigt
+from carom.core.laws.rigid import Rigid
 from carom.models.forcing import Force, with_forces
 from carom.models.jeffcott import Jeffcott
 from carom.models.linear import LinearRotor
@@ -18,7 +21,7 @@ from carom.models.race import Race
 from carom.models.shaft import Shaft
 from carom.models.stages import Around
 from carom.models.system import System
-from carom.models.touchdown import HuntCrossley, KelvinVoigt, Rigid, Touchdown
+from carom.models.touchdown import Touchdown
 from carom.outcome import InputError, shown
 from carom.parameters import TOUCHDOWN_FIELDS, Drive, Field, Parameters, Scales, TouchdownBearing
 from carom.parameters.restitution import damping_ratio_of, dissipation_of

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from carom.arguments import checked
+from carom.core.laws.rigid import Rigid
 from carom.core.planar import planar_exponents
 from carom.core.wall import Wall
 from carom.models.from_modes import second_order_system
@@ -18,7 +19,7 @@ from carom.models.linear import LinearRotor
 from carom.models.linear_parameters import refuse_node
 from carom.models.model import Matrices, Model, Rates
 from carom.models.system import System
-from carom.models.touchdown import Rigid, Touchdown
+from carom.models.touchdown import Touchdown
 from carom.outcome import InputError, shown
 from carom.parameters import Field, Numbers, Parameters, Scales
 

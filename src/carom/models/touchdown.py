@@ -5,21 +5,17 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Annotated, Any, ClassVar, get_args
+from typing import Annotated, Any
 
 import numpy as np
 
 from carom.arguments import Kind, NotNegative, Positive, checked, having
-from carom.core.laws.choice import LAWS
+from carom.core.laws.law import Law, law_of_name
 from carom.core.wall import Wall
 from carom.models.race import Race
 from carom.outcome import InputError, shown
 from carom.parameters import TouchdownBearing
 
-_Share = Annotated[float, Kind(lambda number: 0.0 <= number <= 1.0, "a number from 0 to 1")]
-_Exponent = Annotated[float, Kind(lambda number: 1.0 <= number <= 2.0, "a number from 1 to 2")]
-NO_IMPULSE = 0.0
-"""Coefficient of restitution in the numbers of a wall that gives way, which does not use one."""
 FARTHEST = 2.0
 """Distance from the centre, in clearances, up to which a rotor is followed in a wall that gives way.
 
@@ -27,126 +23,6 @@ The wall is a spring however deep the rotor is in it, and a magnet is linear how
 clearance.  The air gap of a magnet usually is twice the clearance of its touchdown bearing, so a rotor that far out strikes the magnet.
 """
 _Forward = Annotated[float, Kind(lambda number: number >= 1.0, "a number of at least 1")]
-
-
-@checked
-@dataclass(frozen=True)
-class Rigid:
-    """A rigid wall: each arrival ends with a rebound at a constant share of its speed (:mod:`carom.core.laws.rigid`).
-
-    Attributes
-    ----------
-    restitution : float
-        Coefficient of restitution ``d``, from 0 to 1.
-    """
-
-    restitution: _Share
-
-    law: ClassVar = "rigid"
-    parameters: ClassVar = {"d": "restitution"}
-
-    def wall(self, friction: float, surface_speed: float, mass: float) -> Wall:
-        """The numbers of a wall for a plane that resists impulses with this mass."""
-        return Wall(friction, self.restitution, surface_speed)
-
-    def at_speed(self, factor: float) -> Rigid:
-        """Return the same at a speed of the shaft that is larger by a factor."""
-        return self
-
-
-@checked
-@dataclass(frozen=True)
-class FallingRestitution:
-    """A wall that yields more the harder it is hit: a restitution ``d/(1 + ṙ/v)`` (:mod:`carom.core.laws.falling`).
-
-    Attributes
-    ----------
-    restitution : float
-        Coefficient of restitution ``d`` of slow arrivals, from 0 to 1.
-    speed : float
-        Speed ``v`` of the arrival at which it is half of that, in ``c_r Ω``.
-    """
-
-    restitution: _Share
-    speed: Positive
-
-    law: ClassVar = "falling"
-    parameters: ClassVar = {"d": "restitution"}
-
-    def wall(self, friction: float, surface_speed: float, mass: float) -> Wall:
-        """The numbers of a wall for a plane that resists impulses with this mass."""
-        return Wall(friction, self.restitution, surface_speed, LAWS.index(self.law), 1.0 / self.speed)
-
-    def at_speed(self, factor: float) -> FallingRestitution:
-        """Return the same at a speed of the shaft that is larger by a factor."""
-        return FallingRestitution(self.restitution, self.speed / factor)
-
-
-@checked
-@dataclass(frozen=True)
-class KelvinVoigt:
-    """A wall on a spring and a damper, which cannot pull: the force ``kδ + cδ̇`` at the depth ``δ`` (:mod:`carom.core.laws.kelvin_voigt`).
-
-    Attributes
-    ----------
-    stiffness : float
-        ``k`` in ``m Ω²``, with the unit ``m`` of the rotor's masses.
-    damping : float
-        ``c`` in ``m Ω``.
-    """
-
-    stiffness: Positive
-    damping: NotNegative
-
-    law: ClassVar = "kelvin_voigt"
-    parameters: ClassVar = {"wall_stiffness": "stiffness", "wall_damping": "damping"}
-
-    def wall(self, friction: float, surface_speed: float, mass: float) -> Wall:
-        """The numbers of a wall for a plane that resists impulses with this mass."""
-        own = LAWS.index(self.law), 0.0, self.stiffness / mass, self.damping / mass
-        return Wall(friction, NO_IMPULSE, surface_speed, *own)
-
-    def at_speed(self, factor: float) -> KelvinVoigt:
-        """Return the same at a speed of the shaft that is larger by a factor."""
-        return KelvinVoigt(self.stiffness / factor**2, self.damping / factor)
-
-
-@checked
-@dataclass(frozen=True)
-class HuntCrossley:
-    """A wall whose damping grows with the depth: the force ``k δⁿ (1 + χδ̇)`` at the depth ``δ`` (:mod:`carom.core.laws.hunt_crossley`).
-
-    Attributes
-    ----------
-    stiffness : float
-        ``k`` in ``m Ω² c_r^(1 − n)``, with the unit ``m`` of the rotor's masses.
-    dissipation : float
-        ``χ`` in ``1/(c_r Ω)``.
-    exponent : float
-        ``n``: 1, 10/9 (rollers) or 3/2 (balls), or another one from 1 to 2.
-    """
-
-    stiffness: Positive
-    dissipation: NotNegative
-    exponent: _Exponent = 1.0
-
-    law: ClassVar = "hunt_crossley"
-    parameters: ClassVar = {"wall_stiffness": "stiffness", "wall_dissipation": "dissipation"}
-
-    def wall(self, friction: float, surface_speed: float, mass: float) -> Wall:
-        """The numbers of a wall for a plane that resists impulses with this mass."""
-        own = LAWS.index(self.law), self.exponent, self.stiffness / mass, self.dissipation
-        return Wall(friction, NO_IMPULSE, surface_speed, *own)
-
-    def at_speed(self, factor: float) -> HuntCrossley:
-        """Return the same at a speed of the shaft that is larger by a factor."""
-        return HuntCrossley(self.stiffness / factor**2, self.dissipation * factor, self.exponent)
-
-
-YIELDING = (KelvinVoigt.law, HuntCrossley.law)
-"""Names of the laws of walls that give way."""
-Law = Rigid | FallingRestitution | KelvinVoigt | HuntCrossley
-"""What a wall does along its normal; ``law`` is the name of its module in :mod:`carom.core.laws`."""
 
 
 @checked
@@ -159,8 +35,8 @@ class Touchdown:
     plane : sequence of complex, shape (n,)
         Displacement at the plane, in its clearance, per coordinate of the rotor.  A plane resists impulses with the
         effective mass ``1/(W M⁻¹ Wᴴ)`` of this row ``W``.
-    law : Rigid, FallingRestitution, KelvinVoigt or HuntCrossley
-        What the wall does to a plane that arrives.
+    law : carom.core.laws.law.Law
+        What the wall does to a plane that arrives: Rigid, FallingRestitution, KelvinVoigt, HuntCrossley or one of your own.
     friction : float
         Coulomb friction coefficient ``μ``.
     surface_speed : float
@@ -244,7 +120,7 @@ class Touchdown:
     ) -> Touchdown:
         """Make it from :meth:`attributes`."""
         name, numbers = given["law"]["name"], {key: given["law"][key] for key in given["law"] if key != "name"}
-        (law,) = (each for each in get_args(Law) if each.law == name)
+        law: Any = law_of_name(name)
         plane = [complex(*number) for number in given["plane"]]
         race = Race(**given["race"]) if given["race"] is not None else None
         bearing = TouchdownBearing(**given["bearing"]) if given.get("bearing") is not None else None

@@ -2,19 +2,13 @@
 
 from __future__ import annotations
 
-import pkgutil
 from collections.abc import Callable
 from importlib import import_module
 from typing import Any
 
 from carom.compiling.decorators import formula
 from carom.core import laws
-
-_OTHERS = ("rigid", "choice", "yielding")
-_FOUND = [module.name for module in pkgutil.iter_modules(laws.__path__) if module.name not in _OTHERS]
-LAWS = ("rigid", *sorted(_FOUND))
-"""Names of the laws; each has its place as its number."""
-
+from carom.core.laws.law import LAWS
 
 Function = Callable[..., Any]
 
@@ -79,6 +73,18 @@ def _by_series_with_power(number: int, mine: Function, others: Function) -> Func
     return function
 
 
+def _by_changes(number: int, mine: Function, others: Function) -> Function:
+    """A function of the series of depth, rate and power of the depth, of those of their changes, and the wall."""
+
+    @formula
+    def function(k, depth, rate, power, depth_change, rate_change, power_change, wall):
+        if wall.law == number:
+            return mine(k, depth, rate, power, depth_change, rate_change, power_change, wall)
+        return others(k, depth, rate, power, depth_change, rate_change, power_change, wall)
+
+    return function
+
+
 impulse = _chosen("impulse", _by_number)
 impulse_by_speed = _chosen("impulse_by_speed", _by_number)
 impulse_by_restitution = _chosen("impulse_by_restitution", _by_number)
@@ -89,3 +95,4 @@ force_rounding = _chosen("force_rounding", _by_two)
 press_rounding = _chosen("press_rounding", _by_two)
 press_coefficient = _chosen("press_coefficient", _by_series)
 force_coefficient = _chosen("force_coefficient", _by_series_with_power)
+force_change = _chosen("force_change", _by_changes)

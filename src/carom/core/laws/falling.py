@@ -5,7 +5,12 @@ The law's own number is ``1/v``.  No rebound is faster than ``dv``.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+from typing import ClassVar
+
+from carom.arguments import Positive, checked
 from carom.compiling.decorators import formula
+from carom.core.laws.law import FromZeroToOne, Law
 
 
 @formula
@@ -25,3 +30,32 @@ def impulse_by_speed(speed, wall):
 def impulse_by_restitution(speed, wall):
     """Derivative of :func:`impulse` by the restitution."""
     return speed / (1.0 + wall.law_number * abs(speed))
+
+
+@checked
+@dataclass(frozen=True)
+class FallingRestitution(Law):
+    """A wall that yields more the harder it is hit: a restitution ``d/(1 + ṙ/v)`` .
+
+    Attributes
+    ----------
+    restitution : float
+        Coefficient of restitution ``d`` of slow arrivals, from 0 to 1.
+    speed : float
+        Speed ``v`` of the arrival at which it is half of that, in ``c_r Ω``.
+    """
+
+    restitution: FromZeroToOne
+    speed: Positive
+
+    law: ClassVar = "falling"
+    parameters: ClassVar = {"d": "restitution"}
+    is_compliant: ClassVar = False
+
+    def numbers(self, mass: float) -> dict[str, float]:
+        """Numbers of its wall."""
+        return {"restitution": self.restitution, "law_number": 1.0 / self.speed}
+
+    def at_speed(self, factor: float) -> FallingRestitution:
+        """Return the same at another speed of the shaft."""
+        return FallingRestitution(self.restitution, self.speed / factor)

@@ -10,8 +10,13 @@ up to it: ``α + β = 1`` and ``α/2 + β/3 = 1/(n + 1)``.  Through a contact en
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+from typing import ClassVar
+
+from carom.arguments import NotNegative, Positive, checked
 from carom.compiling.decorators import formula
-from carom.core.laws.yielding import no_impulse
+from carom.core.laws.compliant import no_impulse
+from carom.core.laws.law import FromOneToTwo, Law
 
 impulse = impulse_by_speed = impulse_by_restitution = no_impulse
 ONSET = 1e-9
@@ -70,6 +75,42 @@ def force_coefficient(k, depth, rate, power, wall):
 
 
 @formula
+def force_change(k, depth, rate, power, depth_change, rate_change, power_change, wall):
+    """Coefficient ``k`` of the change of the normal force, from those of depth and rate and of their changes up to it.
+
+    Parameters
+    ----------
+    k : int
+    depth, rate, power : arrays, shape (k + 1,)
+        As :func:`force_coefficient` takes and leaves them.
+    depth_change, rate_change : arrays, shape (k + 1,)
+    power_change : array, shape (k + 1,)
+        Receives the coefficient of the change of ``δⁿ``, from ``δ (δⁿ)˙ = n δ̇ δⁿ``, or of the parabola that takes its place.
+    wall : Wall
+    """
+    exponent = wall.law_number
+    if exponent == 1.0:
+        power_change[k] = depth_change[k]
+    elif edge(depth[0], rate[0], wall) > 0.0:
+        share, square = 6.0 / (exponent + 1.0) - 2.0, 0.0
+        for j in range(k + 1):
+            square += 2.0 * depth[j] * depth_change[k - j]
+        power_change[k] = ONSET ** (exponent - 1.0) * (share * depth_change[k] + (1.0 - share) * square / ONSET)
+    elif k == 0:
+        power_change[0] = exponent * depth[0] ** (exponent - 1.0) * depth_change[0]
+    else:
+        total = -k * depth_change[0] * power[k]
+        for j in range(1, k + 1):
+            share = exponent * j - (k - j)
+            total += share * (depth_change[j] * power[k - j] + depth[j] * power_change[k - j])
+        power_change[k] = total / (k * depth[0])
+    change = power_change[k]
+    for j in range(k + 1):
+        change += wall.loss * (power_change[j] * rate[k - j] + power[j] * rate_change[k - j])
+    return wall.stiffness * change
+
+
+@formula
 def press_coefficient(k, depth, rate, wall):
     """Taylor coefficient ``k`` of what vanishes with the force, at any depth: ``1 + χδ̇``."""
     return wall.loss * rate[k] + (1.0 if k == 0 else 0.0)
@@ -94,3 +135,34 @@ def force_rounding(of_depth, of_rate, wall):
 def stored_energy(depth, wall):
     """Energy of the wall's spring."""
     return wall.stiffness * max(depth, 0.0) ** (wall.law_number + 1.0) / (wall.law_number + 1.0)
+
+
+@checked
+@dataclass(frozen=True)
+class HuntCrossley(Law):
+    """A wall whose damping grows with the depth: the force ``k δⁿ (1 + χδ̇)`` at the depth ``δ`` .
+
+    Attributes
+    ----------
+    stiffness : float
+       ``k`` in ``m Ω² c_r^(1 − n)``, with the unit ``m`` of the rotor's masses.
+    dissipation : float
+       ``χ`` in ``1/(c_r Ω)``.
+    exponent : float
+       ``n``: 1, 10/9 (rollers) or 3/2 (balls), or another one from 1 to 2.
+    """
+
+    stiffness: Positive
+    dissipation: NotNegative
+    exponent: FromOneToTwo = 1.0
+
+    law: ClassVar = "hunt_crossley"
+    parameters: ClassVar = {"wall_stiffness": "stiffness", "wall_dissipation": "dissipation"}
+
+    def numbers(self, mass: float) -> dict[str, float]:
+        """Numbers of its wall."""
+        return {"stiffness": self.stiffness / mass, "loss": self.dissipation, "law_number": self.exponent}
+
+    def at_speed(self, factor: float) -> HuntCrossley:
+        """Return the same at another speed of the shaft."""
+        return HuntCrossley(self.stiffness / factor**2, self.dissipation * factor, self.exponent)

@@ -2,7 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+from typing import ClassVar
+
+from carom.arguments import checked
 from carom.compiling.decorators import formula
+from carom.core.laws.law import FromZeroToOne, Law
 
 
 @formula
@@ -21,3 +26,29 @@ def impulse_by_speed(speed, wall):
 def impulse_by_restitution(speed, wall):
     """Derivative of :func:`impulse` by the restitution."""
     return speed
+
+
+@checked
+@dataclass(frozen=True)
+class Rigid(Law):
+    """A rigid wall: each arrival ends with a rebound at a constant share of its speed .
+
+    Attributes
+    ----------
+    restitution : float
+        Coefficient of restitution ``d``, from 0 to 1.
+    """
+
+    restitution: FromZeroToOne
+
+    law: ClassVar = "rigid"
+    parameters: ClassVar = {"d": "restitution"}
+    is_compliant: ClassVar = False
+
+    def numbers(self, mass: float) -> dict[str, float]:
+        """Numbers of its wall."""
+        return {"restitution": self.restitution}
+
+    def at_speed(self, factor: float) -> Rigid:
+        """Return the same at another speed of the shaft."""
+        return self

@@ -1,4 +1,4 @@
-"""What the laws of walls that give way have in common: an arrival has no impulse, a force acts while the plane is in the wall."""
+"""What compliant laws have in common: an arrival has no impulse, a force acts while the plane is in the wall."""
 
 from __future__ import annotations
 

@@ -8,8 +8,7 @@ from importlib import import_module
 import numpy as np
 import pytest
 
-from carom.core.force_change import force_change
-from carom.core.laws.choice import LAWS, force_coefficient
+from carom.core.laws.choice import LAWS, force_change, force_coefficient
 from carom.core.wall import Wall
 
 YIELDING = [number for number, law in enumerate(LAWS) if hasattr(import_module(f"carom.core.laws.{law}"), "force")]
