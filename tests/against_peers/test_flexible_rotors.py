@@ -42,7 +42,7 @@ def on_springs(ross):
     rotor = rotor_of(ross)
     stiffness, damping = rotor.stiffness_matrix.copy(), np.zeros_like(rotor.mass_matrix)
     for node, spring, damper in ross["springs"]:
-        place = rotor.displacement_at(node)
+        place = 2 * rotor.place_of(node)
         stiffness[place, place] += spring
         damping[place, place] += damper
     return rotor, rotor.mass_matrix, damping, stiffness, rotor.gyroscopic_matrix
@@ -71,11 +71,11 @@ def test_response_to_unbalance(ross):
     asked = ross["unbalance"]
     for number, speed in enumerate(asked["speeds"]):
         push = np.zeros(len(mass))
-        push[rotor.displacement_at(asked["node"])] = speed**2
+        push[2 * rotor.place_of(asked["node"])] = speed**2
         dynamic = stiffness - speed**2 * mass + 1j * speed * (damping - 1j * speed * gyroscopic)
         found = np.linalg.solve(dynamic, push)
         for node, x in zip(asked["at_nodes"], asked["x"], strict=True):
-            assert found[rotor.displacement_at(node)] == pytest.approx(complex(*x[number]), rel=1e-8)
+            assert found[2 * rotor.place_of(node)] == pytest.approx(complex(*x[number]), rel=1e-8)
 
 
 def test_response_on_magnetic_bearings():

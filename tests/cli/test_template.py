@@ -8,7 +8,12 @@ import pytest
 
 import carom as cm
 from carom.cli.app import BAD_INPUT, main
+from carom.parameters.drive import DRIVE_FIELDS
+from carom.parameters.gravity import GRAVITY_FIELDS
+from carom.parameters.load_limits import LIMIT_FIELDS
+from carom.parameters.terms import ENTRIES
 from carom.rotors.machine_file import PART_ENTRIES, ROTOR_ENTRIES
+from carom.rotors.rigid_rotor import RIGID_FIELDS
 
 SUPPORT = ("node", "kx", "ky", "cx", "cy")
 """How entries of a table begin that is left out as a whole."""
@@ -29,11 +34,36 @@ def test_it_loads_and_drops(tmp_path, text):
     assert all(plane.contacts > 0 for plane in loads.planes)
 
 
+def named_in(text):
+    """Entries in a line of their own or in one that begins with ``#``."""
+    return set(re.findall(r"^(?:# )?(\w+) = ", text, flags=re.MULTILINE))
+
+
 def test_it_explains_every_entry(text):
-    """Of each table, in a line of its own or in one that begins with ``#``."""
-    named = set(re.findall(r"^(?:# )?(\w+) = ", text, flags=re.MULTILINE))
+    of_rigid = {*RIGID_FIELDS, "position", "sensor_positions"} - {*PART_ENTRIES["disc"]}
     own = {*ROTOR_ENTRIES, *(name for entries in PART_ENTRIES.values() for name in entries)}
-    assert own - named == {"restitution", "restitution_speed", "offset", "offset_direction"}
+    assert own - named_in(text) == {"restitution", "restitution_speed", "offset", "offset_direction", *of_rigid}
+
+
+@pytest.mark.parametrize(
+    ("kind", "entries"),
+    [
+        ("rigid", {*RIGID_FIELDS, "position", "sensor_positions", "speed", "at_regain"}),
+        ("planar", {*ENTRIES, *DRIVE_FIELDS, *GRAVITY_FIELDS, *LIMIT_FIELDS} - {"depth", "pressure"}),
+    ],
+)
+def test_the_other_kinds_load_and_explain_their_entries(tmp_path, kind, entries):
+    path = tmp_path / "mine.toml"
+    assert main(["template", kind, "--out", str(path)]) == 0
+    text = path.read_text(encoding="utf-8")
+    assert entries <= named_in(text)
+    assert cm.load(path).parameters.scales.mass > 1.0
+    # A table that is left out as a whole loads too, and what is in it.
+    for block in re.findall(r"^# \[+\w+\]+.*?(?=\n\n|\Z)", text, flags=re.MULTILINE | re.DOTALL):
+        used = text.replace(block, re.sub("^# ", "", block, flags=re.MULTILINE))
+        path.write_text(used.replace("restitution =", "# ") if "[touchdown]" in block else used, encoding="utf-8")
+        if "[drive]" not in block:  # it goes beside a bearing that gives way only
+            cm.load(path)
 
 
 @pytest.mark.parametrize(
@@ -59,7 +89,7 @@ def test_the_table_of_a_support_loads(tmp_path, text):
     path.write_text(text.replace(block, re.sub("^# ", "", block, flags=re.MULTILINE)), encoding="utf-8")
     (support,) = cm.rotors.load_machine(path).supports
     assert support.kxx == 2e4
-    assert all(getattr(support, name) for name in PART_ENTRIES["support"] if name != "node")
+    assert all(getattr(support, name) for name in PART_ENTRIES["support"] if name not in ("node", "position"))
 
 
 def test_every_line_that_may_be_used_loads(tmp_path, text):
@@ -96,5 +126,5 @@ def test_nothing_is_overwritten_and_other_kinds_are_refused(tmp_path, capsys):
     assert main(["template", "flexible", "--out", str(path)]) == BAD_INPUT
     assert "a file that does not exist yet" in capsys.readouterr().err
     assert path.read_text() == "mine"
-    assert main(["template", "rigid"]) == BAD_INPUT
-    assert "KIND = rigid: one of flexible" in capsys.readouterr().err
+    assert main(["template", "stiff"]) == BAD_INPUT
+    assert "KIND = stiff: one of planar, rigid, flexible" in capsys.readouterr().err

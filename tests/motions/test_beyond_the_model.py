@@ -14,7 +14,6 @@ from carom.motions import drop_loads
 from carom.motions.magnets import excess_pull, magnet_reach
 from carom.outcome import InputError, Outcome
 from carom.rotors import Support
-from carom.rotors.equations import row_of
 from carom.studies import DropStudy
 
 pytestmark = pytest.mark.jit_only
@@ -119,7 +118,7 @@ def test_magnets_of_a_flexible_machine(tmp_path):
     motion = cm.simulate(machine.model, cm.kick("495 mm/s", "30 deg"), "12 ms")
     times = np.linspace(0.0, motion.time, 1000)
     shapes = (
-        np.array([row_of(machine.machine.rotor, each.node) for each in machine.machine.bearings]) @ machine.basis.shapes
+        np.array([machine.machine.rotor.row_at(each.node) for each in machine.machine.bearings]) @ machine.basis.shapes
     )
     size = machine.scales.length * np.sqrt(machine.scales.mass)
     places = size * motion.at(times)[0][:, : machine.vectors] @ shapes.T  # m

@@ -130,3 +130,28 @@ def test_a_machine_with_weight_and_such_a_bearing_falls(tmp_path):
     motion = cm.simulate(case, cm.drop(cm.State(0)), "20 ms")
     first = motion.segment_starts[1] * motion.rotor.scales.time
     assert first == pytest.approx(7.139215615e-3, rel=1e-9)
+
+
+def test_the_restitution_of_a_rigid_wall_may_stand_in_either_table(tmp_path):
+    text = """[machine]
+mass = 50
+speed = "6000 rpm"
+clearance = "0.25 mm"
+rotor_radius = "40 mm"
+friction = 0.15
+eccentricity = 0
+stiffness = 4e6
+damping = 6000
+[touchdown]
+restitution = 0.8
+race_inertia = 1e-5
+"""
+    path = tmp_path / "machine.toml"
+    path.write_text(text)
+    case = cm.load(path)
+    assert (case.machine.restitution, case.touchdown.restitution) == (0.8, None)
+    with pytest.raises(InputError, match="the restitution of a rigid wall is that of the machine"):
+        cm.load(path, ["touchdown_restitution=0.7"])
+    path.write_text(text.replace("damping", "restitution = 0.7\ndamping"))
+    with pytest.raises(InputError, match=r"^restitution = 0.8: stated in \[machine\] already"):
+        cm.load(path)

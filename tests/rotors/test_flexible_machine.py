@@ -27,8 +27,8 @@ def by_elements(machine):
     matrix = np.zeros((2 * n + states, 2 * n + states), complex)
     at = 0
     for each in machine.bearings:
-        place, loop, own = rotor.displacement_at(each.node), each.loop, slice(at, at + each.loop.states)
-        sensors = [rotor.displacement_at(node) for node in each.sensor_nodes]
+        place, loop, own = 2 * rotor.place_of(each.node), each.loop, slice(at, at + each.loop.states)
+        sensors = [2 * rotor.place_of(node) for node in each.sensor_nodes]
         stiffness[place, place] += each.ks
         for sensor in sensors:
             stiffness[place, sensor] += each.ki * loop.D / len(sensors)
@@ -72,7 +72,7 @@ def test_the_error_told_is_that_of_the_forces():
         reduced = MACHINE.with_modes(modes)
         every = MACHINE.with_modes(1000)
         row = np.zeros(len(MACHINE.rotor.mass_matrix))
-        row[MACHINE.rotor.displacement_at(2)] = 1.0
+        row[2 * MACHINE.rotor.place_of(2)] = 1.0
         true = contact_error(reduced.basis, every.basis, row, 1e7)
         assert 0.5 < reduced.error / true < 2.0
     assert every.error == 0.0
@@ -230,7 +230,10 @@ def test_without_bearings_the_rotor_is_free():
         (lambda: munich(bearings=None), r"^bearings = None: a sequence of carom.rotors.MagneticBearing$"),
         (lambda: munich(touchdowns=[]), r"^touchdowns = \[\]: a sequence of carom.rotors.TouchdownPlane, one or more$"),
         (lambda: munich(gravity=9.81), r"^gravity = 9.81: carom.parameters.Gravity, or None$"),
-        (lambda: FlexibleMachine(1, 1.0, 1.0, [], []), r"^rotor = 1: carom.rotors.FlexibleRotor or MatrixRotor$"),
+        (
+            lambda: FlexibleMachine(1, 1.0, 1.0, [], []),
+            r"^rotor = 1: carom.rotors.FlexibleRotor, MatrixRotor or RigidRotor$",
+        ),
         (
             lambda: munich(bearings=[MagneticBearing(15, 50.0, -1e5, PID(1.0))]),
             r"^bearing node = 15: a node of the shaft: 0 to 14, its end at 702 mm$",
@@ -244,7 +247,14 @@ def test_without_bearings_the_rotor_is_free():
             lambda: munich(touchdowns=[TouchdownPlane(20, SOFT, 0.01, 0.1)]),
             r"^touchdown node = 20: a node of the shaft",
         ),
-        (lambda: TouchdownPlane(0, TouchdownBearing(), 0.01, 0.1), r"^law = rigid: 'kelvin-voigt' or 'hunt-crossley'"),
+        (
+            lambda: TouchdownPlane(0, TouchdownBearing(), 0.01, 0.1),
+            r"^restitution = nothing given: the law rigid needs it",
+        ),
+        (
+            lambda: munich(touchdown=TouchdownBearing(restitution=0.8)),
+            r"^law = rigid: 'kelvin-voigt' or 'hunt-crossley'",
+        ),
         (lambda: TouchdownPlane(0, "soft", 0.01, 0.1), r"^bearing = soft: carom.parameters.TouchdownBearing$"),
         (lambda: TouchdownPlane(0, SOFT, 0.01, -0.1), r"^friction = -0.1: must be a number"),
         (

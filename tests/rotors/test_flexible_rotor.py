@@ -161,7 +161,7 @@ def test_free_modes_are_those_of_the_pencil():
     exact = np.sqrt(eigh(stiffness, mass, eigvals_only=True)[2:8])
     assert modes.frequencies[2:8] == pytest.approx(exact, rel=1e-8)
     # All bending modes together give way as the shaft does to a force and the inertia that it meets.
-    row = np.eye(len(mass))[rotor.displacement_at(1)]
+    row = np.eye(len(mass))[2 * rotor.place_of(1)]
     whole = modes.flexibility(row, 2)
     push = row - mass @ modes.shapes[:, :2] @ (row @ modes.shapes[:, :2])
     assert np.abs(stiffness @ whole - push).max() < 1e-8
@@ -186,7 +186,7 @@ def test_long_sections_are_divided_and_nodes_stay_where_they_are():
     rotor = stepped(20)
     assert rotor.divisions == (6, 10, 4)
     assert rotor.places[[0, 6, 16, 20]] == pytest.approx([0.0, 0.3, 0.8, 1.0])
-    assert [rotor.displacement_at(node) for node in range(4)] == [0, 12, 32, 40]
+    assert [2 * rotor.place_of(node) for node in range(4)] == [0, 12, 32, 40]
 
 
 @pytest.mark.parametrize(

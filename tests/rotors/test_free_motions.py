@@ -29,7 +29,7 @@ def exponents(machine):
     n, loops = len(rotor.mass_matrix), []
     stiffness = rotor.stiffness_matrix.astype(complex)
     for each in machine.bearings:
-        at, given = rotor.displacement_at(each.node), each.controller
+        at, given = 2 * rotor.place_of(each.node), each.controller
         stiffness[at, at] += each.ks
         above, below = np.array([given.proportional]), np.array([1.0])
         if given.integral:
@@ -48,7 +48,7 @@ def exponents(machine):
         loops.append(
             (
                 at,
-                [rotor.displacement_at(node) for node in each.sensor_nodes],
+                [2 * rotor.place_of(node) for node in each.sensor_nodes],
                 each.ki,
                 *scipy.signal.tf2ss(above, below),
             )

@@ -34,9 +34,9 @@ def dynamic(machine, exponent, closed=True, speed=None):
     matrix = matrix + exponent * (rotor.damping_matrix - 1j * speed * rotor.gyroscopic_matrix)
     pulls, seen = np.zeros((2, len(machine.bearings), len(matrix)))
     for number, each in enumerate(machine.bearings):
-        pulls[number, rotor.displacement_at(each.node)] = 1.0
+        pulls[number, 2 * rotor.place_of(each.node)] = 1.0
         for node in each.sensor_nodes:
-            seen[number, rotor.displacement_at(node)] += 1.0 / len(each.sensor_nodes)
+            seen[number, 2 * rotor.place_of(node)] += 1.0 / len(each.sensor_nodes)
         matrix = matrix + each.ks * np.outer(pulls[number], pulls[number])
         if closed:
             matrix = matrix + each.ki * complex(each.loop.at(exponent)) * np.outer(pulls[number], seen[number])
@@ -121,9 +121,9 @@ def test_unbalance_response_is_that_of_the_finite_elements():
         matrix, _, seen = dynamic(MACHINE, 1j * speed, speed=speed)
         push = np.zeros(len(matrix), complex)
         for each in MACHINE.unbalances:
-            push[rotor.displacement_at(each.node)] += speed**2 * each.size * np.exp(1j * each.angle)
+            push[2 * rotor.place_of(each.node)] += speed**2 * each.size * np.exp(1j * each.angle)
         answer = np.linalg.solve(matrix, push)
-        places = [rotor.displacement_at(each.node) for each in MACHINE.touchdowns]
+        places = [2 * rotor.place_of(each.node) for each in MACHINE.touchdowns]
         assert found.touchdowns[number] == pytest.approx(answer[places], rel=1e-8)
         assert found.sensors[number] == pytest.approx(seen @ answer, rel=1e-8)
         gains = [complex(each.loop.at(1j * speed)) for each in MACHINE.bearings]

@@ -42,7 +42,7 @@ def generator(given, levitates):
     forces[:, :n], forces[:, n : 2 * n] = -rotor.stiffness_matrix, -spin
     first = 2 * n
     for bearing, size in zip(given.bearings, sizes, strict=True):
-        node, own, loop = rotor.displacement_at(bearing.node), slice(first, first + size), bearing.loop
+        node, own, loop = 2 * rotor.place_of(bearing.node), slice(first, first + size), bearing.loop
         if levitates:
             forces[node, own] -= bearing.ki * loop.C
             forces[node, node] -= bearing.ki * loop.D + bearing.ks
@@ -50,7 +50,7 @@ def generator(given, levitates):
             matrix[own, own], matrix[own, node] = loop.A, loop.B
         first = own.stop
     (unbalance,) = given.unbalances
-    forces[rotor.displacement_at(unbalance.node), -2] = unbalance.size * given.speed**2 * np.exp(1j * unbalance.angle)
+    forces[2 * rotor.place_of(unbalance.node), -2] = unbalance.size * given.speed**2 * np.exp(1j * unbalance.angle)
     forces[:, -1] = -1j * GRAVITY * rotor.mass_matrix @ rotor.translation
     matrix[:n, n : 2 * n], matrix[n : 2 * n] = np.eye(n), np.linalg.solve(rotor.mass_matrix, forces)
     matrix[-2, -2] = 1j * given.speed
@@ -81,7 +81,7 @@ def test_controllers_begin_again_as_their_bearings_say(at_regain, integral, spee
         own = levitates.seen_at(plane).end()[0] * scales.length
         # Both solve linear equations exactly; exponents up to 400 cost SciPy's exponential up to 7e-11, as 40 digits show, and of
         # controllers that run the modes of the fall up to 4e-11.
-        assert abs(own - state[given.rotor.displacement_at(touchdown.node)]) < 2e-10 * scales.length
+        assert abs(own - state[2 * given.rotor.place_of(touchdown.node)]) < 2e-10 * scales.length
 
 
 def test_what_cannot_be_is_refused():

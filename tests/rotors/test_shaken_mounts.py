@@ -37,7 +37,7 @@ def solved():
     rotor, bearings = MACHINE.rotor, MACHINE.bearings
     mass, stiffness = rotor.mass_matrix, rotor.stiffness_matrix
     spin = rotor.damping_matrix - 1j * MACHINE.speed * rotor.gyroscopic_matrix
-    n, nodes = len(mass), [rotor.displacement_at(each.node) for each in MACHINE.touchdowns]
+    n, nodes = len(mass), [2 * rotor.place_of(each.node) for each in MACHINE.touchdowns]
     states = [each.loop.states for each in bearings]
     ends = np.cumsum([2 * n, 2, 2, *states])
 
@@ -55,7 +55,7 @@ def solved():
         forces[nodes] -= contact
         changes = []
         for bearing, own in zip(bearings, loops, strict=True):
-            node = rotor.displacement_at(bearing.node)
+            node = 2 * rotor.place_of(bearing.node)
             seen, loop = place[node] - at, bearing.loop
             forces[node] -= bearing.ki * (loop.C @ own + loop.D * seen) + bearing.ks * seen
             changes.append(loop.A @ own + loop.B * seen)

@@ -35,16 +35,16 @@ def planes(machine, exponent=None):
     mass, stiffness = np.kron(both, rotor.mass_matrix), np.kron(both, rotor.stiffness_matrix).astype(complex)
     damping = np.kron(both, rotor.damping_matrix) + machine.speed * np.kron(turning, rotor.gyroscopic_matrix)
     for each in machine.supports:
-        place = rotor.displacement_at(each.node)
+        place = 2 * rotor.place_of(each.node)
         at = np.ix_((place, n + place), (place, n + place))
         stiffness[at] += np.array([[each.kxx, each.kxy], [each.kyx, each.kyy]])
         damping[at] += np.array([[each.cxx, each.cxy], [each.cyx, each.cyy]])
     for each in machine.bearings if exponent is not None else ():
         for shift in (0, n):
-            place = shift + rotor.displacement_at(each.node)
+            place = shift + 2 * rotor.place_of(each.node)
             stiffness[place, place] += each.ks
             for node in each.sensor_nodes:
-                seen = shift + rotor.displacement_at(node)
+                seen = shift + 2 * rotor.place_of(node)
                 stiffness[place, seen] += each.ki * complex(each.loop.at(exponent)) / len(each.sensor_nodes)
     return mass, damping, stiffness
 
@@ -107,10 +107,10 @@ def test_response_to_unbalance_goes_round_the_ellipses_of_both_planes(speed):
     force = np.zeros(2 * n, complex)
     for each in machine.unbalances:
         turn = each.size * speed**2 * np.exp(1j * each.angle)
-        force[rotor.displacement_at(each.node)] += turn  # x = Re(turn e^{iΩt}), y = Im(...)
-        force[n + rotor.displacement_at(each.node)] += -1j * turn
+        force[2 * rotor.place_of(each.node)] += turn  # x = Re(turn e^{iΩt}), y = Im(...)
+        force[n + 2 * rotor.place_of(each.node)] += -1j * turn
     answer = np.linalg.solve(stiffness + 1j * speed * damping - speed**2 * mass, force)
-    places = np.array([rotor.displacement_at(each.node) for each in machine.touchdowns])
+    places = np.array([2 * rotor.place_of(each.node) for each in machine.touchdowns])
     angles = np.linspace(0.0, 2.0 * np.pi, 7200, endpoint=False)
     turns = np.exp(1j * angles)[:, None]
     path = (answer[places] * turns).real + 1j * (answer[n + places] * turns).real
@@ -147,7 +147,7 @@ def test_static_sag_is_that_of_both_planes():
     weight = np.zeros(2 * n)
     weight[n:] = -machine.gravity.acceleration * rotor.mass_matrix @ np.tile([1.0, 0.0], n // 2)
     sag = np.linalg.solve(stiffness.real, weight)
-    place = rotor.displacement_at(machine.touchdowns[0].node)
+    place = 2 * rotor.place_of(machine.touchdowns[0].node)
     system = machine.whole.model.system
     found = system.arrays["rows"][0] @ system.outer * machine.clearance
     assert found == pytest.approx(sag[place] + 1j * sag[n + place], rel=1e-6)
@@ -165,10 +165,10 @@ def test_sensitivity_is_the_worse_of_both_axes():
         for shift in (0, n):
             for each in MACHINE.bearings:
                 pull, row = np.zeros((2, 2 * n))
-                at = shift + rotor.displacement_at(each.node)
+                at = shift + 2 * rotor.place_of(each.node)
                 pull[at], matrix[at, at] = 1.0, matrix[at, at] + each.ks
                 for node in each.sensor_nodes:
-                    row[shift + rotor.displacement_at(node)] += 1.0 / len(each.sensor_nodes)
+                    row[shift + 2 * rotor.place_of(node)] += 1.0 / len(each.sensor_nodes)
                 pulls, seen = [*pulls, pull], [*seen, row]
                 gains.append(each.ki * complex(each.loop.at(s)))
         opened = np.array(seen) @ np.linalg.solve(matrix, np.array(pulls).T) * gains

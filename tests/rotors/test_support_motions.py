@@ -15,7 +15,7 @@ from carom.motions import State, energy_ledger
 from carom.outcome import Outcome
 from carom.parameters import Gravity
 from carom.rotors import PID, MagneticBearing, Support, Unbalance
-from carom.rotors.equations import loops_of, row_of
+from carom.rotors.equations import loops_of
 
 P, D, T = 9000.0, 10.0, 1e-4
 KI, KS = 50.0, -1e5
@@ -39,12 +39,12 @@ def reference(reduced, start, until, held=True, bound=np.inf):
     at, v = reduced.machine, reduced.vectors
     loops = loops_of(at.rotor, at.bearings, at.touchdowns)
     pulls, planes = loops.bearings @ reduced.basis.shapes, loops.touchdowns @ reduced.basis.shapes
-    rows = np.array([row_of(at.rotor, each.node) for each in at.supports]) @ reduced.basis.shapes
+    rows = np.array([at.rotor.row_at(each.node) for each in at.supports]) @ reduced.basis.shapes
     spring, spin = np.diag(reduced.basis.frequencies**2), -1j * at.speed * reduced.equations.gyroscopic[:v, :v]
     weight = np.zeros(v, complex)
     weight[0] = -1j * Gravity().acceleration * np.sqrt(at.rotor.mass)
     unbalance = sum(
-        each.size * np.exp(1j * each.angle) * (row_of(at.rotor, each.node) @ reduced.basis.shapes)
+        each.size * np.exp(1j * each.angle) * (at.rotor.row_at(each.node) @ reduced.basis.shapes)
         for each in at.unbalances
     )
     wall = at.touchdowns[0].bearing

@@ -9,12 +9,17 @@ import typer
 
 from carom.outcome import InputError, shown
 
-TEMPLATES = {"flexible": "flexible rotor on magnetic bearings"}
-"""Kinds of machines, of which each has a file in the folder ``templates``."""
+TEMPLATES = ("planar", "rigid", "flexible")
+"""Kinds of machines, of which each has a file in the folder ``templates``: one mass in a plane, one that tilts, one that bends."""
 
 
 def template(
-    kind: Annotated[str, typer.Argument(metavar="KIND", help="Kind of machine: flexible.")],
+    kind: Annotated[
+        str,
+        typer.Argument(
+            metavar="KIND", help="Kind of machine: planar (one mass), rigid (it tilts) or flexible (it bends)."
+        ),
+    ],
     out: Annotated[
         str | None, typer.Option("--out", "-o", metavar="FILE", help="Write it to this new file, not to the screen.")
     ] = None,

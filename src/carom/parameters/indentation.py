@@ -27,7 +27,7 @@ LARGEST = 0.1
 
 def indentation_of_force(parameters: Parameters | None, force: float) -> float:
     """Least indentation of the wall, in clearances, under a force in ``m c_r Ω²``; ``nan`` without scales, or parameters of the planar rotor."""
-    if parameters is None or parameters.scales is None:
+    if not isinstance(parameters, Parameters) or parameters.scales is None:
         return math.nan
     scales = parameters.scales
     return force * scales.force / (_stiffness(scales, parameters.radius_ratio) * scales.clearance)
@@ -35,7 +35,7 @@ def indentation_of_force(parameters: Parameters | None, force: float) -> float:
 
 def indentation_of_hit(parameters: Parameters | None, radial_speed: float) -> float:
     """Least indentation, in clearances, in an impact at a radial speed in ``c_r Ω``; ``nan`` without these too."""
-    if parameters is None or parameters.scales is None:
+    if not isinstance(parameters, Parameters) or parameters.scales is None:
         return math.nan
     scales = parameters.scales
     return radial_speed * scales.speed * math.sqrt(scales.mass / _stiffness(scales, parameters.radius_ratio))

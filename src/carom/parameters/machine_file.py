@@ -125,6 +125,9 @@ class Case(Tabular):
             raise refused(self.gravity.words)
         if self.touchdown is not None and self.touchdown.is_plain:
             object.__setattr__(self, "touchdown", None)
+        if self.touchdown is not None and not self.touchdown.yields and self.touchdown.restitution is not None:
+            allowed = "must be left out: the restitution of a rigid wall is that of the machine, restitution"
+            raise InputError(f"{PREFIX}restitution", self.touchdown.restitution, allowed)
         if self.touchdown is not None and self.parameters.scales is None:
             raise InputError("touchdown", self.touchdown.words, "not allowed beside [dimensionless]: it is in SI units")
         if self.machine is not None:
@@ -233,9 +236,9 @@ def read_planar_case(name: str, tables: MachineTables, texts: dict[str, str], pr
     limits = problems.attempt(LoadLimits.of, tables.limits, tables.kind == "machine") or LoadLimits()
     of_machine = tables.kind == "machine"
     gravity = None if tables.gravity is None else problems.attempt(Gravity.of, tables.gravity, of_machine)
-    touchdown = problems.attempt(TouchdownBearing.of, tables.touchdown, of_machine) if tables.touchdown else None
+    values, bearing = problems.attempt(_with_restitution, tables.values, tables.touchdown) or (tables.values, {})
+    touchdown = problems.attempt(TouchdownBearing.of, bearing, of_machine) if bearing else None
     drive = None if tables.drive is None else problems.attempt(Drive.of, tables.drive, of_machine)
-    values = problems.attempt(_with_restitution, tables.values, tables.touchdown) or tables.values
     base: Machine | Parameters | None = (
         problems.attempt(Machine, **values) if of_machine else problems.attempt(_read_dimensionless, tables)
     )
@@ -305,13 +308,21 @@ def _changed(present: TouchdownBearing | None, changes: Mapping[str, Any]) -> To
         raise InputError(PREFIX + problem.field, problem.value, problem.allowed) from None
 
 
-def _with_restitution(values: Mapping[str, Any], touchdown: Mapping[str, Any]) -> Mapping[str, Any]:
-    """Entries of a machine, with a restitution that is not used if its touchdown bearing gives way; one that is given is refused."""
+def _with_restitution(
+    values: Mapping[str, Any], touchdown: Mapping[str, Any]
+) -> tuple[Mapping[str, Any], Mapping[str, Any]]:
+    """Entries of a machine and its touchdown bearing: the restitution of a rigid wall, wherever it is stated, is that of the machine.
+
+    Of one that gives way that of the machine is not used; one that is given is refused.
+    """
     if touchdown.get("law", "rigid") == "rigid":
-        return values
+        own = {name: given for name, given in touchdown.items() if name == "restitution"}
+        if own and "restitution" in values:
+            raise InputError("restitution", shown(own["restitution"]), "stated in [machine] already; give it once")
+        return {**values, **own}, {name: given for name, given in touchdown.items() if name not in own}
     if "restitution" in values:
         raise _unused_restitution(values["restitution"])
-    return {**values, "restitution": UNUSED}
+    return {**values, "restitution": UNUSED}, touchdown
 
 
 def _unused_restitution(given: Any) -> InputError:

@@ -66,7 +66,7 @@ class TouchdownBearing:
     ----------
     law : str
         ``"kelvin-voigt"``: the force ``kδ + cδ̇``, which cannot pull; ``"hunt-crossley"``: ``kδⁿ(1 + χδ̇)``; ``"rigid"``: a wall with
-        the restitution of the machine, which may have a race, a mount and an offset too.
+        this restitution, or by default that of the machine, which may have a race, a mount and an offset too.
     stiffness : float or str
         ``k``, N/m, or N/mⁿ.
     damping : float or str, optional
@@ -148,7 +148,9 @@ class TouchdownBearing:
         """What does not fit together."""
         present = {name for name in TOUCHDOWN_FIELDS if getattr(self, name) is not None} - {"exponent"}
         if self.law == "rigid":
-            others = sorted(name for name in present if name in OF_LAW or name in BALL_FIELDS)
+            others = sorted(
+                name for name in present if (name in OF_LAW and name != "restitution") or name in BALL_FIELDS
+            )
             refused = [self._not_of_law(name, "the law of a rigid wall has none") for name in others]
             return refused + self._wrong_parts(present)
         own, other = ("damping", "dissipation") if self.law == "kelvin-voigt" else ("dissipation", "damping")

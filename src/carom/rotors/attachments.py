@@ -14,7 +14,10 @@ UNBALANCE_FIELDS: Mapping[str, Field] = by_name(
     Field("size", "", "unbalance", "an unbalance", "kg m", 1e-15, 1e6, '"10 g mm"', True),
     Field("angle", "", "angle of the unbalance", "an angle", "rad", -1e6, 1e6, '"90 deg"'),
 )
-PLANE_FIELDS: Mapping[str, Field] = {name: MACHINE_FIELDS[name] for name in ("rotor_radius", "friction", "clearance")}
+PLANE_FIELDS: Mapping[str, Field] = {
+    **{name: MACHINE_FIELDS[name] for name in ("rotor_radius", "friction", "clearance")},
+    "farthest": Field("farthest", "", "distance followed, in clearances", "a number", "", 1.0, 1e6, "2"),
+}
 
 
 @dataclass(frozen=True)
@@ -52,18 +55,20 @@ class TouchdownPlane:
     ----------
     node : int
     bearing : carom.parameters.TouchdownBearing
-        Which gives way: a rigid wall on a rotor that bends would have no answer that stays as modes are added.  A restitution in place of the
-        damping of Kelvin–Voigt is that of the whole mass.
+        It gives way, unless the rotor is rigid: on one that bends a rigid wall would have no answer that stays as modes are added.  A restitution
+        in place of the damping of Kelvin–Voigt is that of the whole mass.
     rotor_radius : float or str
         Radius of the rotor there, m.
     friction : float or str
     clearance : float or str, optional
         Radial clearance there, m; by default that of the machine.
+    farthest : float, optional
+        Distance from the centre, in clearances, up to which the rotor is followed in a wall that gives way; 2 by default.
 
     Raises
     ------
     InputError
-        A value is not of this kind or out of range, the bearing is rigid, or its centre lies off the place of levitation.
+        A value is not of this kind or out of range, a rigid bearing has no restitution, or its centre lies off the place of levitation.
     """
 
     node: int
@@ -71,14 +76,14 @@ class TouchdownPlane:
     rotor_radius: float
     friction: float
     clearance: float | None = None
+    farthest: float | None = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "node", read_node("touchdown node", self.node))
         if not isinstance(self.bearing, TouchdownBearing):
             raise InputError("bearing", shown(self.bearing), "carom.parameters.TouchdownBearing")
-        if not self.bearing.yields:
-            allowed = "'kelvin-voigt' or 'hunt-crossley': a rigid wall has no answer on a rotor that bends"
-            raise InputError("law", self.bearing.law, allowed)
+        if not self.bearing.yields and self.bearing.restitution is None:
+            raise InputError("restitution", None, "the law rigid needs it, such as restitution = 0.8")
         if self.bearing.offset:
             raise InputError(
                 "offset", self.bearing.offset, "0: bearings of a flexible rotor are centred where it levitates"

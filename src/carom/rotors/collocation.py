@@ -47,8 +47,7 @@ def collocations(machine: FlexibleMachine, whirls: tuple[Whirl, ...]) -> tuple[C
     rotor = machine.rotor
 
     def at(whirl: Whirl, node: int) -> complex:
-        # Coordinates of the finite elements are displacement and tilt in turn.
-        return complex(whirl.widest[rotor.displacement_at(node) // 2])
+        return complex(whirl.widest[rotor.place_of(node)])
 
     return tuple(
         Collocation(

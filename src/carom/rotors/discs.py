@@ -48,10 +48,7 @@ class Disc:
     def __post_init__(self) -> None:
         object.__setattr__(self, "node", read_node("disc node", self.node))
         read_entries(self, DISC_FIELDS)
-        # Of a flat disc it is twice as large, of every other body less; data are rounded.
-        if self.polar_inertia > 2.001 * self.diametral_inertia:
-            allowed = f"at most twice the diametral inertia, {self.diametral_inertia:g} kg m^2"
-            raise InputError("polar_inertia", self.polar_inertia, allowed)
+        check_inertias(self.polar_inertia, self.diametral_inertia)
 
     @classmethod
     @checked
@@ -71,3 +68,9 @@ class Disc:
         """
         polar = body.mass * (body.outer_diameter**2 + body.inner_diameter**2) / 8.0
         return cls(node, body.mass, 0.5 * polar + body.mass * body.length**2 / 12.0, polar)
+
+
+def check_inertias(polar: float, diametral: float) -> None:
+    """Refuse what no body has: of a flat disc the polar inertia is twice the diametral one, of every other body less; data are rounded."""
+    if polar > 2.001 * diametral:
+        raise InputError("polar_inertia", polar, f"at most twice the diametral inertia, {diametral:g} kg m^2")

@@ -10,7 +10,7 @@ import numpy as np
 from carom.rotors.attachments import TouchdownPlane, Unbalance
 from carom.rotors.free_rotor import FreeRotor
 from carom.rotors.magnetic_bearing import MagneticBearing
-from carom.rotors.reduction import RIGID, Basis
+from carom.rotors.reduction import Basis
 from carom.rotors.support import Support
 
 
@@ -97,7 +97,7 @@ def off(matrix: np.ndarray) -> np.ndarray:
 
 
 class Loops(NamedTuple):
-    """Rows of coordinates of the finite elements."""
+    """Rows of coordinates of the rotor."""
 
     bearings: np.ndarray
     """Shape (B, n)."""
@@ -111,19 +111,12 @@ def loops_of(rotor: FreeRotor, bearings: Sequence[MagneticBearing], planes: Sequ
     """Where forces act and displacements are measured."""
     none = np.empty((0, len(rotor.mass_matrix)))
     return Loops(
-        bearings=np.array([row_of(rotor, each.node) for each in bearings] or none),
+        bearings=np.array([rotor.row_at(each.node) for each in bearings] or none),
         sensors=np.array(
-            [np.mean([row_of(rotor, node) for node in each.sensor_nodes], axis=0) for each in bearings] or none
+            [np.mean([rotor.row_at(node) for node in each.sensor_nodes], axis=0) for each in bearings] or none
         ),
-        touchdowns=np.array([row_of(rotor, each.node) for each in planes] or none),
+        touchdowns=np.array([rotor.row_at(each.node) for each in planes] or none),
     )
-
-
-def row_of(rotor: FreeRotor, node: int) -> np.ndarray:
-    """Displacement at a node per coordinate of the finite elements, shape (n,)."""
-    row = np.zeros(len(rotor.mass_matrix))
-    row[rotor.displacement_at(node)] = 1.0
-    return row
 
 
 def equations_of(
@@ -151,9 +144,8 @@ def equations_of(
     mass[free, free], stiffness[free, free] = np.eye(vectors), np.diag(basis.frequencies**2)
     damping[free, free] = _damping(rotor, basis)
     gyroscopic[free, free] = _gyroscopic(rotor, basis)
-    # The translation of the whole rotor is the first vector.
     carried = np.zeros(size)
-    carried[0], carried[vectors:first] = np.sqrt(rotor.mass), 1.0
+    carried[free], carried[vectors:first] = rotor.carried(basis.shapes), 1.0
     planes = np.concatenate([loops.touchdowns @ basis.shapes, np.zeros((len(touchdowns), size - vectors))], axis=1)
     for place, (plane, mount) in enumerate(mounts, vectors):
         mass[place, place], stiffness[place, place] = mount.mount_mass or 0.0, mount.mount_stiffness or 0.0
@@ -181,7 +173,7 @@ def equations_of(
         first = own.stop
     forcing = np.zeros(size, complex)
     for each in unbalances:
-        forcing[free] += each.size * np.exp(1j * each.angle) * (row_of(rotor, each.node) @ basis.shapes)
+        forcing[free] += each.size * np.exp(1j * each.angle) * (rotor.row_at(each.node) @ basis.shapes)
     return Equations(
         mass, damping, gyroscopic, stiffness, forcing, left, planes, currents, regained, carried, held.across
     )
@@ -199,7 +191,7 @@ class _Supported(NamedTuple):
 def _supported(rotor: FreeRotor, basis: Basis, supports: Sequence[Support], size: int) -> _Supported:
     both = np.zeros((2, 2, size, size), complex)
     for each in supports:
-        pull = row_of(rotor, each.node) @ basis.shapes
+        pull = rotor.row_at(each.node) @ basis.shapes
         square = np.zeros((size, size))
         square[: len(pull), : len(pull)] = np.outer(pull, pull)
         for place, numbers in enumerate((each.damping, each.stiffness)):
@@ -220,7 +212,7 @@ def _damping(rotor: FreeRotor, basis: Basis) -> np.ndarray:
 
 
 def _gyroscopic(rotor: FreeRotor, basis: Basis) -> np.ndarray:
-    """Gyroscopic matrix of the vectors: none of the translation, to the last digit."""
+    """Gyroscopic matrix of the vectors: none of a translation, to the last digit."""
     matrix = basis.shapes.T @ rotor.gyroscopic_matrix @ basis.shapes
-    matrix[: RIGID - 1], matrix[:, : RIGID - 1] = 0.0, 0.0
+    matrix[: rotor.translations], matrix[:, : rotor.translations] = 0.0, 0.0
     return 0.5 * (matrix + matrix.T)

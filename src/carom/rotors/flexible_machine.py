@@ -16,7 +16,7 @@ from carom.outcome import InputError, shown
 from carom.parameters import Field, Gravity
 from carom.rotors.attachments import TouchdownPlane, Unbalance
 from carom.rotors.entries import read_entries
-from carom.rotors.equations import loops_of, row_of
+from carom.rotors.equations import loops_of
 from carom.rotors.free_motions import Slowest, slowest_of
 from carom.rotors.free_rotor import FreeRotor
 from carom.rotors.machine_parameters import (
@@ -51,7 +51,7 @@ class FlexibleMachine:
 
     Attributes
     ----------
-    rotor : FlexibleRotor or MatrixRotor
+    rotor : FlexibleRotor, MatrixRotor or RigidRotor
     speed : float or str
         Rotational speed, rad/s, or text such as ``"3000 rpm"``.
     clearance : float or str
@@ -84,7 +84,7 @@ class FlexibleMachine:
     def __post_init__(self) -> None:
         rotor: Any = self.rotor
         if not isinstance(rotor, FreeRotor):
-            raise InputError("rotor", shown(rotor), "carom.rotors.FlexibleRotor or MatrixRotor")
+            raise InputError("rotor", shown(rotor), "carom.rotors.FlexibleRotor, MatrixRotor or RigidRotor")
         if not isinstance(self.gravity, Gravity | None):
             raise InputError("gravity", shown(self.gravity), "carom.parameters.Gravity, or None")
         for name, kind in _KINDS.items():
@@ -107,6 +107,9 @@ class FlexibleMachine:
             if twice := [node for place, node in enumerate(nodes) if node in nodes[:place]]:
                 allowed = "a node of its own for each: several at one node are one with the sum of their forces"
                 raise InputError(f"{name.removesuffix('s')} node", twice[0], allowed)
+        if self.rotor.bends and not all(each.bearing.yields for each in self.touchdowns):
+            allowed = "'kelvin-voigt' or 'hunt-crossley': a rigid wall has no answer on a rotor that bends"
+            raise InputError("law", "rigid", allowed)
 
     @property
     def clearances(self) -> tuple[float, ...]:
@@ -149,7 +152,7 @@ class FlexibleMachine:
     @cached_property
     def _rows(self) -> list[np.ndarray]:
         """Where forces act and displacements are measured, each place once."""
-        held = [row_of(self.rotor, each.node)[None] for each in self.supports]
+        held = [self.rotor.row_at(each.node)[None] for each in self.supports]
         rows = np.concatenate([*loops_of(self.rotor, self.bearings, self.touchdowns), *held])
         return list(np.unique(rows, axis=0))
 

@@ -20,7 +20,6 @@ from carom.outcome import InputError, shown
 from carom.parameters import Field, read_quantity
 from carom.rotors.attachments import UNBALANCE_FIELDS, Unbalance
 from carom.rotors.documents import document_of, part_from
-from carom.rotors.equations import row_of
 from carom.rotors.machine_parameters import unknown, varied_in_model
 
 if TYPE_CHECKING:
@@ -97,7 +96,7 @@ class FlexibleModel(LinearRotor):
         InputError
             A name is unknown or a value not allowed, or there is no unbalance to be multiplied or turned.
         """
-        if {field.name for field in dataclasses.fields(LinearRotor)} & set(changes):
+        if {field.name for field in dataclasses.fields(LinearRotor)} & (changes.keys() - self._own.keys()):
             own = {field.name: getattr(self, field.name) for field in dataclasses.fields(LinearRotor)}
             return LinearRotor(**own).replace(**changes)
         # What numbers of the equations mean depends on speed and clearance, which are numbers of the machine.
@@ -150,7 +149,7 @@ class FlexibleModel(LinearRotor):
         """See :meth:`~carom.models.Model.unbalance_push`; at a node, with the phase of the unbalance there, otherwise of that of the rotor as a whole."""
         reduced, (node, own) = self.reduced, self._unbalance_at(node)
         push, size = np.zeros(len(self.mass), complex), math.sqrt(reduced.machine.rotor.mass)
-        push[: reduced.vectors] = size * (row_of(reduced.machine.rotor, node) @ reduced.basis.shapes)
+        push[: reduced.vectors] = size * (reduced.machine.rotor.row_at(node) @ reduced.basis.shapes)
         return push * cmath.exp(1j * (cmath.phase(own) if own else self.unbalance_phase))
 
     def unbalance_along(self, node: int | None = None) -> float | None:

@@ -16,7 +16,7 @@ from carom.parameters.fields import length_field
 from carom.rotors.beams import beam_element
 from carom.rotors.damping import Damping
 from carom.rotors.discs import Disc
-from carom.rotors.free_rotor import FreeRotor, RotorMatrices
+from carom.rotors.free_rotor import BendingRotor, RotorMatrices
 from carom.rotors.sections import Section
 
 ELEMENTS = 32
@@ -27,7 +27,7 @@ LONGEST = length_field("longest_element", "", "longest element", 1e-6, 1e3, '"20
 
 
 @dataclass(frozen=True, eq=False)
-class FlexibleRotor(FreeRotor):
+class FlexibleRotor(BendingRotor):
     """A shaft of cylindrical sections with discs, by finite elements of Timoshenko's beam, in SI units.
 
     Nodes are the boundaries of the sections: 0 is the beginning of the first one.  Each section is divided into elements.
@@ -103,9 +103,9 @@ class FlexibleRotor(FreeRotor):
         ]
         return np.append(0.0, np.cumsum(lengths))
 
-    def displacement_at(self, node: int) -> int:
-        """Number of the coordinate that is the displacement of a node."""
-        return 2 * sum(self.divisions[:node])
+    def place_of(self, node: int) -> int:
+        """Number of the place of a node."""
+        return sum(self.divisions[:node])
 
     @property
     def node_places(self) -> np.ndarray:
@@ -124,7 +124,7 @@ class FlexibleRotor(FreeRotor):
                 first += 2
         found = RotorMatrices(*matrices)
         for disc in self.discs:
-            found.add_disc(disc, self.displacement_at(disc.node))
+            found.add_disc(disc, self.place_of(disc.node))
         for each in found:
             each.flags.writeable = False
         return found
@@ -135,6 +135,6 @@ class FlexibleRotor(FreeRotor):
         return self.damping
 
     @property
-    def mass(self) -> float:
+    def mass(self) -> float:  # type: ignore[override]
         """Mass, kg."""
         return math.fsum([section.mass for section in self.sections] + [disc.mass for disc in self.discs])

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from collections.abc import Mapping
 from functools import cached_property
-from typing import NamedTuple
+from typing import ClassVar, NamedTuple
 
 import numpy as np
 
 from carom.outcome import InputError
+from carom.parameters import Field
+from carom.parameters.told import number
 from carom.rotors.damping import Damping
 from carom.rotors.discs import Disc
 from carom.rotors.free_modes import FreeModes, free_modes
@@ -25,20 +28,41 @@ class RotorMatrices(NamedTuple):
     """kg, kg m, kg m²; it is multiplied by the speed of the shaft."""
 
     def add_disc(self, disc: Disc, place: int) -> None:
-        """Add a disc where the displacement has this number."""
-        self.mass[place, place] += disc.mass
-        self.mass[place + 1, place + 1] += disc.diametral_inertia
-        self.gyroscopic[place + 1, place + 1] += disc.polar_inertia
+        """Add a disc at the place of this number."""
+        displacement, tilt = 2 * place, 2 * place + 1
+        self.mass[displacement, displacement] += disc.mass
+        self.mass[tilt, tilt] += disc.diametral_inertia
+        self.gyroscopic[tilt, tilt] += disc.polar_inertia
 
 
 class FreeRotor(ABC):
-    """A rotor free in space, in SI units.
+    """A rotor free in space, or held at a point about which it tilts, in SI units.
 
-    Coordinates are a complex displacement ``x + iy``, m, and a complex tilt ``dx/ds + i dy/ds`` at each of its places along the shaft in turn; with the
-    speed ``Ω`` of the shaft in the fixed frame
+    In its complex coordinates, with the speed ``Ω`` of the shaft in the fixed frame,
 
         M z̈ + (D − iΩG) ż + K z = f.
     """
+
+    mass: float
+    """kg."""
+    polar_inertia: float
+    """Moment of inertia about its axis, kg m²."""
+    diametral_inertia: float
+    """Moment of inertia about a diameter through its centre of mass, kg m²."""
+    bends: ClassVar[bool] = True
+    """Whether it bends: then a rigid wall would have no answer that stays as modes are added."""
+    fields: ClassVar[Mapping[str, Field]] = {}
+    """Its own numbers that can be varied, by name."""
+    translations: int = 1
+    """How many of its free motions are translations, which come first."""
+    damping_rates: np.ndarray | None
+    """Damping over mass of each free mode, 1/s; ``None`` where damping couples modes."""
+    damping_matrix: np.ndarray
+    """``D``, shape (n, n): N s/m, N s, N m s."""
+    free_modes: FreeModes
+    """All modes of the rotor at rest, free in space: translation, tilt, and bending from the lowest on."""
+    words: str
+    """What it is, in a line."""
 
     @property
     @abstractmethod
@@ -47,13 +71,8 @@ class FreeRotor(ABC):
 
     @property
     @abstractmethod
-    def own_damping(self) -> Damping | None:
-        """What damps each mode by itself; ``None`` if a matrix is given instead."""
-
-    @property
-    @abstractmethod
     def places(self) -> np.ndarray:
-        """Where its coordinates are, along the shaft, m, shape (N,)."""
+        """Places along the shaft whose displacements are told, m, shape (N,)."""
 
     @property
     @abstractmethod
@@ -61,8 +80,16 @@ class FreeRotor(ABC):
         """Where its nodes are, from node 0 on, m."""
 
     @abstractmethod
-    def displacement_at(self, node: int) -> int:
-        """Number of the coordinate that is the displacement of a node."""
+    def place_of(self, node: int) -> int:
+        """Number of the place of a node."""
+
+    @abstractmethod
+    def row_at(self, node: int) -> np.ndarray:
+        """Displacement at a node per coordinate, shape (n,)."""
+
+    @abstractmethod
+    def displacements(self, shapes: np.ndarray) -> np.ndarray:
+        """Displacements at all places, shape (N, v), of shapes (n, v)."""
 
     def check_node(self, name: str, node: int) -> None:
         """Refuse a node that the shaft does not have."""
@@ -70,6 +97,10 @@ class FreeRotor(ABC):
         if node > last:
             end = f"{1e3 * self.node_places[-1]:.6g} mm"
             raise InputError(name, node, f"a node of the shaft: 0 to {last}, its end at {end}")
+
+    def carried(self, shapes: np.ndarray) -> np.ndarray:
+        """Shares (v,) of shapes with unit modal mass, the first of which is the translation, when the rotor is displaced by 1 m: how all its masses fall."""
+        return np.append(np.sqrt(self.mass), np.zeros(shapes.shape[1] - 1))
 
     @property
     def mass_matrix(self) -> np.ndarray:
@@ -86,14 +117,38 @@ class FreeRotor(ABC):
         """``G``, shape (n, n): kg, kg m, kg m²; it is multiplied by the speed of the shaft."""
         return self.matrices.gyroscopic
 
+
+class BendingRotor(FreeRotor):
+    """A rotor with a complex displacement ``x + iy``, m, and a complex tilt ``dx/ds + i dy/ds`` at each of its places in turn as coordinates."""
+
+    @property
+    @abstractmethod
+    def own_damping(self) -> Damping | None:
+        """What damps each mode by itself; ``None`` if a matrix is given instead."""
+
+    def row_at(self, node: int) -> np.ndarray:
+        """Displacement at a node per coordinate, shape (n,)."""
+        row = np.zeros(len(self.mass_matrix))
+        row[2 * self.place_of(node)] = 1.0
+        return row
+
+    def displacements(self, shapes: np.ndarray) -> np.ndarray:
+        """Displacements at all places, shape (N, v), of shapes (n, v)."""
+        return shapes[::2]
+
+    @property
+    def words(self) -> str:  # type: ignore[override]
+        """What it is, in a line."""
+        return f"{number(self.mass)} kg, {number(float(1e3 * self.node_places[-1]))} mm long"
+
     @cached_property
-    def damping_rates(self) -> np.ndarray | None:
+    def damping_rates(self) -> np.ndarray | None:  # type: ignore[override]
         """Damping over mass of each free mode, 1/s; ``None`` where damping couples modes."""
         own = self.own_damping
         return None if own is None else np.array([own.rate(each) for each in self.free_modes.frequencies.tolist()])
 
     @cached_property
-    def damping_matrix(self) -> np.ndarray:
+    def damping_matrix(self) -> np.ndarray:  # type: ignore[override]
         """``D``, shape (n, n): N s/m, N s, N m s."""
         return self.damping_of_modes()
 
@@ -104,7 +159,7 @@ class FreeRotor(ABC):
         return matrix
 
     @cached_property
-    def free_modes(self) -> FreeModes:
+    def free_modes(self) -> FreeModes:  # type: ignore[override]
         """All modes of the rotor at rest, free in space: translation, tilt, and bending from the lowest on."""
         try:
             with np.errstate(divide="raise", over="raise", invalid="raise"):
@@ -128,7 +183,7 @@ class FreeRotor(ABC):
         return np.stack([self.places - self.centre, np.ones(len(self.places))], axis=1).ravel()
 
     @property
-    def mass(self) -> float:
+    def mass(self) -> float:  # type: ignore[override]
         """Mass, kg."""
         return float(self.translation @ self.mass_matrix @ self.translation)
 
@@ -139,11 +194,11 @@ class FreeRotor(ABC):
         return float(self.translation @ self.mass_matrix @ along / self.mass)
 
     @property
-    def diametral_inertia(self) -> float:
+    def diametral_inertia(self) -> float:  # type: ignore[override]
         """Moment of inertia about a diameter through its centre of mass, kg m²."""
         return float(self.tilt @ self.mass_matrix @ self.tilt)
 
     @property
-    def polar_inertia(self) -> float:
+    def polar_inertia(self) -> float:  # type: ignore[override]
         """Moment of inertia about its axis, kg m²."""
         return float(self.tilt @ self.gyroscopic_matrix @ self.tilt)

@@ -12,7 +12,7 @@ import numpy as np
 from carom.arguments import checked
 from carom.outcome import InputError
 from carom.results import Result
-from carom.rotors.equations import block, loops_of, row_of
+from carom.rotors.equations import block, loops_of
 from carom.rotors.flexible_machine import FlexibleMachine
 from carom.rotors.free_motions import motions_at
 from carom.rotors.whirls import speeds_of
@@ -119,7 +119,7 @@ class _Loop:
         self.spin = held.damping[vectors, vectors] - 1j * machine.speed * held.gyroscopic[vectors, vectors]
         # Supports that act differently in two directions, where they hold the rotor.
         across = [each for each in machine.supports if each.stiffness.across or each.damping.across]
-        rows = [row_of(machine.rotor, each.node) @ whole.basis.shapes for each in across]
+        rows = [machine.rotor.row_at(each.node) @ whole.basis.shapes for each in across]
         self.held = np.reshape(rows, (len(across), whole.vectors))
         self.across = np.array([(each.stiffness.across, each.damping.across) for each in across]).reshape(-1, 2)
 

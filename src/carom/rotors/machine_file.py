@@ -29,6 +29,7 @@ from carom.parameters.fields import by_name, unknown_name
 from carom.parameters.machine import LEAST_RADIUS
 from carom.parameters.machine_file import split_settings
 from carom.parameters.toml_reader import MachineTables, read_machine_tables
+from carom.parameters.touchdown_bearing import LAWS
 from carom.rotors.attachments import PLANE_FIELDS, UNBALANCE_FIELDS, TouchdownPlane, Unbalance
 from carom.rotors.controllers import PID, PID_FIELDS, TransferFunction
 from carom.rotors.damping import MODAL_FIELDS, PROPORTIONAL_FIELDS, ModalDamping, ProportionalDamping
@@ -39,6 +40,7 @@ from carom.rotors.free_rotor import FreeRotor
 from carom.rotors.machine_parameters import unknown
 from carom.rotors.magnetic_bearing import BEARING_FIELDS, MagneticBearing
 from carom.rotors.matrix_rotor import MatrixRotor
+from carom.rotors.rigid_rotor import POSITION, RIGID_FIELDS, RigidRotor
 from carom.rotors.rotor_files import read_rotor
 from carom.rotors.sections import MATERIAL_FIELDS, SECTION_FIELDS, Material, Section
 from carom.rotors.state_spaces import StateSpace
@@ -54,19 +56,23 @@ ROTOR_ENTRIES: Mapping[str, Any] = {
     "source": None,
     "accuracy": Field("accuracy", "", "error of contact forces by reduction", "a number", "", 1e-9, 1.0, "0.02"),
     **dict.fromkeys(_RENAMED),
+    **RIGID_FIELDS,
 }
+OF_RIGID = ("speed", *RIGID_FIELDS)
+"""Entries of ``[rotor]`` where it states the mass of a rigid rotor."""
 SLENDEREST = 500.0
 """Length over diameter of a section beyond which a unit was probably forgotten."""
 _MATRICES = ("A", "B", "C", "D")
-_YIELDING = ("kelvin-voigt", "hunt-crossley")
+_PLACED = {"position": "node", "sensor_positions": "sensor_nodes"}
+"""Entries of the parts of a rigid rotor, and those that they stand for."""
 _QUOTIENT = ("numerator", "denominator")
 PART_ENTRIES: Mapping[str, Mapping[str, Any]] = {
     "section": {**SECTION_FIELDS, **MATERIAL_FIELDS},
     "disc": {"node": None, **DISC_FIELDS, "width": None, **by_name(*(SECTION_FIELDS[name] for name in ("outer_diameter", "inner_diameter"))), **MATERIAL_FIELDS},
-    "magnetic_bearing": {"node": None, "sensor_nodes": None, "at_regain": None, **BEARING_FIELDS, **PID_FIELDS, **dict.fromkeys((*_QUOTIENT, *_MATRICES))},
-    "support": {"node": None, **SUPPORT_FIELDS},
-    "touchdown": {"node": None, "law": None, **PLANE_FIELDS, **TOUCHDOWN_FIELDS},
-    "unbalance": {"node": None, **UNBALANCE_FIELDS},
+    "magnetic_bearing": {"node": None, "sensor_nodes": None, "position": POSITION, "sensor_positions": None, "at_regain": None, **BEARING_FIELDS, **PID_FIELDS, **dict.fromkeys((*_QUOTIENT, *_MATRICES))},
+    "support": {"node": None, "position": POSITION, **SUPPORT_FIELDS},
+    "touchdown": {"node": None, "position": POSITION, "law": None, **PLANE_FIELDS, **TOUCHDOWN_FIELDS},
+    "unbalance": {"node": None, "position": POSITION, **UNBALANCE_FIELDS},
 }  # fmt: skip
 """Entries of the tables of parts."""
 
@@ -142,16 +148,23 @@ def _read_machine(tables: MachineTables, settings: Mapping[str, str], problems: 
     """The machine of a file, after all errors, those known before too, are raised."""
     whole = dict(tables.values)
     gravity = None if tables.gravity is None else problems.attempt(Gravity.of, tables.gravity)
-    whole |= {name: text for name, text in settings.items() if name in ROTOR_ENTRIES}
+    is_rigid = not RIGID_FIELDS.keys().isdisjoint(whole)
+    known = {name: field for name, field in ROTOR_ENTRIES.items() if is_rigid or name not in RIGID_FIELDS}
+    whole |= {name: text for name, text in settings.items() if name in known}
     problems.errors += [
-        unknown_name(each, given, ROTOR_ENTRIES, "[rotor]")
-        for each, given in whole.items()
-        if each not in ROTOR_ENTRIES
+        unknown_name(each, given, ROTOR_ENTRIES, "[rotor]") for each, given in whole.items() if each not in known
     ]
+    stations: list[float] = []
+    if is_rigid:
+        problems.attempt(_check_rigid, tables, whole)
+        problems.raise_all()
+        tables, stations = _at_stations(tables, problems)
     steel = problems.attempt(_material, whole, Material()) or Material()
     discs = _each(tables, "disc", problems, lambda entry: _disc(entry, steel))
     rotor: FreeRotor | None = None
-    if "source" in whole:
+    if is_rigid:
+        rotor = problems.attempt(_rigid, whole, stations) if stations else None
+    elif "source" in whole:
         rotor = problems.attempt(_of_source, tables, whole, discs)
     else:
         sections = _each(tables, "section", problems, lambda entry: _section(entry, steel))
@@ -167,14 +180,17 @@ def _read_machine(tables: MachineTables, settings: Mapping[str, str], problems: 
         "bearings": _each(
             tables, "magnetic_bearing", problems, lambda entry: _on(rotor, _bearing(_numbered(entry, rotor)))
         ),
-        "touchdowns": _each(tables, "touchdown", problems, lambda entry: _on(rotor, _plane(_numbered(entry, rotor)))),
+        "touchdowns": _each(
+            tables, "touchdown", problems, lambda entry: _on(rotor, _plane(_numbered(entry, rotor), not is_rigid))
+        ),
         "unbalances": _each(
             tables, "unbalance", problems, lambda entry: _on(rotor, _unbalance(_numbered(entry, rotor)))
         ),
         "supports": _each(tables, "support", problems, lambda entry: _on(rotor, _support(_numbered(entry, rotor)))),
     }
     if not tables.parts.get("touchdown"):
-        allowed = "one or more tables, each with its node, clearance, rotor_radius, friction and law"
+        place = "position" if is_rigid else "node"
+        allowed = f"one or more tables, each with its {place}, clearance, rotor_radius, friction and law"
         problems.errors.append(InputError("[[touchdown]]", None, allowed))
     problems.raise_all()
     rooms = {each.clearance for each in parts["touchdowns"]}
@@ -182,10 +198,8 @@ def _read_machine(tables: MachineTables, settings: Mapping[str, str], problems: 
     if len(rooms) == 1:
         parts["touchdowns"] = [replace(each, clearance=None) for each in parts["touchdowns"]]
     machine = FlexibleMachine(rotor, whole.get("speed"), narrowest, gravity=gravity, **parts)  # type: ignore[arg-type]
-    others = {name: text for name, text in settings.items() if name not in ROTOR_ENTRIES}
-    problems.errors += [
-        unknown(machine, each, others[each], ROTOR_ENTRIES) for each in others if each not in machine.varied
-    ]
+    others = {name: text for name, text in settings.items() if name not in known}
+    problems.errors += [unknown(machine, each, others[each], known) for each in others if each not in machine.varied]
     problems.raise_all()
     machine = machine.replace(**others)
     _warn_of_proportions(machine)
@@ -206,8 +220,64 @@ def _of_source(tables: MachineTables, whole: Mapping[str, Any], discs: list[Disc
     return read_rotor(tables.folder / given, _damping(whole) if stated else None, discs)
 
 
+def _check_rigid(tables: MachineTables, whole: Mapping[str, Any]) -> None:
+    """Refuse what bends beside a rigid rotor."""
+    found = [f"[[{kind}]]" for kind in ("section", "disc") if tables.parts.get(kind)]
+    found += [name for name in whole if name not in OF_RIGID]
+    if found:
+        allowed = f"not allowed beside {found[0]}: a [rotor] with a mass is rigid, and has all of its mass and inertias"
+        raise InputError("mass", shown(whole.get("mass")), allowed)
+
+
+def _rigid(whole: Mapping[str, Any], stations: list[float]) -> RigidRotor:
+    numbers: dict[str, Any] = {name: whole.get(name) for name in RIGID_FIELDS}
+    return RigidRotor(**numbers, stations=stations)
+
+
+def _at_stations(tables: MachineTables, problems: Problems) -> tuple[MachineTables, list[float]]:
+    """Tables of the parts of a rigid rotor, with numbers of stations in place of positions along the shaft, and these stations."""
+    read: dict[tuple[str, int], dict[str, Any]] = {}
+    for kind, listed in tables.parts.items():
+        for number, entry in enumerate(listed, start=1):
+            try:
+                read[kind, number] = _placed(entry)
+            except InputError as problem:
+                problems.errors += [
+                    InputError(f"[[{kind}]] {number}: {each.field}", each.value, each.allowed)
+                    for each in problem.errors
+                ]
+    stations = sorted({at for places in read.values() for given in places.values() for at in np.atleast_1d(given)})
+    parts: dict[str, list[Mapping[str, Any]]] = {kind: [] for kind in tables.parts}
+    for (kind, number), places in read.items():
+        others = {name: given for name, given in tables.parts[kind][number - 1].items() if name not in _PLACED}
+        numbers = {_PLACED[name]: np.searchsorted(stations, given).tolist() for name, given in places.items()}
+        parts[kind].append({**numbers, **others})
+    return replace(tables, parts=parts), stations
+
+
+def _placed(entry: Mapping[str, Any]) -> dict[str, Any]:
+    """Where a part of a rigid rotor is, and its sensors, m."""
+    for name, node in _PLACED.items():
+        if node in entry:
+            raise InputError(node, shown(entry[node]), f"{name}, from the centre of mass: a rigid rotor has no nodes")
+    _needed(entry, ("position",))
+    found: dict[str, Any] = {"position": read_quantity(POSITION, entry["position"])}
+    if "sensor_positions" in entry:
+        given = entry["sensor_positions"]
+        listed = given if isinstance(given, list) else [given]
+        found["sensor_positions"] = [read_quantity(replace(POSITION, name="sensor_positions"), each) for each in listed]
+    return found
+
+
 def _numbered(entry: Mapping[str, Any], rotor: FreeRotor | None) -> dict[str, Any]:
     """The table of a part with numbers in place of the names of nodes, which a rotor of matrices may have."""
+    for name in _PLACED:
+        if name in entry:
+            raise InputError(
+                name,
+                shown(entry[name]),
+                f"{_PLACED[name]}: only a rigid rotor, with its mass in [rotor], has positions",
+            )
     if not isinstance(rotor, MatrixRotor):
         return dict(entry)
 
@@ -325,10 +395,12 @@ def _bearing(entry: dict[str, Any]) -> MagneticBearing:
     )
 
 
-def _plane(entry: dict[str, Any]) -> TouchdownPlane:
-    _needed(entry, ("node", "law", *PLANE_FIELDS))
-    if entry["law"] not in _YIELDING:
-        raise InputError("law", shown(entry["law"]), f"must be one of {', '.join(_YIELDING)}")
+def _plane(entry: dict[str, Any], bends: bool) -> TouchdownPlane:
+    _needed(entry, ("node", "law", "rotor_radius", "friction", "clearance"))
+    if bends and entry["law"] == "rigid":
+        raise InputError(
+            "law", "rigid", f"must be one of {', '.join(LAWS[1:])}: a rigid wall has no answer on a rotor that bends"
+        )
     bearing = TouchdownBearing(**_of(entry, ("law", *TOUCHDOWN_FIELDS)))
     return TouchdownPlane(entry["node"], bearing, **_of(entry, PLANE_FIELDS))
 

@@ -133,12 +133,17 @@ def entries_of(machine: FlexibleMachine) -> dict[str, Entry]:
     return found
 
 
+def rotor_fields(machine: FlexibleMachine) -> Mapping[str, Field]:
+    """Fields of the numbers of the rotor itself: of a rigid one that are stated."""
+    return {name: field for name, field in machine.rotor.fields.items() if getattr(machine.rotor, name) is not None}
+
+
 def fields_of_machine(machine: FlexibleMachine) -> dict[str, Field]:
     """Fields of all parameters by name, those of single parts last."""
     entries = machine.entries
     own = {name: each.field for name, each in entries.items() if name == each.entry}
     single = {name: each.field for name, each in entries.items() if name != each.entry}
-    return {**WHOLE, GRAVITY_NAME: SETTINGS[GRAVITY_NAME], **own, **single}
+    return {**rotor_fields(machine), **WHOLE, GRAVITY_NAME: SETTINGS[GRAVITY_NAME], **own, **single}
 
 
 def varied_in_model(machine: FlexibleMachine) -> dict[str, Field]:
@@ -158,6 +163,8 @@ def value_of_machine(machine: FlexibleMachine, name: str) -> float:
     """Value of a parameter in SI units; refuse an unknown name, and one whose values differ between parts."""
     if name == "clearance" and len(set(machine.clearances)) > 1:
         raise InputError(name, list(machine.clearances), "the same at all here; each touchdown bearing has its own")
+    if name in rotor_fields(machine):
+        return float(getattr(machine.rotor, name))
     if name in WHOLE:
         return machine.clearances[0] if name == "clearance" else machine.speed
     if name == GRAVITY_NAME:
@@ -186,6 +193,9 @@ def _with(machine: FlexibleMachine, name: str, given: Any) -> FlexibleMachine:
     if name == "clearance":
         planes = [replace(each, clearance=None) for each in machine.touchdowns]
         return replace(machine, clearance=given, touchdowns=planes)
+    if name in rotor_fields(machine):
+        rotor: Any = machine.rotor
+        return replace(machine, rotor=replace(rotor, **{name: given}))
     if name in WHOLE:
         return replace(machine, **{name: given})
     if name == GRAVITY_NAME:

@@ -12,7 +12,7 @@ import numpy as np
 from carom.outcome import InputError, shown
 from carom.rotors.damping import Damping
 from carom.rotors.discs import Disc
-from carom.rotors.free_rotor import FreeRotor, RotorMatrices
+from carom.rotors.free_rotor import BendingRotor, RotorMatrices
 from carom.rotors.matrix_checks import check_damping, check_free, check_gyroscopic, check_mass, checked_matrix
 from carom.rotors.state_spaces import real_numbers
 
@@ -27,7 +27,7 @@ ALIKE = 1e-6
 
 
 @dataclass(frozen=True, eq=False)
-class MatrixRotor(FreeRotor):
+class MatrixRotor(BendingRotor):
     """A rotor free in space by its matrices, in SI units.
 
     At each node, of which 0 is the first one, there are a complex displacement ``x + iy``, m, and a complex tilt
@@ -124,7 +124,7 @@ class MatrixRotor(FreeRotor):
         """``M``, ``K`` and ``G``."""
         found = RotorMatrices(self.M.copy(), self.K, self.G.copy())
         for disc in self.discs:
-            found.add_disc(disc, self.displacement_at(disc.node))
+            found.add_disc(disc, self.place_of(disc.node))
         return found
 
     @property
@@ -133,7 +133,7 @@ class MatrixRotor(FreeRotor):
         return self.damping if isinstance(self.damping, Damping) else None
 
     @cached_property
-    def damping_matrix(self) -> np.ndarray:
+    def damping_matrix(self) -> np.ndarray:  # type: ignore[override]
         """``D``, shape (n, n): N s/m, N s, N m s."""
         return self.damping_of_modes() if isinstance(self.damping, Damping) else self.damping
 
@@ -147,9 +147,9 @@ class MatrixRotor(FreeRotor):
         """Where its nodes are, from node 0 on, m."""
         return self.nodes
 
-    def displacement_at(self, node: int) -> int:
-        """Number of the coordinate that is the displacement of a node."""
-        return 2 * node
+    def place_of(self, node: int) -> int:
+        """Number of the place of a node."""
+        return node
 
     def node_of(self, name: str) -> int:
         """Return the number of the node with this name.

@@ -11,6 +11,7 @@ import numpy as np
 
 from carom.models import Limit, Limited, Model, Touchdown
 from carom.models.in_bearing import law_of, race_of
+from carom.models.touchdown import FARTHEST
 from carom.models.weight import weighted
 from carom.outcome import InputError
 from carom.parameters import Scales
@@ -128,8 +129,9 @@ class ReducedMachine(Result):
         return None
 
     def of(self, machine: FlexibleMachine) -> ReducedMachine:
-        """By the same vectors, a machine with another value of a parameter, on none of which they depend."""
-        return replace(self, machine=machine)
+        """By the same vectors, a machine with another value of a parameter, on none of which they depend but on numbers of a rigid rotor."""
+        same = machine.rotor is self.machine.rotor
+        return replace(self, machine=machine) if same else machine.with_modes(self.modes)
 
     @cached_property
     def linear(self) -> FlexibleModel:
@@ -258,7 +260,7 @@ class ReducedMachine(Result):
             gyroscopic=given.gyroscopic,
             forcing=given.forcing / (scales.length * size),
             touchdowns=[self._touchdown(*each) for each in planes],
-            translation=np.eye(len(given.mass))[0],
+            translation=np.append(given.carried[: self.vectors] / size, np.zeros(len(given.mass) - self.vectors)),
             carried=given.carried / size,
             regained=given.regained,
             scales=scales,
@@ -289,6 +291,6 @@ class ReducedMachine(Result):
             bearing = bearing.replace(restitution=None, damping=damper)
         wide, ratio = clearance / whole.length, plane.rotor_radius / clearance
         scales = Scales(whole.mass / wide**2, clearance, whole.speed)
-        law, race = law_of(bearing, scales), race_of(bearing, ratio, scales)
+        law, race = law_of(bearing, scales, bearing.restitution or 0.0), race_of(bearing, ratio, scales)
         told = None if plane.bearing.balls is None else plane.bearing
-        return Touchdown(row / wide, law, plane.friction, ratio + 1.0, race, wide, told)
+        return Touchdown(row / wide, law, plane.friction, ratio + 1.0, race, wide, told, plane.farthest or FARTHEST)

@@ -97,7 +97,8 @@ def find_whirls(flexible: FlexibleMachine, speed: Positive | None = None, count:
     at = flexible.speed if speed is None else speed
     whole = flexible.whole
     found = motions_at(whole.equations, at)
-    shapes, opposite = (whole.basis.shapes[::2] @ each[: whole.vectors] for each in (found.ahead, found.behind))
+    shown_at = flexible.rotor.displacements(whole.basis.shapes)
+    shapes, opposite = (shown_at @ each[: whole.vectors] for each in (found.ahead, found.behind))
     grow = growing(found.exponents)
     order = [place for place in np.argsort(np.abs(found.exponents.imag)) if turns(found.exponents[place])]
     return tuple(

@@ -28,7 +28,7 @@ def _parts(machine: FlexibleMachine) -> Iterator[tuple[str, str]]:
     def at(*nodes: int) -> str:
         return f"{listed([number(float(places[node])) for node in nodes])} mm"
 
-    yield "rotor", f"{number(machine.rotor.mass)} kg, {at(-1)} long"
+    yield "rotor", machine.rotor.words
     yield "speed", f"{number(machine.speed / RPM)} rpm"
     for place, bearing in enumerate(machine.bearings, start=1):
         controller = bearing.controller

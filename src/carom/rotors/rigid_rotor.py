@@ -1,0 +1,202 @@
+"""A rigid rotor: four degrees of freedom, or two where it tilts about a fixed point."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from carom.arguments import checked
+from carom.outcome import InputError, Problems, shown
+from carom.parameters import MACHINE_FIELDS, Field, Gravity, read_quantity
+from carom.parameters.fields import by_name, length_field
+from carom.rotors.attachments import TouchdownPlane, Unbalance
+from carom.rotors.discs import check_inertias
+from carom.rotors.entries import inertia_field, read_entries
+from carom.rotors.flexible_machine import FlexibleMachine
+from carom.rotors.free_modes import FreeModes
+from carom.rotors.free_rotor import FreeRotor, RotorMatrices
+from carom.rotors.magnetic_bearing import MagneticBearing
+from carom.rotors.support import Support
+
+RIGID_FIELDS: Mapping[str, Field] = by_name(
+    MACHINE_FIELDS["mass"],
+    inertia_field("polar_inertia", "I_p", "inertia of the rotor about its axis", '"0.01 kg m^2"'),
+    inertia_field("diametral_inertia", "I_t", "inertia of the rotor about a diameter", '"0.15 kg m^2"', zero=False),
+    length_field("pivot", "", "fixed point about which the rotor tilts, from its centre of mass", -1e3, 1e3, '"-250 mm"'),
+)  # fmt: skip
+"""Numbers of the rotor."""
+POSITION = length_field("position", "", "place along the shaft, from the centre of mass", -1e3, 1e3, '"-120 mm"')
+
+
+@dataclass(frozen=True, eq=False)
+class RigidRotor(FreeRotor):
+    """A rotor that does not bend, free in space or held at one point.
+
+    With its centre of mass at the complex displacement ``z`` and its complex tilt ``θ``, and forces ``f_j`` at the stations ``l_j``, whose
+    displacements are ``z + l_j θ``,
+
+        m z̈ = Σ f_j,      I_t θ̈ − iΩ I_p θ̇ = Σ l_j f_j.
+
+    Held at a point ``p`` it only tilts, ``z = −p θ``, and its inertia is that about this point, ``I_t + m p²``.
+
+    Parameters
+    ----------
+    mass : float or str
+        kg.
+    polar_inertia, diametral_inertia : float or str
+        Moments of inertia about the axis, and about a diameter through the centre of mass, kg m².
+    stations : sequence of float or str
+        Its nodes: where bearings, sensors, touchdown bearings and unbalances are, m along the shaft from the centre of mass, increasing.
+    pivot : float or str, optional
+        A fixed point about which the rotor tilts, m along the shaft from the centre of mass; by default it is free.
+
+    Raises
+    ------
+    InputError
+        A value is not of this kind or out of range, the polar inertia is more than twice the diametral one, or a station is at the fixed point.
+    """
+
+    mass: float
+    polar_inertia: float
+    diametral_inertia: float
+    stations: Sequence[float]
+    pivot: float | None = None
+
+    bends = False
+    fields = RIGID_FIELDS
+
+    def __post_init__(self) -> None:
+        read_entries(self, RIGID_FIELDS)
+        check_inertias(self.polar_inertia, self.diametral_inertia)
+        given: Any = self.stations
+        problems = Problems()
+        listed = [problems.attempt(read_quantity, POSITION, each) for each in np.atleast_1d(given).tolist()]
+        problems.raise_all()
+        if not listed or any(np.diff(np.array(listed)) <= 0.0):
+            raise InputError("stations", shown(given), "places along the shaft from the centre of mass, increasing")
+        if self.pivot is not None and self.pivot in listed:
+            raise InputError("position", self.pivot, "a place off the pivot, where the rotor does not move")
+        object.__setattr__(self, "stations", tuple(listed))
+
+    @cached_property
+    def matrices(self) -> RotorMatrices:
+        """``M``, ``K`` and ``G`` of displacement and tilt, or of the tilt alone."""
+        if self.pivot is None:
+            inertias = np.array([self.mass, self.diametral_inertia]), np.array([0.0, self.polar_inertia])
+        else:
+            inertias = np.array([self.diametral_inertia + self.mass * self.pivot**2]), np.array([self.polar_inertia])
+        return RotorMatrices(np.diag(inertias[0]), np.zeros((len(inertias[0]),) * 2), np.diag(inertias[1]))
+
+    damping_rates = None
+
+    @cached_property
+    def damping_matrix(self) -> np.ndarray:  # type: ignore[override]
+        """Zeros: what damps it are its bearings."""
+        return np.zeros_like(self.mass_matrix)
+
+    @cached_property
+    def free_modes(self) -> FreeModes:  # type: ignore[override]
+        """Translation and tilt, or the tilt alone."""
+        sizes = self.mass_matrix.diagonal()
+        return FreeModes(np.zeros(len(sizes)), np.diag(1.0 / np.sqrt(sizes)))
+
+    @property
+    def places(self) -> np.ndarray:
+        """Where its stations, its centre of mass and its fixed point are, m."""
+        return np.unique([*self.stations, 0.0, *([] if self.pivot is None else [self.pivot])])
+
+    @property
+    def node_places(self) -> np.ndarray:
+        """Its stations, m."""
+        return np.array(self.stations)
+
+    def place_of(self, node: int) -> int:
+        """Number of the place of a station."""
+        return int(np.searchsorted(self.places, self.stations[node]))
+
+    def rows(self, along: np.ndarray) -> np.ndarray:
+        """Displacement at places (k,) per coordinate, shape (k, n)."""
+        if self.pivot is not None:
+            return np.asarray(along - self.pivot)[:, None]
+        return np.stack([np.ones(len(along)), along], axis=1)
+
+    def row_at(self, node: int) -> np.ndarray:
+        """Displacement at a station per coordinate."""
+        row: np.ndarray = self.rows(self.node_places[node : node + 1])[0]
+        return row
+
+    def displacements(self, shapes: np.ndarray) -> np.ndarray:
+        """Displacements at all places, shape (N, v), of shapes (n, v)."""
+        return self.rows(self.places) @ shapes
+
+    def carried(self, shapes: np.ndarray) -> np.ndarray:
+        """See :meth:`FreeRotor.carried`: of a rotor held at a point, what a force on all its masses does to the tilt."""
+        return super().carried(shapes) if self.pivot is None else -self.mass * self.pivot * shapes[0]
+
+    @property
+    def translations(self) -> int:  # type: ignore[override]
+        """How many of its free motions are translations."""
+        return int(self.pivot is None)
+
+    @property
+    def words(self) -> str:  # type: ignore[override]
+        """What it is, in a line."""
+        held = "" if self.pivot is None else f", tilting about a point at {1e3 * self.pivot:.6g} mm"
+        return f"rigid, {self.mass:.6g} kg, inertias {self.polar_inertia:.6g} kg m^2 (polar) and {self.diametral_inertia:.6g} kg m^2{held}"
+
+
+@checked
+def rigid_rotor(
+    *,
+    mass: Any,
+    polar_inertia: Any,
+    diametral_inertia: Any,
+    stations: Sequence[Any],
+    speed: Any,
+    clearance: Any,
+    touchdowns: Sequence[TouchdownPlane],
+    bearings: Sequence[MagneticBearing] = (),
+    supports: Sequence[Support] = (),
+    unbalances: Sequence[Unbalance] = (),
+    gravity: Gravity | None = None,
+    pivot: Any = None,
+) -> FlexibleMachine:
+    """Return the machine of a rigid rotor with two complex degrees of freedom, displacement and tilt.
+
+    Parameters
+    ----------
+    mass, polar_inertia, diametral_inertia, stations, pivot
+        See :class:`RigidRotor`.
+    speed, clearance, touchdowns, bearings, supports, unbalances, gravity
+        See :class:`FlexibleMachine`; the ``node`` of a part is the number of its station, from 0 on.
+
+    Raises
+    ------
+    InputError
+        A value is not allowed.
+
+    Examples
+    --------
+    >>> import carom as cm
+    >>> from carom.rotors import PID, MagneticBearing, TouchdownPlane
+    >>> ends = [MagneticBearing(node, "100 N/A", "-1e5 N/m", PID("6000 A/m", 0.0, "8 A s/m", "0.1 ms")) for node in (0, 1)]
+    >>> wall = cm.parameters.TouchdownBearing("hunt-crossley", stiffness="5e7 N/m", dissipation="1 s/m")
+    >>> machine = cm.rotors.rigid_rotor(
+    ...     mass="12 kg",
+    ...     polar_inertia="0.01 kg m^2",
+    ...     diametral_inertia="0.15 kg m^2",
+    ...     stations=["-0.12 m", "0.15 m"],
+    ...     speed="20000 rpm",
+    ...     clearance="0.25 mm",
+    ...     bearings=ends,
+    ...     touchdowns=[TouchdownPlane(node, wall, "20 mm", 0.15) for node in (0, 1)],
+    ... )
+    >>> [f"{whirl.frequency:.1f} Hz, {whirl.sense}" for whirl in cm.rotors.find_whirls(machine)[:2]]
+    ['42.1 Hz, backward', '44.6 Hz, forward']
+    """
+    rotor = RigidRotor(mass, polar_inertia, diametral_inertia, stations, pivot)
+    return FlexibleMachine(rotor, speed, clearance, bearings, touchdowns, unbalances, gravity, supports)
