@@ -44,7 +44,6 @@ EXAMPLES = {
     ),
     "UnbalanceResponse": lambda: carom.studies.unbalance_response(carom.load("examples/keogh-cole.toml")),
     "Campbell": lambda: carom.rotors.campbell(munich(0.06), [100.0, 300.0]),
-    "FlexibleResponse": lambda: carom.rotors.unbalance_response(munich(0.06), [100.0, 300.0]),
     "Sensitivity": lambda: carom.rotors.sensitivity(munich(0.06), [100.0, 300.0, 900.0]),
     "ProvenKicks": lambda: ProvenKicks.of(prove_kicks("examples/spindle.toml", "100 mm/s", most_impacts=0, workers=1)),
     "Study": lambda: study_once(PAPER.replace(gamma=0.65, mu=0.0)),

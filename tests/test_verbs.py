@@ -95,6 +95,7 @@ CALLS = {
     "closed_forms.runaway_speed": cm.closed_forms.runaway_speed,
     "closed_forms.slipping_whirls": lambda m: cm.closed_forms.slipping_whirls(m, 1e4),
     "closed_forms.speed_response": cm.closed_forms.speed_response,
+    "closed_forms.synchronous_response": lambda m: cm.closed_forms.synchronous_response(m, [100.0]),
     "closed_forms.small_cycles": cm.closed_forms.small_cycles,
     "closed_forms.yielding_rubs": lambda m: cm.closed_forms.yielding_rubs(m, 1e4),
     "disturbances.outward_from": cm.disturbances.outward_from,

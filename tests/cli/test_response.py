@@ -79,4 +79,4 @@ def test_bad_input(carom, machine, options, words):
 def test_a_dimensionless_file_has_no_speed(carom, dimensionless):
     code, out, err = carom("response", dimensionless)
     assert (code, out) == (2, "")
-    assert "must hold a [machine] table" in err
+    assert "must hold a [machine] or a [rotor] table" in err

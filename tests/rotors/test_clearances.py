@@ -11,14 +11,14 @@ from flexible_machines import SOFT, munich
 from scipy.integrate import solve_ivp
 
 import carom as cm
-from carom.closed_forms import ball_pressure
+from carom.closed_forms import ball_pressure, synchronous_response
 from carom.models import LinearRotor, Rigid, Touchdown, model_from
 from carom.models.weight import levitation_of
 from carom.orbits import find_orbits
 from carom.outcome import InputError
 from carom.parameters import Scales, TouchdownBearing
 from carom.plots.plane import orbit_path
-from carom.rotors import TouchdownPlane, load_machine, unbalance_response
+from carom.rotors import TouchdownPlane, load_machine
 from carom.studies.document import found_orbits_document
 
 RACE = {"race_inertia": 1e-5, "race_drag": 1e-6, "mount_mass": 0.3, "mount_stiffness": 2e6, "mount_damping": 50.0}
@@ -66,8 +66,9 @@ def test_the_file_states_a_clearance_for_each_bearing(tmp_path):
     machine = load_machine(tmp_path / "two.toml")
     assert machine.clearances == pytest.approx((0.2e-3, 0.3e-3))
     assert machine.clearance == pytest.approx(0.2e-3)
-    response = unbalance_response(machine, [50.0])
-    assert response.room[0] == pytest.approx(1.0 - np.abs(response.touchdowns[0]) / np.array([0.2e-3, 0.3e-3]))
+    response = synchronous_response(machine, [50.0])
+    sizes = response.touchdowns.major[0] + response.sags
+    assert response.reach[0] == pytest.approx(sizes / np.array([0.2e-3, 0.3e-3]))
     assert [machine.model.system.scales_at(plane, machine.model.scales).length for plane in (0, 1)] == pytest.approx(
         [0.2e-3, 0.3e-3]
     )

@@ -12,6 +12,7 @@ from scipy.linalg import eigvals
 
 import carom as cm
 from carom.cli.app import main
+from carom.closed_forms import synchronous_response
 from carom.outcome import InputError
 from carom.rotors import (
     Support,
@@ -19,7 +20,6 @@ from carom.rotors import (
     campbell,
     find_whirls,
     sensitivity,
-    unbalance_response,
 )
 
 SEAL = Support(7, kxx="2e5 N/m", kyy=5e4, kxy=3e4, kyx=-1e4, cxx=20.0, cyy=50.0, cxy=5.0)
@@ -115,23 +115,24 @@ def test_response_to_unbalance_goes_round_the_ellipses_of_both_planes(speed):
     turns = np.exp(1j * angles)[:, None]
     path = (answer[places] * turns).real + 1j * (answer[n + places] * turns).real
 
-    found = unbalance_response(machine, [speed])
-    ellipses = found.touchdown_ellipses
-    assert path == pytest.approx(ellipses.ahead[0] * turns + ellipses.behind[0] / turns, rel=1e-8, abs=1e-14)
+    found = synchronous_response(machine, [speed])
+    ellipses = found.touchdowns
+    assert path == pytest.approx(ellipses.forward[0] * turns + ellipses.backward[0] / turns, rel=1e-8, abs=1e-14)
     assert ellipses.major[0] == pytest.approx(np.abs(path).max(axis=0), rel=1e-6)
     assert np.abs(ellipses.minor[0]) == pytest.approx(np.abs(path).min(axis=0), rel=1e-5)
     farthest = path[np.abs(path).argmax(axis=0), range(len(places))]
     assert np.abs(np.exp(2j * ellipses.direction[0]) - (farthest / np.abs(farthest)) ** 2).max() < 2e-3
-    assert found.room[0] == pytest.approx(1.0 - np.abs(path).max(axis=0) / np.array(machine.clearances), abs=1e-6)
+    without = found.reach[0] - found.sags / found.clearances
+    assert without == pytest.approx(np.abs(path).max(axis=0) / np.array(machine.clearances), abs=1e-6)
 
 
 def test_the_model_levitates_round_the_same_ellipse():
     machine = replaced(MACHINE, gravity=None)
     whole = machine.whole
-    found, system = unbalance_response(machine, [machine.speed]).touchdown_ellipses, whole.model.system
-    assert system.arrays["offsets"] * machine.clearance == pytest.approx(found.ahead[0], rel=1e-7)
+    found, system = synchronous_response(machine, [machine.speed]).touchdowns, whole.model.system
+    assert system.arrays["offsets"] * machine.clearance == pytest.approx(found.forward[0], rel=1e-7)
     behind = system.arrays["rows"][:, system.arrays["mirror"][0]] * machine.clearance
-    assert behind == pytest.approx(found.behind[0], rel=1e-7)
+    assert behind == pytest.approx(found.backward[0], rel=1e-7)
     # Their exponents are the whirls, and the conjugates of these.
     slowest = sorted(find_whirls(machine), key=lambda each: each.frequency)[:6]
     own = (system.exponents + 1j) * machine.speed

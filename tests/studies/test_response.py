@@ -59,7 +59,7 @@ def test_the_present_and_the_critical_speed_are_on_the_curve(real):
         assert speed in real.speeds
     place = int(np.flatnonzero(real.speeds == real.present)[0])
     equilibrium = cm.find_equilibria(real.case)[0]
-    assert abs(real.displacement[place]) == pytest.approx(equilibrium.radius, rel=1e-12)
+    assert real.amplitude[place] == pytest.approx(equilibrium.radius, rel=1e-12)
     assert real.peak_to_peak_si[place] == pytest.approx(2.0 * 0.7e-3 * equilibrium.radius, rel=1e-12)
 
 
@@ -194,3 +194,43 @@ def test_short_text_and_bad_input(real):
         unbalance_response(LIGHT, (500.0, 400.0))
     with pytest.raises(InputError, match="operating"):
         unbalance_response(LIGHT, operating=(500.0, 400.0))
+
+
+LEVITATED = """
+[machine]
+mass = "12 kg"
+speed = "36000 rpm"
+clearance = "0.2 mm"
+rotor_diameter = "50 mm"
+eccentricity = "12 um"
+friction = 0.2
+restitution = 0.8
+magnetic_bearings = 2
+force_current_factor = "90 N/A"
+negative_stiffness = "400 N/mm"
+proportional_gain = "12 A/mm"
+derivative_gain = "2 A s/m"
+current_limit = "1.5 A"
+
+[gravity]
+acceleration = "9.81 m/s^2"
+"""
+
+
+def test_where_a_rotor_that_sags_touches_and_its_bearings_saturate(tmp_path):
+    """The ends of the ranges, at speeds of their own, against the modes of the levitating rotor there."""
+    (tmp_path / "levitated.toml").write_text(LEVITATED, encoding="utf-8")
+    case = cm.load(tmp_path / "levitated.toml")
+    response, model = unbalance_response(case), cm.models.model_of(case)
+    assert response.rubs is None
+    assert {stretch.what.contact_free for stretch in response.stretches} == {True, False}
+    assert [stretch.what for stretch in response.saturating].count(True) == 1
+    for stretch in response.stretches:
+        at = math.sqrt(stretch.low * stretch.high)
+        reach = cm.closed_forms.levitation(model.replace(speed=at)).reach
+        assert (reach < 1.0) is stretch.what.contact_free
+        assert response.at(at).reach[0, 0] == pytest.approx(reach, rel=1e-9)
+    for stretch in response.saturating:
+        at = math.sqrt(stretch.low * stretch.high)
+        held = cm.closed_forms.levitation(model.replace(speed=at))
+        assert held.stable is not stretch.what

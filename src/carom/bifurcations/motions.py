@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from carom.arguments import checked
 from carom.bifurcations.conditions import Solution, is_admissible, orbit_solutions, spectral_radii
 from carom.bifurcations.diagrams import LONGEST_PERIOD
-from carom.closed_forms.equilibria import BOUNDARY
+from carom.closed_forms.sag import BOUNDARY
 from carom.closed_forms.thresholds import has_stable_rub
 from carom.closed_forms.whirl import rolling
 from carom.models import Subject, jeffcott_of

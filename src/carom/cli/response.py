@@ -11,6 +11,8 @@ from carom.cli.terminal import AsJson, MachineFile, Out, Settings, check_output,
 from carom.outcome import STEADY_WORDS, InputError
 
 if TYPE_CHECKING:
+    from rich.console import Console
+
     from carom.disturbances.echo import Echo
     from carom.parameters import Case
     from carom.studies.response import UnbalanceResponse
@@ -42,8 +44,9 @@ def response(
 ) -> None:
     """Show the response to the unbalance over speed: amplitude, phase, critical speed, and where the rotor touches.
 
-    Compared with the vibration limit and the separation margin of API 617 and the zones of ISO 14839-2.  Where the rotor
-    touches, the synchronous rubs that are possible are shown too.  Stiffness and damping are the same at every speed.
+    Of any machine, at each touchdown bearing, with the static sag and the speeds at which the magnetic bearings saturate.  Compared with the vibration limit and the
+    separation margin of API 617 and the zones of ISO 14839-2.  Where the rotor touches, the synchronous rubs that are possible are shown too.  Stiffness
+    and damping are the same at every speed.
     """
     from carom.loading import load
 
@@ -52,11 +55,12 @@ def response(
     check_output(out)
     with progress("response over speed") as tell:
         from carom.disturbances.echo import echo_of_unbalance
+        from carom.models import model_of
         from carom.studies.response import unbalance_response
 
         found = unbalance_response(case, interval, operating=run)
         tell(0.3, "response over speed")
-        echo = echo_of_unbalance(case.parameters.rho, found.interval, found.scales)
+        echo = echo_of_unbalance(model_of(case).value("rho"), found.interval, found.scales)
         document = {"disturbance": echo.document(found.scales)} | found.to_dict() if as_json or out is not None else {}
         if out is not None:
             tell(0.4, "drawing")
@@ -80,7 +84,7 @@ def _read(
     from carom.models import axis
 
     if case.parameters.scales is None:
-        allowed = "must hold a [machine] table: without mass and clearance in SI units no speed is known"
+        allowed = "must hold a [machine] or a [rotor] table: without mass and clearance in SI units no speed is known"
         raise InputError("machine file", case.name, allowed)
     along = axis(case, "speed")
     if (start is None) != (end is None):
@@ -103,14 +107,17 @@ def _print(found: UnbalanceResponse, echo: Echo, out: str | None) -> None:
     for sentence in found.words:
         screen.print(sentence)
     screen.print()
+    _print_bearings(screen, found)
     columns = ("from", "to", STEADY_WORDS["contact-free"], f"{STEADY_WORDS['rub']}s", STEADY_WORDS["rolling"])
     table = plain_table("Steady motions over speed", *columns, right=("from", "to"), no_wrap=("from", "to"))
     for stretch in found.stretches:
         steady = stretch.what
         kinds = {"stable": steady.stable_rubs, "unstable": steady.unstable_rubs}
         rubs = ", ".join(f"{count} {kind}" for kind, count in kinds.items() if count) or "none"
+        rubs = "not known" if steady.stable_rubs is None else rubs
         free = "possible" if steady.contact_free else "virtual: the rotor touches"
-        table.add_row(rpm(stretch.low), rpm(stretch.high), free, rubs, "holds" if steady.rolls else "does not hold")
+        rolls = "not known" if steady.rolls is None else "holds" if steady.rolls else "does not hold"
+        table.add_row(rpm(stretch.low), rpm(stretch.high), free, rubs, rolls)
     screen.print(fitted(screen, table))
     zones = plain_table("Zones of ISO 14839-2 of levitation", "from", "to", "zone", right=("from", "to"))
     for stretch in found.zones:
@@ -119,3 +126,27 @@ def _print(found: UnbalanceResponse, echo: Echo, out: str | None) -> None:
     if out is None:
         screen.print()
         screen.print("Figure and response.json: add --out DIR")
+
+
+def _print_bearings(screen: Console, found: UnbalanceResponse) -> None:
+    """Print the whirl at each touchdown bearing at the present speed."""
+    import numpy as np
+
+    from carom.cli.fitting import fitted, plain_table
+    from carom.parameters.told import number
+    from carom.studies.response_words import micrometres, rpm
+
+    now = found.now
+    amplitude, columns = (
+        "amplitude, 0-to-peak",
+        ("touchdown bearing", "forward", "backward", "sag", "share of clearance", "lag"),
+    )
+    names = (columns[0], amplitude, *columns[1:])
+    table = plain_table(f"At {rpm(found.present)}", *names, right=names)
+    parts = (now.touchdowns.major, np.abs(now.touchdowns.forward), np.abs(now.touchdowns.backward))
+    for place in range(len(now.clearances)):
+        sizes = (micrometres(float(each[0, place])) for each in parts)
+        share = f"{number(100.0 * float(now.reach[0, place]), 3)} %"
+        lag = f"{number(float(np.degrees(now.lags[0, place])), 3)}°"
+        table.add_row(str(place + 1), *sizes, micrometres(float(now.sags[place])), share, lag)
+    screen.print(fitted(screen, table))

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from rich.console import Console
 
 from carom.cli.fitting import fitted, plain_table
-from carom.closed_forms.sag import steady_motions
+from carom.closed_forms.equilibria import steady_motions
 from carom.closed_forms.statics import exponent_of
 from carom.closed_forms.yielding_walls import slipping_whirls
 from carom.models import model_of

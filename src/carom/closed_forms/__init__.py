@@ -8,7 +8,8 @@
 ``rub_stability``   whether a rub at rest attracts sliding
 ``thresholds``      where motions begin and end
 ``harmless``        disturbances of any linear rotor that never reach the wall
-``unbalance``       contact-free response over the speed of the shaft
+``unbalance``       contact-free response over the speed of the shaft, of a rotor with one mass in closed form
+``synchronous``     the same of any linear rotor, at each touchdown bearing
 ``whirl``           backward whirl: runaway and rolling
 ``fading``          rolling in bounces, and when they certainly fade
 ``absorbing``       neighbourhoods of the rub that sliding never leaves
@@ -38,6 +39,7 @@ from carom.closed_forms.hertz import PointContact, ball_pressure, point_contact
 from carom.closed_forms.local import ContactSystem, LocalCycle, NonSmoothHopf, cycle_determinant, non_smooth_hopf
 from carom.closed_forms.periods import PeriodCondition, PeriodRoots
 from carom.closed_forms.sag import Levitation, levitation
+from carom.closed_forms.synchronous import Ellipses, SynchronousResponse, synchronous_response
 from carom.closed_forms.thresholds import rub_limit
 from carom.closed_forms.unbalance import SpeedResponse, speed_response
 from carom.closed_forms.wall_meetings import SmallCycle, WallMeeting, small_cycles
@@ -47,6 +49,7 @@ from carom.closed_forms.yielding_walls import SlippingWhirl, YieldingRub, slippi
 
 __all__ = [
     "ContactSystem",
+    "Ellipses",
     "Equilibrium",
     "EquilibriumSet",
     "FreeImpact",
@@ -62,6 +65,7 @@ __all__ = [
     "SlippingWhirl",
     "SmallCycle",
     "SpeedResponse",
+    "SynchronousResponse",
     "WallMeeting",
     "YieldingRub",
     "ball_pressure",
@@ -85,5 +89,6 @@ __all__ = [
     "slipping_whirls",
     "small_cycles",
     "speed_response",
+    "synchronous_response",
     "yielding_rubs",
 ]

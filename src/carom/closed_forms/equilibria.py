@@ -10,6 +10,7 @@ import numpy as np
 
 from carom.arguments import checked
 from carom.closed_forms.rub_stability import sliding_rates
+from carom.closed_forms.sag import Levitation, Status, levitation, status_of
 from carom.closed_forms.statics import COUNTED, all_found, depths, exponent_of, rub_forces, static_state
 from carom.models import Model, Subject, model_of
 from carom.models.excess import asks_beyond
@@ -18,10 +19,6 @@ from carom.parameters import Scales
 from carom.results import Members, Result, in_a_line
 
 Kind = Literal["contact-free", "rub"]
-Status = Literal["admissible", "boundary", "virtual"]
-
-BOUNDARY = 1e-12
-"""Distance from the wall (in clearances) or normal force (in ``m c_r Ω²``) that counts as zero."""
 NEUTRAL = 64 * np.finfo(float).eps
 """Rounding error of the exponents, relative to the largest."""
 
@@ -194,17 +191,11 @@ def _contact_free(model: Model) -> Equilibrium:
         places,
         np.zeros(len(places)),
         (),
-        _status(1.0 - float(np.abs(places).max())),
+        status_of(1.0 - float(np.abs(places).max())),
         system.exponents,
         _dies_out(system.exponents, margin) and not asks_beyond(system, np.zeros(system.modes)),
         model.scales,
     )
-
-
-def _status(margin: float) -> Status:
-    if abs(margin) <= BOUNDARY:
-        return "boundary"
-    return "admissible" if margin > 0 else "virtual"
 
 
 def _rub(model: Model, planes: tuple[int, ...], forces: np.ndarray, touching: np.ndarray) -> Equilibrium:
@@ -230,7 +221,7 @@ def _rub(model: Model, planes: tuple[int, ...], forces: np.ndarray, touching: np
         places,
         pushes,
         planes,
-        _status(float(margin)),
+        status_of(float(margin)),
         eigenvalues,
         stable,
         model.scales,
@@ -247,3 +238,18 @@ def _at_planes(at: Equilibrium) -> str:
     if len(at.places) == 1 or not at.planes:
         return ""
     return f" at touchdown bearing {in_a_line(tuple(plane + 1 for plane in at.planes))}"
+
+
+SteadyMotion = Equilibrium | Levitation
+"""A motion that is the same in each turn of the shaft."""
+
+
+def steady_motions(rotor: Model) -> tuple[SteadyMotion, ...]:
+    """Levitation, then the synchronous rubs; levitation alone where something stands in the fixed frame or the speed of the shaft changes.
+
+    Under weight nothing else is at rest in the frame that turns with the shaft: a rotor that lies on its bearing is found among the ends
+    of simulated motions.
+    """
+    system = rotor.system
+    alone = system.outer.any() or system.mirrored is not None or system.shaft is not None
+    return (levitation(rotor),) if alone else find_equilibria(rotor).members

@@ -8,11 +8,21 @@ from typing import Any, ClassVar, Literal
 import numpy as np
 
 from carom.arguments import Reals, checked
-from carom.closed_forms.equilibria import BOUNDARY, Equilibrium, Status, find_equilibria
 from carom.models import Model, Subject, model_of
 from carom.models.excess import asks_beyond
 from carom.outcome import InputError
 from carom.results import Result
+
+Status = Literal["admissible", "boundary", "virtual"]
+BOUNDARY = 1e-12
+"""Distance from the wall (in clearances) or normal force (in ``m c_r Ω²``) that counts as zero."""
+
+
+def status_of(margin: float) -> Status:
+    """Status of a motion by its distance from the nearest wall that it must not reach, or a force that must push."""
+    if abs(margin) <= BOUNDARY:
+        return "boundary"
+    return "admissible" if margin > 0 else "virtual"
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -69,9 +79,7 @@ class Levitation(Result):
     @property
     def status(self) -> Status:
         """Whether it lies inside all walls, touches one, or would lie outside, as of an equilibrium."""
-        return (
-            "admissible" if self.reach < 1.0 - BOUNDARY else "boundary" if self.reach <= 1.0 + BOUNDARY else "virtual"
-        )
+        return status_of(1.0 - self.reach)
 
     @property
     def inside(self) -> bool:
@@ -105,7 +113,7 @@ def levitation(machine: Subject) -> Levitation:
     Raises
     ------
     InputError
-        Nothing holds the rotor, or there is no steady motion: a race turns, the speed changes, or a force changes in the fixed frame.
+        Nothing holds the rotor, or there is no steady motion: a force changes in the fixed frame.
 
     See Also
     --------
@@ -120,8 +128,9 @@ def levitation(machine: Subject) -> Levitation:
     0.3924 + 0.0088 = 0.4012
     """
     model = model_of(machine)
-    model.system.refuse_unrepeated()
     system, arrays = model.system, model.system.arrays
+    if system.shaken:
+        system.refuse_unsteady()
     if system.rest_radius == np.inf:
         raise InputError("levitation", "none, nothing holds the rotor", "a rotor that is held against its weight")
 
@@ -131,23 +140,10 @@ def levitation(machine: Subject) -> Levitation:
     return Levitation(
         model,
         told(system.shapes @ system.outer),
-        told(system.rest),
+        told(system.whirl),
         told(system.rest_mirrored),
         np.abs(arrays["rows"] @ system.outer),
-        np.abs(arrays["offsets"]) + np.abs(system.planes @ system.rest_mirrored),
+        np.abs(system.planes @ system.whirl if system.shaft else arrays["offsets"])
+        + np.abs(system.planes @ system.rest_mirrored),
         np.asarray(system.exponents),
     )
-
-
-SteadyMotion = Equilibrium | Levitation
-"""A motion that is the same in each turn of the shaft."""
-
-
-def steady_motions(rotor: Model) -> tuple[SteadyMotion, ...]:
-    """Levitation, then the synchronous rubs; of a rotor that weighs something levitation alone.
-
-    Under weight nothing else is at rest in the frame that turns with the shaft: a rotor that lies on its bearing is found among the ends
-    of simulated motions.
-    """
-    turning = rotor.system.forced is not None or rotor.system.races is not None
-    return (levitation(rotor),) if turning else find_equilibria(rotor).members

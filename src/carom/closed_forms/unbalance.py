@@ -23,8 +23,8 @@ import numpy as np
 
 from carom.arguments import Positive, Reals, checked
 from carom.closed_forms.thresholds import largest_pull
-from carom.models import Jeffcott, Subject, jeffcott_of
-from carom.outcome import InputError
+from carom.models import Jeffcott, Subject, model_of
+from carom.outcome import InputError, shown
 from carom.results import Result
 
 
@@ -120,15 +120,17 @@ def speed_response(machine: Subject) -> SpeedResponse:
     Parameters
     ----------
     machine : Machine, Case, Parameters or model
-        The planar rotor, with mass, clearance and speed.
+        A rotor with one mass, clearance and speed; its weight, touchdown bearing and limits do not matter.
 
     Raises
     ------
     InputError
-        Another model, or a rotor without scales: its damping and stiffness are not known apart from its speed.
+        A rotor with more modes, or a rotor without scales: its damping and stiffness are not known apart from its speed.
     """
-    rotor = jeffcott_of(machine)
-    at = rotor.parameters
+    at = model_of(machine).planar
+    if at is None:
+        raise InputError("machine", shown(machine), "a rotor with one mass; carom.studies.unbalance_response takes any")
+    rotor = Jeffcott(at)
     if at.scales is None:
         allowed = "needed for a response over speed: use a file with a [machine] table, or parameters with scales"
         raise InputError("scales", None, allowed)

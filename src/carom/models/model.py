@@ -244,7 +244,7 @@ class Model:
         """Refuse a rotor on which forces act that change with time in its frame: it never is at rest there."""
         if self.system.shaft is not None or self.system.mirrored is not None:
             self.system.refuse_forces()
-        if self.system.forced is not None:
+        if self.system.outer.any():
             acting = "forces that change with time" if self.weight is None else "gravity"
             raise InputError("machine", f"a rotor under {acting}", _WITHOUT)
 

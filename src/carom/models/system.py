@@ -92,6 +92,8 @@ class System(ModeArrays):
     @property
     def unrepeated(self) -> tuple[str, str] | None:
         """What keeps motions from repeating in a way that is known here, and what is allowed instead; ``None`` if nothing does."""
+        if self.races is not None:
+            return "a race that turns", "races that stand still, or carom.simulate and carom.settle"
         if self.mirrored is not None and self.unsteady is None:
             return MIRRORED, ALIKE
         if self.limits and self.unsteady is None:
@@ -101,13 +103,6 @@ class System(ModeArrays):
     @property
     def unsteady(self) -> tuple[str, str] | None:
         """What keeps levitation from being a whirl about a place that stays, and what is allowed instead; ``None`` if nothing does."""
-        if self.races is not None:
-            return "a race that turns", "races that stand still, or carom.simulate and carom.settle"
-        return self._changing
-
-    @property
-    def _changing(self) -> tuple[str, str] | None:
-        """What keeps any motion from repeating, and what is allowed instead."""
         if self.shaft is not None:
             return "a shaft whose speed changes", "one at constant speed, or carom.simulate and carom.settle"
         if self.shaken:
@@ -121,8 +116,7 @@ class System(ModeArrays):
 
     def refuse_unrepeated(self) -> None:
         """Refuse a rotor whose motions repeat nothing: the speed of its shaft changes, or forces change in the fixed frame at rates of their own."""
-        if self.shaft is not None or self.shaken:
-            raise InputError("machine", *(self._changing or ("", "")))
+        self.refuse_unsteady()
 
     def refuse_unsteady(self) -> None:
         """Refuse a rotor that does not levitate in a whirl about a place that stays."""
@@ -130,10 +124,10 @@ class System(ModeArrays):
             raise InputError("machine", *self.unsteady)
 
     def refuse_forces(self) -> None:
-        """Refuse a rotor that never is at rest in its frame: forces change with time there, a race turns or the speed changes."""
+        """Refuse a rotor that never is at rest in its frame: forces change with time there, or the speed changes."""
         self.refuse_unsteady()
         self.refuse_mirrored()
-        if self.forced is not None:
+        if self.outer.any():
             raise InputError("machine", "forces that change with time", "a rotor whose forces turn with its frame")
 
     def refuse_mirrored(self) -> None:
@@ -145,6 +139,11 @@ class System(ModeArrays):
     def timed(self) -> bool:
         """Whether it matters when a motion begins: something stands in the fixed frame, past which the unbalance turns."""
         return bool(self.outer.any() or self.limits or self.mirrored is not None)
+
+    @property
+    def whirl(self) -> np.ndarray:
+        """Coordinates (n,) of the response to the unbalance, which turns with the shaft at its nominal speed."""
+        return self.rest + self.shapes @ self._unbalanced if self.shaft is not None else self.rest
 
     @property
     def rest_mirrored(self) -> np.ndarray:

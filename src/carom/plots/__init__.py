@@ -29,7 +29,7 @@ from carom.plots.files import save
 from carom.plots.gains import gain_map
 from carom.plots.histories import radius
 from carom.plots.kick_proofs import proven_kicks
-from carom.plots.levitation import campbell, flexible_response, sensitivity
+from carom.plots.levitation import campbell, sensitivity
 from carom.plots.motions import motion, orbit
 from carom.plots.overviews import equilibria, equilibria_and_orbits, overview
 from carom.plots.pairs import basin_pair
@@ -60,7 +60,6 @@ __all__ = [
     "energies",
     "equilibria",
     "equilibria_and_orbits",
-    "flexible_response",
     "forces",
     "gain_map",
     "heading",

@@ -15,7 +15,7 @@ from carom.plots.style import LOOKS, TWO_COLUMNS, ZONE_SHADES, styled
 from carom.plots.words import number
 
 if TYPE_CHECKING:
-    from carom.rotors import Campbell, FlexibleResponse, Sensitivity
+    from carom.rotors import Campbell, Sensitivity
 
 _HERTZ = 2.0 * math.pi
 _LINES = ("-", "--", "-.", ":")
@@ -101,34 +101,4 @@ def sensitivity(found: Sensitivity) -> Figure:
     axes.set_xlabel("frequency (Hz)")
     axes.set_ylabel("sensitivity (no unit)")
     key(figure, [axes], columns=2)
-    return figure
-
-
-@checked
-@styled
-def flexible_response(found: FlexibleResponse) -> Figure:
-    """Draw the radii of the whirl by unbalance over the speed, of ellipses the largest: at the touchdown bearings and at the sensors, with the speed of the machine.
-
-    What reaches the clearance is virtual: there the rotor touches before.
-    """
-    figure, axes = one_axes(None, (TWO_COLUMNS, 0.62 * TWO_COLUMNS))
-    speeds, machine = found.speeds / RPM, found.machine
-    reached, measured = found.touchdown_ellipses.major, found.sensor_ellipses.major
-    kinds = (("touchdown bearing", "stable", reached), ("sensors of bearing", "unstable", measured))
-    for words, look, values in kinds:
-        for number_of, radii in enumerate(values.T, start=1):
-            name = f"{words} {number_of}"
-            line = _LINES[(number_of - 1) % len(_LINES)]
-            axes.plot(speeds, 1e6 * radii, linestyle=line, color=LOOKS[look].colour, label=name, gid=name)
-    top = 1e6 * max(float(reached.max()), float(measured.max(initial=0.0)))
-    least = 1e6 * min(machine.clearances)
-    if top > 0.5 * least:
-        axes.axhline(least, color="#1a1a1a", lw=0.9, ls=":", label="clearance", gid="clearance")
-        top = max(top, least)
-    axes.axvline(machine.speed / RPM, color="#1a1a1a", lw=0.9, label="speed of the machine", gid="operating")
-    axes.set_xlim(speeds[0], speeds[-1])
-    axes.set_ylim(0.0, _ROOM * top)
-    axes.set_xlabel("speed of the shaft (rpm)")
-    axes.set_ylabel("radius of the whirl (µm)")
-    key(figure, [axes], columns=3)
     return figure

@@ -32,6 +32,8 @@ _CRITICAL = Look("#0072b2", "critical speed", line=(0.0, (1.0, 1.5)), width=1.1)
 _HALF = Look("#0072b2", "0.707 of the peak, for the amplification factor", line="-", width=1.0)
 _HIGHEST = 1.3
 """Largest amplitude shown, in clearances: what lies beyond is virtual."""
+_LINES = ("-", "--", "-.", (0.0, (1.0, 1.0)))
+"""Lines of the whirl at several touchdown bearings."""
 _LOWEST = 0.05
 """Least top of the panel, in clearances."""
 
@@ -48,7 +50,7 @@ def unbalance_response(response: UnbalanceResponse) -> Figure:
     """
     figure = StyledFigure(figsize=(TWO_COLUMNS, 0.78 * TWO_COLUMNS))
     upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=(1.7, 1.0))
-    speeds, width = response.speeds / RPM, 2e6 * response.scales.clearance
+    speeds, width = response.speeds / RPM, 2e6 * float(response.whirl.clearances.min())
     _amplitudes(upper, response, speeds, width)
     _phases(lower, response, speeds)
     for axes in (upper, lower):
@@ -63,22 +65,22 @@ def unbalance_response(response: UnbalanceResponse) -> Figure:
 
 def _title(response: UnbalanceResponse, *, named: bool) -> str:
     """Write the amplitude at the present speed and the critical speed, with the name of the machine if it is not above."""
-    free, present = response.contact_free, response.present
-    radius = float(free.amplitude(np.array(present)))
-    now = f"{2e6 * response.scales.clearance * radius:,.4g} µm peak to peak, zone {response.zone_at(present)}"
+    present = response.present
+    width = 2e6 * float(response.now.touchdowns.major.max())
+    now = f"{width:,.4g} µm peak to peak, zone {response.zone_at(present)}"
     where = f"at {present / RPM:,.0f} rpm" if named else f"{response.case.name} at {present / RPM:,.0f} rpm"
-    parts = [f"{where}: {now if radius <= 1.0 else NO_LEVITATION}"]
-    if free.critical_speed is not None:
-        parts.append(f"critical speed {free.critical_speed / RPM:,.0f} rpm")
-        if free.amplification_factor is not None and math.isfinite(free.amplification_factor):
-            parts[-1] += f", amplification factor {number(free.amplification_factor, 3)}"
+    parts = [f"{where}: {now if response.now.reach.max() <= 1.0 else NO_LEVITATION}"]
+    highest = max(response.criticals, key=lambda each: each.amplitude, default=None)
+    if highest is not None:
+        parts.append(f"critical speed {highest.speed / RPM:,.0f} rpm")
+        if highest.factor is not None and math.isfinite(highest.factor):
+            parts[-1] += f", amplification factor {number(highest.factor, 3)}"
     return "\n".join(parts)
 
 
 def _amplitudes(axes: Axes, response: UnbalanceResponse, speeds: Floats, width: float) -> None:
-    radius = np.abs(response.displacement)
-    inside = radius <= 1.0
-    top = _top(response, radius)
+    inside = response.reach <= 1.0
+    top = _top(response)
     limits = (0.0, *response.case.zones.limits, 1.0)
     for low, high, shade, letter in zip(limits[:-1], limits[1:], ZONE_SHADES, response.case.zones.labels, strict=True):
         axes.axhspan(width * low, width * high, color=shade, lw=0.0, zorder=0)
@@ -96,30 +98,28 @@ def _amplitudes(axes: Axes, response: UnbalanceResponse, speeds: Floats, width: 
                 bbox={"boxstyle": "square,pad=0.1", "facecolor": shade, "edgecolor": "none"},  # hides a curve behind it
             )
             axes.axhline(width * low, color="#808080", lw=0.3, zorder=0)
-    axes.plot(speeds, width * np.where(inside, radius, np.nan), **_FREE.stroke, label=_FREE.words, zorder=3)
-    if not inside.all():
-        axes.plot(
-            speeds,
-            width * np.where(with_neighbours(~inside), radius, np.nan),
-            **_VIRTUAL.stroke,
-            label=_VIRTUAL.words,
-            zorder=2,
-        )
+    for place, sizes in enumerate(2e6 * response.whirl.touchdowns.major.T):
+        line = replace(_FREE, line=_LINES[place % len(_LINES)]).stroke
+        words = _FREE.words if response.whirl.clearances.size == 1 else f"{_FREE.words}, bearing {place + 1}"
+        axes.plot(speeds, np.where(inside, sizes, np.nan), **line, label=words, zorder=3)
+        if not inside.all():
+            there = np.where(with_neighbours(~inside), sizes, np.nan)
+            axes.plot(speeds, there, **_VIRTUAL.stroke, label=None if place else _VIRTUAL.words, zorder=2)
     wall = LOOKS["wall"]
     if top > 1.0:
         axes.axhline(width, **wall.stroke, label="wall (touchdown bearing)", zorder=2)
-        for look, angles in zip((_RUB, _SADDLE), response.rubs, strict=True):
-            if not np.isnan(angles).all():
-                line = np.where(np.isnan(angles), np.nan, width)
-                axes.plot(speeds, line, **look.stroke, label=look.words, zorder=2.5)
+        for look, radii in zip((_RUB, _SADDLE), response.rubs.radii if response.rubs else (), strict=False):
+            if not np.isnan(radii).all():
+                along = response.rubs.speeds / RPM if response.rubs else speeds
+                axes.plot(along, width * radii, **look.stroke, label=look.words, zorder=2.5)
     limit = 1e6 * _limit(response)
     axes.plot(speeds, limit, **_LIMIT.stroke, label=_LIMIT.words, zorder=2)
     _half_power(axes, response, width, top)
     axes.set(ylim=(0.0, width * top), ylabel="vibration (µm peak to peak)")
-    radius_now = float(response.contact_free.amplitude(np.array(response.present)))
-    if radius_now <= 1.0 and response.interval[0] <= response.present <= response.interval[1]:
+    if response.now.reach.max() <= 1.0 and response.interval[0] <= response.present <= response.interval[1]:
         dot: dict[str, Any] = {"marker": "o", "ms": 4.5, "color": _FREE.colour, "mec": "#1a1a1a", "mew": 0.8}
-        axes.plot(response.present / RPM, width * radius_now, **dot, zorder=5)
+        for size in response.now.touchdowns.major[0].tolist():
+            axes.plot(response.present / RPM, 2e6 * size, **dot, zorder=5)
     right = axes.secondary_yaxis(
         "right", functions=(lambda width: 0.5e-3 * np.asarray(width), lambda radius: 2e3 * np.asarray(radius))
     )
@@ -132,18 +132,22 @@ def _limit(response: UnbalanceResponse) -> Floats:
     return vibration_limit(response.speeds)
 
 
-def _top(response: UnbalanceResponse, radius: Floats) -> float:
-    """Largest amplitude shown, in clearances."""
-    limit = float(_limit(response).max()) / (2.0 * response.scales.clearance)
-    needed = max(1.15 * float(radius.max()), 1.15 * limit, _LOWEST)
-    touches = float(radius.max()) > 0.8 or not np.isnan(response.rubs).all()
+def _top(response: UnbalanceResponse) -> float:
+    """Largest amplitude shown, in the smallest clearance."""
+    least, rubs = float(response.whirl.clearances.min()), response.rubs
+    limit, highest = (
+        float(_limit(response).max()) / (2.0 * least),
+        float(response.peak_to_peak_si.max()) / (2.0 * least),
+    )
+    needed = max(1.15 * highest, 1.15 * limit, _LOWEST)
+    touches = float(response.reach.max()) > 0.8 or (rubs is not None and not np.isnan(rubs.radii).all())
     return min(max(needed, 1.1), _HIGHEST) if touches else min(needed, 1.1)
 
 
 def _half_power(axes: Axes, response: UnbalanceResponse, width: float, top: float) -> None:
     """Mark the width of the peak, where it is on the page."""
     free = response.contact_free
-    if free.half_power is None or not math.isfinite(free.peak):
+    if free is None or free.half_power is None or not math.isfinite(free.peak):
         return
     height, (low, high) = free.peak / math.sqrt(2.0), free.half_power
     if height < top and math.isfinite(high):
@@ -152,14 +156,19 @@ def _half_power(axes: Axes, response: UnbalanceResponse, width: float, top: floa
 
 
 def _phases(axes: Axes, response: UnbalanceResponse, speeds: Floats) -> None:
-    inside = np.abs(response.displacement) <= 1.0
-    lag = np.degrees(response.lag)
-    axes.plot(speeds, np.where(inside, lag, np.nan), **_FREE.stroke, zorder=3)
-    axes.plot(speeds, np.where(with_neighbours(~inside), lag, np.nan), **_VIRTUAL.stroke, zorder=2)
-    for look, rub in zip((_RUB, _SADDLE), np.degrees(response.rub_lags), strict=True):
-        axes.plot(speeds, rub, **look.stroke, zorder=2)
-    axes.set_ylim(0.0, 270.0 if np.nanmax(np.append(response.rub_lags, 0.0)) > math.pi else 180.0)
-    axes.set_yticks([0, 45, 90, 135, 180, *([225, 270] if axes.get_ylim()[1] > 200.0 else [])])
+    inside, rubs = response.reach <= 1.0, response.rubs
+    lags, lowest, highest = np.degrees(response.whirl.lags), 0.0, 180.0
+    for place, lag in enumerate(lags.T):
+        line = replace(_FREE, line=_LINES[place % len(_LINES)]).stroke
+        axes.plot(speeds, np.where(inside, lag, np.nan), **line, zorder=3)
+        axes.plot(speeds, np.where(with_neighbours(~inside), lag, np.nan), **_VIRTUAL.stroke, zorder=2)
+    if lags.min() < 0.0:
+        lowest = -180.0
+    for look, rub in zip((_RUB, _SADDLE), np.degrees(rubs.lags) if rubs else (), strict=False):
+        axes.plot(rubs.speeds / RPM if rubs else speeds, rub, **look.stroke, zorder=2)
+        highest = max(highest, 270.0 if np.nanmax(np.append(rub, 0.0)) > 180.0 else 180.0)
+    axes.set_ylim(lowest, highest)
+    axes.set_yticks(np.arange(lowest, highest + 1.0, 90.0 if lowest < 0.0 else 45.0))
     axes.set_ylabel("lag behind the\nunbalance (degrees)")
 
 
@@ -170,7 +179,7 @@ def _marks(axes: Axes, response: UnbalanceResponse) -> None:
         if not stretch.what.contact_free:
             hatched: dict[str, Any] = {"fc": "none", "ec": "#d6d6d6", "hatch": "////", "lw": 0.0}
             axes.axvspan(stretch.low / RPM, stretch.high / RPM, **hatched, label=words, zorder=0.5)
-    marked = [(_PRESENT, response.present), (_CRITICAL, response.contact_free.critical_speed)]
-    for look, speed in marked:
-        if speed is not None and response.interval[0] <= speed <= response.interval[1]:
-            axes.axvline(speed / RPM, **look.stroke, label=look.words, zorder=1)
+    marked = [(_PRESENT, response.present), *((_CRITICAL, each.speed) for each in response.criticals)]
+    for place, (look, speed) in enumerate(marked):
+        if response.interval[0] <= speed <= response.interval[1]:
+            axes.axvline(speed / RPM, **look.stroke, label=look.words if place < 2 else None, zorder=1)

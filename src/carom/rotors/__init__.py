@@ -35,7 +35,6 @@
 ``branches``              exponents followed over the speed of the shaft
 ``collocation``           whether sensors see a whirl as the magnet moves it
 ``whirls``                :func:`find_whirls`, :func:`campbell`: free whirls, and how they change with the speed
-``unbalance``             :func:`unbalance_response`: whirl by unbalance over the speed
 ``loop_sensitivity``      :func:`sensitivity`: of the loops of the bearings
 ========================  =================================================================
 """
@@ -58,7 +57,6 @@ from carom.rotors.rotor_files import read_rotor, write_rotor
 from carom.rotors.sections import Material, Section
 from carom.rotors.state_spaces import StateSpace
 from carom.rotors.support import Support
-from carom.rotors.unbalance import FlexibleResponse, unbalance_response
 from carom.rotors.whirls import Campbell, Whirl, campbell, find_whirls
 
 __all__ = [
@@ -67,7 +65,6 @@ __all__ = [
     "Disc",
     "FlexibleMachine",
     "FlexibleModel",
-    "FlexibleResponse",
     "FlexibleRotor",
     "ImportedRotor",
     "MagneticBearing",
@@ -92,6 +89,5 @@ __all__ = [
     "read_rotor",
     "rigid_rotor",
     "sensitivity",
-    "unbalance_response",
     "write_rotor",
 ]

@@ -31,7 +31,8 @@ import numpy as np
 
 from carom.attractors import AttractorSet, MotionName
 from carom.attractors.names import LEVITATION, SYNCHRONOUS_RUB
-from carom.closed_forms.sag import Levitation, SteadyMotion
+from carom.closed_forms.equilibria import SteadyMotion
+from carom.closed_forms.sag import Levitation
 from carom.closed_forms.whirl import Rolling
 from carom.core.limits import WITHIN
 from carom.disturbances import Sample

@@ -15,7 +15,8 @@ from carom.arguments import checked
 from carom.attractors import Attractor, AttractorSet, Ending, document_of
 from carom.bifurcations.boundary import BoundaryEquilibrium
 from carom.bifurcations.documents import search_document
-from carom.closed_forms.sag import Levitation, SteadyMotion
+from carom.closed_forms.equilibria import SteadyMotion
+from carom.closed_forms.sag import Levitation
 from carom.models import Jeffcott, Model, Span
 from carom.orbits.happenings import RECOVERS, SATURATES
 from carom.orbits.orbit import Orbit

@@ -9,21 +9,19 @@ from typing import Any
 
 import numpy as np
 
+from carom.closed_forms import SynchronousResponse, synchronous_response
 from carom.results import Result
 from carom.rotors import (
     Campbell,
     FlexibleMachine,
-    FlexibleResponse,
     Sensitivity,
     Whirl,
     campbell,
     find_whirls,
     sensitivity,
-    unbalance_response,
 )
 from carom.rotors.collocation import Collocation, collocations
-from carom.studies.response_data import Separation
-from carom.studies.standards import Side, required_margin
+from carom.studies.critical_speeds import Critical, criticals_of
 
 SLOWEST, FASTEST = 0.05, 1.5
 """Multiples of the speed of the machine between which the response is computed and whirls are followed."""
@@ -32,33 +30,6 @@ SPEEDS, FOLLOWED = 300, 40
 NARROW = 0.2
 """Damping ratio below which the response is computed densely about a whirl."""
 WHIRLS = 10
-HALF_POWER = math.sqrt(0.5)
-
-
-@dataclass(frozen=True)
-class Critical:
-    """A peak of the response to unbalance, as the sensors of a magnetic bearing measure it.
-
-    Attributes
-    ----------
-    bearing : int
-        From 1.
-    speed : float
-        rad/s.
-    amplitude : float
-        Radius of the whirl that is measured there, m.
-    factor : float or None
-        Amplification factor: speed over the width of the peak at 0.707 of its height (API 617); ``None`` of a peak that is flatter than that, or cut
-        off by the range.
-    separation : Separation
-        Of the speed of the machine.
-    """
-
-    bearing: int
-    speed: float
-    amplitude: float
-    factor: float | None
-    separation: Separation
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -71,9 +42,9 @@ class FlexibleLevitation(Result):
     whirls : tuple of Whirl
         The slowest ones at the speed of the machine.
     campbell : Campbell
-    response : FlexibleResponse or None
+    response : SynchronousResponse or None
         ``None`` without an unbalance.
-    at_speed : FlexibleResponse or None
+    at_speed : SynchronousResponse or None
         The same at the speed of the machine.
     criticals : tuple of Critical
     sensitivity : Sensitivity or None
@@ -84,8 +55,8 @@ class FlexibleLevitation(Result):
     machine: FlexibleMachine
     whirls: tuple[Whirl, ...]
     campbell: Campbell
-    response: FlexibleResponse | None
-    at_speed: FlexibleResponse | None
+    response: SynchronousResponse | None
+    at_speed: SynchronousResponse | None
     criticals: tuple[Critical, ...]
     sensitivity: Sensitivity | None
     collocations: tuple[Collocation, ...]
@@ -139,10 +110,10 @@ class FlexibleLevitation(Result):
         }
         if self.at_speed is not None:
             found["unbalance_response"] = {
-                "touchdowns_si": self.at_speed.touchdown_ellipses.major[0].tolist(),
-                "sensors_si": self.at_speed.sensor_ellipses.major[0].tolist(),
-                "touchdowns_minor_si": self.at_speed.touchdown_ellipses.minor[0].tolist(),
-                "currents_a": self.at_speed.current_ellipses.major[0].tolist(),
+                "touchdowns_si": self.at_speed.touchdowns.major[0].tolist(),
+                "sensors_si": self.at_speed.sensors.major[0].tolist(),
+                "touchdowns_minor_si": self.at_speed.touchdowns.minor[0].tolist(),
+                "currents_a": self.at_speed.currents.major[0].tolist(),
                 "zone": self.at_speed.zones[0],
             }
         if self.sensitivity is not None:
@@ -168,26 +139,27 @@ def levitation_of_machine(machine: FlexibleMachine) -> FlexibleLevitation:
     response = at_speed = None
     if machine.unbalances:
         narrow = find_whirls(machine, count=4 * WHIRLS)
-        response = unbalance_response(machine, speeds_of_response(machine, narrow).tolist())
-        at_speed = unbalance_response(machine, [speed])
+        speeds = speeds_of_response(machine, narrow, (SLOWEST * speed, FASTEST * speed))
+        response = synchronous_response(machine, speeds.tolist())
+        at_speed = synchronous_response(machine, [speed])
     return FlexibleLevitation(
         machine=machine,
         whirls=whirls,
         campbell=campbell(machine, np.linspace(SLOWEST * speed, FASTEST * speed, FOLLOWED).tolist(), WHIRLS),
         response=response,
         at_speed=at_speed,
-        criticals=() if response is None else _criticals(response),
+        criticals=() if response is None else criticals_of(response, (speed, speed)),
         sensitivity=sensitivity(machine) if machine.bearings else None,
         collocations=collocations(machine, whirls),
     )
 
 
-def speeds_of_response(machine: FlexibleMachine, whirls: Sequence[Whirl], top: float | None = None) -> np.ndarray:
-    """Speeds of the response, rad/s: evenly up to the top, and densely about the frequencies of forward whirls, whose peaks may be narrow.
+def speeds_of_response(machine: FlexibleMachine, whirls: Sequence[Whirl], interval: tuple[float, float]) -> np.ndarray:
+    """Speeds of the response, rad/s: evenly over the range, and densely about the frequencies of forward whirls, whose peaks may be narrow.
 
-    Supports that act differently in two directions let unbalance excite backward whirls too.
+    Anisotropic supports let unbalance excite backward whirls too.
     """
-    low, high = SLOWEST * machine.speed, FASTEST * machine.speed if top is None else top
+    low, high = interval
     narrow = []
     for whirl in whirls:
         excited = whirl.sense == "forward" or machine.whole.equations.mirrored
@@ -196,39 +168,3 @@ def speeds_of_response(machine: FlexibleMachine, whirls: Sequence[Whirl], top: f
             narrow.append(abs(whirl.exponent.imag) + width * np.linspace(-4.0, 4.0, 41))
     speeds = np.concatenate([np.linspace(low, high, SPEEDS), *narrow])
     return np.unique(speeds[(speeds >= low) & (speeds <= high)])
-
-
-def _criticals(response: FlexibleResponse) -> tuple[Critical, ...]:
-    """Peaks of what each sensor measures, with the speeds at which they fall to 0.707 of their height."""
-    found = []
-    for bearing, sizes in enumerate(response.sensor_ellipses.major.T, start=1):
-        inner = (sizes[1:-1] > sizes[:-2]) & (sizes[1:-1] >= sizes[2:])
-        for place in (np.flatnonzero(inner) + 1).tolist():
-            factor = _factor(response.speeds, sizes, place)
-            at = float(response.speeds[place])
-            found.append(
-                Critical(bearing, at, float(sizes[place]), factor, _separation(response.machine.speed, at, factor))
-            )
-    return tuple(found)
-
-
-def _factor(speeds: np.ndarray, sizes: np.ndarray, place: int) -> float | None:
-    """Amplification factor of a peak; ``None`` if it does not fall to 0.707 of its height on both sides before it rises again."""
-    half, ends = HALF_POWER * sizes[place], []
-    for step in (-1, 1):
-        here = place
-        while 0 <= here + step < len(sizes) and sizes[here] > half:
-            if sizes[here + step] > sizes[place]:
-                return None
-            here += step
-        if sizes[here] > half:
-            return None
-        inside = here - step
-        share = (half - sizes[here]) / (sizes[inside] - sizes[here])
-        ends.append(float(speeds[here] + share * (speeds[inside] - speeds[here])))
-    return float(speeds[place]) / (ends[1] - ends[0])
-
-
-def _separation(speed: float, critical: float, factor: float | None) -> Separation:
-    side: Side = "below" if critical < speed else "above" if critical > speed else "inside"
-    return Separation(side, abs(critical / speed - 1.0), required_margin(factor, side))

@@ -7,12 +7,12 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
+from carom.closed_forms import SynchronousResponse
 from carom.parameters.told import number
-from carom.rotors import Campbell, FlexibleResponse, Whirl
+from carom.rotors import Campbell, Whirl
 from carom.studies.facts import Fact
-from carom.studies.flexible_levitation import Critical, FlexibleLevitation
-from carom.studies.response_words import micrometres, rpm
-from carom.studies.standards import CRITICALLY_DAMPED
+from carom.studies.flexible_levitation import FlexibleLevitation
+from carom.studies.response_words import critical_words, micrometres, rpm
 from carom.studies.wording import listed
 
 SENSITIVITY_LIMITS = "ISO 14839-3: zone A up to 3 (9.5 dB), B up to 4 (12 dB), C up to 5 (14 dB), D above"
@@ -42,18 +42,17 @@ def other_speeds_words(found: Campbell) -> str:
     return f"Of {looked}, a free motion grows {listed(parts)}: the rotor does not levitate there."
 
 
-def response_words(at_speed: FlexibleResponse) -> str:
+def response_words(at_speed: SynchronousResponse) -> str:
     """The whirl by unbalance at one speed."""
     planes = [
         f"{micrometres(each)} at touchdown bearing {place}"
-        for place, each in enumerate(at_speed.touchdown_ellipses.major[0], start=1)
+        for place, each in enumerate(at_speed.touchdowns.major[0], start=1)
     ]
     sensors = [
         f"{micrometres(each)} at the sensors of bearing {place}"
-        for place, each in enumerate(at_speed.sensor_ellipses.major[0], start=1)
+        for place, each in enumerate(at_speed.sensors.major[0], start=1)
     ]
-    # Supports that act differently in two directions make ellipses of circles.
-    sizes = "longer half axes" if at_speed.machine.whole.equations.mirrored else "radii"
+    sizes = "longer half axes" if at_speed.touchdowns.backward.any() else "radii"
     reached = f"{listed(planes)}, and {listed(sensors)}" if sensors else listed(planes)
     return f"Its unbalance makes it whirl with {sizes} of {reached}."
 
@@ -73,22 +72,10 @@ def critical_speed_facts(found: FlexibleLevitation) -> Iterator[Fact]:
     if not found.criticals:
         yield Fact("Critical speeds", f"The response has no peak between {rpm(speeds[0])} and {rpm(speeds[-1])}.")
     for each in found.criticals:
-        text = f"Bearing {each.bearing}: {rpm(each.speed)}, {micrometres(each.amplitude)} at its sensors; {_separation(found, each)}"
+        text = critical_words(each, (found.machine.speed, found.machine.speed))
         yield Fact("Critical speeds", text, values={"speed_si": each.speed, "met": each.separation.met})
     rule = "Amplification factors and separations are those of API 617 (API RP 684, SP6.8.2.1 and SP6.8.2.10), by the half-power width at the sensors; its annex on magnetic bearings may state others."
     yield Fact("Critical speeds", f"{rule} Searched from {rpm(speeds[0])} to {rpm(speeds[-1])}.")
-
-
-def _separation(found: FlexibleLevitation, critical: Critical) -> str:
-    margin, factor = critical.separation, critical.factor
-    if factor is None:
-        return "the peak is too flat for an amplification factor, so none is required."
-    told = f"amplification factor {number(factor, 3)}"
-    if factor < CRITICALLY_DAMPED:
-        return f"{told}: critically damped, so no separation is required."
-    run = rpm(found.machine.speed)
-    where = f"{number(100.0 * margin.actual, 3)} % {margin.side} {run}" if margin.side != "inside" else f"at {run}"
-    return f"{told}, {where}, required {number(100.0 * margin.required, 3)} %: {'met' if margin.met else 'not met'}."
 
 
 def bearing_facts(found: FlexibleLevitation) -> Iterator[Fact]:

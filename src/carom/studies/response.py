@@ -2,26 +2,38 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, ClassVar
 
 import numpy as np
 
 from carom.arguments import checked
-from carom.closed_forms import speed_response
-from carom.models import Axis, Subject, axis, case_of
+from carom.closed_forms import SpeedResponse, find_equilibria, rolling, speed_response, synchronous_response
+from carom.closed_forms.exact_results import exact_results
+from carom.models import Axis, Jeffcott, Model, Subject, axis, model_of
 from carom.models.axes import Ends, read_interval
 from carom.outcome import InputError
-from carom.parameters import read_quantity
+from carom.parameters import Case, Machine, Parameters, Zones, read_quantity
 from carom.parameters.fields import RPM
 from carom.results import in_a_line
-from carom.studies.response_data import ResponseData, steady_at, stretches_between
+from carom.rotors import find_whirls
+from carom.studies.critical_speeds import criticals_of, exact_criticals
+from carom.studies.flexible_levitation import WHIRLS, speeds_of_response
+from carom.studies.response_data import ResponseData, Rubs, Steady, Stretch, stretches_between
 
 SPEEDS = 801
 """Number of speeds of the curves."""
+RUB_SPEEDS = 121
+"""About as many speeds of the curve at which rubs without a closed form over the speed are looked for."""
 AROUND = (0.25, 1.5)
 """Default range: these multiples of the smaller and of the larger one of critical and operating speed."""
+ALL_AROUND = (0.05, 1.5)
+"""The same where no critical speed is known before, in multiples of the operating speeds."""
+NARROWED = 1e-6
+"""Relative width to which ends of stretches without a closed form are bisected."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -58,15 +70,14 @@ def unbalance_response(
 ) -> UnbalanceResponse:
     """Response to the unbalance over the speed of the shaft, with contact where the rotor touches.
 
-    The contact-free response is linear and known in closed form (:func:`~carom.closed_forms.speed_response`).  Where it
-    would leave the clearance it is virtual, and the rotor runs in contact.  The steady motions in contact are given with
-    their stability; bouncing is not, see :func:`~carom.find_bifurcations` along ``"speed"``.
+    The contact-free response is linear (:func:`~carom.closed_forms.synchronous_response`), and of a rotor with one mass known in closed form
+    (:func:`~carom.closed_forms.speed_response`).  Where it would leave the clearance it is virtual, and the rotor runs in contact.  The synchronous rubs in one
+    touchdown bearing are given with their stability; bouncing is not, see :func:`~carom.find_bifurcations` along ``"speed"``.
 
     Parameters
     ----------
     machine : Machine, Case, Parameters or model
-        The planar rotor, with mass, clearance and speed.  Mass, damping, stiffness and eccentricity stay the same in SI
-        units at every speed.
+        Any rotor with mass, clearance and speed.  Mass, damping, stiffness and unbalance stay the same in SI units at every speed.
     interval : tuple of float or str, optional
         Range of speeds in rad/s, or text such as ``("500 rpm", "12000 rpm")``.
     operating : tuple of float or str, optional
@@ -75,7 +86,7 @@ def unbalance_response(
     Raises
     ------
     InputError
-        Another model, a rotor without scales, or a range that cannot be read.
+        A rotor without scales, or a range that cannot be read.
 
     Examples
     --------
@@ -85,19 +96,108 @@ def unbalance_response(
     >>> round(response.contact_free.amplification_factor, 3)
     4.797
     """
-    case = case_of(machine)
-    free = speed_response(case)
-    along = axis(case, "speed")
-    present = along.value(free.rotor)
+    case = _case_of(machine)
+    model = model_of(case)
+    if model.scales is None:
+        allowed = "needed for a response over speed: use a file with a [machine] table, or parameters with scales"
+        raise InputError("scales", None, allowed)
+    along, present = axis(case, "speed"), model.scales.speed
+    free = speed_response(case) if model.planar else None
     run = (present, present) if operating is None else _read_operating(along, operating)
+    low, high = read_interval(along, interval or _usual_range(free, run))
+    whirl = synchronous_response(case, _speeds(model, free, (low, high)))
+    criticals = criticals_of(whirl, run) if free is None else exact_criticals(free, float(whirl.clearances[0]), run)
+    exact = free is not None and exact_results(model).rubs
+    found = UnbalanceResponse(case, whirl, free, (low, high), run, criticals, None, (), exact)
+    rubs = _rubs(found, model, along)
+    return replace(found, rubs=rubs, stretches=_stretches(replace(found, rubs=rubs), model, along))
+
+
+def _case_of(subject: Subject) -> Case:
+    """The case of any description of a rotor."""
+    if isinstance(subject, Case):
+        return subject
+    if isinstance(subject, Machine):
+        return Case("machine", subject.parameters, subject, Zones())
+    return Case("machine", subject if isinstance(subject, Parameters) else model_of(subject), None, Zones())
+
+
+def _usual_range(free: SpeedResponse | None, run: tuple[float, float]) -> tuple[float, float]:
+    """Range of the curves that is not stated."""
+    if free is None:
+        return ALL_AROUND[0] * run[0], ALL_AROUND[1] * run[1]
     known = [free.critical_speed or free.natural_frequency, *run]
-    low, high = read_interval(along, interval or (AROUND[0] * min(known), AROUND[1] * max(known)))
-    marks = [speed for speed in (free.critical_speed, present, *free.contact_changes()) if speed is not None]
-    speeds = np.unique([*np.linspace(low, high, SPEEDS), *(speed for speed in marks if low <= speed <= high)])
-    steady = stretches_between((low, high), free.contact_changes(), lambda speed: steady_at(case, along, speed))
-    return UnbalanceResponse(
-        case, free, (low, high), run, speeds, free.displacement(speeds), free.rub_angles(speeds), steady
-    )
+    return AROUND[0] * min(known), AROUND[1] * max(known)
+
+
+def _speeds(model: Model, free: SpeedResponse | None, interval: tuple[float, float]) -> list[float]:
+    """Speeds of the curves: evenly, densely about narrow peaks, and those that are named."""
+    reduced, scales = model.finite_elements, model.scales
+    marks = [] if scales is None else [scales.speed]
+    if free is not None:
+        marks += [speed for speed in (free.critical_speed, *free.contact_changes()) if speed is not None]
+    if reduced is None:
+        even = np.linspace(*interval, SPEEDS)
+    else:
+        even = speeds_of_response(reduced.machine, find_whirls(reduced.machine, count=4 * WHIRLS), interval)
+    inside = [speed for speed in marks if interval[0] <= speed <= interval[1]]
+    return [float(each) for each in np.unique([*interval, *even, *inside])]
+
+
+def _rubs(found: ResponseData, model: Model, along: Axis) -> Rubs | None:
+    """Synchronous rubs over the speed in one touchdown bearing, where nothing stands in the fixed frame."""
+    system, free = model.system, found.contact_free
+    if found.exact and free is not None:
+        angles = free.rub_angles(found.speeds)
+        return Rubs(found.speeds, -angles % math.tau, np.where(np.isnan(angles), np.nan, 1.0))
+    if len(system.contacts) > 1 or system.outer.any() or system.mirrored is not None or system.shaft is not None:
+        return None
+    speeds = found.speeds[:: max(1, len(found.speeds) // RUB_SPEEDS)]
+    lags, radii = np.full((2, 2, len(speeds)), np.nan)
+    for place, speed in enumerate(speeds.tolist()):
+        moved = along.move(model, speed)
+        for rub in find_equilibria(moved).members[1:]:
+            if rub.status == "admissible":
+                which = 0 if rub.stable else 1
+                lags[which, place] = (moved.unbalance_phase - rub.angle) % math.tau
+                radii[which, place] = rub.radius
+    return Rubs(speeds, lags, radii)
+
+
+def _stretches(found: ResponseData, model: Model, along: Axis) -> tuple[Stretch, ...]:
+    """Ranges of speeds with the same steady motions; their ends are exact, or bisected between the speeds at which rubs were looked for."""
+    free = found.contact_free
+
+    def steady(speed: float) -> Steady:
+        clear = bool(found.at(speed).reach.max() < 1.0)
+        if found.rubs is None:
+            return Steady(clear, None, None, None)
+        moved = along.move(model, speed)
+        pushed = [rub.stable for rub in find_equilibria(moved).members[1:] if rub.status == "admissible"]
+        rolls = rolling(moved).holds if found.exact and isinstance(moved, Jeffcott) else None
+        return Steady(clear, sum(pushed), len(pushed) - sum(pushed), rolls)
+
+    if found.exact and free is not None:
+        return stretches_between(found.interval, free.contact_changes(), steady)
+    edges = found.reaching(1.0)
+    if found.rubs is not None:
+        edges += _bisected(found.rubs.speeds.tolist(), lambda speed: steady(speed)[1:])
+    return stretches_between(found.interval, edges, steady)
+
+
+def _bisected(speeds: Iterable[float], what: Any) -> list[float]:
+    """Speeds at which something changes, between neighbouring ones at which it differs."""
+    edges, before = [], None
+    for speed in speeds:
+        here = what(speed)
+        if before is not None and before[1] != here:
+            low, high = before[0], speed
+            while high - low > NARROWED * high:
+                middle = 0.5 * (low + high)
+                low, high = (middle, high) if what(middle) == before[1] else (low, middle)
+            edges.append(0.5 * (low + high))
+        before = speed, here
+    return edges
 
 
 def _read_operating(along: Axis, given: Ends) -> tuple[float, float]:

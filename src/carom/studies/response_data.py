@@ -10,14 +10,14 @@ from itertools import pairwise
 from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
+from scipy.optimize import brentq  # type: ignore[import-untyped]
 
 from carom.arguments import checked
-from carom.closed_forms import SpeedResponse, find_equilibria, rolling
-from carom.models import Axis, Jeffcott, axis
-from carom.outcome import InputError
+from carom.closed_forms import SpeedResponse, SynchronousResponse, synchronous_response
 from carom.parameters import Case, Scales
 from carom.results import Result
-from carom.studies.standards import FULL_SPEED, LARGEST, Side, required_margin, vibration_limit
+from carom.studies.critical_speeds import Critical, Separation
+from carom.studies.standards import FULL_SPEED, LARGEST, vibration_limit
 
 
 class Steady(NamedTuple):
@@ -27,16 +27,16 @@ class Steady(NamedTuple):
     ----------
     contact_free : bool
         Whether the contact-free whirl stays inside the clearance.
-    stable_rubs, unstable_rubs : int
-        Numbers of synchronous rubs that the wall can push.
-    rolls : bool
-        Whether rolling on the bearing in backward whirl holds at every angle.
+    stable_rubs, unstable_rubs : int or None
+        Numbers of synchronous rubs that the wall can push; ``None`` where they are not known.
+    rolls : bool or None
+        Whether rolling on the bearing in backward whirl holds at every angle; ``None`` where that has no closed form.
     """
 
     contact_free: bool
-    stable_rubs: int
-    unstable_rubs: int
-    rolls: bool
+    stable_rubs: int | None
+    unstable_rubs: int | None
+    rolls: bool | None
 
 
 class Stretch(NamedTuple):
@@ -55,142 +55,187 @@ class Stretch(NamedTuple):
     what: Any
 
 
-@dataclass(frozen=True)
-class Separation:
-    """Separation of the operating speeds from the critical speed (API 617).
+class Rubs(NamedTuple):
+    """Synchronous rubs over the speed: first one that is stable, then one that is not; ``nan`` where there is none.
 
     Attributes
     ----------
-    side : {"below", "inside", "above"}
-        Where the critical speed lies: below the operating speeds, among them or above.
-    actual, required : float
-        Distance as a share of the nearest operating speed, and the least that is required.
+    speeds : ndarray, shape (k,)
+        rad/s.
+    lags : ndarray, shape (2, k)
+        Angle by which the displacement lags the unbalance, rad, 0 to 2π.
+    radii : ndarray, shape (2, k)
+        In clearances: one in a rigid wall, more in a compliant touchdown bearing.
     """
 
-    side: Side
-    actual: float
-    required: float
-
-    @property
-    def met(self) -> bool:
-        """Whether the distance is large enough."""
-        return self.required == 0.0 or (self.side != "inside" and self.actual >= self.required)
+    speeds: np.ndarray
+    lags: np.ndarray
+    radii: np.ndarray
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class ResponseData(Result):
     """Response of a machine to its unbalance over the speed of the shaft.
 
-    Speeds are in rad/s, lengths in clearances unless a name ends in ``_si``.
+    Speeds are in rad/s, amplitudes 0-to-peak, in clearances unless a name ends in ``_si``.
 
     Attributes
     ----------
     case : Case
-    contact_free : SpeedResponse
-        The contact-free response in closed form, with critical speed and amplification factor.
+    whirl : SynchronousResponse
+        The contact-free whirl at the speeds of the curves; the critical and the present speed are among them, where they lie in the range.
+    contact_free : SpeedResponse or None
+        The same in closed form, of a rotor with one mass; ``None`` of others.
     interval : tuple of float
         Range of the curves.
     operating : tuple of float
         Lowest and highest operating speed.
-    speeds : ndarray, shape (n,)
-        The critical and the present speed are among them, where they lie in the range.
-    displacement : ndarray of complex, shape (n,)
-        Contact-free displacement along the unbalance, ``U*e^{−iφ}``; virtual where its modulus exceeds one.
-    rubs : ndarray, shape (2, n)
-        Angles of the synchronous rubs relative to the unbalance, rad, first the stable one
-        (:meth:`~carom.closed_forms.SpeedResponse.rub_angles`); ``nan`` where there is none.  Their radius is one.
+    criticals : tuple of Critical
+    rubs : Rubs or None
+        ``None`` where they are not known: under weight, in several touchdown bearings, or where bearings are anisotropic.
     stretches : tuple of Stretch
-        Ranges of speeds with the same steady motions, :class:`Steady`; their ends are exact.
+        Ranges of speeds with the same steady motions, :class:`Steady`.
+    exact : bool
+        Whether all steady motions in contact have closed forms, so that the ends of the stretches are exact; otherwise rubs were looked for at the speeds
+        of their curve, and rolling was not.
     """
 
     rests_on: ClassVar[tuple[str, ...]] = ("api617", "iso14839")
 
     case: Case
-    contact_free: SpeedResponse
+    whirl: SynchronousResponse
+    contact_free: SpeedResponse | None
     interval: tuple[float, float]
     operating: tuple[float, float]
-    speeds: np.ndarray
-    displacement: np.ndarray
-    rubs: np.ndarray
+    criticals: tuple[Critical, ...]
+    rubs: Rubs | None
     stretches: tuple[Stretch, ...]
+    exact: bool
 
     @property
     def scales(self) -> Scales:
         """Mass, clearance and present speed."""
-        found = self.case.parameters.scales
-        if found is None:  # speed_response has refused such a case
-            raise InputError("scales", None, "needed for a response over speed")
-        return found
+        scales: Scales = self.case.parameters.scales
+        return scales
+
+    @property
+    def speeds(self) -> np.ndarray:
+        """Speeds of the curves, shape (n,)."""
+        return self.whirl.speeds
 
     @property
     def present(self) -> float:
         """Present speed of the machine."""
         return self.scales.speed
 
+    @checked
+    def at(self, speed: float) -> SynchronousResponse:
+        """The contact-free whirl at one speed."""
+        return synchronous_response(self.case, [speed])
+
+    @cached_property
+    def now(self) -> SynchronousResponse:
+        """The contact-free whirl at the present speed."""
+        return self.at(self.present)
+
+    @property
+    def amplitude(self) -> np.ndarray:
+        """Largest amplitude of the contact-free whirl at any touchdown bearing, in its clearance, shape (n,); virtual where the rotor would touch."""
+        return np.asarray((self.whirl.touchdowns.major / self.whirl.clearances).max(axis=1))
+
+    @property
+    def reach(self) -> np.ndarray:
+        """Largest distance from the centre, sag and whirl, at any touchdown bearing, in its clearance, shape (n,)."""
+        return np.asarray(self.whirl.reach.max(axis=1))
+
     @property
     def peak_to_peak_si(self) -> np.ndarray:
-        """Contact-free vibration in any fixed direction, m peak to peak: twice the radius of the whirl, shape (n,)."""
-        width: np.ndarray = 2.0 * self.scales.clearance * np.abs(self.displacement)
-        return width
+        """Largest contact-free vibration in any fixed direction, m peak to peak, shape (n,)."""
+        return np.asarray(2.0 * self.whirl.touchdowns.major.max(axis=1))
 
     @property
     def lag(self) -> np.ndarray:
-        """Angle by which the contact-free displacement lags the unbalance, rad, shape (n,)."""
-        angle: np.ndarray = -np.angle(self.displacement)
-        return angle
-
-    @property
-    def rub_lags(self) -> np.ndarray:
-        """The same for both rubs, 0 to 2π, shape (2, n); ``nan`` where there is none."""
-        angle: np.ndarray = -self.rubs % math.tau
-        return angle
+        """Angle by which the contact-free displacement lags the unbalance, rad, shape (n,); at the bearing where it is largest at the present speed."""
+        worst = int((self.now.touchdowns.major / self.now.clearances)[0].argmax())
+        return np.asarray(self.whirl.lags[:, worst])
 
     @cached_property
     def steady_at_present(self) -> Steady:
-        """Steady motions at the present speed."""
-        return steady_at(self.case, axis(self.case, "speed"), self.present)
+        """Steady motions at the present speed, if it lies in the range; the next ones else."""
+        found = [each.what for each in self.stretches if each.low <= self.present <= each.high]
+        own: Steady = found[0] if found else self.stretches[0 if self.present < self.interval[0] else -1].what
+        return own._replace(contact_free=bool(self.now.reach.max() < 1.0))
 
     @cached_property
     def zones(self) -> tuple[Stretch, ...]:
-        """Zone of the contact-free amplitude over speed; an empty letter where there is no contact-free motion."""
-        limits = (*self.case.zones.limits, 1.0)
-        edges = [speed for limit in limits for speed in self.contact_free.beyond(limit) or ()]
+        """Zone of sag and whirl over speed; an empty letter where there is no contact-free motion."""
+        edges = [speed for limit in (*self.case.zones.limits, 1.0) for speed in self.reaching(limit)]
         return stretches_between(self.interval, edges, self.zone_at)
 
     @checked
     def zone_at(self, speed: float) -> str:
-        """Letter of the zone of the contact-free amplitude at a speed; empty where that is virtual."""
-        radius = float(self.contact_free.amplitude(np.array(speed)))
-        return self.case.zones.zone(radius) if radius <= 1.0 else ""
+        """Letter of the zone at a speed; empty where the rotor touches."""
+        reach = float(self.at(speed).reach.max())
+        return self.case.zones.zone(reach) if reach <= 1.0 else ""
+
+    def reaching(self, share: float) -> list[float]:
+        """Speeds at which sag and whirl reach a share of the clearance: in closed form of a rotor with one mass, else between speeds of the curve."""
+        if self.contact_free is None:
+            return crossings(self.speeds, self.reach - share, lambda speed: float(self.at(speed).reach.max()) - share)
+        above = share - float((self.whirl.sags / self.whirl.clearances).max())
+        return list(self.contact_free.beyond(above) or ()) if above > 0.0 else []
+
+    @cached_property
+    def saturating(self) -> tuple[Stretch, ...]:
+        """Over which speeds sag and whirl ask more of the magnetic bearings than their limits; empty without limits."""
+        asked = self.whirl.saturation
+        if not asked.shape[1]:
+            return ()
+        edges = crossings(self.speeds, asked.max(axis=1) - 1.0, lambda at: float(self.at(at).saturation.max()) - 1.0)
+        return stretches_between(self.interval, edges, lambda at: bool(self.at(at).saturation.max() > 1.0))
 
     @cached_property
     def exceeds_api_617(self) -> tuple[Stretch, ...]:
         """Over which speeds the contact-free vibration exceeds the limit of API 617."""
-        scales, free = self.scales, self.contact_free
-        share = LARGEST / (2.0 * scales.clearance)
-        edges = [FULL_SPEED, *(free.beyond(share) or ())]
-        # Beyond that speed: (ρ/share)²w⁵ = (ω_n/Ω_0)⁴ − 2b(ω_n/Ω_0)²w² + w⁴ for w = Ω/Ω_0.
+
+        def over(speed: float) -> float:
+            return float(2.0 * self.at(speed).touchdowns.major.max() - vibration_limit(np.array(speed)))
+
+        edges = [FULL_SPEED, *self._edges_of_limit()]
+        if self.contact_free is None:
+            edges += crossings(self.speeds, self.peak_to_peak_si - vibration_limit(self.speeds), over)
+        return stretches_between(self.interval, edges, lambda speed: over(speed) > 0.0)
+
+    def _edges_of_limit(self) -> list[float]:
+        """Speeds at which a rotor with one mass meets the limit of API 617, in closed form."""
+        free = self.contact_free
+        if free is None:
+            return []
+        share = LARGEST / (2.0 * self.scales.clearance)
+        edges = list(free.beyond(share) or ())
+        # Beyond FULL_SPEED: (ρ/share)²w⁵ = (ω_n/Ω_0)⁴ − 2b(ω_n/Ω_0)²w² + w⁴ for w = Ω/Ω_0.
         ratio = (free.natural_frequency / FULL_SPEED) ** 2
         middle = 1.0 - 2.0 * free.damping_ratio**2
-        roots = np.roots([-((self.case.parameters.rho / share) ** 2), 1.0, 0.0, -2.0 * middle * ratio, 0.0, ratio**2])
+        rho = free.rotor.parameters.rho / share
+        roots = np.roots([-(rho**2), 1.0, 0.0, -2.0 * middle * ratio, 0.0, ratio**2])
         # A double root may have a small imaginary part; an edge too many does no harm.
-        edges += [FULL_SPEED * root.real for root in roots if abs(root.imag) < 1e-4 * abs(root)]
-
-        def exceeds(speed: float) -> bool:
-            at = np.array(speed)
-            return bool(2.0 * scales.clearance * free.amplitude(at) > vibration_limit(at))
-
-        return stretches_between(self.interval, edges, exceeds)
+        return edges + [FULL_SPEED * root.real for root in roots if abs(root.imag) < 1e-4 * abs(root)]
 
     @property
     def separation(self) -> Separation | None:
-        """Separation of the operating speeds from the critical speed; ``None`` without a critical speed."""
-        critical, (low, high) = self.contact_free.critical_speed, self.operating
-        if critical is None:
-            return None
-        side: Side = "below" if critical < low else "above" if critical > high else "inside"
-        actual = {"below": 1.0 - critical / low, "inside": 0.0, "above": critical / high - 1.0}[side]
-        return Separation(side, actual, required_margin(self.contact_free.amplification_factor, side))
+        """Separation of the operating speeds from the critical speed that keeps it least; ``None`` without a critical speed."""
+        margins = [each.separation for each in self.criticals]
+        return min(margins, key=lambda each: each.actual - each.required if each.required else math.inf, default=None)
+
+
+def crossings(speeds: np.ndarray, values: np.ndarray, function: Callable[[float], float]) -> list[float]:
+    """Zeros of a function between neighbouring speeds at which its values differ in sign."""
+    changes = np.flatnonzero(np.diff(np.sign(values)) != 0.0)
+    return [
+        float(brentq(function, speeds[each], speeds[each + 1]))
+        for each in changes
+        if values[each] * values[each + 1] < 0.0
+    ]
 
 
 def stretches_between(
@@ -207,11 +252,3 @@ def stretches_between(
         else:
             found.append(Stretch(first, last, here))
     return tuple(found)
-
-
-def steady_at(case: Case, along: Axis, speed: float) -> Steady:
-    """Steady motions at a speed."""
-    rotor = along.move(Jeffcott(case.parameters), speed)
-    levitation, *rubs = find_equilibria(rotor)
-    pushed = [rub.stable for rub in rubs if rub.status == "admissible"]
-    return Steady(levitation.status == "admissible", sum(pushed), len(pushed) - sum(pushed), rolling(rotor).holds)

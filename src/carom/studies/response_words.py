@@ -4,14 +4,17 @@ from __future__ import annotations
 
 import numpy as np
 
+from carom.closed_forms import SpeedResponse
 from carom.outcome import STEADY_WORDS
 from carom.parameters.fields import RPM
 from carom.parameters.told import number
+from carom.studies.critical_speeds import Critical
 from carom.studies.response_data import ResponseData, Stretch
 from carom.studies.standards import CRITICALLY_DAMPED, vibration_limit
 from carom.studies.wording import listed
 
 RUB = STEADY_WORDS["rub"]
+_WHY_NO_RUBS = "they are found in one touchdown bearing, at constant speed, where nothing stands in the fixed frame; carom attractors finds on which motions disturbances end."
 
 
 def rpm(speed: float) -> str:
@@ -25,32 +28,65 @@ def micrometres(length: float) -> str:
 
 
 def sentences(response: ResponseData) -> tuple[str, ...]:
-    """Present speed, critical speed, separation, and where the rotor touches."""
-    found = [_present(response), _critical(response), _separation(response), _limit(response), *_contact(response)]
+    """Present speed, critical speed, separation, limits, and where the rotor touches."""
+    free = response.contact_free
+    peaks = _peaks(response) if free is None else [_critical(response, free), _separation(response, free)]
+    found = [_present(response), *peaks, _limit(response), _saturation(response), *_contact(response)]
     return tuple(sentence for sentence in found if sentence)
 
 
 def _present(response: ResponseData) -> str:
-    speed, clearance = response.present, response.scales.clearance
-    place = complex(response.contact_free.displacement(np.array(speed)))
-    width, allowed = 2.0 * clearance * abs(place), float(vibration_limit(np.array(speed)))
+    speed, now = response.present, response.now
+    sizes, allowed = now.touchdowns.major[0], float(vibration_limit(np.array(speed)))
+    worst = int(now.reach[0].argmax())
+    width, several = 2.0 * float(sizes[worst]), len(sizes) > 1
+    where = f" at touchdown bearing {worst + 1}" if several else ""
+    sagging = f" beside a sag of {micrometres(float(now.sags[worst]))}" if now.sags[worst] else ""
     if not response.steady_at_present.contact_free:
         return (
             f"At {rpm(speed)}, the present speed, the unbalance would need a contact-free whirl of {micrometres(width)} peak to "
-            f"peak, and the clearance allows {micrometres(2.0 * clearance)}: the rotor touches."
+            f"peak{where}{sagging}, and the clearance allows {micrometres(2.0 * float(now.clearances[worst]))}: the rotor touches."
         )
-    lag = number(np.degrees(-np.angle(place)), 3)
     over = width / allowed
     ratio = f", which is exceeded {number(over, 3)} times" if over > 1.0 else ""
     return (
-        f"At {rpm(speed)}, the present speed, the rotor levitates with {micrometres(width)} peak to peak "
-        f"({number(abs(place), 3)} of the clearance: zone {response.zone_at(speed)} of ISO 14839-2), {lag}° behind the unbalance. "
-        f"API 617 allows {micrometres(allowed)} there{ratio}."
+        f"At {rpm(speed)}, the present speed, the rotor levitates with {micrometres(width)} peak to peak{where}{sagging} "
+        f"({number(float(now.reach[0, worst]), 3)} of the clearance: zone {response.zone_at(speed)} of ISO 14839-2), "
+        f"{number(float(np.degrees(now.lags[0, worst])), 3)}° behind the unbalance. API 617 allows {micrometres(allowed)} there{ratio}."
     )
 
 
-def _critical(response: ResponseData) -> str:
-    free = response.contact_free
+def _peaks(response: ResponseData) -> list[str]:
+    """Peaks of a rotor with many modes, as found between the speeds of the curves."""
+    place = "sensors of magnetic bearing" if response.whirl.sensors.forward.shape[1] else "touchdown bearing"
+    if not response.criticals:
+        return [f"The response has no peak between {rpm(response.interval[0])} and {rpm(response.interval[1])}."]
+    return [f"Critical speed: {critical_words(each, response.operating, place)}" for each in response.criticals]
+
+
+def critical_words(critical: Critical, operating: tuple[float, float], place: str = "") -> str:
+    """A peak of a response with its separation; ``place`` is what its number counts, by default magnetic bearings."""
+    size = micrometres(critical.amplitude)
+    at = (
+        f"{rpm(critical.speed)}, {size} 0-to-peak at {place} {critical.bearing}"
+        if place
+        else f"Bearing {critical.bearing}: {rpm(critical.speed)}, {size} at its sensors"
+    )
+    margin, factor = critical.separation, critical.factor
+    if factor is None:
+        return f"{at}; the peak is too flat for an amplification factor, so none is required."
+    told = f"amplification factor {number(factor, 3)}"
+    if factor < CRITICALLY_DAMPED:
+        return f"{at}; {told}: critically damped, so no separation is required."
+    low, high = operating
+    run = rpm(low if margin.side == "below" else high)
+    where = f"{number(100.0 * margin.actual, 3)} % {margin.side} {run}" if margin.side != "inside" else f"at {run}"
+    return (
+        f"{at}; {told}, {where}, required {number(100.0 * margin.required, 3)} %: {'met' if margin.met else 'not met'}."
+    )
+
+
+def _critical(response: ResponseData, free: SpeedResponse) -> str:
     if free.critical_speed is None:
         return (
             f"There is no critical speed: with a damping ratio of {number(free.damping_ratio, 3)} the contact-free response has no "
@@ -74,8 +110,8 @@ def _critical(response: ResponseData) -> str:
     )
 
 
-def _separation(response: ResponseData) -> str:
-    margin, factor = response.separation, response.contact_free.amplification_factor
+def _separation(response: ResponseData, free: SpeedResponse) -> str:
+    margin, factor = response.separation, free.amplification_factor
     if margin is None:
         return ""
     if factor is None or factor < CRITICALLY_DAMPED:
@@ -101,6 +137,17 @@ def _limit(response: ResponseData) -> str:
     return f"The limit of API 617 is exceeded {_from_to(over)}."
 
 
+def _saturation(response: ResponseData) -> str:
+    asking = response.saturating
+    if not asking:
+        return ""
+    over = [stretch for stretch in asking if stretch.what]
+    if over:
+        return f"The magnetic bearings saturate {_from_to(over)}: there the rotor does not whirl as is calculated here."
+    most = float(response.whirl.saturation.max())
+    return f"The magnetic bearings saturate nowhere in this range: at most {number(100.0 * most, 3)} % of a limit is asked."
+
+
 def _contact(response: ResponseData) -> list[str]:
     stretches = response.stretches
     touching = [stretch for stretch in stretches if not stretch.what.contact_free]
@@ -112,13 +159,19 @@ def _contact(response: ResponseData) -> list[str]:
         found = [f"No levitation is possible {_from_to(touching)}: the response calculated there is virtual."]
         if held:
             found.append(f"In contact, a stable {RUB} can hold the rotor {_from_to(held)}.")
-        if free:
+        if free and response.rubs is not None:
             found.append(f"No stable {RUB} exists there {_from_to(free)}: the rotor bounces or whirls backward.")
     both = [stretch for stretch in stretches if stretch.what.contact_free and stretch.what.stable_rubs]
     if both:
         found.append(
             f"Levitation and a stable {RUB} are both possible {_from_to(both)}: which of them the rotor takes "
             "depends on how it came there."
+        )
+    if response.rubs is None:
+        found.append(f"{RUB.capitalize()}s are not part of this: {_WHY_NO_RUBS}")
+    elif not response.exact:
+        found.append(
+            f"{RUB.capitalize()}s were looked for at {len(response.rubs.speeds)} speeds of this range; rolling was not."
         )
     rolls = [stretch for stretch in stretches if stretch.what.rolls]
     if rolls:

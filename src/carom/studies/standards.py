@@ -11,7 +11,7 @@ SP6.8.2.10, the vibration SP6.8.2.11, which is 4.8.2.11 of API 617; numbers as t
 
 *ISO 14839-2* (rotors on active magnetic bearings): zones A to D of the largest displacement of the rotor from the centre of
 the clearance, with limits of 0.3, 0.4 and 0.5 of the smallest radial clearance.  Here the clearance of the touchdown bearing is
-taken as the smallest, and the displacement is that of the whirl from unbalance, without a static offset.  The limits are those of
+taken as the smallest, and the displacement is that of the static sag and of the whirl from unbalance together.  The limits are those of
 the machine file (:class:`~carom.parameters.Zones`).
 """
 
@@ -36,7 +36,7 @@ ASSUMPTIONS = (
     "API 617 limit (4.8.2.11): 25.4 µm √(12000 rpm/N) peak to peak, at most 25.4 µm, compared with the calculated response at each speed.",
     "Editions of API 617, and its annex on magnetic bearings, may state other limits.",
     "Zones of ISO 14839-2: shares of the smallest radial clearance, taken to be that of the touchdown bearing.",
-    "Displacements of the zones are from the centre of the clearance, without a static offset.",
+    "Displacements of the zones are from the centre of the clearance: the static sag and the whirl together.",
     "Mass, damping, stiffness, eccentricity, friction and restitution are the same at every speed.",
 )
 """What is taken from the standards, and what is assumed."""

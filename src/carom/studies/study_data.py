@@ -9,9 +9,8 @@ from typing import TYPE_CHECKING, ClassVar
 from carom.attractors import AttractorSet
 from carom.basins import Share
 from carom.bifurcations.boundary import BoundaryEquilibrium
-from carom.closed_forms.equilibria import Equilibrium
+from carom.closed_forms.equilibria import Equilibrium, SteadyMotion
 from carom.closed_forms.exact_results import ExactResults, exact_results
-from carom.closed_forms.sag import SteadyMotion
 from carom.models import Model
 from carom.motions.budget import Question
 from carom.orbits.orbit import Orbit

@@ -11,7 +11,8 @@ from carom.attractors import Attractor, AttractorSet
 from carom.attractors.names import LEVITATION, SYNCHRONOUS_RUB
 from carom.basins import Share
 from carom.basins.shares import percent
-from carom.closed_forms.sag import Levitation, SteadyMotion
+from carom.closed_forms.equilibria import SteadyMotion
+from carom.closed_forms.sag import Levitation
 from carom.orbits.orbit import Orbit
 from carom.orbits.single_impact import OrbitSet
 from carom.outcome import STEADY_WORDS, shown

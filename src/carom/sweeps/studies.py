@@ -151,7 +151,7 @@ class StudyTask:
 
     def _closed_forms(self, rotor: Model, zones: Zones) -> dict[str, Any]:
         from carom.closed_forms.exact_results import exact_results
-        from carom.closed_forms.sag import steady_motions
+        from carom.closed_forms.equilibria import steady_motions
         from carom.orbits.single_impact import orbits_within_reach
 
         levitation, *rubs = steady_motions(rotor)

@@ -9,8 +9,9 @@ import pytest
 from flexible_machines import munich
 from flexible_pages import opened, reduced
 
+from carom.closed_forms import synchronous_response
 from carom.explorer.computing.flexible_levitation import levitating, told_more
-from carom.rotors import find_whirls, unbalance_response
+from carom.rotors import find_whirls
 
 
 @pytest.fixture(scope="module")
@@ -26,7 +27,7 @@ def test_a_machine_that_levitates_is_told_by_its_whirls_and_its_room(machine):
     assert found.lead.startswith("It levitates")
     assert found.clearance == f"{100.0 * machine.model.system.rest_radius:.3g} %"
     # The curve passes through the response at the speed of the machine, whichever of both computes it.
-    at_speed = np.abs(unbalance_response(machine.machine, [machine.machine.speed]).touchdowns[0])
+    at_speed = np.abs(synchronous_response(machine.machine, [machine.machine.speed]).touchdowns.forward[0])
     for curve, radius in zip(found.curves, at_speed, strict=False):
         between = np.interp(machine.machine.speed, found.speeds, curve.radii)
         assert between == pytest.approx(radius, rel=1e-2)  # by a straight line between speeds that are 5 rad/s apart

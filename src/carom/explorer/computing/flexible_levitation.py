@@ -6,14 +6,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from carom.closed_forms import SynchronousResponse, synchronous_response
 from carom.outcome import InputError
 from carom.parameters import Case
 from carom.parameters.told import number
 from carom.progress import Reporter, ShowProgress
-from carom.rotors import FlexibleResponse, ReducedMachine, Whirl, find_whirls, unbalance_response
+from carom.rotors import ReducedMachine, Whirl, find_whirls
 from carom.rotors.reduced_machine import UNHELD
 from carom.studies.flexible_facts import reduction_words
-from carom.studies.flexible_levitation import FASTEST, WHIRLS, levitation_of_machine, speeds_of_response
+from carom.studies.flexible_levitation import FASTEST, SLOWEST, WHIRLS, levitation_of_machine, speeds_of_response
 from carom.studies.levitation_facts import (
     bearing_facts,
     critical_speed_facts,
@@ -113,9 +114,9 @@ def levitating(case: Case, reduced: ReducedMachine, top: float) -> Levitating:
     at_speed, speeds = None, np.empty(0)
     curves: tuple[Curve, ...] = ()
     if machine.unbalances and stable:
-        at_speed = unbalance_response(machine, [machine.speed])
-        speeds = speeds_of_response(machine, every, max(top, FASTEST * machine.speed))
-        curves = _curves(unbalance_response(machine, speeds.tolist()))
+        at_speed = synchronous_response(machine, [machine.speed])
+        speeds = speeds_of_response(machine, every, (SLOWEST * machine.speed, max(top, FASTEST * machine.speed)))
+        curves = _curves(synchronous_response(machine, speeds.tolist()))
     zone = case.zones.zone(min(share, 1.0))
     return Levitating(
         lead=_lead(stable, holds, why),
@@ -145,7 +146,13 @@ def _lead(stable: bool, holds: bool, why: str) -> str:
 
 
 def _more(
-    speed: float, whirls: tuple[Whirl, ...], at_speed: FlexibleResponse | None, share: float, zone: str, *, stable: bool
+    speed: float,
+    whirls: tuple[Whirl, ...],
+    at_speed: SynchronousResponse | None,
+    share: float,
+    zone: str,
+    *,
+    stable: bool,
 ) -> str:
     parts = [whirl_words(speed, whirls)] if whirls else []
     if at_speed is not None:
@@ -160,28 +167,27 @@ def _row(whirl: Whirl) -> WhirlRow:
     return WhirlRow(f"{number(whirl.frequency, 3)} Hz", whirl.sense, number(ratio, 3), ratio)
 
 
-def _orbits(at_speed: FlexibleResponse) -> tuple[Orbit, ...]:
+def _orbits(at_speed: SynchronousResponse) -> tuple[Orbit, ...]:
     planes = [
-        Orbit(f"touchdown bearing {place}", micrometres(each), f"{number(100.0 * (1.0 - room), 3)} %")
-        for place, (each, room) in enumerate(
-            zip(at_speed.touchdown_ellipses.major[0], at_speed.room[0], strict=True), start=1
+        Orbit(f"touchdown bearing {place}", micrometres(each), f"{number(100.0 * each / clearance, 3)} %")
+        for place, (each, clearance) in enumerate(
+            zip(at_speed.touchdowns.major[0], at_speed.clearances, strict=True), start=1
         )
     ]
     sensors = [
         Orbit(f"sensors of magnetic bearing {place}", micrometres(each), "")
-        for place, each in enumerate(at_speed.sensor_ellipses.major[0], start=1)
+        for place, each in enumerate(at_speed.sensors.major[0], start=1)
     ]
     return (*planes, *sensors)
 
 
-def _curves(response: FlexibleResponse) -> tuple[Curve, ...]:
+def _curves(response: SynchronousResponse) -> tuple[Curve, ...]:
     planes = [
         Curve(f"touchdown bearing {place}", each, False)
-        for place, each in enumerate(response.touchdown_ellipses.major.T, start=1)
+        for place, each in enumerate(response.touchdowns.major.T, start=1)
     ]
     sensors = [
-        Curve(f"sensors of bearing {place}", each, True)
-        for place, each in enumerate(response.sensor_ellipses.major.T, start=1)
+        Curve(f"sensors of bearing {place}", each, True) for place, each in enumerate(response.sensors.major.T, start=1)
     ]
     return (*planes, *sensors)
 

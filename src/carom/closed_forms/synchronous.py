@@ -1,0 +1,266 @@
+"""Contact-free whirl by unbalance of any linear rotor at any speed of its shaft, from its matrices.
+
+Matrices, unbalance and weight stay the same in SI units.  In the fixed frame
+
+    M z̈ + (D − iΩG) ż + K z + D′ z̄˙ + K′ z̄ = Ω² f e^{iΩt} + g
+
+is solved by ``z = z₀ + a e^{iΩt} + b e^{−iΩt}``: a sag, and ellipses of which ``a`` goes forward, with the shaft, and ``b`` backward, against it.  Bearings alike in
+both directions, ``D′ = K′ = 0``, have circles, ``b = 0``.  Of a flexible machine all modes are taken.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import ClassVar, NamedTuple
+
+import numpy as np
+
+from carom.arguments import checked
+from carom.models import Model, Subject, model_of
+from carom.models.limited import Limit
+from carom.outcome import InputError
+from carom.parameters import Zones
+from carom.results import Result
+from carom.rotors import FlexibleMachine
+from carom.rotors.equations import Equations, loops_of
+from carom.rotors.whirls import speeds_of
+
+
+class Ellipses(NamedTuple):
+    """Ellipses ``forward e^{iΩt} + backward e^{−iΩt}``; both are complex and of one shape, with the angles at time zero."""
+
+    forward: np.ndarray
+    backward: np.ndarray
+
+    @property
+    def major(self) -> np.ndarray:
+        """Longer half axes: amplitudes, 0-to-peak."""
+        return np.asarray(np.abs(self.forward) + np.abs(self.backward))
+
+    @property
+    def minor(self) -> np.ndarray:
+        """Shorter half axes; below zero where they go round against the shaft."""
+        return np.asarray(np.abs(self.forward) - np.abs(self.backward))
+
+    @property
+    def direction(self) -> np.ndarray:
+        """Angles of the longer half axes in the fixed frame, rad."""
+        return np.asarray(0.5 * (np.angle(self.forward) + np.angle(self.backward)))
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class SynchronousResponse(Result):
+    """Contact-free whirl by unbalance at several speeds, and the sag about which it goes.
+
+    Attributes
+    ----------
+    speeds : ndarray, shape (m,)
+        rad/s.
+    touchdowns : Ellipses
+        At the touchdown bearings, relative to their mounts, m, shape (m, P).
+    sags : ndarray, shape (P,)
+        Distance there of the middle of the ellipses from the centre, m.
+    clearances : ndarray, shape (P,)
+        Radial clearances, m.
+    sensors : Ellipses
+        What the sensors of each magnetic bearing of a flexible machine measure, m, shape (m, B).
+    currents : Ellipses
+        Currents of these, A, before a limit of the amplifier, shape (m, B).
+    saturation : ndarray, shape (m, L)
+        What sag and whirl ask of each limit of the magnetic bearings along the worse of its axes, as a share of it: beyond 1 it saturates, and the rotor does not
+        whirl so.
+    unbalance_angle : float
+        Angle of the unbalance at time zero, rad, from which phases count: that of its force on the rotor as a whole.
+    """
+
+    speeds: np.ndarray
+    touchdowns: Ellipses
+    sags: np.ndarray
+    clearances: np.ndarray
+    sensors: Ellipses
+    currents: Ellipses
+    saturation: np.ndarray
+    unbalance_angle: float
+
+    shown: ClassVar = ("speeds", "reach", "zones")
+    rests_on: ClassVar = ()
+
+    @property
+    def reach(self) -> np.ndarray:
+        """Largest distance from the centre at each touchdown bearing, in its clearance, shape (m, P): from 1 on it touches.  A bound where an ellipse sags."""
+        return np.asarray((self.touchdowns.major + self.sags) / self.clearances)
+
+    @property
+    def lags(self) -> np.ndarray:
+        """Angle by which the forward part at each touchdown bearing lags the unbalance, rad, −π to π, shape (m, P)."""
+        return np.asarray(np.pi - (np.pi - self.unbalance_angle + np.angle(self.touchdowns.forward)) % (2.0 * np.pi))
+
+    @property
+    def zones(self) -> tuple[str, ...]:
+        """Zone of ISO 14839-2 of each speed, by the largest displacement: the worst of all touchdown bearings."""
+        return tuple(Zones().zone(float(each)) for each in self.reach.max(axis=1))
+
+
+class _Whole(NamedTuple):
+    """A rotor in units of its own, in which speeds are divided by ``speed`` and displacements multiplied by ``length``."""
+
+    equations: Equations
+    speed: float
+    length: np.ndarray
+    """m, per touchdown bearing."""
+    sags: np.ndarray
+    """In ``length``."""
+    clearances: np.ndarray
+    sensors: np.ndarray
+    """Rows, m, shape (B, n)."""
+    currents: np.ndarray
+    limits: Sequence[Limit]
+    limit_unit: float
+    """Coordinates per unit of the coordinates of the limits."""
+    resting: np.ndarray
+    """Coordinates (n,) of the sag."""
+
+
+@checked
+def synchronous_response(machine: Subject | FlexibleMachine, speeds: Sequence[float]) -> SynchronousResponse:
+    """Contact-free whirl by unbalance at speeds in rad/s.
+
+    The law of contact does not matter.  Stability of the levitation is not judged.
+
+    Parameters
+    ----------
+    machine : Machine, Case, Parameters, model or FlexibleMachine
+        With mass, clearance and speed.
+    speeds : sequence of float
+        rad/s, above 0.
+
+    Raises
+    ------
+    InputError
+        A rotor without scales, no speed, or one that is not above 0.
+
+    See Also
+    --------
+    carom.studies.unbalance_response : with critical speeds, limits of standards and contact
+    carom.closed_forms.speed_response : of the rotor with one mass in closed form
+
+    Examples
+    --------
+    >>> import carom as cm
+    >>> machine = cm.load("examples/dropped-rotor.toml")
+    >>> found = cm.closed_forms.synchronous_response(machine, [machine.parameters.scales.speed])
+    >>> print(f"{found.reach[0, 0]:.4f}")
+    0.4012
+    """
+    listed = speeds_of(speeds)
+    whole = _of_flexible(machine) if isinstance(machine, FlexibleMachine) else _of_model(model_of(machine))
+    answers = Ellipses(*_answers(whole.equations, listed / whole.speed))
+
+    def seen(rows: np.ndarray) -> Ellipses:
+        return Ellipses(*(part[:, : rows.shape[1]] @ rows.T for part in answers))
+
+    touchdowns = Ellipses(*(part * whole.length for part in seen(whole.equations.planes)))
+    return SynchronousResponse(
+        listed,
+        touchdowns,
+        whole.sags * whole.length,
+        whole.clearances,
+        seen(whole.sensors),
+        seen(whole.currents),
+        _saturation(whole, answers, listed / whole.speed),
+        float(np.angle(np.vdot(whole.equations.carried, whole.equations.forcing))),
+    )
+
+
+def _of_model(model: Model) -> _Whole:
+    reduced, scales = model.finite_elements, model.scales
+    if reduced is not None:
+        return _of_flexible(reduced.machine)
+    if scales is None:
+        allowed = "needed for a response over speed: use a file with a [machine] table, or parameters with scales"
+        raise InputError("scales", None, allowed)
+    system, conjugate = model.system, model.acting_on_conjugates
+    n, widths = len(system.rest), system.widths
+    mass, damping, gyroscopic, stiffness, forcing = model.matrices
+    none = np.zeros((0, n))
+    return _Whole(
+        Equations(
+            mass,
+            damping,
+            gyroscopic,
+            stiffness,
+            forcing,
+            unlevitated=np.zeros((2, n, n)),
+            planes=system.planes,
+            currents=none,
+            regained=np.ones(n),
+            carried=mass @ system.translated,
+            across=np.zeros((2, n, n)) if conjugate is None else conjugate,
+        ),
+        scales.speed,
+        scales.length * widths,
+        np.abs(system.arrays["rows"] @ system.outer),
+        scales.length * widths,
+        none,
+        none,
+        model.listed_limits,
+        1.0,
+        system.shapes @ system.outer,
+    )
+
+
+def _of_flexible(machine: FlexibleMachine) -> _Whole:
+    whole = machine.whole
+    held, gravity, scales = whole.equations, machine.gravity, whole.scales
+    first, resting = np.eye(len(held.mass))[0], np.zeros(len(held.mass), complex)
+    if gravity is not None and gravity.acceleration:
+        # The translation of the whole rotor is the first vector; mounts have no weight.
+        pull = gravity.acceleration * np.exp(1j * gravity.direction) * np.sqrt(scales.mass) * first
+        both = held.both if held.mirrored else held
+        resting = np.linalg.solve(both.stiffness, np.append(pull, pull.conj())[: len(both.mass)])[: len(first)]
+    seen = loops_of(machine.rotor, machine.bearings, machine.touchdowns).sensors @ whole.basis.shapes
+    return _Whole(
+        held,
+        1.0,
+        np.ones(len(machine.touchdowns)),
+        np.abs(held.planes @ resting),
+        np.array(machine.clearances),
+        seen,
+        held.currents,
+        whole.limits,
+        scales.length * np.sqrt(scales.mass),
+        resting,
+    )
+
+
+def _answers(equations: Equations, speeds: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Coordinates (m, n) of what goes with the shaft and of what goes against it, at time zero."""
+    held = equations.both if equations.mirrored else equations
+    answers = np.array([_answer(held, speed) for speed in speeds.tolist()])
+    if not equations.mirrored:
+        return answers, np.zeros_like(answers)
+    forward, backward = np.split(answers, 2, axis=1)
+    return forward, backward.conj()
+
+
+def _answer(equations: Equations, speed: float) -> np.ndarray:
+    try:
+        return equations.response(speed)
+    except np.linalg.LinAlgError:  # in undamped resonance to the last digit: as near to it as doubles come
+        return equations.response(float(np.nextafter(speed, np.inf)))
+
+
+def _saturation(whole: _Whole, answers: Ellipses, speeds: np.ndarray) -> np.ndarray:
+    """What is asked of each limit along the worse of its axes, as a share of it, shape (m, L).  Limits of flexible machines ask by coordinates alone."""
+    found = np.zeros((len(speeds), len(whole.limits)))
+    for place, limit in enumerate(whole.limits):
+        turn = np.exp(-1j * limit.angle) / whole.limit_unit
+        ahead, behind = (
+            ((limit.displacement + 1j * sense * speeds[:, None] * limit.velocity) * part).sum(axis=1) * turn
+            for sense, part in zip((1.0, -1.0), answers, strict=True)
+        )
+        middle = complex(limit.displacement @ whole.resting) * turn
+        along = np.abs(ahead + behind.conj()) + abs(middle.real), np.abs(ahead - behind.conj()) + abs(middle.imag)
+        found[:, place] = np.maximum(*along) / limit.bound
+    return found
