@@ -37,6 +37,7 @@ Read them in this order.
 ``document``             results as JSON
 ``attractors_document``  attractors as JSON
 ``response``             :func:`unbalance_response`: amplitude, phase and contact over the speed of the shaft
+``critical_speeds``      peaks of the response, with their separation from the operating speeds
 ``response_data``        what it has found, before it is told
 ``response_words``       what it says about the machine, in sentences
 ``response_document``    the response as JSON
@@ -46,6 +47,7 @@ Read them in this order.
 
 from carom.studies.advice import Change, Margin, Recommendation
 from carom.studies.assembly import Study, study
+from carom.studies.critical_speeds import Critical, Separation
 from carom.studies.document import found_orbits_document, orbits_document
 from carom.studies.drops import DropStudy
 from carom.studies.facts import Fact
@@ -55,7 +57,7 @@ from carom.studies.motion_documents import trajectory_document
 from carom.studies.ranges import MotionRange, Threshold
 from carom.studies.recovery import Recovery, find_recovery
 from carom.studies.response import UnbalanceResponse, unbalance_response
-from carom.studies.response_data import Separation, Steady, Stretch
+from carom.studies.response_data import Rubs, Steady, Stretch
 from carom.studies.survives import Survives
 from carom.studies.trials import Check, Lost, check_recovery
 from carom.studies.verdict import NOT_COVERED, Verdict
@@ -65,6 +67,7 @@ __all__ = [
     "NOT_COVERED",
     "Change",
     "Check",
+    "Critical",
     "DropStudy",
     "Fact",
     "FlexibleStudy",
@@ -74,6 +77,7 @@ __all__ = [
     "MotionRange",
     "Recommendation",
     "Recovery",
+    "Rubs",
     "Separation",
     "Steady",
     "Stretch",

@@ -18,8 +18,8 @@ from carom.attractors import DisturbanceSet, find_attractors
 from carom.basins import Share
 from carom.bifurcations.boundary import boundary_equilibria
 from carom.closed_forms import harmless_kick
-from carom.closed_forms.exact_results import exact_results
 from carom.closed_forms.equilibria import steady_motions
+from carom.closed_forms.exact_results import exact_results
 from carom.closed_forms.thresholds import Gain
 from carom.disturbances import AnyState, Disturbance, Plan, Sample
 from carom.disturbances.following import follow, refuse_another_machine

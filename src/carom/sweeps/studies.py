@@ -150,8 +150,8 @@ class StudyTask:
         return found | in_si(found, rotor.scales, **scaled)
 
     def _closed_forms(self, rotor: Model, zones: Zones) -> dict[str, Any]:
-        from carom.closed_forms.exact_results import exact_results
         from carom.closed_forms.equilibria import steady_motions
+        from carom.closed_forms.exact_results import exact_results
         from carom.orbits.single_impact import orbits_within_reach
 
         levitation, *rubs = steady_motions(rotor)
