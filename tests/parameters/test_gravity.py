@@ -84,7 +84,7 @@ def test_it_is_a_table_and_no_value(write):
 
 
 def test_it_needs_a_machine(write):
-    allowed = r"^gravity = .*: not allowed beside \[dimensionless\]: .* needs a \[machine\] table with its clearance and speed$"
+    allowed = r"^gravity = .*: not allowed beside \[dimensionless\]: .* need a \[machine\] table with mass, clearance and speed$"
     with pytest.raises(InputError, match=allowed):
         load(write("[gravity]", PURE))
     with pytest.raises(InputError, match=allowed):

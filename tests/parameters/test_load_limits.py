@@ -25,10 +25,10 @@ def test_values_with_units(write):
     text = '[limits]\nimpulse = "5 N s"\nforce = "2 kN"\npower = "10 kW"\nheat = "0.5 kJ"\nimpacts = 20'
     case = load(write(text))
     assert case.limits == LoadLimits(impulse=5.0, force=2000.0, power=1e4, heat=500.0, impacts=20)
-    assert case.limits.stated == {"impulse": 5.0, "force": 2000.0, "power": 1e4, "heat": 500.0, "impacts": 20.0}
+    assert case.limits.given == {"impulse": 5.0, "force": 2000.0, "power": 1e4, "heat": 500.0, "impacts": 20.0}
     assert case.replace(damping=2000.0).limits == case.limits
-    assert load(write("[limits]\nforce = 0"), ["friction=0.1"]).limits.stated == {"force": 0.0}
-    assert load(REAL).limits.stated == {}
+    assert load(write("[limits]\nforce = 0"), ["friction=0.1"]).limits.given == {"force": 0.0}
+    assert load(REAL).limits.given == {}
 
 
 SOFT = "examples/touchdown-balls.toml"

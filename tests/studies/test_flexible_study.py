@@ -90,7 +90,7 @@ def test_the_drop_stands_in_the_verdict_with_its_loads_whether_limits_are_stated
         assert drop.startswith(studied.fall_loads.outcome.words)
         for plane in studied.fall_loads.planes:
             assert f"{plane.loads.si()['force']:,.3g} N" in drop
-        assert drop.endswith("no limit of a touchdown bearing is stated to compare them with") == (not limits.stated)
+        assert drop.endswith("no limit of a touchdown bearing is stated to compare them with") == (not limits.given)
 
 
 def test_what_is_withheld_and_the_accuracy_are_told(studied):

@@ -85,7 +85,7 @@ def test_the_worst_over_disturbances():
     assert "limit 5 N s: exceeded by 1 of 2" in worst.words
     assert "limit 2,000 N: kept by all" in worst.words
     document = worst.document()
-    assert [entry["name"] for entry in document["limits"]] == list(ALL.stated)
+    assert [entry["name"] for entry in document["limits"]] == list(ALL.given)
     none = worst_loads(find_attractors(MACHINE, [cm.kick(1e-3)], known=False), ALL)
     assert none.words.startswith("None of the disturbances")
 

@@ -237,7 +237,7 @@ def map_drops(
         **rotor.attributes(),
         "released": repr(released),
         "present": json.dumps(present),
-        "limits": json.dumps(limits.stated),
+        "limits": json.dumps(limits.given),
         "gives_way": int(any(rotor.system.arrays.stiffness > 0.0)),
     }
     return DropMap(dataset)

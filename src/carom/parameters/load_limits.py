@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, ClassVar
 
 from carom.arguments import Count, Infinity, Kind, checked
-from carom.outcome import InputError, Problems, shown
-from carom.parameters.fields import Field, by_name, unknown_names
-from carom.parameters.quantities import read_quantity
+from carom.outcome import InputError
+from carom.parameters.fields import Field, by_name
+from carom.parameters.tables import Table
 from carom.parameters.told import number
 
 if TYPE_CHECKING:
@@ -43,7 +42,7 @@ LIMIT_FIELDS: Mapping[str, Field] = by_name(
 
 
 @dataclass(frozen=True)
-class LoadLimits:
+class LoadLimits(Table):
     """Largest loads of a touchdown that are stated for a touchdown bearing; ``None`` where nothing is stated.
 
     Every value is a number in the SI unit below, or text with a unit such as ``"2 kN"``.
@@ -79,13 +78,9 @@ class LoadLimits:
     depth: float | None = None
     pressure: float | None = None
 
-    def __post_init__(self) -> None:
-        problems = Problems()
-        for name, field in LIMIT_FIELDS.items():
-            given: Any = getattr(self, name)
-            if given is not None:
-                object.__setattr__(self, name, problems.attempt(read_quantity, field, given))
-        problems.raise_all()
+    heading: ClassVar = "limits"
+    means_something_empty: ClassVar = False
+    entries: ClassVar = LIMIT_FIELDS
 
     @staticmethod
     @checked
@@ -97,11 +92,6 @@ class LoadLimits:
         """Write a load that is limited, given in its SI unit, in the unit in which people say it."""
         field = LIMIT_FIELDS[name]
         return f"{number(field.in_usual_unit(value), digits)} {field.usual_unit}".rstrip()
-
-    @property
-    def stated(self) -> dict[str, float]:
-        """Limits that are stated, in SI units."""
-        return {name: value for name, value in dataclasses.asdict(self).items() if value is not None}
 
     def check_fit(self, bearing: TouchdownBearing | None) -> None:
         """Refuse limits of what a machine with a touchdown bearing, ``None`` if that is rigid, does not have.
@@ -115,28 +105,3 @@ class LoadLimits:
             raise InputError("depth", self.depth, "a limit needs a table [touchdown] of a bearing that gives way")
         if self.pressure is not None and (bearing is None or bearing.balls is None):
             raise InputError("pressure", self.pressure, "a limit needs balls in the table [touchdown]")
-
-    def to_toml(self) -> str:
-        """Return the text of a table that is read as these limits; nothing if none is stated."""
-        lines = [f"{name} = {value!r}  # {LIMIT_FIELDS[name].unit}".rstrip("# ") for name, value in self.stated.items()]
-        return "\n".join(["[limits]", *lines]) + "\n" if lines else ""
-
-    @classmethod
-    @checked
-    def of(cls, table: Mapping[str, Any], has_scales: bool = True) -> LoadLimits:
-        """Read a table; one beside dimensionless parameters cannot be compared with anything.
-
-        Raises
-        ------
-        InputError
-            An unknown name, a value that is not allowed, or a table without a machine in SI units.
-        """
-        problems = Problems()
-        problems.errors += unknown_names(table, LIMIT_FIELDS, "[limits]")
-        if table and not has_scales:
-            allowed = "not allowed beside [dimensionless]: limits are in SI units, which need a [machine] table"
-            problems.errors.append(InputError("limits", shown(dict(table)), allowed))
-        known = {name: value for name, value in table.items() if name in LIMIT_FIELDS}
-        found = problems.attempt(cls, **known)
-        problems.raise_all()
-        return found or cls()

@@ -11,7 +11,7 @@ from carom.arguments import checked
 from carom.outcome import InputError, Problems, shown, together
 from carom.parameters.drive import Drive
 from carom.parameters.fields import DIMENSIONLESS_FIELDS, PHYSICAL_PARTNER, name_errors, unknown_names
-from carom.parameters.gravity import Gravity, refused
+from carom.parameters.gravity import Gravity
 from carom.parameters.load_limits import LIMIT_FIELDS, LoadLimits
 from carom.parameters.machine import Machine, warn_of_proportions
 from carom.parameters.named import Named, own_numbers
@@ -122,7 +122,7 @@ class Case(Tabular):
         if self.gravity is not None and self.gravity.acceleration == 0.0:
             object.__setattr__(self, "gravity", None)
         if self.gravity is not None and self.parameters.scales is None:
-            raise refused(self.gravity.words)
+            raise Gravity.without_scales(self.gravity.words)
         if self.touchdown is not None and self.touchdown.is_plain:
             object.__setattr__(self, "touchdown", None)
         if self.touchdown is not None and not self.touchdown.yields and self.touchdown.restitution is not None:
@@ -201,7 +201,7 @@ class Case(Tabular):
         """
         if GRAVITY_NAME in changes:
             if self.parameters.scales is None:
-                raise refused(changes[GRAVITY_NAME])
+                raise Gravity.without_scales(changes[GRAVITY_NAME])
             return replace(self, gravity=_pulled(self.gravity, changes.pop(GRAVITY_NAME))).replace(**changes)
         if not isinstance(self.parameters, Parameters):
             return replace(self, parameters=self.parameters.replace(**changes)) if changes else self
@@ -249,7 +249,7 @@ def read_planar_case(name: str, tables: MachineTables, texts: dict[str, str], pr
     if pull is not None and of_machine:
         gravity = problems.attempt(_pulled, gravity, pull)
     elif pull is not None:
-        problems.errors.append(refused(pull))
+        problems.errors.append(Gravity.without_scales(pull))
     fields = SETTABLE if of_machine else DIMENSIONLESS_FIELDS
     numbers = {
         name: problems.attempt(read_quantity, fields[name], text) for name, text in texts.items() if name in fields

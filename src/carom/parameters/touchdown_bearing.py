@@ -8,12 +8,11 @@ import math
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
 
-from carom.arguments import checked
-from carom.outcome import InputError, Problems, shown
-from carom.parameters.fields import MACHINE_FIELDS, Field, by_name, length_field, unknown_names
-from carom.parameters.quantities import read_quantity
+from carom.outcome import InputError, shown, together
+from carom.parameters.fields import Field, by_name, length_field
+from carom.parameters.tables import Table
 from carom.parameters.told import number
 
 LAWS = ("rigid", "kelvin-voigt", "hunt-crossley")
@@ -57,7 +56,7 @@ _FRACTION = re.compile(r"([0-9]{1,3})\s*/\s*([1-9][0-9]{0,2})")
 
 
 @dataclass(frozen=True)
-class TouchdownBearing:
+class TouchdownBearing(Table):
     """A touchdown bearing whose force grows with the depth to which the rotor presses into it.
 
     Every value is a number in the SI unit below, or text with a unit such as ``"1e8 N/m"``.
@@ -123,22 +122,19 @@ class TouchdownBearing:
     ball_modulus: float | None = None
     race_modulus: float | None = None
 
+    heading: ClassVar = "touchdown"
+    entries: ClassVar = TOUCHDOWN_FIELDS
+    texts: ClassVar = ("law",)
+
     def __post_init__(self) -> None:
         if self.law not in LAWS:
             raise InputError("law", shown(self.law), f"must be one of {', '.join(LAWS)}")
-        problems = Problems()
-        for name, field in TOUCHDOWN_FIELDS.items():
-            given: Any = getattr(self, name)
-            if given is not None:
-                if name == "stiffness" and self._is_curved:
-                    given = _without_power(given)
-                elif name == "exponent":
-                    given = _as_number(given)
-                object.__setattr__(self, name, problems.attempt(read_quantity, field, given))
-        problems.raise_all()
-        for error in self._wrong():
-            problems.errors.append(error)
-        problems.raise_all()
+        if self._is_curved:
+            object.__setattr__(self, "stiffness", _without_power(self.stiffness))
+        object.__setattr__(self, "exponent", _as_number(self.exponent))
+        super().__post_init__()
+        if wrong := self._wrong():
+            raise together(wrong)
 
     @property
     def _is_curved(self) -> bool:
@@ -225,10 +221,7 @@ class TouchdownBearing:
     @property
     def given(self) -> dict[str, Any]:
         """The entries that are stated, in SI units."""
-        own = {name: getattr(self, name) for name in TOUCHDOWN_FIELDS}
-        return {
-            name: value for name, value in own.items() if value is not None and (name != "exponent" or value != 1.0)
-        }
+        return {name: value for name, value in super().given.items() if name != "exponent" or value != 1.0}
 
     @property
     def words(self) -> str:
@@ -242,37 +235,11 @@ class TouchdownBearing:
         """SI unit of an entry."""
         if name == "stiffness" and self._is_curved:
             return f"N/m^{self.exponent:.6g}"
-        return TOUCHDOWN_FIELDS[name].unit
+        return super().unit(name)
 
     def replace(self, **changes: Any) -> TouchdownBearing:
         """Return the bearing with other entries."""
         return dataclasses.replace(self, **changes)
-
-    def to_toml(self) -> str:
-        """Return the text of a table that is read as this bearing."""
-        lines = [f"{name} = {value!r}  # {self.unit(name)}".rstrip("# ") for name, value in self.given.items()]
-        return "\n".join(["[touchdown]", f'law = "{self.law}"', *lines]) + "\n"
-
-    @classmethod
-    @checked
-    def of(cls, table: Mapping[str, Any], has_scales: bool = True) -> TouchdownBearing:
-        """Read a table; one beside dimensionless parameters has no mass and clearance to be compared with.
-
-        Raises
-        ------
-        InputError
-            An unknown name, a value that is not allowed, or a table without a machine in SI units.
-        """
-        problems = Problems()
-        fields = {"law": MACHINE_FIELDS["friction"], **TOUCHDOWN_FIELDS}
-        problems.errors += unknown_names(table, fields, "[touchdown]")
-        if not has_scales:
-            allowed = "not allowed beside [dimensionless]: it is in SI units, which need a [machine] table"
-            problems.errors.append(InputError("touchdown", shown(dict(table)), allowed))
-        known = {name: value for name, value in table.items() if name in fields}
-        found = problems.attempt(cls, **known)
-        problems.raise_all()
-        return found or cls()
 
 
 def _without_power(given: Any) -> Any:

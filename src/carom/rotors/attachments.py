@@ -8,7 +8,8 @@ from dataclasses import dataclass
 from carom.outcome import InputError, shown
 from carom.parameters import MACHINE_FIELDS, Field, TouchdownBearing
 from carom.parameters.fields import by_name
-from carom.rotors.entries import read_entries, read_node
+from carom.parameters.tables import read_entries
+from carom.rotors.entries import read_node
 
 UNBALANCE_FIELDS: Mapping[str, Field] = by_name(
     Field("size", "", "unbalance", "an unbalance", "kg m", 1e-15, 1e6, '"10 g mm"', True),

@@ -11,7 +11,7 @@ import numpy as np
 from carom.outcome import InputError, shown
 from carom.parameters import Field
 from carom.parameters.fields import by_name
-from carom.rotors.entries import read_entries
+from carom.parameters.tables import read_entries
 from carom.rotors.state_spaces import StateSpace, of_polynomials
 
 PID_FIELDS: Mapping[str, Field] = by_name(

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from carom.parameters import Field
 from carom.parameters.fields import by_name
-from carom.rotors.entries import read_entries
+from carom.parameters.tables import read_entries
 
 PROPORTIONAL_FIELDS: Mapping[str, Field] = by_name(
     Field("of_mass", "", "damping over mass", "a rate", "1/s", 1e-12, 1e9, '"10 1/s"', True),

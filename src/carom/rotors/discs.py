@@ -9,7 +9,8 @@ from carom.arguments import checked
 from carom.outcome import InputError
 from carom.parameters import Field
 from carom.parameters.fields import by_name
-from carom.rotors.entries import inertia_field, read_entries, read_node
+from carom.parameters.tables import read_entries
+from carom.rotors.entries import inertia_field, read_node
 from carom.rotors.sections import Section
 
 DISC_FIELDS: Mapping[str, Field] = by_name(

@@ -1,28 +1,11 @@
-"""Reading of the numbers of a part: in SI units, or as text with a unit."""
+"""Entries of parts of a rotor: nodes and inertias."""
 
 from __future__ import annotations
 
-import dataclasses
-from collections.abc import Mapping
 from typing import Any
 
-from carom.outcome import InputError, Problems, shown
-from carom.parameters import Field, read_quantity
-
-
-def read_entries(part: Any, fields: Mapping[str, Field]) -> None:
-    """Set the attributes of a frozen part to the numbers that were given for them; all that cannot be used are reported together.
-
-    One that is ``None`` by default may be left out.
-    """
-    problems, optional = Problems(), {each.name for each in dataclasses.fields(part) if each.default is None}
-    for name, field in fields.items():
-        given = getattr(part, name)
-        if given is not None:
-            object.__setattr__(part, name, problems.attempt(read_quantity, field, given))
-        elif name not in optional:
-            problems.errors.append(InputError(name, None, field.allowed))
-    problems.raise_all()
+from carom.outcome import InputError, shown
+from carom.parameters import Field
 
 
 def read_node(name: str, given: Any) -> int:

@@ -14,8 +14,8 @@ from carom.arguments import Count, Positive, checked
 from carom.models import Model
 from carom.outcome import InputError, shown
 from carom.parameters import Field, Gravity
+from carom.parameters.tables import read_entries
 from carom.rotors.attachments import TouchdownPlane, Unbalance
-from carom.rotors.entries import read_entries
 from carom.rotors.equations import loops_of
 from carom.rotors.free_motions import Slowest, slowest_of
 from carom.rotors.free_rotor import FreeRotor

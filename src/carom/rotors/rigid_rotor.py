@@ -13,9 +13,10 @@ from carom.arguments import checked
 from carom.outcome import InputError, Problems, shown
 from carom.parameters import MACHINE_FIELDS, Field, Gravity, read_quantity
 from carom.parameters.fields import by_name, length_field
+from carom.parameters.tables import read_entries
 from carom.rotors.attachments import TouchdownPlane, Unbalance
 from carom.rotors.discs import check_inertias
-from carom.rotors.entries import inertia_field, read_entries
+from carom.rotors.entries import inertia_field
 from carom.rotors.flexible_machine import FlexibleMachine
 from carom.rotors.free_modes import FreeModes
 from carom.rotors.free_rotor import FreeRotor, RotorMatrices

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from carom.outcome import InputError, shown
 from carom.parameters import Field
 from carom.parameters.fields import by_name, length_field
-from carom.rotors.entries import read_entries
+from carom.parameters.tables import read_entries
 
 MATERIAL_FIELDS: Mapping[str, Field] = by_name(
     Field("elastic_modulus", "E", "elastic modulus", "a modulus", "Pa", 1e3, 1e15, '"211 GPa"'),

@@ -198,7 +198,7 @@ def study(
         advice = recommend(case, tried, recoveries, needed=lost if lost or decides(present) else None)
     tell(0.95, "loads, and other touchdown bearings")
     loads = None
-    if case.limits.stated and rotor.scales:
+    if case.limits.given and rotor.scales:
         with budget.question(LOADS, EVENTS[LOADS]):
             loads = worst_loads(found, case.limits, required)
     with budget.question(WALLS, EVENTS[WALLS]):

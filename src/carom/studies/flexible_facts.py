@@ -158,7 +158,7 @@ def _besides(study: FlexibleData) -> Iterator[Fact]:
             for title, rows in load_tables(loads, "the release")
         ]
         limits = study.case.limits
-        stated = "" if limits.stated else "; no limit of a touchdown bearing is stated to compare them with"
+        stated = "" if limits.given else "; no limit of a touchdown bearing is stated to compare them with"
         text = f"{loads.outcome.words} after {say.time(loads.time)}; {'; '.join(told)}{stated}"
         yield Fact("Verdict", text, "Drop", "sampled")
     found = study.elsewhere

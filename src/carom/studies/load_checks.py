@@ -84,7 +84,7 @@ def check_loads(loads: TouchdownLoads, limits: LoadLimits) -> tuple[LoadCheck, .
         raise InputError("pressure", limits.pressure, "a limit needs balls in the table [touchdown]")
     values = {**si, "impacts": float(loads.impacts)}
     found = []
-    for name, limit in limits.stated.items():
+    for name, limit in limits.given.items():
         grows = {"heat": loads.goes_on and si["lasting_power"] > 0.0, "impacts": loads.goes_on_bouncing}
         endless, value = grows.get(name, False), values[name]
         after = math.inf
