@@ -94,11 +94,11 @@ def test_what_takes_the_planar_rotor_refuses_it_in_one_line(carom, command, sett
 
 
 def test_a_study_writes_its_report(carom, tmp_path, monkeypatch):
-    monkeypatch.setattr("carom.studies.flexible_study.DRAWN", 4)
+    monkeypatch.setattr("carom.studies.questions.FEW_MODES", 0.2)
     code, out, _ = carom("study", MACHINE, "--set", "gravity=0", "--out", str(tmp_path))
     assert code == 0
     assert "What it survives" in out
-    assert "Without weight there is no drop" in out
+    assert "no weight is stated, so that of 9.81 m/s² downward is taken" in " ".join(out.split())
     document = json.loads((tmp_path / "study.json").read_text())
     assert {"figures/campbell.svg", "figures/sensitivity.svg", "figures/kick-1.svg"} <= set(document["figures"])
     page = (tmp_path / "report.html").read_text()

@@ -7,7 +7,6 @@ import pytest
 from carom.models import Edge, Span
 from carom.parameters import Scales
 from carom.parameters.told import number, told_entry
-from carom.studies.flexible_facts import ended_by
 from carom.studies.wording import Wording, counted, listed
 
 SI = Wording(Scales(mass=50.0, clearance=0.7e-3, speed=184.2))
@@ -104,16 +103,3 @@ def test_where(spans, searched, text):
 
 def test_where_in_si():
     assert SI.where("gamma", (span(0.0, 0.37001594),)) == "below 3,408 N s/m"
-
-
-@pytest.mark.parametrize(
-    ("count", "drawn", "known", "words"),
-    [
-        (0, 200, 1, "1 start in backward whirl"),
-        (0, 200, 2, "2 starts in backward whirl"),
-        (1, 200, 0, "1 of 200 disturbances"),
-        (3, 200, 2, "3 of 200 disturbances and 2 starts in backward whirl"),
-    ],
-)
-def test_what_ended_somewhere_leaves_out_zeros(count, drawn, known, words):
-    assert ended_by(count, drawn, known) == words

@@ -67,10 +67,10 @@ def drop(
 
 def _drop_once(case: Case, released: Drop, end: float | None, out: str | None, *, as_json: bool) -> None:
     """Follow one drop, write its report, and tell what the bearing bears."""
-    from carom.cli.drops import taken
+    from carom.studies.drops import release
 
     with progress("simulating (the kernels are compiled on first use)") as tell:
-        rotor, state, echo = taken(case, released)
+        rotor, state, echo = release(case, released)
         from carom.motions import follow_loads, simulate
         from carom.studies.drops import DropStudy
 
@@ -91,9 +91,10 @@ def _drop_once(case: Case, released: Drop, end: float | None, out: str | None, *
 
 def _reduction(case: Case, released: Drop, loads: DropLoads) -> ReductionError | None:
     """Error of the reduction of a flexible machine along this drop."""
-    from carom.cli.drops import error_along, taken
+    from carom.cli.drops import error_along
+    from carom.studies.drops import release
 
-    return error_along(case, loads, lambda finer: taken(finer, released))
+    return error_along(case, loads, lambda finer: release(finer, released))
 
 
 def _print(console: Console, found: DropStudy, page: Path | None) -> None:

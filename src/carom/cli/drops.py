@@ -62,26 +62,6 @@ def read_release(
     return Drop(at, turned, regained, turning)
 
 
-def taken(case: Case, released: Drop) -> tuple[Model, State, Echo]:
-    """The rotor that falls, its start, and what was taken of a release whose sizes are numbers."""
-    from carom.disturbances.echo import echo_of_drop
-    from carom.models import model_of
-    from carom.motions.starts import amplitudes_of
-
-    rotor, state = released.stages(case)
-    scales, back, turning = case.parameters.scales, released.regained_after, released.race_speed
-    if case.gravity is None or scales is None:  # which stages() has refused
-        raise InputError("gravity", None, "a table [gravity] in the machine file")
-    angle = released.unbalance_angle(model_of(case))
-    regained, race = (None if each is None else float(each) for each in (back, turning))
-    amplitudes, _ = amplitudes_of(rotor, state)
-    planes = []
-    for plane, width in enumerate(rotor.system.widths.tolist()):
-        place, rate = rotor.system.at_plane(amplitudes, plane)
-        planes.append((width * complex(place), width * complex(rate)))
-    return rotor, state, echo_of_drop(state, angle, regained, case.gravity, scales, race, planes)
-
-
 def error_along(
     case: Case, loads: DropLoads, again: Callable[[Case], tuple[Model, Any, Echo]]
 ) -> ReductionError | None:

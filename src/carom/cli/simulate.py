@@ -41,9 +41,10 @@ def simulate(
 
     The motion is followed through flights, impacts and lasting contact, exactly to rounding.
     """
-    from carom.cli.drops import error_along, read_release, taken
+    from carom.cli.drops import error_along, read_release
     from carom.cli.starts import read_time
     from carom.loading import load
+    from carom.studies.drops import release
 
     case = load(machine, settings or ())
     check_output(out)
@@ -61,7 +62,7 @@ def simulate(
         released = read_release(case, ways, regained_after) if drop else None
 
         def read(case: Case) -> tuple[Model, State | Kick, Echo]:
-            return _read(case, ways, instant) if released is None else taken(case, released)
+            return _read(case, ways, instant) if released is None else release(case, released)
 
         rotor, given, echo = read(case)
         motion = _follow(rotor, given, kick, end, tell if out is None else tell.part(0.0, 0.4))

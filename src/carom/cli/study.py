@@ -44,6 +44,14 @@ def study(
             help="Prove equilibria, orbits and which kicks and states come back too; needs the extra carom[proof].",
         ),
     ] = False,
+    along: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="NAME",
+            help="A parameter along which recovery is searched and a change is looked for, such as 'speed', 'friction' or 'derivative'; "
+            "may be repeated. By default damping and stiffness, or the gains of the magnetic bearings.",
+        ),
+    ] = None,
     time_limit: Annotated[
         str | None,
         typer.Option(
@@ -57,11 +65,9 @@ def study(
     """Study a machine: the verdict in words and numbers, and a report.
 
     Finds every simple motion of the machine with its stability, the damping and stiffness at which each appears or
-    vanishes, and where 200 simulated disturbances end. --kick, --shock and --blade-loss say what the machine must survive,
-    in place of the table [survive] of its file. With --out it also writes figures, study.json and report.html.
-
-    Of a flexible machine (a [rotor] table) it tells whirls, critical speeds, sensitivity, what is survived and the drop
-    in place of the first two.
+    vanishes, where 200 simulated disturbances end, what is survived, and what the touchdown bearings bear in it and in a drop.
+    --kick, --shock and --blade-loss say what the machine must survive, in place of the table [survive] of its file. With
+    --out it also writes figures, study.json and report.html.
     """
     from carom.cli.starts import with_requirement
     from carom.loading import load
@@ -71,29 +77,21 @@ def study(
     )
     with progress("loading") as tell:
         check_output(out)
-        from carom.studies import FlexibleStudy
         from carom.studies import study as study_case
 
         share_of_study = 1.0 if out is None else 0.4
         given = {} if time_limit is None else {"proof_time": time_limit, "time_limit": time_limit}
-        result = study_case(case, proofs=prove, **given, progress=tell.part(0.0, share_of_study))  # type: ignore[arg-type]
+        result = study_case(case, along=along or None, proofs=prove, **given, progress=tell.part(0.0, share_of_study))  # type: ignore[arg-type]
         report = None
         if out is not None:
-            from carom.report import write_flexible_report, write_report
+            from carom.report import write_report
 
-            step = tell.part(share_of_study, 1.0)
-            if isinstance(result, FlexibleStudy):
-                report = write_flexible_report(result, out, progress=step)
-            else:
-                report = write_report(result, out, progress=step)
+            report = write_report(result, out, progress=tell.part(share_of_study, 1.0))
     if as_json:
         print_document(result.to_dict())
         if report is not None:
             console(errors=True).print(f"Report: {report}", soft_wrap=True)
         return
-    from carom.cli.tables import print_flexible_study, print_study
+    from carom.cli.tables import print_study
 
-    if isinstance(result, FlexibleStudy):
-        print_flexible_study(console(), result, report)
-    else:
-        print_study(console(), result, report)
+    print_study(console(), result, report)

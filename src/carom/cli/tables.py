@@ -14,7 +14,7 @@ from rich.table import Table
 from rich.text import Text
 
 from carom.cli.fitting import fitted, plain_table
-from carom.studies import FlexibleStudy, Study, Wording
+from carom.studies import Study, Wording
 from carom.studies.advice_facts import CHANGES
 from carom.studies.facts import Topic, about, paragraphs
 from carom.studies.summaries import (
@@ -78,19 +78,7 @@ def print_study(console: Console, study: Study, report: Path | None) -> None:
         console.print(f"Report: {report}", soft_wrap=True)
 
 
-def print_flexible_study(console: Console, study: FlexibleStudy, report: Path | None) -> None:
-    """Print the verdict and the facts of the study of a flexible machine."""
-    verdict = study.verdict
-    headline = Text(f"{study.case.name}: {verdict.lead}", style=_LEVELS[verdict.level])
-    console.print(headline, width=min(console.width, TEXT_WIDTH))
-    _print_facts(console, study, "Verdict", "What it survives")
-    _print_topics(console, study)
-    console.print()
-    told = "Figures, study.json and report.html: add --out DIR" if report is None else f"Report: {report}"
-    console.print(told, soft_wrap=True)
-
-
-def _print_topics(console: Console, study: Study | FlexibleStudy) -> None:
+def _print_topics(console: Console, study: Study) -> None:
     """Print the facts of all other topics as text."""
     for topic, texts in paragraphs(study.facts):
         console.print()
@@ -99,7 +87,7 @@ def _print_topics(console: Console, study: Study | FlexibleStudy) -> None:
         console.print(told, width=min(console.width, TEXT_WIDTH))
 
 
-def _print_facts(console: Console, study: Study | FlexibleStudy, topic: Topic, heading: str) -> None:
+def _print_facts(console: Console, study: Study, topic: Topic, heading: str) -> None:
     """Print the facts of a topic with their labels: a table without lines, details indented."""
     console.print()
     console.print(Text(heading, style="bold"))

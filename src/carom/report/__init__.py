@@ -4,7 +4,6 @@
 ``basins``          where disturbances end now, and after the advised change
 ``figures``         the figures of a study with their captions
 ``page``            the HTML page of a study
-``flexible``        the HTML page of the study of a flexible machine
 ``drop``            the HTML page of a drop
 ``film``            a drop in slow motion on it
 ``strips``          the curves beside the film
@@ -14,7 +13,6 @@
 """
 
 from carom.report.drop import write_drop_report
-from carom.report.flexible import write_flexible_report
 from carom.report.page import report_page, write_report
 
-__all__ = ["report_page", "write_drop_report", "write_flexible_report", "write_report"]
+__all__ = ["report_page", "write_drop_report", "write_report"]

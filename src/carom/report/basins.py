@@ -11,7 +11,7 @@ from carom.disturbances.echo import ITS_INSTANT
 from carom.models import Model, axis, depends_on_instant
 from carom.parameters import in_terms_of
 from carom.studies import Study
-from carom.studies.survives import Kind, required_kinds
+from carom.studies.kinds import Kind, required_kinds
 from carom.studies.wording import entry_words
 
 CELLS: dict[Kind, tuple[int, ...]] = {"kick": (120, 120), "shock": (24, 60), "blade_loss": (120,)}

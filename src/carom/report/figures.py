@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 from carom import plots
 from carom.attractors import Ending
 from carom.models import Model
+from carom.motions import Trajectory
 from carom.motions.simulation import simulate
 from carom.orbits.orbit import Orbit
 from carom.orbits.single_impact import OrbitSet, period_condition
@@ -19,6 +20,8 @@ from carom.report import basins
 from carom.report.figure_files import Picture
 from carom.studies import Study
 from carom.studies.endings import ending_phrase, shown_example
+from carom.studies.kinds import LABELS
+from carom.studies.levitating import Levitating
 
 if TYPE_CHECKING:
     from carom.proofs import ProvenKicks
@@ -42,6 +45,7 @@ def pictures(study: Study) -> list[Picture]:
     if not study.heavy:  # under weight levitation is no point there
         figures.append(_overview(study))
     figures += _of_disturbances(study)
+    figures += [*_of_levitation(study.levitating), *_of_loads(study)]
     if study.kicks is not None:
         figures.append(_proven_kicks(study, study.kicks))
     figures += [_of_orbit(study, orbit) for orbit in study.stable_orbits[:MOST_ORBITS]]
@@ -84,6 +88,46 @@ def _of_disturbances(study: Study) -> Iterator[Picture]:
             f"tried: {shown}.",
             lambda example=example: _history(study, example),  # type: ignore[misc]
         )
+
+
+def _of_levitation(found: Levitating) -> Iterator[Picture]:
+    """Whirls, response and sensitivity of a flexible machine."""
+    machine = found.machine
+    if machine is None or found.campbell is None:
+        return
+    whirls = "Free whirls over the speed of the shaft, from all modes; unbalance excites forward whirls where they cross the line."
+    yield Picture("campbell", "levitation", whirls, found.campbell.plot)
+    shapes = "Shapes of the slowest free whirls at the speed of the machine, from all modes, along the shaft."
+    yield Picture("shapes", "levitation", shapes, lambda: plots.mode_shapes(machine, found.whirls))
+    if found.response is not None:
+        radii = "Radii of the whirl by unbalance, levitating without contact."
+        yield Picture("unbalance", "levitation", radii, found.response.plot)
+    if found.sensitivity is not None:
+        peaks = "Sensitivity of each loop, with the zones of ISO 14839-3."
+        yield Picture("sensitivity", "levitation", peaks, found.sensitivity.plot)
+
+
+def _of_loads(study: Study) -> Iterator[Picture]:
+    """Of each kind that must be survived the motion with the largest load, and the drop, at each touchdown bearing."""
+    motions = [
+        (str(each.kind), f"after the {LABELS[each.kind].lower()} with the largest load or the widest orbit", each.worst)
+        for each in study.full_size
+    ]
+    if study.drop is not None and study.drop.motion is not None:
+        motions.append(("drop", "after levitation is lost", study.drop.motion))
+    several = len(study.rotor.system.contacts) > 1
+    for name, when, motion in motions:
+        for plane in range(len(study.rotor.system.contacts)):
+            at = f" at touchdown bearing {plane + 1}" if several else ""
+            title = f"{name.replace('_', ' ').capitalize()}{f', touchdown bearing {plane + 1}' if several else ''}"
+            words = f"Orbit of the shaft{at} {when}, in the fixed frame, and its gap to the bearing."
+            yield Picture(
+                f"{name}{f'-{plane + 1}' if several else ''}", "loads", words, _orbit_in(motion, plane, title)
+            )
+
+
+def _orbit_in(motion: Trajectory, plane: int, title: str) -> Callable[[], Figure]:
+    return lambda: plots.drop_orbit(motion.seen_at(plane), title=title)
 
 
 def _file_name(name: str) -> str:

@@ -9,6 +9,7 @@ from carom import plots
 from carom.arguments import checked
 from carom.files import staged_directory, write_json
 from carom.files.directory import MANIFEST
+from carom.parameters.told import number
 from carom.plots.sheet import drawing
 from carom.progress import Reporter, ShowProgress, shows_progress
 from carom.report.basins import drawable
@@ -18,6 +19,9 @@ from carom.report.html import InlineFigure, page_template, versions
 from carom.studies import Study
 from carom.studies.advice_facts import BEYOND, CHANGES
 from carom.studies.facts import Fact, about, paragraphs
+from carom.studies.levitating import Levitating
+from carom.studies.levitation_facts import frequency_words
+from carom.studies.part_rows import part_rows
 from carom.studies.summaries import (
     MotionRow,
     dimensionless_rows,
@@ -82,6 +86,8 @@ def report_page(study: Study, figures: list[InlineFigure]) -> str:
             entry for entry in paragraphs(study.facts) if entry[0] not in ("What would change it", "Not covered")
         ],
         machine=machine_rows(study.case),
+        parts=part_rows(study.case, study.reduced.machine) if study.reduced else [],
+        whirls=_whirls(study.levitating),
         dimensionless=dimensionless_rows(study.case),
         motions=motion_rows(study),
         holding=_holding(study),
@@ -103,6 +109,11 @@ def _holding(study: Study) -> list[MotionRow]:
     words = {f"orbit {orbit.name}": orbit.name.words for orbit in study.orbits}
     rows = [row for row in motion_rows(study) if row.state not in ("unstable", "not possible")]
     return [replace(row, name=words.get(row.name, row.name)) for row in rows]
+
+
+def _whirls(found: Levitating) -> list[tuple[str, str, str]]:
+    """Frequency, sense and damping ratio of the slowest whirls."""
+    return [(frequency_words(found, each), each.sense, number(each.damping_ratio, 3)) for each in found.whirls]
 
 
 def _mark(study: Study) -> str:

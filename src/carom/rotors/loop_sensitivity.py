@@ -60,9 +60,12 @@ class Sensitivity(Result):
         """Zone of ISO 14839-3 of each bearing; ``None`` of an unstable loop, which has none."""
         if not self.stable:
             return None
-        return tuple(
-            next((zone for zone, limit in LIMITS.items() if peak <= limit), "D") for peak in self.peaks.tolist()
-        )
+        return tuple(map(zone_of, self.peaks.tolist()))
+
+
+def zone_of(peak: float) -> str:
+    """Zone of ISO 14839-3 of a peak of the sensitivity."""
+    return next((zone for zone, limit in LIMITS.items() if peak <= limit), "D")
 
 
 @checked

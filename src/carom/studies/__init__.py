@@ -9,6 +9,7 @@ Read them in this order.
 ``ranges``               for which values of a parameter each simple motion exists
 ``trials``               disturbances followed at one value of a parameter after another
 ``recovery``             :func:`find_recovery`: which values of any parameter leave only recovery
+``kinds``                the kinds of disturbances that a machine may have to survive
 ``survives``             the sizes of kicks, shocks and losses of a blade up to which none is lost
 ``advice``               the least change that leaves only recovery, in the user's terms and within limits
 ``rigid_limit``          whether the rigid wall is good enough
@@ -17,14 +18,11 @@ Read them in this order.
 ``drops``                :class:`DropStudy`: what a drop asks of the touchdown bearing, in words and as JSON
 ``motion_documents``     motions as JSON, with what touchdown bearings bear
 ``actuator``             what motions ask of the magnetic bearings, against the limits of these
-``flexible_levitation``  how a flexible machine levitates: whirls, response, sensitivity, separations
-``flexible_trials``      disturbances of a flexible machine, and what its touchdown bearings bear
-``flexible_data``        :class:`FlexibleData`: what a study has found of a flexible machine, before it is told
-``flexible_study``       :class:`FlexibleStudy`, which :func:`study` makes of a flexible machine
-``levitation_facts``     how a flexible machine levitates, in words
-``flexible_facts``       what it has found, in words, and its verdict
-``flexible_rows``        its parts in the units of people
-``flexible_document``    the same as JSON
+``levitating``           how a machine levitates: whirls, response, sensitivity, separations
+``full_size``            what must be survived at its full size all around, and what touchdown bearings bear in it
+``levitation_facts``     how it levitates, in words
+``touchdown_facts``      loads, drop and accuracy, in words
+``part_rows``            the parts of a flexible machine in the units of people
 ``endings``              where simulated disturbances ended
 ``facts``                :class:`Fact`: what headline, page, report and JSON show
 ``verdict_facts``        what is survived, as facts
@@ -51,7 +49,6 @@ from carom.studies.critical_speeds import Critical, Separation
 from carom.studies.document import found_orbits_document, orbits_document
 from carom.studies.drops import DropStudy
 from carom.studies.facts import Fact
-from carom.studies.flexible_study import FlexibleStudy
 from carom.studies.load_checks import LoadCheck, WorstLoads, check_loads, worst_loads
 from carom.studies.motion_documents import trajectory_document
 from carom.studies.ranges import MotionRange, Threshold
@@ -70,7 +67,6 @@ __all__ = [
     "Critical",
     "DropStudy",
     "Fact",
-    "FlexibleStudy",
     "LoadCheck",
     "Lost",
     "Margin",

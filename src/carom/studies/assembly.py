@@ -1,48 +1,64 @@
 """The study of one machine at one speed.
 
-:func:`study` calls the parts one after another and keeps their results in a :class:`Study`.  The verdict and the facts follow
+:func:`study` asks one contributor after another (:data:`CONTRIBUTORS`) and keeps what they find in a :class:`Study`.  The verdict and the facts follow
 from these results when they are asked for.
 """
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Sequence
+from contextlib import AbstractContextManager
+from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, ClassVar, get_args
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, get_args
 
 import numpy as np
 
 from carom.arguments import checked
-from carom.attractors import DisturbanceSet, find_attractors
+from carom.attractors import AttractorSet, DisturbanceSet, find_attractors
 from carom.basins import Share
-from carom.bifurcations.boundary import boundary_equilibria
+from carom.bifurcations.boundary import BoundaryEquilibrium, boundary_equilibria
 from carom.closed_forms import harmless_kick
 from carom.closed_forms.equilibria import steady_motions
 from carom.closed_forms.exact_results import exact_results
 from carom.closed_forms.thresholds import Gain
 from carom.disturbances import AnyState, Disturbance, Plan, Sample
 from carom.disturbances.following import follow, refuse_another_machine
-from carom.models import Model, Subject, case_of, model_of
-from carom.motions.budget import NOT_FOLLOWED, Budget
+from carom.models import Model, Subject, axis, case_of, model_of
+from carom.motions.budget import NOT_FOLLOWED, Budget, Question
 from carom.orbits.single_impact import OrbitSet, find_orbits, orbits_within_reach
-from carom.outcome import InputError, shown
+from carom.outcome import InputError
 from carom.parameters import Case, Field, Required, Requirement, Zones, read_quantity
 from carom.progress import Reporter, ShowProgress, shows_progress
 from carom.results import in_a_line
-from carom.studies.advice import GAIN_FACTOR, recommend
+from carom.studies.advice import GAIN_FACTOR, Recommendation, recommend
 from carom.studies.document import study_document
+from carom.studies.drops import DropStudy, drop_of
 from carom.studies.facts import Fact
-from carom.studies.flexible_study import FlexibleStudy, study_of_machine
-from carom.studies.load_checks import worst_loads
-from carom.studies.questions import ALONG, CHANGE, DESCRIBED, ELSEWHERE, EVENTS, LOADS, PRESENT, WALLS
+from carom.studies.full_size import FullSize, at_full_size
+from carom.studies.levitating import levitating
+from carom.studies.load_checks import WorstLoads, worst_loads
+from carom.studies.questions import (
+    ALONG,
+    CHANGE,
+    DESCRIBED,
+    DROP,
+    ELSEWHERE,
+    FULL_SIZE,
+    LOADS,
+    PRESENT,
+    WALLS,
+    events_for,
+)
 from carom.studies.recovery import Recovery, find_recovery
 from carom.studies.rigid_limit import TRIED as ON_WALLS
-from carom.studies.rigid_limit import on_other_walls
+from carom.studies.rigid_limit import OtherWall, on_other_walls
 from carom.studies.study_data import StudyData
 from carom.studies.survives import comes_to_rest, decides, lost_kinds, required_disturbances, survives
 from carom.studies.trials import Check, check_recovery, in_all
 from carom.studies.verdict import Verdict, facts_of, verdict
+from carom.studies.wording import Wording
 
 if TYPE_CHECKING:
     from carom.proofs import Proof, ProvenKicks
@@ -60,6 +76,8 @@ GUESSES = 100
 TIME_LIMIT = Field("time_limit", "", "time to follow motions", "a time", "s", 1e-3, 1e9, '"2 min"')
 BEYOND = 2.0
 """Largest kick of this proof relative to the harmless one, where those that must be survived never touch."""
+OF_CONTROLLERS = ("derivative", "proportional")
+"""Parameters along which recovery is searched where magnetic bearings have controllers."""
 SEED = 1
 """Seed of these; the search for recovery has its own."""
 
@@ -103,18 +121,16 @@ def study(
     disturbances: Plan | Disturbance | None = None,
     *,
     requirement: Requirement | None = None,
+    along: Sequence[str] | None = None,
     proofs: bool = False,
     proof_time: str | float = PROOF_TIME,
     time_limit: str | float | None = None,
     progress: ShowProgress = None,
-) -> Study | FlexibleStudy:
+) -> Study:
     """Study a machine: its simple motions, where they exist, and where disturbances end.
 
-    A flexible machine has a study of its own (:class:`~carom.studies.FlexibleStudy`): how it levitates, from all its modes, and what it survives,
-    by simulation of the reduced rotor.
-
-    A study of another model than the planar rotor rests on what a search and simulation find: it lacks what only closed forms say, and
-    names it under *Not covered*.
+    Every machine is asked the same questions (:data:`CONTRIBUTORS`), and each is answered where it has a meaning for it.  What closed forms say exists of
+    the planar rotor alone; of others it is what a search and simulation find, and *Not covered* names what is missing.
 
     Parameters
     ----------
@@ -125,6 +141,9 @@ def study(
     requirement : Requirement, optional
         What the machine must survive, instead of what its file states; by default kicks of the speed of a fall through the
         diametral clearance.
+    along : sequence of str, optional
+        Parameters along which recovery is searched and a change is looked for, such as ``"speed"``, ``"friction"`` or ``"touchdown_stiffness"``; by
+        default damping and stiffness of the levitation, or the gains of the magnetic bearings.
     proofs : bool
         Prove equilibria and orbits too, by :func:`carom.prove`, which of the kicks that must be survived come back, by
         :func:`carom.proofs.prove_kicks` (of kicks up to twice the harmless one where these never touch), and whether all states as fast as these do, by :func:`carom.proofs.prove_states`; needs the extra
@@ -159,88 +178,89 @@ def study(
     if requirement is not None:
         case = replace(case, requirement=requirement)
     refuse_another_machine(disturbances)
-    tell = Reporter.of(progress, "study")
     seconds = math.inf if time_limit is None else read_quantity(TIME_LIMIT, time_limit)
     rotor = model_of(case)
-    if (reduced := rotor.finite_elements) is not None:
-        if disturbances is not None or proofs:
-            given, allowed = (
-                ("disturbances", disturbances) if disturbances is not None else ("proofs", proofs),
-                "left out for a flexible machine",
-            )
-            raise InputError(given[0], shown(given[1]), allowed)
-        return study_of_machine(case, rotor, reduced, Budget(seconds), tell)
-    known, required = exact_results(rotor).orbits, case.requirement.own(rotor.scales)
-    proof = kicks = states = None
-    if proofs:
-        proof, kicks, states = _proven(rotor, required.kick, proof_time, tell.part(0.0, 0.3))
-        tell = tell.part(0.3, 1.0)
-    budget = Budget(seconds)
-    tell(0.0, "equilibria and periodic orbits (the kernels are compiled on first use)")
-    steady = steady_motions(rotor)
-    orbits = _orbits(rotor, known)
-    tell(0.1, "disturbances")
-    described = disturbances or DisturbanceSet(fastest=required.kick)
-    with budget.question(DESCRIBED, EVENTS[DESCRIBED]):
-        found = find_attractors(rotor, described, progress=tell.part(0.1, 0.2, "disturbances"))
-    tell(0.2, "what must be survived")
-    tried = required_disturbances(required, TRIED if rotor.system.is_planar else TRIED_SINGLY)
-    present, elsewhere = _present(rotor, tried, required, budget) if comes_to_rest(rotor) else (None, None)
-    endured = survives(rotor, required, budget, tell.part(0.25, 0.45))
-    recoveries = _recoveries(rotor, _gains(rotor, known), tried, budget, tell.part(0.45, 0.85))
-    tell(0.85, "loss of levitation")
-    boundaries = tuple(
-        boundary for gain in _gains(rotor, known) if known for boundary in boundary_equilibria(rotor, gain)
-    )
-    tell(0.9, "the least change")
-    lost = endured is None or bool(lost_kinds(required, endured, present, found))
-    with budget.question(CHANGE, EVENTS[CHANGE]):
-        advice = recommend(case, tried, recoveries, needed=lost if lost or decides(present) else None)
-    tell(0.95, "loads, and other touchdown bearings")
-    loads = None
-    if case.limits.given and rotor.scales:
-        with budget.question(LOADS, EVENTS[LOADS]):
-            loads = worst_loads(found, case.limits, required)
-    with budget.question(WALLS, EVENTS[WALLS]):
-        walls = on_other_walls(rotor, required_disturbances(required, ON_WALLS)) if endured else ()
-    return Study(
-        case,
-        rotor,
-        steady,
-        orbits,
-        boundaries,
-        found,
-        endured,
-        present,
-        elsewhere,
-        recoveries,
-        advice,
-        walls,
-        budget.unfinished,
-        loads,
-        proof,
-        kicks,
-        states,
-    )
+    asked = Asked(case, rotor, case.requirement.own(rotor.scales), Budget(seconds), disturbances, along, proof_time)
+    contributors = [each for each in CONTRIBUTORS if each.applies(asked) and (proofs or each.name not in OF_PROOFS)]
+    tell, done, whole = Reporter.of(progress, "study"), 0.0, sum(each.share for each in contributors)
+    for each in contributors:
+        tell(done / whole, each.words)
+        asked.found[each.name] = each.find(asked, tell.part(done / whole, (done + each.share) / whole))
+        done += each.share
+    return Study(case, rotor, unfinished=asked.budget.unfinished, **asked.found)
 
 
-def _proven(
-    rotor: Model, largest: float, time: str | float, tell: Reporter
-) -> tuple[Proof, ProvenKicks | None, Proof | None]:
-    """Theorems about equilibria and orbits; about kicks and about all states where there is levitation to come back to.
+@dataclass(frozen=True)
+class Asked:
+    """What a study is asked, and what it has found so far, by the fields of :class:`StudyData`."""
 
-    ``largest`` is the kick that must be survived.
-    """
-    from carom.proofs import ProvenKicks, prove, prove_kicks, prove_states  # only here: they need an extra
+    case: Case
+    rotor: Model
+    required: Required
+    budget: Budget
+    disturbances: Plan | Disturbance | None
+    along: Sequence[str] | None
+    proof_time: str | float
+    found: dict[str, Any] = field(default_factory=dict)
 
-    proof = prove(rotor, progress=tell.part(0.0, 0.2))
-    if not comes_to_rest(rotor):
-        return proof, None, None
-    states = prove_states(rotor, largest, progress=tell.part(0.2, 0.3))
-    harmless = harmless_kick(rotor)
-    reach = largest if largest > harmless else BEYOND * harmless
-    kicks = prove_kicks(rotor, reach, time_limit=time, progress=tell.part(0.3, 1.0))
-    return proof, ProvenKicks.of(kicks, rotor), states
+    @property
+    def tried(self) -> tuple[Sample, ...]:
+        """What must be survived, as it is tried at one value of a parameter."""
+        return required_disturbances(self.required, TRIED if self.rotor.system.is_planar else TRIED_SINGLY)
+
+    @property
+    def needed(self) -> bool | None:
+        """Whether a change is needed; ``None`` where too few disturbances could be followed."""
+        endured, present = self.found.get("survives"), self.found.get("present")
+        lost = endured is None or bool(
+            lost_kinds(self.required, endured, present, self.found["attractors"], self.found.get("full_size", ()))
+        )
+        return lost if lost or decides(present) else None
+
+    def question(self, words: str) -> AbstractContextManager[Question]:
+        """Ask a question within its events."""
+        return self.budget.question(words, events_for(self.rotor, words))
+
+
+class Contributor(NamedTuple):
+    """A part of a study: what it finds, and for which machines it has something."""
+
+    name: str
+    """The field of :class:`StudyData`."""
+    words: str
+    share: float
+    """About what share of the time it takes."""
+    find: Callable[[Asked, Reporter], Any]
+    applies: Callable[[Asked], bool] = lambda _: True
+
+
+def _returns(asked: Asked) -> bool:
+    return comes_to_rest(asked.rotor)
+
+
+def _is_known(asked: Asked) -> bool:
+    return exact_results(asked.rotor).orbits
+
+
+def _prove(asked: Asked, tell: Reporter) -> Proof:
+    from carom.proofs import prove  # only here: it needs an extra
+
+    return prove(asked.rotor, progress=tell)
+
+
+def _prove_kicks(asked: Asked, tell: Reporter) -> ProvenKicks:
+    """Of the kicks that must be survived, or of larger ones where these never touch."""
+    from carom.proofs import ProvenKicks, prove_kicks
+
+    harmless = harmless_kick(asked.rotor)
+    reach = asked.required.kick if asked.required.kick > harmless else BEYOND * harmless
+    return ProvenKicks.of(prove_kicks(asked.rotor, reach, time_limit=asked.proof_time, progress=tell), asked.rotor)
+
+
+def _prove_states(asked: Asked, tell: Reporter) -> Proof:
+    from carom.proofs import prove_states
+
+    return prove_states(asked.rotor, asked.required.kick, progress=tell)
 
 
 def _case_of(machine: Subject) -> Case:
@@ -253,48 +273,134 @@ def _case_of(machine: Subject) -> Case:
     return Case("rotor", model, None, Zones())
 
 
-def _orbits(rotor: Model, known: bool) -> OrbitSet:
-    """Orbits with one impact a period; none of a rotor of which no orbits are known, as its bearings have limits or a race turns."""
-    if rotor.system.unrepeated is not None:
+def _orbits(asked: Asked, tell: Reporter) -> OrbitSet:
+    """Orbits with one impact a period; none of a rotor whose motions in contact repeat in no period that is known, or of several bearings."""
+    rotor = asked.rotor
+    if rotor.system.unrepeated is not None or rotor.finite_elements is not None:
         return OrbitSet.none(rotor)
-    return orbits_within_reach(rotor) if known else find_orbits(rotor, impacts=1, guesses=GUESSES)
+    return orbits_within_reach(rotor) if _is_known(asked) else find_orbits(rotor, impacts=1, guesses=GUESSES)
 
 
-def _gains(rotor: Model, known: bool) -> tuple[Gain, ...]:
-    """Parameters along which recovery is searched: none of other models than the planar rotor that is zero, or that nothing can move."""
-    gains: tuple[Gain, ...] = get_args(Gain)
-    if known:
-        # With negative damping nothing comes back at any stiffness.
-        return gains if rotor.value("gamma") >= 0 else gains[:1]
-    return tuple(gain for gain in gains if rotor.value(gain) > 0.0)
+def _attractors(asked: Asked, tell: Reporter) -> AttractorSet:
+    described = asked.disturbances or DisturbanceSet(fastest=asked.required.kick)
+    with asked.question(DESCRIBED):
+        return find_attractors(asked.rotor, described, progress=tell)
 
 
 _WORDS = {"kick": "kicks", "shock": "shocks", "blade-loss": "losses of a blade"}
 
 
-def _present(rotor: Model, tried: tuple[Sample, ...], required: Required, budget: Budget) -> tuple[Check, Share]:
-    """Fresh disturbances at the machine's own gains, of planar rotors more if all came back; and apart from them starts elsewhere."""
-    checks = []
-    for sample, more in zip(in_all(tried, FIRST), in_all(tried, FRESH), strict=True):
-        with budget.question(PRESENT.format(_WORDS[sample.model.kind]), EVENTS[PRESENT] // len(tried)):
+def _present(asked: Asked, tell: Reporter) -> Check:
+    """Fresh disturbances at the machine's own gains, of planar rotors more if all came back."""
+    rotor, checks, events = asked.rotor, [], events_for(asked.rotor, PRESENT) // len(asked.tried)
+    for sample, more in zip(in_all(asked.tried, FIRST), in_all(asked.tried, FRESH), strict=True):
+        with asked.budget.question(PRESENT.format(_WORDS[sample.model.kind]), events):
             check = check_recovery(rotor, [sample], seed=SEED)
             wanted = check.recovers and rotor.system.is_planar
             checks.append(check_recovery(rotor, [more], seed=SEED) if wanted else check)
-    found = Check.joined(checks)
-    with budget.question(ELSEWHERE, EVENTS[ELSEWHERE]):
-        ends = follow(rotor, Sample(AnyState(required.kick), ELSEWHERE_TRIED, SEED).starts(rotor))
+    return Check.joined(checks)
+
+
+def _elsewhere(asked: Asked, tell: Reporter) -> Share:
+    """Starts anywhere in the clearance."""
+    rotor = asked.rotor
+    with asked.question(ELSEWHERE):
+        ends = follow(rotor, Sample(AnyState(asked.required.kick), ELSEWHERE_TRIED, SEED).starts(rotor))
     followed = int(np.count_nonzero(ends.outcomes != NOT_FOLLOWED))
-    return found, Share.of(int(np.count_nonzero(ends.recovered)), followed, drawn=True)
+    return Share.of(int(np.count_nonzero(ends.recovered)), followed, drawn=True)
 
 
-def _recoveries(
-    rotor: Model, gains: tuple[Gain, ...], tried: tuple[Sample, ...], budget: Budget, tell: Reporter
-) -> tuple[Recovery, ...]:
-    """Along each gain the values at which what must be survived comes back, within the factor that is advised at most."""
-    found = []
-    for place, gain in enumerate(gains):
-        words = ALONG.format("damping" if gain == "gamma" else "stiffness")
-        with budget.question(words, EVENTS[words]):
-            part = tell.part(place / len(gains), (place + 1) / len(gains))
-            found.append(find_recovery(rotor, gain, tried, factor=GAIN_FACTOR, progress=part))
+def _parameters(asked: Asked) -> tuple[str, ...]:
+    """Parameters along which recovery is searched; by default those of the levitation, without what is zero or differs between bearings."""
+    rotor = asked.rotor
+    if asked.along is not None:
+        return tuple(axis(rotor, name).name for name in asked.along)
+    gains: tuple[Gain, ...] = get_args(Gain)
+    if _is_known(asked):
+        # With negative damping nothing comes back at any stiffness.
+        return gains if rotor.value("gamma") >= 0 else gains[:1]
+    levitation = gains if gains[0] in rotor.varied else OF_CONTROLLERS
+    return tuple(name for name in levitation if name in rotor.varied and _has(rotor, name))
+
+
+def _has(rotor: Model, name: str) -> bool:
+    try:
+        return rotor.value(name) > 0.0
+    except InputError:  # bearings differ
+        return False
+
+
+def _recoveries(asked: Asked, tell: Reporter) -> tuple[Recovery, ...]:
+    """Along each parameter the values at which what must be survived comes back, within the factor that is advised at most."""
+    names, found = _parameters(asked), []
+    say = Wording(asked.rotor.scales)
+    for place, name in enumerate(names):
+        with asked.budget.question(ALONG.format(say.name(name)), events_for(asked.rotor, ALONG)):
+            part = tell.part(place / len(names), (place + 1) / len(names))
+            found.append(find_recovery(asked.rotor, name, asked.tried, factor=GAIN_FACTOR, progress=part))
     return tuple(found)
+
+
+def _boundaries(asked: Asked, tell: Reporter) -> tuple[BoundaryEquilibrium, ...]:
+    gains = [gain for gain in get_args(Gain) if gain in _parameters(asked)]
+    return tuple(each for gain in gains for each in boundary_equilibria(asked.rotor, gain))
+
+
+def _recommendation(asked: Asked, tell: Reporter) -> Recommendation:
+    with asked.question(CHANGE):
+        return recommend(asked.case, asked.tried, asked.found["recoveries"], needed=asked.needed)
+
+
+def _at_full_size(asked: Asked, tell: Reporter) -> tuple[FullSize, ...]:
+    with asked.question(FULL_SIZE):
+        return at_full_size(asked.rotor, asked.required)
+
+
+def _drop(asked: Asked, tell: Reporter) -> DropStudy | None:
+    with asked.question(DROP):
+        return drop_of(asked.case)
+
+
+def _loads(asked: Asked, tell: Reporter) -> WorstLoads:
+    with asked.question(LOADS):
+        return worst_loads(asked.found["attractors"], asked.case.limits, asked.required)
+
+
+def _other_walls(asked: Asked, tell: Reporter) -> tuple[OtherWall, ...]:
+    with asked.question(WALLS):
+        return on_other_walls(asked.rotor, required_disturbances(asked.required, ON_WALLS))
+
+
+OF_PROOFS = ("proof", "kicks", "states")
+CONTRIBUTORS = (
+    Contributor("proof", "proofs", 0.1, _prove),
+    Contributor("states", "proof of states", 0.1, _prove_states, lambda asked: _is_known(asked) and _returns(asked)),
+    Contributor("kicks", "proof of kicks", 0.3, _prove_kicks, lambda asked: _is_known(asked) and _returns(asked)),
+    Contributor("levitating", "whirls", 0.02, lambda asked, _: levitating(asked.case, asked.rotor)),
+    Contributor("equilibria", "equilibria", 0.02, lambda asked, _: steady_motions(asked.rotor)),
+    Contributor("orbits", "periodic orbits (the kernels are compiled on first use)", 0.06, _orbits),
+    Contributor("attractors", "disturbances", 0.1, _attractors),
+    Contributor("present", "what must be survived", 0.05, _present, _returns),
+    Contributor("elsewhere", "starts elsewhere", 0.01, _elsewhere, _returns),
+    Contributor(
+        "survives",
+        "the smallest disturbances that are lost",
+        0.2,
+        lambda asked, tell: survives(asked.rotor, asked.required, asked.budget, tell),
+        _returns,
+    ),
+    Contributor("full_size", "loads of the touchdown bearings", 0.05, _at_full_size, _returns),
+    Contributor("recoveries", "recovery along parameters", 0.4, _recoveries),
+    Contributor("boundaries", "loss of levitation", 0.05, _boundaries, _is_known),
+    Contributor("recommendation", "the least change", 0.05, _recommendation),
+    Contributor("drop", "the drop", 0.02, _drop, _returns),
+    Contributor(
+        "loads",
+        "loads against limits",
+        0.03,
+        _loads,
+        lambda asked: bool(asked.case.limits.given and asked.rotor.scales),
+    ),
+    Contributor("other_walls", "other touchdown bearings", 0.03, _other_walls, _returns),
+)
+"""The parts of a study, in the order in which they are asked; later ones use what earlier ones have found."""

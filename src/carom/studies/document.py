@@ -110,6 +110,10 @@ def study_document(study: StudyData, verdict: Verdict, facts: Sequence[Fact]) ->
         "carom": version("carom"),
         **_orbits_of(rotor, study.equilibria, study.orbits, case.machine),
         "scales_si": scales_document(rotor.scales) if rotor.scales else None,
+        "levitating": study.levitating.document(),
+        "reduction": None
+        if study.reduced is None
+        else {**fields_of(study.reduced, "vectors", "modes", "error"), "error_is": "an estimate, no bound"},
         "zone": study.zone,
         "zone_limits": list(case.zones.limits),
         "verdict": fields_of(verdict, "level", "outcome", "reason", "headline"),
@@ -135,6 +139,8 @@ def study_document(study: StudyData, verdict: Verdict, facts: Sequence[Fact]) ->
         "disturbances": _disturbances(study.attractors, rotor),
         "bearing_demand": study.bearing_demand.document() if study.bearing_demand else None,
         "loads": study.loads.document() if study.loads else None,
+        "full_size": [each.document() for each in study.full_size],
+        "drop": study.drop.document() if study.drop else None,
         "proof": study.proof.document() if study.proof else None,
         "kick_proof": study.kicks.proof.document() if study.kicks else None,
         "state_proof": study.states.document() if study.states else None,

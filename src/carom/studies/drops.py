@@ -2,20 +2,26 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from carom.attractors import MotionName
-from carom.disturbances.echo import Echo
-from carom.models import model_of
-from carom.motions import DropLoads
-from carom.motions.reduction_errors import ReductionError
-from carom.outcome import Outcome
-from carom.parameters import Case
+from carom.disturbances.echo import Echo, echo_of_drop
+from carom.models import Model, model_of
+from carom.motions import DropLoads, Trajectory, drop, drop_loads, simulate
+from carom.motions.drops import Drop
+from carom.motions.reduction_errors import ReductionError, reduction_error
+from carom.motions.starts import State, amplitudes_of
+from carom.outcome import InputError, Outcome
+from carom.parameters import GRAVITY, Case
 from carom.results import Result, fields_of, in_si
 from carom.studies.load_checks import LoadCheck, checks_of_planes
 from carom.studies.load_tables import load_entries, load_tables
 from carom.studies.wording import Wording
+
+FALLING = "0.2 s"
+"""Time for which the drop of a study is followed, if it does not settle before."""
+MOST_EVENTS = 20_000
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -32,12 +38,18 @@ class DropStudy(Result):
         What the touchdown bearing bears.
     reduction : ReductionError or None
         Error of the reduction of a flexible machine along it.
+    motion : Trajectory or None
+        ``None`` where its loads alone were followed.
+    assumed : bool
+        Whether the weight is that of free fall downward because none is stated.
     """
 
     case: Case
     echo: Echo
     loads: DropLoads
     reduction: ReductionError | None = None
+    motion: Trajectory | None = None
+    assumed: bool = False
 
     @property
     def checks(self) -> tuple[LoadCheck, ...]:
@@ -86,3 +98,44 @@ class DropStudy(Result):
         if loads.magnets is not None:
             document["magnets"] = loads.magnets.document()
         return document | {"touchdown_bearings": load_entries(loads, case.limits)}
+
+
+def drop_of(case: Case) -> DropStudy | None:
+    """Levitation lost, followed for a while; ``None`` of a machine that cannot fall: without scales, or of which it is not known what is left without levitation."""
+    if case.parameters.scales is None:
+        return None
+    falling = case if case.gravity is not None else case.replace(gravity=GRAVITY)
+    try:
+        rotor, state, echo = release(falling, drop())
+    except InputError:
+        return None
+    motion = simulate(rotor, state, FALLING, max_events=MOST_EVENTS)
+    loads, reduced = drop_loads(motion), model_of(case).finite_elements
+    error = None
+    if reduced is not None:
+        error = reduction_error(
+            reduced, loads, lambda finer: release(replace(falling, parameters=finer.limited), drop())[:2]
+        )
+    return DropStudy(falling, echo, loads, error, motion, case.gravity is None)
+
+
+def release(case: Case, released: Drop) -> tuple[Model, State, Echo]:
+    """The rotor that falls, its start, and what was taken of a release whose sizes are numbers.
+
+    Raises
+    ------
+    InputError
+        As of :meth:`carom.motions.Drop.stages`.
+    """
+    rotor, state = released.stages(case)
+    scales, back, turning = case.parameters.scales, released.regained_after, released.race_speed
+    if case.gravity is None or scales is None:  # which stages() has refused
+        raise InputError("gravity", None, "a table [gravity] in the machine file")
+    angle = released.unbalance_angle(model_of(case))
+    regained, race = (None if each is None else float(each) for each in (back, turning))
+    amplitudes, _ = amplitudes_of(rotor, state)
+    planes = []
+    for plane, width in enumerate(rotor.system.widths.tolist()):
+        place, rate = rotor.system.at_plane(amplitudes, plane)
+        planes.append((width * complex(place), width * complex(rate)))
+    return rotor, state, echo_of_drop(state, angle, regained, case.gravity, scales, race, planes)

@@ -42,7 +42,8 @@ def _levitation(study: StudyData) -> str:
     if levitation.status == "boundary":
         return "The contact-free whirl from unbalance just touches the wall: the least disturbance brings contact."
     if isinstance(levitation, Levitation):
-        sag, whirl = (say.length(float(each.max())) for each in (levitation.sags, levitation.radii))
+        widths = study.rotor.system.widths
+        sag, whirl = (say.length(float((widths * each).max())) for each in (levitation.sags, levitation.radii))
         text = (
             f"The rotor hangs {sag} from the centre under its weight and whirls about that place with {whirl}: it comes as far as r = "
             f"{say.radius(levitation.reach)}, zone {study.zone} (zone limits {limits} of the clearance). "
@@ -151,6 +152,8 @@ def _bouncing(study: StudyData) -> str:
         )
     if study.rotor.system.limits:
         return orbits.argument
+    if orbits.search is None and not orbits.longest_period:
+        return f"Orbits with one impact a period were not searched for. {' '.join(sentences)}".rstrip()
     if not len(orbits):
         none = "No orbit with one impact a period was found."
         sentences.append(none if orbits.search else "There is no orbit with one impact a period.")

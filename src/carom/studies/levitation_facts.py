@@ -1,4 +1,4 @@
-"""How a flexible machine levitates, in words: speeds in rpm, frequencies in Hz, lengths in µm, in the fixed frame."""
+"""How a machine levitates, in words: speeds in rpm, frequencies in Hz, lengths in µm, in the fixed frame."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from carom.closed_forms import SynchronousResponse
 from carom.parameters.told import number
 from carom.rotors import Campbell, Whirl
 from carom.studies.facts import Fact
-from carom.studies.flexible_levitation import FlexibleLevitation
+from carom.studies.levitating import Levitating, LoopPeak
 from carom.studies.response_words import critical_words, micrometres, rpm
 from carom.studies.wording import listed
 
@@ -19,14 +19,38 @@ SENSITIVITY_LIMITS = "ISO 14839-3: zone A up to 3 (9.5 dB), B up to 4 (12 dB), C
 _HERTZ = 2.0 * math.pi
 
 
-def whirl_words(speed: float, whirls: Sequence[Whirl]) -> str:
-    """The least damped of the whirls at a speed, rad/s."""
+def levitation_facts(found: Levitating) -> Iterator[Fact]:
+    """Whirls at the speed of the machine, and of a flexible machine at others, and its response to unbalance."""
+    worst = found.least_damped
+    if worst is None:
+        yield Fact("Levitation", "All that is free fades before it goes round once.", "Whirls")
+    else:
+        text = whirl_words(found.speed, found.whirls, dimensionless=found.dimensionless)
+        yield Fact("Levitation", text, "Whirls", "closed form", {"damping_ratio": worst.damping_ratio})
+    if found.campbell is not None:
+        yield Fact("Levitation", other_speeds_words(found.campbell), "Other speeds")
+    if found.at_speed is not None:
+        yield Fact("Levitation", response_words(found.at_speed), "Unbalance response")
+
+
+def whirl_words(speed: float, whirls: Sequence[Whirl], *, dimensionless: bool = False) -> str:
+    """The least damped of the whirls at a speed, rad/s; without dimensions in units of the speed."""
     worst = min(whirls, key=lambda each: each.damping_ratio)
     kind = f"the {len(whirls)} slowest whirls" if worst.damping_ratio >= 0.0 else "all whirls"
+    often = _often(worst, dimensionless)
     return (
-        f"At {rpm(speed)} the least damped of {kind} is one of {number(worst.frequency, 3)} Hz, {worst.sense}, with a "
+        f"At {'its speed Ω' if dimensionless else rpm(speed)} the least damped of {kind} is one of {often}, {worst.sense}, with a "
         f"damping ratio of {number(worst.damping_ratio, 2)}."
     )
+
+
+def frequency_words(found: Levitating, whirl: Whirl) -> str:
+    """How often it goes round: in Hz, or in units of the speed of the shaft."""
+    return _often(whirl, found.dimensionless)
+
+
+def _often(whirl: Whirl, dimensionless: bool) -> str:
+    return f"{number(abs(whirl.exponent.imag), 3)} Ω" if dimensionless else f"{number(whirl.frequency, 3)} Hz"
 
 
 def other_speeds_words(found: Campbell) -> str:
@@ -63,8 +87,10 @@ def zone_words(share: float, zone: str) -> str:
     return f"With the static sag that is {say}: zone {zone} of ISO 14839-2."
 
 
-def critical_speed_facts(found: FlexibleLevitation) -> Iterator[Fact]:
-    """Peaks of the response, with their separation from the speed of the machine."""
+def critical_speed_facts(found: Levitating) -> Iterator[Fact]:
+    """Peaks of the response of a flexible machine, with their separation from the speed of the machine."""
+    if found.machine is None:
+        return
     if found.response is None:
         yield Fact("Critical speeds", "Without an unbalance there is no response whose peaks could be told.")
         return
@@ -72,27 +98,24 @@ def critical_speed_facts(found: FlexibleLevitation) -> Iterator[Fact]:
     if not found.criticals:
         yield Fact("Critical speeds", f"The response has no peak between {rpm(speeds[0])} and {rpm(speeds[-1])}.")
     for each in found.criticals:
-        text = critical_words(each, (found.machine.speed, found.machine.speed))
+        text = critical_words(each, (found.speed, found.speed))
         yield Fact("Critical speeds", text, values={"speed_si": each.speed, "met": each.separation.met})
     rule = "Amplification factors and separations are those of API 617 (API RP 684, SP6.8.2.1 and SP6.8.2.10), by the half-power width at the sensors; its annex on magnetic bearings may state others."
     yield Fact("Critical speeds", f"{rule} Searched from {rpm(speeds[0])} to {rpm(speeds[-1])}.")
 
 
-def bearing_facts(found: FlexibleLevitation) -> Iterator[Fact]:
+def bearing_facts(found: Levitating) -> Iterator[Fact]:
     """Sensitivity of the loops, and whirls of which a node lies at a bearing."""
-    loops = found.sensitivity
-    if loops is not None:
-        if loops.zones is None:
-            text = "No sensitivity is told of a loop that is unstable: it measures how far a stable one is from that."
-            yield Fact("Magnetic bearings", text, "Sensitivity")
-        else:
-            rows = zip(loops.peaks.tolist(), loops.peak_frequencies.tolist(), loops.zones, strict=True)
-            told = [
-                f"{number(peak, 3)} ({number(20.0 * math.log10(peak), 3)} dB) at {number(at / _HERTZ, 3)} Hz, zone {zone}, of bearing {place}"
-                for place, (peak, at, zone) in enumerate(rows, start=1)
-            ]
-            text = f"Largest sensitivity: {listed(told)} ({SENSITIVITY_LIMITS})."
-            yield Fact("Magnetic bearings", text, "Sensitivity")
+    if any(each.zone is None for each in found.loops):
+        text = "No sensitivity is told of a loop that is unstable: it measures how far a stable one is from that."
+        yield Fact("Magnetic bearings", text, "Sensitivity")
+    elif found.loops:
+        several = found.machine is not None
+        told = [
+            f"{_peak(each)}, zone {each.zone}{f', of bearing {each.bearing}' if several else ''}"
+            for each in found.loops
+        ]
+        yield Fact("Magnetic bearings", f"Largest sensitivity: {listed(told)} ({SENSITIVITY_LIMITS}).", "Sensitivity")
     for each in found.collocations:
         name = f"the {each.whirl.sense} whirl of {number(each.whirl.frequency, 3)} Hz (damping ratio {number(each.whirl.damping_ratio, 2)})"
         if each.opposed:
@@ -109,3 +132,9 @@ def bearing_facts(found: FlexibleLevitation) -> Iterator[Fact]:
             f"In none of the {len(found.whirls)} slowest whirls a node lies between sensors and magnet.",
             "Non-collocation",
         )
+
+
+def _peak(loop: LoopPeak) -> str:
+    decibels = number(20.0 * math.log10(loop.peak), 3)
+    at = f" at {number(loop.frequency / _HERTZ, 3)} Hz" if loop.frequency < math.inf else ", at high frequencies"
+    return f"{number(loop.peak, 3)} ({decibels} dB){at}"

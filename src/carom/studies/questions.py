@@ -1,6 +1,6 @@
 """The questions of a study, how many events each may take, and what is told where these did not suffice.
 
-An event, an impact or a step of lasting contact, takes some 10 microseconds, of a rotor of 32 modes 30; a motion without contact counts as
+An event, an impact or a step of lasting contact, takes some 10 microseconds, of a rotor of 64 modes 70; a motion without contact counts as
 60.  Motions of planar rotors on a rigid wall do not count (:mod:`carom.motions.budget`).
 """
 
@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import Any
 
+from carom.models import Model
 from carom.motions.budget import Question
 from carom.studies.facts import Fact
 from carom.studies.wording import listed
@@ -17,6 +18,7 @@ DESCRIBED, PRESENT, ELSEWHERE = "where disturbances end", "the share of {} that 
 SMALLEST = "the smallest {} that is lost"
 ALONG = "recovery along {}"
 CHANGE, LOADS, WALLS = "the least change", "loads of the touchdown bearing", "other touchdown bearings"
+FULL_SIZE, DROP = "what must be survived, at its full size all around", "the drop"
 EVENTS = {
     DESCRIBED: 100_000,
     PRESENT: 300_000,
@@ -24,18 +26,23 @@ EVENTS = {
     SMALLEST.format("kick"): 350_000,
     SMALLEST.format("shock"): 300_000,
     SMALLEST.format("loss of a blade"): 200_000,
-    ALONG.format("damping"): 200_000,
-    ALONG.format("stiffness"): 200_000,
+    ALONG: 200_000,
     CHANGE: 100_000,
     LOADS: 100_000,
     WALLS: 100_000,
+    FULL_SIZE: 100_000,
+    DROP: 20_000,
 }
-"""Events of each question, two million in all; the kinds of disturbances that must be survived share the second equally."""
-DRAWN, ALL_ROUND, LARGER = "{} up to the full size", "{} of the full size all around", "larger kicks"
-EVENTS_OF_FLEXIBLE = {DESCRIBED: 200_000, DRAWN: 400_000, ALL_ROUND: 300_000, LARGER: 100_000}
-"""The same of a flexible machine, a million in all; the kinds of disturbances that must be survived share the second and the third equally."""
+"""Events of each question, two million in all; the kinds of disturbances that must be survived share the second and the last but one equally."""
+FEW_MODES = 4
+"""Modes up to which an event costs about the same; of more it costs in proportion, and so many fewer are followed."""
 FEWEST = 60
 """Disturbances of a kind of which none is lost for a verdict that they came back: otherwise one in twenty might be lost unseen."""
+
+
+def events_for(rotor: Model, question: str) -> int:
+    """Events of a question for a rotor."""
+    return round(EVENTS[question] * min(1.0, FEW_MODES / rotor.system.modes))
 
 
 def unfinished_facts(questions: Sequence[Question]) -> Iterator[Fact]:

@@ -21,7 +21,7 @@ from carom.parameters.fields import RPM
 from carom.results import in_a_line
 from carom.rotors import find_whirls
 from carom.studies.critical_speeds import criticals_of, exact_criticals
-from carom.studies.flexible_levitation import WHIRLS, speeds_of_response
+from carom.studies.levitating import WHIRLS, speeds_of_response
 from carom.studies.response_data import ResponseData, Rubs, Steady, Stretch, stretches_between
 
 SPEEDS = 801

@@ -15,15 +15,20 @@ from carom.models import Model
 from carom.motions.budget import Question
 from carom.orbits.orbit import Orbit
 from carom.orbits.single_impact import OrbitSet
-from carom.parameters import Case, Required
+from carom.parameters import DIMENSIONLESS_FIELDS, Case, Required
 from carom.results import Result
+from carom.rotors import ReducedMachine
 from carom.studies.actuator import BearingDemand, bearing_demand
 from carom.studies.advice import Recommendation
+from carom.studies.drops import DropStudy
+from carom.studies.full_size import FullSize
+from carom.studies.kinds import Kind
+from carom.studies.levitating import Levitating
 from carom.studies.load_checks import WorstLoads
 from carom.studies.ranges import MotionRange, Threshold
 from carom.studies.recovery import Recovery
 from carom.studies.rigid_limit import OtherWall
-from carom.studies.survives import Kind, Survives, lost_kinds
+from carom.studies.survives import Survives, lost_kinds
 from carom.studies.trials import Check
 from carom.studies.wording import Wording
 
@@ -37,6 +42,8 @@ class StudyData(Result):
 
     Attributes
     ----------
+    levitating : Levitating
+        Whirls and stability margins; of a flexible machine from all its modes.
     equilibria : tuple of Equilibrium or Levitation
         The contact-free one, then the synchronous rubs; under weight levitation about the static sag alone.
     orbits : OrbitSet
@@ -51,8 +58,12 @@ class StudyData(Result):
         Fresh disturbances of what must be survived, at the machine's own gains; ``None`` where there is no stable levitation.
     elsewhere : Share or None
         Of starts anywhere in the clearance, as fast as the kicks that must be survived, how many came back.  Nothing requires them to.
+    full_size : tuple of FullSize
+        What must be survived at its full size in all directions, and what the touchdown bearings bear in it; empty without stable levitation.
+    drop : DropStudy or None
+        Levitation lost, with the weight that is stated, or that of free fall; ``None`` where none is possible.
     recoveries : tuple of Recovery
-        Along damping and along stiffness: for which values each motion exists, and at which all that must be survived came back.
+        Along damping and along stiffness, or other parameters: for which values each motion exists, and at which all that must be survived came back.
     recommendation : Recommendation
         The least change that leaves only recovery, with its margin and how sure it is.
     other_walls : tuple of OtherWall
@@ -70,19 +81,22 @@ class StudyData(Result):
         The same of all states in the clearance that are no faster than these kicks.
     """
 
-    rests_on: ClassVar[tuple[str, ...]] = ("mora2014", "iso14839")
+    rests_on: ClassVar[tuple[str, ...]] = ("mora2014", "iso14839", "api617")
 
     case: Case
     rotor: Model
+    levitating: Levitating
     equilibria: tuple[SteadyMotion, ...]
     orbits: OrbitSet
-    boundaries: tuple[BoundaryEquilibrium, ...]
     attractors: AttractorSet
-    survives: Survives | None
-    present: Check | None
-    elsewhere: Share | None
-    recoveries: tuple[Recovery, ...]
     recommendation: Recommendation
+    recoveries: tuple[Recovery, ...] = ()
+    boundaries: tuple[BoundaryEquilibrium, ...] = ()
+    survives: Survives | None = None
+    present: Check | None = None
+    elsewhere: Share | None = None
+    full_size: tuple[FullSize, ...] = ()
+    drop: DropStudy | None = None
     other_walls: tuple[OtherWall, ...] = ()
     unfinished: tuple[Question, ...] = ()
     loads: WorstLoads | None = None
@@ -94,6 +108,11 @@ class StudyData(Result):
     def known(self) -> ExactResults:
         """Exact results of the model."""
         return exact_results(self.rotor)
+
+    @cached_property
+    def reduced(self) -> ReducedMachine | None:
+        """The flexible machine with its vectors; ``None`` of other machines."""
+        return self.rotor.finite_elements
 
     @property
     def rubs(self) -> tuple[Equilibrium, ...]:
@@ -139,7 +158,7 @@ class StudyData(Result):
     @property
     def lost_kinds(self) -> list[tuple[Kind, Share | None]]:
         """The kinds that must be survived and of which some were lost, with the share of them that came back."""
-        return lost_kinds(self.required, self.survives, self.present, self.attractors)
+        return lost_kinds(self.required, self.survives, self.present, self.attractors, self.full_size)
 
     @property
     def thresholds(self) -> tuple[Threshold, ...]:
@@ -149,7 +168,16 @@ class StudyData(Result):
     @property
     def wording(self) -> Wording:
         """Formatter of the results of this study as text."""
-        return Wording(self.rotor.scales, in_terms="damping" in self.rotor.varied)
+        varied = self.rotor.varied
+        own = {name: field for name, field in varied.items() if name not in DIMENSIONLESS_FIELDS}
+        return Wording(self.rotor.scales, in_terms="damping" in varied, fields={} if "damping" in varied else own)
+
+    @property
+    def exceeds_limits(self) -> list[str]:
+        """Where a limit of a touchdown bearing is exceeded, in words."""
+        found = ["on the way"] if self.loads is not None and self.loads.exceeded else []
+        fallen = self.drop is not None and any(each.exceeded for each in self.drop.checks)
+        return [*found, "in a drop"] if fallen else found
 
     @cached_property
     def bearing_demand(self) -> BearingDemand | None:

@@ -22,10 +22,11 @@ from carom.parameters.named import own_numbers
 from carom.parameters.terms import set_by
 from carom.parameters.told import told_entry
 from carom.studies.advice_facts import check_words
+from carom.studies.kinds import LABELS
 from carom.studies.proven import is_proven
 from carom.studies.ranges import Motion, MotionRange, event_words
 from carom.studies.study_data import StudyData
-from carom.studies.verdict_facts import KINDS, lost_to
+from carom.studies.verdict_facts import lost_to
 from carom.studies.wording import Wording, no_rigid_wall
 
 
@@ -108,7 +109,7 @@ def survived_rows(study: StudyData) -> list[SurvivedRow]:
         up_to = found.largest if found.size is None and found.complete else found.all_back
         rows.append(
             SurvivedRow(
-                f"{KINDS[name]}{of.get(name, '')}",
+                f"{LABELS[name]}{of.get(name, '')}",
                 size(found.harmless) if found.harmless > 0.0 else "none",
                 "none" if up_to is None else size(up_to),
                 "none found" if found.size is None else f"{size(found.size)}, {lost_to(study, name, found)}",

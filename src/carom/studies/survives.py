@@ -8,8 +8,8 @@ what the machine must survive; whether that is met follows from them.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Literal
 
 import numpy as np
 
@@ -25,11 +25,11 @@ from carom.motions.budget import Budget
 from carom.parameters import DIMENSIONLESS_FIELDS, SHOCK_DURATION, Required, Scales
 from carom.progress import Reporter
 from carom.results import Result
-from carom.studies.questions import EVENTS, FEWEST, SMALLEST
+from carom.studies.full_size import FullSize
+from carom.studies.kinds import Kind, required_kinds
+from carom.studies.questions import FEWEST, SMALLEST, events_for
 from carom.studies.trials import Check
 
-Kind = Literal["kick", "shock", "blade_loss"]
-"""Kinds of disturbances that a machine may have to survive."""
 COARSE = 48
 """Directions, and sizes, that are scanned of rotors whose motions are followed one after another."""
 REACH = 4.0
@@ -79,19 +79,19 @@ def survives(rotor: Model, required: Required, budget: Budget, tell: Reporter) -
         return None
     words = SMALLEST.format("kick")
     tell(0.0, words)
-    with budget.question(words, EVENTS[words]):
+    with budget.question(words, events_for(rotor, words)):
         kick = _reaching(rotor, VelocityKick(required.kick))
     shock, duration = None, _duration(rotor, required)
     if duration:
         words = SMALLEST.format("shock")
         tell(0.4, words)
         peak = required.shock.peak if required.shock else math.pi * required.kick / (2.0 * duration)
-        with budget.question(words, EVENTS[words]):
+        with budget.question(words, events_for(rotor, words)):
             shock = _reaching(rotor, BaseShock(peak, duration))
     words, blade_loss, largest = SMALLEST.format("loss of a blade"), None, largest_change(rotor)
     tell(0.9, words)
     if largest > 0.0:
-        with budget.question(words, EVENTS[words]):
+        with budget.question(words, events_for(rotor, words)):
             blade_loss = smallest_loss(rotor, BladeLoss(largest))
     return Survives(kick, shock, duration, blade_loss)
 
@@ -145,25 +145,22 @@ def loses(found: SmallestLoss, size: float) -> bool:
     return (found.size is not None and found.size <= size) or (found.complete and size > found.largest)
 
 
-def required_kinds(required: Required) -> tuple[tuple[Kind, float], ...]:
-    """The kinds that must be survived, with their size, in the order of :func:`required_disturbances`."""
-    kinds: list[tuple[Kind, float]] = [("kick", required.kick)]
-    kinds += [("shock", required.shock.peak)] if required.shock else []
-    kinds += [("blade_loss", required.blade_loss)] if required.blade_loss else []
-    return tuple(kinds)
-
-
 def decides(present: Check | None) -> bool:
     """Whether enough of what must be survived was followed to say that it came back, where none is lost."""
     return present is not None and min(each.total for each in present.returned) >= FEWEST
 
 
 def lost_kinds(
-    required: Required, survives: Survives | None, present: Check | None, attractors: AttractorSet
+    required: Required,
+    survives: Survives | None,
+    present: Check | None,
+    attractors: AttractorSet,
+    full_size: Sequence[FullSize] = (),
 ) -> list[tuple[Kind, Share | None]]:
     """The kinds that must be survived and of which some were lost, with the share of them that came back, if any were drawn.
 
-    Drawn ones count, those that the search for the smallest has found, and kicks among the disturbances whose ends are described.
+    Drawn ones count, those at their full size all around, those that the search for the smallest has found, and kicks among the disturbances whose
+    ends are described.
     """
     if survives is None or present is None:
         return []
@@ -173,6 +170,7 @@ def lost_kinds(
         drawn, largest, entry = present.returned[place], present.largest[place], getattr(survives, kind)
         seen = drawn.count < drawn.total or largest.count < largest.total
         seen |= kind == "kick" and described is not None and described <= size
+        seen |= any(each.lost for each in full_size if each.kind == kind)
         if seen or (entry is not None and loses(entry, size)):
             lost.append((kind, drawn if drawn.total else None))
     return lost

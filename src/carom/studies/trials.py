@@ -200,13 +200,14 @@ class Trial:
             for place, lost in list(self.last.items()):
                 yield place, np.hstack([lost, self._variants(place, lost)]), None
         random = np.random.default_rng([self.seed, 0, np.float64(value).view(np.uint64).item()])
-        drawn = []
+        drawn, largest = [], []
         for place, sample in enumerate(self.disturbances):
             along = sample.model.coordinates_on(self.rotor)
-            yield place, _coordinates(along, random, AT_LARGEST, largest=True), 1
+            largest.append((place, _coordinates(along, random, AT_LARGEST, largest=True), 1))
             drawn.append(_coordinates(along, random, sample.count))
-        for place, values in enumerate(drawn):
-            yield place, values[:, :FIRST_LOOK], 0
+        first = [(place, values[:, :FIRST_LOOK], 0) for place, values in enumerate(drawn)]
+        # What is largest is lost first; but a share takes some that are drawn, however many events those at the largest size would spend.
+        yield from [*largest, *first] if again or self.rotor.system.is_planar else [*first, *largest]
         for place, values in enumerate(drawn):
             if values.shape[1] > FIRST_LOOK:
                 yield place, values[:, FIRST_LOOK:], 0

@@ -13,14 +13,13 @@ from carom.results import fields_of, in_si
 from carom.studies.endings import ending_words
 from carom.studies.facts import Evidence, Fact
 from carom.studies.findings import stable_rub
+from carom.studies.kinds import LABELS, Kind, required_kinds
 from carom.studies.proven import proven_kicks_document, states_return
 from carom.studies.study_data import StudyData
-from carom.studies.survives import Kind, decides, required_kinds
+from carom.studies.survives import decides
 from carom.studies.wording import SIZES, listed
 
 Level = Literal["no-contact-free-motion", "may-not-come-back", "not-decided", "all-tried-came-back"]
-KINDS: dict[Kind, str] = {"kick": "Kick", "shock": "Shock", "blade_loss": "Blade loss"}
-"""Labels of the kinds of disturbances that a machine may have to survive."""
 NEARLY_ALL = 0.95
 """Share from which on of disturbances that are lost it is said that nearly all are."""
 _CHOSEN = {
@@ -108,7 +107,7 @@ def _survived(study: StudyData, name: Kind, found: SmallestLoss) -> Fact:
         parts.append(f"{which} {size(found.size)}{remarks and f' ({remarks})'}")
         if not found.complete:
             parts.append("smaller ones were not searched to the end")
-    label, of, timed = KINDS[name], "", depends_on_instant(study.rotor)
+    label, of, timed = LABELS[name], "", depends_on_instant(study.rotor)
     if name == "shock" and study.survives is not None:
         of = f"of {study.wording.time(study.survives.duration)}, "
     elif name == "blade_loss":
@@ -245,6 +244,10 @@ def _reservations(study: StudyData) -> str:
         parts.append(
             f"{study.bearing_demand.doubtful} disturbances ask for a faster current than its magnetic bearings have"
         )
+    zones = {loop.zone or "" for loop in study.levitating.loops} & set("CD")
+    parts += [f"sensitivity in zone {max(zones)} of ISO 14839-3"] if zones else []
+    parts += [] if study.levitating.met else ["a critical speed is nearer than API 617 allows"]
+    parts += [f"a limit of a touchdown bearing is exceeded {where}" for where in study.exceeds_limits]
     return "; ".join(parts)
 
 

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
 from typing import Any
 
 from carom.arguments import checked
 from carom.models import Span
-from carom.parameters import DIMENSIONLESS_FIELDS, UNITS, Case, Scales
+from carom.parameters import DIMENSIONLESS_FIELDS, UNITS, Case, Field, Scales
 from carom.parameters.indentation import gives_way
 from carom.parameters.named import own_numbers
 from carom.parameters.told import number, own_entry, told, told_entry
@@ -59,10 +59,13 @@ class Wording:
         Without them results keep the units of the equations: ``c_r``, ``1/Ω``, ``m c_r Ω²``.
     in_terms : bool
         Whether damping and stiffness of the machine stand for the dimensionless numbers, where scales are known.
+    fields : mapping of str to Field
+        Parameters of a rotor that are none of the planar one.
     """
 
     scales: Scales | None
     in_terms: bool = True
+    fields: Mapping[str, Field] = field(default_factory=dict)
 
     @property
     def of_machine(self) -> Scales | None:
@@ -133,17 +136,19 @@ class Wording:
 
     def value(self, name: str, value: float) -> str:
         """A value of a parameter; of a dimensionless one that of the entry of the machine, with its unit, if it is known."""
-        return told_entry(*own_entry(name, value, self.of_machine))
+        entry, own = own_entry(name, value, self.of_machine)
+        return told_entry(self.fields.get(entry, entry), own)
 
     def name(self, name: str) -> str:
         """Return what people call a parameter: ``damping`` for ``gamma``, or the symbol ``γ`` if the machine is not known."""
-        return entry_words(own_entry(name, 1.0, self.of_machine)[0])
+        entry = own_entry(name, 1.0, self.of_machine)[0]
+        return self.fields[entry].words if entry in self.fields else entry_words(entry)
 
     def in_si(self, name: str, **values: float) -> dict[str, Any]:
         """Values of a parameter in SI units, as plain data for JSON; nothing if the machine is not known."""
-        if self.of_machine is None:
+        if self.of_machine is None and not (self.scales and name in self.fields and self.fields[name].unit):
             return {}
-        own = {f"{key}_si": own_entry(name, value, self.scales)[1] for key, value in values.items()}
+        own = {f"{key}_si": own_entry(name, value, self.of_machine)[1] for key, value in values.items()}
         return {"quantity": self.name(name), **own}
 
     def where(self, name: str, spans: tuple[Span, ...], searched: Span | None = None) -> str:
@@ -170,6 +175,10 @@ class Wording:
 
 def present_values(case: Case) -> str:
     """Return the present values of a machine in a line: ``damping 1,400 N s/m, stiffness 980,000 N/m, speed 1,759 rpm``."""
+    if case.machine is None and "speed" in case.parameters.varied:
+        scales = case.parameters.scales
+        speed = told_entry("speed", case.parameters.value("speed"))
+        return f"mass {told_entry('mass', scales.mass)}, speed {speed}, clearance {told_entry('clearance', scales.clearance)}"
     if case.machine is None:
         own = own_numbers(case.parameters).items()
         shown = [(case.parameters.varied[name].symbol, value) for name, value in own if not name.startswith(_UNTOLD)]

@@ -13,8 +13,7 @@ from carom.parameters.told import number
 from carom.progress import Reporter, ShowProgress
 from carom.rotors import ReducedMachine, Whirl, find_whirls
 from carom.rotors.reduced_machine import UNHELD
-from carom.studies.flexible_facts import reduction_words
-from carom.studies.flexible_levitation import FASTEST, SLOWEST, WHIRLS, levitation_of_machine, speeds_of_response
+from carom.studies.levitating import FASTEST, SLOWEST, WHIRLS, levitating_of_machine, speeds_of_response
 from carom.studies.levitation_facts import (
     bearing_facts,
     critical_speed_facts,
@@ -23,6 +22,7 @@ from carom.studies.levitation_facts import (
     zone_words,
 )
 from carom.studies.response_words import micrometres
+from carom.studies.touchdown_facts import reduction_words
 
 ALONG = "Along a motion the error may be larger: carom simulate and carom drop follow it again with twice as many vectors, and tell what that changes."
 ALL = 1000
@@ -195,7 +195,7 @@ def _curves(response: SynchronousResponse) -> tuple[Curve, ...]:
 def told_more(reduced: ReducedMachine, progress: ShowProgress = None) -> dict[str, tuple[str, ...]]:
     """Sentences on critical speeds, on the loops of the bearings, and on the reduction, by their headings."""
     tell = Reporter.of(progress, "critical speeds and sensitivity")
-    found = levitation_of_machine(reduced.machine)
+    found = levitating_of_machine(reduced.machine)
     tell(0.9)
     facts = [*critical_speed_facts(found), *bearing_facts(found)]
     topics = dict.fromkeys(str(each.topic) for each in facts)

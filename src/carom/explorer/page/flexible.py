@@ -31,7 +31,7 @@ from carom.parameters import Case, Scales
 from carom.parameters.told import shown_in, told
 from carom.rotors import ReducedMachine
 from carom.rotors.documents import document_of
-from carom.studies.flexible_levitation import FASTEST
+from carom.studies.levitating import FASTEST
 
 NONE = "No kick is followed: with these values there is no levitation that it could disturb."
 FIRST = 0.5, math.radians(30.0)

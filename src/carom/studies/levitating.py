@@ -1,4 +1,10 @@
-"""How a flexible machine levitates: its whirls, its response to unbalance, and the sensitivity of its loops; from all its modes."""
+"""How a machine levitates: its whirls, its response to unbalance, and the sensitivity of its loops.
+
+Of a flexible machine all this is of all its modes, without the vectors that only contact needs.  Of other rotors the whirls are those of the
+exponents of the equations, and the sensitivity is known in closed form where magnetic bearings with a proportional and a derivative gain hold one
+mass.  With ``F = -(ki P - ks) x - ki D x'`` of all bearings together, ``k = ki P - ks`` and ``c = ki D``, it is ``|S|² = (m y + ks)²/((k - m y)² + c² y)`` with
+the square ``y`` of the frequency.  Its derivative vanishes at one ``y`` alone.
+"""
 
 from __future__ import annotations
 
@@ -10,7 +16,9 @@ from typing import Any
 import numpy as np
 
 from carom.closed_forms import SynchronousResponse, synchronous_response
-from carom.results import Result
+from carom.models import Model
+from carom.parameters import Case, Machine
+from carom.results import Result, fields_of
 from carom.rotors import (
     Campbell,
     FlexibleMachine,
@@ -21,6 +29,8 @@ from carom.rotors import (
     sensitivity,
 )
 from carom.rotors.collocation import Collocation, collocations
+from carom.rotors.loop_sensitivity import zone_of
+from carom.rotors.whirls import turns
 from carom.studies.critical_speeds import Critical, criticals_of
 
 SLOWEST, FASTEST = 0.05, 1.5
@@ -32,39 +42,59 @@ NARROW = 0.2
 WHIRLS = 10
 
 
+@dataclass(frozen=True)
+class LoopPeak:
+    """Largest sensitivity of the loop of a magnetic bearing, which counts from 1, at a frequency in rad/s, and its zone of ISO 14839-3; ``None`` of an unstable loop."""
+
+    bearing: int
+    peak: float
+    frequency: float
+    zone: str | None
+
+
 @dataclass(frozen=True, eq=False, repr=False)
-class FlexibleLevitation(Result):
-    """How a flexible machine levitates without contact.
+class Levitating(Result):
+    """How a machine levitates without contact.
 
     Attributes
     ----------
-    machine : FlexibleMachine
+    speed : float
+        rad/s.
+    dimensionless : bool
+        Whether no scales are known: then the speed is 1, and whirls are in units of it.
     whirls : tuple of Whirl
-        The slowest ones at the speed of the machine.
-    campbell : Campbell
+        The slowest ones at the speed of the machine; none where all that is free fades before it goes round.
+    loops : tuple of LoopPeak
+        One for each magnetic bearing whose loop is known; one for all equal bearings of one mass.
+    machine : FlexibleMachine or None
+        What follows is known of a flexible machine alone.
+    campbell : Campbell or None
     response : SynchronousResponse or None
-        ``None`` without an unbalance.
+        ``None`` without an unbalance too.
     at_speed : SynchronousResponse or None
         The same at the speed of the machine.
     criticals : tuple of Critical
     sensitivity : Sensitivity or None
-        ``None`` without a magnetic bearing.
+        ``None`` without a magnetic bearing too.
     collocations : tuple of Collocation
     """
 
-    machine: FlexibleMachine
+    speed: float
+    dimensionless: bool
     whirls: tuple[Whirl, ...]
-    campbell: Campbell
-    response: SynchronousResponse | None
-    at_speed: SynchronousResponse | None
-    criticals: tuple[Critical, ...]
-    sensitivity: Sensitivity | None
-    collocations: tuple[Collocation, ...]
+    loops: tuple[LoopPeak, ...]
+    machine: FlexibleMachine | None = None
+    campbell: Campbell | None = None
+    response: SynchronousResponse | None = None
+    at_speed: SynchronousResponse | None = None
+    criticals: tuple[Critical, ...] = ()
+    sensitivity: Sensitivity | None = None
+    collocations: tuple[Collocation, ...] = ()
 
     @property
-    def least_damped(self) -> Whirl:
+    def least_damped(self) -> Whirl | None:
         """The whirl with the smallest damping ratio of those listed."""
-        return min(self.whirls, key=lambda each: each.damping_ratio)
+        return min(self.whirls, key=lambda each: each.damping_ratio, default=None)
 
     @property
     def met(self) -> bool:
@@ -81,7 +111,9 @@ class FlexibleLevitation(Result):
             "levitates_over_speed": [
                 {"speed_rpm": speed * 30.0 / math.pi, "levitates": bool(holds)}
                 for speed, holds in zip(self.campbell.speeds.tolist(), self.campbell.levitates, strict=True)
-            ],
+            ]
+            if self.campbell
+            else [],
             "critical_speeds": [
                 {
                     "bearing": each.bearing,
@@ -116,25 +148,51 @@ class FlexibleLevitation(Result):
                 "currents_a": self.at_speed.currents.major[0].tolist(),
                 "zone": self.at_speed.zones[0],
             }
-        if self.sensitivity is not None:
-            count = len(self.sensitivity.peaks)
-            found["sensitivity"] = [
-                {"bearing": number, "peak": float(peak), "frequency_hz": float(at) / (2.0 * math.pi), "zone": zone}
-                for number, (peak, at, zone) in enumerate(
-                    zip(
-                        self.sensitivity.peaks,
-                        self.sensitivity.peak_frequencies,
-                        self.sensitivity.zones or [None] * count,
-                        strict=True,
-                    ),
-                    start=1,
-                )
-            ]
+        found["sensitivity"] = [
+            fields_of(each, "bearing", "peak", "zone") | {"frequency_hz": each.frequency / (2.0 * math.pi)}
+            for each in self.loops
+        ]
         return found
 
 
-def levitation_of_machine(machine: FlexibleMachine) -> FlexibleLevitation:
-    """Compute how a flexible machine levitates."""
+def levitating(case: Case, rotor: Model) -> Levitating:
+    """Compute how a machine levitates."""
+    reduced = rotor.finite_elements
+    if reduced is not None:
+        return levitating_of_machine(reduced.machine)
+    speed = rotor.scales.speed if rotor.scales else 1.0
+    exponents = speed * (np.asarray(rotor.system.exponents) + 1j)
+    still = np.ones(1, complex)
+    whirls = [
+        Whirl(complex(each), still, 0.0 * still)
+        for each in exponents[np.argsort(np.abs(exponents.imag))]
+        if turns(each)
+    ]
+    loop = None if case.machine is None else _loop_of_mass(case.machine)
+    return Levitating(speed, rotor.scales is None, tuple(whirls[:WHIRLS]), (loop,) if loop else ())
+
+
+def _loop_of_mass(machine: Machine) -> LoopPeak | None:
+    """Largest sensitivity of equal magnetic bearings that hold one mass; ``None`` where their negative stiffness is not stated."""
+    if machine.negative_stiffness is None:
+        return None
+    mass, damping, stiffness = machine.mass, machine.damping, machine.stiffness
+    pull = (machine.magnetic_bearings or 1) * machine.negative_stiffness
+
+    def size(square: float) -> float:
+        return (mass * square + pull) / math.hypot(stiffness - mass * square, damping * math.sqrt(square))
+
+    top = 2.0 * mass * stiffness * (stiffness + pull) - pull * damping**2
+    below = mass * (2.0 * mass * (stiffness + pull) - damping**2)
+    square = max(top, 0.0) / below if below > 0.0 else math.inf
+    peak = size(square) if square < math.inf else 1.0
+    if pull / stiffness > peak:
+        square, peak = 0.0, pull / stiffness
+    return LoopPeak(1, peak, math.sqrt(square), zone_of(peak))
+
+
+def levitating_of_machine(machine: FlexibleMachine) -> Levitating:
+    """Compute how a flexible machine levitates, from all its modes."""
     speed, whirls = machine.speed, find_whirls(machine, count=WHIRLS)
     response = at_speed = None
     if machine.unbalances:
@@ -142,16 +200,26 @@ def levitation_of_machine(machine: FlexibleMachine) -> FlexibleLevitation:
         speeds = speeds_of_response(machine, narrow, (SLOWEST * speed, FASTEST * speed))
         response = synchronous_response(machine, speeds.tolist())
         at_speed = synchronous_response(machine, [speed])
-    return FlexibleLevitation(
+    seen = sensitivity(machine) if machine.bearings else None
+    return Levitating(
+        speed,
+        False,
+        whirls,
+        () if seen is None else _loops(seen),
         machine=machine,
-        whirls=whirls,
         campbell=campbell(machine, np.linspace(SLOWEST * speed, FASTEST * speed, FOLLOWED).tolist(), WHIRLS),
         response=response,
         at_speed=at_speed,
         criticals=() if response is None else criticals_of(response, (speed, speed)),
-        sensitivity=sensitivity(machine) if machine.bearings else None,
+        sensitivity=seen,
         collocations=collocations(machine, whirls),
     )
+
+
+def _loops(found: Sensitivity) -> tuple[LoopPeak, ...]:
+    zones = found.zones or [None] * len(found.peaks)
+    rows = zip(found.peaks.tolist(), found.peak_frequencies.tolist(), zones, strict=True)
+    return tuple(LoopPeak(place, *row) for place, row in enumerate(rows, start=1))
 
 
 def speeds_of_response(machine: FlexibleMachine, whirls: Sequence[Whirl], interval: tuple[float, float]) -> np.ndarray:

@@ -17,7 +17,7 @@ from carom.studies.wording import listed
 _MILLIMETRES = 1e3
 
 
-def machine_rows(case: Case, machine: FlexibleMachine) -> list[tuple[str, str]]:
+def part_rows(case: Case, machine: FlexibleMachine) -> list[tuple[str, str]]:
     """The rotor and what stands around it, part by part, and what is stated beside it; places along the shaft are from its beginning."""
     return [*_parts(machine), *case.beside_rows()]
 

@@ -1,0 +1,113 @@
+"""What touchdown bearings bear in what must be survived and in a drop, and how accurate that is, as facts."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from carom.parameters.told import number
+from carom.rotors import ReducedMachine
+from carom.studies.facts import Fact
+from carom.studies.full_size import AtBearing
+from carom.studies.kinds import LABELS
+from carom.studies.load_tables import load_tables
+from carom.studies.study_data import StudyData
+from carom.studies.wording import Wording, counted, listed
+
+REDUCTION = (
+    "Whether it levitates and all linear results are of all modes. Motions with contact are of {vectors} vectors, {modes} of them modes of the free rotor: "
+    "when the free rotor comes to a touchdown bearing straight, tilting or bending, half as many vectors more change the force of the first contact by {error} %.{damped}"
+)
+DAMPED = " The vectors that are no modes have a damping ratio of {ratio}, without which one of them would grow, as no mode does."
+ASSUMED = "; no weight is stated, so that of 9.81 m/s² downward is taken"
+HEADLINE, WHIRL = ("peak force", "depth", "hardest impact", "lasting contact"), "whirl at the end"
+NO_DROP = "No drop is followed: without scales nothing is in m/s², and of matrices it is not known what is left without levitation."
+
+
+def load_facts(study: StudyData) -> Iterator[Fact]:
+    """What each kind that must be survived asks of the bearings at its full size, and the worst of all against limits."""
+    for each in study.full_size:
+        label = LABELS[each.kind]
+        size = study.wording.size_of(each.kind)(each.size)
+        lines = [f"{label} of {size}, the worst of {each.back.total} all around, of which {each.back.count} came back:"]
+        several = len(each.bearings) > 1
+        lines += [f"{_name(bearing) if several else ''}{_borne(bearing)}" for bearing in each.bearings]
+        if each.whirls:
+            lines.append(f"those that do not come back go round {listed(list(each.whirls))}")
+        yield Fact("Touchdown loads", f"{lines[0]} {'; '.join(lines[1:])}.", label, values=each.document())
+    if study.loads is not None:
+        for text in study.loads.words.split("\n"):
+            yield Fact("Touchdown loads", text)
+
+
+def drop_headline(study: StudyData) -> Iterator[Fact]:
+    """The drop with its loads, as it belongs to the verdict."""
+    drop = study.drop
+    if drop is None:
+        return
+    told = [
+        f"{title and f'{title.lower()} '}{', '.join(f'{label} {words}' for label, words in rows if label in HEADLINE) or 'no contact'}"
+        for title, rows in drop.tables
+    ]
+    limits = "" if study.case.limits.given else "; no limit of a touchdown bearing is stated to compare them with"
+    loads = drop.loads
+    text = f"{loads.outcome.words} after {study.wording.time(loads.time)}; {'; '.join(told)}{limits}"
+    yield Fact("Verdict", f"{text}{ASSUMED if drop.assumed else ''}", "Drop", "sampled")
+
+
+def drop_facts(study: StudyData) -> Iterator[Fact]:
+    """How the drop ends, what each bearing bears in it, and limits."""
+    drop = study.drop
+    if drop is None:
+        yield Fact("Drop", NO_DROP if study.levitates else "It does not levitate, so there is no drop.")
+        return
+    yield Fact("Drop", f"{drop.echo.words}{ASSUMED if drop.assumed else ''}. {drop.headline}")
+    for title, rows in load_tables(drop.loads, "the release"):
+        told = dict(rows)
+        chosen = [told["contacts"], *(f"{label} {told[label]}" for label in (*HEADLINE, WHIRL) if label in told)]
+        yield Fact("Drop", f"{title and f'{title}: '}{'; '.join(chosen)}.")
+    for check in drop.checks:
+        yield Fact("Drop", f"{check.words}.")
+
+
+def accuracy_facts(study: StudyData) -> Iterator[Fact]:
+    """What the reduction of a flexible machine leaves out, and how far the linear law of magnets holds."""
+    reduced = study.reduced
+    if reduced is not None:
+        values = {"error": reduced.error, "vectors": reduced.vectors, "modes": reduced.modes}
+        yield Fact("Accuracy", reduction_words(reduced), values=values)
+    along = [(LABELS[each.kind], found) for each in study.full_size for found in (each.magnets, each.reduction)]
+    if study.drop is not None:
+        along.append(("Drop", study.drop.reduction))
+    for kind, found in along:
+        if found is not None and found.words:
+            yield Fact("Accuracy", f"{kind}, the worst: {found.words}", values=found.document())
+
+
+def reduction_words(reduced: ReducedMachine) -> str:
+    """What the reduction of a machine leaves out."""
+    ratio = reduced.damped.damping_ratio
+    return REDUCTION.format(
+        vectors=reduced.vectors,
+        modes=reduced.modes,
+        error=number(100.0 * reduced.error, 2),
+        damped=DAMPED.format(ratio=number(ratio)) if ratio else "",
+    )
+
+
+def _name(each: AtBearing) -> str:
+    return f"touchdown bearing {each.touchdown_bearing}: "
+
+
+def _borne(each: AtBearing) -> str:
+    say = Wording(each.scales)
+    reach = f"orbit up to {say.length(each.radius)} from the centre"
+    if not each.contacts:
+        return f"{reach}, no contact"
+    if each.gives_way:
+        return f"{reach}, {counted(each.contacts, 'contact')}, {say.force(each.force)}, {say.time(each.contact_time)} in contact"
+    text = f"{counted(each.contacts, 'impact')}, impulse {say.impulse(each.impulse)}"
+    return (
+        f"{text}, {say.force(each.force)} in {say.time(each.contact_time)} of lasting contact"
+        if each.contact_time
+        else text
+    )
