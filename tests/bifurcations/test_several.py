@@ -58,7 +58,7 @@ def test_the_family_of_three_impacts_that_is_stable_beside_that_of_one():
         PAPER.replace(gamma=0.09), find_orbits(PAPER.replace(gamma=0.09), impacts=3)["P3,4"].departure, settle=True
     )
     assert motion.multiplicity == 3
-    document = diagram_document(PAPER, found)
+    document = diagram_document(found)
     assert document["search"]["on_others"] == 0
     low, high = document["search"]["share_on_listed"][1:]
     assert low < found.search.share_on_listed < high
@@ -82,7 +82,7 @@ def test_every_orbit_found_lies_on_one_branch_and_names_are_unique():
 
 
 def test_points_have_a_word_and_the_number_of_impacts():
-    document = diagram_document(PAPER, diagram())
+    document = diagram_document(diagram())
     assert as_json(document)
     for point in document["points"]:
         if point["branch"].startswith("P"):
@@ -103,7 +103,7 @@ def test_points_have_a_word_and_the_number_of_impacts():
 def test_without_impacts_there_are_none():
     plain = find_bifurcations(PAPER, "gamma", (0.0824, 0.0836))
     assert plain.several == ()
-    assert plain.search is diagram_document(PAPER, plain)["search"] is None
+    assert plain.search is diagram_document(plain)["search"] is None
     assert [point.value for point in plain.points] == [
         point.value for point in diagram().points if not point.name.startswith("P")
     ]

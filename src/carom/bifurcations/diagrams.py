@@ -14,6 +14,7 @@ from carom.bifurcations.branches import OrbitBranch
 from carom.bifurcations.points import HALVING, Bifurcation
 from carom.bifurcations.samples import AttractorSample, sample_attractors
 from carom.bifurcations.several import lies_on, searched_branches
+from carom.bifurcations.simulated import simulated_branches
 from carom.bifurcations.steady import (
     EquilibriumBranch,
     RollingBranch,
@@ -30,7 +31,7 @@ from carom.orbits.orbit import Orbit
 from carom.orbits.rubbing import rubbing_orbits
 from carom.orbits.search import Impacts, Searched
 from carom.orbits.single_impact import find_orbits
-from carom.outcome import STEADY_WORDS, InputError
+from carom.outcome import STEADY_WORDS
 from carom.parameters import Parameters
 from carom.parameters.scaling import SCALING
 from carom.parameters.told import shown_in
@@ -84,8 +85,9 @@ class Diagram(Result):
     interval: tuple[float, float]
     equilibria: tuple[EquilibriumBranch, ...]
     rolling: RollingBranch
-    orbits: tuple[OrbitBranch, ...]
-    several: tuple[OrbitBranch, ...]
+    # Not narrower: branches of orbits closed on the flow of the simulator are of another class.
+    orbits: tuple[Any, ...]
+    several: tuple[Any, ...]
     search: Searched | None
     rubbing: tuple[OrbitBranch, ...]
     points: tuple[Bifurcation, ...]
@@ -111,7 +113,7 @@ class Diagram(Result):
         ]
 
     @property
-    def branches(self) -> list[OrbitBranch]:
+    def branches(self) -> list[Any]:
         """Branches of orbits with one impact a period, then those of orbits with several."""
         return [*self.orbits, *self.several]
 
@@ -207,13 +209,14 @@ def find_bifurcations(
     ['fold']
     """
     model = jeffcott_of(machine) if lasting else model_of(machine)
-    if model.system.unrepeated is not None:
-        raise InputError("machine", *model.system.unrepeated)
+    model.system.refuse_unrepeated()
     along = axis(model, parameter)
     limits = read_interval(along, interval)
     tell = Reporter.of(progress, "following motions")
     followed = 1.0 if not attractors else FOLLOWING_SHARE
-    follow = _follow_known if exact_results(model).orbits else _follow_searched
+    follow = (
+        _follow_simulated if is_simulated(model) else _follow_known if exact_results(model).orbits else _follow_searched
+    )
     found = follow(model, along, limits, tell.part(0.0, followed), impacts=impacts, virtual=virtual, lasting=lasting)
     disturbances = DisturbanceSet.of(model, attractors, seed) if attractors else None
     samples: tuple[AttractorSample, ...] = ()
@@ -242,8 +245,8 @@ class _Followed(NamedTuple):
     """Branches of rolling, orbits and motions with lasting contact, and the special points of all motions."""
 
     rolling: RollingBranch
-    orbits: tuple[OrbitBranch, ...] = ()
-    several: tuple[OrbitBranch, ...] = ()
+    orbits: tuple[Any, ...] = ()
+    several: tuple[Any, ...] = ()
     search: Searched | None = None
     rubbing: tuple[OrbitBranch, ...] = ()
     points: tuple[Bifurcation, ...] = ()
@@ -308,6 +311,34 @@ def _follow_searched(
         RollingBranch(nothing, nothing, nothing > 0.0),
         tuple(branch for branch in found if branch.impacts == 1),
         tuple(branch for branch in found if branch.impacts > 1),
+        search,
+        points=tuple(points),
+    )
+
+
+def is_simulated(model: Model) -> bool:
+    """Whether orbits are closed and followed on the flow of the simulator: where motions have no words, and where walls give way."""
+    return model.system.unrepeated is not None or bool(model.system.arrays["stiffness"].any())
+
+
+def _follow_simulated(
+    model: Model,
+    along: Axis,
+    limits: tuple[float, float],
+    tell: Reporter,
+    *,
+    impacts: int,
+    virtual: bool,
+    lasting: bool,
+) -> _Followed:
+    """Follow the branches of the periodic motions of any machine that a search finds; all are motions, with lasting contact or without."""
+    found, search = simulated_branches(model, along, limits, impacts, tell)
+    points = sorted((point for branch in found for point in branch.special), key=lambda point: point.value)
+    nothing = np.empty(0)
+    return _Followed(
+        RollingBranch(nothing, nothing, nothing > 0.0),
+        tuple(branch for branch in found if branch.impacts == 1),
+        tuple(branch for branch in found if branch.impacts != 1),
         search,
         points=tuple(points),
     )

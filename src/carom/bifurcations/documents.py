@@ -9,6 +9,7 @@ from carom.attractors import DisturbanceSet, document_of, exact_interval
 from carom.bifurcations.branches import OrbitBranch
 from carom.bifurcations.diagrams import Diagram
 from carom.bifurcations.regions import RegionMap
+from carom.bifurcations.simulated import SimulatedBranch
 from carom.models.axes import Axis
 from carom.motions.settling import PATIENCE
 from carom.orbits.orbit import Orbit
@@ -18,14 +19,14 @@ from carom.parameters import Parameters, Scales
 from carom.results import fields_of
 
 
-def diagram_document(parameters: Parameters, diagram: Diagram) -> dict[str, Any]:
+def diagram_document(diagram: Diagram) -> dict[str, Any]:
     """Special points and branches along a parameter.
 
     Values of a physical parameter are in the SI unit given under ``"unit"``; periods are in ``1/Ω``, radial speeds in
     ``c_r Ω``.
     """
     return {
-        "parameters": parameters.as_dict(),
+        **diagram.model.document(),
         **_axis(diagram.axis),
         **fields_of(diagram, "interval"),
         "points": [
@@ -57,7 +58,7 @@ def diagram_document(parameters: Parameters, diagram: Diagram) -> dict[str, Any]
             | document_of(sample.survival)
             for sample in diagram.attractors
         ],
-        "disturbances": _disturbances(diagram.disturbances, parameters.scales) if diagram.disturbances else None,
+        "disturbances": _disturbances(diagram.disturbances, diagram.model.scales) if diagram.disturbances else None,
     }
 
 
@@ -125,7 +126,7 @@ def _rubbing(branch: OrbitBranch) -> dict[str, Any]:
     )
 
 
-def _word(orbit: Orbit | OrbitBranch | None) -> dict[str, Any]:
+def _word(orbit: Orbit | OrbitBranch | SimulatedBranch | None) -> dict[str, Any]:
     """Word and number of impacts of an orbit, without those of a chatter; ``None`` for other motions."""
     return {"word": str(orbit.word) if orbit else None, "impacts": orbit.impacts if orbit else None}
 

@@ -97,7 +97,8 @@ class Bifurcation(Result):
     admissible: bool = True
     detail: str = ""
     place: float = math.nan
-    shot: Orbit | None = None
+    # Not narrower: a word of segments, or closed on the flow of the simulator.
+    shot: Any = None
 
     def line_of(self, name: str, value: object) -> str:
         """The value is told in the unit of the parameter."""
@@ -132,7 +133,7 @@ class Bifurcation(Result):
     @property
     def motion(self) -> MotionKind:
         """Kind of the motion: an orbit, a steady motion, or bouncing with rub."""
-        if self.shot is not None and not self.shot.word.flies:
+        if self.shot is not None and not self.shot.flies:
             return "rubbing"
         return STEADY.get(self.kind, "orbit")
 

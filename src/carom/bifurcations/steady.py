@@ -99,7 +99,7 @@ def equilibrium_branches(model: Model, along: Axis, interval: tuple[float, float
     table = np.full((len(kinds), len(grid), 4), np.nan)
     for column, value in enumerate(grid.tolist()):
         rotor = along.move(model, value)
-        if rotor.system.forced is not None:
+        if rotor.system.forced is not None or rotor.system.races is not None:
             held = levitation(rotor)
             table[0, column] = held.reach, 0.0, held.inside, held.stable
             continue

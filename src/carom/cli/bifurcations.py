@@ -94,12 +94,10 @@ def bifurcations(
         from carom.bifurcations.documents import diagram_document
         from carom.cli.starts import read_ends
         from carom.loading import load
-        from carom.models import axis, case_of, model_of
-        from carom.models.subjects import refuse_other_rotors
+        from carom.models import axis, model_of
 
         case = load(machine, settings or ())
-        refuse_other_rotors(case)
-        model = model_of(case if case.gravity else case_of(case))
+        model = model_of(case)
         varied = axis(model, along.strip())
         interval = read_ends(start, end, varied)
         if seed is not None and not attractors:
@@ -117,7 +115,7 @@ def bifurcations(
             seed=seed or 0,
             progress=tell,
         )
-    document = diagram_document(case.parameters, diagram)
+    document = diagram_document(diagram)
     if out is not None:
         with output_directory(out, case) as output:
             output.figure(f"bifurcations-{varied.name}", diagram.plot(proof=proven, virtual=virtual))
@@ -250,7 +248,7 @@ def _print_diagram(diagram: Diagram, present: float) -> None:
     for several in diagram.several:
         screen.print(f"Orbits {several.name} ({several.word}): ends {several.stops[0]}, {several.stops[1]}")
     if diagram.search is not None:
-        screen.print(f"Searched at 9 values, counted together. {diagram.search.words}")
+        screen.print(f"Searched at several values, counted together. {diagram.search.words}")
     for number, motion in enumerate(diagram.rubbing, start=1):
         whirl = "forward" if lift_off_of(motion.orbits[0]).whirl > 0 else "backward"
         ends = f"ends {motion.stops[0]}, {motion.stops[1]}"

@@ -164,6 +164,11 @@ class Orbit(Result):
         return str(self.word)
 
     @property
+    def flies(self) -> bool:
+        """Whether it only bounces, without lasting contact."""
+        return self.word.flies
+
+    @property
     def impacts(self) -> int:
         """Impacts per period."""
         return self.word.impacts

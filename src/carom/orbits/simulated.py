@@ -127,6 +127,11 @@ class SimulatedOrbit(Result):
         return self.segments
 
     @property
+    def flies(self) -> bool:
+        """Whether it only bounces, without lasting contact."""
+        return bool((self.motion.segment_phases == Phase.FLIGHT).all())
+
+    @property
     def impacts(self) -> int:
         """Arrivals at a wall in a period, without those of a chatter."""
         return sum(each.arrives for each in self.happenings)
@@ -143,12 +148,12 @@ class SimulatedOrbit(Result):
 
     def section_of(self, happening: Happening) -> Section:
         """Place and speed of the plane of an event just before it."""
-        plane = self._plane if happening.limits else happening.place
+        plane = self.leading_plane if happening.limits else happening.place
         position, velocity = self.rotor.system.at_plane(self.motion.arrivals[happening.event], plane)
         return Section.from_state(complex(position), complex(velocity))
 
     @property
-    def _plane(self) -> int:
+    def leading_plane(self) -> int:
         """Contact plane of the first event; where there is none, that which touches."""
         if self.happenings and not self.happenings[0].limits:
             return self.happenings[0].place
@@ -159,7 +164,7 @@ class SimulatedOrbit(Result):
         """Place and speed at the first event; where there is none, at the start, of the plane that touches."""
         if self.happenings:
             return self.section_of(self.happenings[0])
-        position, velocity = self.rotor.system.at_plane(self.motion.segment_amplitudes[0], self._plane)
+        position, velocity = self.rotor.system.at_plane(self.motion.segment_amplitudes[0], self.leading_plane)
         return Section.from_state(complex(position), complex(velocity))
 
     @property
@@ -179,8 +184,29 @@ class SimulatedOrbit(Result):
     @property
     def impulse(self) -> float:
         """Largest normal impulse of a contact in the period at the plane of the first event, in ``m c_r Ω``; ``nan`` without any."""
-        impulses = self.motion.seen_at(self._plane).log.normal_impulse
+        impulses = self.motion.seen_at(self.leading_plane).log.normal_impulse
         return float(impulses.max()) if len(impulses) else np.nan
+
+    @property
+    def impact_speeds(self) -> np.ndarray:
+        """``ṙ`` of the fastest arrival in ``c_r Ω``, shape (1,)."""
+        return np.array([self.radial_speed])
+
+    def moved(
+        self, flow: Flow, vector: np.ndarray, period: float, multipliers: np.ndarray, name: Any
+    ) -> SimulatedOrbit:
+        """Another closed path that repeats as this one does."""
+        state = flow.state(vector)
+        return replace(
+            self,
+            rotor=flow.rotor,
+            name=name,
+            start=state,
+            period=period,
+            multipliers=Multipliers(multipliers),
+            complete=True,
+            rests=flow.rests,
+        )
 
     @property
     def radial_speed(self) -> float:
@@ -200,7 +226,7 @@ class SimulatedOrbit(Result):
     @property
     def scales(self) -> Scales | None:
         """Scales of what is told of the plane of the first event: lengths there are in its own clearance."""
-        return self.rotor.system.scales_at(self._plane, self.rotor.scales)
+        return self.rotor.system.scales_at(self.leading_plane, self.rotor.scales)
 
     @cached_property
     def extremes(self) -> Extremes:
@@ -386,10 +412,15 @@ def _multipliers(
         slopes, complete = matrix[:-1], False
     if not np.isfinite(slopes).all():
         return None, False
+    return multipliers_from(slopes, free=free), complete
+
+
+def multipliers_from(slopes: np.ndarray, *, free: bool) -> np.ndarray:
+    """Multipliers of the derivative of a closed path, the largest first; without that of a delay where the period is free."""
     values = np.linalg.eigvals(slopes).astype(complex).tolist()
     if free:
         values.remove(min(values, key=lambda value: abs(value - 1.0)))
-    return np.array(sorted(values, key=lambda value: (-abs(value), -value.imag))), complete
+    return np.array(sorted(values, key=lambda value: (-abs(value), -value.imag)))
 
 
 def same_simulated(first: SimulatedOrbit, second: SimulatedOrbit) -> bool:

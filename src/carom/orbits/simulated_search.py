@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Iterator
 
@@ -42,15 +43,15 @@ WHIRLS = (Outcome.BACKWARD_WHIRL, Outcome.ROLLING, Outcome.FORWARD_RUB, Outcome.
 
 
 def search_simulated(
-    rotor: Model, impacts: int, guesses: int | None, seed: int, tell: Reporter
+    rotor: Model, impacts: int, guesses: int | None, seed: int, tell: Reporter, share: float = 1.0
 ) -> tuple[tuple[SimulatedOrbit, ...], Searched]:
-    """Search periodic motions with at most a number of impacts a period, of any machine, and say what was tried."""
-    search = _Search(rotor, impacts)
-    settled = search.ends(SETTLED, np.random.default_rng([seed, 1]), tell.part(0.0, 0.4))
+    """Search periodic motions with at most a number of impacts a period, of any machine, and say what was tried: a share of the usual."""
+    search = _Search(rotor, impacts, share)
+    settled = search.ends(math.ceil(share * SETTLED), np.random.default_rng([seed, 1]), tell.part(0.0, 0.4))
     for orbit, _ in settled[1]:
         search.add(orbit)
-    search.guess(guesses or GUESSES, np.random.default_rng([seed, 2]), tell.part(0.4, 0.8))
-    fresh, ends = search.ends(FRESH, np.random.default_rng([seed, 3]), tell.part(0.8, 1.0))
+    search.guess(guesses or math.ceil(share * GUESSES), np.random.default_rng([seed, 2]), tell.part(0.4, 0.8))
+    fresh, ends = search.ends(math.ceil(share * FRESH), np.random.default_rng([seed, 3]), tell.part(0.8, 1.0))
     listed = sum(count for orbit, count in ends if search.knows(orbit))
     others = sum(count for orbit, count in ends if not search.knows(orbit) and orbit.impacts <= impacts)
     for orbit, _ in ends:
@@ -68,8 +69,9 @@ def search_simulated(
 class _Search:
     """What a search has found and tried so far."""
 
-    def __init__(self, rotor: Model, impacts: int) -> None:
-        self.rotor, self.impacts = rotor, impacts
+    def __init__(self, rotor: Model, impacts: int, share: float = 1.0) -> None:
+        self.rotor, self.impacts, self.seconds = rotor, impacts, share * SECONDS
+        self.barren = math.ceil(share * BARREN)
         self.found: list[SimulatedOrbit] = []
         self.motions = self.guesses = self.repeats = self.failures = self.last_new = 0
 
@@ -106,15 +108,15 @@ class _Search:
                 found[kinds[kind]] = orbit, number + 1
             followed += len(part)
             tell(followed / count)
-            if time.process_time() - begun > SECONDS / 2:
+            if time.process_time() - begun > self.seconds / 2:
                 break
         return followed, [(orbit, number) for orbit, number in found if orbit is not None]
 
     def guess(self, guesses: int, random: np.random.Generator, tell: Reporter) -> None:
         """Close stretches of motions that nearly come back."""
         begun, barren, idle = time.process_time(), 0, 0
-        while self.guesses < guesses * self.impacts and barren < BARREN and idle < BARREN:
-            if time.process_time() - begun > SECONDS:
+        while self.guesses < guesses * self.impacts and barren < self.barren and idle < self.barren:
+            if time.process_time() - begun > self.seconds:
                 return
             before = self.guesses
             for motion, begin, period in self._stretches(start_of(self.rotor, random)):

@@ -10,14 +10,13 @@ from carom.files import staged_directory, write_json
 from carom.reproductions.loss_of_bouncing.drawing import loss_figure
 from carom.reproductions.loss_of_bouncing.following import LossOfBouncing
 from carom.reproductions.loss_of_bouncing.samples import BouncingSample
-from carom.reproductions.mora2014 import machine_at
 from carom.results import fields_of
 
 
 def loss_document(found: LossOfBouncing) -> dict[str, Any]:
     """Branches and samples as plain data for JSON."""
     return {
-        "diagram": diagram_document(machine_at(0.1), found.diagram),
+        "diagram": diagram_document(found.diagram),
         "samples": [_sample(sample) for sample in found.every],
         "lost_between": list(found.lost),
     }

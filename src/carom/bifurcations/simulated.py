@@ -1,0 +1,499 @@
+"""Branches of the periodic motions of any machine along a parameter, closed on the flow of the simulator (:mod:`carom.orbits.simulated`).
+
+What happens in a period is read anew at every point, so that a branch goes on where an event joins or leaves the period: where a flight
+vanishes, two contacts become one, or a limit is met.  A period of any length begins where the radius is least; one of whole turns at its instant.
+"""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass, replace
+from functools import cached_property, reduce
+from itertools import combinations, pairwise
+from typing import Any, ClassVar
+
+import numpy as np
+
+from carom.arguments import checked
+from carom.bifurcations.points import Bifurcation
+from carom.continuation import Branch, SpecialPoint, Steps, Watch, continue_branch
+from carom.models import Model
+from carom.models.axes import Axis, Ends, axis, interval_around
+from carom.motions.trajectories import Trajectory
+from carom.orbits.flow import Flow
+from carom.orbits.happenings import happenings, told
+from carom.orbits.names import CountedName
+from carom.orbits.search import Searched
+from carom.orbits.simulated import SimulatedOrbit, multipliers_from, newton, numbered
+from carom.orbits.simulated_search import search_simulated
+from carom.outcome import CaromError, InputError, Phase
+from carom.progress import Reporter
+from carom.results import Result
+
+STEPS = Steps(first=0.01, largest=0.2, smallest=1e-6, sharpest_turn=0.3, most_points=250, tolerance=1e-10)
+FEW = replace(STEPS, largest=0.3, most_points=60)
+"""Steps of the branches of a diagram, of which there may be many."""
+ALONE = "not followed"
+DIFFERENCE = 1e-6
+"""Step of the differences by the parameter, relative to its size."""
+MOST_NUMBERS = 40
+"""Numbers of a state up to which its branches are followed: each step takes the whole derivative."""
+SAMPLES, HALVINGS = 2000, 60
+LEADING = 0.2
+"""Size of the multipliers that are watched in pairs."""
+BISECTIONS = 12
+JOINS, CHANGES = "grazing", "contact-change"
+"""Where an arrival at a wall joins or leaves the period, and where anything else that happens in it does."""
+BESIDE, ALONG = (2e-3, -2e-3, 1e-2, -1e-2), (0.02, 0.06, 0.15)
+"""Changes of the parameter, relative to it, and distances along the direction that alternates, at which a doubled period is sought."""
+TWICE = 1e-4
+"""Distance of the halves of a period, from which on it is no shorter one."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class SimulatedBranch(Result):
+    """Periodic motions of any machine along a parameter.
+
+    Attributes
+    ----------
+    axis : Axis
+    name : CountedName
+    rotor : Model
+        That of the motion from which it was followed.
+    values : ndarray, shape (m,)
+        The parameter.
+    orbits : tuple of SimulatedOrbit
+    special : tuple of Bifurcation
+        In the order of the branch.
+    stops : tuple of two str
+        See :class:`~carom.continuation.Branch`.
+    """
+
+    rests_on: ClassVar[tuple[str, ...]] = ("keller1977",)
+    shown: ClassVar[tuple[str, ...]] = ("axis", "name", "word", "values", "period", "special", "stops")
+
+    axis: Axis
+    name: Any
+    rotor: Any
+    values: np.ndarray
+    orbits: tuple[SimulatedOrbit, ...]
+    special: tuple[Bifurcation, ...]
+    stops: tuple[str, str]
+
+    def __len__(self) -> int:
+        return len(self.values)
+
+    @property
+    def parameter(self) -> str:
+        """Name of the parameter."""
+        return self.axis.name
+
+    @property
+    def names(self) -> tuple[Any, ...]:
+        """Name of each orbit."""
+        return (self.name,) * len(self)
+
+    @cached_property
+    def impacts(self) -> int:
+        """Arrivals at a wall in a period of the first orbit."""
+        return self.orbits[0].impacts
+
+    @property
+    def word(self) -> str:
+        """What happens in a period of the first orbit."""
+        return self.orbits[0].segments
+
+    @property
+    def period(self) -> np.ndarray:
+        """Periods in ``1/Ω``, shape (m,)."""
+        return np.array([orbit.period for orbit in self.orbits])
+
+    @property
+    def radial_speed(self) -> np.ndarray:
+        """``ṙ`` of the fastest arrival in ``c_r Ω``, shape (m,)."""
+        return np.array([orbit.radial_speed for orbit in self.orbits])
+
+    @property
+    def radial_speeds(self) -> np.ndarray:
+        """The same, shape (m, 1): how many arrivals there are changes along the branch."""
+        return self.radial_speed[:, None]
+
+    @property
+    def admissible(self) -> np.ndarray:
+        """All are motions of the machine; bool, shape (m,)."""
+        return np.ones(len(self), bool)
+
+    @property
+    def multipliers(self) -> np.ndarray:
+        """Non-trivial multipliers, complex, shape (m, k)."""
+        return np.array([orbit.multipliers.values for orbit in self.orbits])
+
+    @property
+    def stable(self) -> np.ndarray:
+        """Which orbits have all multipliers inside the unit circle, bool, shape (m,)."""
+        return np.array([orbit.stable for orbit in self.orbits])
+
+    def passes(self, orbit: SimulatedOrbit, value: float) -> bool:
+        """Whether the branch passes through an orbit at a value of the parameter, as its period and speed tell."""
+        for i, (left, right) in enumerate(pairwise(self.values.tolist())):
+            if min(left, right) <= value <= max(left, right) and left != right:
+                share = (value - left) / (right - left)
+                period, speed = (
+                    (1.0 - share) * each[i] + share * each[i + 1] for each in (self.period, self.radial_speed)
+                )
+                off = abs(orbit.period - period) / period, abs(orbit.radial_speed - speed) / (1.0 + abs(speed))
+                if max(off) < ON_BRANCH:
+                    return True
+        return False
+
+
+ON_BRANCH = 5e-3
+"""Relative distance of period and speed from those interpolated on a branch, within which an orbit is one of it."""
+
+
+class _Family:
+    """The equations of a periodic motion along a parameter, in the numbers of its state and, where it is free, its period."""
+
+    def __init__(self, orbit: SimulatedOrbit, along: Axis, limits: tuple[float, float]) -> None:
+        self.orbit, self.along, self.limits = orbit, along, limits
+        self.free, self.plane = orbit.repeats is None, orbit.leading_plane
+        self.size = max(abs(along.value(orbit.rotor)), 0.1 * (limits[1] - limits[0]))
+        self._flows: dict[float, Flow | None] = {}
+        self._motions: dict[bytes, tuple[np.ndarray, Trajectory] | None] = {}
+        self._slopes: dict[bytes, np.ndarray] = {}
+
+    def flow(self, p: float) -> Flow | None:
+        """The flow at a value of the parameter; ``None`` where there is no such rotor."""
+        if p not in self._flows:
+            try:
+                rotor = self.along.move(self.orbit.rotor, p)
+                self._flows[p] = Flow(rotor, self.orbit.start.time, self.orbit.rests)
+            except InputError:
+                self._flows[p] = None
+        return self._flows[p]
+
+    def split(self, u: np.ndarray) -> tuple[np.ndarray, float]:
+        """State and period of the unknowns."""
+        return (u[:-1], float(u[-1])) if self.free else (u, self.orbit.period)
+
+    def motion(self, u: np.ndarray, p: float) -> Trajectory | None:
+        """One period from the unknowns."""
+        key = u.tobytes() + np.float64(p).tobytes()
+        if key not in self._motions:
+            flow, (vector, period) = self.flow(p), self.split(u)
+            found = None if flow is None or period <= 0.0 else flow.follow(vector, period)
+            self._motions[key] = None if found is None else (vector, found)
+        known = self._motions[key]
+        return None if known is None else known[1]
+
+    def residual(self, u: np.ndarray, p: float) -> np.ndarray:
+        """How far the end is from the start, and the radial speed there if the period is free."""
+        motion, flow = self.motion(u, p), self.flow(p)
+        if motion is None or flow is None:
+            return np.full(len(u), np.nan)
+        vector, _ = self.split(u)
+        apart = flow.vector(motion.final) - vector
+        return np.append(apart, self._radial(flow, vector)) if self.free else apart
+
+    def _radial(self, flow: Flow, vector: np.ndarray) -> float:
+        system, state = flow.rotor.system, flow.state(vector)
+        amplitudes = system.amplitudes(state.position, state.velocity, flow.begins)
+        place, moving = system.at_plane(amplitudes, self.plane)
+        return float((np.conj(place) * moving).real)
+
+    def flow_slopes(self, u: np.ndarray, p: float) -> np.ndarray:
+        """Derivative of the end of the period by its start."""
+        key = u.tobytes() + np.float64(p).tobytes()
+        if key not in self._slopes:
+            motion, flow, (vector, period) = self.motion(u, p), self.flow(p), self.split(u)
+            if motion is None or flow is None:
+                return np.full((len(vector),) * 2, np.nan)
+            self._slopes[key] = flow.derivative(vector, period, happenings(motion))
+        return self._slopes[key]
+
+    def jacobian(self, u: np.ndarray, p: float) -> np.ndarray:
+        """Derivatives of the residual by the unknowns and the parameter."""
+        flow, (vector, period), n = self.flow(p), self.split(u), len(u)
+        slopes = np.zeros((n, n + 1))
+        if flow is None:
+            return np.full((n, n + 1), np.nan)
+        m = len(vector)
+        slopes[:m, :m] = self.flow_slopes(u, p) - np.eye(m)
+        if self.free:
+            slopes[:m, m] = flow.rate(vector, period)
+            sides = DIFFERENCE * np.eye(m)
+            slopes[m, :m] = [
+                (self._radial(flow, vector + side) - self._radial(flow, vector - side)) / (2.0 * DIFFERENCE)
+                for side in sides
+            ]
+        step = DIFFERENCE * self.size
+        low, high = max(p - step, self.limits[0]), min(p + step, self.limits[1])
+        slopes[:, -1] = (self.residual(u, high) - self.residual(u, low)) / (high - low)
+        return slopes
+
+    def multipliers(self, u: np.ndarray, p: float) -> np.ndarray:
+        """Non-trivial multipliers; ``nan`` where they are not defined."""
+        slopes = self.flow_slopes(u, p)
+        if not np.isfinite(slopes).all():
+            return np.full(len(slopes) - int(self.free), np.nan, complex)
+        return multipliers_from(slopes, free=self.free)
+
+    def watches(self) -> list[Watch]:
+        """Functions that vanish at period doublings and Neimark–Sacker bifurcations."""
+
+        def doubling(u: np.ndarray, p: float) -> float:
+            return float(np.prod(1.0 + self.multipliers(u, p)).real)
+
+        def torus(u: np.ndarray, p: float) -> float:
+            leading = [each for each in self.multipliers(u, p).tolist() if not abs(each) < LEADING]
+            return float(np.prod([first * second - 1.0 for first, second in combinations(leading, 2)]).real)
+
+        return [Watch("period-doubling", doubling), Watch("neimark-sacker", torus)]
+
+    def orbit_at(self, u: np.ndarray, p: float, name: Any) -> SimulatedOrbit | None:
+        """The orbit of the unknowns."""
+        flow, (vector, period) = self.flow(p), self.split(u)
+        values = self.multipliers(u, p)
+        if flow is None or not np.isfinite(values).all():
+            return None
+        return self.orbit.moved(flow, vector, period, values, name)
+
+
+def _based(orbit: SimulatedOrbit) -> SimulatedOrbit:
+    """The same orbit, beginning where the radius is least: there a free period is told apart from its delays, even in contact all the time."""
+    motion = orbit.motion
+    seen = motion.seen_at(orbit.leading_plane)
+    times = np.linspace(0.0, motion.time, SAMPLES)
+    radii = np.abs(seen.at_plane(times)[0])
+    place = int(np.argmin(radii[1:-1])) + 1
+    low, high = float(times[place - 1]), float(times[place + 1])
+
+    def radial(time: float) -> float:
+        position, velocity = seen.at_plane(np.array([time]))
+        return float((position[0].conjugate() * velocity[0]).real)
+
+    for _ in range(HALVINGS):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if radial(middle) < 0.0 else (low, middle)
+    flow, vector = Flow.at(motion, 0.5 * (low + high))
+    return replace(orbit, start=flow.state(vector), rests=flow.rests)
+
+
+@checked
+def continue_simulated(
+    orbit: SimulatedOrbit, parameter: str, interval: Ends, steps: Steps | None = None
+) -> SimulatedBranch:
+    """Continue a periodic motion of any machine along a parameter, through events that join or leave its period.
+
+    Parameters
+    ----------
+    orbit : SimulatedOrbit
+    parameter : str
+    interval : tuple of float or str
+
+    Raises
+    ------
+    InputError
+        Unknown parameter, an interval without the orbit, or a rotor of very many states.
+    """
+    along = axis(orbit.rotor, parameter)
+    present, limits = interval_around(along, along.value(orbit.rotor), interval)
+    if len(Flow.vector(orbit.start)) > MOST_NUMBERS:
+        raise InputError(
+            "orbit", len(Flow.vector(orbit.start)), f"a rotor of at most {MOST_NUMBERS} numbers of a state"
+        )
+    begun = _based(orbit) if orbit.repeats is None else orbit
+    family = _Family(begun, along, limits)
+    vector = Flow.vector(begun.start)
+    start = np.append(vector, begun.period) if family.free else vector
+    branch = continue_branch(
+        family.residual,
+        start,
+        present,
+        limits,
+        jacobian=family.jacobian,
+        watches=family.watches(),
+        steps=steps or STEPS,
+        scales=np.append(np.ones(len(start)), family.size),
+        crossings="",
+    )
+    orbits: list[SimulatedOrbit] = []
+    values: list[float] = []
+    for u, p in zip(branch.unknowns, branch.parameters.tolist(), strict=True):
+        found = family.orbit_at(u, p, orbit.name)
+        if found is not None:
+            orbits.append(found)
+            values.append(p)
+    special = [point for each in branch.special if (point := _special(family, each, orbit.name)) is not None]
+    special += _changes(family, branch, orbit.name)
+    special.sort(key=lambda point: point.place)
+    return SimulatedBranch(
+        along, orbit.name, orbit.rotor, np.array(values), tuple(orbits), tuple(special), branch.stops
+    )
+
+
+def _special(family: _Family, point: SpecialPoint, name: Any) -> Bifurcation | None:
+    orbit = family.orbit_at(point.unknowns, point.parameter, name)
+    if orbit is None:
+        return None
+    if point.kind == "neimark-sacker":
+        pairs = list(combinations(orbit.multipliers.values.tolist(), 2))
+        if abs(min(pairs, key=lambda pair: abs(pair[0] * pair[1] - 1.0))[0].imag) < 1e-9:
+            return None
+    return _point(family, point.kind, orbit, point.parameter, point.place)
+
+
+def _point(family: _Family, kind: str, orbit: SimulatedOrbit, value: float, place: float) -> Bifurcation:
+    return Bifurcation(
+        kind,
+        None,
+        orbit.period,
+        orbit.radial_speed,
+        orbit.name,
+        family.along.name,
+        value,
+        True,
+        place=place,
+        shot=orbit,
+    )
+
+
+def _changes(family: _Family, branch: Branch, name: Any) -> list[Bifurcation]:
+    """Points between which something joins or leaves the period, by bisection on the chord."""
+    found = []
+    known = [_told(family, u, p) for u, p in zip(branch.unknowns, branch.parameters.tolist(), strict=True)]
+    for i, (before, after) in enumerate(pairwise(known)):
+        if before is None or after is None or before[0] == after[0]:
+            continue
+        ends = [np.append(branch.unknowns[k], branch.parameters[k]) for k in (i, i + 1)]
+        low, high = ends
+        for _ in range(BISECTIONS):
+            middle = _corrected(family, 0.5 * (low + high))
+            if middle is None:
+                break
+            here = _told(family, middle[:-1], float(middle[-1]))
+            low, high = (middle, high) if here is not None and here[0] == before[0] else (low, middle)
+        orbit = family.orbit_at(low[:-1], float(low[-1]), name)
+        if orbit is not None:
+            kind = JOINS if before[1] != after[1] else CHANGES
+            length = float(np.linalg.norm(ends[1] - ends[0])) or 1.0
+            place = i + float(np.linalg.norm(low - ends[0])) / length
+            found.append(_point(family, kind, orbit, float(low[-1]), place))
+    return found
+
+
+def _told(family: _Family, u: np.ndarray, p: float) -> tuple[str, int] | None:
+    """What happens in a period, from its first arrival on in the order of the alphabet, and the number of arrivals."""
+    motion = family.motion(u, p)
+    if motion is None:
+        return None
+    found = happenings(motion)
+    turns = [told([*found[k:], *found[:k]]) for k in range(len(found))] or [
+        str(bool((motion.segment_phases != Phase.FLIGHT).any()))
+    ]
+    return min(turns), sum(each.arrives for each in found)
+
+
+def _corrected(family: _Family, guess: np.ndarray) -> np.ndarray | None:
+    """Point of the branch at the parameter of a guess."""
+    u, p = guess[:-1], float(guess[-1])
+    flow, (vector, period) = family.flow(p), family.split(u)
+    found = None if flow is None else newton(flow, vector, period, free=family.free)
+    if found is None:
+        return None
+    return np.concatenate([found[0], [found[1]] if family.free else [], [p]])
+
+
+@checked
+def switch_simulated(point: Bifurcation, interval: Ends) -> SimulatedBranch:
+    """Branch of twice the period at a period doubling of a periodic motion of any machine.
+
+    Raises
+    ------
+    CaromError
+        No such motion is found beside it.
+    """
+    orbit: Any = point.orbit
+    along = axis(orbit.rotor, point.parameter)
+    vector = Flow.vector(orbit.start)
+    free = orbit.repeats is None
+    slopes = orbit.flow.derivative(vector, orbit.period, happenings(orbit.motion))
+    values, vectors = np.linalg.eig(slopes)
+    direction = vectors[:, int(np.argmin(np.abs(values + 1.0)))].real
+    direction = direction / np.abs(direction).max()
+    for share in BESIDE:
+        flow = Flow(along.move(orbit.rotor, point.value * (1.0 + share)), orbit.start.time, orbit.rests)
+        for size in ALONG:
+            found = newton(flow, vector + size * direction, 2.0 * orbit.period, free=free)
+            if found is None or np.abs(flow.end(found[0], 0.5 * found[1]) - found[0]).max() < TWICE:
+                continue
+            motion = flow.follow(*found)
+            if motion is None:
+                continue
+            values = multipliers_from(flow.derivative(*found, happenings(motion)), free=free)
+            doubled = orbit.moved(flow, *found, values, CountedName(2 * orbit.impacts, 1))
+            return continue_simulated(doubled, point.parameter, interval)
+    raise CaromError("no orbit of twice the period was found beside the period doubling")
+
+
+VALUES = (0.5, 0.15, 0.85)
+"""Places of the range at which orbits are searched."""
+SHARE, SECONDS = 0.2, 25.0
+"""Share of the usual search there, and time of the processor after which no further orbit is followed."""
+
+
+def simulated_branches(
+    model: Model, along: Axis, limits: tuple[float, float], impacts: int, tell: Reporter
+) -> tuple[list[SimulatedBranch], Searched]:
+    """Branches of the periodic motions of any machine with at most a number of impacts, and what was searched.
+
+    Those of rotors of very many states are found at some values, and not followed.
+    """
+    begun, done = time.process_time(), list[Searched]()
+    found: list[SimulatedBranch] = []
+    counts: dict[int, int] = {}
+
+    def add(orbit: SimulatedOrbit) -> None:
+        value = along.value(orbit.rotor)
+        counts[orbit.impacts] = counts.get(orbit.impacts, 0) + 1
+        named = numbered(orbit, counts[orbit.impacts])
+        followed = len(Flow.vector(orbit.start)) <= MOST_NUMBERS and time.process_time() - begun < SECONDS
+        try:
+            branch = continue_simulated(named, along.name, limits, FEW) if followed else None
+        except CaromError:
+            branch = None
+        if branch is None or not len(branch):
+            branch = SimulatedBranch(along, named.name, orbit.rotor, np.array([value]), (named,), (), (ALONE, ALONE))
+        found.append(branch)
+        for point in branch.special if followed else ():
+            if (
+                point.kind == "period-doubling"
+                and 2 * orbit.impacts <= impacts
+                and time.process_time() - begun < SECONDS
+            ):
+                _leave(point)
+
+    def _leave(point: Bifurcation) -> None:
+        try:
+            branch = switch_simulated(point, limits)
+        except CaromError:
+            return
+        known = any(
+            other.passes(orbit, value)
+            for other in found
+            for orbit, value in [(branch.orbits[len(branch) // 2], float(branch.values[len(branch) // 2]))]
+        )
+        if not known:
+            counts[branch.impacts] = counts.get(branch.impacts, 0) + 1
+            found.append(replace(branch, name=CountedName(branch.impacts, counts[branch.impacts])))
+
+    for place, share in enumerate(VALUES):
+        value = limits[0] + share * (limits[1] - limits[0])
+        rotor = along.move(model, value)
+        part = tell.part(place / len(VALUES), (place + 1) / len(VALUES))
+        orbits, searched = search_simulated(rotor, impacts, None, place, part, SHARE)
+        done.append(searched)
+        for orbit in orbits:
+            if not any(branch.passes(orbit, value) for branch in found):
+                add(orbit)
+    return found, reduce(Searched.and_then, done)
