@@ -97,7 +97,6 @@ def test_figures_and_a_page(carom, tmp_path):
             ("--whirl", "0.1 mm,80 Hz", "--kick", "5 mm/s"),
             "the release = with --kick 5 mm/s with --whirl 0.1 mm,80 Hz: allowed alone, or with one of --start, --kick and --whirl",
         ),
-        (("--set", "gravity=0"), "gravity = nothing given: a drop needs weight"),
         (("--until", "-5 ms"), "--until = -5 ms: a finite time above 0"),
     ],
 )

@@ -116,7 +116,7 @@ class DropMap(Stored):
     @property
     def limits(self) -> dict[str, float]:
         """Limits of the touchdown bearing that are stated, in SI units."""
-        return dict(json.loads(self.dataset.attrs["limits"]))
+        return dict(json.loads(self.dataset.attrs["load_limits"]))
 
     def exceeding(self, limit: str) -> np.ndarray:
         """Which drops exceed a limit that is stated, bool; none does what it has not."""
@@ -167,7 +167,7 @@ def map_drops(
     Parameters
     ----------
     machine : Machine, Case, Parameters or model
-        With weight; the limits of a case are kept beside the loads.
+        One that states no weight falls by 9.81 m/s² downward; the limits of a case are kept beside the loads.
     released : Drop, optional
         By default ``carom.drop()``.  Where the speed of the shaft is varied, sizes with a unit stay what they are.
     names : tuple of str
@@ -189,7 +189,7 @@ def map_drops(
     Raises
     ------
     InputError
-        No weight acts on the machine, a name or a range cannot be used, or none of the machines can be dropped.
+        A rotor without scales, a name or a range cannot be used, or none of the machines can be dropped.
 
     See Also
     --------
@@ -237,7 +237,7 @@ def map_drops(
         **rotor.attributes(),
         "released": repr(released),
         "present": json.dumps(present),
-        "limits": json.dumps(limits.given),
+        "load_limits": json.dumps(limits.given),
         "gives_way": int(any(rotor.system.arrays.stiffness > 0.0)),
     }
     return DropMap(dataset)

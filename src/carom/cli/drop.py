@@ -45,8 +45,8 @@ def drop(
 ) -> None:
     """Drop a machine on its touchdown bearing: forces, depth, heat, whirl and race, against its limits.
 
-    Levitation is lost, and the rotor falls by its weight; the machine needs [gravity]. With --out it also writes figures, drop.json and
-    drop.html. `carom simulate --drop` logs every contact of the same motion. With --map it is dropped at many points of a plane.
+    Levitation is lost, and the rotor falls by its weight: by [gravity], or by 9.81 m/s² downward, which the bias currents carry before. With --out it also writes
+    figures, drop.json and drop.html. `carom simulate --drop` logs every contact of the same motion. With --map it is dropped at many points of a plane.
     """
     from carom.cli.drop_map import map_plane, read_plane
     from carom.cli.drops import read_release

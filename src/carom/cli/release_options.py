@@ -47,7 +47,7 @@ Dropped = Annotated[
     bool,
     typer.Option(
         "--drop",
-        help="Levitation is lost at levitation, or at what --start or --kick gives, and the rotor falls; the machine needs [gravity].",
+        help="Levitation is lost at levitation, or at what --start or --kick gives, and the rotor falls, by 9.81 m/s² without [gravity].",
     ),
 ]
 BackAfter = Annotated[str | None, typer.Option("--regained-after", metavar="T", help=f"With --drop: t{_BACK}")]

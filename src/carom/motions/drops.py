@@ -9,10 +9,13 @@ from dataclasses import dataclass
 from carom.arguments import checked
 from carom.models import Model, Stage, Staged, Subject, Trigger, model_of
 from carom.models.stages import stages_of
-from carom.models.weight import levitation_of
+from carom.models.weight import levitation_of, weighted
 from carom.motions.starts import Kick, State
 from carom.outcome import InputError, shown
-from carom.parameters import own_size, own_time
+from carom.parameters import Gravity, own_size, own_time
+
+ASSUMED = Gravity()
+"""Weight of a rotor that states none: 9.81 m/s² downward."""
 
 
 @checked
@@ -79,29 +82,32 @@ class Drop:
     def stages(self, machine: Subject) -> tuple[Model, State]:
         """Return the rotor that falls, and levitates again if levitation is regained, and its start.
 
+        A rotor that states no weight falls by :data:`ASSUMED`, which the bias currents of its bearings carry while it levitates.
+
         Raises
         ------
         InputError
-            No weight acts on the rotor, its levitation does not stay inside the wall, it has several coordinates, its race does not turn,
+            The rotor has neither weight nor scales, its levitation does not stay inside the wall, it has several coordinates, its race does not turn,
             or a text is no such size.
         """
         rotor = model_of(machine)
-        if rotor.weight is None:
-            allowed = "a drop needs weight: a table [gravity] in the machine file, or --set gravity=9.81 for once"
-            raise InputError("gravity", None, allowed)
+        if rotor.weight is None and rotor.scales is None:
+            raise InputError("gravity", None, "a drop needs weight, in m/s^2: a machine with mass, clearance and speed")
         if stages_of(rotor)[0].rotor is not rotor:
             raise InputError("machine", shown(machine), "a machine of one stage: a drop makes stages of its own")
         if self.phase is not None:
             rotor = rotor.replace(phi=self.unbalance_angle(rotor))
         start = self._start(rotor)
         falling = rotor.without_levitation()
+        if rotor.weight is None:
+            falling = weighted(falling, ASSUMED)
         if self.regained_after is None:
             return falling, start
         time = own_time("regained_after", self.regained_after, rotor.scales)
         return Staged((Stage(falling, Trigger(time=time), rotor.carry_at_regain), Stage(rotor))), start
 
     def unbalance_angle(self, rotor: Model) -> float:
-        """Angle of the unbalance of a rotor that weighs something at the release, in the fixed frame, in rad.
+        """Angle of the unbalance at the release, in the fixed frame, in rad.
 
         Raises
         ------
@@ -158,7 +164,7 @@ def drop(
     --------
     carom.simulate : follow it
     carom.motions.drop_loads : what the touchdown bearing bears
-    carom.parameters.Gravity : the weight that it needs
+    carom.parameters.Gravity : the weight by which it falls
     carom.kick : the rotor is kicked, and goes on levitating
 
     Examples

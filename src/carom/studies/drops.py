@@ -9,11 +9,11 @@ from carom.attractors import MotionName
 from carom.disturbances.echo import Echo, echo_of_drop
 from carom.models import Model, model_of
 from carom.motions import DropLoads, Trajectory, drop, drop_loads, simulate
-from carom.motions.drops import Drop
+from carom.motions.drops import ASSUMED, Drop
 from carom.motions.reduction_errors import ReductionError, reduction_error
 from carom.motions.starts import State, amplitudes_of
 from carom.outcome import InputError, Outcome
-from carom.parameters import GRAVITY, Case
+from carom.parameters import Case
 from carom.results import Result, fields_of, in_si
 from carom.studies.load_checks import LoadCheck, checks_of_planes
 from carom.studies.load_tables import load_entries, load_tables
@@ -80,12 +80,13 @@ class DropStudy(Result):
     def document(self) -> dict[str, Any]:
         """The drop as JSON."""
         case, loads = self.case, self.loads
-        gravity, scales = case.gravity, loads.scales
+        gravity, scales = case.gravity or ASSUMED, loads.scales
         document: dict[str, Any] = {
             "name": case.name,
             "disturbance": self.echo.document(scales),
             **model_of(case).document(),
-            "gravity": {"acceleration_si": gravity.acceleration, "direction": gravity.direction} if gravity else {},
+            "gravity": {"acceleration_si": gravity.acceleration, "direction": gravity.direction},
+            "gravity_assumed": case.gravity is None,
             "touchdown": {"law": case.touchdown.law, **case.touchdown.given} if case.touchdown else {"law": "rigid"},
             **fields_of(loads, "time", "settled_at", outcome="outcome.label", meaning="outcome.meaning"),
         }
@@ -104,9 +105,8 @@ def drop_of(case: Case) -> DropStudy | None:
     """Levitation lost, followed for a while; ``None`` of a machine that cannot fall: without scales, or of which it is not known what is left without levitation."""
     if case.parameters.scales is None:
         return None
-    falling = case if case.gravity is not None else case.replace(gravity=GRAVITY)
     try:
-        rotor, state, echo = release(falling, drop())
+        rotor, state, echo = release(case, drop())
     except InputError:
         return None
     motion = simulate(rotor, state, FALLING, max_events=MOST_EVENTS)
@@ -114,9 +114,9 @@ def drop_of(case: Case) -> DropStudy | None:
     error = None
     if reduced is not None:
         error = reduction_error(
-            reduced, loads, lambda finer: release(replace(falling, parameters=finer.limited), drop())[:2]
+            reduced, loads, lambda finer: release(replace(case, parameters=finer.limited), drop())[:2]
         )
-    return DropStudy(falling, echo, loads, error, motion, case.gravity is None)
+    return DropStudy(case, echo, loads, error, motion, case.gravity is None)
 
 
 def release(case: Case, released: Drop) -> tuple[Model, State, Echo]:
@@ -129,8 +129,8 @@ def release(case: Case, released: Drop) -> tuple[Model, State, Echo]:
     """
     rotor, state = released.stages(case)
     scales, back, turning = case.parameters.scales, released.regained_after, released.race_speed
-    if case.gravity is None or scales is None:  # which stages() has refused
-        raise InputError("gravity", None, "a table [gravity] in the machine file")
+    if scales is None:  # which stages() has refused
+        raise InputError("gravity", None, "a machine with mass, clearance and speed")
     angle = released.unbalance_angle(model_of(case))
     regained, race = (None if each is None else float(each) for each in (back, turning))
     amplitudes, _ = amplitudes_of(rotor, state)
@@ -138,4 +138,7 @@ def release(case: Case, released: Drop) -> tuple[Model, State, Echo]:
     for plane, width in enumerate(rotor.system.widths.tolist()):
         place, rate = rotor.system.at_plane(amplitudes, plane)
         planes.append((width * complex(place), width * complex(rate)))
-    return rotor, state, echo_of_drop(state, angle, regained, case.gravity, scales, race, planes)
+    echo = echo_of_drop(state, angle, regained, case.gravity or ASSUMED, scales, race, planes)
+    if case.gravity is None:
+        echo = replace(echo, words=f"{echo.words}. The machine states no [gravity]: {ASSUMED.words} is taken")
+    return rotor, state, echo
