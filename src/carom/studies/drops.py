@@ -40,8 +40,6 @@ class DropStudy(Result):
         Error of the reduction of a flexible machine along it.
     motion : Trajectory or None
         ``None`` where its loads alone were followed.
-    assumed : bool
-        Whether the weight is that of free fall downward because none is stated.
     """
 
     case: Case
@@ -49,7 +47,11 @@ class DropStudy(Result):
     loads: DropLoads
     reduction: ReductionError | None = None
     motion: Trajectory | None = None
-    assumed: bool = False
+
+    @property
+    def assumed(self) -> bool:
+        """Whether the weight is that of free fall downward because none is stated."""
+        return self.case.gravity is None
 
     @property
     def checks(self) -> tuple[LoadCheck, ...]:
@@ -86,7 +88,7 @@ class DropStudy(Result):
             "disturbance": self.echo.document(scales),
             **model_of(case).document(),
             "gravity": {"acceleration_si": gravity.acceleration, "direction": gravity.direction},
-            "gravity_assumed": case.gravity is None,
+            "gravity_assumed": self.assumed,
             "touchdown": {"law": case.touchdown.law, **case.touchdown.given} if case.touchdown else {"law": "rigid"},
             **fields_of(loads, "time", "settled_at", outcome="outcome.label", meaning="outcome.meaning"),
         }
@@ -116,7 +118,7 @@ def drop_of(case: Case) -> DropStudy | None:
         error = reduction_error(
             reduced, loads, lambda finer: release(replace(case, parameters=finer.limited), drop())[:2]
         )
-    return DropStudy(case, echo, loads, error, motion, case.gravity is None)
+    return DropStudy(case, echo, loads, error, motion)
 
 
 def release(case: Case, released: Drop) -> tuple[Model, State, Echo]:

@@ -60,7 +60,7 @@ def drop_facts(study: StudyData) -> Iterator[Fact]:
     if drop is None:
         yield Fact("Drop", NO_DROP if study.levitates else "It does not levitate, so there is no drop.")
         return
-    yield Fact("Drop", f"{drop.echo.words}{ASSUMED if drop.assumed else ''}. {drop.headline}")
+    yield Fact("Drop", f"{drop.echo.words}. {drop.headline}")
     for title, rows in load_tables(drop.loads, "the release"):
         told = dict(rows)
         chosen = [told["contacts"], *(f"{label} {told[label]}" for label in (*HEADLINE, WHIRL) if label in told)]
