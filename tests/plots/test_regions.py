@@ -47,7 +47,7 @@ def test_no_curve_leaves_the_plane(corner):
 
 def test_a_region_has_its_name_in_its_area_or_its_number_in_the_document(corner, figure):
     (axes,) = figure.axes
-    document = regions_document(PAPER, corner)
+    document = regions_document(corner)
     numerals = sorted(int(text.get_text()) for text in axes.texts if text.get_gid() == "numeral")
     names = [text.get_text() for text in axes.texts if text.get_gid() == "name"]
     listed = [int(word.split(": ")[0]) for word in legend_words(figure) if word[0].isdigit()]
@@ -105,7 +105,7 @@ def test_resonances_the_machine_and_changes_without_a_curve_are_marked(corner):
     assert places["change of motions on no curve found"] == (0.05, 0.5)
     ratios = {text.get_text() for text in axes.texts if text.get_gid() == "resonance"}
     assert ratios == {"1:2", "1:3"}
-    assert regions_document(PAPER, marked)["unexplained"][0]["point"] == [0.05, 0.5]
+    assert regions_document(marked)["unexplained"][0]["point"] == [0.05, 0.5]
 
 
 def test_legends_and_title_fit(corner, figure):

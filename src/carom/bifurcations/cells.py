@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import product
+from typing import Any
 
 import numpy as np
 
@@ -36,7 +37,8 @@ class Region(Result):
         The grid points.
     """
 
-    motions: Motions
+    # Not narrower: of other machines the motions are those on which disturbances end.
+    motions: Any
     point: tuple[float, float]
     share: float
     places: np.ndarray
@@ -66,7 +68,7 @@ def regions_between(
         return all(motions_at(plane.at(parameters, *place)) == found[first] for place in places.tolist())
 
     regions = []
-    for group in _merged(_connected(found), found, joins):
+    for group in _merged(connected(found), found, joins):
         cell = max(group, key=lambda cell: _depth(cell, group, grid))
         x, y = place_of(cell).tolist()
         share = len(group) / grid**2
@@ -110,7 +112,7 @@ def _centre_of(
     return point[0], point[1]
 
 
-def _connected(found: dict[tuple[int, int], Motions]) -> list[set[tuple[int, int]]]:
+def connected(found: Mapping[tuple[int, int], object]) -> list[set[tuple[int, int]]]:
     """Groups of neighbouring cells with equal motions."""
     left = set(found)
     groups = []

@@ -15,7 +15,7 @@ from carom.motions.settling import PATIENCE
 from carom.orbits.orbit import Orbit
 from carom.orbits.rubbing import lift_off_of
 from carom.orbits.search import Searched
-from carom.parameters import Parameters, Scales
+from carom.parameters import Scales
 from carom.results import fields_of
 
 
@@ -70,15 +70,15 @@ def search_document(searched: Searched) -> dict[str, Any]:
     }
 
 
-def regions_document(parameters: Parameters, found: RegionMap) -> dict[str, Any]:
+def regions_document(found: RegionMap) -> dict[str, Any]:
     """Curves, points where two bifurcations meet, and regions of a plane of two parameters.
 
     Regions are numbered as in the figure and the table.
     """
     plane = found.plane
-    first, second = plane.axes(parameters)
+    first, second = found.axes
     return {
-        "parameters": parameters.as_dict(),
+        **found.model.document(),
         "plane": [
             {**_axis(axis), "range": list(limits)}
             for axis, limits in ((first, plane.first_range), (second, plane.second_range))
@@ -99,7 +99,7 @@ def regions_document(parameters: Parameters, found: RegionMap) -> dict[str, Any]
             for number, region in enumerate(found.regions, start=1)
         ],
         "present": {
-            "point": list(plane.place_of(parameters)),
+            "point": list(plane.place_of(found.model)),
             "region": found.present_region,
             "words": found.present_motions.words,
         },

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -14,12 +14,13 @@ from carom.bifurcations.changes import UnexplainedChange
 from carom.bifurcations.curve_results import Codimension2Point, Curve
 from carom.bifurcations.curves import can_be_followed, continue_curve
 from carom.bifurcations.diagrams import special_points
-from carom.bifurcations.motions import Motions, motions_at
+from carom.bifurcations.motions import motions_at
 from carom.bifurcations.passing import passes, with_curve
 from carom.bifurcations.planes import Plane
 from carom.bifurcations.points import Bifurcation
+from carom.bifurcations.settled_regions import axes_of, settled_motions, settled_regions
 from carom.bifurcations.survey import Survey
-from carom.models import Axis, Jeffcott, Subject, jeffcott_of
+from carom.models import Axis, Model, Subject, axis, jeffcott_of, model_of
 from carom.orbits.names import OrbitName, combined
 from carom.outcome import CaromError
 from carom.progress import Reporter, ShowProgress, shows_progress
@@ -35,7 +36,7 @@ class RegionMap(Result):
 
     Attributes
     ----------
-    model : Jeffcott
+    model : Model
         The machine itself.
     plane : Plane
     axes : tuple of Axis
@@ -58,13 +59,14 @@ class RegionMap(Result):
     figure: ClassVar[str] = "region_map"
     shown: ClassVar[tuple[str, ...]] = ("plane", "curves", "regions", "present_motions", "unexplained", "lost")
 
-    model: Jeffcott
+    model: Model
     plane: Plane
     axes: tuple[Axis, Axis]
     curves: tuple[Curve, ...]
     regions: tuple[Region, ...]
     present: tuple[float, float] | None
-    present_motions: Motions
+    # Not narrower: of other machines than planar ones they are those on which disturbances end.
+    present_motions: Any
     unexplained: tuple[UnexplainedChange, ...] = ()
     lost: tuple[str, ...] = ()
 
@@ -74,7 +76,7 @@ class RegionMap(Result):
         if not self.regions:
             return ()
         first, *others = (region.motions.parts for region in self.regions)
-        return tuple(part for place, part in enumerate(first) if all(parts[place] == part for parts in others))
+        return tuple(part for part in first if all(part in parts for parts in others))
 
     @checked
     def orbits_of(self, kind: str) -> str:
@@ -185,6 +187,9 @@ def map_regions(
     >>> sorted({curve.kind for curve in regions.curves})
     ['boundary-equilibrium', 'fold', 'non-smooth-hopf']
     """
+    rotor = model_of(machine)
+    if not rotor.has_closed_forms:
+        return _settled(rotor, plane, grid, Reporter.of(progress, "following disturbances"))
     model = jeffcott_of(machine)
     parameters = model.parameters
     axes = plane.axes(parameters)
@@ -221,6 +226,17 @@ def map_regions(
         unexplained=tuple(survey.unexplained),
         lost=tuple(lost),
     )
+
+
+def _settled(model: Model, plane: Plane, grid: int, tell: Reporter) -> RegionMap:
+    """The map of any other machine, by where disturbances settle."""
+    model.system.refuse_unrepeated()
+    axes = axis(model, plane.first), axis(model, plane.second)
+    axes_of(model, plane, axes)
+    regions, notes = settled_regions(model, plane, axes, grid, tell)
+    place = plane.place_of(model)
+    inside = place if plane.holds(*place) else None
+    return RegionMap(model, plane, axes, (), regions, inside, settled_motions(model), lost=notes)
 
 
 def _through_points(

@@ -18,7 +18,8 @@ from carom.models import Axis, Jeffcott, Model
 from carom.parameters import Numbers, Parameters
 from carom.results import Result
 
-SAMPLES = 201
+SAMPLES, FEWER = 201, 21
+"""Values of the parameter; the second for rotors whose equations take long to set up."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -94,7 +95,7 @@ def equilibrium_branches(model: Model, along: Axis, interval: tuple[float, float
     Of several stable rubs, or several others, the admissible one with the largest normal force.  A virtual rub counts as
     stable if it would attract sliding, so that a branch continues as the same one where its normal force changes sign.
     """
-    grid = np.linspace(*interval, SAMPLES)
+    grid = np.linspace(*interval, SAMPLES if model.planar is not None else FEWER)
     kinds = ("contact-free", "stable rub", "saddle rub")
     table = np.full((len(kinds), len(grid), 4), np.nan)
     for column, value in enumerate(grid.tolist()):

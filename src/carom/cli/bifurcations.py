@@ -12,7 +12,7 @@ from carom.outcome import IRREGULAR_BOUNCING, STEADY_WORDS, InputError, Outcome,
 
 if TYPE_CHECKING:
     from carom.bifurcations import Bifurcation, Diagram
-    from carom.models import Axis
+    from carom.models import Axis, Model
     from carom.parameters import Parameters
     from carom.proofs import Proof
 
@@ -151,35 +151,37 @@ def regions(
     """Map the plane of two parameters: curves of bifurcations, their meeting points, and the regions between them.
 
     Curves are followed from the bifurcations found on the two lines through the present machine, and from every change
-    of motions between neighbouring points of the grid.  Changes that no curve explains are listed.
+    of motions between neighbouring points of the grid.  Changes that no curve explains are listed.  Of machines whose
+    orbits have no closed forms, the regions are told by where disturbances settle, without curves.
     """
     with progress("loading") as tell:
         from carom.bifurcations import Plane, map_regions
         from carom.bifurcations.documents import regions_document
         from carom.loading import load
-        from carom.models import axis, case_of
+        from carom.models import axis, case_of, model_of
 
-        case = case_of(load(machine, settings or ()))
-        parameters = case.parameters
+        case = load(machine, settings or ())
+        model = model_of(case)
+        subject = case_of(case).parameters if model.has_closed_forms else model
         names = [name.strip() for name in plane.split(",")]
         if len(names) != 2:
             raise InputError("--plane", plane, "two names of parameters with a comma between them, such as gamma,omega")
-        axes = axis(parameters, names[0]), axis(parameters, names[1])
+        axes = axis(subject, names[0]), axis(subject, names[1])
         ranges = [
-            _range(parameters, varied, option, given)
+            _range(subject, varied, option, given)
             for varied, option, given in zip(axes, ("--x", "--y"), (x, y), strict=True)
         ]
         check_output(out)
         proven = _checked(proof, out)
         found = map_regions(
-            parameters,
+            subject,
             Plane(axes[0].name, axes[1].name, *ranges),
             grid=grid,
             virtual=virtual,
             lasting=lasting,
             progress=tell,
         )
-    document = regions_document(parameters, found)
+    document = regions_document(found)
     if out is not None:
         with output_directory(out, case) as output:
             output.figure(f"regions-{axes[0].name}-{axes[1].name}", found.plot(proof=proven, virtual=virtual))
@@ -204,7 +206,7 @@ def _checked(proof: str | None, out: str | None) -> Proof | None:
     return check(proof)
 
 
-def _range(parameters: Parameters, varied: Axis, option: str, given: str | None) -> tuple[float, float]:
+def _range(subject: Parameters | Model, varied: Axis, option: str, given: str | None) -> tuple[float, float]:
     """Return the range of a parameter: as given, or around its present value."""
     if given is not None:
         from carom.cli.starts import read_range
@@ -212,7 +214,7 @@ def _range(parameters: Parameters, varied: Axis, option: str, given: str | None)
         return read_range(option, given, varied)
     from carom.models.axes import usual_range
 
-    return usual_range(varied, parameters.value(varied.name), option, AROUND)
+    return usual_range(varied, subject.value(varied.name), option, AROUND)
 
 
 def _shown(varied: Axis, value: float) -> str:

@@ -28,7 +28,7 @@ def print_map(screen: Console, found: RegionMap) -> None:
     names = tuple(map(_quantity, found.axes))
     first, second = (f"{axis.field.words} {name}" for axis, name in zip(found.axes, names, strict=True))
     screen.print(f"Plane of {first} and {second}")
-    if not found.curves:
+    if not found.curves and found.model.has_closed_forms:
         screen.print("No bifurcation in this plane.")
     for table in _tables(found, names):
         if table.row_count:
@@ -37,7 +37,7 @@ def print_map(screen: Console, found: RegionMap) -> None:
         screen.print(f"In every region: {', '.join(found.everywhere)}")
     screen.print(_present_words(found))
     for words in found.lost:
-        screen.print(f"Not followed: {words}")
+        screen.print(f"Not followed: {words}" if found.model.has_closed_forms else words)
 
 
 def _tables(found: RegionMap, names: tuple[str, ...]) -> Iterator[Table]:
