@@ -31,8 +31,8 @@ IN_TURN, LEAST_DIRECTIONS = (0, 4, 8, 2, 6, 10, 1, 5, 9, 3, 7, 11), 3
 """Order in which they are followed, and how many of them are in any case."""
 LOOKED, SAMPLES = 100, 20_000
 """Turns of the shaft for which a motion without contact is looked at, which is known at once to settle, and instants at which."""
-MOST_EVENTS = 20_000
-"""Events up to which one motion with loads is followed: what then still touches is lost."""
+MOST_EVENTS = 5_000
+"""Events up to which one motion with loads is followed: of what then still touches the end is not known."""
 _SCALED = {"radius": "length", "force": "force", "impulse": "impulse", "contact_time": "time"}
 
 

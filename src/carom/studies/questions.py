@@ -34,8 +34,8 @@ EVENTS = {
     DROP: 20_000,
 }
 """Events of each question, two million in all; the kinds of disturbances that must be survived share the second and the last but one equally."""
-FEW_MODES = 4
-"""Modes up to which an event costs about the same; of more it costs in proportion, and so many fewer are followed."""
+FEW_MODES, MANY_MODES = 4, 16
+"""Modes up to which an event costs about the same, of more it costs in proportion, and so many fewer are followed; and modes above which searches are coarser."""
 FEWEST = 60
 """Disturbances of a kind of which none is lost for a verdict that they came back: otherwise one in twenty might be lost unseen."""
 

@@ -45,7 +45,7 @@ _SIMULATED = (
 _DAMPING = (
     Variable(
         "least_damping",
-        "damping above which all simulated disturbances of what must be survived came back",
+        "damping above which all simulated disturbances of what must be survived came back, of rotors with one damping of their levitation",
         scale="damping",
     ),
     Variable(
@@ -144,7 +144,7 @@ class StudyTask:
         required = (case.requirement if case else Requirement()).own(rotor.scales)
         if self.disturbances:
             found |= self._simulated(rotor, required.kick, number)
-        if self.least_damping:
+        if self.least_damping and "gamma" in rotor.varied:
             found |= self._damping(rotor, required, number)
         scaled = {each.name: each.scale for each in self.variables if each.scale and each.name in found}
         return found | in_si(found, rotor.scales, **scaled)
@@ -176,8 +176,14 @@ class StudyTask:
     def _simulated(self, rotor: Model, fastest: float, seed: int) -> dict[str, Any]:
         from carom.attractors import find_attractors
         from carom.basins import share_of_kicks
+        from carom.motions.budget import Budget
+        from carom.studies.questions import DESCRIBED, events_for
+        from carom.studies.survives import comes_to_rest
 
-        found = find_attractors(rotor, seed=seed, count=self.disturbances, fastest=fastest, threads=1)
+        if not rotor.system.is_planar and not comes_to_rest(rotor):
+            return {"attractors": 0, **dict.fromkeys(("recovered", "recovered_low", "recovered_high"), 0.0)}
+        with Budget().question(DESCRIBED, events_for(rotor, DESCRIBED)):
+            found = find_attractors(rotor, seed=seed, count=self.disturbances, fastest=fastest, threads=1)
         smallest, share = found.smallest_unrecovered_kick, share_of_kicks(found)
         back = (share.fraction, share.low, share.high) if share else (0.0, 0.0, 0.0)
         return {

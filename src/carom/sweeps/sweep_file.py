@@ -246,10 +246,6 @@ def _task(tables: Mapping[str, object], top: _Top | None, case: Case | None) -> 
     scales = case.parameters.scales if case else _ANY_SCALES
     if "basins" in tables:
         return _basins(tables["basins"], scales)
-    if case is not None and not isinstance(case.parameters, Parameters):
-        from carom.models.subjects import refuse_other_rotors  # only here: models and kernels take time to load
-
-        refuse_other_rotors(case)
     study = _read(_Study, tables["study"], "study")
     problems = Problems()
     limits = case.zones.limits if case else Zones().limits
