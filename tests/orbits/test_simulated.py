@@ -30,11 +30,13 @@ def machine(tmp_path, text):
     return cm.load(path)
 
 
-@pytest.fixture
-def on_race(tmp_path):
-    """A rotor that bounces on a race which it turns, against drag."""
+@pytest.fixture(scope="module")
+def on_race(tmp_path_factory):
+    """The orbit of a rotor that bounces on a race which it turns, against drag."""
     bearing = f'law = "kelvin-voigt"\nstiffness = {WALL}\ndamping = {LOSS}\n'
-    return machine(tmp_path, f"{SOFT}[touchdown]\n{bearing}race_inertia = {INERTIA}\nrace_drag = {DRAG}\n")
+    text = f"{SOFT}[touchdown]\n{bearing}race_inertia = {INERTIA}\nrace_drag = {DRAG}\n"
+    found = cm.find_orbits(machine(tmp_path_factory.mktemp("race"), text), impacts=1, guesses=1)
+    return next(each for each in found if each.impacts == 1)
 
 
 @pytest.fixture
@@ -54,7 +56,7 @@ def test_an_orbit_with_closed_form_is_found_again():
 
 
 def test_a_race_keeps_the_speed_at_which_its_torques_balance(on_race):
-    (orbit,) = (each for each in cm.find_orbits(on_race, impacts=1, guesses=1) if each.impacts == 1)
+    orbit = on_race
     assert orbit.stable
     assert orbit.segments.startswith("slide+")
     end, deepest, strongest, torque = _race_reference(orbit)
@@ -143,6 +145,15 @@ def test_an_orbit_at_limits_closes_after_a_quarter_of_a_turn(limited):
     assert len(events) == 1
     assert place == pytest.approx(orbit.start.position, abs=1e-8)
     assert end[1] * np.exp(-1j * orbit.period) - 1j * place == pytest.approx(orbit.start.velocity, abs=1e-8)
+
+
+def test_exponents_are_those_of_the_multipliers(on_race):
+    orbit = on_race
+    found = cm.orbits.lyapunov_exponents(orbit.rotor, orbit.start, impacts=60, transient=40, batches=5)
+    expected = float(np.log(orbit.multipliers.spectral_radius)) / orbit.period
+    assert found.values[0] == found.along == pytest.approx(0.0, abs=0.01)
+    assert found.values[1] == pytest.approx(expected, abs=0.02)
+    assert found.impacts >= 60
 
 
 def test_levitation_and_no_time_at_all_are_no_orbits():

@@ -231,7 +231,6 @@ def test_bad_supports_are_refused(changes, words):
     [
         lambda rotor: cm.find_equilibria(rotor),
         lambda rotor: cm.closed_forms.small_cycles(rotor),
-        lambda rotor: cm.orbits.lyapunov_exponents(rotor, cm.kick(1.0), impacts=10),
     ],
 )
 def test_what_rests_on_alike_directions_is_refused(verb):

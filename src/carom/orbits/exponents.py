@@ -17,6 +17,7 @@ from carom.motions.simulation import simulate
 from carom.motions.starts import Kick, State
 from carom.motions.trajectories import Trajectory
 from carom.orbits.contraction import contraction
+from carom.orbits.flow_exponents import STRETCH, Grown
 from carom.orbits.orbit import Orbit
 from carom.orbits.recognising import arrives, segments_of
 from carom.orbits.shooting import Links, links_of
@@ -28,6 +29,8 @@ REPEATED = 1e-8
 """Largest distance, relative to one plus the size of the state, between the simulated and the repeated end of a segment."""
 CHUNK, FURTHER = 4096, 256
 """Events that are simulated at a time, and by how much more if there are fewer than two impacts among them."""
+LEFT = 1e-6
+"""Mean factor in a stretch below which a direction counts as taken away."""
 CONFIDENT = 3.0
 """Standard errors by which an exponent has to differ from zero to have a sign."""
 LOST = {Kind.LAND: 1, Kind.SLIDE_FORWARD: 2, Kind.SLIDE_BACKWARD: 2, Kind.ROLL: 3}
@@ -126,7 +129,8 @@ def lyapunov_exponents(
 
     The method is that of Benettin, Galgani, Giorgilli and Strelcyn (1980), with the change of the time of each event in the
     derivatives (Müller 1995).  During the transient the directions turn towards those that grow fastest.  For a periodic
-    orbit :func:`orbit_exponents` is exact.
+    orbit :func:`orbit_exponents` is exact.  Where motions have no words, with races that turn, limits, forces of the fixed frame and
+    anisotropic bearings, the derivatives are central differences of the simulated flow; then fewer impacts are measured if they take too long.
 
     Parameters
     ----------
@@ -143,15 +147,16 @@ def lyapunov_exponents(
     Raises
     ------
     InputError
-        A number is out of range.
+        A number is out of range, or the speed of the shaft changes.
     CaromError
         The motion stops hitting the wall, has too few segments, its segments cannot be repeated to eight digits, or two
         planes touch at a time while one of the contacts lasts.
     """
     rotor = model_of(machine)
-    if rotor.system.unrepeated is not None:
-        raise InputError("machine", *rotor.system.unrepeated)
+    rotor.system.refuse_unrepeated()
     state = start.state(rotor) if isinstance(start, Kick) else start
+    if rotor.system.unrepeated is not None:
+        return _by_flow(rotor, state, impacts, transient, batches)
     # With weight its phase at the node is one direction more.
     directions = np.eye(2 * len(rotor.system.exponents) + int(rotor.system.forced is not None))[:, 1:]
     for stretch in _stretches(rotor, state, transient):
@@ -177,6 +182,25 @@ def lyapunov_exponents(
     volume = _growth_of_volume(rotor, struck, shrinks, time) if kept == section else -math.inf
     landings = sum(each.landings for each in stretches)
     return LyapunovExponents(values[order], errors[order], rate, volume, int(struck.sum()), landings, time)
+
+
+def _by_flow(rotor: Model, state: State, impacts: int, transient: int, batches: int) -> LyapunovExponents:
+    """The exponents of a machine whose motions have no words: by central differences of the flow, for as long as there is time."""
+    grown = Grown(rotor, state, impacts, transient)
+    if len(grown.durations) < batches:
+        raise CaromError(f"only {len(grown.durations)} stretches were measured: raise impacts or lower batches")
+    values, errors = _means(grown.logarithms, grown.durations, batches)
+    time = float(grown.durations.sum())
+    lost = values <= math.log(LEFT) / STRETCH
+    values[lost], errors[lost] = -np.inf, 0.0
+    along = grown.along / time
+    if rotor.system.timed:
+        values, errors = np.append(values, 0.0), np.append(errors, 0.0)
+    else:
+        place = int(np.argmin(np.abs(values - along)))
+        values[place], errors[place] = along, abs(along)
+    order = np.argsort(-values, kind="stable")
+    return LyapunovExponents(values[order], errors[order], along, math.nan, grown.impacts, grown.landings, time)
 
 
 @checked

@@ -76,6 +76,8 @@ def _drawn(
     figure = StyledFigure(figsize=(TWO_COLUMNS, _HEIGHT * TWO_COLUMNS + _LINE * rows))
     drawn = figure.subplots()
     units = np.array([axis.field.usual_size for axis in found.axes])
+    if not found.model.has_closed_forms:
+        _draw_cells(drawn, found, units)
     # Draw the broad line of non-smooth Hopf bifurcations below all others, and what is proven between them.
     for curve in found.curves:
         if curve.kind == "non-smooth-hopf":
@@ -96,6 +98,18 @@ def _drawn(
         figure.legend(handles=handles, loc="outside lower center", ncols=columns, handlelength=0.0, fontsize=6.5)
     arrange(figure)
     return figure, drawn, units
+
+
+def _draw_cells(axes: Axes, found: RegionMap, units: np.ndarray) -> None:
+    """Shade the cells of a grid by region, where no curves are followed between these."""
+    places = np.concatenate([region.places for region in found.regions])
+    numbers = np.concatenate([np.full(len(region.places), number) for number, region in enumerate(found.regions)])
+    xs, ys = (np.unique(places[:, k]) for k in (0, 1))
+    cells = np.full((len(ys), len(xs)), np.nan)
+    cells[np.searchsorted(ys, places[:, 1]), np.searchsorted(xs, places[:, 0])] = numbers
+    axes.pcolormesh(
+        xs / units[0], ys / units[1], cells, cmap="Pastel1", vmin=0, vmax=9, shading="nearest", rasterized=True
+    )
 
 
 def _draw_proof(axes: Axes, found: RegionMap, proof: Proof, units: np.ndarray) -> list[Line2D]:

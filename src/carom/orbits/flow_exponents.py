@@ -1,0 +1,71 @@
+"""Lyapunov exponents of a motion of any machine, by the derivatives of the flow that the simulator follows."""
+
+from __future__ import annotations
+
+import math
+import time
+
+import numpy as np
+
+from carom.models import Model
+from carom.motions.simulation import simulate
+from carom.motions.starts import State
+from carom.orbits.flow import Flow
+from carom.orbits.happenings import happenings
+from carom.outcome import CaromError
+
+STRETCH = 2.0
+"""Time of a stretch, in ``1/Ω``, after which directions are made orthogonal."""
+NOTHING = 1e-7
+"""Factor in a stretch below which a direction is taken away: it is the error of the derivatives."""
+SECONDS = 40.0
+"""Time of the processor after which no further stretch is measured."""
+MOST = 100_000
+
+
+class Grown:
+    """What the stretches of a motion say: logarithms of the growth of each direction, durations, impacts and landings.
+
+    Attributes
+    ----------
+    logarithms : ndarray, shape (m, n)
+    durations : ndarray, shape (m,)
+    impacts, landings : int
+    along : float
+        Logarithm of the growth of a delay, over all of them; 0 where something stands in the fixed frame.
+    """
+
+    def __init__(self, rotor: Model, state: State, impacts: int, transient: int) -> None:
+        self.rotor, self.begun = rotor, time.process_time()
+        motion = simulate(rotor, state, 0.5 * STRETCH, settle=False)
+        flow, self.vector = Flow.at(motion, motion.time)
+        self.flow = flow
+        self.directions = np.linalg.qr(np.random.default_rng(0).normal(size=(len(self.vector),) * 2))[0]
+        self._measure(transient)
+        before = self._speed()
+        self.durations, self.logarithms, (self.impacts, self.landings) = self._measure(impacts)
+        self.along = 0.0 if rotor.system.timed else math.log(self._speed() / before)
+
+    def _speed(self) -> float:
+        return float(np.linalg.norm(self.flow.rate(self.vector, 0.0)))
+
+    def _measure(self, impacts: int) -> tuple[np.ndarray, np.ndarray, tuple[int, int]]:
+        """Follow the motion for a number of impacts, or as long as there is time."""
+        found: list[np.ndarray] = []
+        struck = landed = 0
+        while struck < impacts and len(found) < MOST and time.process_time() - self.begun < SECONDS:
+            motion = self.flow.follow(self.vector, STRETCH)
+            if motion is None:
+                raise CaromError("the motion goes beyond the model: it has no exponents")
+            happened = happenings(motion)
+            if not happened and not struck and len(found) > 50:
+                raise CaromError("the motion stops hitting the wall: it has no exponents of impacts")
+            slopes = self.flow.derivative(self.vector, STRETCH, happened)
+            if not np.isfinite(slopes).all():
+                raise CaromError("the derivative of the motion is not known: it goes beyond the model beside it")
+            self.directions, triangle = np.linalg.qr(slopes @ self.directions)
+            found.append(np.log(np.maximum(np.abs(np.diag(triangle)), NOTHING)))
+            struck += sum(each.arrives for each in happened)
+            landed += sum(each.label == "land" for each in happened)
+            self.flow, self.vector = Flow.at(motion, motion.time)
+        return np.full(len(found), STRETCH), np.array(found).reshape(len(found), -1), (struck, landed)
