@@ -15,7 +15,7 @@ from carom.explorer.computing.kicked_motion import follow_kick
 from carom.explorer.computing.kicks import map_kicks
 from carom.explorer.computing.motions import table_of
 from carom.explorer.computing.planes import planes_of
-from carom.models import Jeffcott
+from carom.models import jeffcott
 
 MACHINE = Path(__file__).parents[1] / "examples" / "keogh-cole.toml"
 BROWSER = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
@@ -108,7 +108,7 @@ def test_server(benchmark, what):
     }[what]
 
     def another():
-        return (Jeffcott(case.replace(damping=2.0 * next(number)).parameters),), {}
+        return (jeffcott(case.replace(damping=2.0 * next(number)).parameters),), {}
 
     work(*another()[0])
     benchmark.group = "on the server"

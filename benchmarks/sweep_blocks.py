@@ -19,7 +19,7 @@ from math import exp, log
 from pathlib import Path
 from statistics import mean, median
 
-from carom.models import Jeffcott
+from carom.models import jeffcott
 
 ROUNDS = 9
 GAMMAS = (0.1, 0.15)
@@ -60,7 +60,7 @@ def work_on_tasks(degree: int, levels: int, counting: bool) -> None:
             table.SHORTENING = wish["shortening"]
             if "seed" in wish["machine"]:
                 random = np.random.default_rng(wish["machine"]["seed"])
-                ready[line] = Bounces(Jeffcott(random_parameters(random)), starts[:STARTS])
+                ready[line] = Bounces(jeffcott(random_parameters(random)), starts[:STARTS])
             else:
                 ready[line] = Bounces(source_paper_machine(**wish["machine"]), starts)
             if counting:

@@ -15,10 +15,10 @@ from carom.core.phases import AWAY
 UNTIL, MOST_IMPACTS = 200.0, 100
 
 
-def source_paper_machine(gamma: float, **changes: float) -> carom.models.Jeffcott:
+def source_paper_machine(gamma: float, **changes: float) -> carom.models.Rotor:
     """The machine of the source paper."""
     machine = {"omega": 0.76, "rho": 3 / 7, "phi": 0.21, "mu": 0.15, "d": 0.95, "radius_ratio": 400 / 7}
-    return carom.models.Jeffcott(carom.parameters.Parameters(gamma=gamma, **{**machine, **changes}))
+    return carom.models.jeffcott(carom.parameters.Parameters(gamma=gamma, **{**machine, **changes}))
 
 
 def random_starts(count: int = 10_000) -> np.ndarray:
@@ -31,14 +31,14 @@ def random_starts(count: int = 10_000) -> np.ndarray:
     return np.stack([disc(0.95), disc(1.5)], axis=1)
 
 
-def amplitudes_of(rotor: carom.models.Jeffcott, starts: np.ndarray) -> np.ndarray:
+def amplitudes_of(rotor: carom.models.Rotor, starts: np.ndarray) -> np.ndarray:
     return np.array([rotor.system.amplitudes(*start) for start in starts])
 
 
 class Bounces:
     """Follow all starts to the time or the number of impacts that ends them; returns the number of impacts."""
 
-    def __init__(self, rotor: carom.models.Jeffcott, starts: np.ndarray) -> None:
+    def __init__(self, rotor: carom.models.Rotor, starts: np.ndarray) -> None:
         self.rotor, self.starts = rotor, amplitudes_of(rotor, starts)
         self.log = EventLog.empty(MOST_IMPACTS, 2)
         self.work = memory(2, stop_at_landing=True), workspace(2), rub_workspace(2)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from carom.models import LinearRotor
+from carom.models import from_matrices
 from carom.models.touchdown import Touchdown
 
 SURFACE_SPEED = 40.0
@@ -25,5 +25,5 @@ def touching(law, seed, gap=0.0, friction=0.12, damping=(0.03, 0.12)):
         ],
     }
     forcing = random.normal(size=2) + 1j * random.normal(size=2)
-    unit = np.abs(LinearRotor.in_fixed_frame(**rotor, forcing=forcing).system.arrays.offsets).max()
-    return LinearRotor.in_fixed_frame(**rotor, forcing=forcing * (1.0 + gap) / unit)
+    unit = np.abs(from_matrices(**rotor, forcing=forcing).system.arrays.offsets).max()
+    return from_matrices(**rotor, forcing=forcing * (1.0 + gap) / unit)

@@ -19,7 +19,7 @@ from carom.core.flow import displacement, squared_modulus
 from carom.core.lanes import CLEARED, LATE, OPEN, fly_lanes, lanes_record
 from carom.core.layout import LEVELS, rub_workspace, workspace
 from carom.core.phases import AWAY, FLIGHT
-from carom.models import Jeffcott
+from carom.models import Rotor, jeffcott
 from carom.outcome import Outcome
 from carom.parameters import Parameters
 
@@ -198,19 +198,19 @@ def parameters(gamma: float, omega: float, **others: float) -> Parameters:
     return Parameters(gamma=gamma, omega=omega, **{"rho": 0.4, "phi": 0.2, **others}, mu=0.1, d=0.9, radius_ratio=50.0)
 
 
-def inside_task(rotor: Jeffcott, rng: np.random.Generator) -> Task:
+def inside_task(rotor: Rotor, rng: np.random.Generator) -> Task:
     """A start anywhere inside, with a speed of 1e-3 to 10 in any direction."""
     position = math.sqrt(rng.uniform()) * _direction(rng)
     return task_from_state(rotor, position, 10.0 ** rng.uniform(-3.0, 1.0) * _direction(rng))
 
 
-def task_from_state(rotor: Jeffcott, position: complex, velocity: complex) -> Task:
+def task_from_state(rotor: Rotor, position: complex, velocity: complex) -> Task:
     """A start inside the wall."""
     flight = flight_of(rotor.parameters, acb(position), acb(velocity))
     return Task(flight, rotor.system.arrays, rotor.system.table, rotor.system.amplitudes(position, velocity))
 
 
-def wall_task(rotor: Jeffcott, angle: float, radial_speed: float, angular_speed: float) -> Task:
+def wall_task(rotor: Rotor, angle: float, radial_speed: float, angular_speed: float) -> Task:
     """A start on the wall: for the reference exactly at this angle with these speeds, for the kernel rounded."""
     normal = unit(angle)
     velocity = acb(radial_speed, angular_speed) * normal
@@ -219,7 +219,7 @@ def wall_task(rotor: Jeffcott, angle: float, radial_speed: float, angular_speed:
     return Task(flight, rotor.system.arrays, rotor.system.table, amplitudes, radial_speed=radial_speed)
 
 
-def random_wall_task(rotor: Jeffcott, rng: np.random.Generator, kind: int) -> Task | None:
+def random_wall_task(rotor: Rotor, rng: np.random.Generator, kind: int) -> Task | None:
     """A start on the wall: fast, as late in a chatter, slow, or along the wall; ``None`` if that one cannot leave."""
     radial_speed = (
         -(10.0 ** rng.uniform(-3.0, 1.0)),
@@ -233,7 +233,7 @@ def random_wall_task(rotor: Jeffcott, rng: np.random.Generator, kind: int) -> Ta
     return None if radial_speed == 0.0 and not task.flight.level(0.0)[2] < -1e-10 else task
 
 
-def near_grazing_task(rotor: Jeffcott, rng: np.random.Generator) -> tuple[Task, float] | None:
+def near_grazing_task(rotor: Rotor, rng: np.random.Generator) -> tuple[Task, float] | None:
     """A flight that later has an extremum of ``|U|`` at ``1 ± δ``, and that time; found by flying back from there.
 
     It starts inside, or on the wall if the way back leads there.  ``None`` if the extremum is no outermost one.
@@ -255,7 +255,7 @@ def near_grazing_task(rotor: Jeffcott, rng: np.random.Generator) -> tuple[Task, 
     return task_from_state(rotor, complex(state[0]), complex(state[1])), longest
 
 
-def _from_wall(rotor: Jeffcott, flight: Flight, inside: float, outside: float) -> tuple[Task, float] | None:
+def _from_wall(rotor: Rotor, flight: Flight, inside: float, outside: float) -> tuple[Task, float] | None:
     for _ in range(60):
         middle = 0.5 * (inside + outside)
         if flight.level(-middle)[0] < 0:
@@ -275,17 +275,17 @@ def flight_of(parameters: Parameters, position: acb, velocity: acb) -> Flight:
     return jeffcott_flight(parameters.gamma, parameters.omega, parameters.rho, parameters.phi, position, velocity)
 
 
-def slowest_decay(rotor: Jeffcott) -> float:
+def slowest_decay(rotor: Rotor) -> float:
     """Decay rate of the slower mode."""
     return -float(jeffcott_exponents(rotor.parameters.gamma, rotor.parameters.omega)[0].real)
 
 
-def rotors(seed: int, count: int) -> list[tuple[Jeffcott, np.random.Generator]]:
+def rotors(seed: int, count: int) -> list[tuple[Rotor, np.random.Generator]]:
     """Random rotors, each with a random generator of its own."""
     made = []
     for index in range(count):
         rng = np.random.default_rng([seed, index])
-        made.append((Jeffcott(random_parameters(rng, index)), rng))
+        made.append((jeffcott(random_parameters(rng, index)), rng))
     return made
 
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 from compliant_reference import HuntCrossley as ReferenceHuntCrossley
 from compliant_reference import KelvinVoigt as ReferenceKelvinVoigt
-from compliant_reference import Plane, Rotor
+from compliant_reference import Plane
 
 import carom as cm
-from carom.models import Force, Forced, HuntCrossley, Jeffcott, KelvinVoigt, LinearRotor, Rigid
+from carom.models import Force, HuntCrossley, KelvinVoigt, Rigid, Rotor, from_matrices, jeffcott
 from carom.models.touchdown import Touchdown
 from carom.orbits import orbit_of_motion
 from carom.parameters import Parameters
@@ -19,8 +19,8 @@ PHASE = 0.3
 
 def heavy(pull, gamma, omega, rho, mu, d, radius_ratio, phi=PHASE, direction=-1j):
     """A planar rotor in a rigid wall."""
-    rotor = Jeffcott(Parameters(gamma, omega, rho, phi, mu, d, radius_ratio))
-    return Forced(rotor, (Force(-1j, np.array([direction * pull])),))
+    rotor = jeffcott(Parameters(gamma, omega, rho, phi, mu, d, radius_ratio))
+    return rotor.under(Force(-1j, np.array([direction * pull])))
 
 
 THREE = heavy(0.637, 0.324, 0.979, 0.464, 0.05, 0.5, 50.0)
@@ -33,7 +33,7 @@ RIGID = {"three": THREE, "one": ONE, "six": SIX, "landing": LANDING, "plastic": 
 
 def soft(law, pull, gamma, omega, rho, mu, surface_speed):
     """A planar rotor in a wall that gives way, and the same for the reference."""
-    planar = LinearRotor.in_fixed_frame(
+    planar = from_matrices(
         mass=[[1.0]],
         damping=[[gamma]],
         stiffness=[[omega**2]],
@@ -47,7 +47,7 @@ def soft(law, pull, gamma, omega, rho, mu, surface_speed):
     # Its weight points along the negative real axis at time zero: its frame is ahead by a quarter of a turn.
     plane = Plane((1.0,), same, mu, surface_speed)
     reference = Rotor.planar(gamma, omega, rho, PHASE - 0.5 * np.pi, plane, weight=pull)
-    return Forced(planar, (Force(-1j, np.array([-1j * pull])),)), reference
+    return planar.under(Force(-1j, np.array([-1j * pull]))), reference
 
 
 BOUNCING = soft(HuntCrossley(2e3, 0.6, 1.0), 0.5, 0.3, 0.6, 0.3, 0.1, 50.0)
@@ -58,7 +58,7 @@ SOFT = {"bouncing": BOUNCING, "parting": PARTING, "sticking": STICKING}
 
 def of_two_coordinates(law, pull):
     """A rotor of two coordinates with two contact planes that are far apart in weight."""
-    rotor = LinearRotor.in_fixed_frame(
+    rotor = from_matrices(
         mass=np.diag([1.0, 1.4]),
         damping=0.4 * np.eye(2),
         stiffness=[[0.8, -0.1], [-0.1, 0.9]],
@@ -68,7 +68,7 @@ def of_two_coordinates(law, pull):
             for plane, each, mu in (([1.0, 0.3], law, 0.1), ([0.4, 1.0], Rigid(0.5), 0.2))
         ],
     )
-    return Forced(rotor, (Force(-1j, -1j * pull * rotor.system.translated),))
+    return rotor.under(Force(-1j, -1j * pull * rotor.system.translated))
 
 
 def settled(rotor, position=0.2 + 0.1j, velocity=1.0 + 0j):

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from carom.models import LinearRotor, Rigid
+from carom.models import Rigid, Rotor, from_matrices
 from carom.models.touchdown import Touchdown
 
 TOLERANCE = 1e-12
@@ -39,9 +39,9 @@ class FixedFrame:
     translation: np.ndarray
 
     @property
-    def model(self) -> LinearRotor:
+    def model(self) -> Rotor:
         count = np.ones(len(self.planes))
-        return LinearRotor.in_fixed_frame(
+        return from_matrices(
             mass=self.mass,
             damping=self.damping,
             stiffness=self.stiffness,
@@ -235,7 +235,7 @@ def as_matrices(planar):
     """The planar rotor by its matrices, of one coordinate."""
     at, matrices = planar.parameters, planar.matrices
     (plane,) = touchdowns([[1.0]], [at.mu], [at.d], [at.radius_ratio + 1.0])
-    return LinearRotor.in_fixed_frame(**matrices._asdict(), touchdowns=[plane], scales=planar.scales)
+    return from_matrices(**matrices._asdict(), touchdowns=[plane], scales=planar.scales)
 
 
 def random_rotor(seed, *, n=None, planes=None, unbalance=None, damping=None, friction=None):
@@ -249,7 +249,7 @@ def random_rotor(seed, *, n=None, planes=None, unbalance=None, damping=None, fri
         np.einsum("pn,np->p", rows, np.linalg.solve(mass, rows.T))
     )
     force = random.normal(size=n) * (unbalance or 10.0 ** random.uniform(-1.0, 0.5)) * np.exp(1j)
-    return LinearRotor.in_fixed_frame(
+    return from_matrices(
         mass=mass,
         damping=(damping or 10.0 ** random.uniform(-2.0, 0.0)) * mass,
         stiffness=stiffness,

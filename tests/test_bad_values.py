@@ -15,7 +15,7 @@ from machines import PAPER
 import carom as cm
 from carom.arguments import checked
 from carom.disturbances import BladeLoss, ContactRelease, Sample, VelocityKick
-from carom.models import LinearRotor, Rigid
+from carom.models import Rigid, from_corotating_matrices
 from carom.models.touchdown import Touchdown
 from carom.outcome import InputError
 from carom.parameters import MACHINE_FIELDS, Case, Machine, Scales
@@ -122,8 +122,8 @@ AT_USE = {
     "impacts": ("impacts", lambda motion: cm.find_orbits(PAPER, impacts=2.5)),
     "kick": ("speed", lambda motion: cm.kick(10**400)),
     "state": ("start position", lambda motion: cm.simulate(PAPER, cm.State("x"), 1.0)),
-    "scales": ("scales", lambda motion: LinearRotor(*LINEAR, scales="x")),
-    "mass": ("mass", lambda motion: LinearRotor(10**400, *LINEAR[1:])),
+    "scales": ("scales", lambda motion: from_corotating_matrices(*LINEAR, scales="x")),
+    "mass": ("mass", lambda motion: from_corotating_matrices(10**400, *LINEAR[1:])),
     "sample": ("seed", lambda motion: Sample(VelocityKick(0.5), 3, True)),
     "grid": ("model", lambda motion: cm.Grid("x", (2, 2))),
     "kick model": ("fastest", lambda motion: VelocityKick([])),
@@ -135,7 +135,7 @@ AT_USE = {
     "plan of nothing": ("machine", lambda motion: Sample(VelocityKick(0.5), 3).starts("x")),
     "period": ("longest_period", lambda motion: cm.find_orbits(PAPER, math.inf)),
     "trials": ("count", lambda motion: cm.attractors.exact_interval(3, 2)),
-    "derivative": ("x", lambda motion: cm.models.Jeffcott(PAPER).rates("x")),
+    "derivative": ("x", lambda motion: cm.models.jeffcott(PAPER).rates("x")),
     "jacobian": ("jacobian", lambda motion: cm.orbits.multipliers(np.zeros(3))),
     "place": ("position", lambda motion: cm.orbits.Section.from_state(0.0, 1.0)),
     "figure": ("path_stem", lambda motion: cm.plots.save(cm.plots.radius(motion), "")),

@@ -9,7 +9,7 @@ from flights import inside_task, near_grazing_task, parameters, random_wall_task
 from flint import acb, arb
 from reference import Flight, first_crossing, jeffcott_equilibrium, jeffcott_flight, unit
 
-from carom.models import Jeffcott
+from carom.models import jeffcott
 
 
 @pytest.mark.parametrize(("gamma", "omega"), [(0.1, 0.76), (4.0, 0.7), (1.4, 0.7), (1.4 + 1e-15, 0.7), (0.0, 2.0)])
@@ -92,6 +92,6 @@ def test_a_start_that_is_pressed_on_is_refused():
 
 
 def test_equilibrium_and_exponents_agree_with_the_rotor():
-    rotor = Jeffcott(parameters(0.3, 0.8))
+    rotor = jeffcott(parameters(0.3, 0.8))
     assert complex(jeffcott_equilibrium(0.3, 0.8, 0.4, 0.2)) == pytest.approx(rotor.equilibrium, rel=1e-15)
     assert math.isclose(abs(rotor.equilibrium), 0.4 / abs(0.8**2 - 1 + 0.3j))

@@ -16,7 +16,7 @@ from machines import PAPER
 
 import carom as cm
 from carom.disturbances import Grid, Sample, VelocityKick
-from carom.models import Jeffcott
+from carom.models import jeffcott
 from carom.orbits.shooting import Start
 from carom.outcome import CaromError, InputError
 from carom.parameters import Case, Machine, Scales, Zones
@@ -27,7 +27,7 @@ SUBJECTS = {
     "machine": MACHINE,
     "case": Case("name", MACHINE.parameters, MACHINE, Zones()),
     "parameters": MACHINE.parameters,
-    "model": Jeffcott(MACHINE.parameters),
+    "model": jeffcott(MACHINE.parameters),
 }
 KICKS = Grid(VelocityKick(fastest=0.5), (2, 2))
 FEW = Sample(VelocityKick(fastest=0.5), 2)
@@ -103,7 +103,7 @@ CALLS = {
     "models.axis": lambda m: cm.models.axis(m, "gamma"),
     "models.case_of": lambda m: cm.models.case_of(m).parameters,
     "models.planar_case_of": lambda m: cm.models.planar_case_of(m).parameters,
-    "models.jeffcott_of": cm.models.jeffcott_of,
+    "models.exact_rotor_of": cm.models.exact_rotor_of,
     "models.model_of": cm.models.model_of,
     "motions.follow_loads": lambda m: cm.motions.follow_loads(m, cm.kick(0.3), 5.0),
     "motions.settle": lambda m: settled(m),
@@ -190,7 +190,7 @@ def alike(one, other) -> bool:
         return one.equals(other)
     if isinstance(one, np.ndarray):
         return one.dtype.names is not None or np.array_equal(one, other, equal_nan=one.dtype.kind in "fc")
-    if isinstance(one, Jeffcott | Case):
+    if isinstance(one, cm.models.Rotor | Case):
         return cm.models.model_of(one).parameters == cm.models.model_of(other).parameters
     if dataclasses.is_dataclass(one):
         fields = (field.name for field in dataclasses.fields(one))

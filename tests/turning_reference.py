@@ -20,7 +20,7 @@ TOLERANCES = {"method": "DOP853", "rtol": 1e-13, "atol": 1e-14}
 
 
 class Turning:
-    """A :class:`~carom.models.LinearRotor` with a shaft, under a weight per mass; each plane is in a phase and, in contact, has a sense of slip."""
+    """A :class:`~carom.models.Rotor` with a shaft, under a weight per mass; each plane is in a phase and, in contact, has a sense of slip."""
 
     def __init__(self, rotor, weight=0.0):
         self.weight = weight

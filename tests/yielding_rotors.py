@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from carom.models import HuntCrossley, KelvinVoigt, LinearRotor
+from carom.models import HuntCrossley, KelvinVoigt, Rotor, from_matrices
 from carom.models.touchdown import Touchdown
 
 SURFACE_SPEED = 57.14
@@ -30,8 +30,8 @@ class Yielding:
     surface_speed: float = SURFACE_SPEED
 
     @property
-    def model(self) -> LinearRotor:
-        return LinearRotor.in_fixed_frame(
+    def model(self) -> Rotor:
+        return from_matrices(
             mass=[[1.0]],
             damping=[[self.gamma]],
             stiffness=[[self.omega**2]],
@@ -129,7 +129,7 @@ def packed(position, velocity):
 
 def two_planes(first, second, friction=(0.1, 0.2), damping=0.3, speeds=(40.0, 40.0), unbalance=1.0):
     """A rotor of two coordinates with two contact planes."""
-    return LinearRotor.in_fixed_frame(
+    return from_matrices(
         mass=np.diag([1.0, 1.4]),
         damping=damping * np.eye(2),
         stiffness=[[0.8, -0.1], [-0.1, 0.9]],

@@ -13,15 +13,15 @@ from linear_rotors import FixedFrame
 from scipy.integrate import solve_ivp
 from scipy.optimize import minimize_scalar
 
-from carom.models import HuntCrossley, KelvinVoigt, LinearRotor, Touchdown
+from carom.models import HuntCrossley, KelvinVoigt, Rotor, Touchdown, from_matrices
 
 SAMPLES = 41
 
 
-def with_walls(rotor: FixedFrame, law: KelvinVoigt | HuntCrossley, scales=None, race=None) -> LinearRotor:
+def with_walls(rotor: FixedFrame, law: KelvinVoigt | HuntCrossley, scales=None, race=None) -> Rotor:
     """The rotor with walls of this law at all planes."""
     touchdowns = [Touchdown(tuple(row), law, rotor.friction, rotor.radius_ratio + 1.0, race) for row in rotor.planes]
-    return LinearRotor.in_fixed_frame(
+    return from_matrices(
         mass=rotor.mass,
         damping=rotor.damping,
         stiffness=rotor.stiffness,
@@ -33,13 +33,11 @@ def with_walls(rotor: FixedFrame, law: KelvinVoigt | HuntCrossley, scales=None, 
     )
 
 
-def free_mass(law: KelvinVoigt | HuntCrossley) -> LinearRotor:
+def free_mass(law: KelvinVoigt | HuntCrossley) -> Rotor:
     """A mass on which nothing acts but its wall."""
     nothing = np.zeros((1, 1))
     walls = [Touchdown((1.0,), law, 0.0, 20.0)]
-    return LinearRotor.in_fixed_frame(
-        mass=np.eye(1), damping=nothing, stiffness=nothing, forcing=np.zeros(1), touchdowns=walls
-    )
+    return from_matrices(mass=np.eye(1), damping=nothing, stiffness=nothing, forcing=np.zeros(1), touchdowns=walls)
 
 
 @dataclass
@@ -64,7 +62,7 @@ class Touch:
 SUMS = ("normal_impulse", "friction_impulse", "heat", "drive_work", "normal_loss")
 
 
-def contacts_of(model: LinearRotor, position: np.ndarray, velocity: np.ndarray, until: float) -> list[Touch]:
+def contacts_of(model: Rotor, position: np.ndarray, velocity: np.ndarray, until: float) -> list[Touch]:
     """All contacts of a motion that are over at its end."""
     rotor = _by_reference(model)
     events = reference.follow(rotor, position, velocity, until).events
@@ -90,7 +88,7 @@ def contacts_of(model: LinearRotor, position: np.ndarray, velocity: np.ndarray, 
     return over
 
 
-def _by_reference(model: LinearRotor) -> reference.Rotor:
+def _by_reference(model: Rotor) -> reference.Rotor:
     planes = []
     for touchdown, mass in zip(model.touchdowns, model.system.arrays.masses, strict=True):
         law = touchdown.law

@@ -10,7 +10,7 @@ import numpy as np
 import carom as cm
 
 ends = np.array([[1.0, 0.8], [1.0, -0.7]])
-rotor = cm.models.LinearRotor.in_fixed_frame(
+rotor = cm.models.from_matrices(
     mass=np.diag([1.0, 0.4]),
     damping=0.05 * ends.T @ ends,
     stiffness=0.3 * ends.T @ ends,

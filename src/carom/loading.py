@@ -44,7 +44,7 @@ def load(path: str | os.PathLike[str], settings: Iterable[str] = ()) -> Case:
     See Also
     --------
     carom.parameters.Machine : the same values, given in Python
-    carom.models.LinearRotor : any linear rotor, from its matrices
+    carom.models.Rotor : any linear rotor, from its matrices
 
     Examples
     --------

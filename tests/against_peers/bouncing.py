@@ -18,7 +18,7 @@ from machines import flight_matrix, rest_position, strike
 from scipy.integrate import solve_ivp
 from scipy.linalg import expm
 
-from carom.models import Jeffcott
+from carom.models import Rotor
 from carom.parameters import Parameters
 
 EPSILON = np.finfo(float).eps
@@ -176,7 +176,7 @@ def bounces(
 # ---------------------------------------------------------------------------------------------------- errors
 
 
-def flight_error(rotor: Jeffcott, peer, position: complex, velocity: complex, steps: int) -> float:
+def flight_error(rotor: Rotor, peer, position: complex, velocity: complex, steps: int) -> float:
     """What a flight from this state may add to the difference between a peer's state and carom's.
 
     The peer's errors of each step, stretched by the flight, and the rounding of the terms of the exact flight, which
@@ -240,7 +240,7 @@ def bounce_matrix(parameters: Parameters, before: Impact, after: Impact) -> np.n
     return derivative
 
 
-def error_bounds(rotor: Jeffcott, peer, start: tuple[complex, complex], found: list[Impact]) -> np.ndarray:
+def error_bounds(rotor: Rotor, peer, start: tuple[complex, complex], found: list[Impact]) -> np.ndarray:
     """First-order bounds of the differences of ``(θ, ṙ, θ̇, t)`` at all impacts, shape (n, 4).
 
     The error of each flight is taken in the worst direction and carried to each later impact by the derivatives of the

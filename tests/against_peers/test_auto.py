@@ -8,7 +8,7 @@ from machines import PAPER
 
 from carom import find_orbits
 from carom.bifurcations import Bifurcation, Plane, continue_curve, continue_orbit, switch
-from carom.models import Jeffcott
+from carom.models import jeffcott
 
 from .auto_equations import follow, why_missing
 from .auto_two_impacts import special_points
@@ -20,7 +20,7 @@ LIMITS = (0.65, 0.95)
 
 @pytest.mark.parametrize("kind", ["fold", "period-doubling"])
 def test_curve_is_that_of_auto(kind, tmp_path):
-    branch = continue_orbit(find_orbits(Jeffcott(PAPER))["B1,d"], "gamma", (0.05, 0.2))
+    branch = continue_orbit(find_orbits(jeffcott(PAPER))["B1,d"], "gamma", (0.05, 0.2))
     (point,) = [special for special in branch.special if special.kind == kind]
     unknowns = [point.period, point.value] if kind == "fold" else [point.period, point.radial_speed, point.value]
     followed = follow(kind, PAPER, unknowns, LIMITS, tmp_path)
@@ -45,7 +45,7 @@ def test_curve_is_that_of_auto(kind, tmp_path):
 
 @pytest.mark.jit_only
 def test_branch_of_two_impacts_has_the_folds_and_period_doublings_of_auto(tmp_path):
-    branch = continue_orbit(find_orbits(Jeffcott(PAPER))["B1,d"], "gamma", (0.075, 0.11))
+    branch = continue_orbit(find_orbits(jeffcott(PAPER))["B1,d"], "gamma", (0.075, 0.11))
     (doubling,) = [special for special in branch.special if special.kind == "period-doubling"]
     doubled = switch(doubling, (0.078, 0.09))
     theirs: dict[str, set[float]] = {"fold": set(), "period-doubling": set()}

@@ -14,7 +14,7 @@ import pytest
 from compilation import sized
 from machines import PAPER, random_parameters
 
-from carom.models import Jeffcott
+from carom.models import jeffcott
 from carom.motions.simulation import simulate
 from carom.motions.starts import State
 from carom.outcome import Outcome
@@ -66,7 +66,7 @@ def peer_of(request):
 
 def compare(parameters: Parameters, position: complex, velocity: complex, until: float, peer) -> dict[str, float]:
     """Assert that all impacts agree to the bounds of the errors; tell how many there were and of what kind."""
-    rotor = Jeffcott(parameters)
+    rotor = jeffcott(parameters)
     motion = simulate(rotor, State(position, velocity), until, stop_at_chatter=True, max_events=60)
     log = motion.contacts
     found, last = bounces(peer, parameters, position, velocity, until, len(log) + 1)

@@ -14,7 +14,7 @@ import pytest
 from machines import PAPER
 
 from carom.core.advance import CHATTER_HEIGHT
-from carom.models import Jeffcott
+from carom.models import jeffcott
 from carom.motions.simulation import simulate
 from carom.motions.starts import State
 from carom.outcome import Phase
@@ -103,7 +103,7 @@ def test_completion_leaves_out_what_theory_says(chatter):
 
 @pytest.mark.parametrize("chatter", ALL, ids=NAMES)
 def test_compiled_loop_ends_where_every_bounce_does(chatter):
-    trajectory = simulate(Jeffcott(chatter.parameters), chatter.start, chatter.until)
+    trajectory = simulate(jeffcott(chatter.parameters), chatter.start, chatter.until)
     kinds = {contact.phase for contact in trajectory.lasting_contacts}
     last = chatter.rebounds[-1]
     assert kinds == {Phase.ROLLING if last.sticks else Phase.FORWARD_SLIP}

@@ -12,7 +12,7 @@ from machines import random_parameters
 
 from carom.core.events import INSIDE, LEAVING, first_crossing
 from carom.core.layout import workspace
-from carom.models import Jeffcott
+from carom.models import jeffcott
 from carom.outcome import Outcome
 from carom.parameters import Parameters
 
@@ -38,7 +38,7 @@ def assert_same_flight(parameters: Parameters, start: tuple[complex, complex], h
 
     A peer with steps of a finite length misses excursions over the wall that fit between their ends.
     """
-    rotor, work, theirs = Jeffcott(parameters), workspace(2), peer(*start, horizon)
+    rotor, work, theirs = jeffcott(parameters), workspace(2), peer(*start, horizon)
     amplitudes, how = rotor.system.amplitudes(*start), LEAVING if abs(start[0]) > 1.0 - 1e-12 else INSIDE
     outcome, time = first_crossing(rotor.system.arrays, rotor.system.table, 0, amplitudes, horizon, how, work)
     assert outcome in (CLEAR, CONTACT)

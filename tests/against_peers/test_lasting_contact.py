@@ -5,7 +5,7 @@ import pytest
 from compilation import sized
 from machines import PAPER
 
-from carom.models import Jeffcott
+from carom.models import jeffcott
 from carom.motions.simulation import simulate
 from carom.motions.starts import State
 from carom.motions.trajectories import Trajectory
@@ -54,7 +54,7 @@ def integrator(request):
 
 def on_wall(parameters: Parameters, angle: float, rate: float, until: float) -> Trajectory:
     position = np.exp(1j * angle)
-    return simulate(Jeffcott(parameters), State(position, 1j * rate * position), until)
+    return simulate(jeffcott(parameters), State(position, 1j * rate * position), until)
 
 
 def assert_same(trajectory: Trajectory, segments: list[Segment], precision: float) -> None:

@@ -7,7 +7,7 @@ import pytest
 from machines import PAPER
 
 from carom import kick, simulate
-from carom.models import Jeffcott
+from carom.models import jeffcott
 from carom.outcome import Outcome
 from carom.proofs import prove_kicks, prove_states
 
@@ -94,7 +94,7 @@ def test_states_up_to_the_proven_speed_return():
 def test_it_agrees_with_carom_on_single_kicks():
     paper = PAPER.replace(gamma=0.3)
     machine = Machine(paper.gamma, paper.omega, paper.rho, paper.mu, paper.d, paper.radius_ratio)
-    rotor = Jeffcott(paper)
+    rotor = jeffcott(paper)
     speeds, angles = (grid.ravel() for grid in np.meshgrid([0.2, 0.3], np.linspace(0, 6, 9)))
     modes, impacts = fly(machine, speeds, angles)
     assert set(modes) == {RETURNED, RUBS}

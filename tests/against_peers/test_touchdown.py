@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from machines import PAPER
 
-from carom.models import Jeffcott
+from carom.models import jeffcott
 from carom.motions.simulation import simulate
 from carom.motions.starts import State
 from carom.motions.trajectories import Trajectory
@@ -41,7 +41,7 @@ class Touchdown:
     def rigid(self, count: int) -> tuple[Trajectory, np.ndarray, np.ndarray]:
         """The motion carom gives, and its positions and velocities in the fixed frame at even times."""
         start = State(self.position, self.velocity - 1j * self.position)
-        trajectory = simulate(Jeffcott(self.parameters), start, self.until)
+        trajectory = simulate(jeffcott(self.parameters), start, self.until)
         times = self.times(count)
         position, velocity = trajectory.at(times)
         turn = np.exp(1j * times)

@@ -47,7 +47,7 @@ def machine(random, base):
             other = reference.HuntCrossley(law.stiffness, law.dissipation, law.exponent)
         changed = dataclasses.replace(touchdown, law=own, friction=friction, surface_speed=surface)
         touchdowns = [*model.touchdowns[:number], changed, *model.touchdowns[number + 1 :]]
-        model = dataclasses.replace(model, touchdowns=touchdowns)
+        model = model.replace(touchdowns=touchdowns)
         planes.append(reference.Plane(touchdown.plane, other, friction, surface))
     return model, reference.Rotor(model.mass, model.damping, model.stiffness, model.forcing, planes)
 

@@ -11,7 +11,7 @@ import sys
 import numba
 
 from carom.core import advance
-from carom.models import Jeffcott
+from carom.models import jeffcott
 from carom.motions.simulation import simulate
 from carom.motions.starts import State
 from carom.parameters import Parameters
@@ -23,7 +23,7 @@ def main(case: dict) -> list[list[float]]:
         raise SystemExit("set NUMBA_DISABLE_JIT=1")
     loop = sys.modules[advance.__module__] if callable(advance) else advance
     rotor, start = (
-        Jeffcott(Parameters(**case["machine"])),
+        jeffcott(Parameters(**case["machine"])),
         State(complex(*case["position"]), complex(*case["velocity"])),
     )
     finals = []

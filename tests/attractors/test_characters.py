@@ -10,7 +10,7 @@ import pytest
 from carom.attractors import find_attractors
 from carom.attractors.characters import character_of, lasting_of
 from carom.attractors.survival import Survival
-from carom.models import Jeffcott
+from carom.models import jeffcott
 from carom.motions import State, simulate
 from carom.orbits import find_orbits
 from carom.outcome import Outcome
@@ -45,7 +45,7 @@ def test_chaos_has_an_exponent_that_nearby_motions_confirm_and_is_not_called_an_
     assert chaos.kind == "chaotic"
     assert chaos.lasting == "not seen to end"
     assert "attractor" not in chaos.words
-    rate, error = nearby_growth(Jeffcott(PAPER.replace(gamma=0.081)), entry.state, 10.0, sized(300, 1, 5000))
+    rate, error = nearby_growth(jeffcott(PAPER.replace(gamma=0.081)), entry.state, 10.0, sized(300, 1, 5000))
     assert rate > 3.0 * error
     value, uncertain = chaos.exponents.across
     assert abs(rate - value) < 5.0 * np.hypot(error, uncertain)

@@ -13,7 +13,7 @@ import carom as cm
 from carom.attractors import Attractor, character_of, find_attractors
 from carom.attractors.settled import settled_motion
 from carom.attractors.survival import follow_further
-from carom.models import Force, Forced, Jeffcott, Rigid, model_of
+from carom.models import Force, Rigid, jeffcott, model_of
 from carom.orbits import Kind
 from carom.orbits.recognising import whole_turns
 from carom.outcome import Outcome
@@ -88,10 +88,8 @@ def test_rest_on_the_bearing_is_sliding_that_repeats_every_turn():
 
 
 def test_a_bounce_that_does_not_keep_time_with_the_shaft_is_a_torus():
-    rotor = Forced(
-        Jeffcott(Parameters(0.15, 0.76, 3 / 7, 0.21, 0.15, 0.95, 400 / 7)), (Force(-1j, np.array([-1e-3j])),)
-    )
-    bounce = cm.find_orbits(rotor.rotor)["B1,d"]
+    rotor = jeffcott(Parameters(0.15, 0.76, 3 / 7, 0.21, 0.15, 0.95, 400 / 7)).under(Force(-1j, np.array([-1e-3j])))
+    bounce = cm.find_orbits(rotor.unforced)["B1,d"]
     found = find_attractors(rotor, [bounce.departure], known=False, patience=2000)
     (irregular,) = touched(found)
     assert irregular.name.irregular

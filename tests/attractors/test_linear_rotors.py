@@ -9,7 +9,7 @@ from machines import PAPER
 
 import carom
 from carom.attractors.settled import settled_motion
-from carom.models import LinearRotor
+from carom.models import from_matrices
 from carom.motions.starts import State
 from carom.outcome import Outcome
 
@@ -18,7 +18,7 @@ pytestmark = pytest.mark.jit_only
 
 def beside(one):
     """The planar rotor by its matrices, with another coordinate that it does not feel."""
-    return LinearRotor.in_fixed_frame(
+    return from_matrices(
         mass=np.eye(2),
         damping=np.diag([one.gamma, 0.3]),
         stiffness=np.diag([one.omega**2, 0.7]),

@@ -6,7 +6,7 @@ from compilation import sized
 
 from carom.attractors import character_of, find_attractors
 from carom.basins import share_of_kicks
-from carom.models import Jeffcott
+from carom.models import jeffcott
 from carom.motions.ensembles import settle
 from carom.motions.simulation import simulate
 from carom.motions.starts import State
@@ -32,7 +32,7 @@ def starts(count: int, seed: int = 0) -> list[State]:
 @pytest.mark.parametrize("d", [0.9995, 0.9999, 1.0])
 def test_as_many_roll_as_a_little_below(d):
     below, here = (
-        find_attractors(Jeffcott(ROLLS.replace(d=each)), starts(sized(60, 4)), known=False) for each in (0.995, d)
+        find_attractors(jeffcott(ROLLS.replace(d=each)), starts(sized(60, 4)), known=False) for each in (0.995, d)
     )
     assert [(str(member.name), member.count) for member in here] == [
         (str(member.name), member.count) for member in below
@@ -47,16 +47,16 @@ def test_as_many_roll_as_a_little_below(d):
 
 def test_one_motion_is_told_to_roll_where_its_bounces_never_end():
     start = State(1.0, complex(-0.5, -1.0 - ROLLS.radius_ratio))
-    motion = simulate(Jeffcott(ROLLS.replace(d=1.0)), start, settle=True, patience=500)
+    motion = simulate(jeffcott(ROLLS.replace(d=1.0)), start, settle=True, patience=500)
     assert motion.outcome is Outcome.ROLLING
-    assert simulate(Jeffcott(UNPROVEN), start, settle=True, patience=500).outcome is Outcome.LOW_BOUNCES
+    assert simulate(jeffcott(UNPROVEN), start, settle=True, patience=500).outcome is Outcome.LOW_BOUNCES
     # With negative damping they grow, and nothing is said of where to.
-    grows = simulate(Jeffcott(UNPROVEN.replace(gamma=-1e-3)), start, settle=True, patience=500)
+    grows = simulate(jeffcott(UNPROVEN.replace(gamma=-1e-3)), start, settle=True, patience=500)
     assert grows.outcome is Outcome.LOW_BOUNCES
 
 
 def test_what_is_not_proven_to_fade_is_undecided_and_neither_survives_nor_comes_back():
-    found = find_attractors(Jeffcott(UNPROVEN), starts(sized(40, 4)), known=False)
+    found = find_attractors(jeffcott(UNPROVEN), starts(sized(40, 4)), known=False)
     undecided = [member for member in found if member.name.outcome is Outcome.LOW_BOUNCES]
     assert sum(member.count for member in undecided) > 0.3 * len(found.endings)
     assert not any(member.settled or member.touches or member.survival for member in undecided)
@@ -82,7 +82,7 @@ def test_no_motion_without_slip_survives_on_random_machines(seed):
         d=random.choice([1.0, 1.0 - 10.0 ** random.uniform(-6.0, -3.0)]),
         radius_ratio=10.0 ** random.uniform(0.3, 2.3),
     )
-    found = find_attractors(Jeffcott(parameters), starts(sized(40, 4), seed), known=False)
+    found = find_attractors(jeffcott(parameters), starts(sized(40, 4), seed), known=False)
     for member in found:
         if member.name.irregular:
             motion = simulate(found.rotor, member.state, 1e6, max_events=2000)
@@ -94,7 +94,7 @@ def test_no_motion_without_slip_survives_on_random_machines(seed):
 
 def test_a_chatter_in_progress_is_followed_to_its_end():
     """Its bounces are low too, but they end."""
-    rotor = Jeffcott(ROLLS.replace(mu=0.0, d=0.99))
+    rotor = jeffcott(ROLLS.replace(mu=0.0, d=0.99))
     pressed = np.full(3, 1.0 + 0j), np.array([-0.3, -0.2, -0.1]) - 0.5j * ROLLS.radius_ratio
     assert (settle(rotor, *pressed, patience=300).outcomes == Outcome.LOW_BOUNCES).all()
     found = find_attractors(rotor, [State(1.0, complex(velocity)) for velocity in pressed[1]], known=False)

@@ -8,7 +8,7 @@ from carom.attractors import find_attractors, following
 from carom.attractors.survival import Survival
 from carom.closed_forms.equilibria import find_equilibria
 from carom.disturbances import BaseShock, Grid, KickPlane, Sample, Starts
-from carom.models import Jeffcott
+from carom.models import jeffcott
 from carom.motions import settling
 from carom.motions.ensembles import Endings
 from carom.motions.simulation import simulate
@@ -35,7 +35,7 @@ def shares(rotor, starts):
 
 @pytest.fixture(scope="module")
 def found():
-    return find_attractors(Jeffcott(SOURCE))
+    return find_attractors(jeffcott(SOURCE))
 
 
 # ------------------------------------------------------------------------------------------------ the source's machine
@@ -66,7 +66,7 @@ def test_motions_go_on_from_the_states_given(found):
 @pytest.mark.jit_only
 @pytest.mark.parametrize("seed", [0, 1])
 def test_all_random_starts_end_in_synchronous_rub_with_twice_the_damping(seed):
-    rotor = Jeffcott(SOURCE.replace(gamma=0.2))
+    rotor = jeffcott(SOURCE.replace(gamma=0.2))
 
     assert find_equilibria(rotor)[0].stable
     assert shares(rotor, random_starts(100, 1.0, seed)) == {"synchronous rub": 1.0}
@@ -76,7 +76,7 @@ def test_all_random_starts_end_in_synchronous_rub_with_twice_the_damping(seed):
 @pytest.mark.parametrize("gamma", [0.05, 0.077])
 @pytest.mark.parametrize("fastest", [0.5, 1.0])
 def test_nearly_all_random_starts_roll_with_little_damping(gamma, fastest):
-    ends = shares(Jeffcott(SOURCE.replace(gamma=gamma)), random_starts(100, fastest))
+    ends = shares(jeffcott(SOURCE.replace(gamma=gamma)), random_starts(100, fastest))
 
     assert set(ends) <= {"rolling backward whirl", "synchronous rub"}
     assert ends["rolling backward whirl"] > 0.9
@@ -84,7 +84,7 @@ def test_nearly_all_random_starts_roll_with_little_damping(gamma, fastest):
 
 @pytest.mark.jit_only
 def test_irregular_bouncing_at_gamma_0_08_is_a_long_transient():
-    found = find_attractors(Jeffcott(SOURCE.replace(gamma=0.08)), random_starts(40, 0.5), known=False)
+    found = find_attractors(jeffcott(SOURCE.replace(gamma=0.08)), random_starts(40, 0.5), known=False)
 
     impacts = np.array([ending.impacts for ending in found.endings])
     assert {member.name for member in found} == {"rolling backward whirl", "synchronous rub"}
@@ -94,7 +94,7 @@ def test_irregular_bouncing_at_gamma_0_08_is_a_long_transient():
 
 @pytest.mark.jit_only
 def test_irregular_bouncing_at_gamma_0_082_lasts():
-    found = find_attractors(Jeffcott(SOURCE.replace(gamma=0.082)), random_starts(30, 0.5), known=False)
+    found = find_attractors(jeffcott(SOURCE.replace(gamma=0.082)), random_starts(30, 0.5), known=False)
     irregular = found["irregular bouncing"]
     followed = [ending.impacts for ending in found.ending_on("irregular bouncing")]
 
@@ -115,7 +115,7 @@ def test_irregular_bouncing_that_dies_is_no_attractor_however_short_the_patience
     """Half-lives counted over 1500 fresh starts every 250 impacts, to 4 %; one interval of 95 % in twenty misses them."""
     intervals = []
     for seed in range(3):
-        found = find_attractors(Jeffcott(SOURCE.replace(gamma=gamma)), count=60, patience=4000, seed=seed)
+        found = find_attractors(jeffcott(SOURCE.replace(gamma=gamma)), count=60, patience=4000, seed=seed)
         assert {member.name for member in found} == {"levitation", "synchronous rub", "rolling backward whirl"}
         transient = found.transient
         assert transient is not None
@@ -128,7 +128,7 @@ def test_irregular_bouncing_that_dies_is_no_attractor_however_short_the_patience
 
 @pytest.mark.jit_only
 def test_two_impacts_a_period_beyond_the_period_doubling():
-    found = find_attractors(Jeffcott(SOURCE.replace(gamma=0.0832)), count=40)
+    found = find_attractors(jeffcott(SOURCE.replace(gamma=0.0832)), count=40)
 
     assert found["2-impact bouncing"].name.multiplicity == 2
     assert "irregular bouncing" not in found
@@ -140,7 +140,7 @@ def test_two_impacts_a_period_beyond_the_period_doubling():
 @pytest.mark.jit_only
 @pytest.mark.parametrize("gamma", [0.05, 0.1, 0.15])
 def test_every_start_ends_as_it_does_alone(gamma):
-    found = find_attractors(Jeffcott(SOURCE.replace(gamma=gamma)), count=24, seed=3)
+    found = find_attractors(jeffcott(SOURCE.replace(gamma=gamma)), count=24, seed=3)
 
     for ending in found.endings:
         alone = simulate(found.rotor, ending.start.state, settle=True)
@@ -165,7 +165,7 @@ def test_counts_and_shares_add_up(found):
 
 @pytest.mark.jit_only
 def test_same_arguments_give_the_same_attractors(found):
-    again = find_attractors(Jeffcott(SOURCE))
+    again = find_attractors(jeffcott(SOURCE))
 
     def facts(attractors):
         return [
@@ -197,7 +197,7 @@ def test_attractors_are_ordered_by_what_they_attract(found):
 
 @pytest.mark.jit_only
 def test_known_motion_is_found_though_no_disturbance_reaches_it():
-    found = find_attractors(Jeffcott(SOURCE.replace(gamma=0.4)))
+    found = find_attractors(jeffcott(SOURCE.replace(gamma=0.4)))
 
     assert found["rolling backward whirl"].count == 0
     assert found["rolling backward whirl"].known == 2
@@ -208,7 +208,7 @@ def test_known_motion_is_found_though_no_disturbance_reaches_it():
 
 @pytest.mark.jit_only
 def test_given_starts_replace_the_sample():
-    found = find_attractors(Jeffcott(SOURCE), [kick(0.001), State(0.9 + 0j, 1j)], known=False)
+    found = find_attractors(jeffcott(SOURCE), [kick(0.001), State(0.9 + 0j, 1j)], known=False)
 
     assert [ending.start.kind for ending in found.endings] == ["kick", "start"]
     assert found.endings[0].recovered
@@ -218,7 +218,7 @@ def test_given_starts_replace_the_sample():
 @pytest.mark.jit_only
 @pytest.mark.parametrize("plan", [Grid(BaseShock(2.5, 0.9), (6, 8)), Sample(KickPlane(0.4), 60, seed=2)])
 def test_any_plan_ends_as_its_basins_do(plan):
-    rotor = Jeffcott(SOURCE.replace(gamma=0.15, rho=0.3))
+    rotor = jeffcott(SOURCE.replace(gamma=0.15, rho=0.3))
     found, basin = find_attractors(rotor, plan, known=False), carom.map_basins(rotor, plan)
 
     assert [ending.attractor for ending in found.endings] == [
@@ -232,7 +232,7 @@ def test_any_plan_ends_as_its_basins_do(plan):
 
 def test_kicks_out_of_no_levitation_are_an_error():
     with pytest.raises(InputError, match="one that is possible"):
-        find_attractors(Jeffcott(SOURCE.replace(gamma=0.05)), Sample(KickPlane(0.4), 10))
+        find_attractors(jeffcott(SOURCE.replace(gamma=0.05)), Sample(KickPlane(0.4), 10))
 
 
 @pytest.mark.jit_only
@@ -248,7 +248,7 @@ def test_where_orbits_cannot_be_listed_disturbances_are_followed_all_the_same():
 
 def test_motion_given_up_is_listed_last_with_its_reason(monkeypatch):
     monkeypatch.setattr(settling, "longest_time", lambda rotor: 5.0)
-    found = find_attractors(Jeffcott(SOURCE), [kick(0.001), kick(0.3), kick(0.4)], known=False)
+    found = find_attractors(jeffcott(SOURCE), [kick(0.001), kick(0.3), kick(0.4)], known=False)
     last = found.members[-1]
 
     assert last.name == "unresolved: time-reached"
@@ -258,7 +258,7 @@ def test_motion_given_up_is_listed_last_with_its_reason(monkeypatch):
 
 @pytest.mark.jit_only
 def test_unknown_attractor_names_the_known():
-    found = find_attractors(Jeffcott(SOURCE), [kick(0.001)], known=False)
+    found = find_attractors(jeffcott(SOURCE), [kick(0.001)], known=False)
 
     with pytest.raises(InputError, match="attractor = B9,z: one of: levitation"):
         found["B9,z"]
@@ -267,20 +267,20 @@ def test_unknown_attractor_names_the_known():
 @pytest.mark.jit_only
 def test_nothing_to_follow_is_an_error():
     with pytest.raises(InputError, match="count"):
-        find_attractors(Jeffcott(SOURCE), [], known=False)
+        find_attractors(jeffcott(SOURCE), [], known=False)
 
 
 @pytest.mark.jit_only
 def test_start_outside_the_wall_is_an_error():
     with pytest.raises(InputError, match="inside the wall"):
-        find_attractors(Jeffcott(SOURCE), [State(1.5 + 0j)], known=False)
+        find_attractors(jeffcott(SOURCE), [State(1.5 + 0j)], known=False)
 
 
 @pytest.mark.jit_only
 def test_progress_grows_to_one():
     shares_done = []
     find_attractors(
-        Jeffcott(SOURCE),
+        jeffcott(SOURCE),
         [kick(0.001), kick(0.002)],
         known=False,
         progress=lambda report: shares_done.append(report.share),
@@ -329,7 +329,7 @@ def fates(monkeypatch, lives, patience=20_000, survival=LASTS):
     )
     starts = Starts.of(np.arange(len(lives), dtype=complex), 0j, True)
     tell = Reporter(lambda report: progress.append(report.share))
-    ends, lasted, found = following.follow_in_stages(Jeffcott(SOURCE), starts, patience, None, tell)
+    ends, lasted, found = following.follow_in_stages(jeffcott(SOURCE), starts, patience, None, tell)
     assert progress == sorted(progress)
     assert lasted.tolist() == [life > min(1000, patience) for life in lives]
     assert found is (survival if lasted.any() else None)

@@ -9,7 +9,7 @@ import pytest
 from carom.attractors.settled import forces_on, known_orbit, same_motion, settled_motion, whirl_of
 from carom.closed_forms.equilibria import find_equilibria
 from carom.closed_forms.whirl import rolling
-from carom.models import Jeffcott
+from carom.models import jeffcott
 from carom.motions.simulation import simulate
 from carom.motions.starts import State
 from carom.orbits.single_impact import find_orbits
@@ -25,13 +25,13 @@ def settled(rotor, state):
 
 @pytest.fixture(scope="module")
 def bouncing():
-    rotor = Jeffcott(SOURCE)
+    rotor = jeffcott(SOURCE)
     return settled(rotor, State(0.2 + 0.1j, -1.0 + 0.5j))
 
 
 @pytest.fixture(scope="module")
 def doubled():
-    rotor = Jeffcott(SOURCE.replace(gamma=0.0832))
+    rotor = jeffcott(SOURCE.replace(gamma=0.0832))
     leaving = find_orbits(rotor)["B1,d"].departure
     return [settled(rotor, State(leaving.position, factor * leaving.velocity)) for factor in (0.999, 1.001, 1.01, 0.99)]
 
@@ -93,7 +93,7 @@ def test_different_orbits_are_different_motions(bouncing, doubled):
 @pytest.mark.jit_only
 def test_bouncing_with_rub_repeats_an_orbit_with_lasting_contact():
     parameters = Parameters(0.0431456484, 1.25902546543, 1.31671186334, 0.0, 0.427612705, 0.43781982, 2.0)
-    motion = settled(Jeffcott(parameters), State(0.3, 0.5 + 1.0j))
+    motion = settled(jeffcott(parameters), State(0.3, 0.5 + 1.0j))
     ended = settled_motion(motion)
 
     assert ended.outcome is Outcome.MIXED
@@ -113,7 +113,7 @@ def test_impulse_on_an_orbit_is_that_of_its_impact(bouncing):
 
 @pytest.mark.jit_only
 def test_synchronous_rub_presses_with_the_force_of_its_equilibrium():
-    rotor = Jeffcott(SOURCE.replace(gamma=0.2))
+    rotor = jeffcott(SOURCE.replace(gamma=0.2))
     rub = find_equilibria(rotor)[1]
     motion = settled(rotor, State(rub.position, 0.05j * rub.position))
     ended = settled_motion(motion)
@@ -126,7 +126,7 @@ def test_synchronous_rub_presses_with_the_force_of_its_equilibrium():
 
 
 def test_rolling_goes_backward_with_its_closed_form_force():
-    motion = settled(Jeffcott(SOURCE), State(1.0 + 0j, -1j * (1.0 + 400 / 7)))
+    motion = settled(jeffcott(SOURCE), State(1.0 + 0j, -1j * (1.0 + 400 / 7)))
     ended = settled_motion(motion)
 
     assert ended.outcome is Outcome.ROLLING
@@ -140,8 +140,8 @@ def test_rolling_goes_backward_with_its_closed_form_force():
 def test_rolling_that_slides_a_part_of_each_turn_is_backward_whirl(ratio):
     # Damping halfway between that up to which rolling holds and that beyond which no backward whirl can.
     parameters = SOURCE.replace(radius_ratio=ratio, rho=1.0)
-    limits = rolling(Jeffcott(parameters))
-    rotor = Jeffcott(parameters.replace(gamma=0.5 * (limits.largest_damping + limits.damping_bound)))
+    limits = rolling(jeffcott(parameters))
+    rotor = jeffcott(parameters.replace(gamma=0.5 * (limits.largest_damping + limits.damping_bound)))
     motion = settled(rotor, State(1.0 + 0j, -1j * (1.0 + ratio)))
     ended = settled_motion(motion)
 
@@ -157,7 +157,7 @@ def test_rolling_that_slides_a_part_of_each_turn_is_backward_whirl(ratio):
 
 
 def test_levitation_is_at_rest_and_touches_nothing():
-    motion = settled(Jeffcott(SOURCE.replace(gamma=0.5)), State(0.1 + 0j))
+    motion = settled(jeffcott(SOURCE.replace(gamma=0.5)), State(0.1 + 0j))
     ended = settled_motion(motion)
 
     assert (ended.outcome, ended.synchronous) == (Outcome.LEVITATED, True)
@@ -166,6 +166,6 @@ def test_levitation_is_at_rest_and_touches_nothing():
 
 
 def test_rotor_without_unbalance_does_not_whirl():
-    motion = simulate(Jeffcott(SOURCE.replace(gamma=0.5, rho=0.0)), State(0j), 100.0, settle=True)
+    motion = simulate(jeffcott(SOURCE.replace(gamma=0.5, rho=0.0)), State(0j), 100.0, settle=True)
 
     assert whirl_of(settled_motion(motion)) == "none"

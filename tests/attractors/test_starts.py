@@ -8,7 +8,7 @@ from scipy.stats import chi2_contingency, chisquare, ks_2samp
 from carom.attractors import DisturbanceSet, known_starts
 from carom.attractors.starts import disturbances_of
 from carom.closed_forms.whirl import runaway_speed
-from carom.models import Jeffcott
+from carom.models import jeffcott
 from carom.motions.ensembles import settle
 from carom.orbits.single_impact import find_orbits
 from carom.outcome import InputError
@@ -27,7 +27,7 @@ def states(starts):
 
 
 def test_sample_is_the_same_for_the_same_seed_only():
-    rotor = Jeffcott(SOURCE)
+    rotor = jeffcott(SOURCE)
 
     assert states(disturbances(rotor, 50, seed=3)) == states(disturbances(rotor, 50, seed=3))
     assert states(disturbances(rotor, 50, seed=3)) != states(disturbances(rotor, 50, seed=4))
@@ -35,14 +35,14 @@ def test_sample_is_the_same_for_the_same_seed_only():
 
 @pytest.mark.parametrize("count", [0, 1, 11, 100, 300])
 def test_sample_has_as_many_starts_as_asked_for(count):
-    sample = disturbances(Jeffcott(SOURCE), count)
+    sample = disturbances(jeffcott(SOURCE), count)
 
     assert len(sample) == count
     assert all(start.disturbance for start in sample)
 
 
 def test_kicks_grow_and_start_from_levitation():
-    rotor = Jeffcott(SOURCE)
+    rotor = jeffcott(SOURCE)
     kicks = [start for start in disturbances(rotor, 200, fastest=3.0) if start.kind == "kick"]
     speeds = [start.speed for start in kicks]
 
@@ -54,8 +54,8 @@ def test_kicks_grow_and_start_from_levitation():
 
 
 ROTORS = {
-    "planar": Jeffcott(SOURCE),
-    "planar, cannot levitate": Jeffcott(SOURCE.replace(gamma=0.05)),
+    "planar": jeffcott(SOURCE),
+    "planar, cannot levitate": jeffcott(SOURCE.replace(gamma=0.05)),
     "one coordinate of two": single(2).model.replace(translation=[2.0]),
     "two planes": tilting().model,
     "four masses": bending().model,
@@ -88,7 +88,7 @@ def test_speeds_seen_in_the_room_are_bounded(name, fastest):
 @pytest.mark.parametrize("kind", ["kick", "start"])
 def test_velocities_are_uniform_over_the_area_of_a_disc(kind, seed):
     """Chi-square over 8 rings of equal area times 12 sectors, seen in the room; positions likewise."""
-    rotor = Jeffcott(SOURCE)
+    rotor = jeffcott(SOURCE)
     chosen = [start.state for start in disturbances(rotor, 20_000, seed, 0.6) if start.kind == kind]
     positions, velocities = (np.array([getattr(one, name) for one in chosen]) for name in ("position", "velocity"))
     discs = [velocities / 0.6] if kind == "kick" else [(velocities + 1j * positions) / 0.6, positions]
@@ -101,7 +101,7 @@ def test_velocities_are_uniform_over_the_area_of_a_disc(kind, seed):
 
 def test_velocity_does_not_depend_on_the_place():
     """Someone in the room sees the same velocities near the wall as in the middle; in the turning frame they differ."""
-    sample = [start.state for start in disturbances(Jeffcott(SOURCE), 20_000, 5, 0.6) if start.kind == "start"]
+    sample = [start.state for start in disturbances(jeffcott(SOURCE), 20_000, 5, 0.6) if start.kind == "start"]
     positions, velocities = (np.array([getattr(one, name) for one in sample]) for name in ("position", "velocity"))
     along = (positions.conj() * (velocities + 1j * positions)).imag / np.abs(positions)
     outside = np.abs(positions) > np.sqrt(0.5)
@@ -113,10 +113,10 @@ def test_velocity_does_not_depend_on_the_place():
 @pytest.mark.jit_only
 def test_ends_do_not_depend_on_the_direction_of_the_real_axis():
     """Machine and starts turned together end alike; so do samples of the machine turned alone, within their spread."""
-    turned = Jeffcott(SOURCE.replace(phi=SOURCE.phi + 2.0))
+    turned = jeffcott(SOURCE.replace(phi=SOURCE.phi + 2.0))
     chosen, turn = DisturbanceSet(2000, 3, 1.0), np.exp(2.0j)
-    starts = chosen.starts(Jeffcott(SOURCE))
-    ends = settle(Jeffcott(SOURCE), *starts[:2])
+    starts = chosen.starts(jeffcott(SOURCE))
+    ends = settle(jeffcott(SOURCE), *starts[:2])
     again = settle(turned, starts.positions * turn, starts.velocities * turn)
     alone = settle(turned, *DisturbanceSet(2000, 4, 1.0).starts(turned)[:2])
 
@@ -141,14 +141,14 @@ def test_set_for_a_machine_reaches_its_usual_kick():
 
 
 def test_rotor_that_cannot_levitate_is_not_kicked_out_of_levitation():
-    rotor = Jeffcott(SOURCE.replace(gamma=0.05))
+    rotor = jeffcott(SOURCE.replace(gamma=0.05))
 
     assert abs(rotor.equilibrium) > 1.0
     assert {start.kind for start in disturbances(rotor, 40)} == {"start"}
 
 
 def test_set_is_the_sample_and_says_what_it_holds():
-    rotor, chosen = Jeffcott(SOURCE), DisturbanceSet(50, seed=3, fastest=1.5)
+    rotor, chosen = jeffcott(SOURCE), DisturbanceSet(50, seed=3, fastest=1.5)
     starts = chosen.starts(rotor)
 
     assert [(s.state.position, s.state.velocity) for s in disturbances(rotor, 50, 3, 1.5)] == [
@@ -159,7 +159,7 @@ def test_set_is_the_sample_and_says_what_it_holds():
         "50 disturbances (seed 3): 30 kicks of the levitating rotor and 20 starts anywhere in the clearance, at up to "
         "1.5 c_r Ω in the fixed frame"
     )
-    scaled = Jeffcott(SOURCE.replace(gamma=0.05, scales=Scales(mass=50.0, clearance=0.7e-3, speed=184.2)))
+    scaled = jeffcott(SOURCE.replace(gamma=0.05, scales=Scales(mass=50.0, clearance=0.7e-3, speed=184.2)))
     assert chosen.words(scaled) == (
         "50 disturbances (seed 3): 50 starts anywhere in the clearance, at up to 193 mm/s in the fixed frame"
     )
@@ -172,7 +172,7 @@ def test_useless_set_is_an_error(wrong):
 
 
 def test_known_motions_are_approached_from_both_sides():
-    rotor = Jeffcott(SOURCE)
+    rotor = jeffcott(SOURCE)
     sample = known_starts(rotor, find_orbits(rotor))
     kinds = [start.kind for start in sample]
 
@@ -184,7 +184,7 @@ def test_known_motions_are_approached_from_both_sides():
 
 
 def test_virtual_motions_are_left_out():
-    rotor = Jeffcott(SOURCE.replace(gamma=0.05))
+    rotor = jeffcott(SOURCE.replace(gamma=0.05))
     orbits = find_orbits(rotor)
     named = {start.words for start in known_starts(rotor, orbits) if start.kind == "orbit"}
 
@@ -193,13 +193,13 @@ def test_virtual_motions_are_left_out():
 
 
 def test_whirl_starts_beyond_the_runaway_speed_and_at_rolling():
-    rotor = Jeffcott(SOURCE)
+    rotor = jeffcott(SOURCE)
     speeds = [-1.0 - start.state.velocity.imag for start in known_starts(rotor, ()) if start.kind == "whirl"]
 
     assert speeds == pytest.approx([1.001 * runaway_speed(rotor).certain, 400 / 7])
 
 
 def test_no_whirl_start_without_friction():
-    rotor = Jeffcott(SOURCE.replace(mu=0.0))
+    rotor = jeffcott(SOURCE.replace(mu=0.0))
 
     assert [start.kind for start in known_starts(rotor, ())] == ["rub"] * 4

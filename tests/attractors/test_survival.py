@@ -17,7 +17,7 @@ from carom.attractors.survival import (
     measure_survival,
     still_irregular,
 )
-from carom.models import Jeffcott
+from carom.models import jeffcott
 from carom.motions.ensembles import Endings, settle
 from carom.outcome import Outcome
 
@@ -136,7 +136,7 @@ def test_motions_given_up_have_neither_died_nor_lasted(monkeypatch):
 
 @pytest.mark.jit_only
 def test_motions_of_an_ensemble_are_followed_to_where_they_end():
-    rotor = Jeffcott(PAPER.replace(gamma=0.08))
+    rotor = jeffcott(PAPER.replace(gamma=0.08))
     random = np.random.default_rng(0)
     points = np.sqrt(random.random((2, 80))) * np.exp(2j * np.pi * random.random((2, 80)))
     early = settle(rotor, points[0], 0.5 * points[1], patience=1500)

@@ -34,7 +34,7 @@ MACHINE = PAPER.replace(gamma=0.15, rho=0.3, scales=SCALES)
 
 @pytest.fixture(scope="module")
 def rotor():
-    return carom.models.Jeffcott(MACHINE)
+    return carom.models.jeffcott(MACHINE)
 
 
 @pytest.fixture(scope="module")
@@ -75,14 +75,14 @@ def test_motions_have_the_names_of_the_attractors(rotor):
 
 
 def test_period_doubled_bouncing_has_a_name_of_its_own():
-    rotor = carom.models.Jeffcott(PAPER.replace(gamma=0.0832))
+    rotor = carom.models.jeffcott(PAPER.replace(gamma=0.0832))
     basin = map_basins(rotor, Grid(VelocityKick(1.0), (3, 8)))
     assert "2-impact bouncing" in basin.fractions
     assert "B1,d" not in basin.fractions
 
 
 def test_irregular_bouncing_is_told_from_periodic():
-    rotor = carom.models.Jeffcott(PAPER.replace(gamma=0.082))
+    rotor = carom.models.jeffcott(PAPER.replace(gamma=0.082))
     basin = map_basins(rotor, Grid(VelocityKick(1.0), (3, 8)), patience=1500)
     irregular = basin.dataset["motion"].values == basin.motions.index("irregular bouncing")
     assert irregular.sum() > 12
@@ -169,7 +169,7 @@ def test_shares_of_a_sample_have_an_interval(rotor):
 
 
 def test_no_levitation_no_kick():
-    grounded = carom.models.Jeffcott(PAPER.replace(gamma=0.05))
+    grounded = carom.models.jeffcott(PAPER.replace(gamma=0.05))
     with pytest.raises(InputError, match="possible"):
         map_basins(grounded, Grid(VelocityKick(), (3, 3)))
     released = map_basins(grounded, Grid(ContactRelease(), (5,)))

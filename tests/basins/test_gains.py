@@ -36,7 +36,7 @@ def test_each_node_is_the_basin_of_its_machine(found):
     for i, stiffness in enumerate(found.dataset["stiffness"].values):
         for k, damping in enumerate(found.dataset["damping"].values):
             machine = MACHINE.replace(stiffness=stiffness, damping=damping)
-            rotor = carom.models.Jeffcott(machine)
+            rotor = carom.models.jeffcott(machine)
             node = found.dataset.isel(stiffness=i, damping=k)
             assert levitates[i, k] == (abs(rotor.equilibrium) < 1.0)
             if not levitates[i, k]:
@@ -62,7 +62,7 @@ def test_each_node_is_the_basin_of_its_machine(found):
 
 def test_the_present_machine(found):
     assert found.present == pytest.approx((MACHINE.omega**2 * SCALES.stiffness, 0.152 * SCALES.damping))
-    share = map_basins(carom.models.Jeffcott(MACHINE), KICKS).share_recovered
+    share = map_basins(carom.models.jeffcott(MACHINE), KICKS).share_recovered
     assert found.present_share == share
 
 
@@ -79,7 +79,7 @@ def test_the_least_change_is_enough_and_half_of_it_is_not(found):
     for part in (1.0, 0.97):
         values = [now * (1.0 + part * relative) for now, relative in zip(found.present, change.changes, strict=True)]
         machine = MACHINE.replace(stiffness=values[0], damping=values[1])
-        shares.append(map_basins(carom.models.Jeffcott(machine), KICKS).share_recovered.fraction)
+        shares.append(map_basins(carom.models.jeffcott(machine), KICKS).share_recovered.fraction)
     assert shares[0] == change.share.fraction >= 0.95
     assert shares[1] < 0.95
     assert change.values == pytest.approx(
@@ -100,7 +100,7 @@ def test_physical_kicks_stay_what_they_are_when_the_speed_changes():
     slow = MACHINE.replace(speed=120.0, damping=3000.0)
     plan = Grid(VelocityKick.of(slow, "20 mm/s"), (10, 10))
     assert plan.model.fastest == pytest.approx(KICKS.model.fastest * slow.scales.time / MACHINE.scales.time, rel=1e-12)
-    share = map_basins(carom.models.Jeffcott(slow), plan).share_recovered
+    share = map_basins(carom.models.jeffcott(slow), plan).share_recovered
     assert found.dataset["recovered"].values[0, 0] == pytest.approx(share.fraction, abs=0.011)
 
 
@@ -186,7 +186,7 @@ def test_the_least_change_is_confirmed_by_a_sample_that_the_search_has_not_seen(
     change = least_gain_change(found, 0.8)
     assert change.share.low >= 0.8
     moved = machine.replace(omega=change.values[0], gamma=change.values[1])
-    fresh = map_basins(carom.models.Jeffcott(moved), Sample(VelocityKick(1.0), 20_000, seed=77)).share_recovered
+    fresh = map_basins(carom.models.jeffcott(moved), Sample(VelocityKick(1.0), 20_000, seed=77)).share_recovered
     assert fresh.high >= change.share.low
     assert fresh.fraction >= 0.8
 

@@ -43,7 +43,7 @@ def test_the_safe_size_is_the_last_one_tried_before_the_first_loss():
 @pytest.mark.jit_only
 def test_integrity_of_kicks_agrees_between_pictures():
     """By size and direction, and in the plane, the ball about levitation is the same to the width of the cells."""
-    rotor = carom.models.Jeffcott(MACHINE)
+    rotor = carom.models.jeffcott(MACHINE)
     rings = integrity(map_basins(rotor, Grid(VelocityKick(1.0), (80, 90))))
     plane = integrity(map_basins(rotor, Grid(KickPlane(1.0), (80, 80))))
     smallest = carom.basins.smallest_loss(rotor, VelocityKick(1.0))
@@ -55,7 +55,7 @@ def test_integrity_of_kicks_agrees_between_pictures():
 
 @pytest.mark.jit_only
 def test_integrity_of_positions_and_samples():
-    rotor = carom.models.Jeffcott(MACHINE)
+    rotor = carom.models.jeffcott(MACHINE)
     # Levitation moves in the room, and only the slice at its velocity contains it.
     found = integrity(map_basins(rotor, Grid(StateSlice(1j * rotor.equilibrium), (60, 60))))
     assert 0.0 < found.local <= 1.0 - abs(rotor.equilibrium)
@@ -124,7 +124,7 @@ def test_entropy_needs_room_for_a_box():
 
 @pytest.mark.jit_only
 def test_entropy_is_for_grids():
-    rotor = carom.models.Jeffcott(MACHINE)
+    rotor = carom.models.jeffcott(MACHINE)
     with pytest.raises(InputError, match="sample"):
         basin_entropy(map_basins(rotor, Sample(VelocityKick(1.0), 10)))
     found = basin_entropy(map_basins(rotor, Grid(VelocityKick(1.0), (20, 20))))

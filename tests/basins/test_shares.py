@@ -17,7 +17,7 @@ from carom.disturbances import BaseShock, ContactRelease, Grid, KickPlane, Sampl
 from carom.explorer.computing.kicks import map_kicks
 from carom.explorer.computing.planes import planes_of
 from carom.explorer.page.messages import basin_message
-from carom.models import Jeffcott
+from carom.models import jeffcott
 from carom.sweeps.basins import BasinsTask
 from carom.sweeps.studies import StudyTask
 
@@ -93,7 +93,7 @@ def test_the_share_of_a_grid_is_that_of_the_area(model, lost_from):
 @pytest.mark.parametrize("gamma", [0.12, 0.2])
 def test_grids_converge_to_what_a_sample_shows(gamma):
     """Polar cells of equal weight would say 9 points too much here."""
-    rotor = Jeffcott(PAPER.replace(gamma=gamma, rho=0.3))
+    rotor = jeffcott(PAPER.replace(gamma=gamma, rho=0.3))
     drawn = map_basins(rotor, Sample(VelocityKick(1.0), sized(40_000, 8_000), seed=8)).share_recovered
     assert 0.05 < drawn.fraction < 0.95
     assert drawn.high - drawn.low < 0.025
@@ -117,7 +117,7 @@ def test_page_basins_study_and_sweep_give_one_share(settings):
     """11.9, 38.8 and 64 % were told of one machine: of a square, of sizes and directions, and of starts anywhere."""
     case = carom.load(MACHINE, settings)
     scales, seed = case.parameters.scales, np.random.SeedSequence(9)
-    rotor, largest = Jeffcott(case.parameters), case.requirement.own(case.parameters.scales).kick
+    rotor, largest = jeffcott(case.parameters), case.requirement.own(case.parameters.scales).kick
     kicks = planes_of(case)[0]
     page = map_kicks(rotor, kicks, 80, kicks.usual).share
     grid = map_basins(case, Grid(VelocityKick.of(case), (60, 60))).share_recovered
@@ -143,15 +143,15 @@ def test_page_basins_study_and_sweep_give_one_share(settings):
 
 @pytest.mark.jit_only
 def test_plans_of_kicks_have_the_same_share_as_attractors_and_as_basins():
-    rotor = Jeffcott(PAPER.replace(gamma=0.15, rho=0.3))
+    rotor = jeffcott(PAPER.replace(gamma=0.15, rho=0.3))
     for plan in (Grid(VelocityKick(0.8), (9, 8)), Grid(KickPlane(0.8), (9, 9)), Sample(KickPlane(0.8), 60, seed=1)):
         assert share_of_kicks(find_attractors(rotor, plan, known=False)) == map_basins(rotor, plan).share_recovered
 
 
 @pytest.mark.jit_only
 def test_no_share_without_kicks():
-    rotor = Jeffcott(PAPER)
-    assert share_of_kicks(find_attractors(Jeffcott(PAPER.replace(gamma=0.05)), DisturbanceSet(10), known=False)) is None
+    rotor = jeffcott(PAPER)
+    assert share_of_kicks(find_attractors(jeffcott(PAPER.replace(gamma=0.05)), DisturbanceSet(10), known=False)) is None
     assert share_of_kicks(find_attractors(rotor, [carom.kick(0.1)], known=False)) is None
     assert share_of_kicks(find_attractors(rotor, Grid(ContactRelease(), (4,)), known=False)) is None
 
@@ -160,7 +160,7 @@ def test_no_share_without_kicks():
 def test_the_share_does_not_depend_on_the_direction_of_the_real_axis():
     shares = []
     for turn in (0.0, 1.0, 4.0):
-        rotor = Jeffcott(PAPER.replace(gamma=0.15, rho=0.3, phi=PAPER.phi + turn))
+        rotor = jeffcott(PAPER.replace(gamma=0.15, rho=0.3, phi=PAPER.phi + turn))
         shares.append(map_basins(rotor, Grid(KickPlane(0.8), (50, 50))).share_recovered.fraction)
         drawn = map_basins(rotor, Sample(VelocityKick(0.8), 4000, seed=int(turn))).share_recovered
         assert drawn.low - 0.01 < shares[0] < drawn.high + 0.01
@@ -169,7 +169,7 @@ def test_the_share_does_not_depend_on_the_direction_of_the_real_axis():
 
 
 def test_weights_are_in_the_dataset():
-    rotor = Jeffcott(PAPER.replace(gamma=0.2))
+    rotor = jeffcott(PAPER.replace(gamma=0.2))
     basin = map_basins(rotor, Grid(VelocityKick(0.2), (3, 4)))
     weights = basin.dataset["weight"]
     assert weights.dims == ("speed", "direction")

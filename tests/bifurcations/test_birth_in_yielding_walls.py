@@ -11,17 +11,17 @@ from scipy.linalg import expm
 from scipy.optimize import root
 
 import carom as cm
-from carom.models import HuntCrossley, Jeffcott, KelvinVoigt, LinearRotor, Touchdown
+from carom.models import HuntCrossley, KelvinVoigt, Touchdown, from_matrices, jeffcott
 from carom.orbits import Kind, Word, orbit_near
 from carom.orbits.shooting import Start
 from carom.parameters.restitution import damping_ratio_of
 
 WORD = Word.of(Kind.SLIDE_FORWARD, Kind.FREE, Kind.LIFT)
-STAR = cm.bifurcations.boundary_equilibria(Jeffcott(PAPER))[0]
+STAR = cm.bifurcations.boundary_equilibria(jeffcott(PAPER))[0]
 
 
 def rotor_in(law, gamma):
-    return LinearRotor.in_fixed_frame(
+    return from_matrices(
         mass=[[1.0]],
         damping=[[gamma]],
         stiffness=[[PAPER.omega**2]],
@@ -204,6 +204,6 @@ def test_without_stiffness_at_the_edge_levitation_goes_on_smoothly_until_it_fold
 
 
 def test_without_dissipation_only_the_longer_orbit_is_born():
-    (elastic,) = cm.bifurcations.boundary_equilibria(Jeffcott(PAPER.replace(d=1.0)))[0].orbits
+    (elastic,) = cm.bifurcations.boundary_equilibria(jeffcott(PAPER.replace(d=1.0)))[0].orbits
     assert elastic.name == "B1,b"
     assert elastic.period > 3.0

@@ -9,7 +9,7 @@ import pytest
 
 from carom.bifurcations import Bifurcation, Border, OrbitBranch, continue_orbit, examine_border, switch
 from carom.bifurcations.neighbours import NEIGHBOURS
-from carom.models import Jeffcott
+from carom.models import jeffcott
 from carom.motions import State, simulate
 from carom.orbits import find_orbits, impact_map
 from carom.orbits.orbit import Orbit, orbit_near
@@ -92,7 +92,7 @@ def test_fresh_motions_beyond_the_jump_do_not_return_to_the_orbit():
     for distance in (7e-6, 1.5e-5, 9e-5):
         before = point.orbit.departure
         for side, stays in ((1, True), (-1, False)):
-            rotor = Jeffcott(PAPER.replace(gamma=point.value + side * distance))
+            rotor = jeffcott(PAPER.replace(gamma=point.value + side * distance))
             start = State(before.position, before.velocity * (1.0 + 1e-6 * rng.normal()))
             motion = simulate(rotor, start, settle=True, patience=20_000)
             assert motion.outcome is Outcome.BOUNCING
@@ -223,7 +223,7 @@ def test_fresh_motions_in_the_band_stay_irregular_and_part_from_each_other():
     """Other distances than those of the examination; how motions part is seen without any derivative."""
     point, side, rng = band().point, -band().inside, np.random.default_rng(5)
     for distance in (1e-7, 6e-7, 1.7e-6):
-        rotor = Jeffcott(INELASTIC.replace(gamma=point.value + side * distance))
+        rotor = jeffcott(INELASTIC.replace(gamma=point.value + side * distance))
         before, push, speeds = point.orbit.departure, 1.0 + 1e-6 * rng.uniform(), []
         for pushed in (push, push * (1.0 + 1e-10)):
             motion = simulate(rotor, State(before.position, before.velocity * pushed), settle=True, patience=4000)
@@ -246,7 +246,7 @@ def test_a_small_jump_under_a_square_root_is_no_continuous_transition():
     # Closer still, and from starts beside the orbit at random, the impact at the place of the grazing keeps its speed.
     rng, before = np.random.default_rng(2), point.orbit.departure
     for distance in (1e-9, 1e-10):
-        rotor = Jeffcott(machine.replace(gamma=point.value - found.inside * distance))
+        rotor = jeffcott(machine.replace(gamma=point.value - found.inside * distance))
         start = State(before.position, before.velocity * (1.0 + 1e-6 * rng.normal()))
         motion = simulate(rotor, start, settle=True, patience=20_000)
         speeds = motion.contacts.radial_speed[-40:]

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from carom.bifurcations.boundary import SMALL_GAP, boundary_equilibria
 from carom.closed_forms.equilibria import find_equilibria
 from carom.closed_forms.periods import PeriodCondition
-from carom.models import Jeffcott
+from carom.models import jeffcott
 from carom.motions.simulation import simulate
 from carom.motions.starts import State
 from carom.orbits.single_impact import find_orbits
@@ -36,7 +36,7 @@ def at_gap(boundary, gap):
 
 
 def rotor_at(boundary, value):
-    return Jeffcott(boundary.parameters.replace(**{boundary.gain: value}))
+    return jeffcott(boundary.parameters.replace(**{boundary.gain: value}))
 
 
 def gap_of(boundary, value):
@@ -46,7 +46,7 @@ def gap_of(boundary, value):
 @settings(max_examples=60, deadline=None)
 @given(parameters=machines, gain=st.sampled_from(["gamma", "omega"]))
 def test_equilibria_on_both_sides_are_as_classified(parameters, gain):
-    for boundary in boundary_equilibria(Jeffcott(parameters), gain):
+    for boundary in boundary_equilibria(jeffcott(parameters), gain):
         at = boundary.parameters
         assume(abs(1.0 / boundary.force_rate) > 0.05 and at.gamma > 0.05)
         # Where the gain only touches the boundary, a gap is not proportional to a change of the gain.
@@ -72,8 +72,8 @@ def test_equilibria_on_both_sides_are_as_classified(parameters, gain):
 @settings(max_examples=25, deadline=None)
 @given(parameters=machines)
 def test_side_of_small_orbits_follows_from_the_linearised_condition(parameters):
-    for boundary in boundary_equilibria(Jeffcott(parameters.replace(gamma=0.3 * parameters.gamma)), "omega"):
-        condition = PeriodCondition.of(Jeffcott(boundary.parameters).system)
+    for boundary in boundary_equilibria(jeffcott(parameters.replace(gamma=0.3 * parameters.gamma)), "omega"):
+        condition = PeriodCondition.of(jeffcott(boundary.parameters).system)
         for orbit in boundary.orbits:
             lever = condition.factor * complex(condition.a12(orbit.period))
             # The next order of |1 + q a₁₂ ṙ| = |U*|, relative to the first.
@@ -87,7 +87,7 @@ def test_side_of_small_orbits_follows_from_the_linearised_condition(parameters):
 
 
 def test_source_machine_loses_levitation_in_a_non_smooth_fold_with_two_unstable_cycles():
-    (boundary,) = boundary_equilibria(Jeffcott(SOURCE))
+    (boundary,) = boundary_equilibria(jeffcott(SOURCE))
 
     assert boundary.value == pytest.approx(0.0724686787, abs=5e-11)
     assert boundary.levitates == "above"
@@ -99,7 +99,7 @@ def test_source_machine_loses_levitation_in_a_non_smooth_fold_with_two_unstable_
 
 
 def test_small_orbits_of_the_source_machine_are_those_near_the_boundary():
-    (boundary,) = boundary_equilibria(Jeffcott(SOURCE))
+    (boundary,) = boundary_equilibria(jeffcott(SOURCE))
     rotor = at_gap(boundary, 1e-4)
     orbits = find_orbits(rotor)
 
@@ -114,7 +114,7 @@ def test_small_orbits_of_the_source_machine_are_those_near_the_boundary():
 
 @pytest.mark.jit_only
 def test_persistence_with_a_stable_cycle_above_the_critical_speed_ratio():
-    below, above = boundary_equilibria(Jeffcott(SOURCE), "omega")
+    below, above = boundary_equilibria(jeffcott(SOURCE), "omega")
 
     assert (below.kind, below.levitates) == ("non-smooth fold", "below")
     assert (above.kind, above.levitates) == ("persistence", "above")
@@ -133,18 +133,18 @@ def test_persistence_with_a_stable_cycle_above_the_critical_speed_ratio():
 
 
 def test_machine_that_levitates_with_any_damping_has_no_boundary():
-    assert boundary_equilibria(Jeffcott(SOURCE.replace(omega=2.0))) == ()
-    assert boundary_equilibria(Jeffcott(SOURCE.replace(gamma=0.5)), "omega") == ()
+    assert boundary_equilibria(jeffcott(SOURCE.replace(omega=2.0))) == ()
+    assert boundary_equilibria(jeffcott(SOURCE.replace(gamma=0.5)), "omega") == ()
 
 
 def test_soft_bearing_has_one_boundary_along_stiffness():
-    (boundary,) = boundary_equilibria(Jeffcott(SOURCE.replace(rho=1.2)), "omega")
+    (boundary,) = boundary_equilibria(jeffcott(SOURCE.replace(rho=1.2)), "omega")
 
     assert boundary.levitates == "above"
 
 
 def test_undamped_rotor_is_classified_without_its_orbits():
-    boundaries = boundary_equilibria(Jeffcott(SOURCE.replace(gamma=0.0)), "omega")
+    boundaries = boundary_equilibria(jeffcott(SOURCE.replace(gamma=0.0)), "omega")
 
     assert [boundary.kind for boundary in boundaries] == ["non-smooth fold", "persistence"]
     assert not any(boundary.orbits or boundary.complete for boundary in boundaries)
@@ -154,8 +154,8 @@ def test_undamped_rotor_is_classified_without_its_orbits():
 def test_largest_unbalance_allowed_is_classified_too(gain):
     """A gap away from the boundary, where small orbits are looked up, the unbalance must not leave its range."""
     highest = DIMENSIONLESS_FIELDS["rho"].highest
-    (boundary,) = boundary_equilibria(Jeffcott(SOURCE.replace(rho=highest)), gain)
-    (lower,) = boundary_equilibria(Jeffcott(SOURCE.replace(rho=0.999 * highest)), gain)
+    (boundary,) = boundary_equilibria(jeffcott(SOURCE.replace(rho=highest)), gain)
+    (lower,) = boundary_equilibria(jeffcott(SOURCE.replace(rho=0.999 * highest)), gain)
 
     assert (boundary.kind, boundary.levitates) == ("persistence", "above")
     assert boundary.value == pytest.approx(lower.value, rel=2e-3)
@@ -165,4 +165,4 @@ def test_largest_unbalance_allowed_is_classified_too(gain):
 
 def test_unknown_gain_is_named():
     with pytest.raises(InputError, match="gain = rho: one of: gamma, omega"):
-        boundary_equilibria(Jeffcott(SOURCE), "rho")
+        boundary_equilibria(jeffcott(SOURCE), "rho")

@@ -12,7 +12,7 @@ from carom.bifurcations import OrbitBranch, conditions, continue_orbit
 from carom.bifurcations.word_equations import Family
 from carom.closed_forms.periods import PeriodCondition
 from carom.continuation import Steps
-from carom.models import Jeffcott
+from carom.models import jeffcott
 from carom.motions.starts import State
 from carom.orbits.maps import Section, impact_map
 from carom.outcome import InputError
@@ -22,13 +22,13 @@ from carom.parameters import Parameters
 @pytest.fixture(scope="module")
 def upper() -> OrbitBranch:
     """B1,d and beyond its fold B1,c."""
-    return continue_orbit(find_orbits(Jeffcott(PAPER))["B1,d"], "gamma", (0.02, 0.3))
+    return continue_orbit(find_orbits(jeffcott(PAPER))["B1,d"], "gamma", (0.02, 0.3))
 
 
 @pytest.fixture(scope="module")
 def lower() -> OrbitBranch:
     """B1,a and beyond its fold B1,b."""
-    return continue_orbit(find_orbits(Jeffcott(PAPER))["B1,a"], "gamma", (0.02, 0.3))
+    return continue_orbit(find_orbits(jeffcott(PAPER))["B1,a"], "gamma", (0.02, 0.3))
 
 
 def value(branch: OrbitBranch, kind: str) -> list[float]:
@@ -52,7 +52,7 @@ def test_special_points_of_the_source_papers_machine(upper, lower):
 def test_orbits_of_a_branch_are_those_found_at_each_parameter(upper, lower):
     for branch in (upper, lower):
         for index in range(2, len(branch) - 2, 9):
-            orbits = find_orbits(Jeffcott(PAPER.replace(gamma=branch.values[index])))
+            orbits = find_orbits(jeffcott(PAPER.replace(gamma=branch.values[index])))
             orbit = orbits[branch.names[index]]
             assert branch.period[index] == pytest.approx(orbit.period, abs=1e-10)
             assert branch.radial_speed[index] == pytest.approx(orbit.radial_speed, abs=1e-10)
@@ -69,7 +69,7 @@ def test_fold_by_counting_roots(upper):
     (fold,) = value(upper, "fold")
 
     def count(gamma):
-        return len(PeriodCondition.of(Jeffcott(PAPER.replace(gamma=gamma)).system).roots().periods)
+        return len(PeriodCondition.of(jeffcott(PAPER.replace(gamma=gamma)).system).roots().periods)
 
     assert (count(fold - 1e-10), count(fold + 1e-10)) == (2, 0)
 
@@ -78,7 +78,7 @@ def test_grazing_by_the_certified_search(upper):
     (grazing,) = value(upper, "grazing")
 
     def admissible(gamma):
-        return find_orbits(Jeffcott(PAPER.replace(gamma=gamma)))["B1,d"].admissible
+        return find_orbits(jeffcott(PAPER.replace(gamma=gamma)))["B1,d"].admissible
 
     assert not admissible(grazing - 1e-9)
     assert admissible(grazing + 1e-9)
@@ -104,7 +104,7 @@ def test_period_doubling_by_simulation_of_a_disturbed_orbit(upper):
 def test_disturbances_grow_before_and_die_out_after_the_period_doubling(upper):
     (point,) = [special for special in upper.special if special.kind == "period-doubling"]
     for shift, grows in ((-0.002, True), (0.002, False)):
-        orbit = find_orbits(Jeffcott(PAPER.replace(gamma=point.value + shift)))["B1,d"]
+        orbit = find_orbits(jeffcott(PAPER.replace(gamma=point.value + shift)))["B1,d"]
         start = State(orbit.departure.position, orbit.departure.velocity * (1.0 + 1e-6))
         log = simulate(orbit.rotor, start, 100 * orbit.period).contacts
         errors = np.abs(log.radial_speed[:80] - orbit.radial_speed)
@@ -114,7 +114,7 @@ def test_disturbances_grow_before_and_die_out_after_the_period_doubling(upper):
 def test_non_smooth_hopf_where_the_orbit_shrinks_into_the_equilibrium(lower):
     for point in lower.special:
         if point.kind == "non-smooth-hopf":
-            rotor = Jeffcott(point.numbers.parameters)
+            rotor = jeffcott(point.numbers.parameters)
             assert abs(rotor.equilibrium) == pytest.approx(1.0, abs=1e-11)
             assert PeriodCondition.of(rotor.system).value(np.array([point.period])) == pytest.approx(0.0, abs=1e-11)
             assert point.radial_speed == pytest.approx(0.0, abs=1e-11)
@@ -124,7 +124,7 @@ def test_radius_gains_extrema(upper):
     (gamma,) = value(upper, "radius-extremum")
 
     def extrema(at):
-        orbit = find_orbits(Jeffcott(PAPER.replace(gamma=at)))["B1,d"]
+        orbit = find_orbits(jeffcott(PAPER.replace(gamma=at)))["B1,d"]
         radius = np.abs(orbit.path(np.linspace(0.0, orbit.period, 20001)[1:-1]))
         return int((np.diff(np.sign(np.diff(radius))) != 0).sum())
 
@@ -132,13 +132,13 @@ def test_radius_gains_extrema(upper):
 
 
 def test_coalescence_of_two_speeds_at_negative_damping():
-    orbit = find_orbits(Jeffcott(PAPER))["B1,a"]
+    orbit = find_orbits(jeffcott(PAPER))["B1,a"]
     branch = continue_orbit(orbit, "gamma", (-0.6, 0.17), Steps(largest=0.1, sharpest_turn=0.3, most_points=150))
     (point,) = [special for special in branch.special if special.kind == "speed-fold"]
     assert point.value == pytest.approx(-0.4975, abs=5e-5)
     parameters = point.numbers.parameters
     below, above = (
-        [orbit.name for orbit in find_orbits(Jeffcott(parameters.replace(gamma=point.value + shift)), 2.0)]
+        [orbit.name for orbit in find_orbits(jeffcott(parameters.replace(gamma=point.value + shift)), 2.0)]
         for shift in (-1e-6, 1e-6)
     )
     assert ("B1,a" in below, "B1,a" in above) == (False, True)
@@ -148,7 +148,7 @@ def test_physical_parameters_pass_the_same_points():
     from carom.parameters import Machine, Scales
 
     machine = Machine.from_parameters(PAPER, Scales(50.0, 0.7e-3, 184.2))
-    orbit = find_orbits(Jeffcott(machine.parameters))["B1,d"]
+    orbit = find_orbits(jeffcott(machine.parameters))["B1,d"]
     damping = continue_orbit(orbit, "damping", (500.0, 2500.0))
     unit = 50.0 * 184.2
     assert value(damping, "period-doubling") == pytest.approx([0.0833814175 * unit], rel=1e-9)
@@ -159,7 +159,7 @@ def test_physical_parameters_pass_the_same_points():
         if point.kind == "fold":
             roots = [
                 len(
-                    PeriodCondition.of(Jeffcott(machine.replace(speed=point.value + shift).parameters).system)
+                    PeriodCondition.of(jeffcott(machine.replace(speed=point.value + shift).parameters).system)
                     .roots()
                     .periods
                 )
@@ -174,7 +174,7 @@ def test_random_machines_end_with_a_stated_reason():
     followed = 0
     for _ in range(sized(15, 10, 50)):
         parameters = random_parameters(random)
-        orbits = [orbit for orbit in find_orbits(Jeffcott(parameters), 30.0) if orbit.slip > 0]
+        orbits = [orbit for orbit in find_orbits(jeffcott(parameters), 30.0) if orbit.slip > 0]
         parameter = str(random.choice(["gamma", "omega", "rho", "mu", "d"]))
         present = getattr(parameters, parameter)
         interval = (0.0, 1.0) if parameter == "d" else (0.5 * present, 2.0 * present + 0.1)
@@ -195,7 +195,7 @@ def test_random_machines_end_with_a_stated_reason():
 
 
 def test_inputs_that_cannot_be_used(upper):
-    orbit = find_orbits(Jeffcott(PAPER))["B1,d"]
+    orbit = find_orbits(jeffcott(PAPER))["B1,d"]
     with pytest.raises(InputError, match="interval that holds"):
         continue_orbit(orbit, "gamma", (0.2, 0.3))
     with pytest.raises(InputError, match="unknown name"):

@@ -14,7 +14,7 @@ from carom import simulate
 from carom.bifurcations import Bifurcation, Border, OrbitBranch, Plane, continue_curve, examine_border
 from carom.bifurcations.neighbours import is_other, setting_out
 from carom.bifurcations.words import continue_orbit
-from carom.models import Jeffcott
+from carom.models import jeffcott
 from carom.motions import State
 from carom.orbits.orbit import Orbit
 from carom.orbits.recognising import orbit_of_motion, orbit_of_whirl
@@ -259,7 +259,7 @@ def slip_after_chatter(share: float, restitution: float, friction: float) -> int
     """Phase after a low chatter that begins without slip, where the pull along the wall has a share of the limit of friction."""
     machine = PAPER.replace(omega=0.5, rho=0.6, gamma=0.02, d=restitution, mu=friction, radius_ratio=0.6)
     # At rest in the fixed frame but for rolling: the pull −γ(1 + θ̇) − ρ sin x and the force ρ cos x + (1 + θ̇)² − ω² depend on the angle.
-    turn = 1.0 - Jeffcott(machine).system.contacts[0].wall.surface_speed
+    turn = 1.0 - jeffcott(machine).system.contacts[0].wall.surface_speed
     angles = np.linspace(-np.pi, np.pi, 20_001)
     push = machine.rho * np.cos(angles) + turn**2 - machine.omega**2
     pull = -machine.gamma * turn - machine.rho * np.sin(angles)

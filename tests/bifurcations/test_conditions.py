@@ -13,7 +13,7 @@ from carom import find_orbits
 from carom.bifurcations import Plane, continue_curve, continue_orbit, words
 from carom.bifurcations.conditions import conditions_at, grazing_equations, pressed_on
 from carom.continuation import continue_branch
-from carom.models import Jeffcott
+from carom.models import jeffcott
 from carom.outcome import CaromError
 from carom.parameters import Numbers, Scales
 
@@ -145,7 +145,7 @@ SCALED = PAPER.replace(scales=Scales(50.0, 0.7e-3, 184.2))
     "name", ["gamma", "omega", "rho", "mu", "d", "speed", "mass", "clearance", "damping", "stiffness"]
 )
 def test_branches_along_any_parameter(monkeypatch, name):
-    orbit = find_orbits(Jeffcott(SCALED))["B1,d"]
+    orbit = find_orbits(jeffcott(SCALED))["B1,d"]
     value = SCALED.value(name)
 
     def follow():
@@ -166,7 +166,7 @@ PLANES = {
 @pytest.mark.parametrize("plane", PLANES)
 def test_curves_in_planes_of_any_two_parameters(plane):
     """In a plane of a physical and a dimensionless parameter the second one undoes a part of what the first one moves."""
-    branch = continue_orbit(find_orbits(Jeffcott(SCALED))["B1,d"], "gamma", (0.02, 0.3))
+    branch = continue_orbit(find_orbits(jeffcott(SCALED))["B1,d"], "gamma", (0.02, 0.3))
     followed_kinds = set()
     for point in branch.special:
         if point.kind not in TESTS:

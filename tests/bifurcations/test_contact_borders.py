@@ -10,7 +10,7 @@ from machines import PAPER
 
 from carom import simulate
 from carom.bifurcations import Bifurcation, Border, continue_orbit, examine_border
-from carom.models import Jeffcott
+from carom.models import jeffcott
 from carom.motions import State
 from carom.orbits import rubbing_orbits
 from carom.orbits.admissibility import departure
@@ -107,7 +107,7 @@ def test_the_number_of_impacts_beyond_an_onset_is_that_of_fresh_motions():
         motion = simulate(found.beyond.rotor, start, settle=True)
         assert (motion.outcome, motion.multiplicity) == (Outcome.BOUNCING, found.beyond.impacts)
         # On the side of the orbit itself there is lasting contact.
-        there = Jeffcott(on(found.point.orbit).replace(gamma=found.point.value + found.inside * found.distances[-1]))
+        there = jeffcott(on(found.point.orbit).replace(gamma=found.point.value + found.inside * found.distances[-1]))
         assert simulate(there, start, settle=True).outcome is Outcome.MIXED
 
 

@@ -12,7 +12,7 @@ from machines import PAPER, random_parameters
 from carom import find_equilibria, find_orbits
 from carom.bifurcations import Plane, find_bifurcations, map_regions, motions_at
 from carom.bifurcations.curves import STEPS
-from carom.models import Jeffcott
+from carom.models import jeffcott
 from carom.outcome import InputError
 from carom.parameters import PARAMETERS, Machine, Scales
 
@@ -41,7 +41,7 @@ def test_points_of_the_source_papers_machine(diagram):
 def test_every_branch_is_followed_once(diagram):
     assert len(diagram.orbits) == 2
     for value in (0.0501, 0.09, 0.16):
-        orbits = [orbit for orbit in find_orbits(Jeffcott(PAPER.replace(gamma=value))) if orbit.admissible]
+        orbits = [orbit for orbit in find_orbits(jeffcott(PAPER.replace(gamma=value))) if orbit.admissible]
         for orbit in orbits:
             passing = [
                 branch
@@ -65,7 +65,7 @@ def test_equilibrium_branches(diagram):
     assert stable.stable[stable.values < 0.3699].all()
     assert not saddle.stable.any()
     for index in (10, 100):
-        at = find_equilibria(Jeffcott(PAPER.replace(gamma=levitation.values[index])))
+        at = find_equilibria(jeffcott(PAPER.replace(gamma=levitation.values[index])))
         assert levitation.radius[index] == pytest.approx(at[0].radius)
         assert stable.normal_force[index] == pytest.approx(at[1].normal_force)
 
@@ -97,7 +97,7 @@ def test_motions_agree_with_certified_orbits():
     random = np.random.default_rng(9)
     for _ in range(sized(20, 20, 40)):
         parameters = PAPER.replace(gamma=random.uniform(0.02, 0.3), omega=random.uniform(0.6, 1.0))
-        orbits = [orbit for orbit in find_orbits(Jeffcott(parameters), 60.0) if orbit.admissible]
+        orbits = [orbit for orbit in find_orbits(jeffcott(parameters), 60.0) if orbit.admissible]
         motions = motions_at(parameters)
         assert motions.orbits == len(orbits)
         assert motions.stable_orbits == sum(orbit.stable for orbit in orbits)
@@ -111,7 +111,7 @@ def test_steady_motions_are_those_of_the_equilibria():
     rubs = 0
     for _ in range(sized(150, 5)):
         parameters = random_parameters(random, gamma=float(10 ** random.uniform(-1.3, 0.5)))
-        contact_free, *others = find_equilibria(Jeffcott(parameters))
+        contact_free, *others = find_equilibria(jeffcott(parameters))
         motions = motions_at(parameters)
         assert motions.contact_free is (contact_free.status == "admissible")
         assert motions.rub is any(rub.stable and rub.status == "admissible" for rub in others)

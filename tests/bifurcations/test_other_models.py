@@ -74,7 +74,7 @@ def test_a_diagram_of_matrices_has_the_branches_and_points_of_the_same_planar_ro
     monkeypatch.setattr("carom.bifurcations.several.VALUES", 3)
     monkeypatch.setattr("carom.bifurcations.several.GUESSES", 150)
     numbers = {"gamma": 0.1, "omega": 0.76, "rho": 3 / 7, "phi": 0.21, "mu": 0.15, "d": 0.95, "radius_ratio": 400 / 7}
-    planar = cm.models.Jeffcott(cm.parameters.Parameters(**numbers))
+    planar = cm.models.jeffcott(cm.parameters.Parameters(**numbers))
     exact = cm.find_bifurcations(planar, "gamma", (0.08, 0.2))
     found = cm.find_bifurcations(as_matrices(planar), "gamma", (0.08, 0.2))
     assert found.search.guesses > 0

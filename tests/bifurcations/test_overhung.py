@@ -9,7 +9,7 @@ import pytest
 
 import carom as cm
 from carom.bifurcations.simulated import continue_simulated, switch_simulated
-from carom.models import KelvinVoigt, LinearRotor, Touchdown
+from carom.models import KelvinVoigt, Touchdown, from_corotating_matrices
 from carom.orbits.simulated import close
 
 MASS, ECCENTRICITY, POLAR, DAMPING, RING = 0.9, 0.353, 0.143, 0.01, 10.0
@@ -17,7 +17,7 @@ MASS, ECCENTRICITY, POLAR, DAMPING, RING = 0.9, 0.353, 0.143, 0.01, 10.0
 
 def rotor_at(speed):
     """The rotor in units of the speed: times are in ``1/Ω``."""
-    return LinearRotor(
+    return from_corotating_matrices(
         mass=np.array([[1.0]]),
         damping=np.array([[2.0 * DAMPING / speed - 1j * (POLAR - 2.0)]]),
         stiffness=np.array([[1.0 / speed**2 - (1.0 - POLAR) + 2j * DAMPING / speed]]),

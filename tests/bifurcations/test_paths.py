@@ -11,7 +11,7 @@ from machines import PAPER
 from carom import simulate
 from carom.bifurcations.neighbours import setting_out
 from carom.bifurcations.paths import Path
-from carom.models import Jeffcott
+from carom.models import jeffcott
 from carom.motions import State
 from carom.orbits import find_orbits, rubbing_orbits
 from carom.orbits.orbit import Orbit
@@ -61,7 +61,7 @@ def test_a_motion_that_approaches_the_orbit_comes_ever_nearer_to_its_path():
     orbit = orbits()[0]
     before = orbit.departure
     motion = simulate(orbit.rotor, State(before.position, before.velocity * 1.001), 60 * orbit.period)
-    found = Path.of(orbit).distances(Jeffcott(PAPER).system.states_of(motion.arrivals))
+    found = Path.of(orbit).distances(jeffcott(PAPER).system.states_of(motion.arrivals))
     # Its multipliers bring it from 1e-3 to below 1e-9 in sixty impacts, and rounding stops it far below.
     assert found[0] > 1e-5
     assert found[-1] < 1e-3 * found[0]

@@ -14,7 +14,7 @@ from carom.bifurcations import Bifurcation, Diagram, Plane, find_bifurcations, m
 from carom.bifurcations.boundary import boundary_equilibria
 from carom.bifurcations.conditions import orbit_of
 from carom.closed_forms.periods import PeriodCondition
-from carom.models import Jeffcott
+from carom.models import jeffcott
 from carom.motions.starts import State
 from carom.orbits.maps import Section, impact_map
 from carom.orbits.orbit import Orbit
@@ -56,7 +56,7 @@ def longest(point: Bifurcation) -> float:
 
 
 def orbit_next_to(parameters: Parameters, point: Bifurcation) -> Orbit:
-    orbits = [orbit for orbit in find_orbits(Jeffcott(parameters), longest(point)) if orbit.slip > 0]
+    orbits = [orbit for orbit in find_orbits(jeffcott(parameters), longest(point)) if orbit.slip > 0]
     return min(orbits, key=lambda o: abs(o.period - point.period) + abs(o.radial_speed - point.radial_speed))
 
 
@@ -77,11 +77,11 @@ def simulated_multipliers(parameters: Parameters, point: Bifurcation) -> np.ndar
 
 
 def count_roots(parameters: Parameters, point: Bifurcation) -> int:
-    return len(PeriodCondition.of(Jeffcott(parameters).system).roots(longest(point)).periods)
+    return len(PeriodCondition.of(jeffcott(parameters).system).roots(longest(point)).periods)
 
 
 def count_orbits(parameters: Parameters, point: Bifurcation) -> int:
-    return sum(orbit.slip > 0 for orbit in find_orbits(Jeffcott(parameters), longest(point)))
+    return sum(orbit.slip > 0 for orbit in find_orbits(jeffcott(parameters), longest(point)))
 
 
 def count_extrema(parameters: Parameters, point: Bifurcation) -> int:
@@ -93,7 +93,7 @@ def count_extrema(parameters: Parameters, point: Bifurcation) -> int:
 def rolls_on(parameters: Parameters) -> bool:
     """Whether a simulated rotor that rolls does so for two turns without slipping or leaving the wall."""
     speed = 1.0 + parameters.radius_ratio
-    motion = simulate(Jeffcott(parameters), State(1.0 + 0j, complex(0.0, -speed)), 4.0 * np.pi / speed)
+    motion = simulate(jeffcott(parameters), State(1.0 + 0j, complex(0.0, -speed)), 4.0 * np.pi / speed)
     return bool((motion.segment_phases[1:] == Phase.ROLLING).all())
 
 
@@ -120,19 +120,19 @@ def check(base: Parameters, point: Bifurcation, width: float) -> None:
         counts = [count_extrema(side, point) for side in sides(base, point, width, 1e-4)]
         assert abs(counts[0] - counts[1]) == 2
     elif point.kind == "non-smooth-hopf":
-        assert abs(Jeffcott(at).equilibrium) == pytest.approx(1.0, abs=1e-10)
-        assert float(PeriodCondition.of(Jeffcott(at).system).value(np.array([point.period]))[0]) == pytest.approx(
+        assert abs(jeffcott(at).equilibrium) == pytest.approx(1.0, abs=1e-10)
+        assert float(PeriodCondition.of(jeffcott(at).system).value(np.array([point.period]))[0]) == pytest.approx(
             0.0, abs=1e-9
         )
     elif point.kind == "boundary-equilibrium":
-        assert abs(Jeffcott(at).equilibrium) == pytest.approx(1.0, abs=1e-11)
-        assert find_equilibria(Jeffcott(low))[0].status != find_equilibria(Jeffcott(high))[0].status
+        assert abs(jeffcott(at).equilibrium) == pytest.approx(1.0, abs=1e-11)
+        assert find_equilibria(jeffcott(low))[0].status != find_equilibria(jeffcott(high))[0].status
         if point.parameter in ("gamma", "omega"):
-            known = boundary_equilibria(Jeffcott(base), point.parameter)
+            known = boundary_equilibria(jeffcott(base), point.parameter)
             near = min(known, key=lambda entry: abs(entry.value - point.value))
             assert (near.value, near.kind) == (pytest.approx(point.value, abs=1e-11), point.detail)
     elif point.kind == "rub-fold":
-        assert sorted(len(find_equilibria(Jeffcott(side))) for side in (low, high)) == [1, 3]
+        assert sorted(len(find_equilibria(jeffcott(side))) for side in (low, high)) == [1, 3]
     else:
         assert point.kind == "rolling-limit"
         assert rolls_on(sides(base, point, width, 1e-4)[0]) != rolls_on(sides(base, point, width, 1e-4)[1])
@@ -168,12 +168,12 @@ def test_every_kind_was_looked_at(diagrams):
 
 def vanishes(kind: str, parameters: Parameters, point) -> bool:
     """Whether a bifurcation of this kind happens at a codimension-2 point, by a formula that is not its test function's."""
-    rotor = Jeffcott(parameters)
+    rotor = jeffcott(parameters)
     if kind in ("boundary-equilibrium", "non-smooth-hopf"):
         return abs(abs(rotor.equilibrium) - 1.0) < 1e-9
     if kind == "rub-fold":
         eigenvalues = [abs(rub.eigenvalues).min() for rub in find_equilibria(rotor)[1:]]
-        moved = find_equilibria(Jeffcott(parameters.replace(rho=parameters.rho * (1.0 + 1e-12))))
+        moved = find_equilibria(jeffcott(parameters.replace(rho=parameters.rho * (1.0 + 1e-12))))
         return min(eigenvalues or [abs(rub.eigenvalues).min() for rub in moved[1:]]) < 1e-4
     condition, period = PeriodCondition.of(rotor.system), np.array([point.period])
     if kind == "fold":

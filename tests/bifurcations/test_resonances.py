@@ -8,7 +8,7 @@ from machines import PAPER
 
 from carom import find_orbits, map_regions
 from carom.bifurcations import Plane
-from carom.models import Jeffcott
+from carom.models import jeffcott
 
 PLANE = Plane("rho", "gamma", (0.2, 0.25), (0.15, 0.19))
 
@@ -16,7 +16,7 @@ PLANE = Plane("rho", "gamma", (0.2, 0.25), (0.15, 0.19))
 def multipliers_at(base, plane, point) -> np.ndarray:
     """Of the orbit there, by the general derivative of the impact map and not by the planar closed form."""
     # Both resonances lie on folds: by rounding their own place may be on the side without orbits.
-    orbits = find_orbits(Jeffcott(plane.at(base, point.value[0], point.value[1] - 1e-13)))
+    orbits = find_orbits(jeffcott(plane.at(base, point.value[0], point.value[1] - 1e-13)))
     near = min(orbits, key=lambda o: abs(o.period - point.period) + abs(o.radial_speed - point.radial_speed))
     return near.multipliers.values
 
@@ -28,7 +28,7 @@ def test_a_short_curve_between_two_resonances():
     assert curve.stops == ("resonance-1:1", "resonance-1:1")
     assert curve.admissible.all()
     middle = len(curve.points) // 2
-    orbits = find_orbits(Jeffcott(PLANE.at(PAPER, *curve.points[middle])))
+    orbits = find_orbits(jeffcott(PLANE.at(PAPER, *curve.points[middle])))
     near = min(orbits, key=lambda orbit: abs(orbit.period - curve.periods[middle]))
     pair = near.multipliers.values[np.abs(near.multipliers.values.imag) > 1e-4]
     assert len(pair) == 2

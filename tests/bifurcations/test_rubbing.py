@@ -20,7 +20,7 @@ from carom.bifurcations import (
     switch,
 )
 from carom.bifurcations.neighbours import NEIGHBOURS
-from carom.models import Jeffcott
+from carom.models import jeffcott
 from carom.motions import State
 from carom.orbits import lift_off_of, rubbing_orbits
 from carom.orbits.rubbing import lift_off_state
@@ -55,7 +55,7 @@ def touches_for_a_while(orbit) -> bool:
 
 @pytest.fixture(scope="module")
 def onset():
-    orbits = find_orbits(Jeffcott(DEAD.replace(gamma=0.03)))
+    orbits = find_orbits(jeffcott(DEAD.replace(gamma=0.03)))
     for orbit in orbits:
         branch = continue_orbit(orbit, "gamma", (0.01, 0.1))
         found = [point for point in branch.special if point.kind == "contact-onset" and point.admissible]
@@ -68,7 +68,7 @@ def onset():
 def test_without_rebound_the_simulation_begins_to_stay_on_the_wall(onset):
     answers = []
     for shift in (-1e-9, 1e-9):
-        orbits = find_orbits(Jeffcott(DEAD.replace(gamma=onset.value + shift)))
+        orbits = find_orbits(jeffcott(DEAD.replace(gamma=onset.value + shift)))
         (orbit,) = [orbit for orbit in orbits if abs(orbit.radial_speed - onset.radial_speed) < 1e-5]
         answers.append((touches_for_a_while(orbit), "stay on the wall" in orbit.reason))
     assert sorted(answers) == [(False, False), (True, True)]
@@ -94,7 +94,7 @@ def test_curve_of_the_onset_without_rebound(onset):
     for (x, y), speed in list(zip(curve.points, curve.radial_speeds, strict=True))[1:-1]:
         answers = set()
         for shift in (-1e-9, 1e-9):
-            orbits = find_orbits(Jeffcott(DEAD.replace(gamma=x + shift, rho=y)))
+            orbits = find_orbits(jeffcott(DEAD.replace(gamma=x + shift, rho=y)))
             (orbit,) = [orbit for orbit in orbits if abs(orbit.radial_speed - speed) < 1e-5]
             answers.add("stay on the wall" in orbit.reason)
         assert answers == {False, True}
@@ -121,7 +121,7 @@ def test_motion_with_lasting_contact_repeats_in_simulation():
     assert abs(motion.final.position - motion.start.position) < 1e-7
     assert abs(motion.final.velocity - motion.start.velocity) < 1e-7
     # It repels: a change of the angle grows by the multiplier from lift-off to lift-off.
-    rotor = Jeffcott(CHATTERING)
+    rotor = jeffcott(CHATTERING)
     here = lift_off_of(orbit)
     moved, time = next_lift_off(rotor, here.whirl, here.angle + 1e-5)
     assert (moved - here.angle) / 1e-5 == pytest.approx(orbit.multipliers.values[0].real, rel=1e-3)
@@ -141,7 +141,7 @@ def test_lasting_contact_begins_where_the_chatter_is_only_just_complete(chatter)
     lift = lift_off_of(point.orbit)
     fixed = []
     for shift in (-1e-7, 1e-7):
-        rotor = Jeffcott(CHATTERING.replace(gamma=point.value + shift))
+        rotor = jeffcott(CHATTERING.replace(gamma=point.value + shift))
         angles = lift.angle + np.linspace(-4e-6, 4e-6, 41)
         found = [next_lift_off(rotor, lift.whirl, angle) for angle in angles]
         alike = [entry is not None and abs(entry[1] - point.period) < 0.05 for entry in found]
@@ -196,7 +196,7 @@ def test_beyond_permanent_contact_the_whirl_does_not_leave_the_wall(chatter):
     # It repels: one period of a simulation from the orbit itself stays on the wall, and comes back.
     for shift, stays in ((1e-4, True), (-1e-4, False)):
         (start,) = branch.starts_at(point.value + shift)
-        rotor = Jeffcott(CHATTERING.replace(gamma=point.value + shift))
+        rotor = jeffcott(CHATTERING.replace(gamma=point.value + shift))
         position, velocity = start.nodes[0]
         position /= abs(position)
         turning = (np.conj(position) * velocity).imag

@@ -11,7 +11,7 @@ from carom.bifurcations import Diagram, find_bifurcations
 from carom.bifurcations.documents import diagram_document
 from carom.bifurcations.several import lies_on
 from carom.files import as_json
-from carom.models import Jeffcott
+from carom.models import jeffcott
 from carom.motions import simulate
 from carom.orbits import find_orbits
 from carom.orbits.orbit import orbit_near
@@ -69,7 +69,7 @@ def test_every_orbit_found_lies_on_one_branch_and_names_are_unique():
     assert len(set(names)) == len(names) > 3
     for branch in diagram().several:
         middle = 0.5 * (branch.values.min() + branch.values.max())
-        rotor = Jeffcott(PAPER.replace(gamma=middle))
+        rotor = jeffcott(PAPER.replace(gamma=middle))
         for start in branch.starts_at(middle):
             orbit = orbit_near(rotor, branch.word, start)
             assert orbit is not None

@@ -9,7 +9,7 @@ import pytest
 from machines import PAPER
 
 from carom.bifurcations.steady import equilibrium_branches, steady_points
-from carom.models import Jeffcott, axis
+from carom.models import axis, jeffcott
 
 
 def test_at_resonance_points_are_found_through_zero_damping():
@@ -26,7 +26,7 @@ def test_at_resonance_points_are_found_through_zero_damping():
 
 
 def test_a_rub_goes_on_as_the_same_branch_where_its_normal_force_changes_sign():
-    rotor = Jeffcott(PAPER)
+    rotor = jeffcott(PAPER)
     _, stable, saddle = equilibrium_branches(rotor, axis(rotor, "omega"), (0.4, 1.4))
     for branch in (stable, saddle):
         force = branch.normal_force[np.isfinite(branch.normal_force)]

@@ -8,7 +8,7 @@ from machines import PAPER
 
 from carom import find_orbits, simulate
 from carom.bifurcations import Bifurcation, Curve, Plane, continue_curve, continue_orbit
-from carom.models import Jeffcott
+from carom.models import jeffcott
 from carom.motions.starts import State
 from carom.orbits.orbit import Orbit
 
@@ -18,7 +18,7 @@ PLANE = Plane("gamma", "omega", (0.02, 0.15), (0.15, 0.6))
 
 
 def orbit_at(gamma: float) -> Orbit:
-    return find_orbits(Jeffcott(SOFT.replace(gamma=gamma)))["B1,d"]
+    return find_orbits(jeffcott(SOFT.replace(gamma=gamma)))["B1,d"]
 
 
 @pytest.fixture(scope="module")
@@ -79,7 +79,7 @@ def test_curve_by_the_multipliers_of_the_orbits(curve):
     assert len(curve.points) > 10
     assert curve.steps.max() < 0.16
     for (x, y), period, speed in list(zip(curve.points, curve.periods, curve.radial_speeds, strict=True))[1:-1:3]:
-        orbits = find_orbits(Jeffcott(SOFT.replace(gamma=x, omega=y)))
+        orbits = find_orbits(jeffcott(SOFT.replace(gamma=x, omega=y)))
         near = min(orbits, key=lambda orbit: abs(orbit.period - period) + abs(orbit.radial_speed - speed))
         leader = near.multipliers.values[0]
         assert abs(leader) == pytest.approx(1.0, abs=1e-8)
@@ -92,7 +92,7 @@ def test_curve_ends_in_a_resonance_or_at_the_edge(curve):
         for point in curve.codimension2:
             if point.kind.endswith(kind):
                 x, y = point.value
-                orbits = find_orbits(Jeffcott(SOFT.replace(gamma=x, omega=y)))
+                orbits = find_orbits(jeffcott(SOFT.replace(gamma=x, omega=y)))
                 near = min(orbits, key=lambda orbit: np.abs(np.abs(orbit.multipliers.values[:2]) - 1.0).max())
                 leader = np.exp(1j * np.radians(angle))
                 # Two multipliers that meet at −1 are a square root apart from what rounding makes of the place.
@@ -106,7 +106,7 @@ def test_curve_in_other_parameters(torus, name, limits):
     found = continue_curve(torus, plane)
     x, y = found.points[len(found.points) // 2]
     near = min(
-        find_orbits(Jeffcott(SOFT.replace(gamma=x, **{name: y}))),
+        find_orbits(jeffcott(SOFT.replace(gamma=x, **{name: y}))),
         key=lambda orbit: abs(orbit.multipliers.spectral_radius - 1.0),
     )
     assert near.multipliers.spectral_radius == pytest.approx(1.0, abs=1e-8)

@@ -7,7 +7,7 @@ from machines import PAPER
 
 from carom.bifurcations import orbit_windows, windows
 from carom.bifurcations.conditions import conditions_at, corrected, orbit_solutions
-from carom.models import Jeffcott
+from carom.models import jeffcott
 from carom.orbits.single_impact import orbits_within_reach
 from carom.outcome import CaromError
 from carom.parameters import Numbers, Parameters
@@ -32,7 +32,7 @@ def test_an_orbit_that_is_there_at_all_values_has_one_window(parameters, paramet
     for value in np.linspace(low, high, 7):
         orbits = [
             orbit
-            for orbit in orbits_within_reach(Jeffcott(parameters.replace(**{parameter: value})))
+            for orbit in orbits_within_reach(jeffcott(parameters.replace(**{parameter: value})))
             if orbit.admissible
         ]
         assert orbits

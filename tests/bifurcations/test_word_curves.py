@@ -9,7 +9,7 @@ import pytest
 
 from carom import simulate
 from carom.bifurcations import Bifurcation, Curve, Plane, continue_curve, continue_orbit, switch
-from carom.models import Jeffcott
+from carom.models import jeffcott
 from carom.motions import State
 from carom.orbits import find_orbits, orbit_of_motion
 from carom.orbits.orbit import Orbit, orbit_near
@@ -107,7 +107,7 @@ def test_a_neimark_sacker_curve_passes_resonances():
     (point,) = [each for each in resonant().special if each.kind == "neimark-sacker"]
     curve = continue_curve(point, Plane("gamma", "omega", (0.07, 0.12), (0.755, 0.765)))
     assert len(curve.points) > 4
-    rotor = Jeffcott(PAPER.replace(gamma=float(curve.points[2, 0]), omega=float(curve.points[2, 1])))
+    rotor = jeffcott(PAPER.replace(gamma=float(curve.points[2, 0]), omega=float(curve.points[2, 1])))
     assert point.shot is not None
     found = continue_orbit(point.orbit, "omega", (0.755, 0.765))
     assert found.values.min() < rotor.parameters.omega < found.values.max()

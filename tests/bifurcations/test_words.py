@@ -13,7 +13,7 @@ from linear_rotors import touchdowns
 from carom.bifurcations import Bifurcation, OrbitBranch, continue_orbit, switch
 from carom.bifurcations.conditions import TESTS, conditions_at
 from carom.bifurcations.word_equations import Family
-from carom.models import Jeffcott, LinearRotor
+from carom.models import from_matrices, jeffcott
 from carom.motions import State, simulate
 from carom.orbits import find_orbits, impact_map
 from carom.orbits.orbit import Orbit, orbit_near, same_orbit
@@ -156,7 +156,7 @@ def test_the_stable_doubled_orbits_attract_and_end_where_they_graze():
     assert all(orbit.stable for orbit in real if orbit.rotor.parameters.gamma < DOUBLING - 1e-5)
     assert min(orbit.rotor.parameters.gamma for orbit in real) > grazing.value
     for shift, inside in ((1e-6, True), (-1e-6, False)):
-        rotor = Jeffcott(PAPER.replace(gamma=grazing.value + shift))
+        rotor = jeffcott(PAPER.replace(gamma=grazing.value + shift))
         near = orbit_near(rotor, branch.word, Start(grazing.orbit.nodes, grazing.orbit.durations))
         assert near is not None
         assert near.admissible is inside
@@ -187,7 +187,7 @@ def test_orbits_next_to_a_fold_close():
     (fold,) = [point for point in continue_orbit(orbit, "gamma", (0.165, 0.19)).special if point.kind == "fold"]
     start = Start(fold.orbit.nodes, fold.orbit.durations)
     for shift in (-1e-12, *np.arange(-20, 21) * 1e-15, 1e-13):
-        rotor = Jeffcott(PAPER.replace(gamma=fold.value * (1.0 + shift)))
+        rotor = jeffcott(PAPER.replace(gamma=fold.value * (1.0 + shift)))
         found, flights = orbit_near(rotor, orbit.word, start), closed_flights(rotor, orbit.word, start)
         assert found is not None
         assert found.links.size < 1e-12
@@ -242,7 +242,7 @@ def test_the_planar_rotor_by_its_matrices_has_the_same_special_points():
     """Extrema of the radius too: it is the system that has them, not the description of the rotor."""
     matrices = {"mass": [[1.0]], "damping": [[PAPER.gamma]], "stiffness": [[PAPER.omega**2]]}
     law = {"touchdowns": touchdowns([[1.0]], [PAPER.mu], [PAPER.d], [PAPER.radius_ratio + 1.0])}
-    linear = LinearRotor.in_fixed_frame(**matrices, **law, forcing=[PAPER.rho * np.exp(1j * PAPER.phi)])
+    linear = from_matrices(**matrices, **law, forcing=[PAPER.rho * np.exp(1j * PAPER.phi)])
     start = find_orbits(PAPER)["B1,d"]
     orbit = orbit_near(linear, start.word, Start(start.nodes, start.durations))
     assert orbit is not None

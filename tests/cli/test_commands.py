@@ -13,7 +13,7 @@ from carom import __version__
 from carom.closed_forms.equilibria import find_equilibria
 from carom.disturbances import BaseShock, BladeLoss
 from carom.loading import load
-from carom.models import Jeffcott
+from carom.models import jeffcott
 from carom.motions import simulate
 from carom.motions.starts import kick
 from carom.orbits.single_impact import find_orbits
@@ -64,7 +64,7 @@ def document(answer):
 
 def test_orbits_as_json(carom, machine):
     value = document(carom("orbits", machine, "--json"))
-    rotor = Jeffcott(load(machine).parameters)
+    rotor = jeffcott(load(machine).parameters)
 
     assert set(value) >= {"parameters", "equilibria", "orbits"}
     assert all(set(entry) >= ORBIT_KEYS for entry in value["orbits"])

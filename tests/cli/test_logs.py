@@ -11,7 +11,7 @@ from yielding_walls import with_walls
 
 from carom.cli.logs import write_csv, write_netcdf
 from carom.loading import load
-from carom.models import Jeffcott, KelvinVoigt
+from carom.models import KelvinVoigt, jeffcott
 from carom.motions.simulation import simulate
 from carom.motions.starts import State, kick
 from carom.outcome import InputError, Phase
@@ -22,7 +22,7 @@ pytestmark = pytest.mark.jit_only
 
 @pytest.fixture
 def motion(machine):
-    return simulate(Jeffcott(load(machine).parameters), kick(0.1, 2.0), 150.0)
+    return simulate(jeffcott(load(machine).parameters), kick(0.1, 2.0), 150.0)
 
 
 def rows_of(path):
@@ -48,7 +48,7 @@ def test_csv_holds_impacts_and_lasting_contacts_in_order(motion, tmp_path):
 
 
 def test_csv_of_a_dimensionless_machine(dimensionless, tmp_path):
-    motion = simulate(Jeffcott(load(dimensionless).parameters), kick(0.4, 0.2), 50.0)
+    motion = simulate(jeffcott(load(dimensionless).parameters), kick(0.4, 0.2), 50.0)
     write_csv(motion, str(tmp_path / "log.csv"))
 
     rows = rows_of(tmp_path / "log.csv")
@@ -91,7 +91,7 @@ def test_contacts_with_a_wall_that_gives_way(tmp_path):
 
 
 def test_motion_without_contact(machine, tmp_path):
-    motion = simulate(Jeffcott(load(machine).parameters), kick(0.001), 10.0)
+    motion = simulate(jeffcott(load(machine).parameters), kick(0.001), 10.0)
     write_csv(motion, str(tmp_path / "log.csv"))
     write_netcdf(motion, str(tmp_path / "log.nc"))
 

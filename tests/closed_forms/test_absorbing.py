@@ -30,7 +30,7 @@ def inside(found, count, seed):
 
 @pytest.mark.parametrize("gamma", [0.08, 0.2, 0.35])
 def test_every_state_in_it_goes_over_to_the_rub(gamma):
-    rotor = carom.models.Jeffcott(PAPER.replace(gamma=gamma))
+    rotor = carom.models.jeffcott(PAPER.replace(gamma=gamma))
     found = rub_neighbourhood(rotor)
     angles, rates = inside(found, 60, seed=1)
     assert len(angles) > 20
@@ -47,7 +47,7 @@ def test_the_function_falls_along_sliding(seed):
         mu=float(rng.choice([0.0, rng.uniform(0.0, 0.5)])),
         rho=float(rng.uniform(0.5, 1.2)),
     )
-    found = rub_neighbourhood(carom.models.Jeffcott(machine))
+    found = rub_neighbourhood(carom.models.jeffcott(machine))
     assert found is not None
 
     def rate(_, state):
@@ -70,7 +70,7 @@ def test_the_function_falls_along_sliding(seed):
 
 def test_the_wall_pushes_and_slip_is_forward_all_over_it():
     for machine in (PAPER, PAPER.replace(gamma=0.3), SLENDER):
-        found = rub_neighbourhood(carom.models.Jeffcott(machine))
+        found = rub_neighbourhood(carom.models.jeffcott(machine))
         angles, rates = np.meshgrid(found.angle + np.linspace(-math.pi, math.pi, 801), np.linspace(-2.0, 2.0, 801))
         held = found.contains(angles, rates)
         push = machine.rho * np.cos(angles - machine.phi) + (1.0 + rates) ** 2 - machine.omega**2
@@ -83,7 +83,7 @@ def test_the_wall_pushes_and_slip_is_forward_all_over_it():
 def test_it_is_as_large_as_its_limit_allows():
     """Just beyond the level something gives: here the wall stops pushing."""
     machine = PAPER.replace(gamma=0.2)
-    found = rub_neighbourhood(carom.models.Jeffcott(machine))
+    found = rub_neighbourhood(carom.models.jeffcott(machine))
     assert found.limit == "lift-off"
     angles, rates = np.meshgrid(found.angle + np.linspace(-2.0, 2.0, 2001), np.linspace(-1.0, 0.0, 2001))
     beyond = found.value(angles, rates) < 1.01 * found.level
@@ -92,17 +92,17 @@ def test_it_is_as_large_as_its_limit_allows():
 
 
 def test_none_where_there_is_no_stable_rub():
-    assert rub_neighbourhood(carom.models.Jeffcott(PAPER.replace(gamma=0.5))) is None
+    assert rub_neighbourhood(carom.models.jeffcott(PAPER.replace(gamma=0.5))) is None
 
 
 def test_it_takes_no_loss_of_speed_at_impacts():
     machine = PAPER.replace(gamma=0.2)
-    assert rub_neighbourhood(carom.models.Jeffcott(machine.replace(d=1.0))) == rub_neighbourhood(
-        carom.models.Jeffcott(machine)
+    assert rub_neighbourhood(carom.models.jeffcott(machine.replace(d=1.0))) == rub_neighbourhood(
+        carom.models.jeffcott(machine)
     )
 
 
 def test_none_where_double_precision_can_prove_none():
     fold = PAPER.rho * math.hypot(1.0, PAPER.mu) - PAPER.mu * (1.0 - PAPER.omega**2)
-    assert rub_neighbourhood(carom.models.Jeffcott(PAPER.replace(gamma=fold * (1.0 - 1e-4)))) is not None
-    assert rub_neighbourhood(carom.models.Jeffcott(PAPER.replace(gamma=fold * (1.0 - 1e-11)))) is None
+    assert rub_neighbourhood(carom.models.jeffcott(PAPER.replace(gamma=fold * (1.0 - 1e-4)))) is not None
+    assert rub_neighbourhood(carom.models.jeffcott(PAPER.replace(gamma=fold * (1.0 - 1e-11)))) is None

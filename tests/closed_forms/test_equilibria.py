@@ -11,7 +11,7 @@ from scipy.integrate import solve_ivp
 
 from carom import find_equilibria
 from carom.closed_forms import Equilibrium
-from carom.models import Jeffcott
+from carom.models import jeffcott
 from carom.motions.simulation import simulate
 from carom.motions.starts import State
 from carom.parameters import Parameters
@@ -21,7 +21,7 @@ RUB_FOLD = PAPER.rho * math.hypot(1.0, PAPER.mu) - PAPER.mu * (1.0 - PAPER.omega
 
 
 def found(parameters: Parameters) -> tuple[Equilibrium, tuple[Equilibrium, ...]]:
-    first, *rubs = find_equilibria(Jeffcott(parameters))
+    first, *rubs = find_equilibria(jeffcott(parameters))
     return first, tuple(rubs)
 
 
@@ -180,7 +180,7 @@ def test_sliding_motion_goes_to_the_stable_rub_and_leaves_the_saddle(gamma):
 
 
 def test_a_simulated_rotor_stays_at_its_stable_rub():
-    rotor = Jeffcott(PAPER.replace(gamma=0.2))
+    rotor = jeffcott(PAPER.replace(gamma=0.2))
     stable = find_equilibria(rotor)[1]
     end = simulate(rotor, State(stable.position), 200.0).final
     assert end.position == pytest.approx(stable.position, abs=1e-9)
@@ -230,7 +230,7 @@ def test_a_balanced_rotor_has_no_isolated_rub(omega, gamma, mu):
     if gamma == mu == 0.0 and omega < 1.0:
         # Pressed outward with N = 1 − ω², and at rest wherever it is put.
         for place in np.exp(1j * np.linspace(0.0, 6.0, 7)):
-            motion = simulate(Jeffcott(parameters), State(place), 50.0)
+            motion = simulate(jeffcott(parameters), State(place), 50.0)
             assert motion.final.position == pytest.approx(place, abs=1e-13)
             assert motion.forces(np.array([25.0]))[0] == pytest.approx(1.0 - omega**2, abs=1e-13)
 

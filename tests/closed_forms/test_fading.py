@@ -8,7 +8,7 @@ from compilation import sized
 from machines import PAPER
 
 from carom.closed_forms import fading_speed, rolling
-from carom.models import Jeffcott
+from carom.models import jeffcott
 from carom.motions.simulation import simulate
 from carom.motions.starts import State
 from carom.parameters import Parameters
@@ -43,7 +43,7 @@ def test_bounces_up_to_the_fading_speed_stop_their_slip_and_fade(seed):
         for speed in (fastest, fastest * 10.0 ** random.uniform(-3.0, 0.0)):
             wall = cmath.exp(1j * random.uniform(-3.0, 3.0))
             start = State(wall, complex(-speed, -1.0 - parameters.radius_ratio) * wall)
-            motion = simulate(Jeffcott(parameters), start, 1e4, max_events=sized(300, 50))
+            motion = simulate(jeffcott(parameters), start, 1e4, max_events=sized(300, 50))
             log = motion.log_of(motion.is_impact)
             arrivals = log.radial_speed[log.radial_speed > 1e-6]  # far above rounding
             slip = log.angular_speed[: len(arrivals)] + 1.0 + parameters.radius_ratio
@@ -71,7 +71,7 @@ def test_bounces_of_an_elastic_wall_fade_at_the_rate_of_the_damping():
     """Averaged over a turn ``v̇ = −γ(1/3 + 2s²/(3N)) v`` with ``N = s² − ω²``, to the order of the height of a bounce."""
     at = NEARLY_ELASTIC.replace(d=1.0)
     start = State(1.0, complex(-0.1, -1.0 - at.radius_ratio))
-    motion = simulate(Jeffcott(at), start, sized(200, 2) / 100.0)
+    motion = simulate(jeffcott(at), start, sized(200, 2) / 100.0)
     log = motion.log_of(motion.is_impact)
     push = at.radius_ratio**2 - at.omega**2
     rate = at.gamma * (1.0 / 3.0 + 2.0 * at.radius_ratio**2 / (3.0 * push))

@@ -48,7 +48,7 @@ def test_no_plane_touches_after_a_harmless_disturbance_of_any_rotor(name, kind):
 
 
 def test_matrices_of_the_planar_rotor_give_its_bounds():
-    planar = cm.models.Jeffcott(PAPER.replace(gamma=0.15, rho=0.3))
+    planar = cm.models.jeffcott(PAPER.replace(gamma=0.15, rho=0.3))
     rotor = as_matrices(planar)
     for bound in (harmless_blade_loss, harmless_unbalance_step):
         assert bound(rotor) == pytest.approx(bound(planar), rel=1e-12)
@@ -73,7 +73,7 @@ def test_nothing_is_said_where_no_energy_is_known_that_does_not_grow():
     others = {"touchdowns": rotor.touchdowns, "translation": rotor.translation}
 
     def made(**changes):
-        return cm.models.LinearRotor.in_fixed_frame(**{**given, **others, **changes})
+        return cm.models.from_matrices(**{**given, **others, **changes})
 
     assert harmless_kick(made()) == pytest.approx(harmless_kick(rotor), rel=1e-12)
     circulatory = stiffness + 0.01j * np.eye(2)

@@ -16,7 +16,7 @@ from carom import find_orbits
 from carom.closed_forms.local import ContactSystem, cycle_determinant, non_smooth_hopf
 from carom.closed_forms.periods import PeriodCondition
 from carom.core.layout import rotor_record
-from carom.models import Jeffcott, System
+from carom.models import System, jeffcott
 from carom.outcome import InputError
 
 BOUNDARY = PAPER.replace(gamma=float(np.sqrt(PAPER.rho**2 - (1.0 - PAPER.omega**2) ** 2)))
@@ -26,7 +26,7 @@ def slopes(name: str, parameter: str, at: float) -> np.ndarray:
     """Derivatives of (ṙ, θ̇, θ) by a parameter: central differences extrapolated twice, error of order h⁶."""
 
     def state(value):
-        orbit = find_orbits(Jeffcott(BOUNDARY.replace(**{parameter: value})))[name]
+        orbit = find_orbits(jeffcott(BOUNDARY.replace(**{parameter: value})))[name]
         return np.array([orbit.radial_speed, orbit.angular_speed, orbit.angle])
 
     table = [(state(at + h) - state(at - h)) / (2 * h) for h in (4e-4, 2e-4, 1e-4)]
@@ -47,7 +47,7 @@ def test_slopes_of_the_exact_branches(parameter):
     assert len(hopf.cycles) == 2
     for cycle in hopf.cycles:
         # Orbits of vanishing speed are a, b where the lever is negative.
-        orbits = find_orbits(Jeffcott(BOUNDARY.replace(gamma=BOUNDARY.gamma + 1e-9)))
+        orbits = find_orbits(jeffcott(BOUNDARY.replace(gamma=BOUNDARY.gamma + 1e-9)))
         orbit = min(orbits, key=lambda orbit: abs(orbit.period - cycle.period) + abs(orbit.radial_speed))
         got = (cycle.radial_slope, cycle.angular_slope, cycle.angle_slope)
         assert got == pytest.approx(slopes(orbit.name, parameter, getattr(BOUNDARY, parameter)), abs=1e-8)
@@ -61,7 +61,7 @@ def test_criticality_is_the_side_on_which_the_exact_orbits_live():
     for cycle in hopf.cycles:
         found = {}
         for shift in (-1e-5, 1e-5):
-            orbits = find_orbits(Jeffcott(BOUNDARY.replace(gamma=BOUNDARY.gamma + shift)))
+            orbits = find_orbits(jeffcott(BOUNDARY.replace(gamma=BOUNDARY.gamma + shift)))
             found[shift] = [
                 orbit for orbit in orbits if 0 < orbit.radial_speed < 1e-3 and abs(orbit.period - cycle.period) < 1e-2
             ]
@@ -99,7 +99,7 @@ def test_equilibrium_must_be_on_the_wall():
 
 
 def test_determinant_of_the_planar_rotor():
-    rotor = Jeffcott(BOUNDARY)
+    rotor = jeffcott(BOUNDARY)
     condition = PeriodCondition.of(rotor.system)
     for period in (0.4, 1.0, 2.5, 7.0):
         free = abs(np.linalg.det(expm(flight_matrix(BOUNDARY) * period) - np.eye(2))) ** 2

@@ -12,7 +12,7 @@ from scipy.linalg import expm
 
 from carom.closed_forms.periods import PeriodCondition
 from carom.core.periods import curvature_bound
-from carom.models import Jeffcott
+from carom.models import jeffcott
 from carom.orbits import period_condition
 from carom.outcome import CaromError, InputError
 from carom.parameters import Parameters
@@ -33,7 +33,7 @@ DAMPINGS = {
 
 
 def condition_of(parameters: Parameters, slip: int = 1) -> PeriodCondition:
-    return PeriodCondition.of(Jeffcott(parameters).system, slip)
+    return PeriodCondition.of(jeffcott(parameters).system, slip)
 
 
 def slip_factor(parameters: Parameters) -> complex:
@@ -96,7 +96,7 @@ def test_value_of_any_shape():
     assert table.shape == (3, 4)
     np.testing.assert_array_equal(table.ravel(), condition.value(periods))
     assert condition.value(np.asarray(0.76)).shape == ()
-    np.testing.assert_array_equal(period_condition(Jeffcott(PAPER), periods), condition.value(periods))
+    np.testing.assert_array_equal(period_condition(jeffcott(PAPER), periods), condition.value(periods))
 
 
 def test_backward_slip_turns_the_friction_round():

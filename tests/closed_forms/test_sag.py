@@ -11,12 +11,11 @@ from machines import PAPER
 
 import carom as cm
 from carom.closed_forms import levitation
-from carom.models import Force, Forced, InBearing, Jeffcott, model_of
-from carom.models.weight import weighted
+from carom.models import Force, jeffcott, model_of
 from carom.outcome import InputError
 
 HEAVY = cm.load("examples/dropped-rotor.toml")
-TILTING = Forced(tilting().model, (Force(-1j, np.array([0.02 - 0.1j, 0.05])),))
+TILTING = tilting().model.under(Force(-1j, np.array([0.02 - 0.1j, 0.05])))
 
 
 def test_the_sag_is_what_the_stiffness_holds():
@@ -24,7 +23,7 @@ def test_the_sag_is_what_the_stiffness_holds():
     held = levitation(HEAVY)
     assert held.sag == pytest.approx(-1j * 5.0 * 9.81 / 5e5 / scales.length, abs=1e-14)
     # The mass of the unbalance whirls as that without weight.
-    assert held.whirl == pytest.approx(model_of(HEAVY).rotor.equilibrium, rel=1e-14)
+    assert held.whirl == pytest.approx(model_of(HEAVY).unforced.equilibrium, rel=1e-14)
     assert held.reach == pytest.approx(abs(held.sag) + abs(held.whirl), rel=1e-14)
     assert held.inside
     assert held.stable
@@ -66,7 +65,7 @@ def test_a_bearing_whose_centre_is_where_the_rotor_sags_holds_it_in_the_middle()
     bearing = cm.parameters.TouchdownBearing(
         law="kelvin-voigt", stiffness=1e8, damping=3e3, offset=5.0 * 9.81 / 5e5, offset_direction=-0.5 * math.pi
     )
-    held = levitation(weighted(InBearing(Jeffcott(HEAVY.parameters), bearing), HEAVY.gravity))
+    held = levitation(jeffcott(jeffcott(HEAVY.parameters).parameters, bearing).under_gravity(HEAVY.gravity))
     assert held.sags == pytest.approx([0.0], abs=1e-15)
     assert held.reach == pytest.approx(abs(levitation(HEAVY).whirl), rel=1e-12)
     # Both forces act through modes of their own, which cancel each other.
@@ -77,7 +76,7 @@ def test_a_rotor_that_nothing_holds_has_no_levitation():
     with pytest.raises(InputError, match=r"^levitation = none, nothing holds the rotor"):
         levitation(model_of(HEAVY).without_levitation())
     with pytest.raises(InputError, match=r"^machine = forces that change in the fixed frame"):
-        levitation(Forced(Jeffcott(PAPER), (Force(0.3j, np.array([0.1])),)))
+        levitation(jeffcott(PAPER).under(Force(0.3j, np.array([0.1]))))
 
 
 def test_the_weight_that_levitation_holds_is_that_at_which_it_reaches_the_wall():

@@ -13,7 +13,7 @@ from machines import random_parameters
 from scipy.optimize import root
 
 from carom import find_equilibria
-from carom.models import Jeffcott, LinearRotor
+from carom.models import from_matrices, jeffcott
 from carom.motions.ensembles import settle
 from carom.outcome import Outcome
 
@@ -82,14 +82,14 @@ def test_the_planar_rotor_by_its_matrices_has_the_same():
     random = np.random.default_rng(4)
     for _ in range(sized(30, 30, 2000)):
         one = random_parameters(random, gamma=float(10 ** random.uniform(-2, 0.3)))
-        model = LinearRotor.in_fixed_frame(
+        model = from_matrices(
             mass=np.eye(2),
             damping=np.diag([one.gamma, 0.3]),
             stiffness=np.diag([one.omega**2, 0.7]),
             forcing=[one.rho * np.exp(1j * one.phi), 0.2],
             touchdowns=touchdowns([[1.0, 0.0]], [one.mu], [one.d], [one.radius_ratio + 1.0]),
         )
-        pairs = list(zip(find_equilibria(Jeffcott(one)), find_equilibria(model), strict=True))
+        pairs = list(zip(find_equilibria(jeffcott(one)), find_equilibria(model), strict=True))
         for planar, general in pairs:
             assert general.status == planar.status
             assert general.stable == planar.stable

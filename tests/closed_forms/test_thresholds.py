@@ -30,7 +30,7 @@ from carom.closed_forms.thresholds import (
     whirl_damping,
 )
 from carom.closed_forms.whirl import rolling, runaway_speed
-from carom.models import Jeffcott
+from carom.models import jeffcott
 from carom.outcome import InputError
 from carom.parameters import Numbers, Parameters, Scales
 
@@ -76,7 +76,7 @@ def clear(parameters):
 @given(parameters=degenerate)
 def test_levitation_is_inside_the_wall_where_its_condition_is_negative(parameters):
     assume(clear(parameters))
-    status = find_equilibria(Jeffcott(parameters))[0].status
+    status = find_equilibria(jeffcott(parameters))[0].status
 
     assert status == ("admissible" if wall_condition(parameters) < 0.0 else "virtual")
 
@@ -116,7 +116,7 @@ def test_unknown_gain():
 @given(parameters=degenerate)
 def test_stable_rub_exists_where_an_equilibrium_is_one(parameters):
     assume(clear(parameters))
-    rubs = find_equilibria(Jeffcott(parameters))[1:]
+    rubs = find_equilibria(jeffcott(parameters))[1:]
 
     assert has_stable_rub(parameters) == any(rub.stable and rub.status == "admissible" for rub in rubs)
     assert (rub_fold_condition(parameters) > 0.0) == bool(rubs)
@@ -129,7 +129,7 @@ def test_range_of_the_rub_for_either_sign_of_the_damping(gain, parameters, value
     assume(gain == "gamma" or abs(parameters.gamma) + abs(value - 1.0) > 1e-8)
     here = parameters.replace(**{gain: value})
     assume(clear(here))
-    rubs = find_equilibria(Jeffcott(here))[1:]
+    rubs = find_equilibria(jeffcott(here))[1:]
     found = ranges_of("rub", parameters, gain)
 
     assert any(low.value <= value <= high.value for low, high in found) == any(rub.normal_force > 0.0 for rub in rubs)
@@ -144,7 +144,7 @@ def test_rubs_next_to_the_fold_on_both_sides_of_where_it_touches_the_circle(mu, 
     kappa = rho * (0.99 * edge * mu + ahead) / slope
     gamma = rho * (0.99 * edge - ahead * mu) / slope
     machine = PAPER.replace(gamma=gamma, omega=math.sqrt(1.0 - kappa), rho=rho, mu=mu)
-    rubs = find_equilibria(Jeffcott(machine))[1:]
+    rubs = find_equilibria(jeffcott(machine))[1:]
 
     assert [rub.normal_force > 0.0 for rub in rubs] == [ahead > 0.0] * 2
     assert has_stable_rub(machine) == any(rub.stable for rub in rubs) == (ahead > 0.0 and gamma + 2.0 * mu > 0.0)
@@ -180,19 +180,19 @@ def test_fold_in_high_precision():
 )
 def test_stable_rub_exists_exactly_below_its_limit(omega, rho, mu, share):
     parameters = Parameters(gamma=1.0, omega=omega, rho=rho, phi=0.0, mu=mu, d=0.5, radius_ratio=10.0)
-    limit = rub_limit(Jeffcott(parameters))
+    limit = rub_limit(jeffcott(parameters))
     assume(abs(share - 1.0) > 1e-6)
     gamma = share * limit if limit > 0.0 else share
     assume(abs(omega - 1.0) + gamma > 1e-6)
 
-    rubs = find_equilibria(Jeffcott(parameters.replace(gamma=gamma)))[1:]
+    rubs = find_equilibria(jeffcott(parameters.replace(gamma=gamma)))[1:]
 
     assert any(rub.stable for rub in rubs) == (gamma < limit)
     assert any(rub.status == "admissible" for rub in rubs) == (gamma < limit)
 
 
 def test_rub_limit_of_the_source_machine():
-    limit = rub_limit(Jeffcott(PAPER))
+    limit = rub_limit(jeffcott(PAPER))
 
     assert limit == pytest.approx(0.3700060, abs=5e-8)
     assert limit * SCALES.damping == pytest.approx(3407.756, abs=1e-3)
@@ -310,7 +310,7 @@ def test_harmless_kicks_move_the_rotor_at_most_to_the_wall(gamma):
     """The largest deviation is that of the flight itself, whatever the direction; the bound is not wasteful."""
     machine = PAPER.replace(gamma=gamma, rho=0.2)
     rest = rest_position(machine)
-    speed = harmless_kick(Jeffcott(machine))
+    speed = harmless_kick(jeffcott(machine))
     times = np.linspace(0.0, 12.0, 4001)
     farthest = 0.0
     for angle in np.linspace(0.0, 2.0 * math.pi, 61):
@@ -322,20 +322,20 @@ def test_harmless_kicks_move_the_rotor_at_most_to_the_wall(gamma):
 
 def test_critical_damping_is_the_limit_of_both_sides():
     speeds = [
-        harmless_kick(Jeffcott(PAPER.replace(rho=0.1, gamma=2.0 * 0.76 * factor))) for factor in (1 - 1e-7, 1, 1 + 1e-7)
+        harmless_kick(jeffcott(PAPER.replace(rho=0.1, gamma=2.0 * 0.76 * factor))) for factor in (1 - 1e-7, 1, 1 + 1e-7)
     ]
     assert speeds == pytest.approx([speeds[1]] * 3, rel=1e-6)
 
 
 @pytest.mark.parametrize("changes", [{"gamma": -0.01, "rho": 0.1}, {"gamma": 0.05}])
 def test_nothing_is_harmless_without_damped_levitation(changes):
-    assert harmless_kick(Jeffcott(PAPER.replace(**changes))) == 0.0
+    assert harmless_kick(jeffcott(PAPER.replace(**changes))) == 0.0
 
 
 @pytest.mark.parametrize("duration", [0.02, 0.7, 4.0])
 def test_harmless_shocks_do_not_bring_the_rotor_to_the_wall(duration):
     """Followed in the fixed frame by a general solver through the pulse and after it, in many directions."""
-    peak = harmless_shock(Jeffcott(MACHINE), duration)
+    peak = harmless_shock(jeffcott(MACHINE), duration)
     gamma, omega, rest = MACHINE.gamma, MACHINE.omega, abs(rest_position(MACHINE))
 
     def rate(time, state):
@@ -354,9 +354,9 @@ def test_harmless_shocks_do_not_bring_the_rotor_to_the_wall(duration):
 @pytest.mark.parametrize("gamma", [0.0, 0.1, 1.0, 4.0])
 def test_harmless_steps_do_not_bring_the_rotor_to_the_wall(gamma):
     machine = PAPER.replace(gamma=gamma, rho=0.2)
-    size = harmless_unbalance_step(Jeffcott(machine))
+    size = harmless_unbalance_step(jeffcott(machine))
     times = np.linspace(0.0, 15.0, 3001)
     for angle in np.linspace(0.0, 2.0 * math.pi, 25):
         before = rest_position(machine) * (1.0 + size / machine.rho * np.exp(1j * angle))
         assert np.abs(path(machine, complex(before), 0j, times)).max() <= 1.0
-    assert harmless_unbalance_step(Jeffcott(PAPER.replace(gamma=0.05))) == 0.0
+    assert harmless_unbalance_step(jeffcott(PAPER.replace(gamma=0.05))) == 0.0

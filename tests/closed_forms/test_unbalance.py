@@ -13,7 +13,7 @@ from scipy.optimize import minimize_scalar
 
 from carom.closed_forms import find_equilibria, rolling, speed_response
 from carom.loading import load
-from carom.models import Jeffcott
+from carom.models import jeffcott
 from carom.outcome import InputError
 from carom.parameters import Machine, Parameters
 
@@ -70,7 +70,7 @@ def test_it_is_the_contact_free_equilibrium_at_every_speed():
     for _ in range(10):
         machine = random_machine(random)
         for speed in machine.speed * random.uniform(0.2, 5.0, 4):
-            rotor = Jeffcott(machine.replace(speed=speed).parameters)
+            rotor = jeffcott(machine.replace(speed=speed).parameters)
             turned = rotor.equilibrium * np.exp(-1j * rotor.unbalance_phase)
             assert speed_response(machine).displacement(np.array(speed)) == pytest.approx(turned, rel=1e-9)
 
@@ -157,7 +157,7 @@ def test_rub_angles_are_those_of_the_equilibria():
         free = speed_response(machine)
         speeds = free.natural_frequency * random.uniform(0.5, 3.0, 4)
         for speed, angles in zip(speeds, free.rub_angles(speeds).T, strict=True):
-            rotor = Jeffcott(machine.parameters.replace(speed=speed))
+            rotor = jeffcott(machine.parameters.replace(speed=speed))
             rubs = {rub.stable: rub for rub in find_equilibria(rotor)[1:] if rub.status == "admissible"}
             for angle, stable in zip(angles, (True, False), strict=True):
                 assert math.isnan(angle) == (stable not in rubs)
@@ -189,7 +189,7 @@ def test_steady_motions_change_only_at_the_speeds_listed():
 
 
 def steady(machine: Machine, speed: float) -> tuple[object, ...]:
-    rotor = Jeffcott(machine.parameters.replace(speed=speed))
+    rotor = jeffcott(machine.parameters.replace(speed=speed))
     found = [(one.kind, one.stable) for one in find_equilibria(rotor) if one.status == "admissible"]
     return (*sorted(found), rolling(rotor).holds)
 

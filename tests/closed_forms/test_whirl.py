@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from carom.closed_forms.equilibria import find_equilibria
 from carom.closed_forms.whirl import hastening_speed, rolling, runaway_speed
-from carom.models import Jeffcott
+from carom.models import jeffcott
 from carom.motions.ensembles import settle
 from carom.motions.simulation import simulate
 from carom.motions.starts import State
@@ -49,7 +49,7 @@ def whirl_speeds(motion, count=400):
 @settings(max_examples=60, deadline=None)
 @given(parameters=damped, angle=st.floats(-3.2, 3.2), backward=st.booleans())
 def test_without_friction_negative_damping_hastens_whirl_for_ever(parameters, angle, backward):
-    rotor = Jeffcott(parameters.replace(gamma=-max(parameters.gamma, 0.05), mu=0.0))
+    rotor = jeffcott(parameters.replace(gamma=-max(parameters.gamma, 0.05), mu=0.0))
     start = on_wall(angle, 1.001 * hastening_speed(rotor) * (-1.0 if backward else 1.0))
 
     # As long as it is affordable to follow it: the speed grows like e^{|γ|t}.
@@ -78,7 +78,7 @@ def test_friction_or_damping_bounds_the_speed_of_whirl():
 @settings(max_examples=60, deadline=None)
 @given(parameters=damped, angle=st.floats(-3.2, 3.2), share=st.floats(0.001, 0.999))
 def test_whirl_beyond_the_certain_speed_gains_speed_until_it_rolls(parameters, angle, share):
-    rotor = Jeffcott(parameters)
+    rotor = jeffcott(parameters)
     runaway = runaway_speed(rotor)
     assume(runaway.certain * 1.001 < runaway.rolling_speed)
     speed = runaway.certain + share * (runaway.rolling_speed - runaway.certain)
@@ -97,7 +97,7 @@ def test_whirl_beyond_the_certain_speed_gains_speed_until_it_rolls(parameters, a
 @settings(max_examples=40, deadline=None)
 @given(parameters=damped, angle=st.floats(-3.2, 3.2))
 def test_rotor_faster_than_rolling_slows_to_it_where_rolling_holds(parameters, angle):
-    rotor = Jeffcott(parameters)
+    rotor = jeffcott(parameters)
     assume(runaway_speed(rotor).reaches_rolling)
 
     motion = simulate(rotor, on_wall(angle, -1.3 * parameters.radius_ratio), 1e4, settle=True)
@@ -108,7 +108,7 @@ def test_rotor_faster_than_rolling_slows_to_it_where_rolling_holds(parameters, a
 
 def test_bound_is_reached_at_the_worst_angle():
     # At sin x + μ cos x = −√(1 + μ²) the whirl at the certain speed neither gains nor loses.
-    rotor = Jeffcott(SOURCE)
+    rotor = jeffcott(SOURCE)
     worst = SOURCE.phi + math.atan2(-1.0, -SOURCE.mu)
     speed = runaway_speed(rotor).certain
 
@@ -122,7 +122,7 @@ def test_bound_is_reached_at_the_worst_angle():
 
 
 def test_average_threshold_is_the_simulated_one_without_unbalance():
-    rotor = Jeffcott(SOURCE.replace(rho=0.0, gamma=0.3))
+    rotor = jeffcott(SOURCE.replace(rho=0.0, gamma=0.3))
     threshold = runaway_speed(rotor).average
 
     outcomes = [
@@ -134,7 +134,7 @@ def test_average_threshold_is_the_simulated_one_without_unbalance():
 
 
 def test_without_friction_nothing_runs_away():
-    runaway = runaway_speed(Jeffcott(SOURCE.replace(mu=0.0)))
+    runaway = runaway_speed(jeffcott(SOURCE.replace(mu=0.0)))
 
     assert runaway.certain == runaway.average == math.inf
     assert not runaway.reaches_rolling
@@ -142,7 +142,7 @@ def test_without_friction_nothing_runs_away():
 
 @pytest.mark.parametrize("gamma", [-0.5, -1e-9, 0.0, 1e-9, 0.5, 50.0])
 def test_threshold_solves_its_equation_for_either_sign_of_damping(gamma):
-    rotor = Jeffcott(SOURCE.replace(gamma=gamma))
+    rotor = jeffcott(SOURCE.replace(gamma=gamma))
     speed = runaway_speed(rotor).average
 
     assert 0.15 * (speed**2 - 0.76**2) == pytest.approx(gamma * speed, abs=1e-12 * (1.0 + speed**2))
@@ -155,7 +155,7 @@ def test_threshold_solves_its_equation_for_either_sign_of_damping(gamma):
 @settings(max_examples=60, deadline=None)
 @given(parameters=damped, angle=st.floats(-3.2, 3.2))
 def test_forces_of_rolling(parameters, angle):
-    rotor = Jeffcott(parameters)
+    rotor = jeffcott(parameters)
     roll = rolling(rotor)
     assume(roll.holds)
 
@@ -175,19 +175,19 @@ def test_forces_of_rolling(parameters, angle):
 @settings(max_examples=60, deadline=None)
 @given(parameters=damped)
 def test_limits_of_rolling_are_one_condition(parameters):
-    roll = rolling(Jeffcott(parameters))
+    roll = rolling(jeffcott(parameters))
     assume(roll.least_force > 0.0 and abs(parameters.mu - roll.needed_friction) > 1e-9)
 
     assert roll.holds == (parameters.gamma < roll.largest_damping)
-    assert roll.holds == runaway_speed(Jeffcott(parameters)).reaches_rolling
+    assert roll.holds == runaway_speed(jeffcott(parameters)).reaches_rolling
     assert roll.largest_damping <= roll.damping_bound
 
 
 @pytest.mark.parametrize(("factor", "rolls_on"), [(0.9999, True), (1.0001, False)])
 def test_rolling_ends_at_the_largest_damping(factor, rolls_on):
     parameters = SOURCE.replace(radius_ratio=5.0, rho=1.0, gamma=0.3)
-    limit = rolling(Jeffcott(parameters)).largest_damping
-    rotor = Jeffcott(parameters.replace(gamma=factor * limit))
+    limit = rolling(jeffcott(parameters)).largest_damping
+    rotor = jeffcott(parameters.replace(gamma=factor * limit))
 
     motion = simulate(rotor, on_wall(0.0, -5.0), 2.0 * rolling(rotor).period)
 
@@ -199,11 +199,11 @@ def test_rolling_ends_at_the_largest_damping(factor, rolls_on):
 @pytest.mark.jit_only
 def test_interrupted_rolling_lives_between_the_limits_only():
     parameters = SOURCE.replace(radius_ratio=5.0, rho=1.0)
-    roll = rolling(Jeffcott(parameters))
+    roll = rolling(jeffcott(parameters))
     lasting = {}
     for share in (0.1, 1.001):
         gamma = roll.largest_damping + share * (roll.damping_bound - roll.largest_damping)
-        motion = simulate(Jeffcott(parameters.replace(gamma=gamma)), on_wall(0.0, -5.0), 1e3)
+        motion = simulate(jeffcott(parameters.replace(gamma=gamma)), on_wall(0.0, -5.0), 1e3)
         lasting[share] = {contact.phase for contact in motion.lasting_contacts if contact.end > 990.0}
 
     assert lasting[0.1] == {Phase.ROLLING, Phase.FORWARD_SLIP}
@@ -213,22 +213,22 @@ def test_interrupted_rolling_lives_between_the_limits_only():
 @settings(max_examples=60, deadline=None)
 @given(parameters=damped)
 def test_rolling_ends_at_the_largest_stiffness(parameters):
-    limit = rolling(Jeffcott(parameters)).largest_stiffness
+    limit = rolling(jeffcott(parameters)).largest_stiffness
     assume(limit > 0.01)
 
-    assert rolling(Jeffcott(parameters.replace(omega=limit * (1 - 1e-9)))).holds
-    assert not rolling(Jeffcott(parameters.replace(omega=limit * (1 + 1e-9)))).holds
+    assert rolling(jeffcott(parameters.replace(omega=limit * (1 - 1e-9)))).holds
+    assert not rolling(jeffcott(parameters.replace(omega=limit * (1 + 1e-9)))).holds
 
 
 def test_friction_from_which_rolling_holds():
-    needed = rolling(Jeffcott(SOURCE)).needed_friction
+    needed = rolling(jeffcott(SOURCE)).needed_friction
 
-    assert not rolling(Jeffcott(SOURCE.replace(mu=needed * (1 - 1e-12)))).holds
-    assert rolling(Jeffcott(SOURCE.replace(mu=needed * (1 + 1e-12)))).holds
+    assert not rolling(jeffcott(SOURCE.replace(mu=needed * (1 - 1e-12)))).holds
+    assert rolling(jeffcott(SOURCE.replace(mu=needed * (1 + 1e-12)))).holds
 
 
 def test_rotor_that_would_leave_the_wall_cannot_roll():
-    roll = rolling(Jeffcott(SOURCE.replace(radius_ratio=0.8, rho=0.5, mu=5.0)))
+    roll = rolling(jeffcott(SOURCE.replace(radius_ratio=0.8, rho=0.5, mu=5.0)))
 
     assert roll.least_force < 0.0
     assert roll.needed_friction == math.inf
@@ -236,11 +236,11 @@ def test_rotor_that_would_leave_the_wall_cannot_roll():
 
 
 def test_rolling_of_the_source_machine_in_newtons():
-    roll = rolling(Jeffcott(SOURCE))
+    roll = rolling(jeffcott(SOURCE))
 
     assert roll.largest_force * SCALES.force == pytest.approx(3.8775e6, rel=1e-4)
     assert roll.largest_damping * SCALES.damping == pytest.approx(7.881e4, rel=1e-3)
-    assert runaway_speed(Jeffcott(SOURCE)).certain * SCALES.velocity == pytest.approx(0.2869, rel=1e-3)
+    assert runaway_speed(jeffcott(SOURCE)).certain * SCALES.velocity == pytest.approx(0.2869, rel=1e-3)
 
 
 @pytest.mark.jit_only
@@ -253,11 +253,11 @@ def test_no_backward_whirl_repeats_beyond_the_bound_of_damping():
         machine = SOURCE.replace(
             omega=omega, mu=mu, rho=random.uniform(0.0, 2.0), d=random.uniform(0.0, 0.9), radius_ratio=speed
         )
-        bound = rolling(Jeffcott(machine)).damping_bound
+        bound = rolling(jeffcott(machine)).damping_bound
         places = np.exp(1j * random.uniform(0.0, 2.0 * math.pi, 50))
         whirl = -random.uniform(0.0, 2.0 * speed, 50)
         for factor in (0.3, 1.001):
-            rotor = Jeffcott(machine.replace(gamma=max(factor * bound, 0.02)))
+            rotor = jeffcott(machine.replace(gamma=max(factor * bound, 0.02)))
             outcomes = settle(rotor, places, 1j * (whirl - 1.0) * places, until=2e3).outcomes
             held = np.isin(outcomes, (Outcome.ROLLING, Outcome.BACKWARD_WHIRL)).sum()
             kept += held if factor < 1.0 else 0
@@ -277,7 +277,7 @@ def test_sliding_forward_goes_over_to_the_rub_or_leaves_the_wall():
             rho=random.uniform(0.2, 1.5),
             mu=random.uniform(0.0, 0.8),
         )
-        rotor = Jeffcott(machine)
+        rotor = jeffcott(machine)
         motion = simulate(rotor, on_wall(random.uniform(-3.0, 3.0), random.uniform(0.0, 3.0)), 3e3)
         last = motion.lasting_contacts[-1] if motion.lasting_contacts else None
         if last is None or last.phase is not Phase.FORWARD_SLIP or last.start > 500.0 or last.end < motion.time:

@@ -10,7 +10,7 @@ import carom as cm
 from carom.closed_forms.power_sums import positive_roots
 from carom.closed_forms.rub_stability import sliding_rates
 from carom.closed_forms.statics import depths
-from carom.models import HuntCrossley, KelvinVoigt, LinearRotor, Rigid
+from carom.models import HuntCrossley, KelvinVoigt, Rigid, from_matrices
 from carom.models.touchdown import Touchdown
 from carom.outcome import Outcome, Phase
 
@@ -86,7 +86,7 @@ def test_a_stiff_wall_comes_near_to_the_rigid_one():
     stiff = next(rub for rub in cm.find_equilibria(paper.model)[1:] if rub.stable)
     wall = [Touchdown([1.0], Rigid(0.5), paper.mu, paper.surface_speed)]
     forcing = [paper.rho * np.exp(1j * paper.phi)]
-    rigid_model = LinearRotor.in_fixed_frame(
+    rigid_model = from_matrices(
         mass=[[1.0]], damping=[[paper.gamma]], stiffness=[[paper.omega**2]], forcing=forcing, touchdowns=wall
     )
     rigid = next(rub for rub in cm.find_equilibria(rigid_model)[1:] if rub.stable)

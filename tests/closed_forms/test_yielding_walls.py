@@ -167,7 +167,7 @@ def test_slipping_whirls_of_any_rotor_are_all_changes_of_sign_of_the_receptance(
     numbers, row = drawn_rotor(random, 1 + seed % 4)
     friction = 10.0 ** random.uniform(-1.5, 0.0)
     plane = models.Touchdown(row, models.KelvinVoigt(1e4, 1.0), friction, 1e3)
-    rotor = models.LinearRotor.in_fixed_frame(**numbers, forcing=np.zeros(len(row)), touchdowns=[plane])
+    rotor = models.from_matrices(**numbers, forcing=np.zeros(len(row)), touchdowns=[plane])
     felt = 1.0 / (row @ np.linalg.solve(numbers["mass"], row))
 
     def lever(speed):
@@ -203,7 +203,7 @@ def test_a_whirl_of_two_coordinates_goes_on_as_a_circle(plane):
     damping = np.array([[0.1, 0.01], [0.01, 0.04]])
     rows = ([1.0, 0.8], [1.0, -0.7])
     planes = [models.Touchdown(row, models.KelvinVoigt(1e3, 2.0), 0.2, 60.0) for row in rows]
-    rotor = models.LinearRotor.in_fixed_frame(
+    rotor = models.from_matrices(
         mass=mass, damping=damping, stiffness=stiffness, forcing=np.zeros(2), touchdowns=planes
     )
     row, followed = np.array(rows[plane]), 0

@@ -16,7 +16,7 @@ from carom.core.fate import memory
 from carom.core.layout import rotor_record, rub_workspace, workspace
 from carom.core.phases import AWAY, FLIGHT
 from carom.core.table import flight_table
-from carom.models import Jeffcott
+from carom.models import jeffcott
 from carom.motions.simulation import simulate
 from carom.motions.starts import State
 from carom.outcome import Outcome
@@ -60,13 +60,13 @@ class Run:
 
 def paper_run(**changes):
     """The machine of the source paper, from a start inside."""
-    rotor = Jeffcott(PAPER.replace(**changes))
+    rotor = jeffcott(PAPER.replace(**changes))
     return rotor, Run(rotor.system.arrays, rotor.system.table, rotor.system.amplitudes(0.3 + 0.1j, 0.9 - 0.4j))
 
 
 def wall_run(machine, angle, radial_speed, angular_speed, stop_at_landing=True):
     """A start on the wall."""
-    rotor = Jeffcott(machine)
+    rotor = jeffcott(machine)
     normal = np.exp(1j * angle)
     amplitudes = rotor.system.amplitudes(normal, complex(radial_speed, angular_speed) * normal)
     return rotor, Run(
@@ -75,7 +75,7 @@ def wall_run(machine, angle, radial_speed, angular_speed, stop_at_landing=True):
 
 
 def test_a_flight_that_meets_nothing_ends_at_its_time():
-    rotor = Jeffcott(parameters(0.3, 1.3))
+    rotor = jeffcott(parameters(0.3, 1.3))
     start = rotor.system.amplitudes(rotor.equilibrium + 0.1, 0.05j)
     run = Run(rotor.system.arrays, rotor.system.table, start)
     assert run.go(12.5) is Outcome.TIME_REACHED
@@ -210,7 +210,7 @@ def test_full_restitution_never_chatters():
 def test_a_pass_that_touches_to_rounding_is_grazing():
     """Flown back from a point of the wall where the path is tangential, with 57 digits."""
     machine = parameters(0.1, 0.76)
-    rotor = Jeffcott(machine)
+    rotor = jeffcott(machine)
     normal = unit(machine.phi + 2.5)
     tangential = jeffcott_flight(0.1, 0.76, machine.rho, machine.phi, normal, acb(0, -0.6) * normal)
     assert tangential.level(0.0)[2] < 0
@@ -233,7 +233,7 @@ def test_a_pass_that_touches_to_rounding_is_grazing():
 
 def two_planes(scale, gap=0.0, machine=PAPER):
     """A planar rotor seen at two planes, the second with its own clearance and centre."""
-    rotor = Jeffcott(machine)
+    rotor = jeffcott(machine)
     row = rotor.system.arrays.rows[0]
     offset = rotor.system.arrays.offsets[0]
     return rotor, rotor_record(
@@ -302,4 +302,4 @@ def test_contact_beside_the_boundary_equilibrium():
         State(0.676514358561373 + 0.7364294417391892j, 0.1034046048297292 - 0.1430322322663489j),
     ]
     for start in starts:
-        assert simulate(Jeffcott(machine), start, 200.0).outcome is Outcome.TIME_REACHED
+        assert simulate(jeffcott(machine), start, 200.0).outcome is Outcome.TIME_REACHED

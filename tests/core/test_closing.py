@@ -12,7 +12,7 @@ from machines import PAPER
 from carom.attractors import find_attractors
 from carom.core.closing import ATTRACTS, OPEN, REPELS, close, least_period
 from carom.core.fate import memory
-from carom.models import Jeffcott
+from carom.models import jeffcott
 from carom.motions.ensembles import settle
 from carom.motions.settling import _tools
 from carom.motions.simulation import simulate
@@ -75,7 +75,7 @@ def assert_closes(rotor, position, velocity, impacts):
 
 @pytest.mark.jit_only
 def test_an_orbit_with_three_impacts_is_told_so_however_it_is_reached():
-    rotor = Jeffcott(SPIRALLING)
+    rotor = jeffcott(SPIRALLING)
     positions, velocities = drawn_starts(np.random.default_rng(1), 24)
     ends = settle(rotor, positions, velocities)
     bouncing = np.flatnonzero(ends.outcomes == Outcome.BOUNCING)
@@ -93,7 +93,7 @@ def test_an_orbit_with_three_impacts_is_told_so_however_it_is_reached():
 @pytest.mark.jit_only
 @pytest.mark.parametrize("away", [-1e-5, -1e-9, 1e-9, 1e-7, 1e-5])
 def test_next_to_a_period_doubling_one_impact_is_told_from_two(away):
-    rotor = Jeffcott(PAPER.replace(gamma=DOUBLING + away))
+    rotor = jeffcott(PAPER.replace(gamma=DOUBLING + away))
     leaving = find_orbits(rotor)["B1,d"].departure
     faster = leaving.velocity * np.array([0.9999, 1.0001])
     ends = settle(rotor, np.full(2, leaving.position), faster)
@@ -103,7 +103,7 @@ def test_next_to_a_period_doubling_one_impact_is_told_from_two(away):
 
 
 def test_an_orbit_that_is_not_closed_yet_is_found_next_to_a_state():
-    rotor = Jeffcott(PAPER)
+    rotor = jeffcott(PAPER)
     known = find_orbits(rotor)["B1,d"]
     before = known.section.state
     near = closed(rotor, before.position, before.velocity * (1.0 + 1e-5j), 1)
@@ -116,7 +116,7 @@ def test_an_orbit_that_is_not_closed_yet_is_found_next_to_a_state():
 
 
 def test_an_orbit_that_repels_closes_but_does_not_attract():
-    rotor = Jeffcott(PAPER.replace(gamma=0.08))
+    rotor = jeffcott(PAPER.replace(gamma=0.08))
     before = find_orbits(rotor)["B1,d"].section.state
     found = closed(rotor, before.position, before.velocity * (1.0 + 1e-6), 1)
     assert found is not None
@@ -125,7 +125,7 @@ def test_an_orbit_that_repels_closes_but_does_not_attract():
 
 def test_what_is_known_of_an_orbit_is_not_asked_again_nor_taken_for_more():
     """The state at an orbit of one impact is kept: answers are the same with it and without, next to it and elsewhere."""
-    rotor = Jeffcott(PAPER)
+    rotor = jeffcott(PAPER)
     orbits = {orbit.name: orbit for orbit in find_orbits(rotor)}
     states = [
         rotor.system.amplitudes(orbit.section.state.position, orbit.section.state.velocity)
@@ -155,7 +155,7 @@ def test_a_motion_that_only_passes_by_an_orbit_goes_on():
         gamma=0.16155610137935947, omega=0.8615319990097938, rho=0.7570556724764941, phi=0.7489482538116126,
         mu=0.37569101757556383, d=0.5310701214526219, radius_ratio=1.6389580250449938,
     )  # fmt: skip
-    rotor = Jeffcott(parameters)
+    rotor = jeffcott(parameters)
     start = State(-0.9376157591840666 - 0.049885059556011j, 1.1903963754385933 + 0.6414778990507444j)
     orbit = next(orbit for orbit in find_orbits(rotor) if orbit.name == "B1,d")
     assert not orbit.stable
@@ -180,7 +180,7 @@ def test_no_number_is_named_where_no_orbit_closes():
     )  # fmt: skip
     positions = np.array([-0.9529923594883638 + 0.27279210388634423j, 0.6602592005764265 + 0.1451056352397193j])
     velocities = np.array([1.5912335089848553 - 0.33757891694966446j, -0.8325178172900114 - 0.9984458821653093j])
-    ends = settle(Jeffcott(parameters), positions, velocities)
+    ends = settle(jeffcott(parameters), positions, velocities)
     assert set(ends.outcomes) <= set(REPEATING)
     assert ends.multiplicities.tolist() == [0, 0]
 
@@ -190,7 +190,7 @@ def test_no_number_is_named_where_no_orbit_closes():
 def test_elastic_bounces_that_become_ever_lower_are_no_orbit(friction):
     """Bounces of any number a period close, but for what damping takes: neither route may name one of these numbers."""
     parameters = Parameters(0.125, 0.1, 1.7, 3.06, friction, 1.0, 0.98)
-    rotor, random = Jeffcott(parameters), np.random.default_rng(8)
+    rotor, random = jeffcott(parameters), np.random.default_rng(8)
     positions, velocities = drawn_starts(random, 12)
     together = settle(rotor, positions, velocities)
     low = 0
@@ -205,7 +205,7 @@ def test_elastic_bounces_that_become_ever_lower_are_no_orbit(friction):
 @pytest.mark.jit_only
 def test_an_orbit_with_rub_closes_too():
     parameters = PAPER.replace(gamma=0.0431456484, omega=1.25902546543, rho=1.31671186334, phi=0.0)
-    rotor = Jeffcott(parameters.replace(mu=0.427612705, d=0.43781982, radius_ratio=2.0))
+    rotor = jeffcott(parameters.replace(mu=0.427612705, d=0.43781982, radius_ratio=2.0))
     motion = simulate(rotor, State(0.3, 0.5 + 1.0j), 1e5, settle=True)
     assert motion.outcome is Outcome.MIXED
     assert_closes(rotor, motion.final.position, motion.final.velocity, motion.multiplicity)
@@ -218,7 +218,7 @@ def test_all_that_end_on_an_orbit_agree_how_many_impacts_it_has(seed):
     random = np.random.default_rng(seed)
     machines = 0
     while machines < sized(50, 1):
-        rotor = Jeffcott(_drawn_machine(random))
+        rotor = jeffcott(_drawn_machine(random))
         positions, velocities = drawn_starts(random, 24)
         ends = settle(rotor, positions, velocities)
         several = np.flatnonzero(np.isin(ends.outcomes, REPEATING) & (ends.multiplicities > 1))

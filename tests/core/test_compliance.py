@@ -16,7 +16,7 @@ from carom.core.flow import displacement, velocity
 from carom.core.layout import ORDER, rub_workspace
 from carom.core.rub import first_transition, next_phase
 from carom.core.taylor import STEP_FRACTION, margin_step, series_step, sum_series
-from carom.models import HuntCrossley, KelvinVoigt, LinearRotor, Touchdown
+from carom.models import HuntCrossley, KelvinVoigt, Touchdown, from_matrices
 from carom.outcome import Phase
 
 FLIGHT, FORWARD, BACKWARD, ROLLING, SEPARATED = Phase
@@ -36,7 +36,7 @@ IN_CONTACT = [case for case in CASES if case[-1] != SEPARATED]
 
 def rotor_of(law, friction=FRICTION, ratio=RATIO, rows=((1.0,),)):
     """The planar rotor of these parameters with walls of a law."""
-    return LinearRotor.in_fixed_frame(
+    return from_matrices(
         mass=[[1.0]],
         damping=[[GAMMA]],
         stiffness=[[OMEGA**2]],

@@ -32,7 +32,7 @@ from carom.core import events
 from carom.core.flow import displacement, velocity
 from carom.core.layout import DEGREE, LEVELS, record, rotor_record, workspace
 from carom.core.table import SHORTENING, flight_table
-from carom.models import Jeffcott
+from carom.models import jeffcott
 from carom.outcome import Outcome
 
 HORIZON = 15.0
@@ -101,7 +101,7 @@ def test_near_resonance(record_property):
     rng = np.random.default_rng(400)
     while tally.tried < count(3_000):
         shift = rng.choice([-1.0, 0.0, 1.0]) * 10.0 ** rng.uniform(-9.0, -3.0)
-        rotor = Jeffcott(parameters(10.0 ** rng.uniform(-6.0, -2.0), 1.0 + shift, rho=rng.uniform(0.01, 1.0)))
+        rotor = jeffcott(parameters(10.0 ** rng.uniform(-6.0, -2.0), 1.0 + shift, rho=rng.uniform(0.01, 1.0)))
         for k in range(20):
             compare(inside_task(rotor, rng), 5.0, tally)
             compare(random_wall_task(rotor, rng, k % 3), 5.0, tally)
@@ -133,7 +133,7 @@ def test_extreme_parameters(record_property):
         omega = 10.0 ** rng.uniform(-3.0, 3.0)
         gamma = 10.0 ** rng.uniform(-3.0, 3.0) * rng.choice([1.0, 1.0, 1.0, -0.05])
         stiffness = abs(complex(omega**2 - 1.0, gamma))
-        rotor = Jeffcott(parameters(gamma, omega, rho=min(2.0 * rng.uniform() * stiffness, 1e3)))
+        rotor = jeffcott(parameters(gamma, omega, rho=min(2.0 * rng.uniform() * stiffness, 1e3)))
         fastest = np.abs(rotor.system.exponents).max()
         for _ in range(4):
             position, velocity = math.sqrt(rng.uniform()), fastest * 10.0 ** rng.uniform(-3.0, 1.0)
@@ -220,7 +220,7 @@ def test_amplitudes_are_left_alone():
 
 def test_whirl_that_hugs_the_wall():
     """Without damping and unbalance a circular whirl stays 1e-12 inside the wall: clear, and in bounded work."""
-    rotor = Jeffcott(parameters(0.0, 0.5, rho=0.0))
+    rotor = jeffcott(parameters(0.0, 0.5, rho=0.0))
     for gap in (1e-3, 1e-6, 1e-9, 2e-12):
         task = task_from_state(rotor, 1.0 - gap, -0.5j * (1.0 - gap))
         outcome, time = events.first_crossing(
@@ -231,14 +231,14 @@ def test_whirl_that_hugs_the_wall():
 
 def test_whirl_on_the_wall_is_grazing():
     """The same whirl to within rounding of the wall cannot be decided."""
-    rotor = Jeffcott(parameters(0.0, 0.5, rho=0.0))
+    rotor = jeffcott(parameters(0.0, 0.5, rho=0.0))
     task = task_from_state(rotor, 1.0 - 1e-15, -0.5j * (1.0 - 1e-15))
     outcome, _ = events.first_crossing(task.arrays, task.table, 0, task.amplitudes, 2.0, events.INSIDE, workspace(2))
     assert outcome == Outcome.GRAZING
 
 
 def test_a_start_that_is_pressed_on_does_not_leave():
-    rotor = Jeffcott(parameters(0.1, 0.7))
+    rotor = jeffcott(parameters(0.1, 0.7))
     angle = rotor.parameters.phi
     task = wall_task(rotor, angle, 0.0, 0.0)
     assert task.flight.level(0.0)[2] > 0
@@ -313,7 +313,7 @@ def test_a_flight_that_touches_the_wall_is_never_clear(steps):
 @pytest.mark.parametrize("damping", [1.0, 1e-3, 1e-5])
 def test_a_start_within_its_rounding_of_the_wall_is_not_called_clear(damping):
     """The rounding of a start is that of the terms of its displacement: the larger, the nearer to resonance."""
-    rotor = Jeffcott(parameters(damping, 1.0))
+    rotor = jeffcott(parameters(damping, 1.0))
     for direction in np.exp(1j * np.arange(0.0, 6.0, 0.5)):
         for inward in (1e-3, 0.5):
             spread = at_start(task_from_state(rotor, complex(direction), complex(-inward * direction)))[3]
@@ -325,7 +325,7 @@ def test_a_start_within_its_rounding_of_the_wall_is_not_called_clear(damping):
 
 
 def test_nothing_happens_in_no_time_even_within_rounding_of_the_wall():
-    rotor = Jeffcott(parameters(0.0, 0.5, rho=0.0))
+    rotor = jeffcott(parameters(0.0, 0.5, rho=0.0))
     task = task_from_state(rotor, 1.0 - 1e-15, -0.5j * (1.0 - 1e-15))
     assert run(task, 0.0) == (Outcome.CLEAR, 0.0)
 
@@ -551,7 +551,7 @@ def test_a_short_step_is_no_root():
 
 def test_no_impact_is_invented_where_a_step_happens_to_be_zero(record_property):
     """The flight on which that was seen, among 1.84 million, and others like it."""
-    rotor = Jeffcott(parameters(0.0030054630001825683, 2.2353614960095, rho=0.0, phi=0.590663075529207))
+    rotor = jeffcott(parameters(0.0030054630001825683, 2.2353614960095, rho=0.0, phi=0.590663075529207))
     start = 0.6664892755162684 - 0.7428473474126268j, 0.11154170556637309 - 0.06737417390679983j
     tally = Tally("steps of length zero")
     assert compare(task_from_state(rotor, *start), HORIZON, tally) is None

@@ -32,7 +32,7 @@ from carom.core import events
 from carom.core.block import load_polynomial, sign_changes
 from carom.core.layout import record, rotor_record
 from carom.core.table import flight_table
-from carom.models import Jeffcott
+from carom.models import jeffcott
 from carom.outcome import Outcome
 
 ROUNDING = 16 * EPSILON
@@ -97,7 +97,7 @@ def by_steps(task, block, *, spread=None, bounds=None):
 @pytest.mark.parametrize("damping", [1.0, 1e-3])
 def test_the_rounding_of_a_start_inside_is_that_of_its_terms_once(damping):
     """Half as much further inside is not called grazing."""
-    rotor = Jeffcott(parameters(damping, 1.0))
+    rotor = jeffcott(parameters(damping, 1.0))
     for direction in np.exp(1j * np.arange(0.0, 6.0, 0.5)):
         spread = at_start(task_from_state(rotor, complex(direction), complex(-direction)))[3]
         for share, expected in ((0.7, Outcome.GRAZING), (1.5, Outcome.CLEAR)):

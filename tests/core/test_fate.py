@@ -22,7 +22,7 @@ from carom.core.fate import (
     same_state,
 )
 from carom.core.layout import NEAR, rotor_record, workspace
-from carom.models import Jeffcott
+from carom.models import Rotor, jeffcott
 from carom.motions.simulation import simulate
 from carom.motions.starts import State
 from carom.outcome import Outcome, Phase
@@ -34,18 +34,18 @@ MANY = sized(100, 20, 300)
 # ------------------------------------------------------------------------------------------------ levitation
 
 
-def accepted(rotor: Jeffcott, amplitudes: np.ndarray) -> bool:
+def accepted(rotor: Rotor, amplitudes: np.ndarray) -> bool:
     return bool(levitates(rotor.system.arrays, amplitudes, workspace(len(amplitudes))))
 
 
-def dense_reach(rotor: Jeffcott, amplitudes: np.ndarray) -> float:
+def dense_reach(rotor: Rotor, amplitudes: np.ndarray) -> float:
     """Largest radius of a flight until what is left of it is small, at samples that miss maxima by far less than 1e-3."""
     fastest, slowest = np.abs(rotor.system.exponents).max(), -rotor.system.exponents.real.max()
     times = np.arange(0.0, min(10.0 / slowest, 2e4 / fastest), 0.02 / fastest)
     return float(np.abs(rotor.system.state(rotor.system.fly(amplitudes, times))[0]).max())
 
 
-def edge_of_acceptance(rotor: Jeffcott, direction: np.ndarray) -> float:
+def edge_of_acceptance(rotor: Rotor, direction: np.ndarray) -> float:
     """Largest multiple of a disturbance of the contact-free equilibrium that is accepted."""
     low, high = 0.0, 1.0
     while accepted(rotor, high * direction):
@@ -60,7 +60,7 @@ def levitating_rotors(seed: int, count: int):
     """Rotors with an equilibrium inside the wall, under- and overdamped and nearly critical, and a direction of disturbance."""
     random = np.random.default_rng(seed)
     while count:
-        rotor = Jeffcott(random_parameters(random))
+        rotor = jeffcott(random_parameters(random))
         if abs(rotor.equilibrium) < 0.99:
             count -= 1
             yield rotor, random.normal(size=2) + 1j * random.normal(size=2)
@@ -92,7 +92,7 @@ def test_with_little_damping_the_proof_is_nearly_sharp(ratio):
     """Where the frequencies are far from commensurate, their phases have time to meet: what is refused would touch."""
     golden = (0.5 * (1.0 + math.sqrt(5.0))) ** ratio
     omega = (golden - 1.0) / (golden + 1.0)  # so that (1 + ω)/(1 − ω) is that power of the golden ratio
-    rotor = Jeffcott(PAPER.replace(gamma=1e-4, omega=omega, rho=0.3 * (1.0 - omega**2)))
+    rotor = jeffcott(PAPER.replace(gamma=1e-4, omega=omega, rho=0.3 * (1.0 - omega**2)))
     random = np.random.default_rng(3)
     for direction in random.normal(size=(10, 2)) + 1j * random.normal(size=(10, 2)):
         edge = edge_of_acceptance(rotor, direction)
@@ -102,7 +102,7 @@ def test_with_little_damping_the_proof_is_nearly_sharp(ratio):
 @pytest.mark.jit_only
 def test_a_motion_that_comes_back_is_told_in_good_time():
     """Not before the last touch, and as soon as the free flight has lost what the bound takes for granted."""
-    rotor = Jeffcott(PAPER.replace(gamma=0.4))
+    rotor = jeffcott(PAPER.replace(gamma=0.4))
     decay = -rotor.system.exponents.real.max()
     for angle in np.linspace(0.0, 6.0, 10):
         motion = simulate(rotor, State(rotor.equilibrium, cmath.rect(1.0, angle)), 1e4, settle=True)
@@ -117,13 +117,13 @@ def test_a_motion_that_comes_back_is_told_in_good_time():
 
 def test_without_decay_or_room_nothing_is_accepted():
     still = np.zeros(2, complex)
-    assert not accepted(Jeffcott(PAPER.replace(gamma=-0.1, rho=0.1)), still)
-    assert not accepted(Jeffcott(PAPER.replace(gamma=0.01)), still)  # U* outside the wall
-    assert accepted(Jeffcott(PAPER.replace(gamma=0.0, rho=0.1)), still)  # an undamped one may rest in its equilibrium
+    assert not accepted(jeffcott(PAPER.replace(gamma=-0.1, rho=0.1)), still)
+    assert not accepted(jeffcott(PAPER.replace(gamma=0.01)), still)  # U* outside the wall
+    assert accepted(jeffcott(PAPER.replace(gamma=0.0, rho=0.1)), still)  # an undamped one may rest in its equilibrium
 
 
 def test_every_plane_has_to_have_room():
-    arrays = Jeffcott(PAPER.replace(rho=0.1, gamma=0.3)).system.arrays
+    arrays = jeffcott(PAPER.replace(rho=0.1, gamma=0.3)).system.arrays
     names = ("offsets", "rows", "friction", "restitution", "surface_speed")
     twice = {name: np.repeat(arrays[name], 2, axis=0) for name in names}
     shared = {"exponents": arrays.exponents, "driven": arrays.driven, "columns": np.repeat(arrays.columns, 2, axis=1)}
@@ -255,8 +255,8 @@ def test_swinging_to_and_fro_is_no_turn():
 # ------------------------------------------------------------------------------------------------ what settles stays
 
 
-def settled(parameters: Parameters, start: State) -> tuple[Jeffcott, object]:
-    rotor = Jeffcott(parameters)
+def settled(parameters: Parameters, start: State) -> tuple[Rotor, object]:
+    rotor = jeffcott(parameters)
     motion = simulate(rotor, start, 1e5, settle=True)
     assert motion.outcome.settled
     return rotor, motion
@@ -337,7 +337,7 @@ def test_backward_whirl_goes_on_whirling():
 
 @pytest.mark.jit_only
 def test_irregular_bouncing_is_called_so_and_why():
-    rotor = Jeffcott(PAPER.replace(gamma=0.0825))
+    rotor = jeffcott(PAPER.replace(gamma=0.0825))
     start = State(0.3 + 0.1j, 0.9 - 0.4j)
     motion = simulate(rotor, start, 1e6, settle=True, patience=3000)
     assert (motion.outcome, motion.multiplicity) == (Outcome.BOUNCING, 0)
@@ -349,7 +349,7 @@ def test_irregular_bouncing_is_called_so_and_why():
 
 
 def test_a_motion_stopped_early_says_what_stopped_it():
-    rotor = Jeffcott(PAPER)
+    rotor = jeffcott(PAPER)
     start = State(0.3 + 0.1j, 0.9 - 0.4j)
     by_time = simulate(rotor, start, 5.0, settle=True)
     by_count = simulate(rotor, start, 1e5, settle=True, max_events=5)

@@ -19,7 +19,7 @@ from carom.core.flow import (
     velocity,
 )
 from carom.core.layout import rotor_record
-from carom.models import Jeffcott
+from carom.models import jeffcott
 
 EPSILON = 2.0**-52
 
@@ -90,7 +90,7 @@ def exact_increments(arrays, amplitudes, time):
 @pytest.mark.parametrize("gamma", [1e-3, 0.1, 1.5, 1.52, 1.52 + 1e-12, 1.53, 10.0])
 def test_planar_rotor_against_scipy(gamma):
     machine = parameters(gamma, 0.76)
-    rotor = Jeffcott(machine)
+    rotor = jeffcott(machine)
     stiffness = complex(machine.omega**2 - 1.0, gamma)
     matrix = np.array([[0.0, 1.0], [-stiffness, -(gamma + 2j)]])
     position, speed = 0.3 - 0.2j, -0.4 + 0.7j
@@ -175,7 +175,7 @@ def test_squared_modulus():
 )
 def test_exponents_keep_all_digits(gamma, omega):
     """Also where one of them is the small difference of two large numbers."""
-    found = Jeffcott(parameters(gamma, omega)).system.exponents
+    found = jeffcott(parameters(gamma, omega)).system.exponents
     with mpmath.workdps(60):
         g, w = mpmath.mpf(gamma), mpmath.mpf(omega)
         split = mpmath.sqrt(g * g - 4 * w * w)
@@ -186,6 +186,6 @@ def test_exponents_keep_all_digits(gamma, omega):
 
 def test_exactly_critical_exponents_are_equal():
     for omega in (0.1, 0.7, 1.0, 3.0):
-        rotor = Jeffcott(parameters(2.0 * omega, omega))
+        rotor = jeffcott(parameters(2.0 * omega, omega))
         assert rotor.system.exponents[0] == rotor.system.exponents[1]
         assert rotor.system.arrays.gaps[1] == 0.0

@@ -22,7 +22,7 @@ from flights import (
 
 from carom.core.lanes import LATE, OPEN, fly_lanes, lanes_record
 from carom.core.layout import LANES
-from carom.models import Jeffcott
+from carom.models import jeffcott
 
 HORIZON = 15.0
 STATE = ("lower_re", "lower_im", "upper_re", "upper_im", "level", "clock", "verdict")
@@ -71,7 +71,7 @@ def test_near_grazing_flights(record_property):
 @pytest.mark.parametrize("lane", [0, LANES - 1])
 def test_no_impact_is_invented_just_below_the_wall(lane):
     """A flight on which the kernel for single motions once took a short step for a root."""
-    rotor = Jeffcott(parameters(0.0030054630001825683, 2.2353614960095, rho=0.0, phi=0.590663075529207))
+    rotor = jeffcott(parameters(0.0030054630001825683, 2.2353614960095, rho=0.0, phi=0.590663075529207))
     start = 0.6664892755162684 - 0.7428473474126268j, 0.11154170556637309 - 0.06737417390679983j
     tally = Tally("just below the wall, in a lane")
     assert compare(task_from_state(rotor, *start), HORIZON, tally, by_lane(lane, [])) is None

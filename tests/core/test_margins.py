@@ -8,7 +8,7 @@ from scipy.optimize import brentq
 
 from carom.core.margins import highest_point
 from carom.core.rub import wall_push
-from carom.models import Jeffcott
+from carom.models import jeffcott
 from tests.compilation import COMPILED, sized
 from tests.core.test_segments import rotor_of
 from tests.machines import PAPER
@@ -37,7 +37,7 @@ def test_the_highest_point_is_that_of_fine_samples():
 
 def test_a_low_bounce_just_after_an_impact_is_seen():
     """Pressed to the wall by a force ``N − js`` the rotor touches it again after ``3N/2j`` if it leaves with ``3N²/8j``."""
-    rotor, found = Jeffcott(PAPER), 0
+    rotor, found = jeffcott(PAPER), 0
     arrays, rng = rotor.system.arrays, np.random.default_rng(3)
 
     def pushed(position: complex, angular: float, radial: float = 0.0) -> np.ndarray:

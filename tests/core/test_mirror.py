@@ -9,8 +9,8 @@ from carom.core.contact_series import contact_forces, rub_series
 from carom.core.layout import rub_workspace
 from carom.core.taylor import sum_series
 from carom.core.wall import push_plane
-from carom.models import KelvinVoigt, LinearRotor, Touchdown
-from carom.models.limited import Limit, with_limits
+from carom.models import KelvinVoigt, Touchdown, from_matrices
+from carom.models.limits import Limit, with_limits
 from carom.outcome import Phase
 
 MASS, STIFFNESS, DAMPING = np.diag([1.0, 0.3]), np.array([[0.6, 0.1], [0.1, 0.4]]), 0.1 * np.eye(2)
@@ -22,7 +22,7 @@ POSITION, VELOCITY = np.array([0.9 + 0.6j, 0.1]), np.array([0.3 - 0.2j, 0.4j])
 
 def system_of(limits=()):
     plane = Touchdown(ROW, KelvinVoigt(stiffness=50.0, damping=1.0), 0.15, 8.0)
-    rotor = LinearRotor.in_fixed_frame(
+    rotor = from_matrices(
         mass=MASS, damping=DAMPING, stiffness=STIFFNESS, forcing=[0.1, 0.0], touchdowns=[plane], conjugate=ACROSS
     )
     return with_limits(rotor.system, limits) if limits else rotor.system

@@ -10,7 +10,7 @@ from machines import PAPER, ExactMotion, random_parameters
 
 from carom import find_orbits
 from carom.core.planar import orbit_conditions, radial_course, radial_profile, radial_rates
-from carom.models import Jeffcott
+from carom.models import jeffcott
 
 
 def machines(count: int, seed: int):
@@ -34,8 +34,8 @@ def conditions(parameters, period, speed):
 def test_orbits_fulfil_the_conditions_and_have_these_multipliers():
     seen = 0
     for parameters in [PAPER, *machines(60, 7)]:
-        rest = abs(Jeffcott(parameters).equilibrium)
-        for orbit in find_orbits(Jeffcott(parameters), 20.0):
+        rest = abs(jeffcott(parameters).equilibrium)
+        for orbit in find_orbits(jeffcott(parameters), 20.0):
             if orbit.slip < 0 or not 1e-6 < abs(orbit.radial_speed) < 1e3 or orbit.period < 1e-3:
                 continue
             seen += 1
@@ -63,7 +63,7 @@ def test_orbits_fulfil_the_conditions_and_have_these_multipliers():
 
 
 def test_jacobian_exists_in_the_limit_of_vanishing_impacts():
-    orbit = find_orbits(Jeffcott(PAPER))["B1,d"]
+    orbit = find_orbits(jeffcott(PAPER))["B1,d"]
     values = [conditions(PAPER, orbit.period, speed)[6] for speed in (1e-6, 0.0, -1e-6)]
     assert np.isfinite(values).all()
     assert values[0] - values[1] == pytest.approx(values[1] - values[2], rel=1e-4)
@@ -72,7 +72,7 @@ def test_jacobian_exists_in_the_limit_of_vanishing_impacts():
 def test_radial_profile_agrees_with_dense_sampling():
     seen = 0
     for parameters in [PAPER, PAPER.replace(gamma=0.06), PAPER.replace(gamma=0.02), *machines(sized(30, 0), 8)]:
-        for orbit in find_orbits(Jeffcott(parameters), 15.0):
+        for orbit in find_orbits(jeffcott(parameters), 15.0):
             if orbit.slip < 0 or not 1e-3 < abs(orbit.radial_speed) < 30.0 or orbit.period < 1e-2:
                 continue
             speed = orbit.radial_speed
@@ -106,7 +106,7 @@ def test_the_departure_of_an_orbit_without_rebound_is_no_maximum_of_the_radius()
     random = np.random.default_rng(12)
     for _ in range(sized(40, 40, 1000)):
         parameters = random_parameters(random, d=0.0, gamma=float(10 ** random.uniform(-1.5, 0.0)))
-        for orbit in find_orbits(Jeffcott(parameters), 15.0):
+        for orbit in find_orbits(jeffcott(parameters), 15.0):
             if orbit.admissible and orbit.slip > 0:
                 seen += 1
                 numbers = parameters.gamma, parameters.omega, parameters.mu, 0.0, orbit.period, orbit.radial_speed
@@ -119,7 +119,7 @@ def test_a_pair_of_extrema_of_the_radius_is_born_where_the_flattest_slope_vanish
     """On the branch of the source paper's figure 5b with the diamonds, B1,d."""
 
     def at(gamma):
-        orbit = find_orbits(Jeffcott(PAPER.replace(gamma=gamma)))["B1,d"]
+        orbit = find_orbits(jeffcott(PAPER.replace(gamma=gamma)))["B1,d"]
         square = np.abs(orbit.path(np.linspace(0.0, orbit.period, 4001)[:-1])) ** 2
         extrema = int((np.diff(np.sign(np.diff(square))) != 0).sum())
         speed = orbit.radial_speed
@@ -137,7 +137,7 @@ def test_its_sign_tells_the_number_of_extrema_also_where_inflections_pass_an_end
     """Two extrema are born together, so their number goes up and down by two, and the sign changes with it."""
     seen, inflections = {}, set()
     for gamma in gammas.tolist():
-        for orbit in find_orbits(Jeffcott(PAPER.replace(gamma=gamma, d=d)), 6.0):
+        for orbit in find_orbits(jeffcott(PAPER.replace(gamma=gamma, d=d)), 6.0):
             if orbit.radial_speed < 1e-3:
                 continue
             numbers = gamma, PAPER.omega, PAPER.mu, d, orbit.period, orbit.radial_speed

@@ -6,7 +6,7 @@ from compilation import COMPILED, sized
 from machines import PAPER
 
 from carom.core.planar_proofs import _farthest, stays_inside
-from carom.models import Jeffcott
+from carom.models import jeffcott
 from carom.motions.ensembles import settle
 from carom.motions.simulation import simulate
 from carom.motions.starts import State
@@ -18,7 +18,7 @@ def drawn_weakly_damped(random):
     gamma = float(10 ** random.uniform(-9.0, -3.0))
     omega = float(random.choice([2.0, 1.5, 3.0, 2.5, 4.0 / 3.0, 5.0 / 3.0]) + random.choice([0.0, 1e-9, 1e-6, 1e-4]))
     unbalance = float(random.uniform(0.1, 0.7)) * (omega**2 - 1.0)
-    rotor = Jeffcott(PAPER.replace(gamma=gamma, omega=omega, rho=unbalance))
+    rotor = jeffcott(PAPER.replace(gamma=gamma, omega=omega, rho=unbalance))
     room = 1.0 - abs(rotor.equilibrium)
     reach = room * float(random.uniform(0.9, 1.3))
     share, turns = float(random.random()), np.exp(2j * np.pi * random.random(2))
@@ -52,7 +52,7 @@ def test_what_is_proven_to_stay_inside_does():
 
 def test_without_damping_or_with_modes_that_decay_apart_nothing_is_proven():
     for machine in (PAPER.replace(gamma=0.0, omega=2.0), PAPER.replace(gamma=5.0, omega=0.5)):
-        assert not stays_inside(Jeffcott(machine).system.arrays, np.array([0.001 + 0j, 0.001j]))
+        assert not stays_inside(jeffcott(machine).system.arrays, np.array([0.001 + 0j, 0.001j]))
 
 
 def test_a_flight_that_reaches_the_wall_is_looked_at_no_farther():
@@ -65,7 +65,7 @@ def test_a_flight_that_reaches_the_wall_is_looked_at_no_farther():
 @pytest.mark.jit_only
 def test_a_strongly_damped_flight_is_known_to_levitate_as_soon_as_it_does():
     """Its slow mode takes 26,000 of 1/Ω to decay, two million blocks of flight, but it is free of contact within a turn."""
-    rotor = Jeffcott(PAPER.replace(gamma=482.8, omega=0.135, rho=12.05, mu=0.2, d=0.0))
+    rotor = jeffcott(PAPER.replace(gamma=482.8, omega=0.135, rho=12.05, mu=0.2, d=0.0))
     angles = 2j * np.pi * np.arange(24) / 24
     ends = settle(rotor, np.full(24, rotor.equilibrium), 6000.0 * np.exp(angles))
     assert ends.recovered.all()
@@ -77,7 +77,7 @@ def test_a_strongly_damped_flight_is_known_to_levitate_as_soon_as_it_does():
 @pytest.mark.parametrize("omega", [2.0, 1.7317, 2.001])
 @pytest.mark.parametrize("gamma", [2e-5, 1e-6, 1e-8])
 def test_hardly_damped_motions_settle_alike_both_ways(gamma, omega):
-    rotor = Jeffcott(PAPER.replace(gamma=gamma, omega=omega, rho=0.0857, d=0.7))
+    rotor = jeffcott(PAPER.replace(gamma=gamma, omega=omega, rho=0.0857, d=0.7))
     random = np.random.default_rng(1)
     points = np.sqrt(random.random((2, 8))) * np.exp(2j * np.pi * random.random((2, 8)))
     together = settle(rotor, points[0], 2.0 * points[1])

@@ -26,7 +26,7 @@ from carom.core.rub import (
     wall_push,
 )
 from carom.core.taylor import STEP_FRACTION, first_fall, series_step, sum_series
-from carom.models import Jeffcott
+from carom.models import jeffcott
 from carom.outcome import Phase
 from carom.parameters import Parameters
 
@@ -38,12 +38,12 @@ SLENDER = PAPER.replace(radius_ratio=1.2)
 def on_wall(parameters, angle, rate):
     """Amplitudes of a state that moves along the wall."""
     position = cmath.rect(1.0, angle)
-    amplitudes = Jeffcott(parameters).system.amplitudes(position, 1j * rate * position)
+    amplitudes = jeffcott(parameters).system.amplitudes(position, 1j * rate * position)
     return np.array(amplitudes)
 
 
 def series_of(parameters, angle, rate, phase):
-    rotor = Jeffcott(parameters).system.arrays
+    rotor = jeffcott(parameters).system.arrays
     work = rub_workspace(2)
     rub_series(rotor, np.array([phase]), on_wall(parameters, angle, rate), work)
     return rotor, work
@@ -255,7 +255,7 @@ def test_flight_is_a_series_without_force():
 
 def next_event(parameters, angle, rate, phase):
     """Walk to the end of a phase: its time, what follows, whether slip stops, and the amplitudes there."""
-    rotor = Jeffcott(parameters).system.arrays
+    rotor = jeffcott(parameters).system.arrays
     amplitudes, work, time = on_wall(parameters, angle, rate), rub_workspace(2), 0.0
     for _ in range(200):
         rub_series(rotor, np.array([phase]), amplitudes, work)
@@ -281,7 +281,7 @@ def next_event(parameters, angle, rate, phase):
 )
 def test_sliding_ends_where_push_or_slip_vanishes(parameters, angle, rate, phase, following):
     """Against the root of the exact motion, to 1e-12."""
-    rotor = Jeffcott(parameters).system.arrays
+    rotor = jeffcott(parameters).system.arrays
     time, found, slip_stops, amplitudes = next_event(parameters, angle, rate, phase)
     surface_speed = parameters.radius_ratio + 1.0
     assert slip_stops == (following is None)
@@ -327,7 +327,7 @@ def test_rolling_ends_where_its_friction_leaves_the_cone():
             room = partial(_room, parameters, angle, surface_speed, side)
             exact = mpmath.findroot(room, time)
             slope = abs(mpmath.diff(room, exact))
-            noise = push_rounding(Jeffcott(parameters).system.arrays, 0, amplitudes)
+            noise = push_rounding(jeffcott(parameters).system.arrays, 0, amplitudes)
             assert abs(float(exact - mpmath.mpf(time))) < 1e-12 + noise / slope
     assert sides == {1, -1}
 
@@ -349,7 +349,7 @@ def test_slip_decides_what_goes_on(mu):
             amplitudes = on_wall(parameters, 0.7, -31.0 + sign * slip)
             for before in Phase:
                 assert (
-                    next_phase(Jeffcott(parameters).system.arrays, np.array([before]), 0, amplitudes, rub_workspace(2))
+                    next_phase(jeffcott(parameters).system.arrays, np.array([before]), 0, amplitudes, rub_workspace(2))
                     == phase
                 )
 
@@ -365,19 +365,19 @@ def test_without_slip_the_cone_decides():
             continue
         slips = FORWARD if pull > 0 else BACKWARD
         for factor, expected in ((0.5, slips), (1 - 1e-6, slips), (1.0, ROLLING), (1 + 1e-6, ROLLING), (3.0, ROLLING)):
-            rotor = Jeffcott(parameters.replace(mu=factor * abs(pull) / push)).system.arrays
+            rotor = jeffcott(parameters.replace(mu=factor * abs(pull) / push)).system.arrays
             amplitudes = on_wall(parameters, angle, -surface_speed)
             assert next_phase(rotor, np.array([slips]), 0, amplitudes, rub_workspace(2)) == expected
 
 
 def test_without_friction_slip_goes_on_to_the_other_side():
     parameters = SLENDER.replace(mu=0.0, gamma=0.0, rho=0.0)
-    rotor, amplitudes = Jeffcott(parameters).system.arrays, on_wall(parameters, 0.3, -2.2)
+    rotor, amplitudes = jeffcott(parameters).system.arrays, on_wall(parameters, 0.3, -2.2)
     assert next_phase(rotor, np.array([FORWARD]), 0, amplitudes, rub_workspace(2)) == BACKWARD
     assert next_phase(rotor, np.array([BACKWARD]), 0, amplitudes, rub_workspace(2)) == FORWARD
     pulled = parameters.replace(gamma=0.5)
     assert (
-        next_phase(Jeffcott(pulled).system.arrays, np.array([FORWARD]), 0, on_wall(pulled, 0.3, -2.2), rub_workspace(2))
+        next_phase(jeffcott(pulled).system.arrays, np.array([FORWARD]), 0, on_wall(pulled, 0.3, -2.2), rub_workspace(2))
         == FORWARD
     )
 
@@ -387,7 +387,7 @@ def test_slip_that_starts_at_zero_goes_on():
     parameters = SLENDER.replace(gamma=0.05)
     surface_speed = parameters.radius_ratio + 1.0
     time, following, _, amplitudes = next_event(parameters, 0.4, -surface_speed, ROLLING)
-    rotor, work = Jeffcott(parameters).system.arrays, rub_workspace(2)
+    rotor, work = jeffcott(parameters).system.arrays, rub_workspace(2)
     assert time > 0.0
     assert following == FORWARD
     rub_series(rotor, np.array([following]), amplitudes, work)
@@ -466,7 +466,7 @@ def test_push_and_its_rate():
     for _ in range(100):
         parameters = random_parameters(random)
         angle, rate = random.uniform(-3, 3), random.normal() * 3.0
-        rotor = Jeffcott(parameters).system.arrays
+        rotor = jeffcott(parameters).system.arrays
         amplitudes = on_wall(parameters, angle, rate)
         push, change = wall_push(rotor, 0, amplitudes)
         rounding = push_rounding(rotor, 0, amplitudes)
@@ -490,7 +490,7 @@ def test_rounding_of_push_and_speed_bounds_what_doubles_lose():
     for _ in range(200):
         parameters = random_parameters(random, omega=1.0 + 10 ** random.uniform(-4, -1))
         angle, rate = random.uniform(-3, 3), random.normal() * 10 ** random.uniform(-2, 3)
-        rotor = Jeffcott(parameters).system.arrays
+        rotor = jeffcott(parameters).system.arrays
         amplitudes = on_wall(parameters, angle, rate)
         rest_on_wall(rotor, 0, amplitudes, False)
         _, w, _, radial = polar(rotor, amplitudes)
@@ -528,7 +528,7 @@ def _follow_slide(parameters, angle, rate, phase):
 
 def test_lift_off_leaves_as_the_cube_of_time():
     for parameters, amplitudes in departures(sized(20, 5)):
-        rotor = Jeffcott(parameters).system.arrays
+        rotor = jeffcott(parameters).system.arrays
         push, change = wall_push(rotor, 0, amplitudes)
         assert abs(push) < 2 * push_rounding(rotor, 0, amplitudes)
         assert change < 0.0
@@ -563,7 +563,7 @@ def test_a_short_hop_is_followed_to_its_landing():
         for sign in (1, -1):
             rate = -1.0 + sign * math.sqrt(square)
             amplitudes = on_wall(parameters, angle, rate)
-            rotor, work = Jeffcott(parameters).system.arrays, rub_workspace(2)
+            rotor, work = jeffcott(parameters).system.arrays, rub_workspace(2)
             rub_series(rotor, np.array([FLIGHT]), amplitudes, work)
             change, bend = work.push[0, 1], 2 * work.push[0, 2]
             if not (change < -1e-9 and bend > 0.0 and -4 * change / bend < 0.05):
@@ -594,7 +594,7 @@ def test_a_start_without_push_that_is_pressed_on_does_not_leave():
     angle = parameters.phi - 1.0
     rate = -1.0 + math.sqrt(parameters.omega**2 - parameters.rho * math.cos(1.0))
     amplitudes = on_wall(parameters, angle, rate)
-    rotor = Jeffcott(parameters).system.arrays
+    rotor = jeffcott(parameters).system.arrays
     assert wall_push(rotor, 0, amplitudes)[1] > 0.0
     time, returned = lift_off(rotor, np.array([FLIGHT]), amplitudes, 1.0, rub_workspace(2))
     assert time < 1e-14

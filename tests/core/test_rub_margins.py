@@ -15,12 +15,12 @@ from carom.core import contact_series, rub, taylor
 from carom.core.flow import displacement, fly_all, velocity
 from carom.core.layout import ORDER, record, rotor_record, rub_workspace
 from carom.core.rounding import push_rounding, speed_rounding
-from carom.models import Jeffcott
+from carom.models import jeffcott
 from carom.outcome import Phase
 
 FLIGHT, FORWARD, BACKWARD, ROLLING, SEPARATED = (int(phase) for phase in Phase)
 FRICTION = 0.25
-ARRAYS = Jeffcott(PAPER.replace(mu=FRICTION)).system.arrays
+ARRAYS = jeffcott(PAPER.replace(mu=FRICTION)).system.arrays
 
 
 def falling(time, height=1.0, order=1):
@@ -345,8 +345,8 @@ def test_a_dip_after_a_summit_is_not_passed_over(step):
 def test_lift_off_ends_at_its_horizon_with_the_state_of_the_flight():
     """A rotor that is pulled off the wall from rest on it, followed for less than a step."""
     parameters = PAPER.replace(omega=3.0)
-    arrays = Jeffcott(parameters).system.arrays
-    amplitudes = np.array(Jeffcott(parameters).system.amplitudes(1.0 + 0j, 0j))
+    arrays = jeffcott(parameters).system.arrays
+    amplitudes = np.array(jeffcott(parameters).system.amplitudes(1.0 + 0j, 0j))
     assert rub.wall_push(arrays, 0, amplitudes)[0] < -1.0
     expected = fly_all(arrays, amplitudes[None], np.array([1e-3]))[0]
     work = rub_workspace(2)
@@ -361,7 +361,7 @@ def test_a_rotor_leaves_the_wall_where_it_is_pressed_on_by_less_than_the_roundin
     """At speeds along the wall where the force is next to zero and falls."""
     tried = 0
     for angle in np.arange(0.0, 6.0, 0.5):
-        rotor = Jeffcott(PAPER.replace(phi=angle))
+        rotor = jeffcott(PAPER.replace(phi=angle))
         turning = math.sqrt(max(PAPER.omega**2 - PAPER.rho * math.cos(angle), 0.0)) - 1.0
         for share, leaves in ((0.8, True), (1.2, False)):
             for _ in range(4):
@@ -381,10 +381,10 @@ def test_a_rotor_leaves_the_wall_where_it_is_pressed_on_by_less_than_the_roundin
 def test_what_an_earlier_call_left_behind_does_not_change_a_lift_off():
     """In a flight to its return, many times as long as the one above."""
     parameters = PAPER.replace(omega=3.0)
-    arrays = Jeffcott(parameters).system.arrays
+    arrays = jeffcott(parameters).system.arrays
     found = []
     for left in (0.0, -1e15):
-        amplitudes = np.array(Jeffcott(parameters).system.amplitudes(1.0 + 0j, 0j))
+        amplitudes = np.array(jeffcott(parameters).system.amplitudes(1.0 + 0j, 0j))
         work = rub_workspace(2)
         work.first_margin[:] = left
         found.append((*rub.lift_off(arrays, np.array([FLIGHT]), amplitudes, 10.0, work), amplitudes))

@@ -7,7 +7,7 @@ import pytest
 
 from carom.core.margins import local_motion
 from carom.core.segments import carry_through_chatter
-from carom.models import Jeffcott, Model
+from carom.models import Model, jeffcott
 from carom.motions import State, simulate
 from carom.orbits.recognising import segments_of
 from carom.orbits.shooting import Start, links_of, pack, unpack
@@ -23,7 +23,7 @@ CONTACTS = [Kind.SLIDE_FORWARD, Kind.SLIDE_BACKWARD, Kind.ROLL]
 
 def rotor_of(modes: int, planes: int, seed: int) -> Model:
     if modes == 2:
-        return Jeffcott(PAPER.replace(gamma=0.1 + 0.02 * seed, radius_ratio=1.5))
+        return jeffcott(PAPER.replace(gamma=0.1 + 0.02 * seed, radius_ratio=1.5))
     return {4: tilting, 8: bending}[modes](planes=planes).model
 
 
@@ -89,7 +89,7 @@ def test_sliding_stays_on_the_wall_and_keeps_its_law():
 @pytest.mark.jit_only
 def test_a_motion_with_chatter_sliding_and_lift_off_is_made_of_its_segments():
     """Each segment, followed from its node for its duration, ends at the next node of the simulation."""
-    rotor = Jeffcott(PAPER.replace(gamma=0.03, omega=0.76, rho=0.3, mu=0.3, d=0.3))
+    rotor = jeffcott(PAPER.replace(gamma=0.03, omega=0.76, rho=0.3, mu=0.3, d=0.3))
     for angle in np.linspace(0.0, 6.0, sized(8, 2)):
         motion = simulate(rotor, State(0.3 * np.exp(1j * angle), 0.9j), 30.0)
         phases = motion.segment_phases[:, 0]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from carom.models import Jeffcott, Model
+from carom.models import Model, jeffcott
 from carom.orbits.shooting import Start, by_parameter, links_of
 from carom.orbits.word import Kind, Segment, Word
 from carom.parameters import DIMENSIONLESS_FIELDS, Scales
@@ -39,14 +39,14 @@ def check(rotor: Model, names: list[str], planes: int, rng: np.random.Generator)
 @pytest.mark.parametrize(("gamma", "omega"), [(0.1, 0.76), (1.6, 0.8), (1.6 + 1e-9, 0.8), (40.0, 2.0), (-0.05, 0.8)])
 def test_every_number_of_the_planar_rotor(gamma, omega):
     """Underdamped, critically damped and next to it, overdamped, and excited."""
-    rotor = Jeffcott(PAPER.replace(gamma=gamma, omega=omega, radius_ratio=1.5))
+    rotor = jeffcott(PAPER.replace(gamma=gamma, omega=omega, radius_ratio=1.5))
     for seed in range(sized(4, 1)):
         check(rotor, list(DIMENSIONLESS_FIELDS), 1, np.random.default_rng(seed))
 
 
 def test_every_physical_parameter():
     scales = Scales(mass=70.0, clearance=4e-4, speed=300.0)
-    rotor = Jeffcott(PAPER.replace(scales=scales, radius_ratio=1.5))
+    rotor = jeffcott(PAPER.replace(scales=scales, radius_ratio=1.5))
     check(rotor, [name for name in rotor.varied if name not in DIMENSIONLESS_FIELDS], 1, np.random.default_rng(5))
 
 
@@ -59,7 +59,7 @@ def test_every_parameter_of_a_flexible_rotor(modes, planes):
 
 def test_the_work_does_not_grow_with_stiffness():
     """A decay that is over at once: the derivative by the phase is that of the rotor at rest, turned by a right angle."""
-    rotor = Jeffcott(PAPER.replace(gamma=1e3, omega=40.0))
+    rotor = jeffcott(PAPER.replace(gamma=1e3, omega=40.0))
     word, at_rest = Word.of(Kind.IMPACT_FORWARD), rotor.equilibrium
     start = Start(np.array([[1.0 + 0j, 0.0]]), np.array([50.0]))
     exact = by_parameter(rotor, word, start, "phi")

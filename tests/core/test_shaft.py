@@ -20,11 +20,11 @@ from carom.core.records import copy_of
 from carom.core.rub import next_phase, press, rest_on_wall, wall_push
 from carom.core.shaft import change_speed, enter_flight, leave_flight, lever_of_shaft, surface_excess
 from carom.core.taylor import series_step, sum_series
-from carom.models import KelvinVoigt, LinearRotor, Rigid, Shaft, Touchdown
+from carom.models import KelvinVoigt, Rigid, Shaft, Touchdown, from_matrices
 
 SIGNS = {FORWARD_SLIP: 1, BACKWARD_SLIP: -1, ROLLING: 0}
 
-ROTOR = LinearRotor.in_fixed_frame(
+ROTOR = from_matrices(
     mass=[[1.0, 0.05], [0.05, 0.3]],
     damping=[[0.1, 0.01], [0.01, 0.04]],
     stiffness=[[0.6, 0.02], [0.02, 0.2]],

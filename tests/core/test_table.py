@@ -14,7 +14,7 @@ from carom.core import table as tables
 from carom.core.lanes import REACH
 from carom.core.layout import DEGREE, LANE_NODES, LANE_TERMS, LEVELS, NODES, TERMS, rotor_record
 from carom.core.table import flight_table
-from carom.models import Jeffcott
+from carom.models import jeffcott
 
 EPSILON = 2.0**-52
 MACHINES = [
@@ -49,7 +49,7 @@ def general_arrays(seed: int, modes: int):
 
 
 def all_arrays():
-    yield from (Jeffcott(parameters(*machine)).system.arrays for machine in MACHINES)
+    yield from (jeffcott(parameters(*machine)).system.arrays for machine in MACHINES)
     yield from (general_arrays(seed, modes) for modes in (2, 4) for seed in range(4))
 
 

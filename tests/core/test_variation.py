@@ -15,7 +15,7 @@ from carom.core.layout import rotor_record, workspace
 from carom.core.table import flight_table
 from carom.core.variation import carry_through_impact, carry_to_wall, shift
 from carom.core.wall import wall_of
-from carom.models import Jeffcott
+from carom.models import jeffcott
 from carom.outcome import Outcome
 
 STEP = 1e-3
@@ -90,7 +90,7 @@ MACHINES = [(0.1, 0.76), (1.52, 0.76), (1.52 * (1 + 1e-9), 0.76), (4.0, 0.9), (0
 
 @pytest.mark.parametrize("machine", MACHINES)
 def test_arrival_of_the_planar_rotor(machine):
-    rotor = Jeffcott(parameters(*machine))
+    rotor = jeffcott(parameters(*machine))
     for angle in (0.3, 2.0, 4.1):
         amplitudes = rotor.system.amplitudes(0.2 * np.exp(1j * angle), 6.0 * np.exp(2j * angle))
         assert check_carry_to_wall(rotor.system.arrays, rotor.system.table, 0, amplitudes)
@@ -160,7 +160,7 @@ def test_shift_moves_along_the_motion():
 @pytest.mark.parametrize("angular_speed", [-2.0, 0.5, -50.9])
 def test_a_whole_impact_map(machine, angular_speed):
     """Impact, flight and arrival one after the other, with a slip that goes on and one that stops."""
-    rotor = Jeffcott(parameters(*machine, rho=2.0).replace(mu=0.2, d=0.8))
+    rotor = jeffcott(parameters(*machine, rho=2.0).replace(mu=0.2, d=0.8))
     arrays = rotor.system.arrays
     position = np.exp(0.4j)
     before = rotor.system.amplitudes(position, complex(2.5, angular_speed) * position)

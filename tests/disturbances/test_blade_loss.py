@@ -14,7 +14,7 @@ from scipy.integrate import solve_ivp
 import carom as cm
 from carom.basins import Basin, smallest_loss
 from carom.disturbances import BladeLoss, Disturbance, Grid, Sample
-from carom.models import Force, Forced, Jeffcott
+from carom.models import Force, jeffcott
 from carom.outcome import InputError, Outcome
 from carom.parameters import Machine, Parameters
 
@@ -161,7 +161,7 @@ def test_no_contact_below_the_harmless_change():
 
 
 def test_the_start_is_the_old_whirl():
-    rotor = Jeffcott(LIGHT.parameters)
+    rotor = jeffcott(LIGHT.parameters)
     loss = BladeLoss(0.4)
     starts = Grid(loss, (8,)).starts(rotor)
     unbalances = rotor.parameters.rho + 0.4 * np.exp(1j * Grid(loss, (8,)).values()[0])
@@ -176,7 +176,7 @@ def test_the_start_is_the_old_whirl():
 
 def test_a_rotor_that_does_not_levitate_has_no_start():
     grounded = LIGHT.replace(eccentricity=3e-4)
-    assert not Grid(BladeLoss(0.4), (4,)).starts(Jeffcott(grounded.parameters)).exists.any()
+    assert not Grid(BladeLoss(0.4), (4,)).starts(jeffcott(grounded.parameters)).exists.any()
     with pytest.raises(InputError, match="before the loss"):
         BladeLoss(0.4).release(grounded)
     with pytest.raises(InputError, match="possible"):
@@ -233,7 +233,7 @@ def test_what_is_lost_already_or_never_is_said():
 def test_a_rotor_that_weighs_something_whirls_about_its_sag_before_the_unbalance_changes(disturbance):
     """Both unbalances and the weight in the fixed frame, whose axes are those of the rotor when the change happens."""
     numbers, weight, phase = Parameters(0.3, 0.76, 0.1, 0.4, 0.15, 0.9, 50.0), 0.04 - 0.1j, 1.1
-    rotor = Forced(Jeffcott(numbers), (Force(-1j, np.array([weight])),))
+    rotor = jeffcott(numbers).under(Force(-1j, np.array([weight])))
     if disturbance == "blade loss":
         before = 0.1 * cmath.exp(0.4j)
         after = before + 0.16 * cmath.exp(1j * (0.4 + phase))
@@ -259,7 +259,7 @@ def test_a_rotor_that_weighs_something_whirls_about_its_sag_before_the_unbalance
 
 
 def test_an_unbalance_before_the_step_that_would_reach_the_wall_with_the_sag_has_no_start():
-    rotor = Forced(Jeffcott(Parameters(0.3, 0.76, 0.1, 0.4, 0.15, 0.9, 50.0)), (Force(-1j, np.array([-0.2j])),))
+    rotor = jeffcott(Parameters(0.3, 0.76, 0.1, 0.4, 0.15, 0.9, 50.0)).under(Force(-1j, np.array([-0.2j])))
     reach, sag = 1.0 / abs(0.76**2 - 1.0 + 0.3j), 0.2 / 0.76**2
     sizes = (1.0 - sag) / reach * np.array([0.999, 1.001])
     assert cm.disturbances.UnbalanceStep(1.0).starts(rotor, sizes, np.zeros(2)).exists.tolist() == [True, False]

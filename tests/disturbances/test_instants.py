@@ -65,7 +65,7 @@ def test_samples_are_over_the_instant_where_it_matters():
         assert np.histogram(begins, 4, (0.0, 2.0 * math.pi))[0].min() > 70
         assert not plan.starts(plain).begins.any()
     # Sizes and directions do not depend on whether the instant matters.
-    heavy, light = (Sample(kicks, 50, 3).starts(each) for each in (weighs, turned(0.0).rotor))
+    heavy, light = (Sample(kicks, 50, 3).starts(each) for each in (weighs, turned(0.0).unforced))
     pushes = weighs.system.translation_velocity(heavy.velocities, heavy.begins)
     assert pushes == pytest.approx(light.velocities, abs=1e-15)
     one = Grid(kicks, (4, 6), 0.3)

@@ -33,7 +33,7 @@ GROUNDED = PAPER.replace(gamma=0.05)
 
 @pytest.fixture
 def rotor():
-    return carom.models.Jeffcott(QUIET)
+    return carom.models.jeffcott(QUIET)
 
 
 @pytest.mark.parametrize(
@@ -68,7 +68,7 @@ def test_a_radial_kick_points_away_from_the_centre(rotor):
 
 
 def test_nothing_can_be_kicked_out_of_levitation_where_there_is_none():
-    grounded = carom.models.Jeffcott(GROUNDED)
+    grounded = carom.models.jeffcott(GROUNDED)
     assert abs(rest_position(GROUNDED)) > 1.0
     for model in (VelocityKick(), KickPlane(), BaseShock(1.0, 0.5)):
         assert not Grid(model, (3, 3)).starts(grounded).exists.any()
@@ -109,7 +109,7 @@ def test_a_slice_keeps_to_the_clearance(rotor):
 
 def test_states_are_even_over_both_discs():
     sample = Sample(AnyState(1.5), 20_000, seed=4)
-    starts = sample.starts(carom.models.Jeffcott(QUIET))
+    starts = sample.starts(carom.models.jeffcott(QUIET))
     for values, radius in ((starts.positions, 1.0), (starts.velocities + 1j * starts.positions, 1.5)):
         assert np.abs(values).max() <= radius
         # A quarter of the area lies within half the radius; five standard errors.

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 import pytest
@@ -15,7 +15,7 @@ from scipy.integrate import solve_ivp
 import carom
 from carom.disturbances import AnyState, BaseShock, ContactRelease, Grid, Sample, StateSlice, UnbalanceStep
 from carom.disturbances.shocks import states_after_shocks
-from carom.models import Jeffcott
+from carom.models import jeffcott
 from carom.outcome import InputError, Outcome
 
 
@@ -148,7 +148,7 @@ def test_random_rotors_and_shocks():
 @pytest.mark.jit_only
 def test_an_undamped_rotor_in_resonance():
     rotor = tilting(damping=np.zeros((2, 2)), gyroscopic=np.zeros((2, 2)))
-    rotor = replace(rotor, forcing=0.3 * rotor.forcing)
+    rotor = rotor.replace(forcing=0.3 * rotor.forcing)
     assert rotor.model.system.rest_radius < 1.0
     duration = math.pi / np.abs(rotor.model.system.exponents.imag + 1.0).min()
     place, speed, impacts = shaken(rotor, 0.05, duration, 0.7).after()
@@ -164,7 +164,7 @@ def test_an_undamped_rotor_in_resonance():
         single().model,
         tilting().model,
         three_masses().model,
-        Jeffcott(carom.load("examples/source-paper.toml").parameters),
+        jeffcott(carom.load("examples/source-paper.toml").parameters),
     ],
 )
 @pytest.mark.parametrize("release", ["fixed", "rotating", "rolling"])

@@ -49,7 +49,7 @@ def basin():
 
 
 def states(plan):
-    starts = plan.starts(cm.models.Jeffcott(MACHINE))
+    starts = plan.starts(cm.models.jeffcott(MACHINE))
     return [
         cm.State(complex(position), complex(velocity))
         for position, velocity, there in zip(*(part.ravel() for part in starts[:3]), strict=True)
@@ -114,7 +114,7 @@ def test_gain_maps_of_own_disturbances(tmp_path):
 @pytest.mark.jit_only
 def test_smallest_own_disturbance_that_is_lost():
     found = smallest_loss(MACHINE, Shove(1.0, 0j), directions=24, sizes=24)
-    rotor = cm.models.Jeffcott(MACHINE)
+    rotor = cm.models.jeffcott(MACHINE)
 
     assert (found.kind, found.harmless) == ("shove", 0.0)
     at = [rotor.equilibrium + size * np.exp(1j * found.angle) for size in (found.recovered, found.size)]

@@ -13,7 +13,7 @@ from scipy.integrate import solve_ivp
 import carom
 from carom.disturbances.following import follow_machines
 from carom.disturbances.shocks import states_after_shocks
-from carom.models import Force, Forced
+from carom.models import Force
 
 pytestmark = pytest.mark.jit_only
 
@@ -56,7 +56,7 @@ def followed(parameters, peak, duration, direction, weight=0j):
 
 
 def after(parameters, peak, duration, direction):
-    found = states_after_shocks(carom.models.Jeffcott(parameters), np.array([peak]), duration, np.array([direction]))
+    found = states_after_shocks(carom.models.jeffcott(parameters), np.array([peak]), duration, np.array([direction]))
     return complex(found[0][0]), complex(found[1][0]), bool(found[2][0])
 
 
@@ -90,7 +90,7 @@ def test_pressed_to_the_wall_when_the_pulse_ends(peak, duration, direction):
     assert abs(position) == pytest.approx(1.0, abs=1e-15)
     assert (position.conjugate() * velocity).real == pytest.approx(0.0, abs=1e-12)
     assert not ended
-    found = carom.simulate(carom.models.Jeffcott(machine), carom.State(position, velocity), 1.0)
+    found = carom.simulate(carom.models.jeffcott(machine), carom.State(position, velocity), 1.0)
     assert found.outcome is carom.outcome.Outcome.TIME_REACHED
 
 
@@ -119,7 +119,7 @@ def test_in_resonance_without_damping(detuned):
 
 
 def test_a_motion_through_the_pulse_and_after_it():
-    machine = carom.models.Jeffcott(PAPER.replace(rho=0.2, gamma=0.3))
+    machine = carom.models.jeffcott(PAPER.replace(rho=0.2, gamma=0.3))
     shock = carom.BaseShock(6.0, 1.3)
     motion = carom.simulate(*shock.stages(machine, 0.3))
     pulse, after_it = motion.parts
@@ -142,7 +142,7 @@ WEIGHT = 0.05 - 0.11j
 )
 def test_a_rotor_that_weighs_something_goes_on_under_the_weight_as_it_points_then(peak, duration, direction, struck):
     machine = PAPER.replace(rho=0.2, gamma=0.3)
-    rotor = Forced(carom.models.Jeffcott(machine), (Force(-1j, np.array([WEIGHT])),))
+    rotor = carom.models.jeffcott(machine).under(Force(-1j, np.array([WEIGHT])))
     place, speed, impacts = followed(machine, peak, duration, direction, WEIGHT)
     assert (impacts > 0) == struck
     shock = carom.BaseShock(peak, duration)
@@ -164,7 +164,7 @@ def test_a_rotor_that_weighs_something_goes_on_under_the_weight_as_it_points_the
 
 
 def test_a_shock_knows_of_no_other():
-    machine = carom.models.Jeffcott(PAPER.replace(rho=0.2, gamma=0.3, d=0.3))
+    machine = carom.models.jeffcott(PAPER.replace(rho=0.2, gamma=0.3, d=0.3))
     peaks, directions = np.linspace(0.1, 12.0, 9), np.linspace(0.0, 6.0, 9)
     together = states_after_shocks(machine, peaks, 1.7, directions)
     for place in range(9):

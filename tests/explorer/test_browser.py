@@ -14,7 +14,7 @@ import carom
 from carom.explorer.computing.kicks import map_kicks
 from carom.explorer.computing.motions import table_of
 from carom.explorer.computing.planes import planes_of
-from carom.models import Jeffcott
+from carom.models import jeffcott
 
 pytestmark = pytest.mark.jit_only
 MACHINE = Path(__file__).parents[2] / "examples" / "keogh-cole.toml"
@@ -23,7 +23,7 @@ MACHINE = Path(__file__).parents[2] / "examples" / "keogh-cole.toml"
 def shown_of(page, case):
     """The picture that the page shows when nothing moves, and the share of what must be survived that comes back."""
     kicks, scales = planes_of(case)[0], case.parameters.scales
-    found = map_kicks(Jeffcott(case.parameters), kicks, 120, 1e-3 * said(page, "carom.basin.message.largest"))
+    found = map_kicks(jeffcott(case.parameters), kicks, 120, 1e-3 * said(page, "carom.basin.message.largest"))
     share = found.share_up_to(kicks.own(kicks.required, scales) * (1.0 + 1e-9))
     return found, f"{100 * share.fraction:.3g} %"
 
@@ -76,7 +76,7 @@ def test_what_waits_while_a_slider_is_held_is_pale_until_it_is_known(page):
     # The hardest impact is looked for when the slider is let go.
     page.wait_for_function("() => document.querySelectorAll('[data-of]:not([data-of=hardest]).old').length === 0")
     value = said(page, "carom.controls.value('damping')")
-    rotor = carom.models.Jeffcott(carom.load(MACHINE, [f"damping={value} N s/m"]).parameters)
+    rotor = carom.models.jeffcott(carom.load(MACHINE, [f"damping={value} N s/m"]).parameters)
     names = said(
         page, "[...document.querySelectorAll('#motions tbody td:first-child')].map((cell) => cell.textContent)"
     )

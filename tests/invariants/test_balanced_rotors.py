@@ -14,7 +14,7 @@ import pytest
 from limiting_motions import EPSILON, angular_momentum, on_wall, starts
 from machines import PAPER
 
-from carom.models import Jeffcott
+from carom.models import jeffcott
 from carom.motions.simulation import simulate
 from carom.motions.starts import State
 from carom.motions.trajectories import Trajectory
@@ -26,7 +26,7 @@ from carom.parameters import Parameters
 @pytest.mark.parametrize("turn", [0.3, 1.5, -2.9])
 def test_of_a_balanced_rotor_results_turn_with_the_start(turn):
     """Nothing in the co-rotating frame has a direction then."""
-    rotor = Jeffcott(PAPER.replace(rho=0.0, gamma=0.05))
+    rotor = jeffcott(PAPER.replace(rho=0.0, gamma=0.05))
     around = cmath.rect(1.0, turn)
     times = np.linspace(0.0, 12.0, 200)
     for start in starts(5, 10):
@@ -47,7 +47,7 @@ def away_from_impacts(motion: Trajectory, times: np.ndarray) -> np.ndarray:
 @pytest.mark.parametrize("gamma", [0.0, 1e-6, 0.1, 1.52, 4.0])
 def test_angular_momentum_of_a_balanced_rotor_decays_like_its_damping(gamma):
     """``Z̈ + γŻ + ω²Z = 0`` gives ``(Im Z̄Ż)' = −γ Im Z̄Ż`` in flight, under-, over- and critically damped alike."""
-    rotor = Jeffcott(PAPER.replace(rho=0.0, gamma=gamma, mu=0.0))
+    rotor = jeffcott(PAPER.replace(rho=0.0, gamma=gamma, mu=0.0))
     for start in starts(6, 10):
         motion = simulate(rotor, start, 10.0)
         times = np.linspace(0.0, 10.0, 100)
@@ -59,7 +59,7 @@ def test_angular_momentum_of_a_balanced_rotor_decays_like_its_damping(gamma):
 
 
 def test_a_damped_balanced_rotor_comes_to_rest_in_the_centre():
-    rotor = Jeffcott(PAPER.replace(rho=0.0, gamma=0.3))
+    rotor = jeffcott(PAPER.replace(rho=0.0, gamma=0.3))
     assert rotor.equilibrium == 0.0
     for start in starts(7, 10):
         assert simulate(rotor, start, 1e4, settle=True).outcome is Outcome.LEVITATED
@@ -85,7 +85,7 @@ def forward_slide_time(parameters: Parameters, start: float, end: float) -> floa
 def test_a_balanced_slide_ends_where_the_whirl_is_too_slow_to_press():
     """``N = W² − ω²`` vanishes at ``W = ω``, at a time known in closed form; the rotor lifts off and does not come back."""
     parameters = PAPER.replace(rho=0.0, gamma=0.3)
-    rotor = Jeffcott(parameters)
+    rotor = jeffcott(parameters)
     for whirl in (0.8, 1.5, 20.0):
         for angle in (0.0, 2.0):
             motion = simulate(rotor, on_wall(angle, whirl), 1e3, settle=True)

@@ -10,7 +10,7 @@ from drawn_motions import EVENTS, MANY, machines, starts
 from hypothesis import example, given
 from machines import PAPER
 
-from carom.models import Jeffcott
+from carom.models import jeffcott
 from carom.motions.simulation import simulate
 from carom.motions.starts import State
 
@@ -20,7 +20,7 @@ ROUNDING = 64 * 2.0**-52
 
 def impacts_of(machine, start):
     """Contact log of a motion and the speeds its rounding errors go with, one for each impact."""
-    rotor = Jeffcott(machine)
+    rotor = jeffcott(machine)
     log = simulate(rotor, start, 15.0, max_events=EVENTS).contacts
     reach = 1.0 + abs(rotor.equilibrium)
     speeds = reach * (1.0 + log.radial_speed + np.abs(log.angular_speed) + np.abs(rotor.system.exponents).max())
@@ -73,7 +73,7 @@ def test_restitution(machine, start):
 @MANY
 @given(machines(), starts())
 def test_nothing_gets_through_the_wall(machine, start):
-    motion = simulate(Jeffcott(machine), start, 15.0, max_events=EVENTS)
+    motion = simulate(jeffcott(machine), start, 15.0, max_events=EVENTS)
     assert motion.radius(motion.sample(2 * EVENTS)).max() <= 1.0 + 1e-12
 
 
@@ -82,7 +82,7 @@ def test_nothing_gets_through_the_wall_by_more_than_rounding_near_resonance(seed
     """The contact-free equilibrium lies up to 2e4 clearances out; 1e-12 alone was promised there, and not kept."""
     rng = np.random.default_rng(seed)
     for _ in range(10):
-        rotor = Jeffcott(replace(PAPER, omega=1.0, gamma=PAPER.rho / 10.0 ** rng.uniform(2.0, 4.3), d=rng.uniform()))
+        rotor = jeffcott(replace(PAPER, omega=1.0, gamma=PAPER.rho / 10.0 ** rng.uniform(2.0, 4.3), d=rng.uniform()))
         far = abs(rotor.equilibrium)
         assert far > 90.0
         position = 0.9 * np.sqrt(rng.uniform()) * np.exp(2j * np.pi * rng.uniform())
@@ -94,7 +94,7 @@ def test_nothing_gets_through_the_wall_by_more_than_rounding_near_resonance(seed
 @MANY
 @given(machines(), starts())
 def test_lasting_contact_presses_and_stays_in_the_cone(machine, start):
-    motion = simulate(Jeffcott(machine), start, 15.0, max_events=EVENTS)
+    motion = simulate(jeffcott(machine), start, 15.0, max_events=EVENTS)
     for stretch in motion.lasting_contacts:
         times = np.linspace(stretch.start, stretch.end, 20, endpoint=False)
         normal, friction = motion.forces(times)

@@ -25,7 +25,7 @@ from limiting_motions import (
 )
 from machines import PAPER
 
-from carom.models import Jeffcott
+from carom.models import jeffcott
 from carom.motions.simulation import simulate
 from carom.motions.starts import State
 
@@ -38,7 +38,7 @@ IDEAL = PAPER.replace(gamma=0.0, mu=0.0, d=1.0)
 def test_an_ideal_rotor_keeps_its_jacobi_integral(omega):
     """With ``d = 1`` and ``μ = 0`` an impact turns ``ṙ`` round and leaves ``θ̇``, so ``|U̇|`` stays and ``J`` with it."""
     parameters = IDEAL.replace(omega=omega)
-    motion = simulate(Jeffcott(parameters), State(0.3 + 0.1j, 1.8 - 0.8j), LONG)
+    motion = simulate(jeffcott(parameters), State(0.3 + 0.1j, 1.8 - 0.8j), LONG)
     impacts = len(motion.contacts)
     assert impacts > 0.1 * LONG
     integral = jacobi_integral(parameters, *segment_states(motion))
@@ -49,7 +49,7 @@ def test_an_ideal_rotor_keeps_its_jacobi_integral(omega):
 def test_an_ideal_balanced_rotor_keeps_energy_and_angular_momentum():
     """Without unbalance the bearing's force points to its centre in the fixed frame, in flight and in impacts."""
     parameters = IDEAL.replace(rho=0.0)
-    motion = simulate(Jeffcott(parameters), State(0.3 + 0.1j, 1.4j), LONG)
+    motion = simulate(jeffcott(parameters), State(0.3 + 0.1j, 1.4j), LONG)
     impacts = len(motion.contacts)
     position, velocity = segment_states(motion)
     energy = 0.5 * np.abs(velocity + 1j * position) ** 2 + 0.5 * parameters.omega**2 * np.abs(position) ** 2
@@ -66,7 +66,7 @@ def test_an_ideal_balanced_rotor_keeps_energy_and_angular_momentum():
 def test_nearly_elastic_impacts_cost_what_they_must(loss):
     """Without damping and friction ``J`` falls by ``(1 − d²)ṙ²/2`` in each impact, and nowhere else."""
     parameters = IDEAL.replace(d=1.0 - loss)
-    motion = simulate(Jeffcott(parameters), START, 0.1 * LONG)
+    motion = simulate(jeffcott(parameters), START, 0.1 * LONG)
     integral = jacobi_integral(parameters, *segment_states(motion))
     lost = np.zeros(len(integral))
     lost[1:][motion.is_impact] = 0.5 * (1.0 - parameters.d**2) * motion.contacts.radial_speed**2
@@ -79,7 +79,7 @@ def test_elastic_contact_takes_no_energy_along_the_normal():
     """With ``d = 1`` all work of contact is that of friction, its impulse times the mean slip; without friction none."""
     for mu in (0.0, 0.15):
         for start in starts(1, 5):
-            log = simulate(Jeffcott(PAPER.replace(d=1.0, mu=mu)), start, 100.0, max_events=EVENTS).contacts
+            log = simulate(jeffcott(PAPER.replace(d=1.0, mu=mu)), start, 100.0, max_events=EVENTS).contacts
             assert len(log) > 3
             friction = 0.5 * log.tangential_impulse * (log.slip_before + log.slip_after)
             speed = 1.0 + log.radial_speed + np.abs(log.angular_speed)
@@ -95,7 +95,7 @@ def test_elastic_impacts_do_not_accumulate(gamma):
     Not even in backward whirl, where ``N`` grows to ``s²`` and there are thousands of them in a turn.
     """
     for start in starts(2, 10):
-        motion = simulate(Jeffcott(PAPER.replace(gamma=gamma, d=1.0)), start, 500.0, max_events=EVENTS)
+        motion = simulate(jeffcott(PAPER.replace(gamma=gamma, d=1.0)), start, 500.0, max_events=EVENTS)
         assert motion.lasting_contacts == ()
         assert not motion.is_landing.any()
 
@@ -112,7 +112,7 @@ def test_a_plastic_impact_ends_on_the_wall_or_leaves_it_along_the_wall():
             d=0.0, mu=random.uniform(0.0, 0.5), rho=random.uniform(0.0, 1.0), omega=random.uniform(0.5, 1.5)
         )
         start = on_wall(random.uniform(-3.0, 3.0), random.uniform(-2.0, 2.0), random.uniform(0.1, 1.0))
-        motion = simulate(Jeffcott(parameters), start, 1e-3)
+        motion = simulate(jeffcott(parameters), start, 1e-3)
         log = motion.contacts
         whirl = 1.0 + log.angular_speed_after[0]
         push = parameters.rho * math.cos(log.angle[0] - parameters.phi) + whirl**2 - parameters.omega**2
@@ -131,7 +131,7 @@ def test_a_plastic_impact_ends_on_the_wall_or_leaves_it_along_the_wall():
 
 
 def test_a_plastic_contact_takes_all_energy_along_the_normal():
-    log = simulate(Jeffcott(PAPER.replace(d=0.0, mu=0.0)), START, 50.0).contacts
+    log = simulate(jeffcott(PAPER.replace(d=0.0, mu=0.0)), START, 50.0).contacts
     assert len(log) > 0
     assert np.allclose(log.contact_work, -0.5 * log.radial_speed**2, rtol=1e-12, atol=0)
 
@@ -149,7 +149,7 @@ def test_less_and_less_restitution_leads_to_none():
     push = parameters.rho + whirl**2 - parameters.omega**2
 
     def angle(restitution: float) -> float:
-        rotor = Jeffcott(parameters.replace(d=restitution))
+        rotor = jeffcott(parameters.replace(d=restitution))
         return cmath.phase(simulate(rotor, on_wall(parameters.phi, 1.0, radial), 0.02).final.position)
 
     for restitution in (0.03, 0.01):

@@ -13,7 +13,7 @@ import pytest
 from limiting_motions import START, on_wall, starts
 from machines import PAPER
 
-from carom.models import Jeffcott
+from carom.models import jeffcott
 from carom.motions.simulation import simulate
 from carom.outcome import Phase
 
@@ -21,7 +21,7 @@ from carom.outcome import Phase
 def test_slip_of_a_huge_rotor_never_reverses():
     """Impacts are then ``U̇⁺ = U̇⁻ − qṙ⁻U`` with ``q = (1 + d)(1 + iμ)``, whatever ``s``."""
     q = (1.0 + PAPER.d) * complex(1.0, PAPER.mu)
-    motions = [simulate(Jeffcott(PAPER.replace(radius_ratio=ratio)), START, 30.0) for ratio in (1e3, 1e6, 1e9)]
+    motions = [simulate(jeffcott(PAPER.replace(radius_ratio=ratio)), START, 30.0) for ratio in (1e3, 1e6, 1e9)]
     for motion in motions:
         before, after = (
             motion.rotor.system.state(motion.arrivals),
@@ -39,7 +39,7 @@ def test_slip_of_a_huge_rotor_never_reverses():
 @pytest.mark.parametrize("ratio", [1e-3, 0.01, 0.1])
 def test_a_tiny_rotor_is_held_by_the_wall(ratio):
     """Its surface hardly moves, so an impact that stops the slip leaves ``W = −s``: the centre all but stops along the wall."""
-    rotor = Jeffcott(PAPER.replace(mu=2.0, radius_ratio=ratio))
+    rotor = jeffcott(PAPER.replace(mu=2.0, radius_ratio=ratio))
     sticking = 0
     for start in starts(8, 10):
         log = simulate(rotor, start, 20.0).contacts
@@ -65,7 +65,7 @@ def test_a_tiny_rotor_rolls_until_it_slips_or_leaves(ratio, mu):
     share = (parameters.gamma * ratio - mu * drop) / (rho * math.hypot(1.0, mu))
     end = math.asin(share) - math.atan(mu)
     assert end < 0.0
-    motion = simulate(Jeffcott(parameters), on_wall(parameters.phi, -ratio), 10.0)
+    motion = simulate(jeffcott(parameters), on_wall(parameters.phi, -ratio), 10.0)
     first = motion.lasting_contacts[0]
     assert first.phase is Phase.ROLLING
     assert first.end == pytest.approx(-end / (1.0 + ratio), rel=1e-12)

@@ -24,7 +24,7 @@ from flights import (
 )
 
 from carom.core.layout import LANES
-from carom.models import Jeffcott
+from carom.models import jeffcott
 
 FLIGHTS = sized(150, 6, 15_000)
 HORIZON = 4.0
@@ -107,7 +107,7 @@ def test_no_impact_is_missed_and_none_invented(machine, start, record_property):
     by_itself, side_by_side = Tally(f"{start.__name__}, {machine.__name__}"), Tally("the same in lanes")
     for index in range(FLIGHTS):
         rng = np.random.default_rng([47, index])
-        rotor = Jeffcott(machine(rng, index))
+        rotor = jeffcott(machine(rng, index))
         task = start(rotor, rng)
         if task is None or not flies(task):
             continue

@@ -16,7 +16,7 @@ import numpy as np
 import pytest
 from compilation import sized
 
-from carom.models import Jeffcott
+from carom.models import Rotor, jeffcott
 from carom.motions.simulation import simulate
 from carom.motions.starts import State
 from carom.motions.trajectories import Trajectory
@@ -81,7 +81,7 @@ class Work:
     allowed_stretches: float
 
 
-def work(rotor: Jeffcott, motion: Trajectory) -> Work:
+def work(rotor: Rotor, motion: Trajectory) -> Work:
     """Count the events of a motion."""
     phases = motion.segment_phases[:, 0]
     position = rotor.system.state(motion.segment_amplitudes)[0]
@@ -103,7 +103,7 @@ def work(rotor: Jeffcott, motion: Trajectory) -> Work:
 def test_every_start_ends(seed, record_property):
     random = np.random.default_rng([21, seed])
     parameters = machine(random)
-    rotor = Jeffcott(parameters)
+    rotor = jeffcott(parameters)
     outcomes: Counter[str] = Counter()
     for _ in range(STARTS):
         state = start(random, parameters)

@@ -9,7 +9,7 @@ import pytest
 from compilation import sized
 from drawn_motions import EVENTS
 
-from carom.models import Jeffcott
+from carom.models import jeffcott
 from carom.motions.simulation import simulate
 from carom.motions.starts import State
 from carom.outcome import Outcome
@@ -50,7 +50,7 @@ def limit_starts(rng):
 def test_every_motion_ends(seed, settle):
     rng = np.random.default_rng([seed, settle])
     for _ in range(MACHINES):
-        rotor = Jeffcott(limit_cases(rng))
+        rotor = jeffcott(limit_cases(rng))
         until = float(rng.choice([1.0, 20.0, 200.0]))
         for start in limit_starts(rng):
             motion = simulate(rotor, start, until, settle=settle, max_events=20 * EVENTS)

@@ -16,7 +16,7 @@ from limiting_motions import EPSILON, on_wall, starts
 from machines import PAPER
 from scipy.special import ellipj, ellipk
 
-from carom.models import Jeffcott
+from carom.models import jeffcott
 from carom.motions.ledger import energy_ledger
 from carom.motions.simulation import simulate
 from carom.outcome import Outcome, Phase
@@ -27,7 +27,7 @@ from carom.outcome import Outcome, Phase
 def test_a_smooth_wall_leaves_the_angular_momentum():
     """Its force points to the centre, so ``Im(Z̄Ż)`` stays in an impact; and no drive feeds in."""
     for start in starts(4, 10):
-        motion = simulate(Jeffcott(PAPER.replace(mu=0.0)), start, sized(100, 20))
+        motion = simulate(jeffcott(PAPER.replace(mu=0.0)), start, sized(100, 20))
         log = motion.contacts
         assert len(log) > 3
         assert np.all(log.angular_speed_after - log.angular_speed == log.tangential_impulse)
@@ -41,7 +41,7 @@ def test_a_smooth_wall_leaves_the_angular_momentum():
 def test_a_smooth_wall_never_stops_the_slip():
     """``W' = −ρ sin x`` whatever the slip ``s + W``: here it swings through zero in every turn, and nothing rolls."""
     parameters = PAPER.replace(gamma=0.0, mu=0.0, omega=0.3, rho=0.6, radius_ratio=1.5)
-    motion = simulate(Jeffcott(parameters), on_wall(parameters.phi + math.pi, -1.3), 20.0)
+    motion = simulate(jeffcott(parameters), on_wall(parameters.phi + math.pi, -1.3), 20.0)
     assert len(motion.lasting_contacts) > 10
     assert {contact.phase for contact in motion.lasting_contacts} == {Phase.FORWARD_SLIP, Phase.BACKWARD_SLIP}
     assert not motion.forces(np.linspace(0.0, 20.0, 300))[1].any()
@@ -65,7 +65,7 @@ def test_sliding_on_a_smooth_wall_is_a_pendulum(amplitude):
     """A bead in a turning hoop: without damping and friction ``ẍ = −ρ sin x``, its period ``4K(k)/√ρ``."""
     parameters = PAPER.replace(gamma=0.0, mu=0.0, omega=0.3, rho=0.2)
     period = 4.0 * ellipk(math.sin(0.5 * amplitude) ** 2) / math.sqrt(parameters.rho)
-    motion = simulate(Jeffcott(parameters), on_wall(parameters.phi + amplitude, 1.0), 3.0 * period)
+    motion = simulate(jeffcott(parameters), on_wall(parameters.phi + amplitude, 1.0), 3.0 * period)
     assert [contact.phase for contact in motion.lasting_contacts] == [Phase.FORWARD_SLIP]
     times = np.linspace(0.0, motion.time, sized(500, 20))
     position, velocity = motion.at(times)
@@ -85,7 +85,7 @@ def test_sliding_on_a_smooth_wall_is_a_pendulum(amplitude):
 def test_a_slide_along_a_smooth_wall_lasts_as_long_as_damping_is_weak(gamma):
     """Without unbalance ``W' = −γW``, and ``N = W² − ω²`` vanishes after ``ln(W₀/ω)/γ``."""
     parameters = PAPER.replace(gamma=gamma, mu=0.0, rho=0.0)
-    rotor, start = Jeffcott(parameters), on_wall(0.3, 2.5)
+    rotor, start = jeffcott(parameters), on_wall(0.3, 2.5)
     motion = simulate(rotor, start, 1e3 / gamma, settle=True)
     (contact,) = motion.lasting_contacts
     # The whirl is a product of as many factors as there are steps, each with its rounding error.
@@ -102,7 +102,7 @@ def test_a_slide_along_a_smooth_wall_lasts_as_long_as_damping_is_weak(gamma):
 @pytest.mark.parametrize("ratio", [0.5, 5.0])
 def test_a_rough_wall_stops_the_slip_in_every_impact(ratio):
     """Every impact with ``μ(1 + d)ṙ > |v|`` does; with ``μ = 10`` all but glancing ones."""
-    rotor = Jeffcott(PAPER.replace(mu=10.0, radius_ratio=ratio))
+    rotor = jeffcott(PAPER.replace(mu=10.0, radius_ratio=ratio))
     count = 0
     for start in starts(9, 10):
         log = simulate(rotor, start, 20.0).contacts

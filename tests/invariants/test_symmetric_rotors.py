@@ -8,7 +8,7 @@ from compilation import sized
 from linear_rotors import touchdowns
 
 import carom
-from carom.models import Jeffcott, LinearRotor
+from carom.models import Rotor, from_matrices, jeffcott
 from carom.outcome import Outcome
 from carom.parameters import Parameters
 
@@ -17,10 +17,10 @@ pytestmark = pytest.mark.jit_only
 PAPER = Parameters(gamma=0.1, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=50.0)
 
 
-def on_two_bearings(machine: Parameters, arm: float, inertia: float) -> LinearRotor:
+def on_two_bearings(machine: Parameters, arm: float, inertia: float) -> Rotor:
     """The planar rotor with a moment of inertia, on bearings at both ends that share its stiffness and damping."""
     ends = np.array([[1.0, arm], [1.0, -arm]])
-    return LinearRotor.in_fixed_frame(
+    return from_matrices(
         mass=np.diag([1.0, inertia]),
         damping=0.5 * machine.gamma * ends.T @ ends,
         stiffness=0.5 * machine.omega**2 * ends.T @ ends,
@@ -46,7 +46,7 @@ def test_it_does_not_tilt(arm, inertia):
         )
         kick = carom.kick(float(random.uniform(0.7, 3.0)), angle=float(random.uniform(-np.pi, np.pi)))
         symmetric = carom.simulate(on_two_bearings(machine, arm, inertia), kick, 60.0)
-        planar = carom.simulate(Jeffcott(machine), kick, 60.0)
+        planar = carom.simulate(jeffcott(machine), kick, 60.0)
         tilts = np.abs(symmetric.rotor.system.state(symmetric.arrivals)[0][:, 1])
         upright = symmetric.segment_starts[1:][tilts > 1e-13].min(initial=60.0)
         log = planar.contacts
@@ -68,5 +68,5 @@ def test_it_does_not_tilt(arm, inertia):
 def test_it_ends_as_the_planar_rotor(arm):
     """One after another, the impacts of this kick tilted the rotor, which came back where the planar one rolls to ruin."""
     kick = carom.kick(4.0, angle=2.0)
-    assert carom.simulate(Jeffcott(PAPER), kick).outcome is Outcome.ROLLING
+    assert carom.simulate(jeffcott(PAPER), kick).outcome is Outcome.ROLLING
     assert carom.simulate(on_two_bearings(PAPER, arm, 0.3), kick).outcome is Outcome.ROLLING

@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 from machines import PAPER
 from scipy.integrate import solve_ivp
 
-from carom.models import Jeffcott
+from carom.models import jeffcott
 from carom.motions.simulation import simulate
 from carom.motions.starts import State
 from carom.parameters import Machine, Scales
@@ -33,7 +33,7 @@ def states(motion, times):
 def growth(machine, start, times):
     """By how much a small change of the start has grown, per unit, at given times; for motions where it is small."""
     shift = 1e-8
-    rotor = Jeffcott(machine)
+    rotor = jeffcott(machine)
     nominal = simulate(rotor, start, UNTIL, max_events=EVENTS)
     inward = 1.0 - shift
     moved = simulate(rotor, State(start.position * inward, start.velocity * inward), UNTIL, max_events=EVENTS)
@@ -55,7 +55,7 @@ def test_turning_the_unbalance_and_the_start_turns_the_motion(machine, start, an
     nominal, times, amplification = growth(machine, start, np.linspace(0.0, UNTIL, 60))
     turn = cmath.rect(1.0, angle)
     turned = simulate(
-        Jeffcott(machine.replace(phi=machine.phi + angle)),
+        jeffcott(machine.replace(phi=machine.phi + angle)),
         State(turn * start.position, turn * start.velocity),
         UNTIL,
         max_events=EVENTS,
@@ -92,7 +92,7 @@ def test_the_same_motion_integrated_in_si_units():
     machine = dataclasses.replace(PAPER, scales=scales)
     physical = Machine.from_parameters(machine)
     start = State(0.3 + 0.1j, 0.9 - 0.4j)
-    motion = simulate(Jeffcott(machine), start, 12.0)
+    motion = simulate(jeffcott(machine), start, 12.0)
     columns = {name: column.values for name, column in motion.contacts.to_dataset().variables.items()}
     position = start.position * physical.clearance
     velocity = (start.velocity + 1j * start.position) * physical.clearance * physical.speed
@@ -159,7 +159,7 @@ def drift(values):
 @MANY
 @given(machines(gamma=0.0, mu=0.0, d=1.0, rho=0.0), starts())
 def test_without_losses_and_unbalance_energy_and_angular_momentum_are_conserved(machine, start):
-    motion = simulate(Jeffcott(machine), start, 20.0, max_events=EVENTS)
+    motion = simulate(jeffcott(machine), start, 20.0, max_events=EVENTS)
     times = motion.sample(SAMPLES)
     energy, momentum, _ = energies(machine, motion, times)
     rounding = 32 * EPSILON * (10.0 + len(motion.segment_starts) + motion.time) * (1.0 + energy[0])
@@ -170,7 +170,7 @@ def test_without_losses_and_unbalance_energy_and_angular_momentum_are_conserved(
 @MANY
 @given(machines(gamma=0.0, mu=0.0, d=1.0), starts())
 def test_without_losses_the_integral_of_jacobi_is_conserved(machine, start):
-    rotor = Jeffcott(machine)
+    rotor = jeffcott(machine)
     motion = simulate(rotor, start, 20.0, max_events=EVENTS)
     times = motion.sample(SAMPLES)
     energy, _, jacobi = energies(machine, motion, times)
@@ -181,14 +181,14 @@ def test_without_losses_the_integral_of_jacobi_is_conserved(machine, start):
 @MANY
 @given(machines(mu=0.0, rho=0.0), starts())
 def test_without_unbalance_and_friction_energy_only_falls(machine, start):
-    motion = simulate(Jeffcott(machine), start, 20.0, max_events=EVENTS)
+    motion = simulate(jeffcott(machine), start, 20.0, max_events=EVENTS)
     energy, _, _ = energies(machine, motion, motion.sample(SAMPLES))
     assert np.all(np.diff(energy) <= 64 * EPSILON * (10.0 + motion.time) * (1.0 + energy[0]))
 
 
 def test_times_and_speeds_scale_with_the_shaft_speed():
     slow, fast = (Scales(mass=50.0, clearance=0.7e-3, speed=speed) for speed in (100.0, 300.0))
-    log = simulate(Jeffcott(PAPER), State(0.3 + 0.1j, 0.9 - 0.4j), 10.0).contacts
+    log = simulate(jeffcott(PAPER), State(0.3 + 0.1j, 0.9 - 0.4j), 10.0).contacts
     one, other = (dataclasses.replace(log, scales=scales).to_dataset() for scales in (slow, fast))
     assert np.allclose(one["time"], 3.0 * other["time"], rtol=1e-15, atol=0)
     assert np.allclose(9.0 * one["contact_work"], other["contact_work"], rtol=1e-14, atol=0)

@@ -9,13 +9,13 @@ import numpy as np
 import pytest
 
 import carom as cm
-from carom.models import HuntCrossley, KelvinVoigt, LinearRotor, Rigid, Touchdown
+from carom.models import HuntCrossley, KelvinVoigt, Rigid, Touchdown, from_matrices
 from carom.parameters.restitution import damping_ratio_of
 
 
 def planar(law, phase=0.21, friction=0.15):
     """The planar rotor of the paper with a wall of a law and an unbalance of a phase."""
-    return LinearRotor.in_fixed_frame(
+    return from_matrices(
         mass=[[1.0]],
         damping=[[0.1]],
         stiffness=[[0.76**2]],
@@ -26,7 +26,7 @@ def planar(law, phase=0.21, friction=0.15):
 
 def tilting(law, phase=0.2):
     """A rotor that tilts, with two planes that both touch."""
-    return LinearRotor.in_fixed_frame(
+    return from_matrices(
         mass=np.diag([1.0, 0.4]),
         damping=np.diag([0.1, 0.05]),
         stiffness=[[0.6, 0.05], [0.05, 0.3]],

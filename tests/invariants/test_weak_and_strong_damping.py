@@ -13,7 +13,7 @@ import pytest
 from limiting_motions import EPSILON, START, jacobi_integral, on_wall, segment_states
 from machines import PAPER
 
-from carom.models import Jeffcott
+from carom.models import jeffcott
 from carom.motions.simulation import simulate
 from carom.motions.starts import State
 from carom.motions.trajectories import Trajectory
@@ -27,7 +27,7 @@ from carom.outcome import Outcome, Phase
 def test_undamped_flight_keeps_the_jacobi_integral(mu):
     """Between impacts, whatever these do."""
     parameters = PAPER.replace(gamma=0.0, mu=mu)
-    motion = simulate(Jeffcott(parameters), START, 50.0)
+    motion = simulate(jeffcott(parameters), START, 50.0)
     leaving, arriving = segment_states(motion), motion.rotor.system.state(motion.arrivals)
     flying = motion.segment_phases[:-1, 0] == Phase.FLIGHT
     assert flying.sum() > 5
@@ -43,7 +43,7 @@ def test_little_damping_is_a_little_change(mu):
     times = np.array([0.5, 3.0, 7.0])
 
     def positions(gamma: float) -> np.ndarray:
-        motion = simulate(Jeffcott(PAPER.replace(gamma=gamma, mu=mu)), START, 8.0)
+        motion = simulate(jeffcott(PAPER.replace(gamma=gamma, mu=mu)), START, 8.0)
         assert len(motion.contacts) >= 4
         return motion.position(times)
 
@@ -73,7 +73,7 @@ def test_an_undamped_balanced_rotor_ends_grazing():
     ``A > 1`` lowers it, so in the end ``A = 1``: the ellipse touches the wall for ever, and no finite precision decides
     whether it strikes.  That is the outcome ``grazing``, and not a fault.
     """
-    rotor = Jeffcott(PAPER.replace(gamma=0.0, rho=0.0, mu=0.15, omega=1.3, d=0.5))
+    rotor = jeffcott(PAPER.replace(gamma=0.0, rho=0.0, mu=0.15, omega=1.3, d=0.5))
     for start in (State(0.5, 2.0 + 1.0j), State(0.1j, 1.5), State(-0.4 + 0.2j, -2.0 - 0.3j)):
         motion = simulate(rotor, start, 1e5, settle=True)
         assert motion.outcome is Outcome.GRAZING
@@ -88,7 +88,7 @@ def test_an_undamped_unbalanced_rotor_touches_ever_more_rarely():
 
     Impacts lower the reach towards 1 and become rarer without end.  Nothing settles: the outcome is ``time-reached``.
     """
-    rotor = Jeffcott(PAPER.replace(gamma=0.0, omega=math.sqrt(3.6), d=0.3))
+    rotor = jeffcott(PAPER.replace(gamma=0.0, omega=math.sqrt(3.6), d=0.3))
     start = State(0.5, 2.0 + 1.0j)
     short, long = (simulate(rotor, start, until, settle=True) for until in (1e2, 1e5))
     for motion in (short, long):
@@ -105,7 +105,7 @@ def test_an_undamped_unbalanced_rotor_touches_ever_more_rarely():
 @pytest.mark.parametrize("rho", [0.0, 3 / 7])
 def test_with_the_least_damping_the_same_motions_settle(gamma, rho):
     """Then the reach falls below 1 for good, within a few times ``1/γ``."""
-    rotor = Jeffcott(PAPER.replace(gamma=gamma, rho=rho, omega=1.9, d=0.3))
+    rotor = jeffcott(PAPER.replace(gamma=gamma, rho=rho, omega=1.9, d=0.3))
     for start in (State(0.5, 2.0 + 1.0j), State(0.1j, 1.5), State(-0.4 + 0.2j, -2.0 - 0.3j)):
         motion = simulate(rotor, start, 1e3 / gamma, settle=True)
         assert motion.outcome is Outcome.LEVITATED
@@ -123,7 +123,7 @@ def test_an_overdamped_rotor_swings_out_once(gamma):
     is known, and the rotor that does not reach it the first time never does.
     """
     parameters = PAPER.replace(rho=0.0, gamma=gamma)
-    rotor = Jeffcott(parameters)
+    rotor = jeffcott(parameters)
     root = math.sqrt(max(gamma**2 - 4.0 * parameters.omega**2, 0.0))
     b = 0.5 * (gamma + root)
     a = parameters.omega**2 / b
@@ -143,6 +143,6 @@ def test_strong_damping_stops_a_rebound_at_once():
     """After an impact with ``ṙ`` the rotor leaves at ``dṙ``, and where ``γ`` is large gets as far as ``dṙ/γ``."""
     for gamma in (100.0, 1000.0):
         parameters = PAPER.replace(gamma=gamma, omega=0.1, rho=0.0)
-        motion = simulate(Jeffcott(parameters), on_wall(0.0, 0.0, 1.0), 20.0 / gamma)
+        motion = simulate(jeffcott(parameters), on_wall(0.0, 0.0, 1.0), 20.0 / gamma)
         gap = 1.0 - abs(motion.final.position)
         assert gap == pytest.approx(parameters.d / gamma, rel=0.2 / gamma)  # the pull to the centre is left out

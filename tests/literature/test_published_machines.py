@@ -10,7 +10,7 @@ from scipy.optimize import brentq
 
 from carom.closed_forms.equilibria import find_equilibria
 from carom.loading import load
-from carom.models import Jeffcott
+from carom.models import jeffcott
 from carom.motions import State, simulate
 from carom.outcome import Outcome
 from carom.parameters import ENTRIES, Machine, read_quantity
@@ -82,7 +82,7 @@ def test_the_flexible_shaft_of_munich_has_whirls_on_both_sides_of_what_was_measu
 
 def test_the_test_rig_levitates_within_its_limit_of_current():
     case = load(EXAMPLES / "tum-test-rig.toml")
-    levitation = find_equilibria(Jeffcott(case.parameters)).members[0]
+    levitation = find_equilibria(jeffcott(case.parameters)).members[0]
     machine, gains = case.machine, case.machine.controller_gains
 
     current = abs(gains["proportional_gain"] + 1j * machine.speed * gains["derivative_gain"]) * (
@@ -115,7 +115,7 @@ def test_the_test_rig_of_denmark_is_the_published_rotor_seen_where_it_touches(da
 
 def test_the_test_rig_of_denmark_whirls_as_far_as_was_measured_but_for_the_gyroscopic_moment(danish):
     machine = danish.machine
-    levitation = find_equilibria(Jeffcott(danish.parameters)).members[0]
+    levitation = find_equilibria(jeffcott(danish.parameters)).members[0]
     at_disc = levitation.radius * machine.clearance * TO_DISC / TO_CONTACT
 
     # In synchronous whirl the gyroscopic moment takes I_zz off I_xx: 1.5 % of it, and 10 % off a response this near

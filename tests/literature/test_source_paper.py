@@ -19,7 +19,7 @@ from scipy.optimize import bisect, brentq, minimize_scalar
 
 from carom import State, find_equilibria, find_orbits, simulate
 from carom.closed_forms.periods import PeriodCondition
-from carom.models import Jeffcott
+from carom.models import jeffcott
 from carom.orbits import Orbit, OrbitSet, period_condition
 from carom.parameters import Scales
 
@@ -34,7 +34,7 @@ def assert_prints(value: float, printed: str) -> None:
 
 def orbits_at(gamma: float, omega: float = PAPER.omega) -> OrbitSet:
     longest = None if gamma > 0 else 3.0
-    return find_orbits(Jeffcott(PAPER.replace(gamma=gamma, omega=omega)), longest)
+    return find_orbits(jeffcott(PAPER.replace(gamma=gamma, omega=omega)), longest)
 
 
 # --------------------------------------------------------------------------------------------- where things happen
@@ -44,14 +44,14 @@ def boundary_damping(omega: float = PAPER.omega) -> float:
     """``γ*``, at which the contact-free equilibrium lies on the wall."""
 
     def beyond(gamma: float) -> float:
-        return find_equilibria(Jeffcott(PAPER.replace(gamma=gamma, omega=omega)))[0].radius - 1.0
+        return find_equilibria(jeffcott(PAPER.replace(gamma=gamma, omega=omega)))[0].radius - 1.0
 
     return brentq(beyond, 1e-3, 0.45, **FINE)
 
 
 def dip(gamma: float, omega: float = PAPER.omega) -> tuple[float, float]:
     """Minimum of ``F₁`` near ``T = 1.6``: its value and place."""
-    condition = PeriodCondition.of(Jeffcott(PAPER.replace(gamma=gamma, omega=omega)).system)
+    condition = PeriodCondition.of(jeffcott(PAPER.replace(gamma=gamma, omega=omega)).system)
     place = brentq(lambda period: float(condition.slope(np.asarray(period))), 1.2, 2.2, **FINE)
     return float(condition.value(np.asarray(place))), place
 
@@ -154,7 +154,7 @@ def test_extra_extremum():
 def test_fold_of_the_rubs():
     """``γ = ρ√(1 + μ²) − μ(1 − ω²)``: beyond it no synchronous rub exists."""
     gamma = bisect(
-        lambda gamma: len(find_equilibria(Jeffcott(PAPER.replace(gamma=gamma)))) - 2.0, 0.36, 0.38, xtol=1e-14
+        lambda gamma: len(find_equilibria(jeffcott(PAPER.replace(gamma=gamma)))) - 2.0, 0.36, 0.38, xtol=1e-14
     )
     assert_prints(gamma, "0.3700060")
 
@@ -253,7 +253,7 @@ def test_matrix_after_4_1(period):
     exact = np.linalg.inv(expm(-flight_matrix(PAPER) * period) - np.eye(2))
     np.testing.assert_allclose(matrix((v_lower - v_upper) * up * down), exact, atol=1e-12)
     assert np.abs(matrix(up * down) - exact).max() > 0.1
-    condition = PeriodCondition.of(Jeffcott(PAPER).system)
+    condition = PeriodCondition.of(jeffcott(PAPER).system)
     found = [condition.a12(np.asarray(period)), condition.a22(np.asarray(period))]
     np.testing.assert_allclose(found, exact[:, 1], atol=1e-12)
 
@@ -280,7 +280,7 @@ def test_first_form_of_4_6():
     parts = [value * np.exp(value * periods) / np.expm1(value * periods) for value in (upper, lower)]
     factor = (1.0 + PAPER.d) * complex(1.0, PAPER.mu) / (upper - lower)
     first = 1.0 - (factor * (parts[0] - parts[1])).real
-    np.testing.assert_allclose(period_condition(Jeffcott(PAPER), periods), first, atol=1e-12)
+    np.testing.assert_allclose(period_condition(jeffcott(PAPER), periods), first, atol=1e-12)
 
 
 def test_second_form_of_4_6():
@@ -289,7 +289,7 @@ def test_second_form_of_4_6():
     Printed are ``+ζ`` and no factor 2, and the definition of ``s₄`` holds a ``T`` too many.
     """
     periods = np.linspace(0.05, 20.0, 400)
-    values = period_condition(Jeffcott(PAPER), periods)
+    values = period_condition(jeffcott(PAPER), periods)
     np.testing.assert_allclose(second_form(periods, 2.0, -1), values, atol=1e-12)
     for share, sign in ((1.0, 1), (1.0, -1), (2.0, 1)):
         assert np.abs(second_form(periods, share, sign) - values).max() > 0.1
@@ -344,7 +344,7 @@ def test_condition_5_4():
 def test_normal_impulse_of_2_5():
     """The normal impulse is ``m(1 + d)ṙ⁻``: the momentum that the rotor loses, in N s."""
     scales = Scales(mass=50.0, clearance=0.7e-3, speed=184.2)
-    rotor = Jeffcott(PAPER.replace(scales=scales))
+    rotor = jeffcott(PAPER.replace(scales=scales))
     motion = simulate(rotor, State(0.3 + 0.1j, 0.9 - 0.2j), 20.0)
     impulses = motion.contacts.to_dataset()["normal_impulse"]
     assert impulses.units == "N s"
@@ -360,7 +360,7 @@ def test_normal_impulse_of_2_5():
 
 def test_slip_of_2_3():
     """The slip velocity is ``RΩ + c_r Θ̇`` with the angular velocity in the fixed frame: ``s + 1 + θ̇`` in the co-rotating one."""
-    motion = simulate(Jeffcott(PAPER), State(0.3 + 0.1j, 0.9 - 0.2j), 20.0)
+    motion = simulate(jeffcott(PAPER), State(0.3 + 0.1j, 0.9 - 0.2j), 20.0)
     contacts = motion.contacts
     step = 1e-7
     ends = [motion.position(contacts.time - share * step, frame="fixed") for share in (2.0, 1.0)]

@@ -4,7 +4,7 @@ import pytest
 
 import carom as cm
 from carom.closed_forms import internal_resonance, yielding_rubs
-from carom.models import KelvinVoigt, LinearRotor, Rigid, Touchdown
+from carom.models import KelvinVoigt, Rigid, Touchdown, from_matrices
 from carom.parameters.restitution import damping_ratio_of, dissipation_of, restitution_of_dissipation
 
 SPEED = 0.3
@@ -45,7 +45,7 @@ def test_synchronous_rubs_of_the_overhung_rotor():
     """``|1 − (1 − Jp)Ω² + β(1 − 1/r) + 2iζΩ| r = mεΩ²``."""
     numbers = []
     for speed in (0.9, 1.08, 1.5, 2.5, 5.0):
-        rotor = LinearRotor.in_fixed_frame(
+        rotor = from_matrices(
             mass=[[1.0]],
             damping=[[2.0 * DAMPING_RATIO / speed]],
             stiffness=[[1.0 / speed**2]],
@@ -68,7 +68,7 @@ def test_synchronous_rubs_of_the_overhung_rotor():
 def test_the_overhung_rotor_bounces_beside_levitation_near_its_internal_resonance():
     """Shaw et al. 2016: asynchronous partial contact appears at the 2:1 resonance and coexists with levitation above it."""
     speed = 5.0
-    rotor = LinearRotor.in_fixed_frame(
+    rotor = from_matrices(
         mass=[[1.0]],
         damping=[[2.0 * DAMPING_RATIO / speed]],
         gyroscopic=[[POLAR_INERTIA]],

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from machines import PAPER
 
-from carom.models import Jeffcott, axis
+from carom.models import axis, jeffcott
 from carom.models.axes import interval_around, read_interval
 from carom.outcome import InputError
 from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, Machine, Numbers, Scales
@@ -22,7 +22,7 @@ def test_physical_parameters_move_what_the_machine_moves(name):
     for factor in (0.7, 0.99):
         value = factor * getattr(MACHINE, name)
         expected = MACHINE.replace(**{name: value}).parameters
-        got = along.move(Jeffcott(MACHINE.parameters), value)
+        got = along.move(jeffcott(MACHINE.parameters), value)
         assert got.parameters.as_dict() == pytest.approx(expected.as_dict(), rel=1e-13)
         assert got.scales is not None
         assert vars(got.scales) == pytest.approx(vars(expected.scales), rel=1e-13)
@@ -34,7 +34,7 @@ def test_physical_parameters_move_what_the_machine_moves(name):
 @pytest.mark.parametrize("name", DIMENSIONLESS_FIELDS)
 def test_dimensionless_parameters_move_alone(name):
     along = axis(PAPER, name)
-    got = along.move(Jeffcott(PAPER), 0.8)
+    got = along.move(jeffcott(PAPER), 0.8)
     assert got.parameters == PAPER.replace(**{name: 0.8})
     assert along.value(got) == 0.8
 
@@ -73,7 +73,7 @@ def test_names_that_cannot_be_varied():
         with pytest.raises(InputError, match="mass, clearance and speed are not known"):
             call(PAPER, "speed")
     with pytest.raises(InputError, match="d = "):
-        axis(PAPER, "d").move(Jeffcott(PAPER), 1.2)
+        axis(PAPER, "d").move(jeffcott(PAPER), 1.2)
 
 
 def test_ranges():

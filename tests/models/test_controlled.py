@@ -8,8 +8,8 @@ from linear_rotors import tilting, touchdowns
 from scipy.linalg import expm
 
 import carom as cm
-from carom.models import LinearRotor, model_from
-from carom.models.weight import levitation_of, weighted
+from carom.models import from_matrices, model_from
+from carom.models.weight import levitation_of
 from carom.outcome import InputError
 from carom.parameters import Gravity, Scales
 
@@ -41,7 +41,7 @@ def controlled(ki=SLOW, scales=SCALES, **others):
     gyroscopic = np.zeros((n, n))
     gyroscopic[:2, :2] = GYROSCOPIC
     planes = np.hstack([ENDS, np.zeros((2, 4))])
-    return LinearRotor.in_fixed_frame(
+    return from_matrices(
         **{
             "mass": mass,
             "damping": damping,
@@ -84,7 +84,7 @@ def by_size(exponents):
 def test_flights_are_those_of_first_order_equations(levitates, heavy):
     model = controlled() if levitates else controlled().without_levitation()
     pull = Gravity().pull(SCALES) if heavy else 0.0
-    system = weighted(model, Gravity()).system if heavy else model.system
+    system = model.under_gravity(Gravity()).system if heavy else model.system
     random = np.random.default_rng(0)
     state = random.normal(size=8) + 1j * random.normal(size=8)
     # In the frame that turns: rates of coordinates without mass do not count.
@@ -107,7 +107,7 @@ def test_rates_of_coordinates_without_mass_in_a_state_are_not_used():
 
 def test_an_integrator_that_takes_long_takes_the_whole_sag_away():
     """Its mode is nearly in resonance with the weight, which stands still, but it fades: it has settled before the motion begins."""
-    rotor = weighted(controlled(), Gravity())
+    rotor = controlled().under_gravity(Gravity())
     slowest = -(rotor.system.exponents + 1j).real.max()
     assert 1e-5 < slowest < 1e-3
     position, velocity = levitation_of(rotor)
@@ -130,8 +130,8 @@ def test_without_levitation_nothing_holds_it_and_its_controller_stands_by_itself
 @pytest.mark.deep
 @pytest.mark.jit_only
 def test_it_is_dropped_and_levitates_again():
-    rotor = weighted(controlled(ki=0.01), Gravity())
-    balanced = weighted(controlled(ki=0.01, forcing=np.zeros(6)), Gravity())
+    rotor = controlled(ki=0.01).under_gravity(Gravity())
+    balanced = controlled(ki=0.01, forcing=np.zeros(6)).under_gravity(Gravity())
     motion = cm.simulate(balanced, cm.drop(), "20 ms")
     assert motion.contacts.time[0] == pytest.approx(np.sqrt(2.0 / abs(Gravity().pull(SCALES))), rel=1e-12)
     back = cm.simulate(rotor, cm.drop(regained_after="16 ms"))

@@ -13,7 +13,7 @@ from scipy.linalg import expm
 import carom as cm
 from carom.core.planar import planar_exponents
 from carom.core.wall import Wall
-from carom.models import Force, Forced, LinearRotor, second_order_system
+from carom.models import Force, from_matrices, second_order_system
 from carom.models.forcing import with_forces
 from carom.outcome import InputError, Outcome
 
@@ -65,7 +65,7 @@ def test_flights_of_the_planar_rotor(gamma, omega, forces):
 def test_flights_of_a_rotor_of_two_coordinates():
     model = tilting().model
     forces = (Force(-1j, np.array([0.01, 0.002j])), Force(0.4j, np.array([0.0, 0.1])))
-    system = Forced(model, forces).system
+    system = model.under(*forces).system
     assert system.modes == 8
     assert np.array_equal(system.exponents, model.system.exponents)
     accelerations = np.linalg.solve(model.mass, np.concatenate([model.stiffness, model.damping], axis=1))
@@ -85,14 +85,14 @@ def test_flights_of_a_rotor_of_two_coordinates():
 @pytest.mark.parametrize("pushes", [(0.02, 0.0), (0.02, 0.01j), (0.0, 0.0)])
 def test_a_free_rotor_of_two_coordinates_falls(pushes):
     """Levitation lost at both: four equal exponents, and the weight in resonance with all of them."""
-    model = LinearRotor.in_fixed_frame(
+    model = from_matrices(
         mass=np.diag([1.0, 0.4]),
         damping=np.zeros((2, 2)),
         stiffness=np.zeros((2, 2)),
         forcing=[0.01, 0.02],
         touchdowns=touchdowns([[1.0, 0.8], [1.0, -0.7]], [0.1, 0.1], [0.5, 0.5], [9.0, 9.0]),
     )
-    system = Forced(model, (Force(-1j, np.array(pushes)),)).system
+    system = model.under(Force(-1j, np.array(pushes))).system
     state = np.array([0.1, -0.05j, 0.02, 0.1j])
     rest = model.system.rest
     for time in (0.5, 3.0):
@@ -118,7 +118,7 @@ def test_at_rest_only_the_forces_move_it():
 def dropped():
     """A balanced rotor in a clearance of 0.25 mm whose levitation is lost at 18,000 rpm: nothing but its weight acts on it."""
     scales = cm.parameters.Scales(5.0, 0.25e-3, 600.0 * math.pi)
-    rotor = LinearRotor.in_fixed_frame(
+    rotor = from_matrices(
         mass=[[1.0]],
         damping=[[0.0]],
         stiffness=[[0.0]],
@@ -127,7 +127,7 @@ def dropped():
         scales=scales,
     )
     weight = 9.81 / (scales.length * scales.speed**2)
-    return Forced(rotor, (Force(-1j, np.array([-1j * weight])),))
+    return rotor.under(Force(-1j, np.array([-1j * weight])))
 
 
 def test_a_drop_from_the_centre_touches_after_the_time_of_free_fall():
@@ -166,7 +166,7 @@ def test_a_force_near_two_modes_that_nearly_coincide_is_refused():
 
 
 def test_what_needs_rest_or_repetition_is_refused():
-    shaken = Forced(tilting().model, (Force(-0.5j, np.array([0.01, 0.0])),))
+    shaken = tilting().model.under(Force(-0.5j, np.array([0.01, 0.0])))
     with pytest.raises(InputError, match="forces that change with time"):
         cm.find_equilibria(shaken)
     calls = (
@@ -179,7 +179,7 @@ def test_what_needs_rest_or_repetition_is_refused():
 
 
 def test_no_contact_changes_a_force():
-    heavy = Forced(tilting().model, (Force(-1j, np.array([-0.2j, 0.0])),))
+    heavy = tilting().model.under(Force(-1j, np.array([-0.2j, 0.0])))
     motion = cm.simulate(heavy, cm.State(np.array([0.1, 0.0]), np.array([1.0, 0.5j])), 200.0)
     assert motion.is_impact.sum() > 100
     course = heavy.system.forced[:, None] * np.exp(np.outer(heavy.system.arrays.exponents, motion.segment_starts))
@@ -191,7 +191,7 @@ def test_no_contact_changes_a_force():
 @pytest.mark.parametrize("damping", [0.0, 1e-18])
 def test_unbalance_in_undamped_resonance_drives_the_mode(damping):
     """``z̈ + z = ρe^{it}`` grows without bound, as the matrix exponential says."""
-    rotor = LinearRotor.in_fixed_frame(
+    rotor = from_matrices(
         mass=[[1.0]],
         damping=[[damping]],
         stiffness=[[1.0]],
@@ -232,7 +232,7 @@ NO_SPRINGS = {"damping": np.zeros((2, 2)), "stiffness": np.zeros((2, 2))}
 )
 def test_impacts_of_a_heavy_rotor_against_a_general_solver(rotor):
     heavy = Heavy(**vars(rotor))
-    model = Forced(rotor.model, (Force(-1j, -0.06j * rotor.translation),))
+    model = rotor.model.under(Force(-1j, -0.06j * rotor.translation))
     random, impacts, n = np.random.default_rng(0), 0, len(rotor.mass)
     for _ in range(2):
         position, velocity = random.normal(size=(2, n)) + 1j * random.normal(size=(2, n))
@@ -257,15 +257,15 @@ def test_impacts_of_a_heavy_rotor_against_a_general_solver(rotor):
 @pytest.mark.parametrize("stiffness", [0.0, 0.76**2])
 def test_forces_of_one_exponent_add_up(rate, stiffness):
     """In resonance with a mode too: both drive it."""
-    rotor = LinearRotor.in_fixed_frame(
+    rotor = from_matrices(
         mass=[[1.0]],
         damping=[[0.0]],
         stiffness=[[stiffness]],
         forcing=[0.1],
         touchdowns=touchdowns([[1.0]], [0.1], [0.5], [9.0]),
     )
-    halves = Forced(rotor, (Force(rate, np.array([0.01])), Force(rate, np.array([0.02j])))).system
-    whole = Forced(rotor, (Force(rate, np.array([0.01 + 0.02j])),)).system
+    halves = rotor.under(Force(rate, np.array([0.01])), Force(rate, np.array([0.02j]))).system
+    whole = rotor.under(Force(rate, np.array([0.01 + 0.02j]))).system
     for time in (0.0, 3.0):
         first, second = (each.state(each.fly(each.amplitudes(0.1, 0.2j), time)) for each in (halves, whole))
         assert np.allclose(first, second, rtol=0, atol=1e-14)

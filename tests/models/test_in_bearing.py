@@ -9,22 +9,22 @@ import pytest
 from machines import PAPER
 
 import carom as cm
-from carom.models import InBearing, Jeffcott, model_from
+from carom.models import jeffcott, model_from
 from carom.outcome import InputError
 from carom.parameters import Scales, TouchdownBearing
 
 SCALES = Scales(50.0, 0.7e-3, 184.2)
-ROTOR = Jeffcott(dataclasses.replace(PAPER, scales=SCALES))
+ROTOR = jeffcott(dataclasses.replace(PAPER, scales=SCALES))
 STIFFNESS = 1e4 * SCALES.stiffness
 
 
 def of(**entries):
-    return InBearing(ROTOR, TouchdownBearing(**entries))
+    return jeffcott(ROTOR.parameters, TouchdownBearing(**entries))
 
 
 def restituted(model, speed):
     """Speed after an impact along the normal of a rotor that floats without any other force, over that before it."""
-    alone = InBearing(model.rotor.replace(rho=0.0, mu=0.0), model.bearing, levitates=False)
+    alone = jeffcott(model.parameters.replace(rho=0.0, mu=0.0), model.bearing_at(0), levitates=False)
     # In the turning frame a free rotor has the speed of a straight path in the fixed one.
     motion = cm.simulate(alone, cm.State(0.5, speed - 0.5j), 2.0 / speed)
     hits = motion.segment_starts[1:][(motion.segment_phases[1:, 0] != 0) & (motion.segment_phases[:-1, 0] == 0)]
@@ -55,7 +55,7 @@ def test_restitution_is_that_of_the_file_to_nine_digits(restitution):
 def test_the_law_stays_what_it_is_in_si_units():
     model = of(law="hunt-crossley", stiffness=1e9, dissipation=0.4, exponent=1.5, race_inertia=2e-4, race_drag=1e-4)
     for other in (model, model.replace(gamma=0.2)):
-        touchdown = other.linear.touchdowns[0]
+        touchdown = other.touchdowns[0]
         assert touchdown.law.stiffness * SCALES.force / SCALES.length**1.5 == pytest.approx(1e9, rel=1e-14)
         assert touchdown.law.dissipation / SCALES.velocity == pytest.approx(0.4, rel=1e-14)
         assert touchdown.race.inertia * SCALES.mass * SCALES.length**2 == pytest.approx(2e-4, rel=1e-14)
@@ -81,8 +81,8 @@ def test_parameters_by_name():
     assert not {"d", "restitution", "touchdown_damping"} & set(model.varied)
     assert model.value("touchdown_stiffness") == STIFFNESS
     changed = model.replace(touchdown_stiffness=2.0 * STIFFNESS, mu=0.3)
-    assert changed.bearing.stiffness == 2.0 * STIFFNESS
-    assert changed.linear.touchdowns[0].friction == 0.3
+    assert changed.bearing_at(0).stiffness == 2.0 * STIFFNESS
+    assert changed.touchdowns[0].friction == 0.3
     with pytest.raises(InputError, match=r"d = 0\.9"):
         model.replace(d=0.9)
     with pytest.raises(InputError, match="d = nothing given"):
@@ -114,9 +114,9 @@ def test_what_needs_a_rigid_wall_says_so():
     with pytest.raises(InputError, match=r"touchdown = kelvin-voigt.*known for these alone"):
         cm.find_orbits(model)
     with pytest.raises(InputError, match="bearing = rigid"):
-        InBearing(ROTOR, TouchdownBearing())
+        jeffcott(ROTOR.parameters, TouchdownBearing())
     with pytest.raises(InputError, match="rotor = "):
-        InBearing(Jeffcott(PAPER), TouchdownBearing("kelvin-voigt", 1e8, 500.0))
+        jeffcott(jeffcott(PAPER).parameters, TouchdownBearing("kelvin-voigt", 1e8, 500.0))
 
 
 def test_a_bearing_off_centre_is_met_where_the_levitating_rotor_is_a_clearance_from_its_centre():
@@ -134,7 +134,7 @@ def test_a_bearing_off_centre_is_met_where_the_levitating_rotor_is_a_clearance_f
     np.testing.assert_allclose(motion.position(times), path - centre * np.exp(-1j * times), atol=1e-12)
     assert abs(path[-1] - centre * np.exp(-1j * times[-1])) == pytest.approx(1.0, abs=1e-12)
     assert model.system.rest_radius == pytest.approx(alone.system.rest_radius + 0.3, rel=1e-12)
-    fallen = dataclasses.replace(model, levitates=False)
+    fallen = model.without_levitation()
     assert fallen.system.forced is None
 
 

@@ -6,18 +6,18 @@ import numpy as np
 import pytest
 from machines import PAPER
 
-from carom.models import Jeffcott
+from carom.models import jeffcott
 from carom.outcome import InputError
 from carom.parameters import Machine, Scales
 
 
 def test_rotors_of_the_same_parameters_are_one():
-    assert Jeffcott(PAPER) == Jeffcott(PAPER.replace())
-    assert len({Jeffcott(PAPER), Jeffcott(PAPER.replace()), Jeffcott(PAPER.replace(gamma=0.2))}) == 2
+    assert jeffcott(PAPER) == jeffcott(PAPER.replace())
+    assert len({jeffcott(PAPER), jeffcott(PAPER.replace()), jeffcott(PAPER.replace(gamma=0.2))}) == 2
 
 
 def test_replacing_a_parameter_replaces_all_that_follows_from_it():
-    rotor = Jeffcott(PAPER)
+    rotor = jeffcott(PAPER)
     other = rotor.replace(gamma=0.3)
     assert other.parameters == PAPER.replace(gamma=0.3)
     assert other.system.exponents.real == pytest.approx([-0.15, -0.15])
@@ -27,7 +27,7 @@ def test_replacing_a_parameter_replaces_all_that_follows_from_it():
 
 
 def test_equilibrium_solves_the_equation():
-    equilibrium = Jeffcott(PAPER).equilibrium
+    equilibrium = jeffcott(PAPER).equilibrium
     force = PAPER.rho * np.exp(1j * PAPER.phi)
     assert complex(PAPER.omega**2 - 1.0, PAPER.gamma) * equilibrium == pytest.approx(force, abs=1e-15)
 
@@ -35,10 +35,10 @@ def test_equilibrium_solves_the_equation():
 def test_a_machine_is_not_taken_for_its_parameters():
     machine = Machine.from_parameters(PAPER, Scales(50.0, 0.7e-3, 184.2))
     with pytest.raises(InputError, match=r"parameters = .*must be carom\.parameters\.Parameters"):
-        Jeffcott(machine)
+        jeffcott(machine)
 
 
 def test_scales_are_those_of_the_parameters():
     scales = Scales(50.0, 0.7e-3, 184.2)
-    assert Jeffcott(PAPER.replace(scales=scales)).scales == scales
-    assert Jeffcott(PAPER).scales is None
+    assert jeffcott(PAPER.replace(scales=scales)).scales == scales
+    assert jeffcott(PAPER).scales is None

@@ -7,7 +7,7 @@ import pytest
 from linear_rotors import bending, touchdowns
 from machines import PAPER
 
-from carom.models import Jeffcott, LinearRotor, axis
+from carom.models import Rotor, axis, from_matrices, jeffcott
 from carom.outcome import InputError
 from carom.parameters import Scales
 
@@ -20,8 +20,8 @@ FORCING = np.array([0.4 + 0.1j, 0.05])
 TRANSLATION = np.array([1.0, 0.25])
 
 
-def planar(parameters) -> LinearRotor:
-    return LinearRotor.in_fixed_frame(
+def planar(parameters) -> Rotor:
+    return from_matrices(
         mass=[[1.0]],
         damping=[[parameters.gamma]],
         stiffness=[[parameters.omega**2]],
@@ -31,14 +31,14 @@ def planar(parameters) -> LinearRotor:
     )
 
 
-def rotor(**changes) -> LinearRotor:
+def rotor(**changes) -> Rotor:
     """A rotor with two coordinates and two planes."""
     given = {"mass": MASS, "damping": DAMPING, "stiffness": STIFFNESS, "gyroscopic": GYROSCOPIC, "forcing": FORCING}
     given |= {"touchdowns": touchdowns([[1.0, 0.5], [1.0, -0.4]], [0.1, 0.2], [0.9, 0.9], [30, 40])}
-    return LinearRotor.in_fixed_frame(**(given | {"translation": TRANSLATION, "scales": SCALES} | changes))
+    return from_matrices(**(given | {"translation": TRANSLATION, "scales": SCALES} | changes))
 
 
-def assert_alike(got: LinearRotor, expected: LinearRotor) -> None:
+def assert_alike(got: Rotor, expected: Rotor) -> None:
     assert got.touchdowns == expected.touchdowns
     for name in ("mass", "damping", "stiffness", "forcing"):
         np.testing.assert_allclose(getattr(got, name), getattr(expected, name), rtol=1e-14, atol=1e-15, err_msg=name)
@@ -49,9 +49,9 @@ def whole(matrix: np.ndarray) -> float:
     return float((TRANSLATION @ matrix @ TRANSLATION).real)
 
 
-@pytest.mark.parametrize("name", Jeffcott(PAPER.replace(scales=SCALES)).varied)
+@pytest.mark.parametrize("name", jeffcott(PAPER.replace(scales=SCALES)).varied)
 def test_one_coordinate_has_the_parameters_of_the_planar_rotor(name):
-    machine = Jeffcott(PAPER.replace(scales=SCALES))
+    machine = jeffcott(PAPER.replace(scales=SCALES))
     linear = planar(machine.parameters)
     if name not in linear.varied:
         assert name in ("mass", "damping", "stiffness", "eccentricity", "clearance", "rotor_radius")
@@ -145,7 +145,7 @@ def test_modes_change_with_the_speed():
 
 @pytest.mark.parametrize("name", [*planar(PAPER.replace(scales=SCALES)).varied])
 def test_rates_of_one_coordinate_are_those_of_the_planar_rotor(name):
-    machine = Jeffcott(PAPER.replace(scales=SCALES))
+    machine = jeffcott(PAPER.replace(scales=SCALES))
     found, expected = planar(machine.parameters).rates(name), machine.rates(name)
     assert found is not None
     for got, want in zip(found, expected, strict=True):

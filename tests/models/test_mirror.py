@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import dataclasses
+
 import numpy as np
 import pytest
 from limited_reference import clipped, follow, struck
@@ -10,8 +12,16 @@ from scipy.linalg import expm
 import carom as cm
 from carom.closed_forms import harmless_kick
 from carom.closed_forms.sag import levitation
-from carom.models import Force, Forced, KelvinVoigt, LinearRotor, Rigid, Touchdown, model_from
-from carom.models.limited import Limit, Limited
+from carom.models import (
+    Force,
+    KelvinVoigt,
+    Limit,
+    Rigid,
+    Touchdown,
+    from_corotating_matrices,
+    from_matrices,
+    model_from,
+)
 from carom.motions import State, energy_ledger
 from carom.outcome import InputError, Outcome, Phase
 
@@ -36,13 +46,11 @@ SOFT = KelvinVoigt(stiffness=200.0, damping=0.5)
 def rotor_of(law=SOFT, friction=0.15, surface_speed=8.0, conjugate=ACROSS, **changes):
     given = {"mass": MASS, "damping": DAMPING, "stiffness": STIFFNESS, "gyroscopic": GYROSCOPIC, "forcing": UNBALANCE}
     planes = [Touchdown(ROW, law, friction, surface_speed)]
-    return LinearRotor.in_fixed_frame(
-        **{**given, **changes}, touchdowns=planes, translation=[1.0, 0.0], conjugate=conjugate
-    )
+    return from_matrices(**{**given, **changes}, touchdowns=planes, translation=[1.0, 0.0], conjugate=conjugate)
 
 
 def heavy(rotor):
-    return Forced(rotor, (Force(-1j, np.array([WEIGHT, 0.0])),))
+    return rotor.under(Force(-1j, np.array([WEIGHT, 0.0])))
 
 
 def fixed(state, time):
@@ -177,7 +185,7 @@ def test_limits_of_controllers_act_in_both_directions():
     bound, angle = 0.2, 0.4
     limit = Limit(bound, 0.5 * np.array([1.0, 0.1]), 0.1 * np.array([1.0, 0.1]), np.array([1.0, 0.0]), angle=angle)
     start = State(START.position, 0.2 * START.velocity)
-    motion = cm.simulate(heavy(Limited(rotor_of(), (limit,))), start, 5.0)
+    motion = cm.simulate(heavy(dataclasses.replace(rotor_of(), limits=(limit,))), start, 5.0)
     free = rates(lambda place, speed: 0.0)
 
     def limited(time, state):
@@ -229,7 +237,7 @@ def test_a_model_comes_back_from_its_attributes():
 
 def test_such_bearings_stay_when_levitation_is_lost():
     rotor = rotor_of(conjugate=ACROSS)
-    rotor = LinearRotor(
+    rotor = from_corotating_matrices(
         **{name: getattr(rotor, name) for name in ("mass", "damping", "stiffness", "forcing", "touchdowns")},
         translation=rotor.translation,
         unlevitated=np.stack([DAMPING, 0.5 * STIFFNESS]),
@@ -261,7 +269,7 @@ def test_no_kick_is_known_to_be_harmless():
 
 def test_the_speed_of_its_shaft_does_not_change():
     with pytest.raises(InputError, match="its speed stays as it is"):
-        LinearRotor(
+        from_corotating_matrices(
             MASS,
             DAMPING,
             STIFFNESS,

@@ -5,14 +5,14 @@ import pytest
 from linear_rotors import tilting
 from machines import PAPER
 
-from carom.models import Force, Forced, Jeffcott
+from carom.models import Force, Rotor, jeffcott
 
 ROTORS = {
-    "planar": Jeffcott(PAPER),
-    "heavy": Forced(Jeffcott(PAPER), (Force(-1j, np.array([0.1 - 0.2j])),)),
-    "of two coordinates": Forced(tilting().model, (Force(-1j, np.array([0.3, 0.1j])),)),
-    "pulled twice": Forced(
-        Forced(tilting().model, (Force(-1j, np.array([0.3, 0.1j])),)), (Force(-1j, np.array([0.0, 0.2])),)
+    "planar": jeffcott(PAPER),
+    "heavy": jeffcott(PAPER).under(Force(-1j, np.array([0.1 - 0.2j]))),
+    "of two coordinates": tilting().model.under(Force(-1j, np.array([0.3, 0.1j]))),
+    "pulled twice": Rotor(tilting().model, (Force(-1j, np.array([0.3, 0.1j])),)).under(
+        Force(-1j, np.array([0.0, 0.2]))
     ),
 }
 

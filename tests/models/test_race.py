@@ -7,7 +7,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import carom as cm
-from carom.models import HuntCrossley, KelvinVoigt, LinearRotor, Race, Rigid, Touchdown, model_from
+from carom.models import HuntCrossley, KelvinVoigt, Race, Rigid, Touchdown, from_matrices, model_from
 
 GAMMA, OMEGA, PUSH = 0.1, 0.76, 3.0 / 7.0 * np.exp(0.21j)
 START = cm.State(0.2 + 0.1j, 1.0)
@@ -15,7 +15,7 @@ SOFT = KelvinVoigt(1e3, 3.3)
 
 
 def rotor_with(law, race, friction=0.15, surface_speed=57.14):
-    return LinearRotor.in_fixed_frame(
+    return from_matrices(
         mass=[[1.0]],
         damping=[[GAMMA]],
         stiffness=[[OMEGA**2]],
@@ -177,7 +177,7 @@ def test_what_cannot_turn_is_refused():
 def test_impacts_on_a_rigid_wall_keep_the_momentum_of_rotor_and_race(restitution):
     """Friction turns both about the bearing: the rotor at the radius one, the race at its own; the shaft is held at its speed."""
     race = Race(2.0, 1.5)
-    rotor = LinearRotor.in_fixed_frame(
+    rotor = from_matrices(
         mass=[[1.0]],
         damping=[[0.0]],
         stiffness=[[OMEGA**2]],

@@ -2,25 +2,12 @@
 
 from __future__ import annotations
 
-import dataclasses
-
 import numpy as np
 import pytest
 from turning_reference import SLIDES, Turning
 
 import carom as cm
-from carom.models import (
-    Force,
-    Forced,
-    HuntCrossley,
-    KelvinVoigt,
-    LinearRotor,
-    Race,
-    Rigid,
-    Shaft,
-    Touchdown,
-    model_from,
-)
+from carom.models import Force, HuntCrossley, KelvinVoigt, Race, Rigid, Shaft, Touchdown, from_matrices, model_from
 
 START = cm.State(0.2 + 0.1j, 1.0)
 SOFT = KelvinVoigt(1e3, 3.3)
@@ -30,13 +17,13 @@ def single(law, shaft, friction=0.15, surface_speed=57.14, race=None, **changes)
     """The planar rotor."""
     numbers = {"mass": [[1.0]], "damping": [[0.1]], "stiffness": [[0.76**2]], "forcing": [3.0 / 7.0 * np.exp(0.21j)]}
     touchdowns = [Touchdown([1.0], law, friction, surface_speed, race)]
-    return LinearRotor.in_fixed_frame(**(numbers | changes), touchdowns=touchdowns, shaft=shaft)
+    return from_matrices(**(numbers | changes), touchdowns=touchdowns, shaft=shaft)
 
 
 def double(laws, shaft, friction=(0.2, 0.3), surface_speed=(3.0, 2.0), races=(None, None)):
     """A rotor with two coordinates and two planes."""
     each = zip([[1.0, 0.8], [1.0, -0.7]], laws, friction, surface_speed, races, strict=True)
-    return LinearRotor.in_fixed_frame(
+    return from_matrices(
         mass=[[1.0, 0.05], [0.05, 0.3]],
         damping=[[0.1, 0.01], [0.01, 0.04]],
         stiffness=[[0.6, 0.02], [0.02, 0.2]],
@@ -193,7 +180,7 @@ def test_a_heavy_rotor_stops_when_friction_has_taken_its_momentum():
         stiffness=[[0.0]],
         forcing=[0.0],
     )
-    rotor = Forced(bare, (Force(-1j, np.array([-1j * weight])),))
+    rotor = bare.under(Force(-1j, np.array([-1j * weight])))
     normal = weight / np.hypot(1.0, friction)
     place = (1.0 + normal / stiffness) * np.exp(-1j * (0.5 * np.pi + np.arctan(friction)))
     stop = inertia / (friction * normal * radius)
@@ -211,7 +198,7 @@ def test_a_heavy_rotor_stops_when_friction_has_taken_its_momentum():
 def test_a_drop_against_a_general_integrator():
     """An unbalanced rotor falls, strikes the bearing and climbs along it, while friction brakes the shaft."""
     bare = single(KelvinVoigt(2e3, 20.0), Shaft(6.0, 0.01), 0.3, 5.0, damping=[[0.0]], stiffness=[[0.0]], forcing=[0.1])
-    motion = cm.simulate(Forced(bare, (Force(-1j, np.array([-0.02j])),)), cm.State(0.1, -0.05j), 26.0)
+    motion = cm.simulate(bare.under(Force(-1j, np.array([-0.02j]))), cm.State(0.1, -0.05j), 26.0)
     reference = Turning(bare, weight=-0.02j)
     y = reference.follow(reference.start(0.1, -0.05j), 26.0)
     assert reference.contacts == 2
@@ -221,8 +208,8 @@ def test_a_drop_against_a_general_integrator():
 
 def test_levitation_is_lost_with_the_shaft_that_the_rotor_has():
     held = single(SOFT, Shaft(6.0, 0.01))
-    falling = Forced(held, (Force(-1j, np.array([-0.02j])),)).without_levitation()
-    assert falling.rotor.shaft == held.shaft
+    falling = held.under(Force(-1j, np.array([-0.02j]))).without_levitation()
+    assert falling.shaft == held.shaft
     assert falling.system.shaft is not None
 
 
@@ -279,7 +266,7 @@ def test_a_rotor_with_a_shaft_is_written_and_read(tmp_path):
 def test_another_nominal_speed_is_another_unit_of_the_torque():
     assert Shaft(2.0, 0.4).at_speed(2.0) == Shaft(2.0, 0.1)
     scales = cm.parameters.Scales(mass=1.0, clearance=1e-3, speed=100.0)
-    rotor = dataclasses.replace(single(SOFT, Shaft(2.0, 0.4)), scales=scales)
+    rotor = single(SOFT, Shaft(2.0, 0.4)).replace(scales=scales)
     assert rotor.replace(speed=200.0).shaft == Shaft(2.0, 0.1)
 
 
@@ -302,7 +289,7 @@ def test_what_cannot_be_is_refused():
 
 def test_tables_of_a_soft_touch_have_the_slip_of_the_present_speed():
     """Friction brakes the shaft by its torque: the power of the drive is that of ``−sσF``."""
-    rotor = LinearRotor.in_fixed_frame(
+    rotor = from_matrices(
         mass=[[1.0]],
         damping=[[0.1]],
         stiffness=[[0.6]],

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from machines import PAPER
 
-from carom.models import Jeffcott, case_of, model_of, planar_case_of
+from carom.models import case_of, jeffcott, model_of, planar_case_of
 from carom.outcome import InputError
 from carom.parameters import Case, Machine, Scales, Zones
 
@@ -13,14 +13,14 @@ MACHINE = Machine.from_parameters(PAPER, Scales(50.0, 0.7e-3, 184.2))
 
 
 def test_whatever_describes_a_rotor_is_taken():
-    rotor = Jeffcott(PAPER)
+    rotor = jeffcott(PAPER)
     assert model_of(rotor) is rotor
     assert model_of(PAPER) == rotor
     assert model_of(Case("machine", PAPER, None, Zones())) == rotor
-    assert model_of(MACHINE) == Jeffcott(MACHINE.parameters)
+    assert model_of(MACHINE) == jeffcott(MACHINE.parameters)
 
 
-@pytest.mark.parametrize("subject", [None, "machine.toml", 3, Jeffcott(PAPER).system, {"gamma": 0.1}])
+@pytest.mark.parametrize("subject", [None, "machine.toml", 3, jeffcott(PAPER).system, {"gamma": 0.1}])
 def test_anything_else_is_refused(subject):
     with pytest.raises(InputError, match=r"machine = .*: a Machine, a Case .*, Parameters or a model"):
         model_of(subject)
@@ -30,7 +30,7 @@ def test_a_case_keeps_the_machine_it_was_made_from():
     case = Case("mine", PAPER, None, Zones((0.1, 0.2, 0.3)))
     assert case_of(case) is case
     assert case_of(MACHINE) == Case("machine", MACHINE.parameters, MACHINE, Zones())
-    assert case_of(Jeffcott(PAPER)) == case_of(PAPER) == Case("machine", PAPER, None, Zones())
+    assert case_of(jeffcott(PAPER)) == case_of(PAPER) == Case("machine", PAPER, None, Zones())
     with pytest.raises(InputError, match="machine = "):
         case_of("machine.toml")
 

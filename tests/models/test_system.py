@@ -9,7 +9,7 @@ from scipy.linalg import expm
 
 from carom.core.layout import rotor_record
 from carom.core.wall import Wall
-from carom.models import Jeffcott, System, second_order_system
+from carom.models import System, jeffcott, second_order_system
 
 
 def modal(random, count):
@@ -89,7 +89,7 @@ def test_amplitudes_of_the_planar_rotor_are_those_of_its_equation():
     """``b = U̇ − λ₊(U − U*)`` and ``a = U − U*``, to the last bit: other numbers would follow other bounces."""
     random = np.random.default_rng(5)
     for _ in range(200):
-        rotor = Jeffcott(random_parameters(random))
+        rotor = jeffcott(random_parameters(random))
         position, velocity = (complex(*random.normal(size=2)) for _ in range(2))
         change = position - rotor.equilibrium
         expected = [velocity - complex(rotor.system.exponents[1]) * change, change]
@@ -97,15 +97,15 @@ def test_amplitudes_of_the_planar_rotor_are_those_of_its_equation():
 
 
 def test_what_follows_from_the_arrays_is_made_once():
-    rotor = Jeffcott(PAPER)
+    rotor = jeffcott(PAPER)
     assert rotor.system is rotor.system
     assert rotor.system.table is rotor.system.table
     assert rotor.system.generator is rotor.system.generator
 
 
 def test_contacts_are_the_fields_of_the_record():
-    arrays = Jeffcott(PAPER).system.arrays
-    (contact,) = Jeffcott(PAPER).system.contacts
+    arrays = jeffcott(PAPER).system.arrays
+    (contact,) = jeffcott(PAPER).system.contacts
     names = {"offset": "offsets", "row": "rows", "rate_row": "rate_rows"}
     for name, value in {**contact._asdict(), **contact.wall._asdict()}.items():
         if name == "wall":
@@ -115,6 +115,6 @@ def test_contacts_are_the_fields_of_the_record():
 
 
 def test_tables_are_shared_by_rotors_with_the_same_modes_only():
-    table = Jeffcott(PAPER).system.table
-    assert Jeffcott(PAPER.replace(rho=0.1, mu=0.3, d=0.5, phi=1.0)).system.table is table
-    assert Jeffcott(PAPER.replace(gamma=np.nextafter(PAPER.gamma, 1.0))).system.table is not table
+    table = jeffcott(PAPER).system.table
+    assert jeffcott(PAPER.replace(rho=0.1, mu=0.3, d=0.5, phi=1.0)).system.table is table
+    assert jeffcott(PAPER.replace(gamma=np.nextafter(PAPER.gamma, 1.0))).system.table is not table

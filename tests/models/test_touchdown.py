@@ -12,11 +12,12 @@ from carom.disturbances import KickPlane
 from carom.models import (
     FallingRestitution,
     HuntCrossley,
-    Jeffcott,
     KelvinVoigt,
-    LinearRotor,
     Rigid,
+    Rotor,
     Touchdown,
+    from_matrices,
+    jeffcott,
     model_from,
 )
 from carom.motions.starts import State
@@ -27,9 +28,9 @@ PAPER = Parameters(gamma=0.1, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, 
 START = State(0.2 + 0.1j, 1.2 - 0.3j)
 
 
-def paper(law) -> LinearRotor:
+def paper(law) -> Rotor:
     """The paper's rotor by its matrices, with a wall of another law."""
-    return LinearRotor.in_fixed_frame(
+    return from_matrices(
         mass=[[1.0]],
         damping=[[PAPER.gamma]],
         stiffness=[[PAPER.omega**2]],
@@ -52,7 +53,7 @@ def test_a_wall_that_hardly_yields_is_rigid():
     almost, rigid = (cm.simulate(paper(law), START, 20.0) for law in (FallingRestitution(0.95, 1e12), Rigid(0.95)))
     np.testing.assert_allclose(almost.contacts.time, rigid.contacts.time, rtol=1e-8)
     assert not paper(FallingRestitution(0.95, 1e12)).system.is_planar
-    by_matrices, planar = paper(Rigid(0.95)).system.arrays, Jeffcott(PAPER).system.arrays
+    by_matrices, planar = paper(Rigid(0.95)).system.arrays, jeffcott(PAPER).system.arrays
     for name in ("friction", "restitution", "surface_speed", "law", "law_number"):
         assert np.array_equal(by_matrices[name], planar[name])
 
@@ -108,9 +109,9 @@ SPRING, BALLS = KelvinVoigt(3e4, 7.0), HuntCrossley(5e4, 0.3, 1.5)
 IN_SI = Scales(mass=3.0, clearance=0.2e-3, speed=400.0)
 
 
-def with_two_walls(first, second, scales=None) -> LinearRotor:
+def with_two_walls(first, second, scales=None) -> Rotor:
     """A rotor that tilts, with a wall at each end."""
-    return LinearRotor.in_fixed_frame(
+    return from_matrices(
         mass=[[1.0, 0.0], [0.0, 0.4]],
         damping=[[0.1, 0.0], [0.0, 0.05]],
         stiffness=[[0.6, 0.05], [0.05, 0.3]],
@@ -166,7 +167,7 @@ def test_values_that_differ_between_walls_are_no_one_value():
 @pytest.mark.parametrize("law", [SPRING, BALLS], ids=str)
 def test_the_same_wall_at_another_speed_gives_the_same_motion_in_si(law):
     """Without unbalance, which grows with the speed, and in a fixed frame: nothing else then depends on the speed."""
-    rotor = dataclasses.replace(paper(law), forcing=np.zeros(1), scales=IN_SI)
+    rotor = paper(law).replace(forcing=np.zeros(1), scales=IN_SI)
     factor = 1.7
     faster = rotor.replace(speed=IN_SI.speed * factor)
     # The surface is the shaft's: without friction its speed does not matter.

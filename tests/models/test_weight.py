@@ -8,8 +8,8 @@ from linear_rotors import single, tilting
 from machines import PAPER
 
 import carom as cm
-from carom.models import Force, Forced, Jeffcott, LinearRotor, Stage, Staged, jeffcott_of, model_of
-from carom.models.weight import levitation_of, weighted
+from carom.models import Force, Stage, Staged, exact_rotor_of, jeffcott, model_of
+from carom.models.weight import levitation_of
 from carom.outcome import InputError
 from carom.parameters import Gravity, Parameters, Scales
 
@@ -19,16 +19,16 @@ PULL = 9.81 / (0.25e-3 * (300.0 * math.pi) ** 2)
 
 
 def test_the_model_of_a_heavy_case_has_its_weight():
-    assert isinstance(ROTOR, Forced)
-    assert ROTOR.rotor == Jeffcott(HEAVY.parameters)
+    assert len(ROTOR.forces) == 1
+    assert ROTOR.unforced == jeffcott(HEAVY.parameters)
     assert ROTOR.weight == pytest.approx(-1j * PULL)
     assert Staged((Stage(ROTOR),)).weight == pytest.approx(-1j * PULL)
-    assert model_of(HEAVY.replace(gravity=0)) == Jeffcott(HEAVY.parameters)
+    assert model_of(HEAVY.replace(gravity=0)) == jeffcott(HEAVY.parameters)
 
 
 def test_no_other_force_is_weight():
-    assert Jeffcott(PAPER).weight is None
-    assert Forced(Jeffcott(PAPER), (Force(0.3j, np.array([0.1])),)).weight is None
+    assert jeffcott(PAPER).weight is None
+    assert jeffcott(PAPER).under(Force(0.3j, np.array([0.1]))).weight is None
 
 
 @pytest.mark.parametrize("changes", [{"speed": "6000 rpm"}, {"clearance": "0.4 mm"}, {"mass": "9 kg"}, {"gamma": 0.2}])
@@ -49,13 +49,13 @@ def test_gravity_is_a_named_parameter():
     with pytest.raises(InputError, match=r"^gravity = 0"):
         ROTOR.replace(gravity=0.0)
     # Of what pulls otherwise nobody knows an acceleration of free fall.
-    shaken = Forced(ROTOR.rotor, (Force(0.5j, np.array([0.1])),))
+    shaken = ROTOR.unforced.under(Force(0.5j, np.array([0.1])))
     assert "gravity" not in shaken.varied
-    assert "gravity" not in Forced(Jeffcott(PAPER), (Force(-1j, np.array([0.1])),)).varied
+    assert "gravity" not in jeffcott(PAPER).under(Force(-1j, np.array([0.1]))).varied
 
 
 def test_a_shaken_housing_keeps_its_frequency_when_the_shaft_turns_faster():
-    shaken = Forced(ROTOR.rotor, (Force(0.5j, np.array([0.1])),)).replace(speed=1.25 * HEAVY.machine.speed)
+    shaken = ROTOR.unforced.under(Force(0.5j, np.array([0.1]))).replace(speed=1.25 * HEAVY.machine.speed)
     assert shaken.forces[0].exponent == pytest.approx(1j * (1.5 / 1.25 - 1.0))
     assert shaken.forces[0].accelerations == pytest.approx(0.1 / 1.25**2)
 
@@ -63,15 +63,15 @@ def test_a_shaken_housing_keeps_its_frequency_when_the_shaft_turns_faster():
 def test_all_masses_fall_alike():
     scales = Scales(5.0, 0.25e-3, 1000.0)
     rotor = tilting().model.replace(scales=scales)
-    assert weighted(rotor, Gravity()).weight == pytest.approx(Gravity().pull(scales) * rotor.system.translated)
+    assert rotor.under_gravity(Gravity()).weight == pytest.approx(Gravity().pull(scales) * rotor.system.translated)
     with pytest.raises(InputError, match=r"^gravity = 9.81 m/s² at -90°: a rotor with mass, clearance and speed"):
-        weighted(tilting().model, Gravity())
+        tilting().model.under_gravity(Gravity())
 
 
 def test_levitation_is_a_circle_about_the_static_sag():
     position, velocity = levitation_of(ROTOR)
     sag = 5.0 * 9.81 / 5e5 / 0.25e-3
-    whirl = ROTOR.rotor.equilibrium
+    whirl = ROTOR.unforced.equilibrium
     # Damping does not act on what stands still in the fixed frame.
     assert position[0] == pytest.approx(whirl - 1j * sag, abs=1e-14)
     assert velocity[0] + 1j * position[0] == pytest.approx(1j * whirl, abs=1e-14)
@@ -84,10 +84,9 @@ def test_a_rotor_that_sags_to_the_wall_does_not_levitate():
         levitation_of(ROTOR.without_levitation())
 
 
-@pytest.mark.parametrize("rotor", [ROTOR.rotor, single(1).model], ids=["by parameters", "by matrices"])
+@pytest.mark.parametrize("rotor", [ROTOR.unforced, single(1).model], ids=["by parameters", "by matrices"])
 def test_without_levitation_no_spring_and_no_damper_acts(rotor):
     free = rotor.without_levitation()
-    assert isinstance(free, LinearRotor)
     assert not free.matrices.stiffness.any()
     assert not free.matrices.damping.any()
     for name in ("mass", "gyroscopic", "forcing"):
@@ -112,7 +111,7 @@ def test_levitation_and_shaft_of_a_rotor_of_several_coordinates_are_not_told_apa
         lambda machine: cm.find_bifurcations(machine, "gamma", (0.1, 0.2), lasting=True),
         lambda machine: cm.map_regions(machine, cm.bifurcations.Plane("gamma", "omega", (0.1, 0.2), (0.3, 0.4))),
         cm.models.case_of,
-        jeffcott_of,
+        exact_rotor_of,
         lambda machine: model_of(machine).refuse_forces(),
     ],
 )
@@ -124,7 +123,7 @@ def test_what_needs_a_rotor_at_rest_in_its_frame_names_gravity_and_what_works(as
 
 
 def test_other_forces_are_not_called_gravity():
-    shaken = Forced(Jeffcott(PAPER), (Force(0.3j, np.array([0.1])),))
+    shaken = jeffcott(PAPER).under(Force(0.3j, np.array([0.1])))
     with pytest.raises(InputError, match=r"^machine = a rotor under forces that change with time: "):
         shaken.refuse_forces()
     assert Parameters(**vars(PAPER)) == shaken.planar

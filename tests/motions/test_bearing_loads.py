@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 import math
 import tracemalloc
 
@@ -182,7 +181,7 @@ def test_several_planes_have_loads_of_their_own():
 def test_what_the_drive_would_do_in_flight_is_told():
     """A rotor that falls through the clearance and rests there: the torque acts from the first contact on."""
     shaft = cm.models.Shaft(50.0, 3.0)
-    bare = cm.models.LinearRotor.in_fixed_frame(
+    bare = cm.models.from_matrices(
         mass=[[1.0]],
         damping=[[0.0]],
         stiffness=[[0.0]],
@@ -190,7 +189,7 @@ def test_what_the_drive_would_do_in_flight_is_told():
         touchdowns=[cm.models.Touchdown([1.0], cm.models.KelvinVoigt(1e3, 60.0), 0.2, 5.0)],
         shaft=shaft,
     )
-    rotor = cm.models.Forced(bare, (cm.models.Force(-1j, np.array([-0.02j])),))
+    rotor = bare.under(cm.models.Force(-1j, np.array([-0.02j])))
     motion = cm.simulate(rotor, cm.State(0.0, 0.0), 25.0)
     found = cm.motions.drop_loads(motion).shaft
     ledger = cm.motions.energy_ledger(motion)
@@ -200,7 +199,7 @@ def test_what_the_drive_would_do_in_flight_is_told():
     # The ledger has the work of the same torque, at the speed of each flight.
     assert found.left_out * 50.0 == pytest.approx(ledger.drive_left_out[-1], rel=1e-3)
     assert "left out in flight" in str(cm.studies.load_tables.load_tables(cm.motions.drop_loads(motion), "the release"))
-    still = cm.models.Forced(dataclasses.replace(bare, shaft=None), rotor.forces)
+    still = bare.replace(shaft=None).under(*rotor.forces)
     assert cm.motions.drop_loads(cm.simulate(still, cm.State(0.0, 0.0), 25.0)).shaft is None
 
 

@@ -18,7 +18,7 @@ from machines import PAPER
 from yielding_walls import with_walls
 
 from carom.closed_forms.equilibria import find_equilibria
-from carom.models import HuntCrossley, Jeffcott, KelvinVoigt
+from carom.models import HuntCrossley, KelvinVoigt, jeffcott
 from carom.motions.contacts import LastingContact, polar
 from carom.motions.ledger import energy_ledger
 from carom.motions.simulation import simulate
@@ -35,7 +35,7 @@ INSTANTS = sized(400, 12)
 
 @pytest.fixture(scope="module")
 def motion():
-    return simulate(Jeffcott(PAPER), START, 30.0)
+    return simulate(jeffcott(PAPER), START, 30.0)
 
 
 class TestContactLog:
@@ -57,7 +57,7 @@ class TestContactLog:
         assert np.allclose(log.tangential_impulse, -PAPER.mu * log.normal_impulse, rtol=0, atol=1e-13)
 
     def test_slip_that_stops(self):
-        rotor = Jeffcott(PAPER.replace(mu=2.0, radius_ratio=0.5))
+        rotor = jeffcott(PAPER.replace(mu=2.0, radius_ratio=0.5))
         log = simulate(rotor, State(0.2, 3.0 + 1.0j), 20.0).contacts
         assert log.sticks.any()
         assert np.allclose(log.slip_after[log.sticks], 0.0, rtol=0, atol=1e-14)
@@ -100,7 +100,7 @@ class TestContactLog:
             assert np.array_equal(plain[name].values, getattr(log, name))
 
     def test_an_empty_log(self):
-        motion = simulate(Jeffcott(PAPER.replace(gamma=0.3, rho=0.1)), kick(0.0), 5.0)
+        motion = simulate(jeffcott(PAPER.replace(gamma=0.3, rho=0.1)), kick(0.0), 5.0)
         assert len(motion.contacts) == 0
         assert motion.contacts.to_dataset().sizes["impact"] == 0
         assert motion.sample(10).shape == (10,)
@@ -151,7 +151,7 @@ def test_kinds_of_lasting_contact(phase, kind):
 
 def test_force_at_the_synchronous_rub_in_newtons():
     """At rest in the co-rotating frame the wall carries ``N``, and friction ``μN`` against the spin."""
-    rotor = Jeffcott(PAPER)
+    rotor = jeffcott(PAPER)
     rub = next(entry for entry in find_equilibria(rotor) if entry.kind == "rub" and entry.stable)
     resting = simulate(rotor, State(rub.position), 20.0)
     normal, friction = resting.forces(np.linspace(0.0, 20.0, 50))
@@ -167,7 +167,7 @@ def test_force_at_the_synchronous_rub_in_newtons():
 @pytest.mark.jit_only
 def test_a_history_holds_forces_slip_and_powers_in_contact_only():
     parameters = PAPER.replace(gamma=0.2, d=0.5)
-    motion = simulate(Jeffcott(parameters), START, 40.0)
+    motion = simulate(jeffcott(parameters), START, 40.0)
     history = motion.history()
     touching = history.phase != Phase.FLIGHT
     assert np.array_equal(history.time, motion.sample())
@@ -197,7 +197,7 @@ def test_a_history_holds_forces_slip_and_powers_in_contact_only():
 
 def test_powers_of_a_history_sum_to_the_works_of_the_ledger():
     """Sliding at the synchronous rub, where both are steady: ``−μN(s + 1)`` lost as heat and ``μNs`` from the drive."""
-    rotor = Jeffcott(PAPER)
+    rotor = jeffcott(PAPER)
     rub = next(entry for entry in find_equilibria(rotor) if entry.kind == "rub" and entry.stable)
     resting = simulate(rotor, State(rub.position), 20.0)
     history, ledger = resting.history(np.linspace(0.0, 20.0, 11)), energy_ledger(resting)
@@ -220,7 +220,7 @@ def test_powers_of_a_history_sum_to_the_works_of_the_ledger():
 
 @pytest.mark.parametrize("scales", [None, SCALES])
 def test_a_history_goes_to_a_file(scales, tmp_path):
-    motion = simulate(Jeffcott(PAPER.replace(gamma=0.2, d=0.5)), START, 40.0)
+    motion = simulate(jeffcott(PAPER.replace(gamma=0.2, d=0.5)), START, 40.0)
     table = replace(motion.history(np.linspace(0.0, 40.0, 300)), scales=scales).to_dataset()
     table.to_netcdf(tmp_path / "history.nc", engine="h5netcdf")
     with xarray.open_dataset(tmp_path / "history.nc", engine="h5netcdf", decode_times=False) as read:
@@ -238,7 +238,7 @@ def test_impulses_and_forces_add_up_to_the_change_of_momentum():
     ``d/dt (U̇ + 2iU) = −γU̇ − (ω² − 1 + iγ)U + ρe^{iφ}`` plus the contact force ``(−N + iF)e^{iθ}`` and impulses.
     """
     parameters = PAPER.replace(gamma=0.2, d=0.5)
-    motion = simulate(Jeffcott(parameters), START, 40.0)
+    motion = simulate(jeffcott(parameters), START, 40.0)
     assert motion.lasting_contacts
     assert len(motion.contacts) > 5
     nodes, weights = np.polynomial.legendre.leggauss(20)
@@ -316,7 +316,7 @@ def check_every_instant(motion: Trajectory) -> None:
 @given(data=st.data())
 def test_the_law_of_contact_holds_at_every_instant(phase, data):
     parameters, start = data.draw(rubbing(phase))
-    motion = simulate(Jeffcott(parameters), start, 8.0, max_events=EVENTS)
+    motion = simulate(jeffcott(parameters), start, 8.0, max_events=EVENTS)
     first = motion.lasting_contacts[0]
     assert first.start == 0.0
     if phase is not Phase.ROLLING:

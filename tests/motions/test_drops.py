@@ -8,7 +8,7 @@ import pytest
 from linear_rotors import tilting
 
 import carom as cm
-from carom.models import Forced, LinearRotor, Stage, Staged, model_of
+from carom.models import Stage, Staged, model_of
 from carom.motions import Drop, Whirl
 from carom.outcome import InputError, Outcome
 
@@ -30,7 +30,7 @@ def test_it_falls_from_levitation_with_its_whirl(phase):
     motion = cm.simulate(HEAVY, cm.drop(phase=phase), until=5.0)
     ahead = {None: 0.5 * math.pi, 0.7: 0.7, "-130 deg": math.radians(-130.0)}[phase]
     unbalance = -0.5 * math.pi + ahead
-    whirl = ROTOR.rotor.equilibrium * cmath.exp(1j * unbalance)
+    whirl = ROTOR.unforced.equilibrium * cmath.exp(1j * unbalance)
     times = np.linspace(0.0, 5.0, 11)
     expected = fallen(times, whirl - 1j * PULL / HEAVY.parameters.omega**2, 1j * whirl, HEAVY.parameters.rho, unbalance)
     assert not len(motion.contacts)
@@ -56,8 +56,7 @@ def test_a_state_or_a_kick_at_the_release():
 
 def test_the_rotor_that_falls_has_its_weight_and_no_levitation():
     rotor, _ = cm.drop().stages(HEAVY)
-    assert isinstance(rotor, Forced)
-    assert isinstance(rotor.rotor, LinearRotor)
+    assert not rotor.has_closed_forms
     assert rotor.forces == ROTOR.forces
     assert rotor.value("omega") == rotor.value("gamma") == 0.0
 
@@ -151,7 +150,7 @@ def test_what_cannot_be_dropped(machine, drop, words):
 
 def test_rotors_of_several_coordinates_are_dropped_in_stages():
     scales = cm.parameters.Scales(5.0, 0.25e-3, 1000.0)
-    heavy = cm.models.weight.weighted(tilting().model.replace(scales=scales), cm.parameters.Gravity(0.1))
+    heavy = tilting().model.replace(scales=scales).under_gravity(cm.parameters.Gravity(0.1))
     with pytest.raises(InputError, match="unlevitated matrices"):
         cm.simulate(heavy, cm.drop())
 

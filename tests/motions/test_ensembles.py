@@ -43,7 +43,7 @@ def machine() -> carom.parameters.Parameters:
 @pytest.mark.jit_only
 def test_impacts_of_motions_that_come_to_levitate_are_counted(machine):
     """Also those since a lane was last looked at."""
-    rotor = carom.models.Jeffcott(machine.replace(rho=0.2))
+    rotor = carom.models.jeffcott(machine.replace(rho=0.2))
     positions, velocities = starts(100)
     together = settle(rotor, positions, velocities)
     levitated = np.flatnonzero(together.outcomes == Outcome.LEVITATED)
@@ -55,7 +55,7 @@ def test_impacts_of_motions_that_come_to_levitate_are_counted(machine):
 
 @pytest.mark.parametrize("until", [1e-3, 1.0, 2.9, 3.1, 50.0])
 def test_what_levitates_is_known_to_however_short_the_time(machine, until):
-    rotor = carom.models.Jeffcott(machine)
+    rotor = carom.models.jeffcott(machine)
     at_rest = carom.State(rotor.equilibrium, 0j)
     alone = carom.simulate(rotor, at_rest, until, settle=True)
     together = settle(rotor, at_rest.position, at_rest.velocity, until=until)
@@ -63,7 +63,7 @@ def test_what_levitates_is_known_to_however_short_the_time(machine, until):
 
 
 def test_speeds_that_overflow_are_refused(machine):
-    rotor = carom.models.Jeffcott(machine)
+    rotor = carom.models.jeffcott(machine)
     with pytest.raises(carom.outcome.InputError, match=r"^start velocity.*1e\+12"):
         settle(rotor, [0.0, 0.1], [1.0, 1e120j])
     with pytest.raises(carom.outcome.InputError, match=r"^start velocity.*1e\+12"):
@@ -73,7 +73,7 @@ def test_speeds_that_overflow_are_refused(machine):
 
 @pytest.mark.jit_only
 def test_each_ends_as_it_does_alone(machine):
-    rotor = carom.models.Jeffcott(machine)
+    rotor = carom.models.jeffcott(machine)
     positions, velocities = starts(24 if COMPILED else 2)
     together = settle(rotor, positions, velocities)
     for place in range(len(positions)):
@@ -88,7 +88,7 @@ def test_each_ends_as_it_does_alone(machine):
 
 @pytest.mark.parametrize("restitution", [0.95, 0.5, 0.0])
 def test_each_moves_as_it_does_alone(machine, restitution):
-    rotor = carom.models.Jeffcott(machine.replace(d=restitution))
+    rotor = carom.models.jeffcott(machine.replace(d=restitution))
     positions, velocities = starts(MANY)
     together = settle(rotor, positions, velocities, until=20.0, patience=0)
     for place in range(len(positions)):
@@ -100,7 +100,7 @@ def test_each_moves_as_it_does_alone(machine, restitution):
 
 
 def test_threads_and_company_change_nothing(machine):
-    rotor = carom.models.Jeffcott(machine)
+    rotor = carom.models.jeffcott(machine)
     positions, velocities = starts(MANY)
     one = settle(rotor, positions, velocities, threads=1)
     assert_same(one, settle(rotor, positions, velocities, threads=3))
@@ -111,7 +111,7 @@ def test_threads_and_company_change_nothing(machine):
 
 @pytest.mark.jit_only
 def test_starts_may_have_machines_of_their_own(machine):
-    rotors = [carom.models.Jeffcott(machine.replace(gamma=gamma)) for gamma in (0.6, 0.4, 0.8)]
+    rotors = [carom.models.jeffcott(machine.replace(gamma=gamma)) for gamma in (0.6, 0.4, 0.8)]
     positions, velocities = starts(MANY)
     which = np.arange(MANY) % 3
     mixed = settle(rotors, positions, velocities, which=which)
@@ -122,7 +122,7 @@ def test_starts_may_have_machines_of_their_own(machine):
 
 
 def test_arrays_keep_their_shape(machine):
-    endings = settle(carom.models.Jeffcott(machine), 0.1j, np.full((2, 3), 0.01))
+    endings = settle(carom.models.jeffcott(machine), 0.1j, np.full((2, 3), 0.01))
     assert endings.outcomes.shape == endings.velocities.shape == (2, 3)
     assert endings.count(Outcome.LEVITATED) == endings.recovered.sum()
 
@@ -131,7 +131,7 @@ def test_arrays_keep_their_shape(machine):
 @pytest.mark.parametrize("threads", [1, 3, None])
 def test_no_start_is_no_ending(machine, shape, threads):
     none = np.empty(shape)
-    several = [carom.models.Jeffcott(machine), carom.models.Jeffcott(machine.replace(gamma=0.4))]
+    several = [carom.models.jeffcott(machine), carom.models.jeffcott(machine.replace(gamma=0.4))]
     for endings in (
         settle(several[0], none, 0.1j, threads=threads),
         settle(several, none, none, which=none, threads=threads),
@@ -145,14 +145,14 @@ def test_no_start_is_no_ending(machine, shape, threads):
 
 
 def test_without_settling_motions_reach_the_time(machine):
-    endings = settle(carom.models.Jeffcott(machine), *starts(8), until=5.0, patience=0)
+    endings = settle(carom.models.jeffcott(machine), *starts(8), until=5.0, patience=0)
     assert (endings.outcomes == Outcome.TIME_REACHED).all()
     np.testing.assert_array_equal(endings.times, 5.0)
 
 
 def test_progress_ends_at_one(machine):
     told = []
-    settle(carom.models.Jeffcott(machine), *starts(8), until=5.0, progress=told.append)
+    settle(carom.models.jeffcott(machine), *starts(8), until=5.0, progress=told.append)
     assert told[-1] == Progress(1.0, "following starts")
 
 
@@ -174,12 +174,12 @@ def test_progress_ends_at_one(machine):
 def test_bad_input_is_named(machine, changes, words):
     arguments = {"positions": [0.1, 0.2], "velocities": [0.0, 0.0], **changes}
     with pytest.raises(InputError, match=words):
-        settle(carom.models.Jeffcott(machine), **arguments)
+        settle(carom.models.jeffcott(machine), **arguments)
 
 
 def test_a_start_needs_a_machine_that_exists(machine):
     with pytest.raises(InputError, match="whole numbers from 0 to 0"):
-        settle([carom.models.Jeffcott(machine)], [0.1], [0.0], which=np.array([1]))
+        settle([carom.models.jeffcott(machine)], [0.1], [0.0], which=np.array([1]))
 
 
 def test_a_time_may_have_a_unit():

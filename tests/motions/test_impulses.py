@@ -8,7 +8,7 @@ from compilation import sized
 from linear_rotors import random_rotor, tilting, to_fixed, touchdowns
 
 from carom.closed_forms.equilibria import find_equilibria
-from carom.models import LinearRotor
+from carom.models import from_matrices
 from carom.motions import touchdown_loads
 from carom.motions.ledger import energy_ledger
 from carom.motions.simulation import simulate
@@ -125,7 +125,7 @@ def test_an_impulse_in_newton_seconds():
     mass, inertia, arm, clearance, speed = 50.0, 2.0, 0.25, 0.25e-3, 300.0
     # Coordinates: displacement of the centre and of the end due to tilt, both in clearances.
     matrix = np.diag([1.0, inertia / (mass * arm**2)])
-    rotor = LinearRotor.in_fixed_frame(
+    rotor = from_matrices(
         mass=matrix, damping=0.01 * np.eye(2), stiffness=0.2 * np.eye(2), forcing=np.zeros(2),
         touchdowns=touchdowns([[1.0, 1.0]], [0.0], [0.6], [150.0]),
         translation=[1.0, 0.0], scales=Scales(mass=mass, clearance=clearance, speed=speed),

@@ -15,8 +15,8 @@ from carom.models import HuntCrossley, KelvinVoigt, Race
 from carom.motions.ledger import energy_ledger
 
 
-def _rotor(gamma: float) -> carom.models.Jeffcott:
-    return carom.models.Jeffcott(
+def _rotor(gamma: float) -> carom.models.Rotor:
+    return carom.models.jeffcott(
         carom.parameters.Parameters(gamma=gamma, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7)
     )
 
@@ -80,7 +80,7 @@ def test_energy_under_gravity_closes_with_the_work_of_the_weight(settings, drops
 @pytest.mark.jit_only
 def test_energy_of_a_shaken_heavy_rotor_closes():
     heavy = carom.models.model_of(carom.load("examples/dropped-rotor.toml"))
-    shaken = carom.models.Forced(heavy, (carom.models.Force(0.4j, np.array([0.05 + 0.02j])),))
+    shaken = heavy.under(carom.models.Force(0.4j, np.array([0.05 + 0.02j])))
     ledger = energy_ledger(carom.simulate(shaken, carom.State(0.4j, 2.0), until=100.0))
     assert ledger.imbalance < 1e-10
     assert np.abs(ledger.forces).max() > 0.01
@@ -88,7 +88,7 @@ def test_energy_of_a_shaken_heavy_rotor_closes():
 
 def test_a_rotor_at_rest_has_nothing_to_account_for():
     centred = carom.parameters.Parameters(gamma=0.1, omega=0.76, rho=0.0, phi=0.0, mu=0.15, d=0.95, radius_ratio=57.0)
-    ledger = energy_ledger(carom.simulate(carom.models.Jeffcott(centred), carom.State(0j, 0j), until=10.0))
+    ledger = energy_ledger(carom.simulate(carom.models.jeffcott(centred), carom.State(0j, 0j), until=10.0))
     assert not ledger.energy.any()
     assert ledger.imbalance == 0.0
 

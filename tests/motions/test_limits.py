@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import dataclasses
+
 import numpy as np
 import pytest
 from limited_reference import clipped, follow, struck
 
 import carom as cm
 from carom.loading import load
-from carom.models import Forced, InBearing, Jeffcott, Limited, model_of
+from carom.models import jeffcott, model_of
 from carom.motions import State, Trajectory, energy_ledger
 from carom.outcome import InputError, Outcome, Phase
 from carom.parameters import ControlLimit, TouchdownBearing
@@ -19,12 +21,12 @@ YIELDING = TouchdownBearing(law="kelvin-voigt", stiffness="200 N/um", damping="5
 
 def rotor_of(*settings, wall=None):
     rotor = model_of(load(KEOGH, list(settings)))
-    return InBearing(rotor, wall) if wall else rotor
+    return jeffcott(rotor.parameters, wall) if wall else rotor
 
 
 def limited(rotor, bound, pull=0.0):
     """With a bound in ``m c_r Ω²`` and a negative stiffness in ``m Ω²``."""
-    return Limited(rotor, ControlLimit(bound * rotor.scales.force, pull * rotor.scales.stiffness))
+    return dataclasses.replace(rotor, limits=ControlLimit(bound * rotor.scales.force, pull * rotor.scales.stiffness))
 
 
 def in_fixed_frame(state, time):
@@ -131,9 +133,9 @@ def test_a_limit_that_is_never_met_changes_nothing(wall):
 )
 def test_the_energy_ledger_closes(settings, wall):
     rotor = rotor_of(*settings, wall=wall)
-    heavy = isinstance(rotor, Forced)
-    held = limited(rotor.rotor if heavy else rotor, 0.4, 0.2)
-    held = Forced(held, rotor.forces) if heavy else held
+    heavy = bool(rotor.forces)
+    held = limited(rotor.unforced, 0.4, 0.2)
+    held = held.under(*rotor.forces) if heavy else held
 
     motion = cm.simulate(held, State(0.3, 0.8 + 0.6j), 30.0)
     ledger = energy_ledger(motion)
@@ -146,7 +148,7 @@ def test_the_energy_ledger_closes(settings, wall):
 
 def test_bearings_that_can_give_nothing_let_the_rotor_fly():
     rotor = rotor_of("damping=0 N s/m")
-    flying = cm.models.LinearRotor.in_fixed_frame(
+    flying = cm.models.from_matrices(
         mass=[[1.0]],
         damping=[[0.0]],
         stiffness=[[0.0]],
@@ -177,7 +179,7 @@ def test_a_limit_that_is_just_met_or_just_missed_makes_no_difference():
 
 def test_axes_turned_by_a_quarter_turn_are_the_same():
     rotor = rotor_of()
-    turned = Jeffcott(rotor.parameters.replace(phi=rotor.parameters.phi + 0.5 * np.pi))
+    turned = jeffcott(rotor.parameters.replace(phi=rotor.parameters.phi + 0.5 * np.pi))
     start = State(0.2 + 0.1j, 1.1 - 0.3j)
 
     one = cm.simulate(limited(rotor, 0.5, 0.2), start, 8.0)
@@ -245,6 +247,6 @@ def test_a_machine_file_gives_the_limits():
     assert model_of(case).limits == ControlLimit(2 * 70.0 * 4.0, 2e5)
     both = load(KEOGH, ["force_limit=200 N"])
     assert model_of(both).limits == ControlLimit(200.0, 0.0)
-    assert isinstance(model_of(load(KEOGH)), Jeffcott)
+    assert model_of(load(KEOGH)).has_closed_forms
     with pytest.raises(InputError, match="limits"):
-        cm.models.jeffcott_of(case)
+        cm.models.exact_rotor_of(case)

@@ -13,7 +13,7 @@ import pytest
 
 import carom as cm
 from carom.core.fate import memory
-from carom.models import Force, Forced, Jeffcott
+from carom.models import Force, jeffcott
 from carom.motions import touchdown_loads
 from carom.motions.resting import lies
 from carom.outcome import Outcome, Phase
@@ -119,8 +119,8 @@ def test_whirl_that_goes_round_does_not_lie():
 
 
 def test_without_weight_nothing_lies():
-    rotor = Jeffcott(HEAVY.parameters)
-    for model in (rotor, Forced(rotor, (Force(0.3j, np.array([0.1])),))):
+    rotor = jeffcott(HEAVY.parameters)
+    for model in (rotor, rotor.under(Force(0.3j, np.array([0.1])))):
         amplitudes = model.system.amplitudes(-1j, -1.0)
         assert not lies(model, amplitudes, np.array([Phase.FORWARD_SLIP]), memory(model.system.modes))
 

@@ -17,7 +17,7 @@ from carom.closed_forms.whirl import rolling, runaway_speed
 from carom.core.closing import PASSES
 from carom.core.fate import memory
 from carom.core.planar_proofs import absorbed
-from carom.models import LinearRotor
+from carom.models import from_matrices
 from carom.motions.ensembles import settle
 from carom.motions.recurrence import least_recurrence
 from carom.motions.settling import fresh_memory, settled
@@ -38,7 +38,7 @@ def test_the_kernel_knows_the_same_states(seed):
         rho=float(rng.uniform(0.5, 1.2)),
         phi=float(rng.uniform(-3.0, 3.0)),
     )
-    rotor = carom.models.Jeffcott(machine)
+    rotor = carom.models.jeffcott(machine)
     found, recollection = rub_neighbourhood(rotor), fresh_memory(rotor, 1, absorb=True)
     angles, rates = rng.uniform(-math.pi, math.pi, 5000), rng.uniform(-1.0, 1.0, 5000)
     # Some to within a few parts in a million of the level, to both sides.
@@ -59,7 +59,7 @@ def test_the_kernel_knows_the_same_states(seed):
 
 @pytest.fixture(params=[0.2, 0.3])
 def rotor(request):
-    return carom.models.Jeffcott(PAPER.replace(gamma=request.param))
+    return carom.models.jeffcott(PAPER.replace(gamma=request.param))
 
 
 def sliding(found, times_level, seed):
@@ -129,7 +129,7 @@ def test_a_slide_that_runs_round_is_still_told_from_the_rub(rotor):
 
 @pytest.mark.parametrize("gamma", [0.05, 0.1])
 def test_the_runaway_ends_motions_earlier_and_changes_nothing_else(gamma, monkeypatch):
-    rotor, count = carom.models.Jeffcott(PAPER.replace(gamma=gamma)), 600
+    rotor, count = carom.models.jeffcott(PAPER.replace(gamma=gamma)), 600
     proven, followed = settled_both_ways(rotor, count, 12, monkeypatch)
     rolls = np.flatnonzero(proven.outcomes == Outcome.ROLLING)
     assert len(rolls) > 0.05 * count
@@ -144,11 +144,11 @@ def test_the_runaway_ends_motions_earlier_and_changes_nothing_else(gamma, monkey
 
 
 def test_no_runaway_where_rolling_does_not_hold():
-    machine = PAPER.replace(gamma=1.05 * rolling(carom.models.Jeffcott(PAPER)).largest_damping)
-    assert fresh_memory(carom.models.Jeffcott(machine), 1, absorb=True).proofs.runaway == math.inf
-    assert fresh_memory(carom.models.Jeffcott(PAPER), 1).proofs.runaway == math.inf
-    assert fresh_memory(carom.models.Jeffcott(PAPER), 1, absorb=True).proofs.runaway == pytest.approx(
-        runaway_speed(carom.models.Jeffcott(PAPER)).certain, rel=1e-8
+    machine = PAPER.replace(gamma=1.05 * rolling(carom.models.jeffcott(PAPER)).largest_damping)
+    assert fresh_memory(carom.models.jeffcott(machine), 1, absorb=True).proofs.runaway == math.inf
+    assert fresh_memory(carom.models.jeffcott(PAPER), 1).proofs.runaway == math.inf
+    assert fresh_memory(carom.models.jeffcott(PAPER), 1, absorb=True).proofs.runaway == pytest.approx(
+        runaway_speed(carom.models.jeffcott(PAPER)).certain, rel=1e-8
     )
 
 
@@ -169,7 +169,7 @@ def test_a_rub_that_runs_round_the_wall_is_not_judged_as_one_at_rest():
 def test_multiplicities_of_any_rotor_are_those_of_the_planar_one(gamma):
     """Also next to period doubling, at a damping of 0.08338, where motions recur after two periods first."""
     one = PAPER.replace(gamma=gamma)
-    model = LinearRotor.in_fixed_frame(
+    model = from_matrices(
         mass=np.eye(2),
         damping=np.diag([gamma, 0.2]),
         stiffness=np.diag([one.omega**2, 0.7]),
@@ -191,7 +191,7 @@ def test_a_motion_that_passes_by_a_repelling_orbit_goes_on():
     """Started on a saddle, to rounding, it recurs there and then leaves."""
     one = PAPER.replace(gamma=0.1)
     saddle = carom.find_orbits(one)["B1,b"]
-    rotor = LinearRotor.in_fixed_frame(
+    rotor = from_matrices(
         mass=[[1.0]],
         damping=[[one.gamma]],
         stiffness=[[one.omega**2]],

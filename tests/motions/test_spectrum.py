@@ -9,8 +9,8 @@ import carom
 from carom.motions.spectrum import full_spectrum
 
 
-def _rotor(gamma: float) -> carom.models.Jeffcott:
-    return carom.models.Jeffcott(
+def _rotor(gamma: float) -> carom.models.Rotor:
+    return carom.models.jeffcott(
         carom.parameters.Parameters(gamma=gamma, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7)
     )
 

@@ -11,12 +11,12 @@ from linear_rotors import tilting
 from machines import PAPER
 
 import carom as cm
-from carom.models import Force, Forced, Jeffcott, Stage, Staged, Trigger, model_from
+from carom.models import Force, Stage, Staged, Trigger, jeffcott, model_from
 from carom.outcome import InputError, Outcome, Phase
 
 pytestmark = pytest.mark.jit_only
 
-ROTOR = Jeffcott(PAPER.replace(gamma=0.1))
+ROTOR = jeffcott(PAPER.replace(gamma=0.1))
 HELPED = ROTOR.replace(gamma=0.8)
 KICK = cm.kick(0.7, 0.4)
 WEIGHT = Force(-1j, np.array([-5e-4]))
@@ -200,14 +200,14 @@ def test_stages_are_read_again_from_their_attributes():
         ("trigger", lambda: Stage(ROTOR, 5.0)),
         ("rotor", lambda: Stage(PAPER)),
         ("rotor", lambda: Stage(Staged((Stage(ROTOR),)))),
-        ("rotor", lambda: Forced(Staged((Stage(ROTOR),)), (WEIGHT,))),
-        ("forces", lambda: Forced(ROTOR, WEIGHT)),
-        ("forces", lambda: Forced(ROTOR, ())),
-        ("exponent", lambda: Forced(ROTOR, (Force(np.nan, [0.1]),))),
-        ("exponent", lambda: Forced(ROTOR, (Force("fast", [0.1]),))),
-        ("accelerations", lambda: Forced(ROTOR, (Force(-1j, 0.1),))),
-        ("accelerations", lambda: Forced(ROTOR, (Force(-1j, [0.1, 0.2]),))),
-        ("accelerations", lambda: Forced(ROTOR, (Force(-1j, [np.inf]),))),
+        ("rotor", lambda: Staged((Stage(ROTOR),)).under(WEIGHT)),
+        ("forces", lambda: ROTOR.under(*WEIGHT)),
+        ("forces", lambda: ROTOR.under()),
+        ("exponent", lambda: ROTOR.under(Force(np.nan, [0.1]))),
+        ("exponent", lambda: ROTOR.under(Force("fast", [0.1]))),
+        ("accelerations", lambda: ROTOR.under(Force(-1j, 0.1))),
+        ("accelerations", lambda: ROTOR.under(Force(-1j, [0.1, 0.2]))),
+        ("accelerations", lambda: ROTOR.under(Force(-1j, [np.inf]))),
     ],
 )
 def test_bad_stages_are_refused(field, made):
@@ -320,14 +320,14 @@ def test_a_shock_comes_before_the_stages_of_a_rotor():
 @pytest.mark.parametrize("disturbance", [cm.BaseShock(2.0, 1.3), cm.disturbances.UnbalanceStep(0.3)])
 def test_disturbances_of_a_rotor_at_rest_are_refused_where_it_never_is(disturbance):
     grid = cm.Grid(disturbance, (3,) * len(disturbance.coordinates))
-    shaken = Forced(ROTOR, (WEIGHT, Force(0.3j, np.array([0.01]))))
+    shaken = ROTOR.under(WEIGHT, Force(0.3j, np.array([0.01])))
     with pytest.raises(InputError, match="forces that change in the fixed frame"):
         cm.map_basins(shaken, grid, until=20.0)
 
 
 def test_impact_maps_do_not_know_forces_that_change_with_time():
     with pytest.raises(InputError, match="forces that change with time"):
-        cm.orbits.impact_map(Forced(ROTOR, (WEIGHT,)), cm.orbits.Section(0.3, 0.5, 0.1))
+        cm.orbits.impact_map(ROTOR.under(WEIGHT), cm.orbits.Section(0.3, 0.5, 0.1))
 
 
 def test_a_map_of_basins_of_stages_is_shown():
@@ -336,7 +336,7 @@ def test_a_map_of_basins_of_stages_is_shown():
 
 
 def test_low_bounces_in_a_later_stage_are_told_from_others():
-    rotor = Jeffcott(PAPER.replace(gamma=0.3, mu=0.0, d=1.0))
+    rotor = jeffcott(PAPER.replace(gamma=0.3, mu=0.0, d=1.0))
     staged = Staged((Stage(rotor, Trigger(time=0.5)), Stage(rotor)))
     random = np.random.default_rng(0)
     positions = 0.999 * np.exp(1j * random.uniform(0.0, 6.3, 12))

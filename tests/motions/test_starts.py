@@ -12,7 +12,7 @@ from linear_rotors import single, tilting
 from machines import PAPER
 
 import carom as cm
-from carom.models import Jeffcott, model_of
+from carom.models import jeffcott, model_of
 from carom.motions.simulation import simulate
 from carom.motions.starts import Kick, State, kick
 from carom.outcome import InputError
@@ -21,19 +21,19 @@ from carom.parameters import Machine, Scales
 
 @pytest.fixture
 def rotor():
-    return Jeffcott(PAPER)
+    return jeffcott(PAPER)
 
 
 class TestStarts:
     def test_a_kick_starts_at_the_equilibrium(self, rotor):
         machine = PAPER.replace(gamma=0.3)
-        motion = simulate(Jeffcott(machine), kick(0.4, angle=0.2), 3.0)
-        assert motion.start.position == Jeffcott(machine).equilibrium
+        motion = simulate(jeffcott(machine), kick(0.4, angle=0.2), 3.0)
+        assert motion.start.position == jeffcott(machine).equilibrium
         assert motion.start.velocity == pytest.approx(cmath.rect(0.4, 0.2), abs=1e-16)
         assert kick(0.4, angle=0.2) == Kick(0.4, 0.2)
 
     def test_no_kick_no_motion(self):
-        motion = simulate(Jeffcott(PAPER.replace(gamma=0.3)), kick(0.0), 100.0)
+        motion = simulate(jeffcott(PAPER.replace(gamma=0.3)), kick(0.0), 100.0)
         assert np.allclose(motion.position(motion.sample(50)), motion.start.position, rtol=0, atol=1e-15)
 
     @pytest.mark.parametrize("radius", [1.0 + 2e-12, 1.1, 1e11])
@@ -57,7 +57,7 @@ class TestStarts:
 
     def test_a_kick_from_an_equilibrium_outside_the_wall(self):
         with pytest.raises(InputError, match="start position"):
-            simulate(Jeffcott(PAPER.replace(gamma=0.01)), kick(0.1), 1.0)
+            simulate(jeffcott(PAPER.replace(gamma=0.01)), kick(0.1), 1.0)
 
     @pytest.mark.parametrize("value", [math.nan, math.inf, complex(0, -math.inf)])
     def test_not_finite(self, rotor, value):
@@ -90,7 +90,7 @@ class TestUnits:
         plain = simulate(self.MACHINE, kick(0.05 / unit, angle=math.pi / 6.0), 0.2 * 184.2)
         assert told.start.velocity == pytest.approx(plain.start.velocity, rel=1e-14)
         assert told.time == pytest.approx(plain.time, rel=1e-14)
-        assert kick("0.4").state(Jeffcott(PAPER)) == kick(0.4).state(Jeffcott(PAPER))
+        assert kick("0.4").state(jeffcott(PAPER)) == kick(0.4).state(jeffcott(PAPER))
 
     @pytest.mark.parametrize(
         ("start", "until", "words"),
@@ -122,7 +122,7 @@ def test_a_motion_goes_on_from_where_another_has_ended():
     assert later.final.position == pytest.approx(whole.final.position, abs=1e-12)
     assert later.final.velocity == pytest.approx(whole.final.velocity, abs=1e-12)
     # Without weight a state says everything, whatever the time.
-    assert cm.simulate(heavy.rotor, start, 11.0).final.time == 0.0
+    assert cm.simulate(heavy.unforced, start, 11.0).final.time == 0.0
     with pytest.raises(InputError, match=r"^start time = nan: a real number"):
         cm.simulate(heavy, cm.State(0.2, time=math.nan), 1.0)
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from machines import PAPER, fly, strike
 
-from carom.models import Jeffcott
+from carom.models import jeffcott
 from carom.motions import simulation
 from carom.motions.ensembles import settle
 from carom.motions.simulation import simulate
@@ -22,7 +22,7 @@ RUBBING = PAPER.replace(gamma=0.2, d=0.5)
 
 @pytest.fixture(scope="module")
 def rotor():
-    return Jeffcott(PAPER)
+    return jeffcott(PAPER)
 
 
 @pytest.fixture(scope="module")
@@ -32,7 +32,7 @@ def motion(rotor):
 
 @pytest.fixture(scope="module")
 def rubbing():
-    return simulate(Jeffcott(RUBBING), START, 60.0)
+    return simulate(jeffcott(RUBBING), START, 60.0)
 
 
 def test_a_motion_is_flights_joined_by_impacts(motion):
@@ -156,7 +156,7 @@ class TestLongMotions:
     @pytest.mark.parametrize("chunk", [1, 5])
     def test_nor_in_lasting_contact(self, rubbing, monkeypatch, chunk):
         monkeypatch.setattr(simulation, "CHUNK", chunk)
-        cut = simulate(Jeffcott(RUBBING), START, 60.0)
+        cut = simulate(jeffcott(RUBBING), START, 60.0)
         assert np.array_equal(cut.segment_phases, rubbing.segment_phases)
         assert np.allclose(cut.segment_amplitudes, rubbing.segment_amplitudes, rtol=0, atol=1e-12)
         assert cut.final.position == pytest.approx(rubbing.final.position, abs=1e-12)
@@ -218,7 +218,7 @@ class TestLastingContact:
         assert np.all(np.abs(impulses.radial_speed) < 1e-5)
 
     def test_chatter_ends_the_motion_if_asked(self, rubbing):
-        stopped = simulate(Jeffcott(RUBBING), START, 60.0, stop_at_chatter=True)
+        stopped = simulate(jeffcott(RUBBING), START, 60.0, stop_at_chatter=True)
         assert stopped.outcome is Outcome.CHATTER
         assert stopped.time == rubbing.lasting_contacts[0].start
         assert abs(stopped.final.position) == pytest.approx(1.0, abs=1e-15)

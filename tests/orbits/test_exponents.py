@@ -10,7 +10,7 @@ from linear_rotors import touchdowns
 from scipy.linalg import expm
 from scipy.optimize import brentq
 
-from carom.models import Jeffcott, LinearRotor
+from carom.models import Rotor, from_matrices, jeffcott
 from carom.motions import State, kick, settle, simulate
 from carom.orbits import find_orbits
 from carom.orbits.exponents import LyapunovExponents, lyapunov_exponents, orbit_exponents
@@ -33,9 +33,9 @@ WITHOUT_REBOUND = Parameters(0.0245, 0.837, 0.0621, 0.0, 0.349, 0.0, 6.71)
 ROLLING = Parameters(0.11455, 0.40645, 0.21684, 0.0, 0.39103, 0.0, 0.7208)
 
 
-def lively(rng: np.random.Generator) -> Jeffcott:
+def lively(rng: np.random.Generator) -> Rotor:
     """A machine on which many motions keep bouncing."""
-    return Jeffcott(
+    return jeffcott(
         random_parameters(
             rng,
             omega=rng.uniform(0.3, 1.5),
@@ -84,7 +84,7 @@ def test_exponents_add_up_to_the_growth_of_volumes():
 def test_sliding_keeps_the_volumes_of_its_divergence():
     """``∂θ̈/∂θ̇ = −γ − 2μ(1 + θ̇)sgn v`` in ``θ, θ̇``, integrated over the segment."""
     compared = 0
-    for rotor in (Jeffcott(LANDING), Jeffcott(LANDING.replace(d=0.0)), Jeffcott(ROLLING)):
+    for rotor in (jeffcott(LANDING), jeffcott(LANDING.replace(d=0.0)), jeffcott(ROLLING)):
         for state in bouncing_from(rotor, 60, wanted=(Outcome.MIXED,))[:2]:
             motion = simulate(rotor, state, 50.0)
             hits = np.flatnonzero(motion.is_impact)
@@ -125,7 +125,7 @@ def test_exponents_of_orbits_are_those_of_their_multipliers(parameters):
         one = find_orbits(parameters)["B1,d"].departure
         start = State(one.position, 1.0001 * one.velocity)
     else:
-        start = bouncing_from(Jeffcott(parameters), 60)[0]
+        start = bouncing_from(jeffcott(parameters), 60)[0]
     orbit = orbit_of_motion(simulate(parameters, start, settle=True))
     exact = orbit_exponents(orbit)
     impacts = 20_000 if not exact.landings else 300
@@ -150,7 +150,7 @@ def test_directions_that_contact_takes_away_have_no_finite_exponent():
         (WITHOUT_REBOUND, Outcome.BOUNCING, 1),
         (ROLLING, Outcome.MIXED, 3),
     ):
-        state = bouncing_from(Jeffcott(parameters), sized(60, 10), wanted=(wanted,))[0]
+        state = bouncing_from(jeffcott(parameters), sized(60, 10), wanted=(wanted,))[0]
         found = lyapunov_exponents(parameters, state, sized(100, 30), transient=sized(50, 10))
         assert found.lost == lost
         assert (found.landings > 0) == (wanted is Outcome.MIXED)
@@ -180,7 +180,7 @@ def nearby_growth(rotor, state: State, time: float, count: int) -> tuple[float, 
 
 @pytest.mark.parametrize("parameters", [CHAOTIC, STOPPING])
 def test_nearby_motions_separate_at_the_largest_exponent(parameters):
-    rotor = Jeffcott(parameters)
+    rotor = jeffcott(parameters)
     state = bouncing_from(rotor, 20, wanted=(Outcome.BOUNCING,))[0]
     found = lyapunov_exponents(rotor, state, 20_000)
     rate, error = nearby_growth(rotor, state, 10.0, sized(600, 1, 20_000))
@@ -192,7 +192,7 @@ def test_nearby_motions_separate_at_the_largest_exponent(parameters):
 
 def test_all_exponents_agree_with_a_variational_integration():
     """Matrix exponentials, root finding, and the derivative of the impact law and of the time of impact by hand."""
-    state = bouncing_from(Jeffcott(CHAOTIC), 20, wanted=(Outcome.BOUNCING,))[0]
+    state = bouncing_from(jeffcott(CHAOTIC), 20, wanted=(Outcome.BOUNCING,))[0]
     transient, impacts = 10, sized(40, 5)
     found = lyapunov_exponents(CHAOTIC, state, impacts, transient=transient, batches=2)
     position, velocity = state.position, state.velocity
@@ -259,7 +259,7 @@ def _to_next_impact(parameters: Parameters, position: complex, velocity: complex
 
 def test_a_coordinate_that_feels_no_contact_adds_its_own_rates():
     orbit = find_orbits(PAPER)["B1,d"]
-    rotor = LinearRotor.in_fixed_frame(
+    rotor = from_matrices(
         mass=np.eye(2),
         damping=np.diag([PAPER.gamma, 0.3]),
         stiffness=np.diag([PAPER.omega**2, 0.7]),

@@ -11,7 +11,7 @@ from heavy_rotors import ONE, PHASE, RIGID, SIX, SOFT, THREE, heavy, of_two_coor
 from scipy.optimize import brentq, linear_sum_assignment
 
 import carom as cm
-from carom.models import Force, Forced, Jeffcott, KelvinVoigt, Rigid
+from carom.models import Force, KelvinVoigt, Rigid, jeffcott
 from carom.orbits import Kind, Word, find_orbits, lyapunov_exponents, orbit_exponents, orbit_near
 from carom.orbits.shooting import Start, links_of, pack_free, unpack_free
 from carom.outcome import InputError
@@ -161,14 +161,14 @@ def of_one_turn():
     """An orbit of a rotor without weight that takes one turn of the shaft, by the closed form; it need not be a motion."""
 
     def bounce(gamma):
-        return find_orbits(Jeffcott(Parameters(gamma, 0.6, 3 / 7, 0.21, 0.15, 0.95, 400 / 7)), 7.5)["B2,c"]
+        return find_orbits(jeffcott(Parameters(gamma, 0.6, 3 / 7, 0.21, 0.15, 0.95, 400 / 7)), 7.5)["B2,c"]
 
     return bounce(brentq(lambda gamma: bounce(gamma).period - math.tau, 0.01, 0.03, xtol=1e-15))
 
 
 @pytest.mark.parametrize("pull", [1e-3, 1e-4])
 def test_a_small_weight_leaves_two_of_the_phases_of_an_orbit_that_takes_one_turn(pull, of_one_turn):
-    rotor = Forced(of_one_turn.rotor, (Force(-1j, np.array([-1j * pull])),))
+    rotor = of_one_turn.rotor.under(Force(-1j, np.array([-1j * pull])))
 
     def at(phase):
         nodes = np.append(of_one_turn.nodes, [[np.exp(-1j * phase)]], axis=1)
@@ -224,7 +224,7 @@ def test_a_start_of_the_wrong_weight_is_corrected_to_its_size():
 
 
 def test_forces_that_change_in_the_fixed_frame_are_refused():
-    shaken = Forced(Jeffcott(THREE.rotor.parameters), (Force(0.5j, np.array([0.3])),))
+    shaken = jeffcott(THREE.rotor.parameters).under(Force(0.5j, np.array([0.3])))
     with pytest.raises(InputError, match=r"^machine = forces that change in the fixed frame: .*, or weight$"):
         orbit_near(shaken, Word.of(Kind.IMPACT_FORWARD), Start(np.ones((1, 2), complex), np.ones(1)))
     assert settled(shaken) is None

@@ -12,7 +12,7 @@ from compilation import sized
 from machines import PAPER, ExactMotion, fly, path, random_parameters, rest_position, strike
 
 from carom import State, find_equilibria, find_orbits, simulate
-from carom.models import Jeffcott
+from carom.models import jeffcott
 from carom.orbits import Section, impact_map
 from carom.orbits.maps import stroboscopic_map
 from carom.outcome import InputError, Outcome
@@ -64,7 +64,7 @@ def test_image_agrees_with_matrix_exponential_and_is_the_first_arrival():
     count = sized(70, 70, 200)
     for _ in range(count):
         parameters = random_parameters(random)
-        rotor = Jeffcott(parameters)
+        rotor = jeffcott(parameters)
         section = random_section(random)
         mapped = impact_map(rotor, section, LONGEST)
         outcomes.append(mapped.outcome)
@@ -91,7 +91,7 @@ def test_image_agrees_with_simulation():
     random = np.random.default_rng(32)
     for _ in range(40):
         parameters = random_parameters(random, d=float(random.uniform(0.3, 1.0)))
-        rotor = Jeffcott(parameters)
+        rotor = jeffcott(parameters)
         section = random_section(random)
         mapped = impact_map(rotor, section, LONGEST)
         if mapped.outcome is not Outcome.CONTACT:
@@ -110,7 +110,7 @@ def test_jacobian_agrees_with_many_digits():
         for _ in range(80):
             parameters = random_parameters(random, radius_ratio=50.0)
             section = random_section(random)
-            mapped = impact_map(Jeffcott(parameters), section, LONGEST)
+            mapped = impact_map(jeffcott(parameters), section, LONGEST)
             if mapped.outcome is not Outcome.CONTACT or parameters.gamma == 2.0 * parameters.omega:
                 continue
             exact = ExactMotion(parameters).jacobian(tuple(coordinates(section)), 1, mapped.duration)
@@ -147,7 +147,7 @@ def test_jacobian_agrees_with_differences(ratio, sticks):
     count = sized(75, 75, 150)
     for _ in range(count):
         parameters = random_parameters(random, radius_ratio=ratio, gamma=0.1, mu=1.0, d=float(random.uniform(0.2, 1.0)))
-        rotor = Jeffcott(parameters)
+        rotor = jeffcott(parameters)
         section = random_section(random)
         mapped = impact_map(rotor, section, LONGEST)
         grip = parameters.mu * (1.0 + parameters.d) * section.radial_speed
@@ -167,14 +167,14 @@ def test_jacobian_agrees_with_differences(ratio, sticks):
 
 def test_never_to_return():
     """Strong damping, and an impact on the side from which all forces point inward."""
-    mapped = impact_map(Jeffcott(PAPER.replace(gamma=1.0)), Section(PAPER.phi + math.pi, 0.1, 0.0))
+    mapped = impact_map(jeffcott(PAPER.replace(gamma=1.0)), Section(PAPER.phi + math.pi, 0.1, 0.0))
     assert mapped.outcome is Outcome.CLEAR
     assert mapped.image is None
     assert mapped.duration == 1000.0
 
 
 def test_longest_flight():
-    rotor = Jeffcott(PAPER)
+    rotor = jeffcott(PAPER)
     section = find_orbits(rotor)["B1,d"].section
     assert impact_map(rotor, section, longest_flight=2.8).outcome is Outcome.CLEAR
     assert impact_map(rotor, section, longest_flight=2.9).outcome is Outcome.CONTACT
@@ -183,7 +183,7 @@ def test_longest_flight():
 def test_chatter():
     """Pressed outward, the smallest bounces do not count one by one."""
     parameters = PAPER.replace(gamma=0.05, d=0.5)
-    rotor = Jeffcott(parameters)
+    rotor = jeffcott(parameters)
     rub = find_equilibria(rotor)[1]
     assert rub.status == "admissible"
     assert impact_map(rotor, Section(rub.angle, 1e-9, 0.0)).outcome is Outcome.CHATTER
@@ -193,7 +193,7 @@ def test_chatter():
 def test_between_hit_and_miss_lies_grazing():
     """A flight that touches the wall within rounding is said to graze; neighbours on either side hit there, or pass."""
     parameters = PAPER.replace(gamma=0.06)
-    rotor = Jeffcott(parameters)
+    rotor = jeffcott(parameters)
 
     def flight(speed: float):
         return impact_map(rotor, Section(0.4, 0.6, speed))
@@ -235,7 +235,7 @@ def grazing_bracket(flight) -> tuple[float, float]:
 )
 def test_only_a_rotor_that_meets_the_wall_is_mapped(speed, words):
     with pytest.raises(InputError, match=words):
-        impact_map(Jeffcott(PAPER), Section(0.0, speed, 0.0))
+        impact_map(jeffcott(PAPER), Section(0.0, speed, 0.0))
 
 
 # -------------------------------------------------------------------------------------------- stroboscopic map
@@ -260,7 +260,7 @@ def state_differences(rotor, start: State, period: float, step: float) -> np.nda
     ("period", "impacts"), [(0.5, 0), (3.0, 1), (20.0, 10)], ids=["no impact", "one impact", "many impacts"]
 )
 def test_stroboscopic_jacobian_agrees_with_differences(period, impacts):
-    rotor = Jeffcott(PAPER)
+    rotor = jeffcott(PAPER)
     start = State(0.3 + 0.1j, 0.5 - 0.2j)
     mapped = stroboscopic_map(rotor, start, period)
     assert len(mapped.trajectory.contacts) == impacts
@@ -271,7 +271,7 @@ def test_stroboscopic_jacobian_agrees_with_differences(period, impacts):
 
 def test_stroboscopic_jacobian_through_stopped_slip():
     parameters = PAPER.replace(radius_ratio=0.3, mu=1.0)
-    rotor = Jeffcott(parameters)
+    rotor = jeffcott(parameters)
     start = State(0.3 + 0.1j, 0.9 - 0.2j)
     mapped = stroboscopic_map(rotor, start, 10.0)
     assert mapped.trajectory.contacts.sticks.any()
@@ -280,7 +280,7 @@ def test_stroboscopic_jacobian_through_stopped_slip():
 
 
 def test_stroboscopic_jacobian_of_free_flight_is_the_matrix_exponential():
-    mapped = stroboscopic_map(Jeffcott(PAPER), State(0.1j, 0.05 + 0j), 0.7)
+    mapped = stroboscopic_map(jeffcott(PAPER), State(0.1j, 0.05 + 0j), 0.7)
     columns = []
     for unit in ((1.0, 0.0), (1j, 0.0), (0.0, 1.0), (0.0, 1j)):
         end, speed = fly(PAPER.replace(rho=0.0), *unit, 0.7)
@@ -292,7 +292,7 @@ def test_stroboscopic_jacobian_of_free_flight_is_the_matrix_exponential():
 @pytest.mark.parametrize("share", [0.2, 0.7])
 def test_over_a_period_the_eigenvalues_are_the_multipliers_and_one(name, share):
     """One for a shift along the orbit; wherever on the orbit one starts."""
-    rotor = Jeffcott(PAPER)
+    rotor = jeffcott(PAPER)
     orbit = find_orbits(rotor)[name]
     motion = orbit.trajectory(1.0)
     position, velocity = motion.at(np.array([share * orbit.period]))
@@ -304,6 +304,6 @@ def test_over_a_period_the_eigenvalues_are_the_multipliers_and_one(name, share):
 
 def test_stroboscopic_map_stops_at_chatter():
     parameters = PAPER.replace(gamma=0.05, d=0.5)
-    mapped = stroboscopic_map(Jeffcott(parameters), State(0.5 + 0.0j, 0.1j), 500.0)
+    mapped = stroboscopic_map(jeffcott(parameters), State(0.5 + 0.0j, 0.1j), 500.0)
     assert mapped.trajectory.outcome is Outcome.CHATTER
     assert mapped.trajectory.time < 500.0

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from linear_rotors import touchdowns
 
-from carom.models import Jeffcott, LinearRotor
+from carom.models import Rotor, from_matrices, jeffcott
 from carom.motions import State, simulate
 from carom.orbits import find_orbits, impact_map, rubbing_orbits
 from carom.orbits.admissibility import why_virtual
@@ -106,14 +106,14 @@ def exact_state(section) -> list:
     return [normal, normal * mpmath.mpc(section.radial_speed, section.angular_speed)]
 
 
-def exact_rebound(rotor: Jeffcott, state: list) -> list:
+def exact_rebound(rotor: Rotor, state: list) -> list:
     position, velocity = state
     local = mpmath.conj(position) * velocity
     factor = (1 + mpmath.mpf(rotor.parameters.d)) * mpmath.mpc(1, rotor.parameters.mu)
     return [position, velocity - factor * local.real * position]
 
 
-def exact_arrival(matrix, rotor: Jeffcott, state: list, guess) -> list:
+def exact_arrival(matrix, rotor: Rotor, state: list, guess) -> list:
     """State where the flight meets the wall next to a time."""
     parameters = rotor.parameters
     rest = mpmath.mpf(parameters.rho) * mpmath.expj(mpmath.mpf(parameters.phi))
@@ -146,7 +146,7 @@ def test_a_stable_orbit_attracts_and_an_unstable_one_repels():
 
 def test_an_orbit_with_lasting_contact_closes_from_a_start_beside_it():
     (known,) = rubbing_orbits(CHATTERING)
-    rotor = Jeffcott(CHATTERING)
+    rotor = jeffcott(CHATTERING)
     orbit = orbit_near(rotor, known.word, Start(known.nodes, known.durations * 1.00001))
     assert orbit is not None
     assert orbit.admissible
@@ -162,9 +162,9 @@ def test_an_orbit_with_lasting_contact_closes_from_a_start_beside_it():
         orbit.path(np.array([0.0]))
 
 
-def tilting_too(coupling: float) -> LinearRotor:
+def tilting_too(coupling: float) -> Rotor:
     """The paper's machine with a tilt that stiffness couples to its motion, and a second plane that stays free."""
-    return LinearRotor.in_fixed_frame(
+    return from_matrices(
         mass=np.diag([1.0, 0.5]),
         damping=np.diag([PAPER.gamma, 0.08]),
         stiffness=np.array([[PAPER.omega**2, coupling], [coupling, 0.9]]),
@@ -288,7 +288,7 @@ def test_the_compiled_iteration_ends_where_the_other_ends():
 
 def test_the_jacobian_of_a_grazing_impact_is_regular():
     """Where the multipliers are infinite the equations of the orbit are not singular."""
-    rotor = Jeffcott(PAPER)
+    rotor = jeffcott(PAPER)
     one = find_orbits(rotor)["B1,d"]
     flown = rotor.system.fly(rotor.system.amplitudes(one.departure.position, one.departure.velocity), np.array(0.3))
     node = np.array(rotor.system.state(flown))
@@ -298,7 +298,7 @@ def test_the_jacobian_of_a_grazing_impact_is_regular():
 
 
 def test_without_friction_the_direction_of_the_slip_makes_no_other_word():
-    smooth = Jeffcott(PAPER.replace(mu=0.0, radius_ratio=0.05))
+    smooth = jeffcott(PAPER.replace(mu=0.0, radius_ratio=0.05))
     motion = simulate(smooth, State(0.9 + 0j, 1.0 - 2.0j), 20.0)
     slips = smooth.parameters.radius_ratio + 1.0 + motion.contacts.angular_speed
     assert slips[0] < 0.0

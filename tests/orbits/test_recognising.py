@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from linear_rotors import touchdowns
 
-from carom.models import Jeffcott, LinearRotor
+from carom.models import from_matrices, jeffcott
 from carom.motions import State, simulate
 from carom.orbits.admissibility import why_virtual
 from carom.orbits.exponents import lyapunov_exponents, orbit_exponents
@@ -18,7 +18,7 @@ from carom.parameters import Parameters
 from tests.orbits.test_orbit import CHATTERING
 
 pytestmark = pytest.mark.jit_only
-ROTOR = Jeffcott(CHATTERING.replace(gamma=0.25))
+ROTOR = jeffcott(CHATTERING.replace(gamma=0.25))
 
 
 @pytest.fixture(scope="module")
@@ -60,13 +60,13 @@ def test_its_exponent_is_the_rate_at_which_simulated_motions_part(whirl):
 
 
 def test_rolling_alone_has_no_such_orbit():
-    motion = simulate(Jeffcott(CHATTERING), State(1.0, -80j), settle=True)
+    motion = simulate(jeffcott(CHATTERING), State(1.0, -80j), settle=True)
     assert orbit_of_whirl(motion, 0.108) is None
 
 
 def test_a_chatter_after_an_impact_that_grazes():
     """The chatter does not begin with the slow impact from which the rotor does not return at once."""
-    rotor, place = Jeffcott(CHATTERING), np.exp(2j)
+    rotor, place = jeffcott(CHATTERING), np.exp(2j)
     motion = simulate(rotor, State(place, (1e-7 - 1.0j) * place), 30.0)
     hits, landing = np.flatnonzero(motion.is_impact), np.flatnonzero(motion.is_landing)[0]
     next_flight = int(hits[hits > landing][0])
@@ -106,7 +106,7 @@ def test_impacts_without_rebound_that_do_not_stay():
 def test_a_plane_that_is_never_touched_changes_no_orbit(machine, impacts, touched):
     """The planar rotor beside a coordinate that it does not feel, with a contact plane far from that coordinate's motion."""
     alone = orbit_of_motion(simulate(machine, State(0.1, -1.0 - 1.0j), settle=True))
-    rotor = LinearRotor.in_fixed_frame(
+    rotor = from_matrices(
         mass=np.eye(2),
         damping=np.diag([machine.gamma, 0.3]),
         stiffness=np.diag([machine.omega**2, 0.7]),

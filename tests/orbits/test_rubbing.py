@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from carom import find_orbits, simulate
-from carom.models import Jeffcott
+from carom.models import jeffcott
 from carom.orbits import lift_off_of, rubbing_orbits
 from carom.orbits.rubbing import lift_off_state
 from carom.orbits.shooting import Start, links_of, pack_free, unpack_free
@@ -17,7 +17,7 @@ from tests.machines import PAPER
 
 
 def test_lift_offs_leave_the_wall():
-    rotor = Jeffcott(CHATTERING)
+    rotor = jeffcott(CHATTERING)
     lifted = 0
     for whirl in (1, -1):
         for angle in np.linspace(-np.pi, np.pi, 25):
@@ -40,7 +40,7 @@ def test_what_is_told_of_a_lift_off_is_what_the_simulation_does():
     # The completion of a chatter replaces bounces that last about 1e-6.
     assert told.contact_time == pytest.approx(contact.end - contact.start, abs=2e-6)
     assert told.landing_force == pytest.approx(float(motion.forces(np.array([contact.start]))[0][0]), abs=1e-5)
-    state = lift_off_state(Jeffcott(CHATTERING), told.whirl, told.angle)
+    state = lift_off_state(jeffcott(CHATTERING), told.whirl, told.angle)
     assert abs(state.position - motion.start.position) < 1e-12
     assert abs(state.velocity - motion.start.velocity) < 1e-9
     with pytest.raises(CaromError, match="never lifts off"):

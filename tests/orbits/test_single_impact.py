@@ -25,7 +25,7 @@ from scipy.linalg import expm
 from scipy.optimize import brentq, fsolve
 
 from carom import State, find_orbits, simulate
-from carom.models import Jeffcott
+from carom.models import jeffcott
 from carom.orbits import Orbit, OrbitSet, Section, impact_map
 from carom.outcome import InputError, Outcome
 from carom.parameters import Parameters
@@ -34,7 +34,7 @@ SETS = sized(80, 80, 200)
 
 
 def orbits_of(parameters: Parameters) -> OrbitSet:
-    return find_orbits(Jeffcott(parameters))
+    return find_orbits(jeffcott(parameters))
 
 
 @st.composite
@@ -90,10 +90,10 @@ def assert_returns_by_simulation(orbit: Orbit) -> None:
 
 def test_orbits_that_have_shrunk_to_levitation_on_the_wall_are_limits():
     machine = Parameters(gamma=1.0, omega=1.0, rho=1.0, phi=1.0, mu=1.0, d=1.0, radius_ratio=1.0)
-    assert abs(Jeffcott(machine).equilibrium) == 1.0
-    shrunk = [orbit for orbit in find_orbits(Jeffcott(machine)) if orbit.radial_speed == 0.0]
+    assert abs(jeffcott(machine).equilibrium) == 1.0
+    shrunk = [orbit for orbit in find_orbits(jeffcott(machine)) if orbit.radial_speed == 0.0]
     assert shrunk
-    beside = find_orbits(Jeffcott(machine.replace(rho=1.0 - 1e-9)))
+    beside = find_orbits(jeffcott(machine.replace(rho=1.0 - 1e-9)))
     for orbit in shrunk:
         assert not orbit.admissible
         assert orbit.position == pytest.approx(orbit.rotor.equilibrium, abs=1e-12)
@@ -347,7 +347,7 @@ def test_the_argument_says_what_was_proven():
         "beyond, the decay of the free motion keeps F1 above zero; "
         "an impact that stopped the slip would send the rotor out of the clearance."
     )
-    some = find_orbits(Jeffcott(PAPER.replace(radius_ratio=0.3)), longest_period=1.0)
+    some = find_orbits(jeffcott(PAPER.replace(radius_ratio=0.3)), longest_period=1.0)
     assert not some.complete
     assert [orbit.name for orbit in some] == ["B1,a", "B1,c"]
     assert "F1 has 1 root for 0 < T ≤ 1/Ω" in some.argument
@@ -357,7 +357,7 @@ def test_the_argument_says_what_was_proven():
 def test_without_damping_a_longest_period_is_needed():
     with pytest.raises(InputError, match="longest_period must limit the orbits searched"):
         orbits_of(PAPER.replace(gamma=0.0))
-    orbits = find_orbits(Jeffcott(PAPER.replace(gamma=-0.1)), longest_period=10.0)
+    orbits = find_orbits(jeffcott(PAPER.replace(gamma=-0.1)), longest_period=10.0)
     assert not orbits.complete
     for orbit in orbits:
         assert_returns_by_matrix_exponential(orbit)
@@ -422,7 +422,7 @@ def assert_not_claimed(parameters: Parameters, rest: complex) -> None:
     """The rotor whose unbalance makes this the rest position is not said to keep its slip forward."""
     stiffness = complex(parameters.omega**2 - 1.0, parameters.gamma)
     machine = parameters.replace(rho=abs(rest * stiffness), phi=cmath.phase(rest * stiffness))
-    assert not find_orbits(Jeffcott(machine), longest_period=0.1).slip_stays_forward, machine
+    assert not find_orbits(jeffcott(machine), longest_period=0.1).slip_stays_forward, machine
 
 
 def test_no_rotor_said_to_keep_its_slip_forward_can_have_it_stopped():
@@ -480,7 +480,7 @@ def test_an_orbit_with_stopped_slip_exists_where_the_argument_leaves_room_for_it
     period = brentq(mismatch, 2.6, 2.7, xtol=1e-14)
     rest, radial, angular = stopped_slip_orbit(parameters, period)
     position = rest_position(parameters) / rest
-    rotor = Jeffcott(parameters)
+    rotor = jeffcott(parameters)
     assert not find_orbits(rotor).slip_stays_forward
     motion = simulate(
         rotor, State(position, complex(-parameters.d * radial, -parameters.radius_ratio - 1.0) * position), 30.0

@@ -8,7 +8,7 @@ from scipy.optimize import linear_sum_assignment
 from yielding_rotors import Yielding, packed, two_planes
 
 import carom as cm
-from carom.models import HuntCrossley, KelvinVoigt, LinearRotor, Rigid
+from carom.models import HuntCrossley, KelvinVoigt, Rigid, from_matrices
 from carom.models.touchdown import Touchdown
 from carom.orbits import Kind, Section, Segment, Word, impact_map, orbit_near, orbit_of_motion
 from carom.orbits.shooting import Start
@@ -139,7 +139,7 @@ def test_a_stiff_wall_comes_near_to_a_rigid_one():
     restitution, share = 0.95, 0.0164982
     forcing = [VOIGT.rho * np.exp(1j * VOIGT.phi)]
     wall = [Touchdown([1.0], Rigid(restitution), VOIGT.mu, VOIGT.surface_speed)]
-    rigid = LinearRotor.in_fixed_frame(
+    rigid = from_matrices(
         mass=[[1.0]], damping=[[VOIGT.gamma]], stiffness=[[VOIGT.omega**2]], forcing=forcing, touchdowns=wall
     )
     limit = orbit_of_motion(cm.simulate(rigid, cm.State(0.2 + 0.1j, 1.0), settle=True))

@@ -79,7 +79,7 @@ def test_a_drive_beside_a_rigid_wall_is_that_of_a_linear_rotor(tmp_path):
     machine = cm.load(path)
     model = cm.models.model_of(machine)
     at, scales = model.parameters, model.scales
-    rotor = cm.models.LinearRotor.in_fixed_frame(
+    rotor = cm.models.from_matrices(
         mass=[[1.0]],
         damping=[[at.gamma]],
         stiffness=[[at.omega**2]],

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from carom.loading import load
-from carom.models import Jeffcott
+from carom.models import jeffcott
 from carom.outcome import InputError
 from carom.parameters import GRAVITY, Case, Required, Requirement, Scales, Shock, Zones, usual_kick
 
@@ -161,7 +161,7 @@ def test_all_errors_are_told_at_once(tmp_path):
 
 def test_python_reads_text_for_any_machine():
     case = load(REAL)
-    for subject in (case, case.machine, case.parameters, Jeffcott(case.parameters)):
+    for subject in (case, case.machine, case.parameters, jeffcott(case.parameters)):
         assert Requirement.of(subject, kick="100 mm/s", blade_loss="0.1 mm") == Requirement(0.1, None, 0.005, "option")
     with pytest.raises(InputError, match="a Machine, a Case"):
         Requirement.of(case.parameters.scales)

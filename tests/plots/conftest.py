@@ -15,7 +15,7 @@ def _motions(gamma: float) -> SimpleNamespace:
     parameters = carom.parameters.Parameters(
         gamma=gamma, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7, scales=scales
     )
-    rotor = carom.models.Jeffcott(parameters)
+    rotor = carom.models.jeffcott(parameters)
     return SimpleNamespace(
         rotor=rotor,
         orbits=carom.find_orbits(rotor),

@@ -39,7 +39,7 @@ MACHINE = carom.parameters.Parameters(
 
 @pytest.fixture(scope="module")
 def rotor():
-    return carom.models.Jeffcott(MACHINE)
+    return carom.models.jeffcott(MACHINE)
 
 
 def painted(figure):
@@ -204,7 +204,7 @@ def test_hatching_covers_its_cells_to_their_rim(rotor, plan):
 
 
 def test_without_scales_units_are_those_of_the_equations():
-    rotor = carom.models.Jeffcott(MACHINE.replace(scales=None))
+    rotor = carom.models.jeffcott(MACHINE.replace(scales=None))
     figure = plots.basin(map_basins(rotor, Grid(VelocityKick(1.0), (5, 6))))
     assert r"($c_\mathrm{r}\,\Omega$)" in figure.axes[1].get_xlabel()
 

@@ -75,7 +75,7 @@ def test_no_roots(quiet, read):
 
 
 def test_many_roots_names_do_not_crowd(damped):
-    rotor = carom.models.Jeffcott(damped.rotor.parameters.replace(gamma=0.02))
+    rotor = carom.models.jeffcott(damped.rotor.parameters.replace(gamma=0.02))
     orbits = carom.find_orbits(rotor)
     assert len(orbits.periods) > 10
     periods = np.linspace(1e-3, orbits.longest_period, 2000)

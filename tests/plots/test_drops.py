@@ -96,7 +96,7 @@ def test_the_first_contacts_have_a_column_of_their_own(soft):
 
 
 def test_in_units_of_the_equations():
-    rotor = cm.models.Jeffcott(cm.parameters.Parameters(0.1, 0.76, 0.4, 0.0, 0.15, 0.5, 50.0))
+    rotor = cm.models.jeffcott(cm.parameters.Parameters(0.1, 0.76, 0.4, 0.0, 0.15, 0.5, 50.0))
     motion = cm.simulate(rotor, cm.kick(0.5), 20.0)
     assert "c_" in plots.drop_loads(motion).axes[0].get_ylabel()
     assert "c_" in plots.drop_orbit(motion).axes[1].get_ylabel()

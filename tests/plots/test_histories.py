@@ -27,7 +27,7 @@ def test_axes_are_in_the_units_of_the_machine(bouncing, damped):
 
 def test_without_scales_units_are_those_of_the_equations(damped):
     parameters = damped.rotor.parameters.replace(scales=None)
-    motion = carom.simulate(carom.models.Jeffcott(parameters), carom.kick(0.35), until=20.0)
+    motion = carom.simulate(carom.models.jeffcott(parameters), carom.kick(0.35), until=20.0)
     (axes,) = plots.radius(motion).axes
     assert axes.child_axes == []
     assert axes.get_xlabel() == r"time $t$ ($1/\Omega$)"

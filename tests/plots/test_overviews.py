@@ -85,7 +85,7 @@ def test_virtual_orbits_are_faint(weak, read):
 
 
 def test_many_virtual_orbits_do_not_hide_the_physical_ones(damped, read):
-    rotor = carom.models.Jeffcott(damped.rotor.parameters.replace(gamma=0.02))
+    rotor = carom.models.jeffcott(damped.rotor.parameters.replace(gamma=0.02))
     orbits = carom.find_orbits(rotor)
     virtual = sum(not orbit.admissible for orbit in orbits)
     figure = plots.equilibria_and_orbits(orbits, carom.find_equilibria(rotor), virtual=True)

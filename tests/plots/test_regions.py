@@ -66,7 +66,7 @@ def test_a_region_has_its_name_in_its_area_or_its_number_in_the_document(corner,
 
 
 def test_axes_of_a_machine_are_in_its_units(corner):
-    known = type(corner)(**{**vars(corner), "model": carom.models.Jeffcott(PAPER.replace(scales=SCALES))})
+    known = type(corner)(**{**vars(corner), "model": carom.models.jeffcott(PAPER.replace(scales=SCALES))})
     (axes,) = plots.region_map(known).axes
     below, left = axes.child_axes
     assert (below.get_xlabel(), left.get_ylabel()) == (

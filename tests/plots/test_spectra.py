@@ -57,7 +57,7 @@ def test_stable_is_filled_unstable_hollow(damped):
 
 
 def test_many_virtual_orbits_share_a_marker(damped, read):
-    orbits = carom.find_orbits(carom.models.Jeffcott(damped.rotor.parameters.replace(gamma=0.02)))
+    orbits = carom.find_orbits(carom.models.jeffcott(damped.rotor.parameters.replace(gamma=0.02)))
     virtual = sum(not orbit.admissible for orbit in orbits)
     figure = plots.multipliers(orbits, virtual=True)
     assert len(read.legend(figure)) == len(orbits) - virtual + 1

@@ -10,7 +10,7 @@ import pytest
 from compilation import sized
 
 import carom
-from carom.models import Jeffcott
+from carom.models import jeffcott
 from carom.motions import settle
 from carom.outcome import InputError
 from carom.parameters import Parameters
@@ -93,9 +93,9 @@ def rotor_at(machine, settings):
     """The rotor of a machine with other values of some parameters, by carom's own reading of files."""
     if isinstance(machine, dict):
         numbers = {name: float(value) for name, value in {**machine, **settings}.items()}
-        return Jeffcott(Parameters(**numbers)), 1.0
+        return jeffcott(Parameters(**numbers)), 1.0
     loaded = carom.load(machine, [f"{name}={value}" for name, value in settings.items()])
-    return Jeffcott(loaded.parameters), loaded.parameters.scales.velocity
+    return jeffcott(loaded.parameters), loaded.parameters.scales.velocity
 
 
 def test_everything_is_proven(case):

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from carom.loading import load
-from carom.models import Jeffcott
+from carom.models import jeffcott
 from carom.outcome import InputError
 from carom.proofs.hypotheses import Hypotheses, hypotheses_of
 
@@ -110,7 +110,7 @@ def test_unit_that_is_not_exact_is_refused():
 
 def test_model_counts_by_its_doubles():
     case = load(KEOGH)
-    assert hypotheses_of(Jeffcott(case.parameters)).numbers == hypotheses_of(case).numbers
+    assert hypotheses_of(jeffcott(case.parameters)).numbers == hypotheses_of(case).numbers
 
 
 def test_settings_may_be_fractions_and_intervals():

@@ -13,7 +13,7 @@ import pytest
 from compilation import sized
 from scipy.integrate import solve_ivp
 
-from carom.models import Jeffcott
+from carom.models import jeffcott
 from carom.motions import settle
 from carom.outcome import InputError
 from carom.proofs import check, hypotheses_of, prove_kicks
@@ -51,7 +51,7 @@ def drawn(proof, number):
     cells = [
         (cell, IMPACTS.index(letter)) for cell, letter in leaves(read(proof.evidence["cells"])) if letter in IMPACTS
     ]
-    rotor, random_ = Jeffcott(doubles_of(proof.hypotheses)), np.random.default_rng(7)
+    rotor, random_ = jeffcott(doubles_of(proof.hypotheses)), np.random.default_rng(7)
     largest = proof["kicks recover"].enclosures["speed"].value  # nothing is open
     picked = random_.integers(0, len(cells), number)
     ends = np.array([[float(end) for end in (*cell.speeds, *cell.angles)] for cell, _ in cells])[picked]

@@ -9,7 +9,7 @@ import pytest
 from compilation import sized
 
 from carom.closed_forms import harmless_kick
-from carom.models import Jeffcott
+from carom.models import jeffcott
 from carom.motions import settle
 from carom.outcome import InputError, Outcome
 from carom.proofs import check, hypotheses_of
@@ -55,7 +55,7 @@ def machine():
 @pytest.fixture(scope="module")
 def largest(machine):
     """Twice the harmless kick, which has few digits so."""
-    return f"{2 * harmless_kick(Jeffcott(doubles_of(machine))):.4f}"
+    return f"{2 * harmless_kick(jeffcott(doubles_of(machine))):.4f}"
 
 
 @pytest.fixture(scope="module")
@@ -82,7 +82,7 @@ def test_a_cell_is_refuted_and_verified(document):
 
 
 def test_kicks_of_a_refuted_cell_end_in_the_rub(machine, largest):
-    rotor, random, number = Jeffcott(doubles_of(machine)), np.random.default_rng(5), sized(2000, 100, 100_000)
+    rotor, random, number = jeffcott(doubles_of(machine)), np.random.default_rng(5), sized(2000, 100, 100_000)
     within = random.uniform(0, 1, (2, number))
     within[:, ::4] = np.round(within[:, ::4])
     sizes, turns = (

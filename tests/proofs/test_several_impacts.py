@@ -12,7 +12,7 @@ from flint import arb
 from machines import PAPER
 
 import carom as cm
-from carom.models import Jeffcott
+from carom.models import jeffcott
 from carom.orbits import Section, impact_map
 from carom.outcome import InputError
 from carom.proofs import check, prove
@@ -47,7 +47,7 @@ def test_orbit_born_at_the_period_doubling_is_proven(proof):
 
 def test_simulation_from_the_enclosure_repeats(proof):
     entry = {name: end.value for name, end in proof[f"orbit {BORN} exists"].enclosures.items()}
-    rotor = Jeffcott(NEAR_DOUBLING)
+    rotor = jeffcott(NEAR_DOUBLING)
     angle = entry["angle 1"] + float(np.angle(rotor.equilibrium))
     state = Section(angle, entry["radial_speed 1"], entry["angular_speed 1"])
     for number in (2, 1):
@@ -72,7 +72,7 @@ def test_derivative_over_a_period_is_that_of_the_kernels(proof):
         orbit = ShootingOrbit(numbers, (tuple(found[:4]), tuple(found[4:])))
         jacobian = orbit.jacobian()
         margins = orbit.margins()
-    rotor = Jeffcott(NEAR_DOUBLING)
+    rotor = jeffcott(NEAR_DOUBLING)
     turned = float(np.angle(rotor.equilibrium))
     product = np.eye(3)
     for impact in orbit.impacts:

@@ -9,7 +9,7 @@ import pytest
 from compilation import sized
 
 from carom.disturbances import BaseShock
-from carom.models import Jeffcott
+from carom.models import jeffcott
 from carom.motions import settle
 from carom.outcome import InputError
 from carom.proofs import check, prove_kicks, prove_shocks, prove_unbalance_steps
@@ -72,7 +72,7 @@ def test_all_are_proven_to_return(proof):
 
 def test_simulations_return_with_at_most_as_many_impacts(proof):
     shares, most = drawn(proof, sized(2000, 200, 100_000))
-    (largest, duration), rotor = largest_of(proof), Jeffcott(doubles_of(proof.hypotheses))
+    (largest, duration), rotor = largest_of(proof), jeffcott(doubles_of(proof.hypotheses))
     levitation = rotor.equilibrium
     ahead = levitation / abs(levitation)
     if duration:

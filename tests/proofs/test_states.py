@@ -11,7 +11,7 @@ from compilation import sized
 from scipy.linalg import expm
 
 import carom as cm
-from carom.models import Jeffcott
+from carom.models import jeffcott
 from carom.motions import settle
 from carom.outcome import InputError, Outcome
 from carom.proofs import check, prove_states
@@ -65,7 +65,7 @@ def test_all_states_are_proven_to_return(proof):
 
 
 def test_simulated_states_return(proof):
-    rotor = Jeffcott(doubles_of(proof.hypotheses))
+    rotor = jeffcott(doubles_of(proof.hypotheses))
     starts = drawn(proof["states recover"].enclosures["speed"].value, sized(10_000, 300, 100_000))
 
     assert settle(rotor, *starts).recovered.all()

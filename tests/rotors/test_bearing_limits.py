@@ -10,7 +10,6 @@ from flexible_machines import symmetric
 from limited_reference import clipped, follow
 
 import carom as cm
-from carom.models import Limited
 from carom.motions import State, energy_ledger
 from carom.outcome import InputError, Outcome
 from carom.parameters import Gravity
@@ -120,7 +119,7 @@ def test_a_limit_that_is_never_met_changes_nothing():
 
 def test_a_dropped_rotor_has_no_limits_until_it_is_held_again():
     model = machine(current_limit=1.0).with_modes(2).model
-    assert isinstance(model.rotor, Limited)
+    assert model.limits
 
     motion = cm.simulate(model, cm.drop(regained_after="5 ms"), "15 ms")
 

@@ -12,7 +12,7 @@ from scipy.integrate import solve_ivp
 
 import carom as cm
 from carom.closed_forms import ball_pressure, synchronous_response
-from carom.models import LinearRotor, Rigid, Touchdown, model_from
+from carom.models import Rigid, Touchdown, from_matrices, model_from
 from carom.models.weight import levitation_of
 from carom.orbits import find_orbits
 from carom.outcome import InputError
@@ -162,7 +162,7 @@ def test_clearances_are_parameters_of_the_machine():
         machine.value("clearance")
     model = machine.with_modes(4).linear
     assert model.value("radius_ratio_2") == pytest.approx(4.8 / 0.3)
-    same = model.replace(radius_ratio=30.0).reduced.machine
+    same = model.replace(radius_ratio=30.0).finite_elements.machine
     assert [each.rotor_radius for each in same.touchdowns] == pytest.approx([6e-3, 9e-3])
 
 
@@ -177,7 +177,7 @@ def test_balls_have_a_pressure_at_each_plane():
         si = plane.loads.si()
         assert si["pressure"] == pytest.approx(ball_pressure(wall, si["force"]), rel=1e-12)
         assert si["pressure"] > 1e8
-    again = model_from(model.rotor.attributes())
+    again = model_from(model.unforced.attributes())
     assert [each.bearing.balls for each in again.touchdowns] == [12, 12]
 
 
@@ -201,7 +201,7 @@ def test_orbits_are_told_in_the_clearance_of_their_plane():
     found = []
     for unit in (1.0, wide):  # clearances in the unit of length
         plane = Touchdown([1.0 / unit], Rigid(0.95), 0.15, 21.0, clearance=unit)
-        rotor = LinearRotor.in_fixed_frame(
+        rotor = from_matrices(
             mass=[[1.0]],
             damping=[[gamma]],
             stiffness=[[omega**2]],

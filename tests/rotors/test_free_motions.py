@@ -95,7 +95,7 @@ def test_verdicts_are_those_of_all_exponents(example):
 
 
 def test_vectors_that_are_no_modes_do_not_grow():
-    reduced = cm.load(UBERLANDIA, STABLE).parameters.reduced
+    reduced = cm.load(UBERLANDIA, STABLE).parameters.finite_elements
     assert np.linalg.eigvals(reduced._equations(reduced.basis).generator(reduced.machine.speed)).real.max() > 5.0
     # The slowest of all modes, an integrator, is the slowest of the vectors too.
     slowest = reduced.machine.slowest.exponents[0].real

@@ -206,9 +206,9 @@ def test_entries_are_parameters():
     assert (moved.supports[0].kxx, moved.supports[0].cyy) == (1e5, 70.0)
     assert MACHINE.value("kxy") == 3e4
     model = MACHINE.with_modes(6).linear
-    assert model.replace(kyy=6e4).reduced.machine.supports[0].kyy == 6e4
+    assert model.replace(kyy=6e4).finite_elements.machine.supports[0].kyy == 6e4
     again = type(model).from_attributes(model.attributes())
-    assert again.reduced.machine.supports == MACHINE.supports
+    assert again.finite_elements.machine.supports == MACHINE.supports
     assert again.system.arrays["mirror_columns"].tolist() == model.system.arrays["mirror_columns"].tolist()
 
 

@@ -140,7 +140,7 @@ def test_shocks_end_as_their_stages_do():
 def test_before_the_loss_of_a_blade_it_levitates_and_the_frame_turns_with_the_only_unbalance(phase):
     model = REDUCED.model
     after, state = BladeLoss(2.0 * model.value("rho")).release(model, phase)
-    (before,), (changed,) = (each.rotor.reduced.machine.unbalances for each in (model, after))
+    (before,), (changed,) = (each.rotor.finite_elements.machine.unbalances for each in (model, after))
     turned = state.time
     start = model.system.states_of(model.system.forced_at(0.0)[None])[0].reshape(2, -1) * np.exp(-1j * turned)
     assert np.array([state.position, state.velocity]) == pytest.approx(start, abs=1e-12)
@@ -153,18 +153,18 @@ def test_before_a_step_of_the_unbalance_it_levitates_with_that():
     step = UnbalanceStep(0.1)
     starts = step.starts(model, np.array([0.1]), np.array([0.7]))
     # Whatever its distribution, the eccentricity is that of the rotor as a whole.
-    whole = dataclasses.replace(REDUCED.linear, reduced=None)
+    whole = REDUCED.linear
     forcing = 0.1 * np.exp(1j * (0.7 + model.unbalance_phase)) * (whole.mass @ whole.translation)
-    before = cm.models.LinearRotor(
+    before = cm.models.from_corotating_matrices(
         whole.mass,
         whole.damping,
         whole.stiffness,
         forcing,
         whole.touchdowns,
-        whole.translation,
+        translation=whole.translation,
         conjugate=whole.conjugate,
     )
-    weighted = cm.models.Forced(before, model.forces)
+    weighted = before.under(*model.forces)
     position, velocity = weighted.system.kicked(0.0)
     assert starts.exists.all()
     assert starts.positions[0] == pytest.approx(position, abs=1e-12)

@@ -16,7 +16,7 @@ from carom.closed_forms.whirl import rolling
 from carom.disturbances import KickPlane, Sample
 from carom.files import as_json
 from carom.loading import load
-from carom.models import Jeffcott
+from carom.models import jeffcott
 from carom.motions import State, simulate
 from carom.orbits import orbits_within_reach
 from carom.outcome import Phase
@@ -33,7 +33,7 @@ def rated(*settings, slew="5 A/ms"):
 
 
 def demand_of(case, found):
-    rotor = Jeffcott(case.parameters)
+    rotor = jeffcott(case.parameters)
     return bearing_demand(case, find_equilibria(rotor).members, orbits_within_reach(rotor), rolling(rotor), found)
 
 
@@ -79,7 +79,7 @@ def test_the_rate_of_the_current_of_a_flight_is_that_of_the_equations_in_si_unit
 def test_a_bouncing_orbit_asks_for_what_its_flight_does():
     case = rated("damping=1200 N s/m")
     machine, scales = case.machine, case.parameters.scales
-    (orbit,) = [orbit for orbit in orbits_within_reach(Jeffcott(case.parameters)) if orbit.admissible and orbit.stable]
+    (orbit,) = [orbit for orbit in orbits_within_reach(jeffcott(case.parameters)) if orbit.admissible and orbit.stable]
     state = orbit.departure
     rates, _ = by_integration(
         machine,

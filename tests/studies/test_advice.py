@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import carom as cm
-from carom.models import Jeffcott
+from carom.models import jeffcott
 from carom.motions import settle, simulate
 from carom.parameters import Case, Machine, Zones, in_terms_of
 from carom.studies import advice
@@ -64,7 +64,7 @@ def test_nothing_fresh_is_lost_at_advised_values(kick):
     result = cm.study(case, requirement=cm.parameters.Requirement.of(case, kick=kick))
     assert result.recommendation.kind == "change"
     for change in result.recommendation.changes:
-        rotor = Jeffcott(with_setting(case, change.terms).parameters)
+        rotor = jeffcott(with_setting(case, change.terms).parameters)
         lost = ~settle(rotor, *fresh(rotor, result.required.kick, 2000, 77)).recovered
         assert lost.sum() == 0, (kick, change.terms.setting)
 
@@ -115,7 +115,7 @@ def test_what_a_change_asks_for_is_the_largest_along_fresh_motions():
     case = with_setting(case, in_terms_of(case, "gamma", 0.6))
     required = case.requirement.own(case.parameters.scales)
     asked = asked_by(case, required_disturbances(required, 100))
-    rotor, limit = Jeffcott(case.parameters), slew_limit_of(case)
+    rotor, limit = jeffcott(case.parameters), slew_limit_of(case)
     whirl = limit.asked(Centre.whirling(abs(rotor.equilibrium), 1.0)) / limit.most
     assert asked >= whirl
     largest = 0.0
@@ -142,7 +142,7 @@ def test_a_value_that_is_not_the_least_names_the_sample_that_forced_it(monkeypat
     assert forced
     for change, check in forced:
         assert not check.recovers
-        rotor = Jeffcott(result.case.parameters.replace(**{change.parameter: check.value}))
+        rotor = jeffcott(result.case.parameters.replace(**{change.parameter: check.value}))
         lost = check.example
         starts = lost.model.starts(rotor, *(np.array([value]) for value in lost.values))
         assert not settle(rotor, starts.positions, starts.velocities).recovered.any()

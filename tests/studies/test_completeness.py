@@ -22,7 +22,7 @@ def test_completeness_is_claimed_only_where_it_is_proven(radius_ratio, longest, 
     parameters = carom.parameters.Parameters(
         gamma=0.3, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=radius_ratio
     )
-    orbits = carom.find_orbits(carom.models.Jeffcott(parameters), longest)
+    orbits = carom.find_orbits(carom.models.jeffcott(parameters), longest)
     study = SimpleNamespace(
         orbits=orbits, rotor=orbits.rotor, stable_orbits=(), wording=SimpleNamespace(time=lambda time: f"{time}")
     )

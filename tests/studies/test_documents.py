@@ -9,7 +9,7 @@ from machines import PAPER
 from yielding_walls import with_walls
 
 from carom.files import as_json
-from carom.models import Jeffcott, KelvinVoigt
+from carom.models import KelvinVoigt, jeffcott
 from carom.motions import State, simulate
 from carom.parameters import Scales
 from carom.studies import trajectory_document
@@ -34,7 +34,7 @@ def test_motion_of_any_rotor():
 
 
 def test_motion_of_the_planar_rotor_has_its_parameters():
-    motion = simulate(Jeffcott(PAPER), State(0.3, 0.9), 30.0)
+    motion = simulate(jeffcott(PAPER), State(0.3, 0.9), 30.0)
     document = json.loads(as_json(trajectory_document(motion)))
 
     assert document["parameters"] == PAPER.as_dict()

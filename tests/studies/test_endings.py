@@ -3,7 +3,7 @@
 import pytest
 
 from carom.attractors import MotionName, find_attractors
-from carom.models import Jeffcott
+from carom.models import jeffcott
 from carom.motions.simulation import simulate
 from carom.orbits.names import OrbitName
 from carom.outcome import Outcome
@@ -17,7 +17,7 @@ pytestmark = pytest.mark.jit_only
 
 @pytest.fixture(scope="module")
 def found():
-    return find_attractors(Jeffcott(SOURCE))
+    return find_attractors(jeffcott(SOURCE))
 
 
 @pytest.mark.parametrize(

@@ -22,7 +22,7 @@ SOURCE = carom.parameters.Parameters(
 
 def said_of(parameters: carom.parameters.Parameters) -> str:
     study = SimpleNamespace(
-        rotor=carom.models.Jeffcott(parameters),
+        rotor=carom.models.jeffcott(parameters),
         wording=Wording(parameters.scales),
         case=SimpleNamespace(parameters=parameters),
     )
@@ -31,7 +31,7 @@ def said_of(parameters: carom.parameters.Parameters) -> str:
 
 def test_two_limits_of_rolling_are_told_apart():
     text = said_of(SOURCE)
-    roll, say = rolling(carom.models.Jeffcott(SOURCE)), Wording(SCALES)
+    roll, say = rolling(carom.models.jeffcott(SOURCE)), Wording(SCALES)
     every_angle, bound = say.value("gamma", roll.largest_damping), say.value("gamma", roll.damping_bound)
     assert every_angle != bound
     assert (
@@ -45,7 +45,7 @@ def test_two_limits_of_rolling_are_told_apart():
 
 def test_a_balanced_rotor_has_one_limit_of_rolling():
     parameters = SOURCE.replace(rho=0.0)
-    roll = rolling(carom.models.Jeffcott(parameters))
+    roll = rolling(carom.models.jeffcott(parameters))
     assert roll.largest_damping == pytest.approx(roll.damping_bound, rel=1e-15)
     text = said_of(parameters)
     assert text.endswith("rules that out.")
@@ -73,7 +73,7 @@ def test_no_load_is_told_that_no_wall_bears():
 
 def test_the_load_at_the_point_of_no_return_is_that_of_the_equations_of_motion():
     """Sliding at the runaway speed: the largest normal force over a turn, from the radial acceleration of the centre."""
-    whirl = runaway_speed(carom.models.Jeffcott(SOURCE)).certain
+    whirl = runaway_speed(carom.models.jeffcott(SOURCE)).certain
     angles = np.linspace(0.0, 2.0 * math.pi, 100_001)
     centre = SOURCE.rho * np.cos(angles - SOURCE.phi) + whirl**2 - SOURCE.omega**2
     force = Wording(SCALES).force(float(centre.max()))

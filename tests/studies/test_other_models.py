@@ -15,7 +15,7 @@ import carom as cm
 from carom.basins import smallest_loss
 from carom.disturbances import Sample, VelocityKick
 from carom.files import as_json
-from carom.models import Jeffcott, LinearRotor
+from carom.models import Rotor, jeffcott
 from carom.outcome import InputError
 from carom.parameters import Case, Requirement, Scales, Zones
 from carom.studies.facts import about
@@ -23,7 +23,7 @@ from carom.studies.summaries import dimensionless_rows, motion_rows, range_rows,
 
 pytestmark = pytest.mark.jit_only
 
-PLANAR = Jeffcott(PAPER.replace(gamma=0.15, rho=0.3))
+PLANAR = jeffcott(PAPER.replace(gamma=0.15, rho=0.3))
 
 
 @pytest.fixture(scope="module")
@@ -106,7 +106,7 @@ def test_a_rotor_with_two_planes_in_si_units(monkeypatch):
     for name, count in {"PHASES": 12, "CIRCLES": 6, "DRAWN": 10, "AROUND": 12}.items():
         monkeypatch.setattr(f"carom.basins.blade_losses.{name}", count)
     monkeypatch.setattr("carom.basins.losses.ROUND", 24)
-    rotor: LinearRotor = tilting(damping=0.3 * np.diag([1.0, 0.4])).model.replace(scales=Scales(50.0, 0.7e-3, 184.2))
+    rotor: Rotor = tilting(damping=0.3 * np.diag([1.0, 0.4])).model.replace(scales=Scales(50.0, 0.7e-3, 184.2))
     found = cm.study(rotor, Sample(VelocityKick(0.3), 4), requirement=Requirement(kick=0.02))
     assert found.levitates
     assert "mm/s" in found.verdict.headline

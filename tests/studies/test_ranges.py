@@ -13,7 +13,7 @@ from carom.closed_forms.equilibria import find_equilibria
 from carom.closed_forms.thresholds import ranges_of
 from carom.closed_forms.whirl import rolling
 from carom.loading import load
-from carom.models import Edge, Jeffcott, Span, axis
+from carom.models import Edge, Span, axis, jeffcott
 from carom.motions.simulation import simulate
 from carom.motions.starts import State
 from carom.orbits.single_impact import orbits_within_reach
@@ -40,11 +40,11 @@ def steady_range(parameters, motion, gain):
 
 
 def levitates(parameters):
-    return find_equilibria(Jeffcott(parameters))[0].status == "admissible"
+    return find_equilibria(jeffcott(parameters))[0].status == "admissible"
 
 
 def rubs(parameters):
-    return any(entry.status == "admissible" for entry in find_equilibria(Jeffcott(parameters))[1:])
+    return any(entry.status == "admissible" for entry in find_equilibria(jeffcott(parameters))[1:])
 
 
 EXISTS = {"contact-free": levitates, "rub": rubs}
@@ -107,14 +107,14 @@ def test_rub_pushes_at_its_fold_and_not_beyond_the_point_where_the_fold_meets_th
         (threshold,) = steady_range(parameters, "rub", "gamma").thresholds
         assert threshold.edge.kind == kind
         below = parameters.replace(gamma=threshold.edge.value * (1.0 - 1e-6))
-        forces = [entry.normal_force for entry in find_equilibria(Jeffcott(below))[1:] if entry.status == "admissible"]
+        forces = [entry.normal_force for entry in find_equilibria(jeffcott(below))[1:] if entry.status == "admissible"]
         assert len(forces) == (2 if kind == "rub-fold" else 1)
 
 
 @settings(max_examples=60)
 @given(parameters=planar)
 def test_where_a_rub_exists_a_stable_one_does(parameters):
-    found = [entry for entry in find_equilibria(Jeffcott(parameters))[1:] if entry.status == "admissible"]
+    found = [entry for entry in find_equilibria(jeffcott(parameters))[1:] if entry.status == "admissible"]
 
     forces = [entry.normal_force for entry in found]
     assume(all(force > 1e-9 for force in forces) and (len(forces) < 2 or abs(forces[0] - forces[1]) > 1e-6))
@@ -126,7 +126,7 @@ def test_where_a_rub_exists_a_stable_one_does(parameters):
 def test_rotor_rolls_on_exactly_within_its_range(gain, factor):
     parameters = SOURCE.replace(radius_ratio=5.0, gamma=0.3)
     (threshold,) = steady_range(parameters, "rolling", gain).thresholds
-    rotor = Jeffcott(parameters.replace(**{gain: factor * threshold.edge.value}))
+    rotor = jeffcott(parameters.replace(**{gain: factor * threshold.edge.value}))
 
     motion = simulate(rotor, State(1.0 + 0j, -6j), 2.5)
 
@@ -136,7 +136,7 @@ def test_rotor_rolls_on_exactly_within_its_range(gain, factor):
 
 
 def test_rolling_is_where_a_rolling_start_settles():
-    rotor = Jeffcott(SOURCE)
+    rotor = jeffcott(SOURCE)
 
     assert steady_range(SOURCE, "rolling", "gamma").exists_at(SOURCE.gamma)
     assert simulate(rotor, State(1.0 + 0j, -1j * (400 / 7 + 1)), 100.0, settle=True).outcome is Outcome.ROLLING
@@ -174,14 +174,14 @@ COMPRESSOR = Machine(
 
 def orbit_ranges(parameters, gain, progress=None):
     """Ranges of all orbits with one impact a period, and of the stable ones."""
-    rotor = Jeffcott(parameters)
+    rotor = jeffcott(parameters)
     found = motion_ranges(rotor, axis(rotor, gain), progress)
     return tuple(entry for entry in found if entry.motion.endswith("single-impact"))
 
 
 def orbits_at(parameters, gain, value):
     """Whether any orbit is admissible, and whether any such is stable, by the certified list."""
-    orbits = [orbit for orbit in orbits_within_reach(Jeffcott(parameters.replace(**{gain: value}))) if orbit.admissible]
+    orbits = [orbit for orbit in orbits_within_reach(jeffcott(parameters.replace(**{gain: value}))) if orbit.admissible]
     return bool(orbits), any(orbit.stable for orbit in orbits)
 
 
@@ -286,7 +286,7 @@ def test_progress_grows_to_one():
 
 @pytest.mark.parametrize("name", ["speed", "friction", "clearance", "mass"])
 def test_ranges_along_any_parameter_agree_with_the_motions_there(name):
-    rotor = Jeffcott(README.parameters)
+    rotor = jeffcott(README.parameters)
     along = axis(rotor, name)
     found = {entry.motion: entry for entry in motion_ranges(rotor, along)}
     low, high = (edge.value for edge in found["single-impact"].searched)
@@ -304,7 +304,7 @@ def test_ranges_along_any_parameter_agree_with_the_motions_there(name):
 
 
 def test_ends_along_any_parameter_say_what_happens_there():
-    rotor = Jeffcott(README.parameters)
+    rotor = jeffcott(README.parameters)
     found = {entry.motion: entry for entry in motion_ranges(rotor, axis(rotor, "speed"))}
     for edge in (threshold.edge for threshold in found["contact-free"].thresholds):
         there = rotor.replace(speed=edge.value)
@@ -313,7 +313,7 @@ def test_ends_along_any_parameter_say_what_happens_there():
 
 
 def test_a_physical_parameter_has_the_ranges_of_its_dimensionless_one():
-    rotor = Jeffcott(README.parameters)
+    rotor = jeffcott(README.parameters)
     for own, physical in zip(
         *(motion_ranges(rotor, axis(rotor, name)) for name in ("omega", "stiffness")), strict=True
     ):

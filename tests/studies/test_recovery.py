@@ -7,7 +7,7 @@ from linear_rotors import touchdowns
 import carom as cm
 from carom.closed_forms import harmless_kick
 from carom.disturbances import AnyState, BaseShock, BladeLoss, Sample, VelocityKick
-from carom.models import Jeffcott, LinearRotor
+from carom.models import from_matrices, jeffcott
 from carom.motions import settle
 from carom.outcome import InputError
 from carom.parameters import Parameters
@@ -48,7 +48,7 @@ def test_nothing_fresh_is_lost_inside_a_range(along_damping):
     assert span.low.kind == "simulated"
     assert (span.high.value, span.high.kind) == (4.0, "")
     for number, gamma in enumerate(np.geomspace(1.05 * span.low.value, span.high.value, 5)):
-        rotor = Jeffcott(SOURCE.replace(gamma=float(gamma)))
+        rotor = jeffcott(SOURCE.replace(gamma=float(gamma)))
         lost = ~settle(rotor, *fresh(rotor, 2000, 100 + number)).recovered
         assert lost.sum() == 0
 
@@ -60,7 +60,7 @@ def test_something_is_lost_just_beyond_its_end(along_damping):
     (check,) = [check for check in along_damping.checks if check.value == beyond]
     lost = check.example
     assert lost.motion == span.low.motion
-    rotor = Jeffcott(SOURCE.replace(gamma=beyond))
+    rotor = jeffcott(SOURCE.replace(gamma=beyond))
     starts = lost.model.starts(rotor, *(np.array([value]) for value in lost.values))
     (outcome,) = settle(rotor, starts.positions, starts.velocities).outcomes
     assert outcome == lost.motion.outcome
@@ -94,7 +94,7 @@ def test_shocks_and_losses_of_a_blade_are_followed_too():
 
 
 def test_any_parameter_of_any_model():
-    rotor = LinearRotor.in_fixed_frame(
+    rotor = from_matrices(
         mass=[[1.0]],
         damping=[[0.4]],
         stiffness=[[1.5]],
@@ -134,7 +134,7 @@ def test_without_a_range_it_is_looked_for_wherever_the_rotor_levitates():
 
 def test_what_is_required_decides_not_whether_a_rub_could_hold_the_rotor():
     """Nothing comes back from a rub, but small kicks never reach it."""
-    rotor = Jeffcott(SOURCE)
+    rotor = jeffcott(SOURCE)
     small = [Sample(VelocityKick(0.5 * harmless_kick(rotor)), 60)]
     found = find_recovery(rotor, "gamma", small, factor=2.0)
     assert found.range_of("rub").exists_at(SOURCE.gamma)

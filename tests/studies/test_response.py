@@ -11,7 +11,7 @@ import pytest
 from compilation import sized
 
 import carom as cm
-from carom.models import Jeffcott
+from carom.models import Rotor, jeffcott
 from carom.motions.ensembles import settle
 from carom.outcome import InputError, Outcome
 from carom.parameters import Machine
@@ -99,7 +99,7 @@ def test_where_the_limit_of_api_617_is_exceeded():
 
 
 def _equilibrium(machine: Machine, speed: float) -> complex:
-    return Jeffcott(machine.parameters.replace(speed=speed)).equilibrium
+    return jeffcott(machine.parameters.replace(speed=speed)).equilibrium
 
 
 @pytest.mark.jit_only
@@ -117,7 +117,7 @@ def test_motions_do_what_is_said_of_each_speed():
         for stretch in response.stretches:
             low, high = stretch.low, stretch.high
             speed = low + (high - low) * random.uniform(0.02, 0.98)
-            rotor = Jeffcott(machine.parameters.replace(speed=speed))
+            rotor = jeffcott(machine.parameters.replace(speed=speed))
             if stretch.what.contact_free:
                 (end,) = _ends(rotor, [rotor.equilibrium], [0j])
                 assert end == Outcome.LEVITATED
@@ -140,7 +140,7 @@ def test_motions_do_what_is_said_of_each_speed():
     assert min(seen.values()) >= 3, seen
 
 
-def _ends(rotor: Jeffcott, places: list[complex], velocities: list[complex]) -> list[int]:
+def _ends(rotor: Rotor, places: list[complex], velocities: list[complex]) -> list[int]:
     return settle(rotor, np.array(places), np.array(velocities)).outcomes.tolist()
 
 

@@ -7,7 +7,7 @@ import pytest
 from machines import PAPER
 
 import carom as cm
-from carom.models import InBearing, Jeffcott, KelvinVoigt, LinearRotor, Touchdown, model_of
+from carom.models import KelvinVoigt, Touchdown, from_matrices, jeffcott, model_of
 from carom.parameters import Drive, TouchdownBearing
 from carom.studies.rigid_limit import RATIOS, SEED, on_other_walls, wall_values, wall_words
 from carom.studies.wording import Wording
@@ -33,7 +33,7 @@ def asked(rotor, count=60):
 @pytest.mark.jit_only
 def test_each_disturbance_is_followed_on_both_walls():
     """Once more one by one, on a wall made here from damping ratio and restitution."""
-    rotor = Jeffcott(PAPER)
+    rotor = jeffcott(PAPER)
     found = on_other_walls(rotor, asked(rotor))
     assert [other.stiffness for other in found] == list(RATIOS)
     assert {other.alike.total for other in found} == {60}
@@ -41,7 +41,7 @@ def test_each_disturbance_is_followed_on_both_walls():
     for other in found:
         ratio = 0.0164982  # of d = 0.95, to the digits of its source
         law = KelvinVoigt(other.stiffness, 2.0 * ratio * other.stiffness**0.5)
-        soft = LinearRotor.in_fixed_frame(
+        soft = from_matrices(
             mass=[[1.0]],
             damping=[[PAPER.gamma]],
             stiffness=[[PAPER.omega**2]],
@@ -61,7 +61,7 @@ def test_each_disturbance_is_followed_on_both_walls():
 def test_a_bearing_that_gives_way_is_compared_with_the_rigid_wall(law):
     speed = {"restitution_speed": 0.9 * 0.7e-3 * 184.2} if law == "hunt-crossley" else {}
     bearing = TouchdownBearing(law, "1e9 N/m", restitution=0.8, **speed)
-    rotor = InBearing(model_of(SPINDLE), bearing)
+    rotor = jeffcott(model_of(SPINDLE).parameters, bearing)
     (other,) = on_other_walls(rotor, asked(rotor))
     assert other.stiffness is None
     assert other.restitution == pytest.approx(0.8, rel=1e-4 if speed else 1e-12)
@@ -76,10 +76,10 @@ def test_there_is_nothing_to_compare_where_a_rigid_wall_has_no_counterpart():
         {"race_inertia": 1e-4},
         {"offset": 1e-5},
     ):
-        assert on_other_walls(InBearing(rotor, TouchdownBearing(**stiff, **more)), asked(rotor)) == ()
-    driven = InBearing(rotor, TouchdownBearing(**stiff), drive=Drive(polar_inertia=0.01))
+        assert on_other_walls(jeffcott(rotor.parameters, TouchdownBearing(**stiff, **more)), asked(rotor)) == ()
+    driven = jeffcott(rotor.parameters, TouchdownBearing(**stiff), drive=Drive(polar_inertia=0.01))
     assert on_other_walls(driven, asked(rotor)) == ()
-    assert on_other_walls(Jeffcott(PAPER.replace(d=0.0)), asked(rotor)) == ()
+    assert on_other_walls(jeffcott(PAPER.replace(d=0.0)), asked(rotor)) == ()
 
 
 @pytest.mark.parametrize(

@@ -7,7 +7,7 @@ import pytest
 
 import carom as cm
 from carom.disturbances import BladeLoss
-from carom.models import Jeffcott
+from carom.models import jeffcott
 from carom.motions import settle, simulate
 from carom.motions.budget import Budget
 from carom.outcome import Outcome
@@ -23,7 +23,7 @@ pytestmark = pytest.mark.jit_only
 
 @pytest.fixture(scope="module")
 def found():
-    return survives(Jeffcott(SOURCE), REQUIRED, Budget(), Reporter.of(None, "test"))
+    return survives(jeffcott(SOURCE), REQUIRED, Budget(), Reporter.of(None, "test"))
 
 
 def lost_kicks(rotor, speed, count, seed):
@@ -33,7 +33,7 @@ def lost_kicks(rotor, speed, count, seed):
 
 
 def test_bracket_of_kicks(found):
-    rotor, kick = Jeffcott(SOURCE), found.kick
+    rotor, kick = jeffcott(SOURCE), found.kick
     assert 0.0 < kick.harmless <= kick.all_back < kick.size
     assert kick.size - kick.all_back < 0.01 * kick.size
     assert lost_kicks(rotor, kick.all_back, 4000, 11) == 0
@@ -47,8 +47,8 @@ def test_bracket_of_losses_of_a_blade(found):
     for phase in np.linspace(0.0, 2.0 * math.pi, 121):
         after = SOURCE.rho + loss.all_back * np.exp(1j * phase)
         # The frame turns with the unbalance after the loss.
-        place = Jeffcott(SOURCE).equilibrium * abs(after) / after
-        assert settle(Jeffcott(SOURCE.replace(rho=abs(after))), [place], [0j]).recovered.all()
+        place = jeffcott(SOURCE).equilibrium * abs(after) / after
+        assert settle(jeffcott(SOURCE.replace(rho=abs(after))), [place], [0j]).recovered.all()
     assert simulate(*BladeLoss(loss.size).release(SOURCE, loss.angle), settle=True).outcome is not Outcome.LEVITATED
 
 
@@ -61,7 +61,7 @@ def test_shocks_are_of_the_duration_required(found):
 def test_sizes_do_not_depend_on_what_is_required(found):
     # Another requirement searches another range, in other steps: the brackets must overlap.
     other = survives(
-        Jeffcott(SOURCE), Required(kick=0.8, shock=None, blade_loss=None), Budget(), Reporter.of(None, "test")
+        jeffcott(SOURCE), Required(kick=0.8, shock=None, blade_loss=None), Budget(), Reporter.of(None, "test")
     )
     assert other.kick.harmless == found.kick.harmless
     assert other.kick.size == pytest.approx(found.kick.size, rel=5e-3)
@@ -92,8 +92,8 @@ def test_the_speed_of_the_shaft_does_not_move_the_yardstick():
 
 def test_without_stable_levitation_nothing_is_survived():
     tell = Reporter.of(None, "test")
-    assert survives(Jeffcott(SOURCE.replace(gamma=0.0)), REQUIRED, Budget(), tell) is None
-    assert survives(Jeffcott(SOURCE.replace(gamma=0.05, rho=0.6)), REQUIRED, Budget(), tell) is None
+    assert survives(jeffcott(SOURCE.replace(gamma=0.0)), REQUIRED, Budget(), tell) is None
+    assert survives(jeffcott(SOURCE.replace(gamma=0.05, rho=0.6)), REQUIRED, Budget(), tell) is None
 
 
 def test_loses(found):

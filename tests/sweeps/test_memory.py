@@ -69,7 +69,7 @@ def test_own_disturbances_on_processes_and_in_memory(tmp_path, machine):
     data = run_sweep(plan).dataset
 
     xarray.testing.assert_identical(without_history(open_sweep(tmp_path / "store")), without_history(data))
-    rotor = cm.models.Jeffcott(plan.case_at((2,)).parameters)
+    rotor = cm.models.jeffcott(plan.case_at((2,)).parameters)
     (starts,) = plan.task._batches(rotor, plan.seed_of((2,)))
     back = cm.settle(rotor, starts.positions[starts.exists], starts.velocities[starts.exists]).recovered
     assert data["possible"].values[2] == starts.exists.sum() < 40
@@ -85,7 +85,7 @@ def test_a_grid_is_the_same_at_each_point_and_a_sample_is_not(machine):
         share = cm.map_basins(machine.parameters.replace(damping=damping), kicks).share_recovered
         assert data["recovered"].values[place] == share.fraction == data["recovered_low"].values[place]
     plan = plan_sweep(machine, AXES[1:], Sample(KickPlane(0.3), 30))
-    rotors = [cm.models.Jeffcott(plan.case_at((place,)).parameters) for place in (0, 1)]
+    rotors = [cm.models.jeffcott(plan.case_at((place,)).parameters) for place in (0, 1)]
     (first,), (second,) = (plan.task._batches(rotor, plan.seed_of((n,))) for n, rotor in enumerate(rotors))
     assert (first.velocities != second.velocities).all()
 

@@ -8,7 +8,7 @@ import pytest
 from sweep_tasks import Drawn, Failing, basins_plan, plan_of
 
 from carom.basins import share_of_kicks
-from carom.models import Jeffcott
+from carom.models import jeffcott
 from carom.sweeps.chunk import compute_chunk, failed_chunk
 from carom.sweeps.plan import cut
 from carom.sweeps.studies import StudyTask
@@ -79,7 +79,7 @@ def test_study_tells_what_the_functions_tell(source_paper):
     task = StudyTask(24, True, source_paper.zones.limits, has_scales=False)
     seed = np.random.SeedSequence(3)
     found = task.evaluate(source_paper, seed)
-    rotor = carom.models.Jeffcott(source_paper.parameters)
+    rotor = carom.models.jeffcott(source_paper.parameters)
     attractors = carom.find_attractors(rotor, seed=int(seed.generate_state(1)[0]), count=24)
 
     assert found.keys() == {variable.name for variable in task.variables}
@@ -146,4 +146,4 @@ def test_batches_bound_memory_and_change_nothing_else(monkeypatch):
 
 def _rotor(plan):
 
-    return Jeffcott(plan.case_at((0, 0)).parameters)
+    return jeffcott(plan.case_at((0, 0)).parameters)

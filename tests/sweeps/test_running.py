@@ -304,7 +304,7 @@ def test_options_that_do_not_go(tmp_path, options, words):
 @pytest.mark.jit_only
 def test_workers_that_start_at_once_share_an_empty_cache_of_kernels(tmp_path):
     """Two processes that compile the same kernels into one directory at the same time."""
-    code = "import carom, sweep_tasks; rotor = carom.models.Jeffcott(sweep_tasks.DAMPED);"
+    code = "import carom, sweep_tasks; rotor = carom.models.jeffcott(sweep_tasks.DAMPED);"
     code += "print(rotor.system.fly(rotor.system.amplitudes(0.1j, 0.2), [1.0, 2.0]).tolist())"
     environment = {**_environment(), "CAROM_CACHE_DIR": str(tmp_path)}
     started = [

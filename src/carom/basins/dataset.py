@@ -18,7 +18,7 @@ from carom.disturbances import Disturbance, Grid, Plan, Sample, Starts
 from carom.disturbances.coordinates import INSTANT
 from carom.disturbances.following import NO_START
 from carom.files.netcdf import load, save
-from carom.models import Model, depends_on_instant, jeffcott_of, model_from
+from carom.models import Model, depends_on_instant, exact_rotor_of, model_from
 from carom.motions.ensembles import Endings
 from carom.outcome import Outcome
 from carom.parameters import Parameters
@@ -52,7 +52,7 @@ class Stored(Result):
     @property
     def parameters(self) -> Parameters:
         """Parameters of the machine, which must be a planar rotor; weight is none of them."""
-        return self.rotor.planar or jeffcott_of(self.rotor).parameters
+        return self.rotor.planar or exact_rotor_of(self.rotor).parameters
 
     @checked
     def save(self, path: str | os.PathLike[str]) -> None:

@@ -32,7 +32,7 @@ from typing import Literal
 
 from carom.arguments import checked
 from carom.closed_forms.thresholds import BoundaryKind, Gain, boundary_balance, boundary_kind, ranges_of
-from carom.models import Jeffcott, Subject, jeffcott_of
+from carom.models import Rotor, Subject, exact_rotor_of, jeffcott
 from carom.orbits.names import OrbitName
 from carom.orbits.orbit import Orbit
 from carom.orbits.single_impact import orbits_within_reach
@@ -166,7 +166,7 @@ def boundary_equilibria(machine: Subject, gain: Gain = "gamma") -> tuple[Boundar
     >>> print(f"{boundary.value:.10f}", boundary.kind)
     0.0724686787 non-smooth fold
     """
-    rotor = jeffcott_of(machine)
+    rotor = exact_rotor_of(machine)
     found = []
     for low, high in ranges_of("contact-free", rotor.parameters, gain):
         if low.kind:
@@ -199,14 +199,14 @@ def _small_orbits(at: Parameters) -> tuple[tuple[SmallOrbit, ...], bool]:
     return tuple(sorted(found, key=lambda orbit: orbit.name)), complete
 
 
-def _at_gap(at: Parameters, gap: float) -> Jeffcott:
+def _at_gap(at: Parameters, gap: float) -> Rotor:
     """Rotor at a boundary equilibrium with its equilibrium moved inward, or outward where the gap is negative."""
     rho = at.rho * (1.0 - gap)
     if rho <= DIMENSIONLESS_FIELDS["rho"].highest:
-        return Jeffcott(at.replace(rho=rho))
+        return jeffcott(at.replace(rho=rho))
     # The unbalance would exceed its limit: move nearer to resonance instead, which changes the orbits to first order.
     share = 1.0 / (1.0 - gap)
-    return Jeffcott(at.replace(gamma=at.gamma * share, omega=math.sqrt(1.0 + (at.omega**2 - 1.0) * share)))
+    return jeffcott(at.replace(gamma=at.gamma * share, omega=math.sqrt(1.0 + (at.omega**2 - 1.0) * share)))
 
 
 def _smallest(orbits: tuple[Orbit, ...]) -> list[Orbit]:

@@ -14,7 +14,7 @@ import numpy as np
 from carom.closed_forms.periods import PeriodCondition
 from carom.closed_forms.thresholds import rolling_condition, rub_fold_condition, wall_condition
 from carom.core import planar
-from carom.models import Jeffcott, Subject, jeffcott_of
+from carom.models import Subject, exact_rotor_of, jeffcott
 from carom.orbits.maps import Section
 from carom.orbits.names import OrbitName, Slip, in_order
 from carom.orbits.orbit import Orbit
@@ -184,7 +184,7 @@ def orbit_solutions(machine: Subject, longest_period: float | None = None, *, ba
     Only solutions with a positive radial speed, which meet the wall from inside; see
     :func:`carom.orbits.single_impact.find_orbits`.
     """
-    rotor = jeffcott_of(machine)
+    rotor = exact_rotor_of(machine)
     if rotor.equilibrium == 0.0:
         return []
     slip: Slip = -1 if backward else 1
@@ -202,7 +202,7 @@ def orbit_of(numbers: Numbers, pair: int, period: float, speed: float) -> Orbit:
     angle = numbers.phi - cmath.phase(stiffness) - cmath.phase(1.0 + conditions.lever * speed)
     section = Section(math.remainder(angle, math.tau), speed, -conditions.turn.imag * speed)
     name, nontrivial = name_of(numbers, pair, period, speed), multipliers(jacobian_at(numbers, period, speed))
-    rotor = Jeffcott(numbers._replace(mu=abs(numbers.mu)).parameters)
+    rotor = jeffcott(numbers._replace(mu=abs(numbers.mu)).parameters)
     return orbit_at(rotor, name, period, section, nontrivial)
 
 

@@ -24,7 +24,7 @@ from carom.bifurcations.steady import (
 )
 from carom.bifurcations.words import continue_orbit, renamed
 from carom.closed_forms.exact_results import exact_results
-from carom.models import Jeffcott, Model, Subject, jeffcott_of, model_of
+from carom.models import Model, Rotor, Subject, exact_rotor_of, jeffcott, model_of
 from carom.models.axes import Axis, Ends, axis, read_interval
 from carom.orbits.names import RubbingName
 from carom.orbits.orbit import Orbit
@@ -208,7 +208,7 @@ def find_bifurcations(
     >>> [point.kind for point in diagram.points if point.name == "B1,d"]
     ['fold']
     """
-    model = jeffcott_of(machine) if lasting else model_of(machine)
+    model = exact_rotor_of(machine) if lasting else model_of(machine)
     model.system.refuse_unrepeated()
     along = axis(model, parameter)
     limits = read_interval(along, interval)
@@ -238,7 +238,7 @@ def special_points(
 ) -> tuple[Bifurcation, ...]:
     """Special points of :func:`find_bifurcations`, in ascending order of the parameter."""
     along = axis(parameters, parameter)
-    return _follow_known(Jeffcott(parameters), along, interval, Reporter(), virtual=virtual, lasting=lasting).points
+    return _follow_known(jeffcott(parameters), along, interval, Reporter(), virtual=virtual, lasting=lasting).points
 
 
 class _Followed(NamedTuple):
@@ -349,7 +349,7 @@ def _special(several: Sequence[OrbitBranch]) -> list[Bifurcation]:
     return [point for branch in several for point in branch.special if point.kind != HALVING]
 
 
-def _orbits(rotor: Jeffcott) -> Iterator[Orbit]:
+def _orbits(rotor: Rotor) -> Iterator[Orbit]:
     """Orbits with forward slip; none without damping, where there are infinitely many."""
     at = rotor.parameters
     if at.gamma > 0.0 and at.rho > 0.0:

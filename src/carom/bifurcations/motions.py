@@ -10,7 +10,7 @@ from carom.bifurcations.diagrams import LONGEST_PERIOD
 from carom.closed_forms.sag import BOUNDARY
 from carom.closed_forms.thresholds import has_stable_rub
 from carom.closed_forms.whirl import rolling
-from carom.models import Subject, jeffcott_of
+from carom.models import Subject, exact_rotor_of
 from carom.orbits.names import OrbitName, combined, in_order
 from carom.outcome import STEADY_WORDS
 
@@ -83,7 +83,7 @@ def motions_at(machine: Subject) -> Motions:
     Only single-impact orbits with forward slip are counted.  Without damping, or with so little that there would be
     hundreds of pairs, only those with periods up to 60/Ω are counted.
     """
-    rotor = jeffcott_of(machine)
+    rotor = exact_rotor_of(machine)
     orbits = [orbit for orbit in forward_orbits(rotor) if is_admissible(*orbit[1:])]
     radii = spectral_radii([orbit[1:] for orbit in orbits])
     return Motions(
@@ -99,5 +99,5 @@ def motions_at(machine: Subject) -> Motions:
 
 def forward_orbits(machine: Subject) -> list[Solution]:
     """All single-impact orbits with forward slip that :func:`motions_at` considers, including virtual ones."""
-    rotor = jeffcott_of(machine)
+    rotor = exact_rotor_of(machine)
     return orbit_solutions(rotor, LONGEST_PERIOD if rotor.parameters.gamma < 0.05 else None)

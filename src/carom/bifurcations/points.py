@@ -10,7 +10,7 @@ from typing import Any, ClassVar, Literal
 from carom.arguments import checked
 from carom.bifurcations.conditions import orbit_of
 from carom.closed_forms.thresholds import FOLD, ROLLING, WALL
-from carom.models import Subject, jeffcott_of
+from carom.models import Subject, exact_rotor_of
 from carom.orbits.names import OrbitName
 from carom.orbits.orbit import Orbit
 from carom.outcome import InputError
@@ -128,7 +128,7 @@ class Bifurcation(Result):
         period, radial_speed : float
             Those of the orbit; left out for steady motions.
         """
-        return cls(kind, Numbers.of(jeffcott_of(machine).parameters), period, radial_speed)
+        return cls(kind, Numbers.of(exact_rotor_of(machine).parameters), period, radial_speed)
 
     @property
     def motion(self) -> MotionKind:

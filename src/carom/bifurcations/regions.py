@@ -20,7 +20,7 @@ from carom.bifurcations.planes import Plane
 from carom.bifurcations.points import Bifurcation
 from carom.bifurcations.settled_regions import axes_of, settled_motions, settled_regions
 from carom.bifurcations.survey import Survey
-from carom.models import Axis, Model, Subject, axis, jeffcott_of, model_of
+from carom.models import Axis, Model, Subject, axis, exact_rotor_of, model_of
 from carom.orbits.names import OrbitName, combined
 from carom.outcome import CaromError
 from carom.progress import Reporter, ShowProgress, shows_progress
@@ -190,7 +190,7 @@ def map_regions(
     rotor = model_of(machine)
     if not rotor.has_closed_forms:
         return _settled(rotor, plane, grid, Reporter.of(progress, "following disturbances"))
-    model = jeffcott_of(machine)
+    model = exact_rotor_of(machine)
     parameters = model.parameters
     axes = plane.axes(parameters)
     tell = Reporter.of(progress, "counting motions, following curves")

@@ -14,7 +14,7 @@ from carom.closed_forms.sag import levitation
 from carom.closed_forms.thresholds import boundary_kind, happens_to_rubs
 from carom.closed_forms.whirl import rolling
 from carom.continuation.roots import bracketed_root
-from carom.models import Axis, Jeffcott, Model
+from carom.models import Axis, Model, Rotor
 from carom.parameters import Numbers, Parameters
 from carom.results import Result
 
@@ -60,7 +60,7 @@ class RollingBranch(Result):
     holds: np.ndarray
 
 
-def rolling_branch(rotor: Jeffcott, along: Axis, interval: tuple[float, float]) -> RollingBranch:
+def rolling_branch(rotor: Rotor, along: Axis, interval: tuple[float, float]) -> RollingBranch:
     """Rolling on an evenly spaced grid of the parameter."""
     grid = np.linspace(*interval, SAMPLES)
     found = [rolling(along.move(rotor, value)) for value in grid.tolist()]

@@ -30,7 +30,7 @@ from carom.bifurcations.conditions import (
 )
 from carom.bifurcations.words import STEPS, continue_orbit
 from carom.continuation.roots import bracketed_root, sign_change
-from carom.models import Edge, Jeffcott, Span, Subject, axis, jeffcott_of
+from carom.models import Edge, Rotor, Span, Subject, axis, exact_rotor_of
 from carom.orbits.admissibility import slip_stays_forward
 from carom.orbits.single_impact import longest_within_reach, radial_speeds
 from carom.outcome import CaromError
@@ -115,7 +115,7 @@ def orbit_windows(
     CaromError
         More than :data:`MOST_FOLLOWED` orbits would have to be followed.
     """
-    rotor, tell = jeffcott_of(machine), Reporter.of(progress, "following orbits")
+    rotor, tell = exact_rotor_of(machine), Reporter.of(progress, "following orbits")
     along, interval = axis(rotor, parameter), (values[0], values[-1])
     branches: list[OrbitBranch] = []
     pieces: dict[Level, list[Span]] = {"possible": [], "stable": []}
@@ -173,7 +173,7 @@ def _lies_on(solution: Solution, value: float, branch: OrbitBranch) -> bool:
     return False
 
 
-def _members(rotor: Jeffcott) -> list[_Member]:
+def _members(rotor: Rotor) -> list[_Member]:
     longest = longest_within_reach(rotor)
     solutions = orbit_solutions(rotor, longest)
     if not slip_stays_forward(rotor):

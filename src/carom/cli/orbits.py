@@ -63,12 +63,12 @@ def orbits(
         longest = read_time(longest_period, case.parameters.scales, "--longest-period")
     with progress("equilibria and periodic orbits (the kernels are compiled on first use)") as tell:
         from carom.closed_forms.equilibria import find_equilibria
-        from carom.models import Jeffcott
+        from carom.models import jeffcott
         from carom.orbits.single_impact import find_orbits, orbits_within_reach
         from carom.studies import orbits_document
 
         tell(0.3)
-        rotor = Jeffcott(case.parameters)
+        rotor = jeffcott(case.parameters)
         steady = find_equilibria(rotor).members
         found = orbits_within_reach(rotor) if longest is None else find_orbits(rotor, longest)
     if as_json:

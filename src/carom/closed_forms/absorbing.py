@@ -29,7 +29,7 @@ from carom.arguments import Reals, checked
 from carom.closed_forms.equilibria import Equilibrium, find_equilibria
 from carom.closed_forms.thresholds import largest_pull
 from carom.core.planar_proofs import rub_potentials
-from carom.models import Jeffcott, Subject, jeffcott_of
+from carom.models import Rotor, Subject, exact_rotor_of
 
 INTERVALS = 4000
 """With ten times as many the level would be two or three thousandths higher, at nearly ten times the cost."""
@@ -86,12 +86,12 @@ class RubNeighbourhood:
 @checked
 def rub_neighbourhood(machine: Subject) -> RubNeighbourhood | None:
     """Largest proven neighbourhood of the synchronous rub that attracts sliding; ``None`` if there is no such rub."""
-    rotor = jeffcott_of(machine)
+    rotor = exact_rotor_of(machine)
     rub = next((entry for entry in find_equilibria(rotor) if entry.attracts_sliding), None)
     return neighbourhood_of(rotor, rub) if rub else None
 
 
-def neighbourhood_of(rotor: Jeffcott, rub: Equilibrium) -> RubNeighbourhood | None:
+def neighbourhood_of(rotor: Rotor, rub: Equilibrium) -> RubNeighbourhood | None:
     """Largest proven neighbourhood of a rub that attracts sliding; ``None`` where double precision can prove none."""
     numbers = rotor.parameters
     gamma, mu = numbers.gamma, numbers.mu

@@ -15,7 +15,7 @@ from carom.closed_forms.equilibria import Equilibrium, find_equilibria
 from carom.closed_forms.fading import fading_speed
 from carom.closed_forms.thresholds import largest_response
 from carom.closed_forms.whirl import Rolling, Runaway, hastening_speed, rolling, runaway_speed
-from carom.models import Jeffcott, Model
+from carom.models import Model, jeffcott
 from carom.parameters import Parameters
 
 ROTORS = 64
@@ -63,7 +63,7 @@ NONE = ExactResults()
 
 @lru_cache(maxsize=ROTORS)
 def _of(parameters: Parameters) -> ExactResults:
-    model = Jeffcott(parameters)
+    model = jeffcott(parameters)
     rub = next((rub for rub in find_equilibria(model) if rub.attracts_sliding), None)
     whirl = runaway_speed(model)
     rolls = rolling(model)

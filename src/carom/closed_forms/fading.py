@@ -32,7 +32,7 @@ import math
 
 from carom.arguments import checked
 from carom.closed_forms.whirl import rolling
-from carom.models import Subject, jeffcott_of
+from carom.models import Subject, exact_rotor_of
 from carom.parameters import Parameters
 
 HIGHEST = 0.05
@@ -72,7 +72,7 @@ def fading_speed(machine: Subject) -> float:
     >>> print(f"{cm.closed_forms.fading_speed(machine):.6f}")
     18.033539
     """
-    at = jeffcott_of(machine).parameters
+    at = exact_rotor_of(machine).parameters
     if at.gamma < 0.0 or not rolling(at).holds or not _fades(at, SLOWEST):
         return 0.0
     low, high = SLOWEST, math.sqrt(2.0 * HIGHEST) * at.radius_ratio

@@ -30,7 +30,7 @@ from carom.closed_forms.periods import PeriodCondition
 from carom.core.flow import fly_all
 from carom.core.friction import sliding_factor
 from carom.core.wall import Wall
-from carom.models import Subject, System, jeffcott_of, second_order_system
+from carom.models import Subject, System, exact_rotor_of, second_order_system
 from carom.outcome import InputError
 
 ON_WALL = 1e-9
@@ -63,7 +63,7 @@ class ContactSystem:
     @checked
     def of_rotor(cls, machine: Subject) -> ContactSystem:
         """Return the planar rotor in the co-rotating frame, ``α = γ + 2i``, ``β = ω² − 1 + iγ``, ``Γ = ρe^{iφ}``."""
-        parameters = jeffcott_of(machine).parameters
+        parameters = exact_rotor_of(machine).parameters
         return cls(
             complex(parameters.gamma, 2.0),
             complex(parameters.omega**2 - 1.0, parameters.gamma),

@@ -17,8 +17,7 @@ from typing import ClassVar, NamedTuple
 import numpy as np
 
 from carom.arguments import checked
-from carom.models import Model, Subject, model_of
-from carom.models.limited import Limit
+from carom.models import Limit, Model, Subject, model_of
 from carom.outcome import InputError
 from carom.parameters import Zones
 from carom.results import Result

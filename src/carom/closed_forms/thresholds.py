@@ -32,7 +32,7 @@ import math
 from typing import Literal, get_args
 
 from carom.arguments import checked
-from carom.models import Edge, Span, Subject, jeffcott_of
+from carom.models import Edge, Span, Subject, exact_rotor_of
 from carom.outcome import InputError
 from carom.parameters import Numbers, Parameters
 
@@ -147,7 +147,7 @@ def rub_limit(machine: Subject) -> float:
     >>> print(f"{cm.closed_forms.rub_limit(machine):.7f}")
     0.3700060
     """
-    return _rub_end(jeffcott_of(machine).parameters).value
+    return _rub_end(exact_rotor_of(machine).parameters).value
 
 
 def _rub_end(at: Values) -> Edge:

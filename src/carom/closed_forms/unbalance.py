@@ -23,7 +23,7 @@ import numpy as np
 
 from carom.arguments import Positive, Reals, checked
 from carom.closed_forms.thresholds import largest_pull
-from carom.models import Jeffcott, Subject, model_of
+from carom.models import Rotor, Subject, jeffcott, model_of
 from carom.outcome import InputError, shown
 from carom.results import Result
 
@@ -34,7 +34,7 @@ class SpeedResponse(Result):
 
     Attributes
     ----------
-    rotor : Jeffcott
+    rotor : Rotor
         The rotor at its present speed.
     natural_frequency : float
         ``ω_n = √(k/m)``, rad/s.
@@ -53,7 +53,7 @@ class SpeedResponse(Result):
         infinite.
     """
 
-    rotor: Jeffcott
+    rotor: Rotor
     natural_frequency: float
     damping_ratio: float
     critical_speed: float | None
@@ -130,7 +130,7 @@ def speed_response(machine: Subject) -> SpeedResponse:
     at = model_of(machine).planar
     if at is None:
         raise InputError("machine", shown(machine), "a rotor with one mass; carom.studies.unbalance_response takes any")
-    rotor = Jeffcott(at)
+    rotor = jeffcott(at)
     if at.scales is None:
         allowed = "needed for a response over speed: use a file with a [machine] table, or parameters with scales"
         raise InputError("scales", None, allowed)

@@ -59,7 +59,7 @@ from carom.closed_forms.thresholds import (
     sustaining_speed,
     whirl_damping,
 )
-from carom.models import Subject, jeffcott_of
+from carom.models import Subject, exact_rotor_of
 
 
 @dataclass(frozen=True)
@@ -148,7 +148,7 @@ def runaway_speed(machine: Subject) -> Runaway:
     >>> print(f"{cm.closed_forms.runaway_speed(machine).average:.9f}")
     1.163219537
     """
-    at = jeffcott_of(machine).parameters
+    at = exact_rotor_of(machine).parameters
     certain = max(sustaining_speed(at, largest_pull(at)), math.hypot(at.omega, math.sqrt(at.rho)))
     return Runaway(certain, sustaining_speed(at), at.radius_ratio)
 
@@ -159,7 +159,7 @@ def hastening_speed(machine: Subject) -> float:
     Without friction ``W' = −γW − ρ sin x``: with ``γ < 0`` the speed ``|W|`` grows wherever it exceeds ``ρ/|γ|``, and contact
     lasts where ``W² > ω² + ρ``.  With friction it grows no further than to where ``μN`` balances the damping.
     """
-    at = jeffcott_of(machine).parameters
+    at = exact_rotor_of(machine).parameters
     if at.mu > 0.0 or at.gamma >= 0.0:
         return math.inf
     return max(at.rho / -at.gamma, math.hypot(at.omega, math.sqrt(at.rho)))
@@ -183,7 +183,7 @@ def rolling(machine: Subject) -> Rolling:
     >>> cm.closed_forms.rolling(machine).holds
     True
     """
-    at = jeffcott_of(machine).parameters
+    at = exact_rotor_of(machine).parameters
     force = mean_rolling_force(at)
     return Rolling(
         speed=at.radius_ratio,

@@ -30,7 +30,7 @@ from carom.core.fate import memory
 from carom.core.in_turn import advance_in_turn
 from carom.core.layout import rub_workspace, workspace
 from carom.core.phases import AWAY
-from carom.models import Force, Forced, Model
+from carom.models import Force, Model, Rotor
 from carom.models.mode_arrays import EQUAL, STEADY
 from carom.motions.ensembles import MOST_EVENTS
 from carom.outcome import Outcome
@@ -41,12 +41,12 @@ TOGETHER = 64
 """Shocks in one compiled call, in which Ctrl-C is not heard."""
 
 
-def shaken(rotor: Model, duration: float, size: complex, begins: float = 0.0) -> Forced:
+def shaken(rotor: Model, duration: float, size: complex, begins: float = 0.0) -> Rotor:
     """The rotor under the two forces of a half-sine pulse of this duration in ``1/Ω``, with ``size = â e^{iα}/2i``, from a time."""
     frequency, push = math.pi / duration, size * rotor.carried_by_housing
     exponents = 1j * (frequency - 1.0), -1j * (frequency + 1.0)
     first, second = (Force(each, cmath.exp(-each * begins) * push) for each in exponents)
-    return Forced(rotor, (first._replace(accelerations=-first.accelerations), second))
+    return rotor.under(first._replace(accelerations=-first.accelerations), second)
 
 
 def states_after_shocks(

@@ -3,26 +3,29 @@
 ========================  =================================================================
 ``axes``                  :class:`Axis`: any named parameter of any model, to vary
 ``spans``                 :class:`Span`: an interval of a parameter, with what happens at its ends
-``model``                 :class:`Model`: what every description of a rotor offers
+``rotor``                 :class:`Rotor`: every rotor, asked for what it has
+``definition``            :class:`Definition`: its named parameters and equations
+``matrices``              matrices, and derivatives of the equations of motion
 ``mode_arrays``           modes and contact planes as arrays for the kernels
 ``system``                :class:`System`: any linear rotor by these, its states and what repeats
 ``nodes``                 nodes of orbits: states, and under weight its direction
 ``from_modes``            systems from their modes
-``jeffcott``              :class:`Jeffcott`: the planar rigid rotor, by its parameters
-``linear``                :class:`LinearRotor`: any linear rotor, by its matrices
+``planar``                :func:`jeffcott`: the planar rigid rotor by its parameters, in a touchdown bearing of any kind
+``linear``                :class:`LinearEquations`: the equations of any linear rotor
+``from_matrices``         :func:`from_matrices`: any linear rotor, by its matrices
 ``mirror``                its system where bearings act differently in two directions
 ``directions``            the whirl there
 ``linear_parameters``     its named parameters
-``in_bearing``            :class:`InBearing`: the planar rotor in a touchdown bearing that gives way
-``limited``               :class:`Limited`: a rotor on magnetic bearings that have limits
+``limits``                :class:`Limit`: limits of magnetic bearings
 ``excess``                what is asked of bearings beyond their limits
 ``touchdown``             :class:`Touchdown`: a contact plane, and the laws of its wall
 ``race``                  :class:`Race`: a race that turns
 ``shaft``                 :class:`Shaft`: a shaft whose speed changes
 ``modes``                 modes of a matrix, in pairs where two nearly coincide
 ``forcing``               :class:`Force`: forces that change with time, as modes of their own
-``stages``                :class:`Staged`: a rotor that changes when a trigger ends a stage; :class:`Forced`: with further forces
-``weight``                gravity, and a rotor without its levitation
+``forces``                forces as they are given
+``stages``                :class:`Staged`: a rotor that changes when a trigger ends a stage
+``weight``                where a rotor levitates under its weight
 ``subjects``              :func:`model_of`, :func:`case_of`: any description of a rotor -> its model, its case
 ========================  =================================================================
 """
@@ -32,39 +35,42 @@ from carom.core.laws.hunt_crossley import HuntCrossley
 from carom.core.laws.kelvin_voigt import KelvinVoigt
 from carom.core.laws.rigid import Rigid
 from carom.models.axes import Axis, axis
+from carom.models.definition import Definition
 from carom.models.forcing import Force
+from carom.models.from_matrices import from_corotating_matrices, from_matrices
 from carom.models.from_modes import second_order_system
-from carom.models.in_bearing import InBearing
-from carom.models.jeffcott import Jeffcott
-from carom.models.limited import Limit, Limited
-from carom.models.linear import LinearRotor
-from carom.models.model import Matrices, Model, Rates
+from carom.models.limits import Limit
+from carom.models.linear import LinearEquations
+from carom.models.matrices import Matrices, Rates
+from carom.models.planar import Planar, jeffcott
 from carom.models.race import Race
+from carom.models.rotor import Rotor
 from carom.models.shaft import Shaft
 from carom.models.spans import Edge, Span
-from carom.models.stages import Forced, Stage, Staged, Trigger, depends_on_instant
-from carom.models.subjects import Subject, case_of, jeffcott_of, model_from, model_of, planar_case_of
+from carom.models.stages import Stage, Staged, Trigger, depends_on_instant
+from carom.models.subjects import Subject, case_of, exact_rotor_of, model_from, model_of, planar_case_of
 from carom.models.system import System
 from carom.models.touchdown import Touchdown
 
+Model = Rotor
+
 __all__ = [
     "Axis",
+    "Definition",
     "Edge",
     "FallingRestitution",
     "Force",
-    "Forced",
     "HuntCrossley",
-    "InBearing",
-    "Jeffcott",
     "KelvinVoigt",
     "Limit",
-    "Limited",
-    "LinearRotor",
+    "LinearEquations",
     "Matrices",
     "Model",
+    "Planar",
     "Race",
     "Rates",
     "Rigid",
+    "Rotor",
     "Shaft",
     "Span",
     "Stage",
@@ -76,7 +82,10 @@ __all__ = [
     "axis",
     "case_of",
     "depends_on_instant",
-    "jeffcott_of",
+    "exact_rotor_of",
+    "from_corotating_matrices",
+    "from_matrices",
+    "jeffcott",
     "model_from",
     "model_of",
     "planar_case_of",

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TypeVar
 
 from carom.arguments import checked
-from carom.models.model import Model
+from carom.models.rotor import Rotor
 from carom.models.subjects import Subject, model_of
 from carom.outcome import InputError
 from carom.parameters import Field, field_to_vary, read_quantity
@@ -16,7 +15,6 @@ Ends = tuple[float | str, float | str]
 """Both ends of a range: numbers, in SI units if the parameter is physical, or text such as ``"300 N s/m"``."""
 AROUND = (0.5, 2.0)
 """Usual range of a parameter, in multiples of its present value."""
-_Replaceable = TypeVar("_Replaceable", bound=Model)
 
 
 @dataclass(frozen=True)
@@ -37,11 +35,11 @@ class Axis:
         return self.field.name
 
     @checked
-    def value(self, model: Model) -> float:
+    def value(self, model: Rotor) -> float:
         """Its value in a model, in SI units if it is physical."""
         return model.value(self.name)
 
-    def move(self, model: _Replaceable, value: float) -> _Replaceable:
+    def move(self, model: Rotor, value: float) -> Rotor:
         """Return the model with another value of it; what depends on it changes too.
 
         Raises

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from carom.models.model import Model
+from carom.models.rotor import Rotor
 
 
-def whirl_of(model: Model, force: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def whirl_of(model: Rotor, force: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Parts (n,) of the whirl that a force (n,) which turns with the shaft excites: what goes with ``e^{it}`` in the fixed frame, and with ``e^{−it}``."""
     mass, damping, gyroscopic, stiffness, _ = model.matrices
     ahead = stiffness - mass + 1j * damping + gyroscopic

@@ -1,4 +1,4 @@
-"""Any linear rotor, from its matrices."""
+"""The equations of motion of any linear rotor, from its matrices."""
 
 from __future__ import annotations
 
@@ -7,27 +7,25 @@ import json
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Annotated, Any, Self
+from typing import Annotated, Any, Self
 
 import numpy as np
 
 from carom.arguments import checked, having
 from carom.models import linear_parameters
+from carom.models.definition import Definition
 from carom.models.forcing import Force, with_forces
 from carom.models.from_modes import modal_system, second_order_system, walls_as_arrays
+from carom.models.matrices import Matrices, Rates
 from carom.models.mirror import Doubled, mirrored_system
-from carom.models.model import Matrices, Model, Rates
 from carom.models.modes import modes_of
-from carom.models.race import Race, RaceModes
+from carom.models.race import RaceModes
 from carom.models.shaft import Shaft, ShaftModes
 from carom.models.system import System
 from carom.models.touchdown import Touchdown
 from carom.outcome import InputError, shown
-from carom.parameters import Field, Scales, TouchdownBearing
+from carom.parameters import Field, Scales
 from carom.results import Result
-
-if TYPE_CHECKING:
-    from carom.models.limited import Limit
 
 SINGULAR = 1e-14
 """Smallest singular value of a matrix, relative to the size of its terms, up to which it counts as singular."""
@@ -38,7 +36,7 @@ _OTHERS = ("unlevitated", "conjugate", "carried", "regained", "magnets")
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class LinearRotor(Model, Result):
+class LinearEquations(Definition, Result):
     """Rotor with ``M Ü + D U̇ + K U = F`` in the co-rotating frame and ``P`` contact planes.
 
     The coordinates are complex: displacements, or tilts, in two directions at a right angle.  All numbers are
@@ -140,6 +138,11 @@ class LinearRotor(Model, Result):
         values.flags.writeable = False
         object.__setattr__(self, name, values)
 
+    @property
+    def equations(self) -> LinearEquations:
+        """They are these."""
+        return self
+
     @cached_property
     def heavy(self) -> np.ndarray:
         """Which coordinates have mass, shape (n,)."""
@@ -184,12 +187,12 @@ class LinearRotor(Model, Result):
         forcing : array_like of complex, shape (n,)
             Unbalance ``F``.
         **others
-            Further attributes of :class:`LinearRotor`.
+            Further attributes of :class:`LinearEquations`.
 
         Raises
         ------
         InputError
-            A matrix is not of the shape of ``M``, or see :class:`LinearRotor`.
+            A matrix is not of the shape of ``M``, or see :class:`LinearEquations`.
         """
         mass = _numbers("mass", mass)
         if gyroscopic is None:
@@ -255,7 +258,7 @@ class LinearRotor(Model, Result):
         if _singular(doubled.stiffness, doubled.mass, doubled.damping, doubled.stiffness) and self.forcing.any():
             raise InputError("forcing", self.forcing.tolist(), "none in undamped resonance with it")
         planes = [dataclasses.replace(each, plane=np.append(each.plane, none), race=None) for each in self.touchdowns]
-        system = LinearRotor(*doubled, np.append(self.forcing, none), planes).system
+        system = LinearEquations(*doubled, np.append(self.forcing, none), planes).system
         return mirrored_system(
             system,
             self.accelerations(self.planes.conj().T) * system.arrays["masses"],
@@ -307,45 +310,21 @@ class LinearRotor(Model, Result):
         """Angle of the unbalance in the co-rotating frame, in rad: that of its force on the rotor as a whole."""
         return float(np.angle(np.vdot(self.translation, self.forcing)))
 
-    @property
-    def races(self) -> tuple[Race | None, ...]:
-        """The race at each touchdown bearing; ``None`` where it stands still."""
-        return tuple(touchdown.race for touchdown in self.touchdowns)
-
-    def bearing_at(self, plane: int) -> TouchdownBearing | None:
-        """Data in SI units of a touchdown bearing, which may state its balls; ``None`` if they are not known."""
-        return self.touchdowns[plane].bearing
-
-    @property
-    def carried_by_housing(self) -> np.ndarray:
-        """See :attr:`~carom.models.Model.carried_by_housing`."""
-        return self.system.translated if self.carried is None else self.carried
-
-    @property
-    def acting_on_conjugates(self) -> np.ndarray | None:
-        """See :attr:`~carom.models.Model.acting_on_conjugates`."""
-        return None if self.system.mirrored is None else self.conjugate
-
-    @property
-    def carry_at_regain(self) -> np.ndarray | None:
-        """See :attr:`~carom.models.Model.carry_at_regain`."""
-        return None if self.regained is None else np.diag(np.concatenate([self.regained, self.regained]))
-
-    def without_levitation(self) -> LinearRotor:
-        """See :meth:`~carom.models.Model.without_levitation`."""
+    def without_levitation(self) -> LinearEquations:
+        """See :meth:`carom.models.Rotor.without_levitation`."""
         if len(self.mass) > 1 and self.unlevitated is None:
             allowed = "a rotor of one coordinate, or one that says by its unlevitated matrices what is left without its levitation"
             raise InputError("machine", shown(self), allowed)
         mass, _, gyroscopic, _, forcing = self.matrices
         damping, stiffness = np.zeros((2, *mass.shape)) if self.unlevitated is None else self.unlevitated
-        return LinearRotor.in_fixed_frame(
+        return LinearEquations.in_fixed_frame(
             mass=mass,
             damping=damping,
             stiffness=stiffness,
             gyroscopic=gyroscopic,
             forcing=forcing,
             touchdowns=self.touchdowns,
-            translation=self.system.translated,
+            translation=self.translation,
             scales=self.scales,
             shaft=self.shaft,
             conjugate=self.conjugate,
@@ -353,32 +332,26 @@ class LinearRotor(Model, Result):
         )
 
     def unbalance_push(self, node: int | None = None) -> np.ndarray:
-        """See :meth:`~carom.models.Model.unbalance_push`: all masses are off centre by the same, along the translation."""
+        """See :meth:`carom.models.Rotor.unbalance_push`: all masses are off centre by the same, along the translation."""
         linear_parameters.refuse_node(node)
         return np.asarray(self.mass @ self.translation * np.exp(1j * self.unbalance_phase))
 
     def unbalance_along(self, node: int | None = None) -> float | None:
-        """See :meth:`~carom.models.Model.unbalance_along`."""
+        """See :meth:`carom.models.Rotor.unbalance_along`."""
         return linear_parameters.forcing_along(self, self.unbalance_push(node))
 
     def with_changed_unbalance(self, change: complex, node: int | None = None) -> tuple[Self, float]:
-        """See :meth:`~carom.models.Model.with_changed_unbalance`."""
+        """See :meth:`carom.models.Rotor.with_changed_unbalance`."""
         push, before = self.unbalance_push(node), self.unbalance_along(node)
         if before is None:
             return dataclasses.replace(self, forcing=self.forcing + change * push), 0.0
         return dataclasses.replace(self, forcing=abs(before + change) * push), float(np.angle(before + change))
 
     @property
-    def stated_limits(self) -> tuple[Limit, ...]:
-        """Limits that its parameters state: none, as they are numbers of its equations."""
-        return ()
-
-    @property
     def varied(self) -> Mapping[str, Field]:
         """Parameters that can be varied (:mod:`carom.models.linear_parameters`)."""
         return linear_parameters.fields(self)
 
-    @checked
     def value(self, name: str) -> float:
         """Value of a parameter.
 
@@ -389,7 +362,7 @@ class LinearRotor(Model, Result):
         """
         return linear_parameters.value_of(self, name)
 
-    def replace(self, **changes: Any) -> LinearRotor:
+    def replace(self, **changes: Any) -> LinearEquations:
         """Return the rotor with other attributes, or other values of its parameters (:attr:`varied`).
 
         Attributes are set first, then the speed, then the other parameters in the order given.
@@ -405,7 +378,6 @@ class LinearRotor(Model, Result):
             rotor = dataclasses.replace(rotor, **linear_parameters.moved(rotor, name, changes[name]))
         return rotor
 
-    @checked
     def rates(self, name: str) -> Rates | None:
         """Return the derivatives of the equations of motion by a parameter; ``None`` if there is nothing to multiply."""
         return linear_parameters.rates_of(self, name)
@@ -423,7 +395,9 @@ class LinearRotor(Model, Result):
 
     @classmethod
     @checked
-    def from_attributes(cls, attributes: Annotated[Mapping[str, Any], having("linear_rotor", "scales")]) -> LinearRotor:
+    def from_attributes(
+        cls, attributes: Annotated[Mapping[str, Any], having("linear_rotor", "scales")]
+    ) -> LinearEquations:
         """Read the attributes of a dataset that :meth:`attributes` has given.
 
         Raises

@@ -1,7 +1,7 @@
 """Named parameters of a linear rotor: the numbers of the planar rotor, for any matrices.
 
 With the direction ``t`` in which the rotor moves as a whole, ``⟨A⟩ = tᴴ A t``, and ``M``, ``D``, ``K`` and ``F`` of the fixed
-frame (:meth:`~carom.models.LinearRotor.in_fixed_frame`),
+frame (:meth:`~carom.models.LinearEquations.in_fixed_frame`),
 
     γ = ⟨D⟩/⟨M⟩,      ω² = ⟨K⟩/⟨M⟩,      ρ e^{iφ} = tᴴF/⟨M⟩,
 
@@ -20,13 +20,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from carom.models.model import Rates
+from carom.models.matrices import Rates
 from carom.outcome import InputError, shown
 from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, WALL_FIELDS, Field, Numbers, read_quantity
 from carom.parameters.terms import no_such_parameter
 
 if TYPE_CHECKING:
-    from carom.models.linear import LinearRotor
+    from carom.models.linear import LinearEquations
 
 SAME = {"friction": "mu", "restitution": "d", "unbalance_phase": "phi"}
 """Entries of a machine file that are dimensionless, and the parameter that each is."""
@@ -37,7 +37,7 @@ ROUNDING = 1e-12
 """Part of an unbalance across another one, relative to it, that is rounding."""
 
 
-def fields(rotor: LinearRotor) -> dict[str, Field]:
+def fields(rotor: LinearEquations) -> dict[str, Field]:
     """Fields of all parameters by name."""
     own = {**DIMENSIONLESS_FIELDS, **WALL_FIELDS}
     absent = own.keys() & {"mu", "d", "radius_ratio", *WALL_FIELDS} - set(_at_planes(rotor))
@@ -56,14 +56,14 @@ def fields(rotor: LinearRotor) -> dict[str, Field]:
     return found
 
 
-def _at_planes(rotor: LinearRotor) -> list[str]:
+def _at_planes(rotor: LinearEquations) -> list[str]:
     """Names of the parameters that all planes have."""
     return [
         name for name in rotor.touchdowns[0].parameters if all(name in each.parameters for each in rotor.touchdowns)
     ]
 
 
-def _planes(rotor: LinearRotor) -> dict[str, tuple[str, int]]:
+def _planes(rotor: LinearEquations) -> dict[str, tuple[str, int]]:
     """Parameter and plane by name, for several planes."""
     if len(rotor.touchdowns) == 1:
         return {}
@@ -71,7 +71,7 @@ def _planes(rotor: LinearRotor) -> dict[str, tuple[str, int]]:
     return {f"{name}_{plane + 1}": (name, plane) for plane, one in each for name in one.parameters}
 
 
-def value_of(rotor: LinearRotor, name: str) -> float:
+def value_of(rotor: LinearEquations, name: str) -> float:
     """Present value of a parameter; refuse an unknown name, and one whose values differ between planes."""
     if name not in fields(rotor):
         raise no_such_parameter(name, "wanted", fields(rotor), rotor.scales is not None)
@@ -87,7 +87,7 @@ def value_of(rotor: LinearRotor, name: str) -> float:
     return float(getattr(_numbers(rotor), own))
 
 
-def _numbers(rotor: LinearRotor) -> Numbers:
+def _numbers(rotor: LinearEquations) -> Numbers:
     """Numbers of the rotor moving as a whole; those of the planes are left out."""
     inertia, damping, _, stiffness, _ = rotor.matrices
     mass = _whole(rotor, inertia)
@@ -96,12 +96,12 @@ def _numbers(rotor: LinearRotor) -> Numbers:
     return Numbers(_whole(rotor, damping) / mass, omega, abs(force), cmath.phase(force), *(math.nan,) * 3)
 
 
-def _whole(rotor: LinearRotor, matrix: np.ndarray) -> float:
+def _whole(rotor: LinearEquations, matrix: np.ndarray) -> float:
     direction = np.asarray(rotor.translation)
     return float(np.einsum("i,ij,j->", direction.conj(), matrix, direction).real)
 
 
-def moved(rotor: LinearRotor, name: str, given: float | str) -> dict[str, Any]:
+def moved(rotor: LinearEquations, name: str, given: float | str) -> dict[str, Any]:
     """Attributes that change with another value of a parameter; a physical one is in SI units, or text with a unit.
 
     A value out of range is refused, and a rotor without the damping, stiffness or unbalance that would be multiplied.
@@ -150,7 +150,7 @@ def refuse_node(node: int | None) -> None:
         raise InputError("node", node, "left out: only the shaft of a flexible machine has nodes")
 
 
-def forcing_along(rotor: LinearRotor, push: np.ndarray) -> float | None:
+def forcing_along(rotor: LinearEquations, push: np.ndarray) -> float | None:
     """How many times a push the forcing is; ``None`` if it is not along that."""
     times = float((np.vdot(push, rotor.forcing) / np.vdot(push, push)).real)
     apart = np.linalg.norm(rotor.forcing - times * push)
@@ -162,7 +162,7 @@ def _times(pair: np.ndarray | None, damping: float, stiffness: float) -> np.ndar
     return None if pair is None else np.stack([damping * pair[0], stiffness * pair[1]])
 
 
-def rates_of(rotor: LinearRotor, name: str) -> Rates | None:
+def rates_of(rotor: LinearEquations, name: str) -> Rates | None:
     """Derivatives of the equations of motion by a parameter: those of :func:`moved`; ``None`` without, or with nothing to multiply."""
     own, plane = _planes(rotor).get(name, (SAME.get(name, name), None))
     changes_walls = any(each.at_speed(2.0) != each for each in rotor.touchdowns)

@@ -1,260 +1,26 @@
-"""A rotor that changes while it moves: forces on it, and stages that a trigger ends, such as contact that persists."""
+"""A rotor that changes while it moves: stages that a trigger ends, such as contact that persists."""
 
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import asdict, dataclass, replace
-from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from carom.arguments import Infinity, NotNegative, Positive, checked
-from carom.models.forcing import Force, with_forces
-from carom.models.mode_arrays import EQUAL, STEADY
-from carom.models.model import Matrices, Model
-from carom.models.race import Race
+from carom.models.forces import complex_numbers
+from carom.models.forcing import Force
+from carom.models.rotor import Rotor
 from carom.models.system import System
 from carom.outcome import InputError, shown
-from carom.parameters import (
-    SETTINGS,
-    ControlLimit,
-    Field,
-    Parameters,
-    Scales,
-    TouchdownBearing,
-    read_quantity,
-)
-from carom.parameters.settings import GRAVITY_NAME
-
-if TYPE_CHECKING:
-    from carom.models.limited import Limit
-
-
-class Around(Model):
-    """A model that takes its parameters, scales and matrices from another one, its ``rotor``."""
-
-    rotor: Model
-
-    @property
-    def matrices(self) -> Matrices:
-        """Matrices of the equations of motion in the fixed frame."""
-        return self.rotor.matrices
-
-    @property
-    def scales(self) -> Scales | None:
-        """Mass, clearance and speed that convert results to SI units, if known."""
-        return self.rotor.scales
-
-    @property
-    def unbalance_phase(self) -> float:
-        """Angle of the unbalance in the co-rotating frame, in rad."""
-        return self.rotor.unbalance_phase
-
-    @property
-    def varied(self) -> Mapping[str, Field]:
-        """Named parameters that can be varied."""
-        return self.rotor.varied
-
-    def value(self, name: str) -> float:
-        """Value of a named parameter."""
-        return self.rotor.value(name)
-
-    def rates(self, name: str) -> None:
-        """No derivatives: differences of the equations of motion have to do."""
-
-    @property
-    def planar(self) -> Parameters | None:
-        """Those of the rotor."""
-        return self.rotor.planar
-
-    @property
-    def limits(self) -> ControlLimit | tuple[Limit, ...]:
-        """Those of the rotor."""
-        return self.rotor.limits
-
-    @property
-    def listed_limits(self) -> tuple[Limit, ...]:
-        """Those of the rotor."""
-        return self.rotor.listed_limits
-
-    @property
-    def pull(self) -> tuple[Force, ...]:
-        """That of the rotor."""
-        return self.rotor.pull
-
-    @property
-    def stated_forces(self) -> tuple[Force, ...]:
-        """Those of the rotor."""
-        return self.rotor.stated_forces
-
-    @property
-    def races(self) -> tuple[Race | None, ...]:
-        """Those of the rotor."""
-        return self.rotor.races
-
-    def bearing_at(self, plane: int) -> TouchdownBearing | None:
-        """That of the rotor."""
-        return self.rotor.bearing_at(plane)
-
-    @property
-    def is_on_mount(self) -> bool:
-        """Whether that of the rotor does."""
-        return self.rotor.is_on_mount
-
-    @property
-    def carried_by_housing(self) -> np.ndarray:
-        """Those of the rotor."""
-        return self.rotor.carried_by_housing
-
-    @property
-    def acting_on_conjugates(self) -> np.ndarray | None:
-        """Those of the rotor."""
-        return self.rotor.acting_on_conjugates
-
-    @property
-    def finite_elements(self) -> Any:
-        """Those behind the rotor."""
-        return self.rotor.finite_elements
-
-    @property
-    def carry_at_regain(self) -> np.ndarray | None:
-        """That of the rotor."""
-        return self.rotor.carry_at_regain
-
-    def unbalance_push(self, node: int | None = None) -> np.ndarray:
-        """That of the rotor: coordinates of what stands around it, such as a mount, are not pushed."""
-        push = self.rotor.unbalance_push(node)
-        return np.append(push, np.zeros(len(self.matrices.mass) - len(push)))
-
-    def unbalance_along(self, node: int | None = None) -> float | None:
-        """That of the rotor."""
-        return self.rotor.unbalance_along(node)
-
-    def with_changed_unbalance(self, change: complex, node: int | None = None) -> tuple[Any, float]:
-        """The same around the changed rotor."""
-        rotor, turned = self.rotor.with_changed_unbalance(change, node)
-        return replace(self, rotor=rotor), turned  # type: ignore[type-var]  # all that is around a rotor is a dataclass
-
-
-@dataclass(frozen=True, eq=False)
-class Forced(Around):
-    """A rotor with further forces on it that change with time in its frame, for example in a housing that is shaken.
-
-    It never is at rest in that frame: what needs an equilibrium there is not found for it.  Its orbits are, under forces that are
-    constant in the fixed frame, such as weight.
-
-    Attributes
-    ----------
-    rotor : Model
-        Without these forces; its matrices are those of the model.
-    forces : tuple of Force
-    """
-
-    rotor: Model
-    forces: tuple[Force, ...]
-
-    @property
-    def stated_forces(self) -> tuple[Force, ...]:
-        """Those of the rotor, and further ones."""
-        return (*self.rotor.stated_forces, *self.forces)
-
-    @property
-    def unforced(self) -> Model:
-        """The rotor without stated forces."""
-        return self.rotor.unforced
-
-    def without_levitation(self) -> Forced:
-        """See :meth:`~carom.models.Model.without_levitation`."""
-        return Forced(self.rotor.without_levitation(), self.forces)
-
-    def __post_init__(self) -> None:
-        _check_one_stage(self.rotor)
-        given: Any = self.forces
-        listed = tuple(given) if isinstance(given, Sequence) else ()
-        if not listed or not all(isinstance(each, Force) for each in listed):
-            raise InputError("forces", shown(given), "carom.models.Force, one or more")
-        object.__setattr__(self, "forces", tuple(_checked_force(each, self.rotor.system.rest.shape) for each in listed))
-
-    @cached_property
-    def system(self) -> System:
-        """Modes, contact planes and contact law, with a mode for each force."""
-        return with_forces(self.rotor.system, self.forces)
-
-    @cached_property
-    def _gravity(self) -> tuple[int, float] | None:
-        """Which of the forces is weight, which pulls all masses alike, and its acceleration in m/s²; ``None`` without scales or weight."""
-        along = self.rotor.system.translated
-        for place, force in enumerate(self.forces):
-            pull = np.vdot(along, force.accelerations) / np.vdot(along, along)
-            alike = np.abs(force.accelerations - pull * along).max() <= EQUAL * abs(pull)
-            if self.scales is not None and pull and alike and abs(force.exponent - STEADY) <= EQUAL:
-                return place, float(abs(pull)) * self.scales.acceleration
-        return None
-
-    @property
-    def varied(self) -> Mapping[str, Field]:
-        """Named parameters that can be varied; with scales also ``gravity``, the acceleration of a weight, in its direction."""
-        if self._gravity is None:
-            return self.rotor.varied
-        return {**self.rotor.varied, GRAVITY_NAME: replace(SETTINGS[GRAVITY_NAME], zero=False)}
-
-    def value(self, name: str) -> float:
-        """Value of a named parameter."""
-        return self._gravity[1] if name == GRAVITY_NAME and self._gravity else self.rotor.value(name)
-
-    def replace(self, **changes: Any) -> Forced:
-        """Return the rotor with other values of its parameters, and the same forces: in SI units, if its scales are known."""
-        forces = list(self.forces)
-        if self._gravity is not None and GRAVITY_NAME in changes:
-            place, present = self._gravity
-            share = read_quantity(self.varied[GRAVITY_NAME], changes.pop(GRAVITY_NAME)) / present
-            forces[place] = Force(forces[place].exponent, forces[place].accelerations * share)
-        rotor = self.rotor.replace(**changes) if changes else self.rotor
-        return Forced(rotor, tuple(_in_scales(force, self.scales, rotor.scales) for force in forces))
-
-    def attributes(self) -> dict[str, Any]:
-        """Return the rotor and the forces as attributes of a dataset, exact to the last bit."""
-        forces = [[force.exponent, *force.accelerations] for force in self.forces]
-        texts = [[(complex(each).real, complex(each).imag) for each in force] for force in forces]
-        return {"forces": json.dumps(texts), "rotor": json.dumps(self.rotor.attributes())}
-
-
-def _in_scales(force: Force, before: Scales | None, after: Scales | None) -> Force:
-    """The same force, seen from the fixed frame, in other units of the equations."""
-    if before is None or after is None or before == after:
-        return force
-    exponent = (force.exponent + 1j) * (before.speed / after.speed) - 1j
-    return Force(exponent, force.accelerations * (before.acceleration / after.acceleration))
 
 
 def _check_one_stage(rotor: Any) -> None:
-    """Refuse what is no model of one stage."""
-    # Whether an object follows the whole protocol takes longer to find out than a short simulation may.
-    if isinstance(rotor, Staged) or not (hasattr(type(rotor), "system") and hasattr(type(rotor), "rates")):
-        raise InputError(
-            "rotor", shown(rotor), "a model of one stage, such as carom.models.model_of(machine) or Forced"
-        )
-
-
-def _checked_force(force: Force, shape: tuple[int, ...]) -> Force:
-    """The force as complex numbers; refuse those that are none, or not as many as there are coordinates."""
-    exponent, accelerations = _complex_numbers(force.exponent), _complex_numbers(force.accelerations)
-    if exponent is None or exponent.shape:
-        raise InputError("exponent", shown(force.exponent), "a finite number")
-    if accelerations is None or accelerations.shape != shape:
-        raise InputError("accelerations", shown(force.accelerations), f"finite numbers of shape {shape}")
-    return Force(complex(exponent), accelerations)
-
-
-def _complex_numbers(given: Any) -> np.ndarray | None:
-    """Array of finite numbers, a copy; ``None`` if they are no such numbers."""
-    try:
-        values = np.array(given)
-    except (TypeError, ValueError, OverflowError):
-        return None
-    return values.astype(complex) if values.dtype.kind in "iufc" and np.isfinite(values).all() else None
+    """Refuse what is no rotor of one stage."""
+    if isinstance(rotor, Staged) or not isinstance(rotor, Rotor):
+        raise InputError("rotor", shown(rotor), "a rotor of one stage, such as carom.models.model_of(machine)")
 
 
 @checked
@@ -295,14 +61,14 @@ class Stage:
 
     Attributes
     ----------
-    rotor : Model
+    rotor : Rotor
     trigger : Trigger
         What ends it; by default nothing.
     carry : array_like, shape (2n, 2n), optional
         Coordinates and rates in the next stage per coordinate and rate at the end of this one; by default they are the same.
     """
 
-    rotor: Model
+    rotor: Rotor
     trigger: Trigger = NEVER
     carry: np.ndarray | None = None
 
@@ -312,7 +78,7 @@ class Stage:
             raise InputError("trigger", shown(self.trigger), "carom.models.Trigger")
         if self.carry is not None:
             size = 2 * len(self.rotor.system.rest)
-            carry = _complex_numbers(self.carry)
+            carry = complex_numbers(self.carry)
             if carry is None or carry.shape != (size, size):
                 raise InputError("carry", shown(self.carry), f"finite numbers of shape {(size, size)}")
             object.__setattr__(self, "carry", carry)
@@ -326,8 +92,8 @@ class Stage:
         return states[:, :n].reshape(np.shape(position)), states[:, n:].reshape(np.shape(velocity))
 
 
-@dataclass(frozen=True, eq=False)
-class Staged(Around):
+@dataclass(frozen=True, eq=False, repr=False, init=False)
+class Staged(Rotor):
     """A rotor that moves in stages: when the trigger of one ends it, the motion goes on in the next.
 
     Its parameters, kicks, equilibria and orbits are those of the rotor of the first stage.
@@ -347,20 +113,23 @@ class Staged(Around):
     ['triggered', 'levitated']
     """
 
-    stages: tuple[Stage, ...]
+    stages: tuple[Stage, ...] = ()
 
-    def __post_init__(self) -> None:
-        given: Any = self.stages
+    def __init__(self, stages: Sequence[Stage]) -> None:
+        given: Any = stages
         listed = tuple(given) if isinstance(given, Sequence) else ()
         if not listed or not all(isinstance(each, Stage) for each in listed):
             raise InputError("stages", shown(given), "carom.models.Stage, one or more")
         counts = {len(each.rotor.system.rest) for each in listed}
         if len(counts) > 1:
             raise InputError("stages", f"rotors of {sorted(counts)} coordinates", "rotors of equally many coordinates")
-        object.__setattr__(self, "stages", listed)
+        first = listed[0].rotor
+        named = {"definition": first.definition, "forces": first.forces, "limits": first.limits, "stages": listed}
+        for name, value in named.items():
+            object.__setattr__(self, name, value)
 
     @property
-    def rotor(self) -> Model:  # type: ignore[override]
+    def rotor(self) -> Rotor:
         """Rotor of the first stage."""
         return self.stages[0].rotor
 
@@ -368,6 +137,17 @@ class Staged(Around):
     def system(self) -> System:
         """Modes, contact planes and contact law of the first stage."""
         return self.rotor.system
+
+    __eq__ = object.__eq__
+    __hash__ = object.__hash__
+
+    def under(self, *forces: Force) -> Rotor:
+        """Refused: forces act on the rotor of a stage."""
+        _check_one_stage(self)
+        return self
+
+    def rates(self, name: str) -> None:
+        """No derivatives: differences of the equations of motion have to do."""
 
     @property
     def planar(self) -> None:
@@ -398,7 +178,7 @@ class Staged(Around):
 
 
 @checked
-def depends_on_instant(model: Model) -> bool:
+def depends_on_instant(model: Rotor) -> bool:
     """Whether the end of a disturbance depends on the instant of the turn at which it comes: on where the unbalance then points.
 
     So it does where something stands in the fixed frame in any stage: weight or another force, bearings that act differently in two
@@ -407,6 +187,6 @@ def depends_on_instant(model: Model) -> bool:
     return any(stage.rotor.system.timed for stage in stages_of(model))
 
 
-def stages_of(model: Model) -> tuple[Stage, ...]:
+def stages_of(model: Rotor) -> tuple[Stage, ...]:
     """Stages in which a model moves; of most there is one without an end."""
     return model.stages if isinstance(model, Staged) else (Stage(model),)

@@ -4,34 +4,28 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
+from dataclasses import replace
 from importlib import import_module
-from typing import Any, cast
+from typing import Any
 
 import numpy as np
 
 from carom.arguments import checked
-from carom.models.forcing import Force
-from carom.models.in_bearing import InBearing
-from carom.models.jeffcott import Jeffcott
-from carom.models.limited import Limited, limits_from
-from carom.models.linear import LinearRotor
-from carom.models.model import Model
-from carom.models.stages import Forced, Stage, Staged, Trigger
-from carom.models.weight import weighted
+from carom.models.forces import forces_from
+from carom.models.limits import limits_from
+from carom.models.linear import LinearEquations
+from carom.models.planar import RIGID, Planar, jeffcott
+from carom.models.rotor import Rotor
+from carom.models.stages import Stage, Staged, Trigger
 from carom.outcome import InputError, shown
-from carom.parameters import Case, Drive, Machine, Parameters, TouchdownBearing, Zones
+from carom.parameters import Case, Machine, Parameters, Zones
 
-Subject = Machine | Case | Parameters | Model
+Subject = Machine | Case | Parameters | Rotor
 """Any description of a rotor."""
 _ALLOWED = "a Machine, a Case (as carom.load reads it from a file), Parameters or a model"
-_PLANAR = (
-    "the planar rotor: this result is not known for other models, as of files with [rotor]; with these carom.simulate, carom.settle, "
-    "carom.drop, carom.study, carom.find_attractors, carom.map_basins and carom.map_gains work, and the commands study, simulate, drop, attractors, basins, "
-    "orbits, explore, and sweep with [basins]"
-)
 
 
-def model_of(subject: Subject) -> Model:
+def model_of(subject: Subject) -> Rotor:
     """Model of a machine, a case or parameters; a model is returned as it is.
 
     Raises
@@ -39,60 +33,49 @@ def model_of(subject: Subject) -> Model:
     InputError
         It is none of these.
     """
-    # Classes first: whether an object follows the protocol takes much longer to find out.
-    if isinstance(subject, Jeffcott):
+    if isinstance(subject, Rotor):
         return subject
     if isinstance(subject, Parameters):
-        return Jeffcott(subject)
-    if isinstance(subject, Machine | Case):
-        model = model_of(subject.parameters)
-        machine = subject.machine if isinstance(subject, Case) else subject
-        if isinstance(subject, Case) and (subject.touchdown or subject.drive) and isinstance(model, Jeffcott):
-            gap = None if machine is None else machine.air_gap
-            model = InBearing(model, subject.touchdown or TouchdownBearing(), drive=subject.drive, air_gap=gap)
-        if machine is not None and machine.control_limit is not None:
-            model = Limited(model, machine.control_limit)
-        return weighted(model, subject.gravity) if isinstance(subject, Case) and subject.gravity else model
-    if isinstance(subject, Model):
-        return subject
+        return jeffcott(subject)
+    if isinstance(subject, Machine):
+        return _limited(model_of(subject.parameters), subject)
+    if isinstance(subject, Case):
+        rotor = model_of(subject.parameters)
+        if (subject.touchdown or subject.drive) and rotor.has_closed_forms:
+            gap = None if subject.machine is None else subject.machine.air_gap
+            rotor = jeffcott(rotor.parameters, subject.touchdown or RIGID, drive=subject.drive, air_gap=gap)
+        rotor = _limited(rotor, subject.machine)
+        return rotor.under_gravity(subject.gravity) if subject.gravity else rotor
     raise InputError("machine", shown(subject), _ALLOWED)
 
 
-def jeffcott_of(subject: Subject) -> Jeffcott:
-    """Model of a machine, a case or parameters, for results in closed form that only the planar rotor has.
+def _limited(rotor: Rotor, machine: Machine | None) -> Rotor:
+    """The rotor with the limits of its magnetic bearings that its machine states."""
+    stated = None if machine is None else machine.control_limit
+    return rotor if stated is None else replace(rotor, limits=stated)
+
+
+def exact_rotor_of(subject: Subject) -> Rotor:
+    """Rotor of a machine, a case or parameters, of which exact results are known.
 
     Raises
     ------
     InputError
-        It is none of these, another model, or has weight.
+        It is none of these, or a rotor without exact results: no planar one, or with weight, limits or a touchdown bearing of its own.
     """
-    model = model_of(subject)
-    if model.has_closed_forms:
-        return cast("Jeffcott", model)
-    refuse_other_rotors(subject)
-    if isinstance(model, Limited):
-        allowed = (
-            "none: this result is known for magnetic bearings without limits alone, so leave force_limit and current_limit out for it; "
-            "carom.simulate, carom.settle and others work"
-        )
-        raise InputError("limits", model.words_of_limits, allowed)
-    if isinstance(model, Forced):
-        model.refuse_forces()
-    if isinstance(model, InBearing):
-        allowed = "a rigid wall that stands still, and a shaft at constant speed: this result is known for these alone; carom.simulate, carom.settle and others work"
-        raise InputError("touchdown", model.words_of_bearing, allowed)
-    raise InputError("machine", shown(subject), _PLANAR)
+    rotor = model_of(subject)
+    rotor.refuse_without_closed_forms()
+    return rotor
 
 
 def refuse_other_rotors(subject: Subject) -> None:
     """Refuse what is no planar rotor, whatever forces act on it."""
-    if model_of(subject).planar is None:
-        raise InputError("machine", shown(subject), _PLANAR)
+    _ = model_of(subject).parameters
 
 
 @checked
-def model_from(attributes: Mapping[str, Any]) -> Model:
-    """Model whose :meth:`~carom.models.model.Model.attributes` these are.
+def model_from(attributes: Mapping[str, Any]) -> Rotor:
+    """Model whose :meth:`~carom.models.Rotor.attributes` these are.
 
     Raises
     ------
@@ -101,26 +84,19 @@ def model_from(attributes: Mapping[str, Any]) -> Model:
     KeyError, TypeError, ValueError
         An attribute is missing, or is not such text.
     """
-    if "flexible_machine" in attributes:
-        # The layers forbid imports from above.
-        read = import_module("carom.rotors.flexible_model").FlexibleModel.from_attributes
-        return cast("Model", read(attributes))
-    if "linear_rotor" in attributes:
-        return LinearRotor.from_attributes(attributes)
     if "forces" in attributes:
-        numbers = [[complex(*each) for each in force] for force in json.loads(attributes["forces"])]
-        forces = tuple(Force(exponent, np.array(accelerations)) for exponent, *accelerations in numbers)
-        return Forced(model_from(json.loads(attributes["rotor"])), forces)
+        rotor = model_from(json.loads(attributes["rotor"]))
+        return replace(rotor, forces=(*rotor.forces, *forces_from(attributes["forces"])))
     if "limits" in attributes:
-        return Limited(model_from(json.loads(attributes["rotor"])), limits_from(attributes["limits"]))
-    if "touchdown_bearing" in attributes:
-        bearing = json.loads(attributes["touchdown_bearing"])
-        levitates, drive, gap = bearing.pop("levitates"), bearing.pop("drive"), bearing.pop("air_gap", None)
-        rotor = jeffcott_of(model_from(json.loads(attributes["rotor"])))
-        return InBearing(rotor, TouchdownBearing(**bearing), levitates, Drive(**drive) if drive else None, gap)
+        return replace(model_from(json.loads(attributes["rotor"])), limits=limits_from(attributes["limits"]))
     if "stages" in attributes:
         return Staged(tuple(map(_stage_from, json.loads(attributes["stages"]))))
-    return Jeffcott(Parameters.from_attributes(attributes))
+    if "flexible_machine" in attributes:
+        # The layers forbid imports from above.
+        return Rotor(import_module("carom.rotors.flexible_model").FlexibleDefinition.from_attributes(attributes))
+    if "linear_rotor" in attributes:
+        return Rotor(LinearEquations.from_attributes(attributes))
+    return Rotor(Planar.from_attributes(attributes))
 
 
 def _stage_from(given: Mapping[str, Any]) -> Stage:
@@ -137,11 +113,10 @@ def case_of(subject: Subject) -> Case:
     InputError
         It is none of these, another model than the planar rotor, or has weight: no case would keep that.
     """
+    rotor = exact_rotor_of(subject)
     if isinstance(subject, Case):
-        jeffcott_of(subject)
         return subject
-    machine = subject if isinstance(subject, Machine) else None
-    return Case("machine", jeffcott_of(subject).parameters, machine, Zones())
+    return Case("machine", rotor.parameters, subject if isinstance(subject, Machine) else None, Zones())
 
 
 def planar_case_of(subject: Subject) -> Case:
@@ -154,16 +129,17 @@ def planar_case_of(subject: Subject) -> Case:
     InputError
         It is none of these, another model, has weight, or the centre of the touchdown bearing is off the place of levitation.
     """
-    model = model_of(subject)
-    if isinstance(model, Limited) and isinstance(subject, Machine | Case):
-        model = model.rotor
-        if isinstance(model, Jeffcott):
-            return subject if isinstance(subject, Case) else Case("machine", model.parameters, subject, Zones())
-    if not isinstance(model, InBearing) or not model.levitates:
+    rotor = model_of(subject)
+    if isinstance(subject, Machine | Case):
+        rotor = replace(rotor, limits=())
+        if rotor.has_closed_forms:
+            return subject if isinstance(subject, Case) else Case("machine", rotor.parameters, subject, Zones())
+    given = rotor.definition
+    if not isinstance(given, Planar) or given.bearing is None or not given.levitates or rotor.forces or rotor.limits:
         return case_of(subject)
-    if model.bearing.centre:
+    if given.bearing.centre:
         allowed = "must be 0 here: off that centre the rotor is never at rest in the frame that turns with the shaft; carom.simulate works"
-        raise InputError("touchdown_offset", model.bearing.offset, allowed)
+        raise InputError("touchdown_offset", given.bearing.offset, allowed)
     if isinstance(subject, Case):
         return subject
-    return Case("machine", model.parameters, None, Zones(), touchdown=model.bearing, drive=model.drive)
+    return Case("machine", given.parameters, None, Zones(), touchdown=given.bearing, drive=given.drive)

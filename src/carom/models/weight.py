@@ -8,36 +8,17 @@ from __future__ import annotations
 
 import numpy as np
 
-from carom.models.forcing import Force
-from carom.models.mode_arrays import STEADY
-from carom.models.model import Model
-from carom.models.stages import Forced
+from carom.models.rotor import Rotor
 from carom.outcome import InputError
-from carom.parameters import Gravity
 
 
-def weighted(rotor: Model, gravity: Gravity) -> Forced:
-    """The rotor with its weight; all its masses fall alike, along the translation.
-
-    Raises
-    ------
-    InputError
-        Its scales are not known.
-    """
-    if rotor.scales is None:
-        raise InputError(
-            "gravity", gravity.words, "a rotor with mass, clearance and speed: without them nothing is in m/s^2"
-        )
-    return Forced(rotor, (Force(STEADY, gravity.pull(rotor.scales) * rotor.system.translated),))
-
-
-def refuse_unsteady(model: Model) -> None:
+def refuse_unsteady(model: Rotor) -> None:
     """Refuse a rotor that levitates neither at rest nor in a circle: its speed changes, or a force changes in the fixed frame."""
     if model.system.shaft is not None or model.system.shaken:
         model.system.refuse_unsteady()
 
 
-def levitation_of(model: Model) -> tuple[np.ndarray, np.ndarray]:
+def levitation_of(model: Rotor) -> tuple[np.ndarray, np.ndarray]:
     """Coordinates and their rates, both (n,), where the rotor levitates at time zero: its whirl about the static sag.
 
     Raises

@@ -15,7 +15,7 @@ from carom.core.rub import lift_off, rest_on_wall, wall_push
 from carom.core.rub_step import NOWHERE
 from carom.core.segments import MOST_STEPS
 from carom.core.variation import strike
-from carom.models import Jeffcott, Model
+from carom.models import Model, Rotor
 from carom.motions.simulation import follow
 from carom.orbits.chatter import LONGEST_CHATTER, MOST_BOUNCES
 from carom.orbits.shooting import TOLERANCE, Start
@@ -36,7 +36,7 @@ INSTANT = 1e-9
 """Time within which a rotor that has just lost its normal force may still be in contact, in ``1/Ω``."""
 
 
-def slip_stays_forward(rotor: Jeffcott) -> bool:
+def slip_stays_forward(rotor: Rotor) -> bool:
     """Whether an orbit with one impact a period cannot stay inside the wall if its slip is stopped or backward.
 
     After an impact that leaves no forward slip, the rotor moves backward along the wall at the speed ``s`` or more in

@@ -11,7 +11,7 @@ from carom.arguments import Positive, checked
 from carom.core import variation
 from carom.core.event_log import EventLog
 from carom.core.fate import memory
-from carom.models import Subject, jeffcott_of, model_of
+from carom.models import Subject, exact_rotor_of, model_of
 from carom.motions.simulation import follow, simulate
 from carom.motions.starts import LARGEST_SPEED, State
 from carom.motions.trajectories import Trajectory
@@ -150,7 +150,7 @@ def stroboscopic_map(machine: Subject, state: State, period: float) -> Strobosco
     StroboscopicMap
         Its derivative is meaningless if the trajectory ends in ``CHATTER`` or ``GRAZING``.
     """
-    rotor = jeffcott_of(machine)
+    rotor = exact_rotor_of(machine)
     trajectory = simulate(rotor, state, period, stop_at_chatter=True)
     units = ((1.0, 0.0), (1j, 0.0), (0.0, 1.0), (0.0, 1j))
     directions = np.array([rotor.system.amplitude_change(*unit) for unit in units])

@@ -19,7 +19,7 @@ import numpy as np
 from carom.arguments import Count, checked
 from carom.arguments import Kind as ArgumentKind
 from carom.continuation.roots import bracketed_root, sign_change
-from carom.models import Jeffcott, Subject, jeffcott_of
+from carom.models import Rotor, Subject, exact_rotor_of
 from carom.motions.simulation import simulate
 from carom.motions.starts import State
 from carom.motions.trajectories import Trajectory
@@ -89,7 +89,7 @@ def rubbing_orbits(machine: Subject, longest: Longest = LONGEST_PERIOD, samples:
     --------
     carom.continue_orbit : follow one along a parameter
     """
-    rotor = jeffcott_of(machine)
+    rotor = exact_rotor_of(machine)
     angles = np.linspace(-math.pi, math.pi, samples + 1).tolist()
     found: list[Orbit] = []
     whirls: tuple[Whirl, Whirl] = (1, -1)
@@ -114,7 +114,7 @@ def rubbing_orbits(machine: Subject, longest: Longest = LONGEST_PERIOD, samples:
     return tuple(replace(orbit, name=RubbingName(orbit.impacts, k)) for k, orbit in enumerate(found, start=1))
 
 
-def lift_off_state(rotor: Jeffcott, whirl: Whirl, angle: float) -> State | None:
+def lift_off_state(rotor: Rotor, whirl: Whirl, angle: float) -> State | None:
     """State of a rotor that lifts off at ``x = θ − φ``; ``None`` if the normal force does not fall through zero."""
     gamma, omega, rho = rotor.parameters.gamma, rotor.parameters.omega, rotor.parameters.rho
     square = omega * omega - rho * math.cos(angle)
@@ -153,7 +153,7 @@ def lift_off_of(orbit: Orbit) -> LiftOff:
     )
 
 
-def _next(rotor: Jeffcott, whirl: Whirl, angle: float, longest: float) -> tuple[Trajectory, int, int] | None:
+def _next(rotor: Rotor, whirl: Whirl, angle: float, longest: float) -> tuple[Trajectory, int, int] | None:
     """Motion from a lift-off to the end of the flight after the next; and the events at which both flights end."""
     start = lift_off_state(rotor, whirl, angle)
     if start is None:
@@ -174,7 +174,7 @@ def _next(rotor: Jeffcott, whirl: Whirl, angle: float, longest: float) -> tuple[
         reach = min(2.0 * reach, longest)
 
 
-def _shift(rotor: Jeffcott, whirl: Whirl, angle: float, longest: float) -> float:
+def _shift(rotor: Rotor, whirl: Whirl, angle: float, longest: float) -> float:
     """Angle from a lift-off to the next, in rad; ``nan`` if there is none with the same direction of whirl."""
     found = _next(rotor, whirl, angle, longest)
     if found is None:
@@ -186,7 +186,7 @@ def _shift(rotor: Jeffcott, whirl: Whirl, angle: float, longest: float) -> float
     return math.remainder(cmath.phase(complex(position)) - rotor.parameters.phi - angle, math.tau)
 
 
-def _closed(rotor: Jeffcott, whirl: Whirl, angle: float, longest: float) -> Orbit | None:
+def _closed(rotor: Rotor, whirl: Whirl, angle: float, longest: float) -> Orbit | None:
     """Orbit of the motion that lifts off near an angle, by Newton's method; ``None`` if it does not close."""
     found = _next(rotor, whirl, angle, longest)
     if found is None:

@@ -13,7 +13,7 @@ import numpy as np
 from carom.arguments import Count, Positive, Reals, Seed, checked
 from carom.closed_forms.periods import PeriodCondition, PeriodRoots
 from carom.core.planar import impact_jacobian
-from carom.models import Jeffcott, Model, Subject, jeffcott_of, model_of
+from carom.models import Model, Rotor, Subject, exact_rotor_of, model_of
 from carom.orbits.admissibility import slip_stays_forward, why_virtual
 from carom.orbits.maps import Section
 from carom.orbits.names import OrbitName, Slip
@@ -116,7 +116,7 @@ class OrbitSet(Members[Orbit]):
 @checked
 def period_condition(machine: Subject, periods: Reals) -> np.ndarray:
     """``F₁(T) = 1 + Re(q a₂₂(T))``, whose roots are the periods of single-impact orbits (source paper (4.4))."""
-    rotor = jeffcott_of(machine)
+    rotor = exact_rotor_of(machine)
     return PeriodCondition.planar(rotor.parameters).value(np.asarray(periods, float))
 
 
@@ -196,7 +196,7 @@ def find_orbits(
         return OrbitSet(
             model, members, impacts, search, np.empty(0), math.inf, complete=False, slip_stays_forward=False
         )
-    rotor = jeffcott_of(machine)
+    rotor = exact_rotor_of(machine)
     condition = PeriodCondition.planar(rotor.parameters)
     roots = condition.roots(longest_period)
     orbits = _orbits_at(rotor, roots, 1)
@@ -230,18 +230,18 @@ def orbits_within_reach(machine: Subject) -> OrbitSet:
     OrbitSet
         Its ``complete`` and ``argument`` tell whether the list was cut.
     """
-    rotor = jeffcott_of(machine)
+    rotor = exact_rotor_of(machine)
     return find_orbits(rotor, longest_within_reach(rotor))
 
 
-def longest_within_reach(rotor: Jeffcott) -> float | None:
+def longest_within_reach(rotor: Rotor) -> float | None:
     """Period up to which :func:`orbits_within_reach` looks, in ``1/Ω``; ``None`` where it looks for all orbits."""
     condition = PeriodCondition.planar(rotor.parameters)
     limit = min(MOST_RADIANS / float(abs(rotor.system.arrays["exponents"]).max()), condition.longest_told())
     return None if condition.longest_period() <= limit else limit
 
 
-def _orbits_at(rotor: Jeffcott, roots: PeriodRoots, slip: Slip) -> list[Orbit]:
+def _orbits_at(rotor: Rotor, roots: PeriodRoots, slip: Slip) -> list[Orbit]:
     """Orbits at all roots, in the order of their pairs and letters."""
     parameters, periods = rotor.parameters, roots.periods.tolist()
     gamma, omega, friction, d = parameters.gamma, parameters.omega, slip * parameters.mu, parameters.d
@@ -258,7 +258,7 @@ def _orbits_at(rotor: Jeffcott, roots: PeriodRoots, slip: Slip) -> list[Orbit]:
     return sorted(orbits, key=lambda orbit: orbit.name.place)
 
 
-def orbits_of_roots(rotor: Jeffcott, roots: PeriodRoots, slip: Slip = 1) -> Iterator[tuple[OrbitName, int, float]]:
+def orbits_of_roots(rotor: Rotor, roots: PeriodRoots, slip: Slip = 1) -> Iterator[tuple[OrbitName, int, float]]:
     """Name, index of the root and radial speed of each orbit."""
     for root, lever in enumerate(roots.returns[:, 0].tolist()):
         # F₁ starts positive unless d = 1, when T = 0 may be the shorter root of the first pair.
@@ -267,7 +267,7 @@ def orbits_of_roots(rotor: Jeffcott, roots: PeriodRoots, slip: Slip = 1) -> Iter
             yield OrbitName(pair + 1, bool(longer), bool(faster), slip), root, speed
 
 
-def orbit_at(rotor: Jeffcott, name: OrbitName, period: float, section: Section, nontrivial: Multipliers) -> Orbit:
+def orbit_at(rotor: Rotor, name: OrbitName, period: float, section: Section, nontrivial: Multipliers) -> Orbit:
     """Orbit of known period, in ``1/Ω``, and state just before the impact, with its admissibility checked."""
     before = section.state
     word = FORWARD if name.slip > 0 else BACKWARD

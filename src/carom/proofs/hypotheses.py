@@ -18,7 +18,7 @@ from typing import Any, Literal, cast
 
 from carom.arguments import checked
 from carom.loading import load
-from carom.models import Subject, jeffcott_of
+from carom.models import Subject, exact_rotor_of
 from carom.outcome import InputError, Problems, shown, together
 from carom.parameters import DIMENSIONLESS_FIELDS, HELPER_FIELDS, MACHINE_FIELDS, PARAMETERS, TERMS, Machine
 from carom.parameters.exact import ExactNumber, read_exact
@@ -192,7 +192,7 @@ def hypotheses_of(
         return machine
     if isinstance(machine, Mapping):
         return Hypotheses("dimensionless", {name: written_exactly(value) for name, value in machine.items()}, {})
-    numbers = jeffcott_of(machine).parameters.as_dict()
+    numbers = exact_rotor_of(machine).parameters.as_dict()
     return Hypotheses("dimensionless", {name: written_exactly(value) for name, value in numbers.items()}, {})
 
 
@@ -213,7 +213,7 @@ def _from_file(path: str | os.PathLike[str], settings: list[str], needs: list[st
     problems.raise_all()
     if tables.gravity is not None or pull is not None or tables.touchdown or tables.drive is not None:
         # What is proven is of rotors without weight, in a rigid wall that stands still, at a constant speed.
-        jeffcott_of(load(path, () if pull is None else [f"gravity={pull}"]))
+        exact_rotor_of(load(path, () if pull is None else [f"gravity={pull}"]))
     content = tomllib.loads(Path(path).read_text(encoding="utf-8-sig"), parse_float=Decimal)
     table: Literal["machine", "dimensionless"] = "machine" if "machine" in content else "dimensionless"
     if table == "machine":
@@ -234,7 +234,7 @@ def _of_machine_file(
     if terms or not entries.keys() <= MACHINE_FIELDS.keys():
         settings = [f"{name}={text}" for name, text in texts.items()] if terms else []
         case = load(path, settings)
-        jeffcott_of(case)  # which refuses limits of magnetic bearings
+        exact_rotor_of(case)  # which refuses limits of magnetic bearings
         machine = cast("Machine", case.machine)
         values |= {name: getattr(machine, name) for name, source in machine.given.items() if name not in source}
     read = Hypotheses("machine", {name: written_exactly(value) for name, value in values.items()}, {})

@@ -12,7 +12,7 @@ from typing import Any, NamedTuple, TypeVar
 import numpy as np
 from flint import arb, arb_series
 
-from carom.models import Jeffcott
+from carom.models import Rotor, jeffcott
 from carom.motions import settle
 from carom.outcome import InputError, Outcome
 from carom.parameters import DIMENSIONLESS_FIELDS
@@ -248,9 +248,9 @@ class BoxPart:
     phase: float
 
     @cached_property
-    def doubles(self) -> tuple[Jeffcott, complex, float]:
+    def doubles(self) -> tuple[Rotor, complex, float]:
         """The rotor in the middle, the direction in which it levitates, and the largest ``v``, in double precision."""
-        rotor = Jeffcott(doubles_at(self.held.middle.numbers, self.phase))
+        rotor = jeffcott(doubles_at(self.held.middle.numbers, self.phase))
         place = rotor.equilibrium
         return rotor, place / abs(place) if place else 1.0, float(self.reaches[0].mid())
 

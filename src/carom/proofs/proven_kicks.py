@@ -10,7 +10,7 @@ import numpy as np
 
 from carom.arguments import checked
 from carom.closed_forms import harmless_kick
-from carom.models import Jeffcott, Subject, jeffcott_of
+from carom.models import Rotor, Subject, exact_rotor_of, jeffcott
 from carom.outcome import InputError
 from carom.parameters.told import number, rounded_down, shown_in
 from carom.proofs.claims import Proof
@@ -70,7 +70,7 @@ class ProvenKicks(Result):
 
     Attributes
     ----------
-    rotor : Jeffcott
+    rotor : Rotor
     largest : float
         Radius of the disc, in ``c_r Ω``, fixed frame.
     all_up_to : float
@@ -101,7 +101,7 @@ class ProvenKicks(Result):
     )
     rests_on: ClassVar[tuple[str, ...]] = Proof.rests_on
 
-    rotor: Jeffcott
+    rotor: Rotor
     largest: float
     all_up_to: float
     share: float
@@ -129,9 +129,9 @@ class ProvenKicks(Result):
         if proof.theorem != KICKS.about:
             raise InputError("proof", proof.theorem, "a proof of kicks, as prove_kicks makes it")
         if machine is None:
-            rotor = Jeffcott(doubles_of(proof.hypotheses))
+            rotor = jeffcott(doubles_of(proof.hypotheses))
         else:
-            rotor = jeffcott_of(machine)
+            rotor = exact_rotor_of(machine)
             check_machine(proof.hypotheses, rotor)
         numbers = proof["kicks recover"].enclosures
         disc = Disc(KICKS, proof.hypotheses, proof.options["kicks_up_to"], proof.options["most_impacts"])

@@ -10,7 +10,7 @@ from math import pi
 import numpy as np
 
 from carom.bifurcations import Diagram, RegionMap
-from carom.models import Model, jeffcott_of
+from carom.models import Model, exact_rotor_of
 from carom.outcome import InputError
 from carom.proofs.claims import Claim, Proof
 from carom.proofs.hypotheses import NUMBERS, Hypotheses
@@ -103,7 +103,7 @@ def _proven(proof: Proof, allowed: tuple[str, ...], model_at: Callable[[float], 
 
 def check_machine(hypotheses: Hypotheses, model: Model) -> None:
     """Compare the numbers of the equations with those of a proof; :class:`~carom.outcome.InputError` if they are others."""
-    parameters = jeffcott_of(model).parameters
+    parameters = exact_rotor_of(model).parameters
     for name in NUMBERS:
         number = hypotheses.numbers[name]
         scale = pi**number.turns

@@ -11,7 +11,7 @@ import numpy as np
 from flint import arb
 
 from carom.bifurcations import find_bifurcations
-from carom.models import Jeffcott
+from carom.models import jeffcott
 from carom.orbits import Kind, find_orbits
 from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, TERMS, Machine, Parameters
 from carom.parameters.exact import read_exact
@@ -76,7 +76,7 @@ def shooting_seeds(hypotheses: Hypotheses, impacts: int) -> Iterator[list[float]
 
     Each is a list of ``θ − arg U*``, ``ṙ``, ``θ̇`` and the time of the flight that follows, for each impact.
     """
-    rotor = Jeffcott(doubles_of(hypotheses))
+    rotor = jeffcott(doubles_of(hypotheses))
     turned = float(np.angle(rotor.equilibrium)) if rotor.equilibrium else 0.0
     for orbit in find_orbits(rotor, impacts=impacts):
         if orbit.impacts > 1 and set(orbit.word.kinds.tolist()) == {Kind.IMPACT_FORWARD}:

@@ -29,7 +29,7 @@
 ``free_motions``          free motions of a machine, and which of them grow
 ``machine_parameters``    named parameters of a machine and of its parts
 ``reduced_machine``       :class:`ReducedMachine`: by a few vectors, as a model
-``flexible_model``        :class:`FlexibleModel`: that model, with the parameters of the machine
+``flexible_model``        :class:`FlexibleDefinition`: what defines its rotor, by the parameters of the machine
 ``documents``             a machine as plain data
 ``machine_file``          :func:`load_machine`; tables of a machine file -> its case
 ``branches``              exponents followed over the speed of the shaft
@@ -44,7 +44,7 @@ from carom.rotors.controllers import PID, TransferFunction
 from carom.rotors.damping import ModalDamping, ProportionalDamping
 from carom.rotors.discs import Disc
 from carom.rotors.flexible_machine import FlexibleMachine
-from carom.rotors.flexible_model import FlexibleModel
+from carom.rotors.flexible_model import FlexibleDefinition
 from carom.rotors.flexible_rotor import FlexibleRotor
 from carom.rotors.loop_sensitivity import Sensitivity, sensitivity
 from carom.rotors.machine_file import load_machine
@@ -63,8 +63,8 @@ __all__ = [
     "PID",
     "Campbell",
     "Disc",
+    "FlexibleDefinition",
     "FlexibleMachine",
-    "FlexibleModel",
     "FlexibleRotor",
     "ImportedRotor",
     "MagneticBearing",

@@ -1,4 +1,4 @@
-"""The model of a flexible machine: a linear rotor that knows the parameters of its machine by their names."""
+"""What defines the rotor of a flexible machine: the parameters of the machine by their names."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import numpy as np
 
 from carom.arguments import checked, having
-from carom.models import Limit, LinearRotor, Rates
+from carom.models import Limit, LinearEquations, Rates
 from carom.models.system import System
 from carom.outcome import InputError, shown
 from carom.parameters import Field, read_quantity
@@ -30,8 +30,8 @@ _WALLS = "wall_"
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class FlexibleModel(LinearRotor):
-    """A flexible machine by a few vectors, without its weight; see :class:`~carom.models.LinearRotor` for its numbers.
+class FlexibleDefinition(LinearEquations):
+    """A flexible machine by a few vectors, without its weight; see :class:`~carom.models.LinearEquations` for its numbers.
 
     Another value of a parameter keeps the vectors, which depend on none of them, and makes the equations anew.
 
@@ -68,12 +68,11 @@ class FlexibleModel(LinearRotor):
         return {**others, **self._own}
 
     @property
-    def stated_limits(self) -> tuple[Limit, ...]:
+    def limits(self) -> tuple[Limit, ...]:
         """Limits of the magnetic bearings of the machine."""
         limits: tuple[Limit, ...] = self.reduced.limits
         return limits
 
-    @checked
     def value(self, name: str) -> float:
         """Value of a parameter.
 
@@ -96,9 +95,9 @@ class FlexibleModel(LinearRotor):
         InputError
             A name is unknown or a value not allowed, or there is no unbalance to be multiplied or turned.
         """
-        if {field.name for field in dataclasses.fields(LinearRotor)} & (changes.keys() - self._own.keys()):
-            own = {field.name: getattr(self, field.name) for field in dataclasses.fields(LinearRotor)}
-            return LinearRotor(**own).replace(**changes)
+        if {field.name for field in dataclasses.fields(LinearEquations)} & (changes.keys() - self._own.keys()):
+            own = {field.name: getattr(self, field.name) for field in dataclasses.fields(LinearEquations)}
+            return LinearEquations(**own).replace(**changes)
         # What numbers of the equations mean depends on speed and clearance, which are numbers of the machine.
         of_machine = {
             name: read_quantity(self._own[name], given) for name, given in changes.items() if name in self._own
@@ -108,11 +107,11 @@ class FlexibleModel(LinearRotor):
             rotor = rotor._with_number(name, changes[name])
         return rotor
 
-    def _made(self, **changes: Any) -> FlexibleModel:
-        made: FlexibleModel = self.reduced.of(self.reduced.machine.replace(**changes)).unchecked
+    def _made(self, **changes: Any) -> FlexibleDefinition:
+        made: FlexibleDefinition = self.reduced.of(self.reduced.machine.replace(**changes)).definition
         return made
 
-    def _with_number(self, name: str, given: Any) -> FlexibleModel:
+    def _with_number(self, name: str, given: Any) -> FlexibleDefinition:
         """The rotor with another dimensionless number, which its machine gets as what it means in SI units."""
         reduced: ReducedMachine = self.reduced
         if name in reduced.machine.varied:
@@ -142,24 +141,24 @@ class FlexibleModel(LinearRotor):
             dataclasses.replace(each, size=factor * each.size, angle=each.angle + turn)
             for each in reduced.machine.unbalances
         ]
-        made: FlexibleModel = reduced.of(dataclasses.replace(reduced.machine, unbalances=unbalances)).unchecked
+        made: FlexibleDefinition = reduced.of(dataclasses.replace(reduced.machine, unbalances=unbalances)).definition
         return made
 
     def unbalance_push(self, node: int | None = None) -> np.ndarray:
-        """See :meth:`~carom.models.Model.unbalance_push`; at a node, with the phase of the unbalance there, otherwise of that of the rotor as a whole."""
+        """See :meth:`carom.models.Rotor.unbalance_push`; at a node, with the phase of the unbalance there, otherwise of that of the rotor as a whole."""
         reduced, (node, own) = self.reduced, self._unbalance_at(node)
         push, size = np.zeros(len(self.mass), complex), math.sqrt(reduced.machine.rotor.mass)
         push[: reduced.vectors] = size * (reduced.machine.rotor.row_at(node) @ reduced.basis.shapes)
         return push * cmath.exp(1j * (cmath.phase(own) if own else self.unbalance_phase))
 
     def unbalance_along(self, node: int | None = None) -> float | None:
-        """See :meth:`~carom.models.Model.unbalance_along`."""
+        """See :meth:`carom.models.Rotor.unbalance_along`."""
         node, own = self._unbalance_at(node)
         others = any(each.node != node for each in self.reduced.machine.unbalances)
         return None if others else abs(own) / self.reduced.scales.unbalance
 
-    def with_changed_unbalance(self, change: complex, node: int | None = None) -> tuple[FlexibleModel, float]:
-        """See :meth:`~carom.models.Model.with_changed_unbalance`."""
+    def with_changed_unbalance(self, change: complex, node: int | None = None) -> tuple[FlexibleDefinition, float]:
+        """See :meth:`carom.models.Rotor.with_changed_unbalance`."""
         changed, turned = super().with_changed_unbalance(change, node)
         reduced, (node, own) = self.reduced, self._unbalance_at(node)
         unit = cmath.rect(reduced.scales.unbalance, cmath.phase(own) if own else self.unbalance_phase)
@@ -180,7 +179,6 @@ class FlexibleModel(LinearRotor):
         machine.rotor.check_node("blade_loss_node", at)
         return at, complex(sum(cmath.rect(each.size, each.angle) for each in machine.unbalances if each.node == at))
 
-    @checked
     def rates(self, name: str) -> Rates | None:
         """Return the derivatives of the equations of motion by a number of the equations; ``None`` for parameters of the machine."""
         return None if name in self._own else super().rates(name)
@@ -192,7 +190,9 @@ class FlexibleModel(LinearRotor):
 
     @classmethod
     @checked
-    def from_attributes(cls, attributes: Annotated[Mapping[str, Any], having("flexible_machine")]) -> FlexibleModel:
+    def from_attributes(
+        cls, attributes: Annotated[Mapping[str, Any], having("flexible_machine")]
+    ) -> FlexibleDefinition:
         """Read the attributes of a dataset that :meth:`attributes` has given.
 
         Raises
@@ -203,6 +203,6 @@ class FlexibleModel(LinearRotor):
             An attribute is missing, or is not such text.
         """
         given = json.loads(attributes["flexible_machine"])
-        plain = LinearRotor.from_attributes(attributes)
-        own = {field.name: getattr(plain, field.name) for field in dataclasses.fields(LinearRotor)}
+        plain = LinearEquations.from_attributes(attributes)
+        own = {field.name: getattr(plain, field.name) for field in dataclasses.fields(LinearEquations)}
         return cls(**own, reduced=part_from(given["machine"]).with_modes(given["modes"]))

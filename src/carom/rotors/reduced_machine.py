@@ -9,10 +9,9 @@ from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
-from carom.models import Limit, Limited, Model, Touchdown
-from carom.models.in_bearing import law_of, race_of
+from carom.models import Limit, Rotor, Touchdown
+from carom.models.planar import law_of, race_of
 from carom.models.touchdown import FARTHEST
-from carom.models.weight import weighted
 from carom.outcome import InputError
 from carom.parameters import Scales
 from carom.parameters.restitution import damping_ratio_of
@@ -21,7 +20,7 @@ from carom.rotors.attachments import TouchdownPlane
 from carom.rotors.bearing_limits import limits_of_bearings
 from carom.rotors.controllers import PID
 from carom.rotors.equations import Equations, equations_of, loops_of
-from carom.rotors.flexible_model import FlexibleModel
+from carom.rotors.flexible_model import FlexibleDefinition
 from carom.rotors.free_motions import slowest_of
 from carom.rotors.reduction import Basis
 
@@ -134,7 +133,7 @@ class ReducedMachine(Result):
         return replace(self, machine=machine) if same else machine.with_modes(self.modes)
 
     @cached_property
-    def linear(self) -> FlexibleModel:
+    def linear(self) -> Rotor:
         """The levitating rotor without weight, in units of the equations; it knows the parameters of the machine by their names.
 
         Raises
@@ -188,7 +187,7 @@ class ReducedMachine(Result):
                 found.append(f"{of} of bearing {number}: {stiffness:.3g} N/m")
         return f"; static stiffness {', '.join(found)}, must be above 0" if found else ""
 
-    def _check_integrators(self, rotor: FlexibleModel) -> None:
+    def _check_integrators(self, rotor: Rotor) -> None:
         """Refuse an integrator so slow that what weight does to it has no digits left, and a rotor that nothing holds."""
         slowest = float(np.abs(rotor.system.exponents + 1j).min())
         if slowest > SLOWEST:
@@ -208,7 +207,7 @@ class ReducedMachine(Result):
         raise InputError(UNHELD, told, f"controllers that hold the rotor{self._weak}")
 
     @cached_property
-    def limited(self) -> FlexibleModel | Limited:
+    def limited(self) -> Rotor:
         """The levitating rotor without weight, with the limits of its magnetic bearings if these have any.
 
         Raises
@@ -216,7 +215,7 @@ class ReducedMachine(Result):
         InputError
             As for :attr:`linear`.
         """
-        return Limited(self.linear, self.limits) if self.limits else self.linear
+        return replace(self.linear, limits=self.limits) if self.limits else self.linear
 
     @cached_property
     def limits(self) -> tuple[Limit, ...]:
@@ -227,7 +226,7 @@ class ReducedMachine(Result):
         return limits_of_bearings(given, tuple(at.bearings), pulls, self.scales)
 
     @cached_property
-    def model(self) -> Model:
+    def model(self) -> Rotor:
         """The levitating rotor with its weight, if it has one, as all verbs take it; ``carom.drop`` takes its levitation away.
 
         The first coordinates are those of the vectors, the first of which is the translation of the whole rotor.
@@ -238,11 +237,16 @@ class ReducedMachine(Result):
             As for :attr:`linear`.
         """
         gravity = self.machine.gravity
-        return self.limited if gravity is None or not gravity.acceleration else weighted(self.limited, gravity)
+        return self.limited if gravity is None or not gravity.acceleration else self.limited.under_gravity(gravity)
 
     @cached_property
-    def unchecked(self) -> FlexibleModel:
+    def unchecked(self) -> Rotor:
         """The same, whether the motion on its magnetic bearings grows or not."""
+        return Rotor(self.definition)
+
+    @cached_property
+    def definition(self) -> FlexibleDefinition:
+        """Its equations of motion in their units, and its parameters."""
         given, scales, at = self.equations, self.scales, self.machine
         heavy = given.mass.any(axis=1)
         # Coordinates without mass have equations of first order, which have another unit.
@@ -252,7 +256,7 @@ class ReducedMachine(Result):
         # Cross-coupled damping of supports counts as gyroscopic, which stays when levitation is lost.
         left = 0.5 * (given.unlevitated[0] + given.unlevitated[0].conj().T)
         planes = zip(at.touchdowns, at.clearances, size * given.planes, strict=True)
-        return FlexibleModel.in_fixed_frame(
+        return FlexibleDefinition.in_fixed_frame(
             reduced=self,
             mass=given.mass,
             damping=once * given.damping,

@@ -17,7 +17,7 @@ from carom.bifurcations.boundary import BoundaryEquilibrium
 from carom.bifurcations.documents import search_document
 from carom.closed_forms.equilibria import SteadyMotion
 from carom.closed_forms.sag import Levitation
-from carom.models import Jeffcott, Model, Span
+from carom.models import Model, Span, jeffcott
 from carom.orbits.happenings import RECOVERS, SATURATES
 from carom.orbits.orbit import Orbit
 from carom.orbits.simulated import SimulatedOrbit
@@ -44,7 +44,7 @@ def orbits_document(
     parameters: Parameters, equilibria: tuple[SteadyMotion, ...], orbits: OrbitSet, machine: Machine | None = None
 ) -> dict[str, Any]:
     """Return the document of equilibria and periodic orbits."""
-    return _orbits_of(Jeffcott(parameters), equilibria, orbits, machine)
+    return _orbits_of(jeffcott(parameters), equilibria, orbits, machine)
 
 
 def _orbits_of(

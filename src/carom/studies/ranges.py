@@ -17,7 +17,7 @@ from carom.bifurcations.steady import steady_points
 from carom.closed_forms.equilibria import find_equilibria
 from carom.closed_forms.thresholds import Gain, Steady, ranges_of
 from carom.closed_forms.whirl import rolling
-from carom.models import Axis, Edge, Jeffcott, Model, Span, axis, jeffcott_of
+from carom.models import Axis, Edge, Model, Rotor, Span, axis, exact_rotor_of
 from carom.models.axes import usual_range
 from carom.models.spans import spans_where
 from carom.orbits.single_impact import longest_within_reach, orbits_within_reach
@@ -118,7 +118,7 @@ def motion_ranges(rotor: Model, along: Axis, progress: ShowProgress = None) -> t
     """
     if not rotor.has_closed_forms:
         return ()
-    rotor = jeffcott_of(rotor)
+    rotor = exact_rotor_of(rotor)
     own = _OWN.get(along.name, along.name)
     varied = axis(rotor, own)
     values = _values(rotor, varied)
@@ -126,7 +126,7 @@ def motion_ranges(rotor: Model, along: Axis, progress: ShowProgress = None) -> t
     return found if own == along.name else tuple(_of_the_machine(rotor, along, entry) for entry in found)
 
 
-def _of_the_machine(rotor: Jeffcott, along: Axis, entry: MotionRange) -> MotionRange:
+def _of_the_machine(rotor: Rotor, along: Axis, entry: MotionRange) -> MotionRange:
     """The same range of what a machine has in place of a dimensionless parameter."""
 
     def told(span: Span) -> Span:
@@ -136,7 +136,7 @@ def _of_the_machine(rotor: Jeffcott, along: Axis, entry: MotionRange) -> MotionR
     return replace(entry, parameter=along.name, spans=tuple(map(told, entry.spans)), searched=searched)
 
 
-def _steady_ranges(rotor: Jeffcott, along: Axis, values: Sequence[float]) -> list[MotionRange]:
+def _steady_ranges(rotor: Rotor, along: Axis, values: Sequence[float]) -> list[MotionRange]:
     """By closed forms along damping and stiffness; along other parameters between the special points of steady motions."""
     if along.name in get_args(Gain):
         gain: Gain = along.name  # type: ignore[assignment]
@@ -153,13 +153,13 @@ def _steady_ranges(rotor: Jeffcott, along: Axis, values: Sequence[float]) -> lis
     return [MotionRange(motion, along.name, where(motion), searched) for motion in get_args(Steady)]
 
 
-def _steady_at(rotor: Jeffcott) -> set[str]:
+def _steady_at(rotor: Rotor) -> set[str]:
     """The steady motions that exist."""
     found: set[str] = {each.kind for each in find_equilibria(rotor) if each.status == "admissible"}
     return found | {"rolling"} if rolling(rotor).holds else found
 
 
-def _orbit_ranges(rotor: Jeffcott, along: Axis, values: Sequence[float], progress: ShowProgress) -> list[MotionRange]:
+def _orbit_ranges(rotor: Rotor, along: Axis, values: Sequence[float], progress: ShowProgress) -> list[MotionRange]:
     """All orbits and the stable ones."""
     if not values:
         return []
@@ -184,7 +184,7 @@ def _orbit_ranges(rotor: Jeffcott, along: Axis, values: Sequence[float], progres
     ]
 
 
-def _values(rotor: Jeffcott, along: Axis) -> list[float]:
+def _values(rotor: Rotor, along: Axis) -> list[float]:
     """Return the values to search, in geometric progression; the list of orbits is complete at each of them.
 
     Empty where it is at none.
@@ -208,11 +208,11 @@ def _values(rotor: Jeffcott, along: Axis) -> list[float]:
     return np.geomspace(lowest, highest, math.ceil(math.log(highest / lowest) / math.log1p(step)) + 1).tolist()
 
 
-def _can_search(rotor: Jeffcott) -> bool:
+def _can_search(rotor: Rotor) -> bool:
     return rotor.parameters.gamma > 0.0 and longest_within_reach(rotor) is None
 
 
-def _confirmed(rotor: Jeffcott, along: Axis, span: Span, *, stable: bool) -> Span:
+def _confirmed(rotor: Rotor, along: Axis, span: Span, *, stable: bool) -> Span:
     """A span of orbits whose ends are certified where the orbits found close by on both sides confirm them."""
 
     def exists(value: float) -> bool:

@@ -13,7 +13,7 @@ import numpy as np
 from carom.arguments import checked
 from carom.closed_forms import SpeedResponse, find_equilibria, rolling, speed_response, synchronous_response
 from carom.closed_forms.exact_results import exact_results
-from carom.models import Axis, Jeffcott, Model, Subject, axis, model_of
+from carom.models import Axis, Model, Subject, axis, model_of
 from carom.models.axes import Ends, read_interval
 from carom.outcome import InputError
 from carom.parameters import Case, Machine, Parameters, Zones, read_quantity
@@ -174,7 +174,7 @@ def _stretches(found: ResponseData, model: Model, along: Axis) -> tuple[Stretch,
             return Steady(clear, None, None, None)
         moved = along.move(model, speed)
         pushed = [rub.stable for rub in find_equilibria(moved).members[1:] if rub.status == "admissible"]
-        rolls = rolling(moved).holds if found.exact and isinstance(moved, Jeffcott) else None
+        rolls = rolling(moved).holds if found.exact and moved.has_closed_forms else None
         return Steady(clear, sum(pushed), len(pushed) - sum(pushed), rolls)
 
     if found.exact and free is not None:

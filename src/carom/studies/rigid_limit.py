@@ -17,8 +17,8 @@ import numpy as np
 from carom.basins.shares import Share
 from carom.disturbances import Sample, VelocityKick
 from carom.disturbances.following import follow
-from carom.models import HuntCrossley, Jeffcott, KelvinVoigt, LinearRotor, Model, Touchdown
-from carom.models.in_bearing import law_of
+from carom.models import HuntCrossley, KelvinVoigt, Model, Touchdown, from_matrices, jeffcott
+from carom.models.planar import law_of
 from carom.motions.budget import NOT_FOLLOWED
 from carom.parameters import Scales, TouchdownBearing
 from carom.parameters.restitution import (
@@ -64,7 +64,7 @@ class OtherWall:
 def on_other_walls(rotor: Model, disturbances: Sequence[Sample]) -> tuple[OtherWall, ...]:
     """Follow disturbances of a planar rotor on its wall and on others; none for other rotors, and without a restitution above zero."""
     others: list[tuple[float | None, Model]]
-    if rotor.planar is None or rotor.limits or rotor.stated_forces or rotor.system.shaft is not None:
+    if rotor.planar is None or rotor.limits or rotor.forces or rotor.system.shaft is not None:
         return ()
     bearing = rotor.bearing_at(0)
     if rotor.has_closed_forms and rotor.planar.d > 0.0:
@@ -73,7 +73,7 @@ def on_other_walls(rotor: Model, disturbances: Sequence[Sample]) -> tuple[OtherW
         others = [(each, _on_a_spring(rotor, each)) for each in stiffnesses]
     elif bearing is not None and rotor.scales is not None and not _has_more(bearing):
         restitution = _restitution(law_of(bearing, rotor.scales), disturbances)
-        others = [(None, Jeffcott(rotor.planar.replace(d=restitution)))]
+        others = [(None, jeffcott(rotor.planar.replace(d=restitution)))]
     else:
         return ()
     drawn = [replace(sample, seed=SEED) for sample in in_all(disturbances, TRIED)]
@@ -101,7 +101,7 @@ def _on_a_spring(rotor: Model, stiffness: float) -> Model:
     mass, damping, _, spring, forcing = rotor.matrices
     law = KelvinVoigt(stiffness, 2.0 * damping_ratio_of(at.d) * stiffness**0.5)
     touchdown = Touchdown([1.0], law, at.mu, at.radius_ratio + 1.0)
-    return LinearRotor.in_fixed_frame(
+    return from_matrices(
         mass=mass, damping=damping, stiffness=spring, forcing=forcing, touchdowns=[touchdown], scales=rotor.scales
     )
 

@@ -42,10 +42,10 @@ import sys, numpy as np, carom as cm
 from carom.core import laws
 laws.__path__.append(sys.argv[1])
 from carom.core.laws.cubic import Cubic
-from carom.models import LinearRotor, Touchdown
+from carom.models import from_matrices, Touchdown
 from scipy.integrate import solve_ivp
 wall = Touchdown((1.0,), Cubic(500.0, 40.0), friction=0.0, surface_speed=3.0)
-rotor = LinearRotor.in_fixed_frame(mass=[[1.0]], damping=[[0.2]], stiffness=[[0.5]], forcing=[0.0], touchdowns=[wall])
+rotor = from_matrices(mass=[[1.0]], damping=[[0.2]], stiffness=[[0.5]], forcing=[0.0], touchdowns=[wall])
 motion = cm.simulate(rotor, cm.State(0.5, 1.3 + 0.4j), 1.4)
 def rates(_, state):
     depth = max(abs(state[0]) - 1.0, 0.0)

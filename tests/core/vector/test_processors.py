@@ -14,7 +14,7 @@ from machines import PAPER
 
 from carom import settle
 from carom.core.layout import LANE_NODES, LANES, LEVELS, OCTET
-from carom.models import Jeffcott
+from carom.models import jeffcott
 
 pytestmark = [
     pytest.mark.deep,  # it compiles all that flies in lanes anew
@@ -30,7 +30,7 @@ SCRIPT = f"""
 import sys
 import numpy as np
 from carom import settle
-from carom.models import Jeffcott
+from carom.models import jeffcott
 from carom.core.ensemble import follow_each
 from carom.core.layout import LANES, WIDTH
 from lane_programs import program
@@ -39,7 +39,7 @@ from machines import PAPER
 given, found = np.load(sys.argv[1]), {{}}
 for case in ({SHORT!r}, {STRONGLY_DAMPED!r}):
     damping, until = map(float, case.split())
-    rotor = Jeffcott(PAPER.replace(gamma=damping))
+    rotor = jeffcott(PAPER.replace(gamma=damping))
     endings = settle(rotor, given["positions"], given["velocities"], until=until, threads=1)
     found |= {{f"{{case}} {{name}}": values for name, values in vars(endings).items()}}
 look_up = program("row, few, places, levels, out, first", [
@@ -95,7 +95,7 @@ def found(given, tmp_path_factory):
 @pytest.mark.parametrize("case", [SHORT, STRONGLY_DAMPED])
 def test_motions_are_the_same(given, found, case):
     damping, until = map(float, case.split())
-    here = settle(Jeffcott(PAPER.replace(gamma=damping)), given["positions"], given["velocities"], until=until)
+    here = settle(jeffcott(PAPER.replace(gamma=damping)), given["positions"], given["velocities"], until=until)
     for name in ("outcomes", "impacts", "multiplicities"):
         np.testing.assert_array_equal(found[f"{case} {name}"], getattr(here, name), err_msg=name)
     np.testing.assert_allclose(found[f"{case} times"], here.times, rtol=1e-9)

@@ -20,7 +20,7 @@ from carom.explorer.computing.controls import controls_of, with_settings
 from carom.explorer.computing.exports import Kick, Origin, as_command, as_options, as_python, as_toml
 from carom.explorer.computing.planes import planes_of
 from carom.explorer.computing.rest import rest_of
-from carom.models import Jeffcott, model_of
+from carom.models import jeffcott, model_of
 from carom.motions import Trajectory
 from carom.parameters import Requirement, Shock
 
@@ -88,7 +88,7 @@ def pictures(monkeypatch):
 def test_the_program_runs_anywhere_and_computes_what_is_shown(changes, capsys, monkeypatch, tmp_path):
     given = origin()
     case = shown(given, changes)
-    rotor = Jeffcott(case.parameters)
+    rotor = jeffcott(case.parameters)
     (along,) = (one for one in controls_of(given.case) if one.name == "damping")
     program = as_python(case, Kick(planes_of(given.case)[0], rest_of(rotor), 0.3, 0.1, 1.5), along)
     assert given.path not in program
@@ -118,12 +118,12 @@ def test_the_program_runs_anywhere_and_computes_what_is_shown(changes, capsys, m
 )
 def test_machines_are_told_in_the_program(given, changes):
     case = shown(given, changes)
-    kick = Kick(planes_of(case)[0], rest_of(Jeffcott(case.parameters)), 0.1, 0.0, 1.0)
+    kick = Kick(planes_of(case)[0], rest_of(jeffcott(case.parameters)), 0.1, 0.0, 1.0)
     program = as_python(case, kick, controls_of(case)[0])
     names: dict[str, object] = {}
     exec(program[: program.index("basin =")], names)
     told = model_of(names["machine"])
-    assert getattr(told, "rotor", told).parameters == Jeffcott(case.parameters).parameters
+    assert getattr(told, "rotor", told).parameters == jeffcott(case.parameters).parameters
 
 
 @pytest.mark.jit_only
@@ -137,7 +137,7 @@ def test_machines_are_told_in_the_program(given, changes):
     ],
 )
 def test_the_command_follows_the_kick_that_is_shown(given, changes, capsys):
-    rotor = Jeffcott(shown(given, changes).parameters)
+    rotor = jeffcott(shown(given, changes).parameters)
     kick = Kick(planes_of(given.case)[0], rest_of(rotor), 0.3, 0.1, 1.5)
     words = shlex.split(as_command(given, changes, rotor, kick))
     assert main([*words[1:], "--json"]) == 0
@@ -151,7 +151,7 @@ def test_the_command_follows_the_kick_that_is_shown(given, changes, capsys):
 @pytest.mark.parametrize("name", ["shock", "blade-loss"])
 def test_shocks_and_losses_of_a_blade_are_copied_too(name, capsys, monkeypatch, tmp_path):
     given = origin(KEOGH, "eccentricity=0.15 mm")
-    rotor = Jeffcott(given.case.parameters)
+    rotor = jeffcott(given.case.parameters)
     (plane,) = (one for one in planes_of(given.case) if one.name == name)
     kick = Kick(plane, rest_of(rotor), 0.2, 0.1, 0.3)
     after, state, _ = plane.start(rotor, kick.rest, 0.2, 0.1)
@@ -171,7 +171,7 @@ def test_paths_and_texts_are_quoted(tmp_path):
     path = tmp_path / 'my "new" machine.toml'
     path.write_text(Path(KEOGH).read_text(encoding="utf-8"), encoding="utf-8")
     given = origin(str(path))
-    rotor = Jeffcott(given.case.parameters)
+    rotor = jeffcott(given.case.parameters)
     command = as_command(given, {}, rotor, Kick(planes_of(given.case)[0], rest_of(rotor), 0.1, 0.0, 1.0))
     assert shlex.split(command)[2] == str(path)
     assert "'" not in exports.as_options(given, {"friction": "0.2"})

@@ -15,9 +15,9 @@ from carom.explorer.computing import judgement
 from carom.explorer.computing.judgement import find_hardest, find_loss, judge
 from carom.explorer.computing.planes import Plane, planes_of
 from carom.explorer.computing.rest import rest_of
-from carom.models import Jeffcott
+from carom.models import jeffcott
 
-ROTOR = Jeffcott(PAPER.replace(gamma=0.2))
+ROTOR = jeffcott(PAPER.replace(gamma=0.2))
 KICKS = Plane("kick", "velocity", 1.0, 1.0)
 
 
@@ -30,13 +30,13 @@ def test_the_smallest_loss_is_that_of_the_search():
 
 @pytest.mark.jit_only
 def test_nothing_lost_is_told_with_what_was_tried():
-    calm = find_loss(Jeffcott(PAPER.replace(gamma=0.9)), KICKS, 0.5)
+    calm = find_loss(jeffcott(PAPER.replace(gamma=0.9)), KICKS, 0.5)
     assert (calm.size, calm.value) == (None, "none found")
     assert calm.remark.startswith("up to 0.5 c_r Ω, ")
 
 
 def test_a_rotor_that_cannot_levitate_has_no_smallest_loss():
-    grounded = find_loss(Jeffcott(PAPER.replace(gamma=0.05)), KICKS, 1.0)
+    grounded = find_loss(jeffcott(PAPER.replace(gamma=0.05)), KICKS, 1.0)
     assert (grounded.size, grounded.value) == (None, "none comes back")
 
 
@@ -59,7 +59,7 @@ def test_no_kick_of_the_set_strikes_harder(monkeypatch):
 @pytest.mark.parametrize("place", [1, 2])
 def test_shocks_and_losses_of_a_blade_are_searched_too(place):
     case = carom.load("examples/keogh-cole.toml")
-    rotor, plane = Jeffcott(case.parameters), planes_of(case)[place]
+    rotor, plane = jeffcott(case.parameters), planes_of(case)[place]
     largest = plane.own(2.0 * plane.usual, rotor.scales)
     found = find_loss(rotor, plane, largest)
     assert found.size == smallest_loss(rotor, plane.by_size(rotor, largest)).size

@@ -12,12 +12,12 @@ from carom.explorer.computing.kicked_motion import LONGEST, MOST_IMPACTS, follow
 from carom.explorer.computing.kicks import map_kicks
 from carom.explorer.computing.planes import Plane
 from carom.explorer.computing.rest import rest_of
-from carom.models import Jeffcott
+from carom.models import jeffcott
 from carom.outcome import InputError, Outcome
 from carom.plots import OUTCOMES
 
-ROTOR = Jeffcott(PAPER.replace(gamma=0.2))
-BOUNCING = Jeffcott(PAPER)
+ROTOR = jeffcott(PAPER.replace(gamma=0.2))
+BOUNCING = jeffcott(PAPER)
 KICKS = Plane("kick", "velocity", 1.0, 1.0)
 SINGLE = 1e-6
 """Rounding of numbers of single precision of the order of one, with a margin."""
@@ -77,7 +77,7 @@ def test_no_kick_at_all_can_be_drawn():
 
 
 def test_long_motions_are_cut_and_say_so():
-    weak = Jeffcott(PAPER.replace(gamma=0.09))
+    weak = jeffcott(PAPER.replace(gamma=0.09))
     kicked = follow_kick(weak, KICKS, 0.9, 0.4)
     assert kicked.times[-1] <= LONGEST * (1.0 + SINGLE)
     assert len(kicked.impact_times) <= MOST_IMPACTS

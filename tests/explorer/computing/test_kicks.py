@@ -14,15 +14,15 @@ from carom.disturbances import FASTEST, BaseShock, BladeLoss, Grid, KickPlane
 from carom.explorer.computing.kicks import NOWHERE, map_kicks, opening_range, telling_pair
 from carom.explorer.computing.planes import Plane, planes_of
 from carom.explorer.computing.rest import RestKick, rest_of
-from carom.models import Jeffcott
+from carom.models import jeffcott
 from carom.outcome import Outcome
 from carom.plots import OUTCOMES
 
 EXAMPLES = Path(__file__).parents[3] / "examples"
 CELLS = sized(24, 3)
-ROTOR = Jeffcott(PAPER.replace(gamma=0.2))
+ROTOR = jeffcott(PAPER.replace(gamma=0.2))
 KICKS = Plane("kick", "velocity", FASTEST, FASTEST)
-GROUNDED = Jeffcott(PAPER.replace(gamma=0.05))
+GROUNDED = jeffcott(PAPER.replace(gamma=0.05))
 
 
 @pytest.fixture(scope="module")
@@ -79,7 +79,7 @@ def test_a_kick_from_the_wall_starts_there_with_its_velocity():
 def test_sizes_stay_in_si_units_where_the_speed_changes():
     case = carom.load(EXAMPLES / "keogh-cole.toml")
     kicks = planes_of(case)[0]
-    faster = Jeffcott(case.replace(speed="3000 rpm", damping="3000 N s/m").parameters)
+    faster = jeffcott(case.replace(speed="3000 rpm", damping="3000 N s/m").parameters)
     shown = map_kicks(faster, kicks, sized(4, 2), kicks.usual)
     assert shown.largest * faster.scales.velocity == pytest.approx(kicks.usual, rel=1e-14)
     assert kicks.usual == pytest.approx(np.sqrt(4.0 * 9.80665 * case.parameters.scales.clearance))
@@ -97,7 +97,7 @@ def test_kinds_are_offered_where_their_sizes_are_known(path, names):
 @pytest.mark.jit_only
 def test_pictures_of_shocks_and_losses_of_a_blade_are_those_of_the_library():
     case = carom.load(EXAMPLES / "balanced-rotor.toml")
-    rotor, (_, shocks, losses) = Jeffcott(case.parameters), planes_of(case)
+    rotor, (_, shocks, losses) = jeffcott(case.parameters), planes_of(case)
     for plane in (shocks, losses):
         found = map_kicks(rotor, plane, 16, 3.0 * plane.usual)
         assert 0 < found.share.count < found.share.total
@@ -122,7 +122,7 @@ def test_pictures_of_shocks_and_losses_of_a_blade_are_those_of_the_library():
 @pytest.mark.jit_only
 def test_the_page_begins_with_a_range_in_which_something_is_lost_and_something_comes_back():
     case = carom.load(EXAMPLES / "balanced-rotor.toml")
-    rotor, kicks = Jeffcott(case.parameters), planes_of(case)[0]
+    rotor, kicks = jeffcott(case.parameters), planes_of(case)[0]
     largest = opening_range(rotor, kicks)
     assert kicks.required == 0.1
     assert 0.2 < largest < 0.35

@@ -14,7 +14,7 @@ from carom.explorer.computing.exports import Kick, as_python
 from carom.explorer.computing.motions import table_of
 from carom.explorer.computing.planes import planes_of
 from carom.explorer.computing.rest import rest_of
-from carom.models import Jeffcott, model_of, planar_case_of
+from carom.models import jeffcott, model_of, planar_case_of
 
 MACHINE = Path(__file__).parents[3] / "examples" / "keogh-cole.toml"
 
@@ -27,11 +27,11 @@ def case():
 @pytest.fixture(scope="module")
 def picture(case):
     (control,) = (one for one in controls_of(case) if one.name == "damping")
-    return picture_along(Jeffcott(case.parameters), control)
+    return picture_along(jeffcott(case.parameters), control)
 
 
 def test_the_table_has_every_orbit_with_its_multipliers(case):
-    table, orbits = table_of(Jeffcott(case.parameters)), carom.find_orbits(case)
+    table, orbits = table_of(jeffcott(case.parameters)), carom.find_orbits(case)
     rows = {row.name: row for row in table.rows}
     for orbit in orbits:
         row = rows[f"orbit {orbit.name}"]
@@ -42,7 +42,7 @@ def test_the_table_has_every_orbit_with_its_multipliers(case):
 
 
 def test_complex_multipliers_are_told_once(case):
-    (row,) = (row for row in table_of(Jeffcott(case.parameters)).rows if row.name == "orbit B1,d")
+    (row,) = (row for row in table_of(jeffcott(case.parameters)).rows if row.name == "orbit B1,d")
     values = carom.find_orbits(case)["B1,d"].multipliers.values
     assert row.multipliers.count("±") == np.count_nonzero(values.imag > 0.0)
 
@@ -82,7 +82,7 @@ def test_bars_end_where_steady_motions_do(case, picture):
 
 def test_impact_speeds_along_the_speed_are_those_of_each_machine(case):
     (control,) = (one for one in controls_of(case) if one.name == "speed")
-    shown = picture_along(Jeffcott(case.parameters), control)
+    shown = picture_along(jeffcott(case.parameters), control)
     found = 0
     for line in shown.lines:
         if line.kind == "stable":
@@ -97,7 +97,7 @@ def test_impact_speeds_along_the_speed_are_those_of_each_machine(case):
 
 def test_a_diagram_along_the_speed_is_in_rpm(case):
     (control,) = (one for one in controls_of(case) if one.name == "speed")
-    shown = picture_along(Jeffcott(case.replace(damping=3000.0).parameters), control)
+    shown = picture_along(jeffcott(case.replace(damping=3000.0).parameters), control)
     assert shown.bars
     assert all(control.low * (1 - 1e-9) <= bar.low <= bar.high <= control.high * (1 + 1e-9) for bar in shown.bars)
 

@@ -8,12 +8,12 @@ from machines import PAPER
 
 import carom
 from carom.explorer.computing.walls import RIGID, YIELDING, hits_of, wall_of
-from carom.models import InBearing, Jeffcott
+from carom.models import jeffcott
 from carom.parameters import LoadLimits, Parameters, Scales, TouchdownBearing
 
 SCALES = Scales(50.0, 0.7e-3, 184.2)
-SOFT = InBearing(
-    Jeffcott(Parameters(**{**PAPER.as_dict(), "gamma": 0.3}, scales=SCALES)),
+SOFT = jeffcott(
+    jeffcott(Parameters(**{**PAPER.as_dict(), "gamma": 0.3}, scales=SCALES)).parameters,
     TouchdownBearing("kelvin-voigt", 1e8, restitution=0.8),
 )
 

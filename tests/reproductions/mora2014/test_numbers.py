@@ -12,7 +12,7 @@ from scipy.optimize import brentq
 
 from carom import find_orbits
 from carom.closed_forms.periods import PeriodCondition
-from carom.models import Jeffcott
+from carom.models import jeffcott
 from carom.reproductions import mora2014
 
 EXPECTED = {
@@ -100,7 +100,7 @@ def test_coalescence_by_counting_orbits():
     """The row of figure 4a from a count alone."""
 
     def there(gamma):
-        return 1.0 if len(find_orbits(Jeffcott(PAPER.replace(gamma=gamma)), 1.0)) else -1.0
+        return 1.0 if len(find_orbits(jeffcott(PAPER.replace(gamma=gamma)), 1.0)) else -1.0
 
     value = EXPECTED["γ_F⁻, where B1,a and B1,c meet"][0]
     assert there(value + 1e-7) > 0.0 > there(value - 1e-7)
@@ -110,7 +110,7 @@ def test_new_extremum_by_a_touching_derivative(found):
     """Where a maximum and a minimum are born, the rate of the radius touches zero; bisected on its largest value there."""
 
     def highest_rate(gamma):
-        orbit = find_orbits(Jeffcott(PAPER.replace(gamma=gamma)))["B1,d"]
+        orbit = find_orbits(jeffcott(PAPER.replace(gamma=gamma)))["B1,d"]
         times = np.linspace(0.1, 0.45, 4001) * orbit.period
         return float(np.diff(np.abs(orbit.path(times))).max())
 
@@ -123,7 +123,7 @@ def test_folds_of_all_pairs_by_counting_roots(found):
         gamma, period = pair.fold
         counts = [
             np.count_nonzero(
-                np.abs(PeriodCondition.of(Jeffcott(PAPER.replace(gamma=gamma + s)).system).roots(32.0).periods - period)
+                np.abs(PeriodCondition.of(jeffcott(PAPER.replace(gamma=gamma + s)).system).roots(32.0).periods - period)
                 < 0.02
             )
             for s in (-1e-9, 1e-9)

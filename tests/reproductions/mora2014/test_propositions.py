@@ -7,7 +7,7 @@ import pytest
 from machines import PAPER
 
 from carom import find_orbits
-from carom.models import Jeffcott
+from carom.models import jeffcott
 from carom.outcome import InputError
 from carom.reproductions.mora2014.propositions import fixed_points, hopf_side, simultaneous_folds
 
@@ -36,7 +36,7 @@ def test_both_folds_of_a_pair_are_at_one_damping():
     assert folds.lower.radial_speed < folds.upper.radial_speed
     second = simultaneous_folds(PAPER.replace(gamma=0.03), pair=2)
     assert second.distance < 1e-10
-    count = [len(find_orbits(Jeffcott(PAPER.replace(gamma=second.lower.value + s))).periods) for s in (-1e-9, 1e-9)]
+    count = [len(find_orbits(jeffcott(PAPER.replace(gamma=second.lower.value + s))).periods) for s in (-1e-9, 1e-9)]
     assert count[0] - count[1] == 2
     with pytest.raises(InputError, match="pair = 2"):
         simultaneous_folds(PAPER, pair=2)
@@ -47,7 +47,7 @@ def test_cycles_are_born_on_the_levitating_side():
     assert side.gamma == pytest.approx(0.0724686787, abs=5e-11)
     assert side.subcritical
     for cycle in side.cycles:
-        orbits = find_orbits(Jeffcott(PAPER.replace(gamma=side.gamma + 1e-4)))
+        orbits = find_orbits(jeffcott(PAPER.replace(gamma=side.gamma + 1e-4)))
         near = min(orbits, key=lambda orbit: abs(orbit.period - cycle.period) + 10 * abs(orbit.radial_speed))
         assert near.admissible
         assert near.radial_speed == pytest.approx(1e-4 * cycle.radial_slope, rel=1e-2)
@@ -67,7 +67,7 @@ def test_the_side_is_a_result_not_a_constant():
         for cycle in side.cycles:
             sides.add(cycle.criticality)
             shift = 1e-7 if cycle.criticality == "subcritical" else -1e-7
-            orbits = find_orbits(Jeffcott(machine.replace(gamma=side.gamma + shift)), 1.1 * cycle.period)
+            orbits = find_orbits(jeffcott(machine.replace(gamma=side.gamma + shift)), 1.1 * cycle.period)
             small = [o for o in orbits if abs(o.period - cycle.period) < 1e-3 and abs(o.radial_speed) < 1e-2]
             assert any(orbit.radial_speed > 0.0 for orbit in small)
     assert sides == {"subcritical", "supercritical"}

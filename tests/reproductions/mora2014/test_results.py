@@ -11,7 +11,7 @@ from scipy.optimize import brentq, minimize_scalar
 
 from carom import find_equilibria, find_orbits
 from carom.bifurcations import motions_at
-from carom.models import Jeffcott
+from carom.models import jeffcott
 from carom.orbits import period_condition
 from carom.reproductions import mora2014
 
@@ -32,7 +32,7 @@ def test_motions_of_figure_2(found):
 
 def test_functions_of_figure_3(found):
     for function in found.periods.functions:
-        rotor = Jeffcott(PAPER.replace(gamma=function.gamma))
+        rotor = jeffcott(PAPER.replace(gamma=function.gamma))
         np.testing.assert_allclose(function.values, period_condition(rotor, function.periods), atol=1e-12)
         signs = np.sign(function.values)
         crossings = int(np.count_nonzero(signs[1:] != signs[:-1]))
@@ -44,10 +44,10 @@ def test_pairs_of_figure_3(found):
         assert pair.gammas[0] == pair.gammas[-1] == 0.005
         assert pair.gammas.max() == pair.fold[0]
         for gamma, period in zip(pair.gammas[::9], pair.periods[::9], strict=True):
-            assert abs(period_condition(Jeffcott(PAPER.replace(gamma=gamma)), np.array([period]))[0]) < 1e-10
+            assert abs(period_condition(jeffcott(PAPER.replace(gamma=gamma)), np.array([period]))[0]) < 1e-10
         assert (np.diff(pair.longer.astype(int)) != 0).sum() == 1
     # All there are up to 30/Ω at the weakest damping, each pair once.
-    weakest = find_orbits(Jeffcott(PAPER.replace(gamma=0.005)), 30.0).periods
+    weakest = find_orbits(jeffcott(PAPER.replace(gamma=0.005)), 30.0).periods
     starts = np.sort([period for pair in found.periods.pairs for period in pair.periods[[0, -1]]])
     np.testing.assert_allclose(starts[: len(weakest)], weakest, rtol=1e-10)
 
@@ -65,7 +65,7 @@ def test_branches_of_figure_4(found):
     for branch in (found.pair.slow, found.pair.fast):
         assert branch.stops == ("parameter limit", "parameter limit")
         for place in range(0, len(branch), 25):
-            orbits = find_orbits(Jeffcott(PAPER.replace(gamma=branch.values[place])), 30.0)
+            orbits = find_orbits(jeffcott(PAPER.replace(gamma=branch.values[place])), 30.0)
             orbit = orbits[branch.names[place]]
             assert branch.radial_speed[place] == pytest.approx(orbit.radial_speed, abs=1e-9)
             assert branch.angular_speed[place] == pytest.approx(orbit.angular_speed, abs=1e-8)
@@ -79,7 +79,7 @@ def test_local_theory_of_figure_4(found):
     birth = found.pair.hopf.gamma
 
     def orbit(gamma, period):
-        near = find_orbits(Jeffcott(PAPER.replace(gamma=gamma)))
+        near = find_orbits(jeffcott(PAPER.replace(gamma=gamma)))
         return min(near, key=lambda orbit: abs(orbit.period - period) + abs(orbit.radial_speed))
 
     def slope(cycle, name, step):
@@ -168,7 +168,7 @@ def test_new_curves_of_figure_6(found, omega):
     """Grazing and period doubling at other stiffnesses than the figure's own, by root search over full orbits."""
 
     def orbit(gamma):
-        return find_orbits(Jeffcott(PAPER.replace(gamma=gamma, omega=omega)))["B1,d"]
+        return find_orbits(jeffcott(PAPER.replace(gamma=gamma, omega=omega)))["B1,d"]
 
     def highest(gamma):
         at = orbit(gamma)

@@ -217,11 +217,11 @@ def _constructed(case: Case) -> str:
         return _call(name, tables[kind])
     unused = {"restitution": UNUSED} if case.machine is not None and "restitution" not in tables[kind] else {}
     bearing = case.touchdown or TouchdownBearing()
-    parts = [f"cm.models.model_of({_call(name, tables[kind] | unused)})"]
+    parts = [f"cm.models.model_of({_call(name, tables[kind] | unused)}).parameters"]
     parts.append(_call("TouchdownBearing", {"law": bearing.law, **bearing.given}))
     if case.drive:
         parts.append(f"drive={_call('Drive', asdict(case.drive))}")
-    return f"cm.models.InBearing({', '.join(parts)})"
+    return f"cm.models.jeffcott({', '.join(parts)})"
 
 
 def _call(name: str, entries: Mapping[str, Any]) -> str:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from carom.explorer.computing.planes import Plane
-from carom.models import Model, jeffcott_of
+from carom.models import Model, exact_rotor_of
 from carom.outcome import InputError
 from carom.parameters.told import number, rounded_down
 from carom.progress import ShowProgress
@@ -42,7 +42,7 @@ def find_proven(rotor: Model, plane: Plane, largest: float, progress: ShowProgre
         raise InputError("what disturbs the rotor", plane.nouns[1], "kicks: of other disturbances nothing is proven")
     from carom.proofs import ProvenKicks, prove_kicks  # only here: they need an extra
 
-    known = jeffcott_of(rotor)
+    known = exact_rotor_of(rotor)
     kicks = ProvenKicks.of(prove_kicks(known, largest, time_limit=LIMIT, progress=progress), known)
     middles = kicks.largest * ((np.arange(CELLS) + 0.5) * 2.0 / CELLS - 1.0)
     places = kicks.at(*np.meshgrid(middles, middles))

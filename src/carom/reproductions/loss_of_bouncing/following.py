@@ -10,7 +10,7 @@ import numpy as np
 from carom.bifurcations import Diagram, OrbitBranch, find_bifurcations
 from carom.bifurcations.several import lies_on
 from carom.bifurcations.words import continue_orbit
-from carom.models import Jeffcott
+from carom.models import jeffcott
 from carom.progress import Reporter, ShowProgress, shows_progress
 from carom.reproductions.loss_of_bouncing.samples import BouncingSample, sample_bouncing
 from carom.reproductions.mora2014 import machine_at
@@ -97,7 +97,7 @@ def follow_loss(
     for part, limits, count in ((tell.part(0.2, 0.5), RANGE, values), (tell.part(0.5, 1.0), CLOSE, close)):
         samples = []
         for done, gamma in enumerate(np.linspace(*limits, count).tolist()):
-            samples.append(sample_bouncing(Jeffcott(machine_at(gamma)), motions=motions, impacts=patience))
+            samples.append(sample_bouncing(jeffcott(machine_at(gamma)), motions=motions, impacts=patience))
             part((done + 1) / count, "simulating")
         found.append(tuple(samples))
     return LossOfBouncing(diagram, _windows((*found[0], *found[1]), impacts), *found)

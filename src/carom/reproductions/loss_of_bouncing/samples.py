@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from carom.attractors import Lifetimes, measure_lifetimes
-from carom.models import Jeffcott
+from carom.models import Rotor
 from carom.motions.simulation import simulate
 from carom.motions.starts import State
 from carom.motions.trajectories import Trajectory
@@ -63,12 +63,12 @@ class BouncingSample(Result):
         return self.orbit.impacts if self.orbit else 0
 
 
-def sample_bouncing(rotor: Jeffcott, *, motions: int, impacts: int) -> BouncingSample:
+def sample_bouncing(rotor: Rotor, *, motions: int, impacts: int) -> BouncingSample:
     """Follow motions from beside ``B1,d``.
 
     Parameters
     ----------
-    rotor : Jeffcott
+    rotor : Rotor
         The machine at a damping where this orbit is a motion.
     motions : int
     impacts : int
@@ -94,7 +94,7 @@ def _beside(orbit: Orbit, motions: int) -> list[State]:
     return [State(before.position, before.velocity * (1.0 + BESIDE * random.normal())) for _ in range(motions)]
 
 
-def _longest(rotor: Jeffcott, starts: Sequence[State], impacts: int) -> tuple[Trajectory, State]:
+def _longest(rotor: Rotor, starts: Sequence[State], impacts: int) -> tuple[Trajectory, State]:
     """The first motion that does not end early, or the longest of them, and its start."""
     found = []
     for start in starts:
@@ -104,7 +104,7 @@ def _longest(rotor: Jeffcott, starts: Sequence[State], impacts: int) -> tuple[Tr
     return max(found, key=lambda pair: len(pair[0].contacts))
 
 
-def _measured(rotor: Jeffcott, start: State, impacts: int) -> tuple[float, float]:
+def _measured(rotor: Rotor, start: State, impacts: int) -> tuple[float, float]:
     """Largest exponent across the motion over so many impacts, and its error."""
     if impacts < SHORTEST:
         return np.nan, np.nan

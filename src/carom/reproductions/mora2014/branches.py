@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from carom.bifurcations import Bifurcation, OrbitBranch
 from carom.bifurcations.words import continue_orbit
 from carom.continuation import Steps
-from carom.models import Jeffcott
+from carom.models import jeffcott
 from carom.orbits.single_impact import find_orbits
 from carom.reproductions.mora2014.propositions import HopfSide, hopf_side
 from carom.reproductions.mora2014.source import machine_at
@@ -58,9 +58,9 @@ class FirstPair(Result):
 
 def first_pair() -> FirstPair:
     """Follow the first pair of orbits from ``γ = 0.1`` in both directions, and at negative damping."""
-    orbits = find_orbits(Jeffcott(machine_at(0.1)))
+    orbits = find_orbits(jeffcott(machine_at(0.1)))
     # Without positive damping the search for all orbits would not end; these two have short periods.
-    undamped = find_orbits(Jeffcott(machine_at(-0.3)), 1.0)
+    undamped = find_orbits(jeffcott(machine_at(-0.3)), 1.0)
     return FirstPair(
         slow=continue_orbit(orbits["B1,b"], "gamma", DAMPINGS, STEPS),
         fast=continue_orbit(orbits["B1,d"], "gamma", DAMPINGS, STEPS),

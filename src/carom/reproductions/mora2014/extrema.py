@@ -12,7 +12,7 @@ from carom.bifurcations import Bifurcation, OrbitBranch
 from carom.bifurcations.conditions import grazing_equations
 from carom.continuation.roots import bracketed_root
 from carom.core.planar import radial_rates
-from carom.models import Jeffcott
+from carom.models import jeffcott
 from carom.parameters import Numbers
 from carom.reproductions.mora2014.branches import DAMPINGS, FirstPair
 from carom.reproductions.mora2014.source import machine_at
@@ -83,7 +83,7 @@ class RadiusDiagram(Result):
 def radius_diagram(pair: FirstPair) -> RadiusDiagram:
     """Compute figure 5 along the branches of the first pair of orbits."""
     gammas = np.sort(np.append(np.linspace(*DAMPINGS, 200), pair.hopf.gamma))
-    levitation = np.array([abs(Jeffcott(machine_at(gamma)).equilibrium) for gamma in gammas.tolist()])
+    levitation = np.array([abs(jeffcott(machine_at(gamma)).equilibrium) for gamma in gammas.tolist()])
     return RadiusDiagram(extremum_lines(pair.slow), extremum_lines(pair.fast), gammas, levitation)
 
 

@@ -16,7 +16,7 @@ import numpy as np
 
 from carom.closed_forms.local import ContactSystem
 from carom.closed_forms.periods import PeriodCondition
-from carom.models import Jeffcott
+from carom.models import jeffcott
 from carom.orbits.orbit import Orbit
 from carom.orbits.single_impact import find_orbits, period_condition
 from carom.parameters import Parameters
@@ -71,7 +71,7 @@ class _Values(NamedTuple):
 
 def misprints(pair: FirstPair, plane: DampingStiffnessPlane) -> tuple[Misprint, ...]:
     """List the misprints in the order of the text."""
-    orbit = find_orbits(Jeffcott(machine_at(0.1)))["B1,d"]
+    orbit = find_orbits(jeffcott(machine_at(0.1)))["B1,d"]
     values = {
         **_impact_law(orbit),
         **_closed_forms(orbit),
@@ -197,8 +197,8 @@ def _local_theory(branches: FirstPair) -> dict[str, _Values]:
     """Evaluate the misprints of section 5 at the birth of ``B1,b``."""
     hopf = branches.hopf
     cycle = max(hopf.cycles, key=lambda entry: entry.period)
-    outward = 1.0 - abs(Jeffcott(machine_at(hopf.gamma + 1e-6)).equilibrium)
-    condition = PeriodCondition.of(Jeffcott(machine_at(hopf.gamma)).system)
+    outward = 1.0 - abs(jeffcott(machine_at(hopf.gamma + 1e-6)).equilibrium)
+    condition = PeriodCondition.of(jeffcott(machine_at(hopf.gamma)).system)
     change = float((condition.factor * condition.a22(np.array([cycle.period]))[0]).real)
     return {
         "side": _Values(-1.0, math.copysign(1.0, outward)),
@@ -228,10 +228,10 @@ def _letters_of_section_5(branches: FirstPair) -> dict[str, _Values]:
 
 def _direction_of_kick(branches: FirstPair, period: float) -> float:
     """Return the angle from the normal at the boundary equilibrium to the kick of a small orbit, without friction."""
-    rotor = Jeffcott(machine_at(branches.hopf.gamma + 1e-7))
+    rotor = jeffcott(machine_at(branches.hopf.gamma + 1e-7))
     orbits = find_orbits(rotor)
     small = min(orbits, key=lambda orbit: abs(orbit.period - period) + abs(orbit.radial_speed))
-    normal = Jeffcott(machine_at(branches.hopf.gamma)).equilibrium
+    normal = jeffcott(machine_at(branches.hopf.gamma)).equilibrium
     log = small.trajectory(1.5).contacts
     change = complex(log.radial_speed_after[0] - log.radial_speed[0], log.angular_speed_after[0] - log.angular_speed[0])
     jump = change * cmath.rect(1.0, log.angle[0])

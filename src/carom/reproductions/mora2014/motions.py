@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from carom.models import Jeffcott
+from carom.models import Rotor, jeffcott
 from carom.orbits.orbit import Orbit
 from carom.orbits.single_impact import find_orbits
 from carom.reproductions.mora2014.source import machine_at
@@ -34,7 +34,7 @@ class ShownMotion(Result):
     panel: str
     gamma: float
     words: str
-    rotor: Jeffcott
+    rotor: Rotor
     orbit: Orbit | None
     highest: float
 
@@ -46,13 +46,13 @@ class ShownMotion(Result):
 
 def shown_motions() -> tuple[ShownMotion, ...]:
     """Compute levitation at ``γ = 0.3``, ``B1,d`` near grazing at 0.065 and ``B1,a`` near its birth at 0.1: panels a to c."""
-    levitating = Jeffcott(machine_at(0.3))
+    levitating = jeffcott(machine_at(0.3))
     shown = [ShownMotion("a", 0.3, "levitation", levitating, None, abs(levitating.equilibrium))]
     for panel, gamma, name, words in (
         ("b", 0.065, "B1,d", "impacting orbit near grazing"),
         ("c", 0.1, "B1,a", "impacting orbit near the non-smooth Hopf bifurcation"),
     ):
-        rotor = Jeffcott(machine_at(gamma))
+        rotor = jeffcott(machine_at(gamma))
         orbit = find_orbits(rotor)[name]
         shown.append(ShownMotion(panel, gamma, words, rotor, orbit, _highest(orbit)))
     return tuple(shown)

@@ -9,7 +9,7 @@ import numpy as np
 from carom.bifurcations.conditions import conditions_at
 from carom.closed_forms.periods import PeriodCondition
 from carom.continuation import Steps, continue_branch
-from carom.models import Jeffcott
+from carom.models import Rotor, jeffcott
 from carom.orbits.orbit import Orbit
 from carom.orbits.single_impact import find_orbits
 from carom.parameters import Numbers
@@ -78,7 +78,7 @@ class Birth(Result):
 
     gamma: float
     side: str
-    rotor: Jeffcott
+    rotor: Rotor
     orbits: tuple[Orbit, ...]
 
 
@@ -130,7 +130,7 @@ def birth() -> tuple[Birth, ...]:
     at = hopf_side(machine_at(0.1)).gamma
     stages = []
     for side, gamma in (("below", at - AWAY), ("at", at), ("above", at + AWAY)):
-        rotor = Jeffcott(machine_at(gamma))
+        rotor = jeffcott(machine_at(gamma))
         orbits = find_orbits(rotor)
         small = () if side == "at" else (orbits["B1,a"], orbits["B1,b"])
         stages.append(Birth(gamma, side, rotor, small))

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from decimal import Decimal
 from typing import Literal
 
-from carom.models import Jeffcott
+from carom.models import jeffcott
 from carom.orbits.orbit import Orbit
 from carom.orbits.single_impact import find_orbits
 from carom.parameters import Machine
@@ -105,5 +105,5 @@ def numbers(pair: FirstPair, plane: DampingStiffnessPlane) -> tuple[PrintedNumbe
 
 def _small_orbits(branches: FirstPair) -> list[Orbit]:
     """Return the orbits just after their birth."""
-    orbits = find_orbits(Jeffcott(machine_at(branches.hopf.gamma + 1e-6)))
+    orbits = find_orbits(jeffcott(machine_at(branches.hopf.gamma + 1e-6)))
     return [orbit for orbit in orbits if orbit.name.pair == 1 and not orbit.name.faster]

@@ -12,7 +12,7 @@ from carom.bifurcations import Bifurcation
 from carom.bifurcations.words import continue_orbit
 from carom.closed_forms.local import ContactSystem, LocalCycle, non_smooth_hopf
 from carom.closed_forms.thresholds import ranges_of
-from carom.models import Jeffcott
+from carom.models import jeffcott
 from carom.orbits.names import combined
 from carom.orbits.single_impact import find_orbits
 from carom.outcome import CaromError, InputError
@@ -98,7 +98,7 @@ class HopfSide:
 
 def fixed_points(parameters: Parameters) -> FixedPoints:
     """Count the fixed points of the impact map with forward slip, and the admissible ones among them."""
-    rotor = Jeffcott(parameters)
+    rotor = jeffcott(parameters)
     found = find_orbits(rotor)
     orbits = [orbit for orbit in found if orbit.slip > 0]
     return FixedPoints(
@@ -125,7 +125,7 @@ def simultaneous_folds(parameters: Parameters, pair: int = 1) -> SimultaneousFol
     CaromError
         The pair does not end in two folds.
     """
-    orbits = find_orbits(Jeffcott(parameters))
+    orbits = find_orbits(jeffcott(parameters))
     longer = [orbit for orbit in orbits if orbit.slip > 0 and orbit.name.pair == pair and orbit.name.longer]
     if len(longer) != 2:
         names = combined(orbit.name for orbit in orbits)

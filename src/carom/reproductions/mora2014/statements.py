@@ -9,7 +9,7 @@ import numpy as np
 
 from carom.bifurcations.branches import speeds_at
 from carom.closed_forms.periods import PeriodCondition
-from carom.models import Jeffcott
+from carom.models import jeffcott
 from carom.orbits.orbit import Orbit
 from carom.orbits.single_impact import find_orbits
 from carom.reproductions.mora2014.branches import FirstPair
@@ -86,7 +86,7 @@ def _longer_pairs() -> tuple[bool, str]:
 
 def _longer(gamma: float) -> list[Orbit]:
     """Return the orbits of the pairs n > 1."""
-    found = find_orbits(Jeffcott(machine_at(gamma)))
+    found = find_orbits(jeffcott(machine_at(gamma)))
     return [orbit for orbit in found if orbit.name.pair > 1]
 
 

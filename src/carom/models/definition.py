@@ -1,0 +1,147 @@
+"""What a rotor is by: named parameters, what each of them changes, and the equations of motion that follow."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, ClassVar
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    import numpy as np
+
+    from carom.models.forcing import Force
+    from carom.models.limits import Limit
+    from carom.models.linear import LinearEquations
+    from carom.models.matrices import Matrices, Rates
+    from carom.models.system import System
+    from carom.parameters import Field, Parameters, Scales, TouchdownBearing
+
+
+class Definition:
+    """A frozen value from which a :class:`~carom.models.Rotor` is made; a maker of another kind of rotor gives it another one.
+
+    What is not said here otherwise follows from the equations.
+    """
+
+    of_equations: ClassVar = frozenset(
+        {
+            "mass",
+            "damping",
+            "stiffness",
+            "forcing",
+            "touchdowns",
+            "translation",
+            "carried",
+            "shaft",
+            "unlevitated",
+            "conjugate",
+        }
+        | {"regained", "magnets", "heavy", "planes", "accelerations"}
+    )
+    """Names of what rotors have of them."""
+
+    @property
+    def equations(self) -> LinearEquations:
+        """The equations of motion of the levitating rotor, without further forces and limits."""
+        raise NotImplementedError
+
+    @property
+    def varied(self) -> Mapping[str, Field]:
+        """Named parameters that can be varied: words, symbol, unit and range of each."""
+        raise NotImplementedError
+
+    def value(self, name: str) -> float:
+        """Value of a named parameter, in the unit of its field."""
+        raise NotImplementedError
+
+    def replace(self, **changes: Any) -> Definition:
+        """Return it with other values of named parameters; what depends on them changes too."""
+        raise NotImplementedError
+
+    def attributes(self) -> dict[str, Any]:
+        """Numbers and texts from which :func:`~carom.models.subjects.model_from` makes the same again."""
+        raise NotImplementedError
+
+    def rates(self, name: str) -> Rates | None:
+        """Derivatives of the equations of motion by a named parameter; ``None`` where differences have to do."""
+        return None
+
+    @property
+    def words(self) -> str:
+        """Its parameters in a line; empty where there are too many."""
+        return ""
+
+    @property
+    def words_of_bearing(self) -> str:
+        """What it has beside a rigid wall that stands still and a shaft at constant speed, in words."""
+        return ""
+
+    @property
+    def system(self) -> System:
+        """Modes, contact planes and contact law."""
+        return self.equations.system
+
+    @property
+    def matrices(self) -> Matrices:
+        """Matrices of the equations of motion in the fixed frame."""
+        return self.equations.matrices
+
+    @property
+    def scales(self) -> Scales | None:
+        """Mass, clearance and speed that convert results to SI units, if known."""
+        return self.equations.scales
+
+    @property
+    def unbalance_phase(self) -> float:
+        """Angle of the unbalance in the co-rotating frame, in rad."""
+        return self.equations.unbalance_phase
+
+    @property
+    def equilibrium(self) -> Any:
+        """Coordinates at rest without further forces; a plain number of one coordinate."""
+        return complex(self.system.rest[0]) if len(self.system.rest) == 1 else self.system.rest
+
+    @property
+    def planar(self) -> Parameters | None:
+        """Dimensionless parameters of the planar rotor; ``None`` of other rotors."""
+        return None
+
+    @property
+    def has_closed_forms(self) -> bool:
+        """Whether exact results are known, without further forces and limits."""
+        return False
+
+    @property
+    def finite_elements(self) -> Any:
+        """The reduced flexible machine behind it; ``None`` without one."""
+        return None
+
+    @property
+    def limits(self) -> tuple[Limit, ...]:
+        """Limits of the magnetic bearings that follow from its parameters; empty where these say nothing of them."""
+        return ()
+
+    @property
+    def pull(self) -> tuple[Force, ...]:
+        """What pulls the rotor from the centre of its touchdown bearing to the place of levitation, where these differ."""
+        return ()
+
+    def bearing_at(self, plane: int) -> TouchdownBearing | None:
+        """Data in SI units of a touchdown bearing, which may state its balls; ``None`` if they are not known."""
+        return self.equations.touchdowns[plane].bearing
+
+    def without_levitation(self) -> Definition:
+        """See :meth:`carom.models.Rotor.without_levitation`."""
+        return self.equations.without_levitation()
+
+    def unbalance_push(self, node: int | None = None) -> np.ndarray:
+        """See :meth:`carom.models.Rotor.unbalance_push`."""
+        return self.equations.unbalance_push(node)
+
+    def unbalance_along(self, node: int | None = None) -> float | None:
+        """See :meth:`carom.models.Rotor.unbalance_along`."""
+        return self.equations.unbalance_along(node)
+
+    def with_changed_unbalance(self, change: complex, node: int | None = None) -> tuple[Definition, float]:
+        """See :meth:`carom.models.Rotor.with_changed_unbalance`."""
+        return self.equations.with_changed_unbalance(change, node)

@@ -1,0 +1,60 @@
+"""Forces on a rotor, as they are given: their check, and the same in other units."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from carom.models.forcing import Force
+from carom.outcome import InputError, shown
+from carom.parameters import Scales
+
+
+def checked_forces(given: Any, shape: tuple[int, ...]) -> tuple[Force, ...]:
+    """Forces on a rotor with coordinates of this shape; refuse what is none."""
+    listed = tuple(given) if isinstance(given, Sequence) and not isinstance(given, Force) else ()
+    if not listed or not all(isinstance(each, Force) for each in listed):
+        raise InputError("forces", shown(given), "carom.models.Force, one or more")
+    return tuple(_checked_force(each, shape) for each in listed)
+
+
+def _checked_force(force: Force, shape: tuple[int, ...]) -> Force:
+    """The force as complex numbers; refuse those that are none, or not as many as there are coordinates."""
+    exponent, accelerations = complex_numbers(force.exponent), complex_numbers(force.accelerations)
+    if exponent is None or exponent.shape:
+        raise InputError("exponent", shown(force.exponent), "a finite number")
+    if accelerations is None or accelerations.shape != shape:
+        raise InputError("accelerations", shown(force.accelerations), f"finite numbers of shape {shape}")
+    return Force(complex(exponent), accelerations)
+
+
+def complex_numbers(given: Any) -> np.ndarray | None:
+    """Array of finite numbers, a copy; ``None`` if they are no such numbers."""
+    try:
+        values = np.array(given)
+    except (TypeError, ValueError, OverflowError):
+        return None
+    return values.astype(complex) if values.dtype.kind in "iufc" and np.isfinite(values).all() else None
+
+
+def in_scales(force: Force, before: Scales | None, after: Scales | None) -> Force:
+    """The same force, seen from the fixed frame, in other units of the equations."""
+    if before is None or after is None or before == after:
+        return force
+    exponent = (force.exponent + 1j) * (before.speed / after.speed) - 1j
+    return Force(exponent, force.accelerations * (before.acceleration / after.acceleration))
+
+
+def forces_as_text(forces: Sequence[Force]) -> str:
+    """The forces as text, exact to the last bit."""
+    numbers = [[force.exponent, *force.accelerations] for force in forces]
+    return json.dumps([[(complex(each).real, complex(each).imag) for each in force] for force in numbers])
+
+
+def forces_from(text: str) -> tuple[Force, ...]:
+    """The forces of :func:`forces_as_text`."""
+    numbers = [[complex(*each) for each in force] for force in json.loads(text)]
+    return tuple(Force(exponent, np.array(accelerations)) for exponent, *accelerations in numbers)

@@ -1,0 +1,150 @@
+"""Limits of magnetic bearings, along each of two perpendicular axes of the fixed frame, in the motion (:mod:`carom.core.limits`)."""
+
+from __future__ import annotations
+
+import cmath
+import json
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass, replace
+
+import numpy as np
+
+from carom.core.layout import rotor_record
+from carom.core.wall import Wall
+from carom.models.matrices import Matrices
+from carom.models.system import System
+from carom.outcome import InputError, shown
+from carom.parameters import ControlLimit, Scales
+
+_KEPT = (
+    "exponents",
+    "driven",
+    "offsets",
+    "rows",
+    "columns",
+    *Wall._fields,
+    "race",
+    "race_gain",
+    "masses",
+    "free",
+    "gap_rows",
+    "gap_offsets",
+)
+_VECTORS = ("displacement", "velocity", "accelerations", "rates")
+
+
+@dataclass(frozen=True, eq=False)
+class Limit:
+    """A quantity of a controller, such as a control current, that has a largest size along each of two perpendicular axes.
+
+    In the fixed frame, with the coordinates ``Z`` and their rates, it is ``displacement·Z + velocity·Ż``, of which along each axis no
+    more than the bound is given.  What is asked for beyond the bound acts back: it changes the accelerations of the coordinates, and the rates of those
+    without mass, such as the states of a controller.
+
+    Attributes
+    ----------
+    bound : float
+        Above 0.
+    displacement, velocity : array_like, shape (n,)
+        The quantity per coordinate and per rate of a coordinate.
+    accelerations : array_like, shape (n,)
+        Accelerations of the coordinates per unit of what is not given; zero for those without mass.
+    rates : array_like, shape (n,), optional
+        Rates of the coordinates without mass per unit of that; zeros by default.
+    angle : float
+        Of the first axis in the fixed frame, rad.
+    follows : tuple of float
+        What is not given of the limits before it in a list adds to this quantity by these factors; those left out are zero.
+    """
+
+    bound: float
+    displacement: np.ndarray
+    velocity: np.ndarray
+    accelerations: np.ndarray
+    rates: np.ndarray | None = None
+    angle: float = 0.0
+    follows: tuple[float, ...] = ()
+
+    def __post_init__(self) -> None:
+        if not 0.0 < self.bound < np.inf:
+            raise InputError("bound", shown(self.bound), "a finite number above 0")
+        if self.rates is None:
+            object.__setattr__(self, "rates", np.zeros_like(np.asarray(self.displacement, float)))
+        for name in _VECTORS:
+            values = np.array(getattr(self, name), float)
+            if values.ndim != 1 or not np.isfinite(values).all():
+                raise InputError(name, shown(getattr(self, name)), "finite numbers, one for each coordinate")
+            object.__setattr__(self, name, values)
+
+    def at_speed(self, slower: float) -> Limit:
+        """Return the same where the unit of time, the inverse of the nominal speed, is shorter by a factor."""
+        return replace(
+            self,
+            velocity=self.velocity / slower,
+            accelerations=self.accelerations * slower**2,
+            rates=np.asarray(self.rates) * slower,
+        )
+
+
+def with_limits(system: System, limits: Sequence[Limit]) -> System:
+    """The system with limits of its controllers.
+
+    Raises
+    ------
+    InputError
+        The speed of its shaft changes, or a limit is of another number of coordinates.
+    """
+    n, arrays = len(system.rest), system.arrays
+    if system.shaft is not None:
+        raise InputError("limits", f"{len(limits)} limit(s)", "none where the speed of the shaft changes")
+    for each in limits:
+        if {len(getattr(each, name)) for name in _VECTORS} != {n}:
+            raise InputError("limits", f"of {len(each.displacement)} coordinates", f"limits of {n} coordinates")
+    turns = np.array([cmath.exp(-1j * each.angle) for each in limits])
+    shown_by = np.array([each.displacement + 1j * each.velocity for each in limits]) * turns[:, None]
+    rates = np.array([each.velocity for each in limits]) * turns[:, None]
+    pushes = np.array([np.concatenate([each.rates, each.accelerations]) for each in limits]).T / turns
+    couplings = np.zeros((len(limits), len(limits)), complex)
+    for place, each in enumerate(limits):
+        couplings[place, : len(each.follows)] = each.follows
+    own = {
+        "limit_rows": shown_by @ system.shapes + rates @ system.rates,
+        "limit_offsets": shown_by @ system.rest,
+        "limit_bounds": np.array([each.bound for each in limits], float),
+        "limit_columns": system.to_modes @ pushes,
+        "limit_couplings": couplings * turns[:, None] / turns,
+    }
+    kept = {name: arrays[name] for name in _KEPT}
+    if system.mirrored is not None:
+        own["limit_mirrors"] = system.mirrored @ pushes.conj()
+        kept |= {name: arrays[name] for name in ("mirror", "mirror_columns")}
+    return replace(system, arrays=rotor_record(**kept, limits=own))
+
+
+def limits_by(control: ControlLimit, matrices: Matrices, scales: Scales) -> tuple[Limit, ...]:
+    """The limit of a force in SI units, in those of a planar rotor with these matrices."""
+    along = np.eye(len(matrices.mass))[0]
+    stiffness, damping = matrices.stiffness.real, matrices.damping.real
+    return (
+        Limit(
+            control.force / scales.force,
+            (stiffness[0, 0] + control.pull / scales.stiffness) * along,
+            damping[0, 0] * along,
+            along,
+        ),
+    )
+
+
+def limits_as_text(limits: ControlLimit | tuple[Limit, ...]) -> str:
+    """The limits as text, exact to the last bit."""
+    if isinstance(limits, ControlLimit):
+        return json.dumps(asdict(limits))
+    return json.dumps([asdict(each) | {name: getattr(each, name).tolist() for name in _VECTORS} for each in limits])
+
+
+def limits_from(text: str) -> ControlLimit | tuple[Limit, ...]:
+    """The limits of :func:`limits_as_text`."""
+    given = json.loads(text)
+    if isinstance(given, dict):
+        return ControlLimit(**given)
+    return tuple(Limit(**each | {"follows": tuple(each["follows"])}) for each in given)

@@ -1,0 +1,351 @@
+"""The planar rigid rotor, in a touchdown bearing of any kind: parameters, and the equations that follow from them."""
+
+from __future__ import annotations
+
+import cmath
+import json
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, replace
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from carom.core.laws.hunt_crossley import HuntCrossley
+from carom.core.laws.kelvin_voigt import KelvinVoigt
+from carom.core.laws.rigid import Rigid
+from carom.core.planar import planar_exponents
+from carom.core.wall import Wall
+from carom.models.definition import Definition
+from carom.models.forcing import Force, with_forces
+from carom.models.from_modes import second_order_system
+from carom.models.linear import LinearEquations
+from carom.models.linear_parameters import refuse_node
+from carom.models.matrices import Matrices, Rates
+from carom.models.race import Race
+from carom.models.rotor import Rotor
+from carom.models.shaft import Shaft
+from carom.models.system import System
+from carom.models.touchdown import Touchdown
+from carom.outcome import InputError, shown
+from carom.parameters import TOUCHDOWN_FIELDS, Drive, Field, Numbers, Parameters, Scales, TouchdownBearing
+from carom.parameters.restitution import damping_ratio_of, dissipation_of
+from carom.parameters.touchdown_bearing import BALL_FIELDS, PREFIX
+
+RESTITUTION = ("restitution", "d")
+"""Names of the restitution of a rigid wall."""
+RIGID = TouchdownBearing()
+"""A rigid wall that stands still, and has no data of its own."""
+
+
+@dataclass(frozen=True)
+class Planar(Definition):
+    """Rigid rotor on a linear isotropic bearing inside a circular clearance (Föppl–Jeffcott rotor).
+
+    In the co-rotating frame ``Ü + (γ + 2i)U̇ + (ω² − 1 + iγ)U = ρe^{iφ}`` [1]_ (2.13), with the exponents
+    ``λ± = (−γ − 2i ± √(γ² − 4ω²))/2``.  Its coordinates are the position of the rotor and, on a mount, that of the mount.
+
+    Attributes
+    ----------
+    parameters : Parameters
+        In a bearing that is compliant their coefficient of restitution means nothing.
+    bearing : TouchdownBearing, optional
+        In SI units; by default a rigid wall that stands still.
+    levitates : bool
+        Whether stiffness and damping of the levitation act.
+    drive : Drive, optional
+        In SI units; without one the speed of the shaft never changes.
+    air_gap : float, optional
+        Of the magnets, m: where the rotor strikes them a motion ends.
+
+    Raises
+    ------
+    InputError
+        ``parameters`` is not an instance of :class:`~carom.parameters.Parameters`; or there is a bearing or a drive and no scales are known, or
+        nothing that a rigid wall and a shaft at constant speed have not.
+
+    References
+    ----------
+    .. [1] Mora, Budd, Glendinning, Keogh, "Non-smooth Hopf-type bifurcations arising from impact–friction contact
+       events in rotating machinery", Proc. R. Soc. A 470 (2014).
+    """
+
+    parameters: Parameters
+    bearing: TouchdownBearing | None = None
+    levitates: bool = True
+    drive: Drive | None = None
+    air_gap: float | None = None
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.parameters, Parameters):
+            raise InputError("parameters", shown(self.parameters), "must be carom.parameters.Parameters")
+        if self.bearing is None:
+            return
+        if self.parameters.scales is None:
+            raise InputError("rotor", shown(self.parameters), "a planar rotor with mass, clearance and speed")
+        if self.bearing.is_plain and self.drive is None:
+            allowed = (
+                "a bearing that gives way, has a race, a mount or an offset; a rigid wall needs no data of its own"
+            )
+            raise InputError("bearing", self.bearing.words, allowed)
+        if self.air_gap is not None and self.bearing.centre:
+            allowed = "0 where the air gap is known, which counts from the place of levitation"
+            raise InputError("touchdown_offset", self.bearing.offset, allowed)
+
+    @property
+    def planar(self) -> Parameters:
+        """Its parameters."""
+        return self.parameters
+
+    @property
+    def has_closed_forms(self) -> bool:
+        """Whether its wall is rigid and stands still, and its speed constant."""
+        return self.bearing is None
+
+    @property
+    def scales(self) -> Scales | None:
+        """Mass, clearance and speed that convert results to SI units, if known."""
+        return self.parameters.scales
+
+    @property
+    def unbalance_phase(self) -> float:
+        """Angle of the unbalance in the co-rotating frame, in rad."""
+        return self.parameters.phi
+
+    @cached_property
+    def equilibrium(self) -> complex:
+        """Contact-free equilibrium position ``U*``; it may lie outside the clearance."""
+        at = self.parameters
+        # Adding zero turns a negative zero, the quotient for a balanced rotor, into zero.
+        return cmath.rect(at.rho, at.phi) / complex(at.omega**2 - 1.0, at.gamma) + 0j
+
+    @cached_property
+    def system(self) -> System:
+        """Modes, contact plane and contact law, with exact exponents where the wall is rigid and stands still.
+
+        Seen from the centre of a bearing off the place of levitation, that pulls with a constant force in the fixed frame (:attr:`pull`).
+        """
+        at = self.parameters
+        if self.bearing is None:
+            return second_order_system(
+                exponents=planar_exponents(at.gamma, at.omega),
+                equilibrium=self.equilibrium,
+                wall=Wall(at.mu, at.d, at.radius_ratio + 1.0),
+            )
+        return with_forces(self.equations.system, self.pull) if self.pull else self.equations.system
+
+    @property
+    def _row(self) -> Matrices:
+        """``z̈ + γż + ω²z = ρe^{iφ}e^{it}`` as matrices of one row."""
+        at = self.parameters
+        mass, damping, gyroscopic, stiffness = np.reshape((1.0 + 0j, at.gamma, 0.0, at.omega**2), (4, 1, 1))
+        return Matrices(mass, damping, gyroscopic, stiffness, np.array([cmath.rect(at.rho, at.phi)]))
+
+    @property
+    def matrices(self) -> Matrices:
+        """Matrices of the equations of motion in the fixed frame."""
+        return self._row if self.bearing is None else self.equations.matrices
+
+    @cached_property
+    def equations(self) -> LinearEquations:
+        """The same by matrices."""
+        scales: Any = self.scales
+        mass, damping, _, stiffness, forcing = self._row
+        if not self.levitates:
+            damping, stiffness = np.zeros_like(damping), np.zeros_like(stiffness)
+        plane, matrices = [1.0], {"mass": mass, "damping": damping, "stiffness": stiffness}
+        given = self.bearing or RIGID
+        if given.mount_mass is not None and given.mount_stiffness is not None:
+            mount = given.mount_mass / scales.mass, (given.mount_damping or 0.0) / scales.damping
+            plane = [1.0, -1.0]
+            held = zip(matrices.items(), (*mount, given.mount_stiffness / scales.stiffness), strict=True)
+            matrices = {name: np.diag([matrix[0, 0], value]) for (name, matrix), value in held}
+            forcing = np.append(forcing, 0.0)
+        at = self.parameters
+        touchdown = Touchdown(
+            plane, law_of(given, scales, at.d), at.mu, at.radius_ratio + 1.0, race_of(given, at.radius_ratio, scales)
+        )
+        return LinearEquations.in_fixed_frame(
+            **matrices,
+            forcing=forcing,
+            touchdowns=[touchdown],
+            translation=np.eye(len(plane))[0],
+            carried=np.ones(len(plane)),
+            shaft=shaft_of(self.drive, scales),
+            magnets=None if self.air_gap is None else np.eye(1, len(plane)) * scales.length / self.air_gap,
+            scales=scales,
+        )
+
+    @property
+    def pull(self) -> tuple[Force, ...]:
+        """What pulls the rotor from the centre of the bearing to the place of levitation, where these differ."""
+        centre = self.bearing.centre if self.bearing else 0.0
+        if not centre or not self.levitates:
+            return ()
+        scales: Any = self.scales
+        pull, row = np.zeros(len(self.equations.mass), complex), self._row
+        pull[0] = -(row.stiffness[0, 0] / row.mass[0, 0]) * (centre / scales.length)
+        return (Force(-1j, pull),)
+
+    def bearing_at(self, plane: int) -> TouchdownBearing | None:
+        """Its data."""
+        return self.bearing
+
+    @property
+    def words(self) -> str:
+        """Its parameters in a line."""
+        if self.bearing is None:
+            return self.parameters.words
+        names = ("gamma", "omega", "rho", "phi", "mu", *([] if self.bearing.yields else ["d"]), "radius_ratio")
+        own = (f"{name} = {self.parameters.value(name):g}" for name in names)
+        return f"{', '.join(own)}; {self.words_of_bearing}"
+
+    @property
+    def words_of_bearing(self) -> str:
+        """What is more than a rigid wall that stands still and a shaft at constant speed."""
+        bearing = self.bearing.words if self.bearing and not self.bearing.is_plain else ""
+        return "; ".join(filter(None, (bearing, self.drive.words if self.drive else "")))
+
+    @property
+    def _left_out(self) -> tuple[str, ...]:
+        """Parameters of the planar rotor in a rigid wall that it does not have."""
+        return RESTITUTION if self.bearing and self.bearing.yields else ()
+
+    @property
+    def varied(self) -> Mapping[str, Field]:
+        """Named parameters that can be varied."""
+        if self.bearing is None:
+            return self.parameters.varied
+        own = {name: field for name, field in self.parameters.varied.items() if name not in self._left_out}
+        bearing = {
+            PREFIX + name: replace(TOUCHDOWN_FIELDS[name], name=PREFIX + name)
+            for name in self.bearing.given
+            if name not in BALL_FIELDS
+        }
+        return {**own, **bearing}
+
+    def value(self, name: str) -> float:
+        """Value of a named parameter, in the unit of its field."""
+        if name in self._left_out:
+            raise InputError(name, None, "a touchdown bearing that gives way has no such number for all speeds")
+        if self.bearing and name.startswith(PREFIX) and name in self.varied:
+            return float(getattr(self.bearing, name.removeprefix(PREFIX)))
+        return self.parameters.value(name)
+
+    def replace(self, **changes: Any) -> Planar:
+        """Return it with other values of its parameters; those of the bearing stay what they are in SI units."""
+        if self.bearing is None:
+            return Planar(self.parameters.replace(**changes))
+        for name in self._left_out:
+            if name in changes:
+                raise InputError(
+                    name, changes[name], "a touchdown bearing that gives way has its own entries in [touchdown]"
+                )
+        of_bearing = {name: changes.pop(name) for name in list(changes) if name.startswith(PREFIX)}
+        bearing = self.bearing.replace(**{name.removeprefix(PREFIX): value for name, value in of_bearing.items()})
+        parameters = self.parameters.replace(**changes) if changes else self.parameters
+        return replace(self, parameters=parameters, bearing=bearing)
+
+    def rates(self, name: str) -> Rates | None:
+        """Derivatives of the equations of motion by a parameter, in a rigid wall that stands still."""
+        if self.bearing is not None:
+            return None
+        at = self.parameters
+        at.value(name)  # refuses an unknown name
+        gamma, omega, rho, phi, mu, d, radius_ratio = Numbers.of(at).rates(name)
+        return Rates(
+            np.array([[complex(-2.0 * at.omega * omega, -gamma), -gamma]]),
+            np.array([complex(rho, at.rho * phi) * cmath.exp(1j * at.phi)]),
+            *np.array([[mu], [d], [radius_ratio]]),
+        )
+
+    def without_levitation(self) -> Definition:
+        """See :meth:`carom.models.Rotor.without_levitation`."""
+        return super().without_levitation() if self.bearing is None else replace(self, levitates=False)
+
+    def unbalance_push(self, node: int | None = None) -> np.ndarray:
+        """See :meth:`carom.models.Rotor.unbalance_push`; a mount is not pushed."""
+        refuse_node(node)
+        push = np.array([cmath.rect(1.0, self.unbalance_phase)])
+        return push if self.bearing is None else np.append(push, np.zeros(len(self.equations.mass) - 1))
+
+    def unbalance_along(self, node: int | None = None) -> float:
+        """See :meth:`carom.models.Rotor.unbalance_along`."""
+        return self.parameters.rho
+
+    def with_changed_unbalance(self, change: complex, node: int | None = None) -> tuple[Planar, float]:
+        """See :meth:`carom.models.Rotor.with_changed_unbalance`."""
+        refuse_node(node)
+        after = self.parameters.rho + change
+        return replace(self, parameters=self.parameters.replace(rho=abs(after))), cmath.phase(after) if after else 0.0
+
+    def attributes(self) -> dict[str, Any]:
+        """Return the numbers as attributes of a dataset, exact to the last bit."""
+        if self.bearing is None:
+            return self.parameters.attributes()
+        drive = asdict(self.drive) if self.drive else None
+        bearing = {**asdict(self.bearing), "levitates": self.levitates, "drive": drive, "air_gap": self.air_gap}
+        return {"touchdown_bearing": json.dumps(bearing), "rotor": json.dumps(self.parameters.attributes())}
+
+    @classmethod
+    def from_attributes(cls, attributes: Mapping[str, Any]) -> Planar:
+        """Read the attributes of a dataset that :meth:`attributes` has given."""
+        if "touchdown_bearing" not in attributes:
+            return cls(Parameters.from_attributes(attributes))
+        bearing = json.loads(attributes["touchdown_bearing"])
+        levitates, drive, gap = bearing.pop("levitates"), bearing.pop("drive"), bearing.pop("air_gap", None)
+        parameters = Parameters.from_attributes(json.loads(attributes["rotor"]))
+        return cls(parameters, TouchdownBearing(**bearing), levitates, Drive(**drive) if drive else None, gap)
+
+
+def jeffcott(
+    parameters: Parameters,
+    bearing: TouchdownBearing | None = None,
+    *,
+    levitates: bool = True,
+    drive: Drive | None = None,
+    air_gap: float | None = None,
+) -> Rotor:
+    """The planar rigid rotor, in a rigid wall that stands still or in a touchdown bearing of its own; see :class:`Planar`.
+
+    Examples
+    --------
+    >>> import carom as cm
+    >>> rotor = cm.models.jeffcott(cm.load("examples/keogh-cole.toml").parameters)
+    >>> rotor.has_closed_forms, rotor.is_compliant
+    (True, False)
+    """
+    return Rotor(Planar(parameters, bearing, levitates, drive, air_gap))
+
+
+def shaft_of(drive: Drive | None, scales: Scales) -> Shaft | None:
+    """What turns with the shaft in the units of a rotor's equations; ``None`` of one whose speed never changes."""
+    if drive is None or drive.polar_inertia is None:
+        return None
+    unit = scales.mass * scales.length**2
+    return Shaft(drive.polar_inertia / unit, drive.torque / (unit * scales.speed**2))
+
+
+def law_of(bearing: TouchdownBearing, scales: Scales, restitution: float = 0.0) -> Rigid | KelvinVoigt | HuntCrossley:
+    """Law of a bearing in the units of a rotor's equations; the restitution is that of a rigid wall."""
+    if not bearing.yields:
+        return Rigid(restitution)
+    exponent = bearing.exponent
+    stiffness = (bearing.stiffness or 0.0) * scales.length ** (exponent - 1.0) / scales.stiffness
+    if bearing.law == "kelvin-voigt":
+        if bearing.restitution is not None:
+            return KelvinVoigt(stiffness, 2.0 * damping_ratio_of(bearing.restitution) * stiffness**0.5)
+        return KelvinVoigt(stiffness, (bearing.damping or 0.0) / scales.damping)
+    dissipation = bearing.dissipation
+    if dissipation is None:
+        dissipation = dissipation_of(bearing.restitution or 1.0, bearing.restitution_speed or 1.0)
+    return HuntCrossley(stiffness, dissipation * scales.velocity, exponent)
+
+
+def race_of(bearing: TouchdownBearing, radius_ratio: float, scales: Scales) -> Race | None:
+    """Race of a bearing in the units of a rotor's equations; ``None`` if it stands still."""
+    if bearing.race_inertia is None:
+        return None
+    unit = scales.mass * scales.length**2
+    drag = (bearing.race_drag or 0.0) / (unit * scales.speed)
+    return Race(bearing.race_inertia / unit, radius_ratio + 1.0, drag)

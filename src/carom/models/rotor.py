@@ -1,0 +1,474 @@
+"""The rotor: one class for all of them, asked for what it has and never for its kind."""
+
+from __future__ import annotations
+
+import cmath
+import dataclasses
+import json
+import math
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import numpy as np
+
+from carom.arguments import checked
+from carom.models.definition import Definition
+from carom.models.forces import checked_forces, forces_as_text, in_scales
+from carom.models.forcing import Force, with_forces
+from carom.models.limits import Limit, limits_as_text, limits_by, with_limits
+from carom.models.mode_arrays import EQUAL, STEADY
+from carom.outcome import InputError, shown
+from carom.parameters import SETTINGS, ControlLimit, Field, Gravity, Parameters, Scales, TouchdownBearing, read_quantity
+from carom.parameters.settings import GRAVITY_NAME
+from carom.results import Result
+
+if TYPE_CHECKING:
+    from carom.models.linear import LinearEquations
+    from carom.models.matrices import Matrices, Rates
+    from carom.models.race import Race
+    from carom.models.system import System
+
+_PLANAR = (
+    "the planar rotor: this result is not known for other models, as of files with [rotor]; with these carom.simulate, carom.settle, "
+    "carom.drop, carom.study, carom.find_attractors, carom.map_basins and carom.map_gains work, and the commands study, simulate, drop, attractors, basins, "
+    "orbits, explore, and sweep with [basins]"
+)
+_WITHOUT_FORCES = (
+    "needs a rotor without gravity or other forces that change with time in its frame; under these carom.simulate, carom.settle, "
+    "carom.drop, carom.study, carom.find_attractors, carom.find_orbits with impacts, carom.continue_orbit, and carom.map_basins of kicks, shocks, "
+    "losses of a blade, steps of the unbalance, releases and states work; a setting gravity=0 leaves weight out"
+)
+_WITHOUT_LIMITS = (
+    "none: this result is known for magnetic bearings without limits alone, so leave force_limit and current_limit out for it; "
+    "carom.simulate, carom.settle and others work"
+)
+_RIGID = "a rigid wall that stands still, and a shaft at constant speed: this result is known for these alone; carom.simulate, carom.settle and others work"
+_LEVITATION = ("gamma", "omega")
+"""Parameters of the levitation as a whole, with which limits given as numbers would change."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Rotor(Result):
+    """A rotor in its touchdown bearings, with what acts on it: a value with named parameters.
+
+    Makers give it its definition: :func:`~carom.models.jeffcott`, :func:`~carom.models.from_matrices`, flexible machines
+    (:mod:`carom.rotors`).  Exact results are asked for in :func:`carom.closed_forms.exact_results.exact_results`.
+
+    Attributes
+    ----------
+    definition : Definition
+        Its parameters, and the equations of motion that follow from them.
+    forces : tuple of Force
+        Further forces that change with time in its frame, such as weight, or those of a housing that is shaken.  Under them it never is at rest in
+        that frame.  Its orbits are found under forces that are constant in the fixed frame.
+    limits : carom.parameters.ControlLimit, or tuple of Limit
+        Of its magnetic bearings, beyond which these give no more and the states of controllers wind up: of the planar rotor in SI units, or
+        in units of its equations.
+
+    Raises
+    ------
+    InputError
+        Forces or limits are of another kind, or the touchdown bearing is off the place of levitation where the magnetic bearings have limits.
+    """
+
+    definition: Definition
+    forces: tuple[Force, ...] = ()
+    limits: ControlLimit | tuple[Limit, ...] = ()
+
+    rests_on: ClassVar[tuple[str, ...]] = ()
+
+    def __post_init__(self) -> None:
+        if self.forces != ():
+            object.__setattr__(self, "forces", checked_forces(self.forces, self.definition.system.rest.shape))
+        if self.limits != ():
+            self._check_limits(self.limits)
+
+    def _check_limits(self, given: Any) -> None:
+        if isinstance(given, ControlLimit):
+            if self.planar is None or self.scales is None:
+                raise InputError("rotor", shown(self.definition), "the planar rotor with mass, clearance and speed")
+            if self.definition.pull:
+                allowed = (
+                    "0 where the magnetic bearings have limits, whose force is counted from the place of levitation"
+                )
+                raise InputError("touchdown_offset", self.definition.bearing_at(0).offset, allowed)  # type: ignore[union-attr]  # it pulls
+            return
+        listed = tuple(given) if isinstance(given, Iterable) else ()
+        if not listed or not all(isinstance(each, Limit) for each in listed):
+            raise InputError("limits", shown(given), "carom.models.Limit, one or more")
+        object.__setattr__(self, "limits", listed)
+
+    def __getattr__(self, name: str) -> Any:
+        """What its equations have: ``mass``, ``damping``, ``stiffness``, ``forcing``, ``touchdowns``, ``shaft`` and the others of :class:`LinearEquations`."""
+        if name.startswith("_") or name not in self.definition.of_equations:
+            raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}", name=name, obj=self)
+        return getattr(self.definition.equations, name)
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Rotor):
+            return NotImplemented
+        same = len(self.forces) == len(other.forces) and all(map(lambda a, b: a is b, self.forces, other.forces))
+        return same and self.definition == other.definition and self.limits == other.limits
+
+    def __hash__(self) -> int:
+        return hash((self.definition, len(self.forces), self.limits))
+
+    def rows(self) -> list[tuple[str, str]]:
+        """What defines it, and what acts on it."""
+        fields = dataclasses.fields(self.definition)  # type: ignore[arg-type]  # all definitions are dataclasses
+        values = {field.name: getattr(self.definition, field.name) for field in fields}
+        values |= {name: value for name, value in vars(self).items() if name in ("forces", "limits") and value}
+        return [
+            (name, self.line_of(name, value))
+            for name, value in values.items()
+            if value is not None and name != "scales"
+        ]
+
+    @property
+    def words(self) -> str:
+        """Its parameters and its limits in a line; empty where there are too many."""
+        return "; ".join(filter(None, (self.definition.words, self.words_of_limits)))
+
+    @property
+    def words_of_limits(self) -> str:
+        """The limits in words."""
+        if isinstance(self.limits, ControlLimit):
+            return self.limits.words
+        return f"{len(self.limits)} limits" if self.limits else ""
+
+    # What follows from its definition.
+
+    @property
+    def equations(self) -> LinearEquations:
+        """Its equations of motion by matrices, without further forces and limits."""
+        return self.definition.equations
+
+    @property
+    def matrices(self) -> Matrices:
+        """Matrices of the equations of motion in the fixed frame."""
+        return self.definition.matrices
+
+    @property
+    def scales(self) -> Scales | None:
+        """Mass, clearance and speed that convert results to SI units, if known."""
+        return self.definition.scales
+
+    @property
+    def unbalance_phase(self) -> float:
+        """Angle of the unbalance in the co-rotating frame, in rad."""
+        return self.definition.unbalance_phase
+
+    @property
+    def equilibrium(self) -> Any:
+        """Coordinates at rest without further forces; a plain number of one coordinate.  They may lie outside the clearance."""
+        return self.definition.equilibrium
+
+    @property
+    def planar(self) -> Parameters | None:
+        """Dimensionless parameters of the planar rotor, whatever acts on it; ``None`` of other rotors, whose numbers are matrices."""
+        return self.definition.planar
+
+    @property
+    def parameters(self) -> Parameters:
+        """The same of a rotor that is planar.
+
+        Raises
+        ------
+        InputError
+            It is another one.
+        """
+        if self.planar is None:
+            raise InputError("machine", shown(self), _PLANAR)
+        return self.planar
+
+    @property
+    def numbers(self) -> dict[str, float] | None:
+        """Parameters of the planar rotor by name, without a restitution that its wall does not have; ``None`` of other rotors."""
+        if self.planar is None:
+            return None
+        return {name: value for name, value in self.planar.as_dict().items() if name in self.varied}
+
+    @property
+    def finite_elements(self) -> Any:
+        """The reduced flexible machine behind it (:class:`carom.rotors.ReducedMachine`); ``None`` of other rotors."""
+        return self.definition.finite_elements
+
+    @property
+    def is_compliant(self) -> bool:
+        """Whether a touchdown bearing is compliant."""
+        return bool(self.definition.system.arrays["stiffness"].any())
+
+    @property
+    def in_rigid_wall(self) -> Parameters | None:
+        """Parameters of the planar rotor in a rigid wall, whose load is compared with that of solid steel; ``None`` of other rotors and walls."""
+        return None if self.is_compliant else self.planar
+
+    @property
+    def is_anisotropic(self) -> bool:
+        """Whether its bearings act differently in two directions."""
+        return self.definition.system.mirrored is not None
+
+    @property
+    def acting_on_conjugates(self) -> np.ndarray | None:
+        """Damping and stiffness (2, n, n) in the fixed frame that act on conjugates; ``None`` of isotropic bearings."""
+        return self.equations.conjugate if self.is_anisotropic else None
+
+    @property
+    def races(self) -> tuple[Race | None, ...]:
+        """The race at each touchdown bearing; ``None`` where it stands still."""
+        return tuple(touchdown.race for touchdown in self.equations.touchdowns)
+
+    def bearing_at(self, plane: int) -> TouchdownBearing | None:
+        """Data in SI units of a touchdown bearing, which may state its balls; ``None`` if they are not known."""
+        return self.definition.bearing_at(plane)
+
+    @property
+    def is_on_mount(self) -> bool:
+        """Whether the touchdown bearing stands on a mount, whose place then is the second coordinate."""
+        bearing = None if self.planar is None else self.bearing_at(0)
+        return bearing is not None and bearing.mount_mass is not None
+
+    @property
+    def carried_by_housing(self) -> np.ndarray:
+        """Coordinates (n,) when all that a housing carries is displaced by one against it: the rotor as a whole, and mounts."""
+        carried = self.equations.carried
+        return self.definition.system.translated if carried is None else carried
+
+    @property
+    def carry_at_regain(self) -> np.ndarray | None:
+        """Coordinates and rates with which levitation begins again per those at the end of the fall, shape (2n, 2n); ``None`` if they stay."""
+        kept = self.equations.regained
+        return None if kept is None else np.diag(np.concatenate([kept, kept]))
+
+    # What acts on it besides.
+
+    @cached_property
+    def system(self) -> System:
+        """Modes, contact planes, contact law, limits, and a mode for each force, as arrays for the kernels."""
+        if self._before is not None:
+            rotor, more = self._before
+            return with_forces(rotor.system, more)
+        system = self.definition.system
+        if self.limits:
+            system = with_limits(system, self.listed_limits)
+        return with_forces(system, self.forces) if self.forces else system
+
+    @cached_property
+    def _before(self) -> tuple[Rotor, tuple[Force, ...]] | None:
+        """The rotor to which forces were added, whose modes need not be found again, and those forces."""
+        return None
+
+    @property
+    def listed_limits(self) -> tuple[Limit, ...]:
+        """The limits in units of the equations."""
+        if isinstance(self.limits, ControlLimit):
+            scales: Any = self.scales
+            return limits_by(self.limits, self.matrices, scales)
+        return self.limits
+
+    @property
+    def acting_forces(self) -> tuple[Force, ...]:
+        """Its forces, and what pulls it off the centre of its touchdown bearing."""
+        return (*self.forces, *self.definition.pull)
+
+    @property
+    def weight(self) -> np.ndarray | None:
+        """Accelerations (n,) of the coordinates by forces that are constant in the fixed frame; ``None`` if none acts."""
+        steady = [force.accelerations for force in self.forces if abs(force.exponent - STEADY) <= EQUAL]
+        total: np.ndarray = np.sum(steady, axis=0)
+        return total if steady and total.any() else None
+
+    @property
+    def direction_of_fall(self) -> float:
+        """Angle of the weight in the fixed frame, in rad; that of the negative y axis if none acts."""
+        weight = self.weight
+        return -0.5 * math.pi if weight is None else cmath.phase(complex(weight @ self.system.translated.conj()))
+
+    @cached_property
+    def _gravity(self) -> tuple[int, float] | None:
+        """Which of the forces is weight, which pulls all masses alike, and its acceleration in m/s²; ``None`` without scales or weight."""
+        if self.scales is None or not self.forces:
+            return None
+        along = self.definition.system.translated
+        for place, force in enumerate(self.forces):
+            pull = np.vdot(along, force.accelerations) / np.vdot(along, along)
+            alike = np.abs(force.accelerations - pull * along).max() <= EQUAL * abs(pull)
+            if pull and alike and abs(force.exponent - STEADY) <= EQUAL:
+                return place, float(abs(pull)) * self.scales.acceleration
+        return None
+
+    @property
+    def is_time_dependent(self) -> bool:
+        """Whether it matters when a motion begins: something stands in the fixed frame, past which the unbalance turns."""
+        return self.system.timed
+
+    def under(self, *forces: Force) -> Rotor:
+        """The rotor with further forces on it."""
+        more = checked_forces(forces, self.definition.system.rest.shape)
+        rotor = dataclasses.replace(self, forces=(*self.forces, *more))
+        rotor.__dict__["_before"] = self, more
+        return rotor
+
+    def under_gravity(self, gravity: Gravity) -> Rotor:
+        """The rotor with its weight: all its masses fall alike, along the translation.
+
+        Raises
+        ------
+        InputError
+            Its scales are not known.
+        """
+        if self.scales is None:
+            allowed = "a rotor with mass, clearance and speed: without them nothing is in m/s^2"
+            raise InputError("gravity", gravity.words, allowed)
+        return self.under(Force(STEADY, gravity.pull(self.scales) * self.definition.system.translated))
+
+    @property
+    def unforced(self) -> Rotor:
+        """The rotor without forces."""
+        return dataclasses.replace(self, forces=()) if self.forces else self
+
+    def without_levitation(self) -> Rotor:
+        """The rotor without the stiffness and damping of its levitation, under the same forces.
+
+        Raises
+        ------
+        InputError
+            It has several coordinates, and does not say what is left without levitation, which cannot be told from its shaft.
+        """
+        return Rotor(self.definition.without_levitation(), self.forces)
+
+    # Named parameters.
+
+    @property
+    def varied(self) -> Mapping[str, Field]:
+        """Named parameters that can be varied: words, symbol, unit and range of each.
+
+        With scales ``gravity`` is one, the acceleration of a weight in its direction.  Those of the levitation are none beside limits given as numbers.
+        """
+        found = self.definition.varied
+        if self.limits and not isinstance(self.limits, ControlLimit):
+            found = {name: field for name, field in found.items() if name not in _LEVITATION}
+        if self._gravity is not None:
+            found = {**found, GRAVITY_NAME: dataclasses.replace(SETTINGS[GRAVITY_NAME], zero=False)}
+        return found
+
+    @checked
+    def value(self, name: str) -> float:
+        """Value of a named parameter, in the unit of its field.
+
+        Raises
+        ------
+        InputError
+            No such name, or touchdown bearings with different values.
+        """
+        return self._gravity[1] if name == GRAVITY_NAME and self._gravity else self.definition.value(name)
+
+    def replace(self, **changes: Any) -> Rotor:
+        """Return the rotor with other values of named parameters; what depends on them changes too.
+
+        Forces and limits stay what they are in SI units, if scales are known; limits that follow from parameters change with these.
+
+        Raises
+        ------
+        InputError
+            A name is unknown or a value not allowed, or there is nothing to multiply: no damping, stiffness or unbalance.
+        """
+        if not self.forces and not self.limits:
+            return Rotor(self.definition.replace(**changes))
+        forces, limits, before = list(self.forces), self.limits, self.scales
+        if self._gravity is not None and GRAVITY_NAME in changes:
+            place, present = self._gravity
+            share = read_quantity(self.varied[GRAVITY_NAME], changes.pop(GRAVITY_NAME)) / present
+            forces[place] = Force(forces[place].exponent, forces[place].accelerations * share)
+        if not isinstance(limits, ControlLimit) and limits:
+            for name in changes.keys() & set(_LEVITATION) - self.varied.keys():
+                raise InputError(name, shown(changes[name]), "not to be set beside limits of the controllers")
+        definition = self.definition.replace(**changes) if changes else self.definition
+        after = definition.scales
+        if not isinstance(limits, ControlLimit) and limits:
+            if definition.limits:  # what a controller asks for changes with its gains
+                limits = definition.limits
+            elif before is not None and after is not None and before != after:
+                limits = tuple(each.at_speed(before.speed / after.speed) for each in limits)
+        return Rotor(definition, tuple(in_scales(force, before, after) for force in forces), limits)
+
+    @checked
+    def rates(self, name: str) -> Rates | None:
+        """Derivatives of the equations of motion by a named parameter; ``None`` where differences have to do."""
+        return None if self.forces or self.limits else self.definition.rates(name)
+
+    def attributes(self) -> dict[str, Any]:
+        """Numbers and texts from which :func:`~carom.models.subjects.model_from` makes the same rotor again, exact to the last bit."""
+        found = self.definition.attributes()
+        if self.limits:
+            found = {"limits": limits_as_text(self.limits), "rotor": json.dumps(found)}
+        return {"forces": forces_as_text(self.forces), "rotor": json.dumps(found)} if self.forces else found
+
+    def document(self) -> dict[str, Any]:
+        """What describes it in a document: the parameters of the planar rotor, the attributes of any other."""
+        return {"parameters": self.numbers} if self.numbers else {"rotor": self.attributes()}
+
+    # Its unbalance.
+
+    def unbalance_push(self, node: int | None = None) -> np.ndarray:
+        """Force (n,) of an unbalance of one, as an eccentricity in ``c_r`` of the whole mass, that has the phase of the one before.
+
+        It is distributed like the unbalance of the rotor; of a balanced one it is that of all masses off centre by the same.  Of a flexible
+        machine it acts at a node.
+        """
+        return self.definition.unbalance_push(node)
+
+    def unbalance_along(self, node: int | None = None) -> float | None:
+        """Unbalance that changes, as an eccentricity in ``c_r``; ``None`` where others stay, so that no change leads to the machine of another one."""
+        return self.definition.unbalance_along(node)
+
+    def with_changed_unbalance(self, change: complex, node: int | None = None) -> tuple[Rotor, float]:
+        """The rotor with another unbalance, and the angle by which its frame has turned, so that the phase stays what it was.
+
+        The change is a vector, an eccentricity in ``c_r`` relative to the direction of the unbalance before: a force ``Δ p e^{iβ}`` in the frame
+        that turns with the shaft.  The rotor after it is seen in a frame that has turned with the unbalance, so that many changes lead to one
+        machine, which differ by where the motion starts.
+
+        Parameters
+        ----------
+        change : complex
+        node : int, optional
+            Of a flexible machine.
+        """
+        definition, turned = self.definition.with_changed_unbalance(change, node)
+        return dataclasses.replace(self, definition=definition), turned
+
+    # What is known exactly.
+
+    @property
+    def has_closed_forms(self) -> bool:
+        """Whether exact results are known: of the planar rotor in a rigid wall that stands still, without forces and limits."""
+        return self.planar is not None and self.definition.has_closed_forms and not self.forces and not self.limits
+
+    def refuse_without_closed_forms(self) -> None:
+        """Refuse a rotor of which exact results are not known.
+
+        Raises
+        ------
+        InputError
+            It says what is in the way.
+        """
+        if self.has_closed_forms:
+            return
+        if self.planar is None:
+            raise InputError("machine", shown(self), _PLANAR)
+        if self.limits:
+            raise InputError("limits", self.words_of_limits, _WITHOUT_LIMITS)
+        if self.forces:
+            self.refuse_forces()
+        raise InputError("touchdown", self.definition.words_of_bearing, _RIGID)
+
+    def refuse_forces(self) -> None:
+        """Refuse a rotor on which forces act that change with time in its frame: it never is at rest there."""
+        if self.system.shaft is not None or self.system.mirrored is not None:
+            self.system.refuse_forces()
+        if self.system.outer.any():
+            acting = "forces that change with time" if self.weight is None else "gravity"
+            raise InputError("machine", f"a rotor under {acting}", _WITHOUT_FORCES)
