@@ -6,9 +6,10 @@ import numpy as np
 from compliant_reference import HuntCrossley as ReferenceHuntCrossley
 from compliant_reference import KelvinVoigt as ReferenceKelvinVoigt
 from compliant_reference import Plane
+from compliant_reference import Rotor as ReferenceRotor
 
 import carom as cm
-from carom.models import Force, HuntCrossley, KelvinVoigt, Rigid, Rotor, from_matrices, jeffcott
+from carom.models import Force, HuntCrossley, KelvinVoigt, Rigid, from_matrices, jeffcott
 from carom.models.touchdown import Touchdown
 from carom.orbits import orbit_of_motion
 from carom.parameters import Parameters
@@ -46,7 +47,7 @@ def soft(law, pull, gamma, omega, rho, mu, surface_speed):
         same = ReferenceHuntCrossley(law.stiffness, law.dissipation, law.exponent)
     # Its weight points along the negative real axis at time zero: its frame is ahead by a quarter of a turn.
     plane = Plane((1.0,), same, mu, surface_speed)
-    reference = Rotor.planar(gamma, omega, rho, PHASE - 0.5 * np.pi, plane, weight=pull)
+    reference = ReferenceRotor.planar(gamma, omega, rho, PHASE - 0.5 * np.pi, plane, weight=pull)
     return planar.under(Force(-1j, np.array([-1j * pull]))), reference
 
 

@@ -260,7 +260,7 @@ def test_a_model_has_the_case_of_its_bearing(origin):
     # A figure in a notebook begins with it.
     assert values_of(with_settings(found, {"touchdown_stiffness": "2e8"}))["touchdown_stiffness"] == 2e8
     assert "[dimensionless]" in as_toml(found)
-    assert "cm.models.InBearing(" in as_python(found, kick_of(found, model_of(found)), controls_of(found)[0])
+    assert "cm.models.jeffcott(" in as_python(found, kick_of(found, model_of(found)), controls_of(found)[0])
     assert planar_case_of(replace(case, touchdown=None, drive=None).machine).touchdown is None
 
 
