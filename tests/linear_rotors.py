@@ -25,7 +25,7 @@ def touchdowns(planes, friction, restitution, surface_speed):
 
 @dataclass(frozen=True, eq=False)
 class FixedFrame:
-    """``M Z̈ + (D − iG) Ż + K Z = F e^{it}`` with contact planes; see :meth:`LinearRotor.in_fixed_frame`."""
+    """``M Z̈ + (D − iG) Ż + K Z = F e^{it}`` with contact planes; see :func:`carom.models.from_matrices`."""
 
     mass: np.ndarray
     damping: np.ndarray

@@ -68,4 +68,4 @@ def test_plans_of_models_differ_where_the_models_do():
     rotor, axes = tilting().model, [GridAxis.of("gamma", [0.1])]
     plan, other = (plan_sweep(each, axes, KICKS) for each in (rotor, rotor.replace(mu=0.3)))
     assert plan.digest == plan_sweep(tilting().model, axes, KICKS).digest != other.digest
-    assert plan.name == "LinearRotor"
+    assert plan.name == "Rotor"

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from carom.arguments import checked
 from carom.models import Model, Stage, Staged, Subject, Trigger, model_of
 from carom.models.stages import stages_of
-from carom.models.weight import levitation_of, weighted
+from carom.models.weight import levitation_of
 from carom.motions.starts import Kick, State
 from carom.outcome import InputError, shown
 from carom.parameters import Gravity, own_size, own_time
@@ -100,7 +100,7 @@ class Drop:
         start = self._start(rotor)
         falling = rotor.without_levitation()
         if rotor.weight is None:
-            falling = weighted(falling, ASSUMED)
+            falling = falling.under_gravity(ASSUMED)
         if self.regained_after is None:
             return falling, start
         time = own_time("regained_after", self.regained_after, rotor.scales)
