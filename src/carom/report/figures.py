@@ -21,7 +21,7 @@ from carom.report.figure_files import Picture
 from carom.studies import Study
 from carom.studies.endings import ending_phrase, shown_example
 from carom.studies.kinds import LABELS
-from carom.studies.levitating import Levitating
+from carom.studies.response import unbalance_response
 
 if TYPE_CHECKING:
     from carom.proofs import ProvenKicks
@@ -45,7 +45,7 @@ def pictures(study: Study) -> list[Picture]:
     if not study.heavy:  # under weight levitation is no point there
         figures.append(_overview(study))
     figures += _of_disturbances(study)
-    figures += [*_of_levitation(study.levitating), *_of_loads(study)]
+    figures += [*_of_levitation(study), *_of_loads(study)]
     if study.kicks is not None:
         figures.append(_proven_kicks(study, study.kicks))
     figures += [_of_orbit(study, orbit) for orbit in study.stable_orbits[:MOST_ORBITS]]
@@ -90,8 +90,9 @@ def _of_disturbances(study: Study) -> Iterator[Picture]:
         )
 
 
-def _of_levitation(found: Levitating) -> Iterator[Picture]:
+def _of_levitation(study: Study) -> Iterator[Picture]:
     """Whirls, response and sensitivity of a flexible machine."""
+    found = study.levitating
     machine = found.machine
     if machine is None or found.campbell is None:
         return
@@ -100,8 +101,9 @@ def _of_levitation(found: Levitating) -> Iterator[Picture]:
     shapes = "Shapes of the slowest free whirls at the speed of the machine, from all modes, along the shaft."
     yield Picture("shapes", "levitation", shapes, lambda: plots.mode_shapes(machine, found.whirls))
     if found.response is not None:
-        radii = "Radii of the whirl by unbalance, levitating without contact."
-        yield Picture("unbalance", "levitation", radii, found.response.plot)
+        radii = "Radii (0-to-peak) of the whirl by unbalance over the speed of the shaft, at the touchdown bearings."
+        ends = float(found.response.speeds[0]), float(found.response.speeds[-1])
+        yield Picture("unbalance", "levitation", radii, lambda: unbalance_response(study.case, ends).plot())
     if found.sensitivity is not None:
         peaks = "Sensitivity of each loop, with the zones of ISO 14839-3."
         yield Picture("sensitivity", "levitation", peaks, found.sensitivity.plot)
