@@ -7,6 +7,7 @@ stretch of a motion that is a few impacts long is a guess for Newton's method, w
 from __future__ import annotations
 
 import math
+import time
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, fields, replace
 from typing import Annotated
@@ -66,6 +67,8 @@ KNOWN = 1e-4
 """Relative distance from a known solution below which a stretch is not tried."""
 BARREN = 100
 """Guesses in a row without any solution after which the search ends where walls give way: there each takes hundreds of steps."""
+SECONDS = 25.0
+"""Time of the processor after which no further guess is made for rotors whose motions are not followed side by side."""
 LEAST = 1e-9
 """Least duration of a flight, in ``1/Ω``."""
 
@@ -264,7 +267,10 @@ class Search:
         fruitless = 0
         most = max(1, round(FRUITLESS * usual_share(self.rotor) ** (1.0 / 3.0)))
         barren = BARREN if self.rotor.system.arrays["stiffness"].any() else math.inf
+        limit = math.inf if self.rotor.system.is_planar else time.process_time() + SECONDS
         while tried[1:].min() < guesses and fruitless < most and self.guesses - self.fertile < barren:
+            if time.process_time() > limit:
+                return
             before = tried.sum()
             for count, word, guess in self._stretches(self._start(random), random.uniform() < LANDING):
                 if tried[count] < guesses and not self._is_known(word, guess, KNOWN):
