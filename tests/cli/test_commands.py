@@ -168,7 +168,7 @@ def test_a_lost_blade_is_followed_in_the_machine_after_it(carom, machine):
     value = document(carom("simulate", machine, *quiet, "--blade-loss", "15000 g mm,30 deg", "--json"))
 
     case = load(machine, ["eccentricity=10 um", "damping=3000 N s/m"])
-    rotor, state = BladeLoss(3 / 7).release(case, math.radians(30.0))
+    rotor, state = BladeLoss(3 / 7).apply(case, math.radians(30.0))
     motion = simulate(rotor, state, settle=True)
     assert value["parameters"]["rho"] == pytest.approx(
         abs(case.parameters.rho + 3 / 7 * cmath.exp(1j * math.radians(30.0)))
@@ -183,7 +183,7 @@ def test_a_shock_is_read_as_a_study_reads_it_and_echoed(carom, machine):
     value = document(carom(*options, "20 g, 11 ms, 30 deg", "--json"))
 
     shock = BaseShock.of(case, "20 g", "11 ms")
-    rotor, state = shock.stages(case, math.radians(30.0))
+    rotor, state = shock.apply(case, math.radians(30.0))
     motion = simulate(rotor, state)
     assert complex(*value["start"]["U"]) == pytest.approx(state.position, abs=1e-12)
     assert complex(*value["start"]["V"]) == pytest.approx(state.velocity, abs=1e-12)

@@ -8,7 +8,6 @@ import pytest
 from carom.cli import main
 from carom.cli.starts import (
     check_exact,
-    read_blade_loss,
     read_kick,
     read_positive,
     read_range,
@@ -18,11 +17,17 @@ from carom.cli.starts import (
     with_requirement,
 )
 from carom.disturbances import BladeLoss
+from carom.disturbances.single import Single, read_single
 from carom.loading import load
 from carom.models import axis
 from carom.motions.starts import Kick, State
 from carom.outcome import InputError
 from carom.parameters import Parameters, Requirement, Scales, Shock
+
+
+def read_blade_loss(text, scales):
+    return read_single(BladeLoss, text, scales, "--blade-loss")
+
 
 SCALES = Scales(mass=50.0, clearance=0.7e-3, speed=184.2)
 
@@ -37,8 +42,9 @@ def test_plain_disturbances_are_dimensionless_without_scales():
     assert read_kick("0.4", None) == Kick(0.4)
     assert read_kick("0.4,0.2", None) == Kick(0.4, 0.2)
     assert read_kick("1,2", None) == Kick(1.0, 2.0)
-    assert read_blade_loss("0.4,0.2", None) == (BladeLoss(0.4), 0.2)
-    assert read_blade_loss("0.4,0.2,3", None) == (BladeLoss(0.4, 3), 0.2)
+    assert read_blade_loss("0.4,0.2", None) == Single(BladeLoss(0.4), (0.2,))
+    for node in ("3", "node 3"):
+        assert read_blade_loss(f"0.4,0.2,{node}", None) == Single(BladeLoss(0.4, 3), (0.2,))
     assert read_positive("--peak", "3", "acceleration", None) == 3.0
 
 

@@ -109,7 +109,7 @@ def test_the_motion_is_that_of_an_integration_in_the_fixed_frame():
         machine = LIGHT.replace(eccentricity=2e-4 * random.uniform(0.0, 0.2), damping=random.uniform(500.0, 5000.0))
         change, phase = 2e-4 * random.uniform(0.2, 0.6), random.uniform(-math.pi, math.pi)
         loss = BladeLoss.of(machine, f"{change} m")
-        rotor, state = loss.release(machine, phase)
+        rotor, state = loss.apply(machine, phase)
         impacts, late, found = integrated(machine, change, phase, 4.0)
         motion = cm.simulate(rotor, state, 4.0 * 2.0 * math.pi)
         count = min(len(impacts), 4)  # later ones depend on rounding ever more
@@ -138,10 +138,10 @@ def test_what_is_said_to_be_survived_is():
             tried += 1
         assert survives(machine, machine.clearance * 0.998 * found.all_back, found.angle)
         assert not survives(machine, machine.clearance * 1.001 * found.size, found.angle)
-        motion = cm.simulate(*BladeLoss(found.all_back).release(machine, found.angle), settle=True)
+        motion = cm.simulate(*BladeLoss(found.all_back).apply(machine, found.angle), settle=True)
         assert motion.outcome is Outcome.LEVITATED
         assert len(motion.contacts) > 0  # it is not survived for want of contact
-        lost = cm.simulate(*BladeLoss(found.size).release(machine, found.angle), settle=True)
+        lost = cm.simulate(*BladeLoss(found.size).apply(machine, found.angle), settle=True)
         assert lost.outcome is found.outcome
 
 
@@ -157,7 +157,7 @@ def test_no_contact_below_the_harmless_change():
         if bound == 0.0:
             continue
         loss, phase = BladeLoss(bound * random.uniform(0.9, 1.0)), random.uniform(-math.pi, math.pi)
-        assert len(cm.simulate(*loss.release(machine, phase), until=30.0).contacts) == 0
+        assert len(cm.simulate(*loss.apply(machine, phase), until=30.0).contacts) == 0
 
 
 def test_the_start_is_the_old_whirl():
@@ -177,8 +177,8 @@ def test_the_start_is_the_old_whirl():
 def test_a_rotor_that_does_not_levitate_has_no_start():
     grounded = LIGHT.replace(eccentricity=3e-4)
     assert not Grid(BladeLoss(0.4), (4,)).starts(jeffcott(grounded.parameters)).exists.any()
-    with pytest.raises(InputError, match="before the loss"):
-        BladeLoss(0.4).release(grounded)
+    with pytest.raises(InputError, match="before a disturbance"):
+        BladeLoss(0.4).apply(grounded)
     with pytest.raises(InputError, match="possible"):
         cm.map_basins(grounded, Grid(BladeLoss(0.4), (4,)))
 
@@ -195,7 +195,7 @@ def test_it_goes_where_every_disturbance_goes(tmp_path):
     assert Disturbance.from_description(loss.describe()) == loss
     basin = cm.map_basins(LIGHT, Grid(loss, (24,)))
     for phase, outcome in zip(basin.dataset["phase"].values, basin.outcomes, strict=True):
-        assert cm.simulate(*loss.release(LIGHT, float(phase)), settle=True).outcome == outcome
+        assert cm.simulate(*loss.apply(LIGHT, float(phase)), settle=True).outcome == outcome
     assert 0.0 < basin.share_recovered.fraction < 1.0
     basin.save(tmp_path / "loss.nc")
     assert Basin.load(tmp_path / "loss.nc").plan == basin.plan
@@ -210,7 +210,7 @@ def test_it_goes_where_every_disturbance_goes(tmp_path):
 def test_a_rotor_of_several_coordinates():
     model = tilting().model
     loss = BladeLoss(0.2 * model.value("rho"))
-    after, state = loss.release(model, 0.7)
+    after, state = loss.apply(model, 0.7)
     # Its unbalance is not that of all masses off centre by the same, as the change is: the frame does not turn.
     np.testing.assert_allclose(state.position, model.system.rest, rtol=1e-12)
     change = 0.2 * model.value("rho") * cmath.exp(1j * (0.7 + model.unbalance_phase))
@@ -237,7 +237,7 @@ def test_a_rotor_that_weighs_something_whirls_about_its_sag_before_the_unbalance
     if disturbance == "blade loss":
         before = 0.1 * cmath.exp(0.4j)
         after = before + 0.16 * cmath.exp(1j * (0.4 + phase))
-        changed, start = BladeLoss(0.16).release(rotor, phase)
+        changed, start = BladeLoss(0.16).apply(rotor, phase)
     else:
         before, after = 0.16 * cmath.exp(1j * (0.4 + phase)), 0.1 * cmath.exp(0.4j)
         changed, starts = rotor, cm.disturbances.UnbalanceStep(0.3).starts(rotor, np.array([0.16]), np.array([phase]))

@@ -121,7 +121,7 @@ def test_in_resonance_without_damping(detuned):
 def test_a_motion_through_the_pulse_and_after_it():
     machine = carom.models.jeffcott(PAPER.replace(rho=0.2, gamma=0.3))
     shock = carom.BaseShock(6.0, 1.3)
-    motion = carom.simulate(*shock.stages(machine, 0.3))
+    motion = carom.simulate(*shock.apply(machine, 0.3))
     pulse, after_it = motion.parts
     position, velocity, _ = after(machine.parameters, 6.0, 1.3, 0.3)
     assert (pulse.begins, pulse.time, after_it.begins) == (0.0, 1.3, 1.3)
@@ -150,7 +150,7 @@ def test_a_rotor_that_weighs_something_goes_on_under_the_weight_as_it_points_the
     assert state.position == pytest.approx(place, abs=1e-8)
     assert state.velocity == pytest.approx(speed, abs=1e-8)
     assert state.time == duration
-    motion = carom.simulate(*shock.stages(rotor, direction))
+    motion = carom.simulate(*shock.apply(rotor, direction))
     pulse, after_it = motion.parts
     assert pulse.final.position == pytest.approx(state.position, abs=1e-12)
     assert after_it.begins == duration
@@ -159,7 +159,7 @@ def test_a_rotor_that_weighs_something_goes_on_under_the_weight_as_it_points_the
     (ends,) = follow_machines([(rotor, plan.starts(rotor))], 100)
     peaks, directions = (each.ravel() for each in np.meshgrid(*plan.values(), indexing="ij"))
     for number, outcome in enumerate(ends.outcomes.ravel().tolist()):
-        one = carom.simulate(*carom.BaseShock(peaks[number], duration).stages(rotor, directions[number]))
+        one = carom.simulate(*carom.BaseShock(peaks[number], duration).apply(rotor, directions[number]))
         assert one.outcome == outcome
 
 

@@ -38,7 +38,7 @@ def solved(rates, start, end):
 def test_a_shock_begins_at_levitation_about_the_sag():
     machine = cm.load(MACHINE)
     eccentricity = machine.machine.eccentricity
-    motion = cm.simulate(*cm.BaseShock.of(machine, f"{PEAK} m/s^2", f"{LASTS} s").stages(machine, DIRECTION), "60 ms")
+    motion = cm.simulate(*cm.BaseShock.of(machine, f"{PEAK} m/s^2", f"{LASTS} s").apply(machine, DIRECTION), "60 ms")
 
     def rates(time, state):
         push = MASS * eccentricity * SPEED**2 * cmath.rect(1.0, SPEED * time)
@@ -55,7 +55,7 @@ def test_a_shock_begins_at_levitation_about_the_sag():
 def test_a_bearing_on_a_mount_is_shaken_too():
     mount = ["touchdown_mount_mass=1", "touchdown_mount_stiffness=2e6", "touchdown_mount_damping=200"]
     machine = cm.load(BALLS, mount)
-    motion = cm.simulate(*cm.BaseShock.of(machine, f"{PEAK} m/s^2", f"{LASTS} s").stages(machine, DIRECTION), "13 ms")
+    motion = cm.simulate(*cm.BaseShock.of(machine, f"{PEAK} m/s^2", f"{LASTS} s").apply(machine, DIRECTION), "13 ms")
     position, _ = motion.at(motion.time)
     moved = complex(position[1]) * cmath.rect(1.0, motion.begins + motion.time)
 
@@ -70,7 +70,7 @@ def test_a_blade_is_lost_at_levitation_about_the_sag():
     machine = cm.load(MACHINE)
     scales, phase = machine.parameters.scales, 0.9
     loss = BladeLoss.of(machine, "12 um")
-    after, state = loss.release(machine, phase)
+    after, state = loss.apply(machine, phase)
     turned = cmath.phase(machine.machine.eccentricity + 12e-6 * cmath.exp(1j * phase))
     before = whirl(machine.machine.eccentricity, 0.0) - 9.81j * MASS / STIFFNESS
     # The frame has turned with the unbalance after the loss, and the fixed frame is seen from there.
@@ -92,7 +92,7 @@ def test_losses_of_a_blade_are_mapped():
     phases = basin.dataset["phase"].values
     for place in (0, 5):
         instant = float(basin.dataset["instant"].values[place])
-        motion = cm.simulate(*loss.release(machine, float(phases[place]), instant), 400.0, settle=True)
+        motion = cm.simulate(*loss.apply(machine, float(phases[place]), instant=instant), 400.0, settle=True)
         assert basin.outcomes[place] == motion.outcome
         assert basin.dataset["impacts"].values[place] == len(motion.contacts)
 
@@ -100,7 +100,7 @@ def test_losses_of_a_blade_are_mapped():
 def test_what_sags_to_the_wall_is_refused():
     machine = cm.load(MACHINE, ["stiffness=1e5 N/m"])
     with pytest.raises(InputError, match="levitation = up to"):
-        cm.BaseShock.of(machine, "1 g", "1 ms").stages(machine)
-    with pytest.raises(InputError, match="needs levitation inside the wall before the loss"):
-        BladeLoss(0.1).release(machine)
+        cm.BaseShock.of(machine, "1 g", "1 ms").apply(machine)
+    with pytest.raises(InputError, match="needs levitation inside the wall before a disturbance"):
+        BladeLoss(0.1).apply(machine)
     assert not BladeLoss(0.1).starts(cm.models.model_of(machine), np.array([0.0, 1.0])).exists.any()

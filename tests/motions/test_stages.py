@@ -310,7 +310,7 @@ def test_a_stage_lasts_as_long_as_its_trigger_says():
 def test_a_shock_comes_before_the_stages_of_a_rotor():
     staged = Staged((Stage(ROTOR, Trigger(time=2.0)), Stage(HELPED)))
     shock = cm.BaseShock(2.0, 1.3)
-    motion = cm.simulate(*shock.stages(staged, 0.3))
+    motion = cm.simulate(*shock.apply(staged, 0.3))
     assert [part.begins for part in motion.parts] == pytest.approx([0.0, 1.3, 3.3])
     assert [part.rotor for part in motion.parts[1:]] == [ROTOR, HELPED]
     after = cm.simulate(staged, shock.release(staged, 0.3))

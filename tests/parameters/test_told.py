@@ -5,7 +5,8 @@ import pytest
 from carom.attractors import DisturbanceSet
 from carom.basins.shares import Population
 from carom.disturbances import VelocityKick
-from carom.disturbances.echo import echo_of_kick
+from carom.disturbances.echo import echo_of
+from carom.disturbances.single import Single
 from carom.models import jeffcott
 from carom.parameters import Parameters, Scales
 from carom.parameters.told import number, rounded_down, told, told_angle
@@ -59,6 +60,7 @@ def test_a_speed_is_the_same_text_wherever_it_is_told(scales, speed):
     assert Wording(scales).velocity(speed) == text
     assert VelocityKick(speed).coordinates[0].told(speed, scales) == text
     assert Population.of_model(VelocityKick(speed), scales).words == f"kicks up to {text}"
-    assert echo_of_kick(speed, 0.0, 0.0, scales).words.startswith(f"Kick: {text} at 0°; angles count from ")
     rotor = jeffcott(NUMBERS.replace(scales=scales))
+    kick = Single(VelocityKick(speed), (speed, 0.0))
+    assert echo_of(kick, rotor).words.startswith(f"Kick: {text} at 0°; angles count from ")
     assert f"at up to {text} in the fixed frame" in DisturbanceSet(10, fastest=speed).words(rotor)

@@ -166,7 +166,7 @@ def test_the_loss_of_a_blade_of_the_reduced_rig_is_that_of_all_its_modes():
     for reduced in (machine.reduce(0.02), machine.with_modes(1000)):
         scales = reduced.model.scales
         loss = cm.disturbances.BladeLoss(800e-6 / scales.mass / scales.length)
-        motion = cm.simulate(*loss.release(reduced.model, 0.3), "40 ms")
+        motion = cm.simulate(*loss.apply(reduced.model, 0.3), "40 ms")
         planes = [motion.seen_at(plane).touches for plane in (0, 1)]
         found.append([[each.start[0], each.peak_force[0], each.normal_impulse[0]] for each in planes])
     reduced, full = np.array(found)

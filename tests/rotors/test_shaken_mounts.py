@@ -72,7 +72,7 @@ def solved():
 def test_shocks_shake_the_mounts_of_flexible_machines():
     model = MACHINE.with_modes(MODES).model
     shock = cm.BaseShock.of(model, f"{PEAK} m/s^2", f"{LASTS} s")
-    motion = cm.simulate(*shock.stages(model), f"{END} s")
+    motion = cm.simulate(*shock.apply(model), f"{END} s")
     times, forces = solved()
     scales = model.scales
     for plane in (0, 1):
@@ -99,5 +99,5 @@ def test_the_bound_of_harmless_shocks_counts_the_mount():
     peak = cm.closed_forms.harmless_shock(machine, duration)
     assert peak > 0.0
     for angle in (0.0, 1.5, 3.0, 4.5):
-        motion = cm.simulate(*cm.BaseShock(0.999 * peak, duration).stages(machine, angle), 60.0)
+        motion = cm.simulate(*cm.BaseShock(0.999 * peak, duration).apply(machine, angle), 60.0)
         assert not any(len(part.touches) for part in motion.parts)

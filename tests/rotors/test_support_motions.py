@@ -130,7 +130,7 @@ def test_shocks_end_as_their_stages_do():
     shock = BaseShock.of(model, "30 g", "2 ms")
     for direction in (0.0, 1.0):
         state = shock.release(model, direction)
-        stages, start = shock.stages(model, direction)
+        stages, start = shock.apply(model, direction)
         motion = cm.simulate(stages, start, shock.duration * (1.0 + 1e-12))
         assert np.asarray(state.position) == pytest.approx(motion.parts[0].final.position, abs=1e-9)
         assert np.asarray(state.velocity) == pytest.approx(motion.parts[0].final.velocity, abs=1e-8)
@@ -139,7 +139,7 @@ def test_shocks_end_as_their_stages_do():
 @pytest.mark.parametrize("phase", [0.0, 1.1])
 def test_before_the_loss_of_a_blade_it_levitates_and_the_frame_turns_with_the_only_unbalance(phase):
     model = REDUCED.model
-    after, state = BladeLoss(2.0 * model.value("rho")).release(model, phase)
+    after, state = BladeLoss(2.0 * model.value("rho")).apply(model, phase)
     (before,), (changed,) = (each.rotor.finite_elements.machine.unbalances for each in (model, after))
     turned = state.time
     start = model.system.states_of(model.system.forced_at(0.0)[None])[0].reshape(2, -1) * np.exp(-1j * turned)

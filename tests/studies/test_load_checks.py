@@ -114,7 +114,7 @@ def test_shocks_and_losses_of_a_blade_that_must_be_survived_count():
     (check,) = worst.checks
     hardest, later = 0.0, 0.0
     for place in range(24):
-        first, second = cm.simulate(*shock.stages(MACHINE, 2.0 * math.pi * place / 24)).parts
+        first, second = cm.simulate(*shock.apply(MACHINE, 2.0 * math.pi * place / 24)).parts
         hardest = max(hardest, first.contacts.normal_impulse.max(), second.contacts.normal_impulse.max(initial=0.0))
         later = max(later, second.contacts.normal_impulse.max(initial=0.0))
     assert check.value == pytest.approx(hardest * MACHINE.parameters.scales.impulse)

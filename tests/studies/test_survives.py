@@ -49,7 +49,7 @@ def test_bracket_of_losses_of_a_blade(found):
         # The frame turns with the unbalance after the loss.
         place = jeffcott(SOURCE).equilibrium * abs(after) / after
         assert settle(jeffcott(SOURCE.replace(rho=abs(after))), [place], [0j]).recovered.all()
-    assert simulate(*BladeLoss(loss.size).release(SOURCE, loss.angle), settle=True).outcome is not Outcome.LEVITATED
+    assert simulate(*BladeLoss(loss.size).apply(SOURCE, loss.angle), settle=True).outcome is not Outcome.LEVITATED
 
 
 def test_shocks_are_of_the_duration_required(found):

@@ -15,7 +15,7 @@ from carom.outcome import InputError
 if TYPE_CHECKING:
     from carom.disturbances.echo import Echo
     from carom.models import Model
-    from carom.motions.starts import Kick, State
+    from carom.motions.starts import State
     from carom.motions.trajectories import Trajectory
     from carom.parameters import Case
     from carom.progress import Reporter
@@ -61,11 +61,11 @@ def simulate(
         end = None if until is None else read_time(until, case.parameters.scales)
         released = read_release(case, ways, regained_after) if drop else None
 
-        def read(case: Case) -> tuple[Model, State | Kick, Echo]:
+        def read(case: Case) -> tuple[Model, State, Echo]:
             return _read(case, ways, instant) if released is None else release(case, released)
 
         rotor, given, echo = read(case)
-        motion = _follow(rotor, given, kick, end, tell if out is None else tell.part(0.0, 0.4))
+        motion = _follow(rotor, given, end, tell if out is None else tell.part(0.0, 0.4))
         from carom.motions import drop_loads
 
         _write_logs(logs, motion)
@@ -155,10 +155,11 @@ def _shown(motion: Trajectory) -> tuple[Trajectory, str]:
     return follow(rotor, motion.start, until_decayed(rotor, motion.time)), "returns to levitation"
 
 
-def _read(case: Case, ways: dict[str, str | None], given_instant: str | None) -> tuple[Model, State | Kick, Echo]:
+def _read(case: Case, ways: dict[str, str | None], given_instant: str | None) -> tuple[Model, State, Echo]:
     """Read the machine that moves, its start and what was taken; refuse wrong input before kernels are loaded."""
-    from carom.cli.starts import read_blade_loss, read_instant, read_kick, read_shock, read_start
-    from carom.disturbances import echo
+    from carom.cli.starts import read_instant, read_start
+    from carom.disturbances import BaseShock, BladeLoss, VelocityKick, echo
+    from carom.disturbances.single import read_single
 
     scales = case.parameters.scales
     chosen = {option: text for option, text in ways.items() if text is not None}
@@ -170,26 +171,18 @@ def _read(case: Case, ways: dict[str, str | None], given_instant: str | None) ->
         )
         raise InputError("--start", given, allowed)
     ((option, text),) = chosen.items()
-    if option == "--blade-loss":
-        loss, phase = read_blade_loss(text, scales)
-        rotor = _rotor(case)
-        before = None if rotor.numbers is None else rotor.value("rho")
-        instant = read_instant(given_instant, rotor)
-        said = echo.echo_of_blade_loss(loss, phase, before, scales)
-        return *loss.release(rotor, phase, instant), echo.echo_at(said, rotor, instant)
-    if option == "--shock":
-        pulse, angle = read_shock(text, case)
-        rotor = _rotor(case)
-        instant = read_instant(given_instant, rotor)
-        said = echo.echo_of_shock(pulse.peak, pulse.duration, angle, rotor.unbalance_phase, scales)
-        return *pulse.stages(rotor, angle, instant), echo.echo_at(said, rotor, instant)
-    if option == "--kick":
-        kick, rotor = read_kick(text, scales), _rotor(case)
-        instant = read_instant(given_instant, rotor)
-        said = echo.echo_of_kick(float(kick.speed), float(kick.angle), rotor.unbalance_phase, scales)
-        return rotor, replace(kick, instant=instant), echo.echo_at(said, rotor, instant)
-    state, rotor = read_start(text, scales, case.touchdown is not None and case.touchdown.yields), _rotor(case)
+    rotor = _rotor(case)
     instant = read_instant(given_instant, rotor)
+    if option != "--start":
+        kinds = {"--kick": VelocityKick, "--shock": BaseShock, "--blade-loss": BladeLoss}
+        single = replace(read_single(kinds[option], text, scales, option), instant=instant)
+        try:
+            return *single.stages(rotor), echo.echo_of(single, rotor)
+        except InputError as problem:
+            if problem.field in ("kick", "disturbance"):
+                raise InputError(option, text, f"{problem.allowed}; use --start") from None
+            raise
+    state = read_start(text, scales, case.touchdown is not None and case.touchdown.yields)
     said = echo.echo_of_start(state, rotor.unbalance_phase, scales)
     return rotor, replace(state, time=instant), echo.echo_at(said, rotor, instant)
 
@@ -200,12 +193,7 @@ def _rotor(case: Case) -> Model:
     return model_of(case)
 
 
-def _follow(rotor: Model, start: State | Kick, kick: str | None, end: float | None, tell: Reporter) -> Trajectory:
+def _follow(rotor: Model, start: State, end: float | None, tell: Reporter) -> Trajectory:
     from carom.motions.simulation import simulate as follow
-    from carom.motions.starts import Kick
 
-    radius = rotor.system.rest_radius
-    if isinstance(start, Kick) and radius > 1.0 and rotor.system.forced is None:  # with weight the kick itself says so
-        words = f"needs levitation, but |U*| = {radius:.6g} is outside the wall; use --start"
-        raise InputError("--kick", kick, words)
     return follow(rotor, start, end, progress=tell)

@@ -9,8 +9,9 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING
 
+from carom.disturbances.single import split_text
 from carom.outcome import InputError, together
 from carom.parameters import (
     DIMENSIONLESS_FIELDS,
@@ -18,27 +19,20 @@ from carom.parameters import (
     Field,
     Requirement,
     Scales,
-    Shock,
     own_time,
     read_quantity,
     read_size,
     read_unbalance,
 )
-from carom.parameters.quantities import comma_advice, without_separators
 from carom.parameters.terms import SETTABLE, set_by
 
 if TYPE_CHECKING:
-    from carom.disturbances import BaseShock, BladeLoss
     from carom.models import Axis, Model
     from carom.motions.drops import Whirl
     from carom.motions.starts import Kick, State
 
 _START = "must be four values RE,IM,VRE,VIM such as 0.5,0,0,0.1 or '0.3 mm,0 mm,5 mm/s,0 m/s'"
-_BLADE_LOSS = "must be CHANGE, CHANGE,PHASE or CHANGE,PHASE,NODE such as ", "'0.1 mm,30 deg' or '5000 g mm,30 deg,2'"
-_KICK = "must be SPEED or SPEED,ANGLE such as ", "'50 mm/s,30 deg'"
 _WHIRL = "must be RADIUS,SPEED or RADIUS,SPEED,ANGLE such as '0.1 mm,-80 Hz,30 deg'"
-_OWN = "0.4,0.2"
-"""Sizes with an angle of a machine in units of the equations."""
 
 
 def read_start(text: str, scales: Scales | None, gives_way: bool = False) -> State:
@@ -46,7 +40,7 @@ def read_start(text: str, scales: Scales | None, gives_way: bool = False) -> Sta
 
     A start may lie in a wall that gives way.
     """
-    parts = _split("--start", text, (4,), _START)
+    parts = split_text("--start", text, (4,), _START)
     x, y = (read_size("--start", part, "length", scales).own(scales) for part in parts[:2])
     vx, vy = (read_size("--start", part, "velocity", scales).own(scales) for part in parts[2:])
     radius = math.hypot(x, y)
@@ -59,16 +53,16 @@ def read_start(text: str, scales: Scales | None, gives_way: bool = False) -> Sta
 
 def read_kick(text: str, scales: Scales | None) -> Kick:
     """Read ``SPEED`` or ``SPEED,ANGLE``: a velocity kick out of levitation, co-rotating frame."""
-    speed, direction = _with_angle("--kick", text, _KICK, scales)
-    size = _size("--kick", speed, "velocity", scales)
+    from carom.disturbances import VelocityKick
+    from carom.disturbances.single import read_single
     from carom.motions.starts import Kick
 
-    return Kick(size, direction)
+    return Kick(*read_single(VelocityKick, text, scales, "--kick").values)
 
 
 def read_whirl(text: str, scales: Scales | None) -> Whirl:
     """Read ``RADIUS,SPEED`` or ``RADIUS,SPEED,ANGLE``: a whirl about the centre, in the fixed frame; backward with a negative speed."""
-    radius, speed, *angle = _split("--whirl", text, (2, 3), _WHIRL)
+    radius, speed, *angle = split_text("--whirl", text, (2, 3), _WHIRL)
     place = _angle("--whirl", angle[0], scales) if angle else 0.0
     sizes = _size("--whirl", radius, "length", scales), _size("--whirl", speed, "speed", scales)
     if not 0.0 <= sizes[0] <= 1.0:
@@ -98,37 +92,6 @@ def read_phase(option: str, text: str, scales: Scales | None) -> float:
 def read_speed(option: str, text: str, scales: Scales | None) -> float:
     """Read an angular speed, which may be negative, in ``Ω``."""
     return _size(option, text, "speed", scales)
-
-
-def read_blade_loss(text: str, scales: Scales | None) -> tuple[BladeLoss, float]:
-    """Read ``CHANGE``, ``CHANGE,PHASE`` or ``CHANGE,PHASE,NODE``: by how much the unbalance changes, at which phase relative to that before it, and where."""
-    rest, _, last = text.rpartition(",")
-    node = int(last) if "," in rest and last.strip().isdecimal() else None
-    change, phase = _with_angle("--blade-loss", text if node is None else rest, _BLADE_LOSS, scales)
-    from carom.disturbances import BladeLoss
-
-    return BladeLoss(read_loss("--blade-loss", change, scales), node), phase
-
-
-def read_shock(text: str, machine: Case) -> tuple[BaseShock, float]:
-    """Read ``PEAK``, ``PEAK,DURATION`` or ``PEAK,DURATION,ANGLE``: a shock of the base as a study reads it, and its direction."""
-    scales, parts = machine.parameters.scales, text.split(",")
-    shock, angle = (",".join(parts[:2]), parts[2].strip()) if len(parts) == 3 else (text, "0")
-    given = cast(Shock, with_requirement(machine, shock=shock).requirement.own(scales).shock)
-    from carom.disturbances import BaseShock
-
-    return BaseShock(given.peak, given.duration), _angle("--shock", angle, scales)
-
-
-def _with_angle(option: str, text: str, words: tuple[str, str], scales: Scales | None) -> tuple[str, float]:
-    """Split a size and perhaps an angle, 0 by default; say what is meant by a comma that seems to mark decimals."""
-    allowed = words[0] + (words[1] if scales else _OWN)
-    size, *angle = _split(option, text, (1, 2), allowed)
-    if angle and (advice := comma_advice(text)) and (scales is not None or not size.strip("0.")):
-        raise InputError(
-            option, text, f"{allowed}; {advice}{' with its unit' if scales and not any(map(str.isalpha, text)) else ''}"
-        )
-    return size, _angle(option, angle[0], scales) if angle else 0.0
 
 
 def _angle(option: str, text: str, scales: Scales | None) -> float:
@@ -201,7 +164,7 @@ def _of_command_line(field: Field) -> Field:
 def read_range(option: str, text: str, varied: Axis) -> tuple[float, float]:
     """Read ``A,B``, the ends of a range of a parameter in either order; return the smaller one first."""
     allowed = f"must be two different values of {varied.name} with a comma between them"
-    ends = [read_value(option, part, varied) for part in _split(option, text, (2,), allowed)]
+    ends = [read_value(option, part, varied) for part in split_text(option, text, (2,), allowed)]
     return _ascending(option, text, allowed, ends)
 
 
@@ -214,7 +177,7 @@ def read_ends(start: str, end: str, varied: Axis) -> tuple[float, float]:
 def read_entry_range(option: str, text: str, case: Case, entry: str) -> tuple[float, float]:
     """Read a range of an entry of the machine file, in either order, as one of the parameter that it states."""
     allowed = f"must be two different values of {entry} with a comma between them"
-    ends = [_stated(option, part, case, entry) for part in _split(option, text, (2,), allowed)]
+    ends = [_stated(option, part, case, entry) for part in split_text(option, text, (2,), allowed)]
     return _ascending(option, text, allowed, ends)
 
 
@@ -230,16 +193,3 @@ def _stated(option: str, text: str, case: Case, entry: str) -> float:
         return float(getattr(case.replace(**{entry: text}).machine, set_by(entry)))
     except InputError as problem:
         raise InputError(option, problem.errors[0].value, f"{entry} {problem.errors[0].allowed}") from None
-
-
-def _split(option: str, text: str, counts: tuple[int, ...], allowed: str) -> list[str]:
-    """Split at commas, but not at those that separate thousands."""
-    pieces, parts = text.split(","), list[str]()
-    while pieces:
-        sizes = range(len(pieces), 1, -1)  # the longest that is one number
-        size = next((size for size in sizes if "," not in without_separators(",".join(pieces[:size]))), 1)
-        parts.append(",".join(pieces[:size]).strip())
-        del pieces[:size]
-    if len(parts) not in counts or not all(parts):
-        raise InputError(option, text, allowed)
-    return parts

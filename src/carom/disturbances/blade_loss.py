@@ -10,12 +10,10 @@ import numpy as np
 
 from carom.disturbances.coordinates import Coordinate, Starts, angle_coordinate, complex_of
 from carom.disturbances.model import Disturbance
-from carom.outcome import InputError
-from carom.parameters import own_size
+from carom.disturbances.single import Part
 
 if TYPE_CHECKING:
-    from carom.models import Model, Subject
-    from carom.motions.starts import State
+    from carom.models import Model
 
 
 @dataclass(frozen=True)
@@ -53,6 +51,12 @@ class BladeLoss(Disturbance):
     noun: ClassVar[str] = "losses of a blade"
     measured_in: ClassVar[dict[str, str]] = {"change": "unbalance"}
     changes_machine: ClassVar[bool] = True
+    parts: ClassVar = (
+        Part("change", "CHANGE", "unbalance", optional=False),
+        Part("phase", "PHASE", "angle", 0.0),
+        Part("node", "NODE", "node"),
+    )
+    example: ClassVar = "'0.1 mm,30 deg' or '5000 g mm,30 deg,node 2'"
 
     @property
     def coordinates(self) -> tuple[Coordinate, ...]:
@@ -63,35 +67,6 @@ class BladeLoss(Disturbance):
         """Levitation of the machine before the loss, in the frame in which the phase of the unbalance stays the same."""
         (phases,) = values
         return starts_after(rotor, self.change, phases, self.node, instant)
-
-    def release(self, machine: Subject, phase: float = 0.0, instant: float = 0.0) -> tuple[Model, State]:
-        """Return the machine after the loss and the state in which it starts, for :func:`carom.simulate`.
-
-        Parameters
-        ----------
-        machine : Machine, Case, Parameters or model
-            Before the loss.
-        phase : float
-            Phase of the change relative to the unbalance before, rad.
-        instant : float
-            Angle by which the shaft has turned at the loss, rad, since the co-rotating frame coincided with the fixed one.
-
-        Raises
-        ------
-        InputError
-            The rotor cannot levitate inside the wall before the loss.
-        """
-        from carom.models import model_of
-        from carom.motions.starts import State
-
-        rotor = model_of(machine)
-        turned, begun = own_size("phase", phase, "angle", None), own_size("instant", instant, "angle", None)
-        starts = self.starts(rotor, np.array([turned]), instant=begun)
-        if not starts.exists[0] or starts.after is None:
-            radius = f"|U*| = {rotor.system.rest_radius:.6g}"
-            raise InputError("disturbance", radius, "needs levitation inside the wall before the loss")
-        state = State.of(starts.positions[0], starts.velocities[0], time=float(starts.begins[0]))
-        return starts.after[0], state
 
 
 def starts_after(

@@ -10,11 +10,12 @@ import numpy as np
 
 from carom.disturbances.coordinates import Coordinate, Starts, angle_coordinate, complex_of, displaced, speed_coordinate
 from carom.disturbances.model import FASTEST, Disturbance
-from carom.outcome import InputError, Outcome
-from carom.parameters import own_size
+from carom.disturbances.single import Part
+from carom.outcome import InputError
+from carom.parameters.requirement import SHOCK_DURATION
 
 if TYPE_CHECKING:
-    from carom.models import Model, Staged, Subject
+    from carom.models import Model, Subject
     from carom.motions.starts import State
 
 LONGEST_SHOCK = 1e4
@@ -50,6 +51,8 @@ class VelocityKick(Disturbance):
     kind: ClassVar[str] = "kick"
     noun: ClassVar[str] = "kicks"
     measured_in: ClassVar[dict[str, str]] = {"fastest": "velocity"}
+    parts: ClassVar = (Part("speed", "SPEED", "velocity", optional=False), Part("direction", "ANGLE", "angle", 0.0))
+    example: ClassVar = "'50 mm/s,30 deg'"
 
     @property
     def coordinates(self) -> tuple[Coordinate, ...]:
@@ -63,6 +66,17 @@ class VelocityKick(Disturbance):
         speed, direction = values
         velocity = complex_of(speed * np.cos(direction), speed * np.sin(direction))
         return _kicked(rotor, velocity, instant)
+
+    def apply(self, machine: Subject, *values: float | str, instant: float | str = 0.0) -> tuple[Model, State]:
+        """See :meth:`Disturbance.apply`."""
+        from carom.models import model_of
+        from carom.motions.starts import Kick
+
+        rotor, radius = model_of(machine), model_of(machine).system.rest_radius
+        if radius > 1.0 and rotor.system.forced is None:  # with weight the kick itself says so
+            words = f"needs levitation, but |U*| = {radius:.6g} is outside the wall"
+            raise InputError("kick", radius, words)
+        return rotor, Kick(*self.whole(values, instant)).state(rotor)
 
 
 @dataclass(frozen=True)
@@ -147,6 +161,12 @@ class BaseShock(Disturbance):
     kind: ClassVar[str] = "shock"
     noun: ClassVar[str] = "shocks"
     measured_in: ClassVar[dict[str, str]] = {"peak": "acceleration", "duration": "time"}
+    parts: ClassVar = (
+        Part("peak", "PEAK", "acceleration", optional=False),
+        Part("duration", "DURATION", "time", SHOCK_DURATION),
+        Part("direction", "ANGLE", "angle", 0.0),
+    )
+    example: ClassVar = "'5 g,11 ms,30 deg'"
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -174,8 +194,8 @@ class BaseShock(Disturbance):
         begins = begun + self.duration if depends_on_instant(rotor) else np.zeros(peaks.shape)
         return Starts(positions, velocities, np.ones(peaks.shape, bool), ended, touched, begins)
 
-    def stages(self, machine: Subject, direction: float = 0.0, instant: float = 0.0) -> tuple[Staged, State]:
-        """Return the machine under the largest shock and then without, and its start at levitation, for :func:`carom.simulate`.
+    def apply(self, machine: Subject, *values: float | str, instant: float | str = 0.0) -> tuple[Model, State]:
+        """Return the machine under a shock and then without, and its start at levitation, for :func:`carom.simulate`.
 
         Contacts during the shock are part of the motion.  Stages of the machine begin when the shock is over.  A machine with weight
         levitates about its static sag when the shock begins.
@@ -183,8 +203,8 @@ class BaseShock(Disturbance):
         Parameters
         ----------
         machine : Machine, Case, Parameters or model
-        direction : float
-            Of the acceleration, rad.
+        *values : float
+            Peak, by default the largest, and direction of the acceleration, rad.
         instant : float
             Angle by which the shaft has turned when the shock begins, rad, since the frame that turns with it coincided with the fixed
             one: under weight it says where this points.
@@ -201,8 +221,8 @@ class BaseShock(Disturbance):
 
         further = stages_of(model_of(machine))
         rotor = further[0].rotor
-        size = cmath.rect(self.peak, own_size("direction", direction, "angle", None)) / 2j
-        start = Kick(0.0, instant=instant).state(rotor)
+        peak, direction, begun = self.whole(values, instant)
+        size, start = cmath.rect(peak, direction) / 2j, Kick(0.0, instant=begun).state(rotor)
         pulse = Stage(shaken(rotor, self.duration, size, start.time), Trigger(time=self.duration))
         return Staged((pulse, *further)), start
 
@@ -222,18 +242,7 @@ class BaseShock(Disturbance):
         InputError
             The rotor cannot levitate inside the wall, or its motion ends during the pulse, as where it grazes the wall undecidedly.
         """
-        from carom.models import model_of
-        from carom.motions.starts import State
-
-        turned, begun = own_size("direction", direction, "angle", None), own_size("instant", instant, "angle", None)
-        starts = self.starts(model_of(machine), np.array([self.peak]), np.array([turned]), instant=begun)
-        if not starts.exists[0]:
-            radius = f"|U*| = {model_of(machine).system.rest_radius:.6g}"
-            raise InputError("disturbance", radius, "needs levitation inside the wall before the shock")
-        if starts.ended[0]:
-            words = f"another peak or direction: with this one the motion ends during the pulse ({Outcome(int(starts.ended[0])).words})"
-            raise InputError("peak", self.peak, words)
-        return State.of(starts.positions[0], starts.velocities[0], time=float(starts.begins[0]))
+        return super().apply(machine, direction, instant=instant)[1]
 
 
 def outward_from(machine: Subject) -> complex:

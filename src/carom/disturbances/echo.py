@@ -15,7 +15,7 @@ from carom.parameters.told import number, told, told_angle
 from carom.results import in_si
 
 if TYPE_CHECKING:
-    from carom.disturbances.blade_loss import BladeLoss
+    from carom.disturbances.single import Single
     from carom.models import Model
     from carom.motions.starts import State
     from carom.parameters import Gravity
@@ -68,9 +68,28 @@ def angles_words(phase: float, when: str = "") -> str:
     return f"angles count from the x axis that turns with the shaft{when}, in the sense of rotation (the unbalance lies at {told_angle(phase)})"
 
 
-def echo_of_kick(speed: float, angle: float, phase: float, scales: Scales | None) -> Echo:
-    """A velocity kick out of levitation; ``phase`` is that of the unbalance, as in the other echoes."""
-    words = f"Kick: {told(speed, 'velocity', scales)} at {told_angle(angle)}; {angles_words(phase)}"
+def echo_of(single: Single, rotor: Model) -> Echo:
+    """A single disturbance of a rotor as it was taken: its kind, its sizes, and from where its angles count."""
+    told_by = {"kick": _echo_of_kick, "shock": _echo_of_shock, "blade-loss": _echo_of_blade_loss}
+    found = told_by.get(single.model.kind, _echo_of_any)(single, rotor)
+    return echo_at(found, rotor, single.instant)
+
+
+def _echo_of_any(single: Single, rotor: Model) -> Echo:
+    axes = single.model.coordinates
+    sizes = {each.name: (value, each.scale) for each, value in zip(axes, single.values, strict=True)}
+    told_sizes = (
+        f"{each.words} {told(value, each.scale, rotor.scales) if each.scale else told_angle(value)}"
+        for each, value in zip(axes, single.values, strict=True)
+    )
+    return Echo(single.model.kind, f"Disturbance, {single.model.kind}: {', '.join(told_sizes)}", sizes)
+
+
+def _echo_of_kick(single: Single, rotor: Model) -> Echo:
+    speed, angle = single.values
+    words = (
+        f"Kick: {told(speed, 'velocity', rotor.scales)} at {told_angle(angle)}; {angles_words(rotor.unbalance_phase)}"
+    )
     return Echo("kick", words, {"speed": (speed, "velocity"), "angle": (angle, "")})
 
 
@@ -84,19 +103,24 @@ def echo_at(echo: Echo, rotor: Model, instant: float) -> Echo:
     return replace(echo, words=words, sizes={**echo.sizes, "instant": (instant, "")})
 
 
-def echo_of_shock(peak: float, duration: float, angle: float, phase: float, scales: Scales | None) -> Echo:
+def _echo_of_shock(single: Single, rotor: Model) -> Echo:
     """A half-sine shock of the base, with which the motion begins."""
+    (peak, angle), duration = single.values, float(single.model.describe()["duration"])  # type: ignore[arg-type]
+    scales = rotor.scales
     size = f"{told(peak, 'acceleration', scales)} for {told(duration, 'time', scales)} at {told_angle(angle)}"
     words = (
-        f"Shock of the base: half-sine, {size}; {angles_words(phase, ', as it lies when the shock begins')}; "
+        f"Shock of the base: half-sine, {size}; {angles_words(rotor.unbalance_phase, ', as it lies when the shock begins')}; "
         "times count from then"
     )
     sizes = {"peak": (peak, "acceleration"), "duration": (duration, "time"), "angle": (angle, "")}
     return Echo("shock", words, sizes)
 
 
-def echo_of_blade_loss(loss: BladeLoss, phase: float, before: float | None, scales: Scales | None) -> Echo:
+def _echo_of_blade_loss(single: Single, rotor: Model) -> Echo:
     """A loss of a blade at a phase relative to the unbalance before, whose eccentricity is told for rotors with one unbalance alone."""
+    loss: Any = single.model
+    (phase,), scales = single.values, rotor.scales
+    before = None if rotor.numbers is None else rotor.value("rho")
     kind, noun = ("unbalance", "unbalance") if scales else ("length", "eccentricity")
     where = "" if loss.node is None else f" at node {loss.node}"
     words = (

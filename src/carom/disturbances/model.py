@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from inspect import signature
 from typing import TYPE_CHECKING, Any, ClassVar, Self
@@ -12,11 +12,13 @@ import numpy as np
 
 from carom.arguments import checked, is_number
 from carom.disturbances.coordinates import INSTANT, Coordinate, Starts
-from carom.outcome import InputError, shown
+from carom.disturbances.single import Part, Single, read_single
+from carom.outcome import InputError, Outcome, shown
 from carom.parameters import Scales, own_size, own_unbalance, usual_kick
 
 if TYPE_CHECKING:
     from carom.models import Model, Subject
+    from carom.motions.starts import State
 
 FASTEST = usual_kick(None)
 """Largest speed in ``c_r Ω`` of a disturbance that is made without a machine."""
@@ -41,12 +43,18 @@ class Disturbance:
         keeps its size in SI units where a sweep or a gain map changes the scales.
     changes_machine : bool
         Whether the machine after it is another one; then its starts say which.
+    parts : tuple of Part
+        The text of a single one: the fields and coordinates that it states, in turn.
+    example : str
+        Such a text in quotes.
     """
 
     kind: ClassVar[str] = ""
     noun: ClassVar[str] = "disturbances"
     measured_in: ClassVar[dict[str, str]] = {}
     changes_machine: ClassVar[bool] = False
+    parts: ClassVar[tuple[Part, ...]] = ()
+    example: ClassVar[str] = ""
 
     def __init_subclass__(cls, **keywords: Any) -> None:
         super().__init_subclass__(**keywords)
@@ -94,6 +102,77 @@ class Disturbance:
             (:func:`carom.models.depends_on_instant`).
         """
         raise NotImplementedError
+
+    @classmethod
+    def read(cls, text: str, machine: Subject, name: str = "") -> Single:
+        """Read a single disturbance, such as ``VelocityKick.read("60 mm/s, 30 deg", machine)``, for :func:`carom.simulate`.
+
+        Parameters
+        ----------
+        text : str
+            Its :attr:`parts` with commas between them; those at the end may be left out.
+        machine : Machine, Case, Parameters or model
+        name : str
+            What errors call it, by default its kind.
+
+        Raises
+        ------
+        InputError
+            The text is none of this kind.
+        """
+        from carom.models import model_of
+
+        if not cls.parts:
+            raise InputError(name or cls.kind, shown(text), "a kind of disturbance that has a text")
+        return read_single(cls, text, model_of(machine).scales, name or cls.kind)
+
+    def apply(self, machine: Subject, *values: float | str, instant: float | str = 0.0) -> tuple[Model, State]:
+        """Return the machine that moves after one disturbance, perhaps in stages or another one than before, and its start.
+
+        Parameters
+        ----------
+        machine : Machine, Case, Parameters or model
+        *values : float
+            Values of the coordinates in turn, in units of the equations; a size that comes first may be left out for the largest, and angles
+            that come last for 0.
+        instant : float
+            Angle by which the shaft has turned when it comes, rad, since the co-rotating frame coincided with the fixed one.
+
+        Raises
+        ------
+        InputError
+            The rotor cannot levitate inside the wall before it, or its motion ends during it.
+        """
+        from carom.models import depends_on_instant, model_of
+        from carom.motions.starts import State
+
+        rotor = model_of(machine)
+        *own, begun = self.whole(values, instant)
+        given = [np.array([each]) for each in own]
+        starts = self.starts_on(rotor, *given, *([np.array([begun])] if depends_on_instant(rotor) else []))
+        if not starts.exists[0]:
+            radius = f"|U*| = {rotor.system.rest_radius:.6g}"
+            raise InputError(
+                "disturbance", radius, f"needs levitation inside the wall before a disturbance ({self.kind})"
+            )
+        if starts.ended[0]:
+            words = f"another size or direction: with this one the motion ends during it ({Outcome(int(starts.ended[0])).words})"
+            raise InputError("disturbance", self.kind, words)
+        state = State.of(starts.positions[0], starts.velocities[0], time=float(starts.begins[0]))
+        return rotor if starts.after is None else starts.after[0], state
+
+    def whole(self, values: Sequence[float | str], instant: float | str) -> tuple[float, ...]:
+        """Values of all coordinates and the instant, checked, from those that are given."""
+        axes = self.coordinates
+        if len(values) < len(axes) and self.size == axes[0]:
+            values = (axes[0].high, *values)
+        values = (*values, *(0.0 for each in axes[len(values) :] if each.periodic))
+        if len(values) != len(axes):
+            raise InputError("values", shown(values), f"one for each of {', '.join(each.name for each in axes)}")
+        return tuple(
+            own_size(each.name, value, each.scale if each.scale else "angle", None)
+            for each, value in zip((*axes, INSTANT), (*values, instant), strict=True)
+        )
 
     def coordinates_on(self, rotor: Model) -> tuple[Coordinate, ...]:
         """Coordinates by which the disturbance varies on a machine: those of the model, and the instant where that matters."""

@@ -37,6 +37,11 @@ class Whirl:
     speed: float | str
     angle: float | str = 0.0
 
+    def stages(self, machine: Subject) -> tuple[Model, State]:
+        """Return the machine, which goes on levitating, and its start."""
+        rotor = model_of(machine)
+        return rotor, self.state(rotor)
+
     def state(self, rotor: Model) -> State:
         """Return the state at that instant; what does not move with the rotor, such as a mount, is at rest.
 

@@ -15,13 +15,12 @@ from carom.core.wall_work import DEPTH, FORCE, HEAT, POWER
 from carom.models import Subject
 from carom.motions.bearing_loads import Braking, DropLoads, FirstContact, PlaneLoads
 from carom.motions.contacts import ContactLog, presses, race_speed, yields
-from carom.motions.drops import Drop
 from carom.motions.last_whirl import LAST_TURNS, last_whirl
 from carom.motions.ledger import contact_power
 from carom.motions.loads import TouchdownLoads
 from carom.motions.magnets import MagnetReach, reach_with
 from carom.motions.simulation import stretches
-from carom.motions.starts import Kick, State, Until
+from carom.motions.starts import Beginning, State, Until
 from carom.motions.touches import ContactWorks, contact_works, touches_of
 from carom.motions.trajectories import Trajectory, joined
 from carom.outcome import Outcome, Phase
@@ -37,7 +36,7 @@ MOST_KEPT = 16_384
 @shows_progress
 def follow_loads(
     machine: Subject,
-    start: State | Kick | Drop,
+    start: State | Beginning,
     until: Until | None = None,
     *,
     settle: bool | None = None,

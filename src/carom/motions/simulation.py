@@ -16,7 +16,6 @@ from carom.core.phases import AWAY, FLIGHT
 from carom.models import Model, Subject, Trigger, model_of
 from carom.models.stages import stages_of
 from carom.motions.budget import present_question
-from carom.motions.drops import Drop
 from carom.motions.settling import (
     LOW_FOR,
     PATIENCE,
@@ -29,7 +28,7 @@ from carom.motions.settling import (
     settled,
     time_limit,
 )
-from carom.motions.starts import Kick, State, Until, amplitudes_of
+from carom.motions.starts import Beginning, State, Until, amplitudes_of
 from carom.motions.trajectories import Trajectory, joined
 from carom.outcome import Outcome
 from carom.parameters import own_time
@@ -43,7 +42,7 @@ CHUNK = 4096
 @shows_progress
 def simulate(
     machine: Subject,
-    start: State | Kick | Drop,
+    start: State | Beginning,
     until: Until | None = None,
     *,
     settle: bool | None = None,
@@ -58,7 +57,7 @@ def simulate(
     ----------
     machine : Machine, Case, Parameters or model
         Of a :class:`carom.models.Staged` the last stage reached is returned, with the ``earlier`` ones.
-    start : State, Kick or Drop
+    start : State, Kick, Drop or carom.disturbances.single.Single
         On the wall (``|U| = 1`` to within 1e-12) or inside it.  After a drop the rotor of the motion is the one that falls.
     until : float or str, optional
         Time to follow it, in ``1/Ω`` or text with a unit, such as ``"2 s"``; by default to where it settles, at most
@@ -116,7 +115,7 @@ def simulate(
 
 def stretches(
     machine: Subject,
-    start: State | Kick | Drop,
+    start: State | Beginning,
     until: Until | None = None,
     *,
     settle: bool | None = None,
@@ -129,10 +128,7 @@ def stretches(
 
     Times of a piece count from the beginning of its stage; that of its first segment is where the piece before ends, with the event there.
     """
-    model = model_of(machine)
-    if isinstance(start, Drop):
-        model, start = start.stages(machine)
-    state = start.state(model) if isinstance(start, Kick) else start
+    model, state = (model_of(machine), start) if isinstance(start, State) else start.stages(machine)
     settle = until is None if settle is None else settle
     end = None if until is None and settle else own_time("until", until, model.scales)
     options = _Options(settle, stop_at_chatter, patience, max_events, Reporter.of(progress, "simulating"))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import cmath
 from dataclasses import dataclass
-from typing import Annotated, Any
+from typing import Annotated, Any, Protocol, runtime_checkable
 
 import numpy as np
 
@@ -13,10 +13,19 @@ from carom.core.layout import rub_workspace
 from carom.core.phases import AWAY, FLIGHT
 from carom.core.rub import phase_in_wall
 from carom.core.wall import set_on_wall
-from carom.models import Model, System, depends_on_instant
+from carom.models import Model, Subject, System, depends_on_instant, model_of
 from carom.models.weight import levitation_of
 from carom.outcome import InputError
 from carom.parameters import own_size
+
+
+@runtime_checkable
+class Beginning(Protocol):
+    """What a motion begins with: a kick, a drop, or any single disturbance."""
+
+    def stages(self, machine: Subject) -> tuple[Model, State]:
+        """Return what moves, perhaps in stages or another machine than before, and the state in which it starts."""
+
 
 LARGEST_SPEED = 1e12
 """Largest speed of a start: far larger ones cross the clearance in less than a double tells apart from no time."""
@@ -105,6 +114,11 @@ class Kick:
     speed: float | str
     angle: float | str = 0.0
     instant: float | str = 0.0
+
+    def stages(self, machine: Subject) -> tuple[Model, State]:
+        """Return the machine, which goes on levitating, and its start."""
+        rotor = model_of(machine)
+        return rotor, self.state(rotor)
 
     def state(self, rotor: Model) -> State:
         """Return the state just after the kick, which moves the rotor as a whole.

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, ClassVar, NamedTuple
@@ -11,10 +11,10 @@ import numpy as np
 
 from carom.basins import Share
 from carom.basins.losses import GOLDEN
-from carom.disturbances import BaseShock, BladeLoss
+from carom.disturbances import BaseShock, BladeLoss, Disturbance, VelocityKick
 from carom.disturbances.coordinates import TURN
 from carom.models import Model
-from carom.motions import Trajectory, drop_loads, kick, simulate
+from carom.motions import State, Trajectory, drop_loads, simulate
 from carom.motions.bearing_loads import DropLoads, PlaneLoads
 from carom.motions.budget import present_question
 from carom.motions.magnets import MagnetReach, magnet_reach
@@ -121,13 +121,11 @@ class FullSize(Result):
 
 def at_full_size(rotor: Model, required: Required) -> tuple[FullSize, ...]:
     """Follow each kind that must be survived at its full size in all directions."""
-    kinds: dict[Kind, Callable[..., tuple[Model, Any]]] = {
-        "kick": lambda model, *at: (model, kick(required.kick, *at).state(model))
-    }
+    kinds: dict[Kind, Disturbance] = {"kick": VelocityKick(required.kick)}
     if required.shock is not None:
-        kinds["shock"] = BaseShock(required.shock.peak, required.shock.duration).stages
+        kinds["shock"] = BaseShock(required.shock.peak, required.shock.duration)
     if required.blade_loss is not None:
-        kinds["blade_loss"] = BladeLoss(required.blade_loss, required.blade_loss_node).release
+        kinds["blade_loss"] = BladeLoss(required.blade_loss, required.blade_loss_node)
     return tuple(_of_kind(rotor, kind, size, kinds[kind]) for kind, size in required_kinds(required))
 
 
@@ -148,7 +146,10 @@ class _Followed(NamedTuple):
         return blow, 0.0 if blow else max(_reach(self.motion, each) for each in planes)
 
 
-def _of_kind(rotor: Model, kind: Kind, size: float, at: Callable[..., tuple[Model, Any]]) -> FullSize:
+def _of_kind(rotor: Model, kind: Kind, size: float, model: Disturbance) -> FullSize:
+    def at(rotor: Model, angle: float, instant: float) -> tuple[Model, State]:
+        return model.apply(rotor, angle, instant=instant)
+
     tried = [_followed(*at(rotor, *pair), pair) for pair in _affordable()]
     whirls = {
         plane.whirl.direction

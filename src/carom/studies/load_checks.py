@@ -201,6 +201,6 @@ def _of_required(rotor: Model, required: Required) -> Iterator[Trajectory]:
     for angle in (2.0 * math.pi * place / DIRECTIONS for place in range(DIRECTIONS)):
         if required.shock and question.affords():
             shock = BaseShock(required.shock.peak, required.shock.duration)
-            yield simulate(*shock.stages(rotor, angle), settle=True)
+            yield simulate(*shock.apply(rotor, angle), settle=True)
         if required.blade_loss and question.affords():
-            yield simulate(*BladeLoss(required.blade_loss, required.blade_loss_node).release(rotor, angle), settle=True)
+            yield simulate(*BladeLoss(required.blade_loss, required.blade_loss_node).apply(rotor, angle), settle=True)

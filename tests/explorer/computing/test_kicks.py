@@ -112,7 +112,7 @@ def test_pictures_of_shocks_and_losses_of_a_blade_are_those_of_the_library():
                 turned = np.rint(np.angle(left) / (2.0 * np.pi) * phases) / phases * 2.0 * np.pi
                 shown = np.rint(abs(left) / width) * width * np.exp(1j * turned) - before
                 assert abs(shown - size * np.exp(1j * angle)) < width
-                after, start = BladeLoss(abs(shown)).release(rotor, np.angle(shown))
+                after, start = BladeLoss(abs(shown)).apply(rotor, np.angle(shown))
             else:
                 after, start = rotor, BaseShock(size, plane.lasting(rotor)).release(rotor, angle)
             if place[0] % 3 == 0:

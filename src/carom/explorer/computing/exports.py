@@ -187,7 +187,7 @@ def _disturbance(rotor: Model, kick: Kick) -> tuple[str, str, str, str]:
         start = f"machine, BaseShock({size!r}, {lasting!r}).release(machine, {angle!r})"
         return "carom.disturbances", f"BaseShock({kick.largest!r}, {lasting!r})", "(60, 120)", start
     if kick.plane.name == "blade-loss":
-        start = f"*BladeLoss({size!r}).release(machine, {angle!r})"
+        start = f"*BladeLoss({size!r}).apply(machine, {angle!r})"
         return "carom.disturbances", f"BladeLoss({size!r})", "(360,)", start
     if not kick.rest.levitates:
         among = f", {kick.rest.among!r}" if kick.rest.among else ""

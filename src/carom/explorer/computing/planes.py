@@ -137,7 +137,7 @@ class Plane:
                 state,
                 f"A shock of {words} for {told(lasting, 'time', rotor.scales)} at {turned}, drawn from its end,",
             )
-        after, state = BladeLoss(size).release(rotor, angle)
+        after, state = BladeLoss(size).apply(rotor, angle)
         return after, state, f"A loss of a blade that changes the unbalance by {words} at {turned}"
 
 
