@@ -90,7 +90,7 @@ def prove(
             proof = _prove_return(machine, asked[0], sizes[asked[0]] or "", settings or (), limits, box, out, part)
         else:
             box = _intervals(along, start, stop)
-            _refuse_limits({**limits, "time_limit": None if box else time_limit})
+            _refuse_limits({**limits, "time_limit": None})
             if len(box) > 1:
                 raise InputError("--along", shown(list(box)), "must be one parameter, but with --kicks-up-to")
             proof = _prove_motions(machine, settings or (), longest_period, impacts, box, time_limit, part)
@@ -119,7 +119,7 @@ def _checked(check: str, out: str | None, tell: Reporter) -> Proof:
 def _refuse_limits(limits: dict[str, Any]) -> None:
     """Refuse limits of a search through cells where there is none."""
     if any(limit is not None for limit in limits.values()):
-        told = f"or {SHOCKS} or {STEPS} is needed by --most-impacts, and by --time-limit without --along"
+        told = f"or {SHOCKS} or {STEPS} is needed by --most-impacts"
         raise InputError(KICKS, None, told)
 
 
@@ -233,7 +233,7 @@ def _print_proof(proof: Proof, checked: bool) -> None:
         table.add_row(claim.about, claim.kind, claim.status, claim.reason or _number(claim))
     screen.print(fitted(screen, table))
     for claim in proof:
-        if claim.about == "kicks" and claim.status == "proven":
+        if (claim.about == "kicks" or proof.theorem == "levitation") and claim.status == "proven":
             screen.print(claim.statement)
     how = "Verified from the certificate alone" if checked else "Proven"
     screen.print(f"{how}, with balls of {proof.bits} bits. Exactly assumed: {_assumed(proof)}.")

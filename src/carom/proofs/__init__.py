@@ -53,6 +53,8 @@
 ``kick_discs``      what is proven of a cell
 ``kick_search``     the search for cells, in several processes
 ``kick_claims``     claims about kicks
+``stated_equations``  the equations of any rotor as hypotheses
+``levitation_claims``  levitation of any rotor, and what never touches
 ``kicks``           prove_kicks, as far as a time allows
 ``shocks``          the same for shocks and steps of the unbalance
 ``sizes``           the largest size that a theorem is about
@@ -79,7 +81,7 @@ from carom.proofs.claims import Claim, Proof
 from carom.proofs.hypotheses import Hypotheses, hypotheses_of
 from carom.proofs.kicks import prove_kicks
 from carom.proofs.proven_kicks import ProvenKicks
-from carom.proofs.proving import prove
+from carom.proofs.proving import prove, prove_levitation
 from carom.proofs.shocks import prove_shocks, prove_unbalance_steps
 from carom.proofs.states import prove_states
 
@@ -93,6 +95,7 @@ __all__ = [
     "hypotheses_of",
     "prove",
     "prove_kicks",
+    "prove_levitation",
     "prove_shocks",
     "prove_states",
     "prove_unbalance_steps",

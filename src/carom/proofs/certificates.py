@@ -18,6 +18,7 @@ from carom.proofs.claims import FORMAT, Claim, Proof
 from carom.proofs.evidence import Evidence, NotShownError
 from carom.proofs.hypotheses import Hypotheses
 from carom.proofs.proving import MOST_BITS, proof_at
+from carom.proofs.stated_equations import StatedEquations
 from carom.proofs.theorems import THEOREMS
 
 LARGEST_BYTES = 50_000_000
@@ -62,7 +63,11 @@ def _proof_of(document: Mapping[str, Any], tell: Reporter) -> Proof:
     if sorted(document["options"]) != sorted(THEOREMS[theorem].options):
         raise NotShownError(f"its options must be {', '.join(THEOREMS[theorem].options)}")
     evidence = Evidence(document["evidence"], tell)
-    hypotheses = Hypotheses.from_document(document["hypotheses"])
+    stated = document["hypotheses"].get("table") == StatedEquations.table
+    if stated is not (theorem == "levitation"):
+        raise NotShownError("its hypotheses are not those of its theorem")
+    read = StatedEquations if stated else Hypotheses
+    hypotheses = read.from_document(document["hypotheses"])
     proof = proof_at(bits, theorem, hypotheses, dict(document["options"]), evidence)
     tell(1.0)
     found = proof.document()

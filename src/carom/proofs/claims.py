@@ -14,7 +14,6 @@ from carom.arguments import checked
 from carom.files import write_whole
 from carom.parameters.terms import set_by
 from carom.proofs.balls import Enclosure
-from carom.proofs.hypotheses import Hypotheses
 from carom.results import WIDEST, Members
 
 FORMAT = "carom proof 1"
@@ -101,7 +100,7 @@ class Proof(Members[Claim]):
     ----------
     theorem : str
         Which claims were looked at, such as ``"single-impact orbits"``.
-    hypotheses : Hypotheses
+    hypotheses : Hypotheses or StatedEquations
     options : mapping
         Limits of the theorem.
     claims : tuple of Claim
@@ -117,7 +116,8 @@ class Proof(Members[Claim]):
     called: ClassVar[str] = "claim"
 
     theorem: str
-    hypotheses: Hypotheses
+    # Not narrower: who reads the numbers of a planar rotor knows by the theorem that they are there.
+    hypotheses: Any
     options: Mapping[str, Any]
     claims: tuple[Claim, ...]
     bits: int

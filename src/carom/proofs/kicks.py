@@ -28,7 +28,7 @@ from carom.proofs.kick_cells import AHEAD, IMPACTS, Tree, read, written
 from carom.proofs.kick_claims import NOT_CLAIMED, claims_of, options_of
 from carom.proofs.kick_discs import Disc
 from carom.proofs.kick_search import BITS, search
-from carom.proofs.proving import TIME
+from carom.proofs.proving import TIME, prove_levitation, without_closed_forms
 
 _STORE = "carom cells of kicks 1"
 USUAL_TIME = "10 min"
@@ -99,6 +99,10 @@ def prove_kicks(
     'proven'
     """
     limits = Limits(most_impacts, time_limit, store, workers)
+    if (model := without_closed_forms(machine, settings)) is not None and not along:
+        return prove_levitation(
+            model, kicks_up_to if isinstance(kicks_up_to, int | float) else str(kicks_up_to), progress=progress
+        )
     hypotheses, tell = hypotheses_of(machine, settings, list(along or ())), Reporter.of(progress, "proving")
     return prove_disc(KICKS, hypotheses, kicks_up_to, limits, tell, along or {})
 

@@ -6,12 +6,13 @@ import math
 import os
 from collections.abc import Iterable, Mapping
 from fractions import Fraction
-from typing import Annotated
+from typing import Annotated, Any
 
 from carom.arguments import checked, whole
-from carom.models import Subject
+from carom.loading import load
+from carom.models import Model, Subject, model_of
 from carom.outcome import InputError, shown
-from carom.parameters import Field, read_quantity
+from carom.parameters import Field, own_size, read_quantity
 from carom.progress import Reporter, ShowProgress, shows_progress
 from carom.proofs.balls import at_precision
 from carom.proofs.claims import Proof
@@ -20,6 +21,7 @@ from carom.proofs.hypotheses import Given, Hypotheses, hypotheses_of, written_ex
 from carom.proofs.lines import line_of
 from carom.proofs.rotor import Rotor
 from carom.proofs.several_impacts import MOST_IMPACTS
+from carom.proofs.stated_equations import StatedEquations
 from carom.proofs.theorems import THEOREMS, Options
 
 TIME = Field("time_limit", "", "time to search", "a time", "s", 1e-3, 1e9, '"10 min"')
@@ -52,7 +54,8 @@ def prove(
     With ``along`` they are instead about bifurcation points along a parameter, and about all orbits with one impact a
     period for all its values in an interval: whether they are motions of the machine and whether they are stable; and about
     levitation, rubs, the harmless kick and whirl.
-    An undecided claim says why.
+    An undecided claim says why.  Of a machine that is no planar rotor in a rigid wall, or that has weight or limits, it is proven that it levitates, and which kicks and
+    steps of the unbalance never touch (:func:`~carom.proofs.prove_levitation`).
 
     Parameters
     ----------
@@ -68,7 +71,7 @@ def prove(
     interval : pair of numbers, optional
         Its ends, such as ``("0.084", "0.177")`` or ``("300 N s/m", "2000 N s/m")``; as with ``machine`` a float is a double.
     time_limit : str or float, optional
-        When to end the search along the interval, in s or with a unit: the rest of it is open then.
+        When to end searches that can end early, such as that along the interval, in s or with a unit: the rest is open then.
 
     Raises
     ------
@@ -87,8 +90,13 @@ def prove(
     >>> proof["B1,d stable"].status
     'proven'
     """
+    tell, seconds = (
+        Reporter.of(progress, "proving"),
+        math.inf if time_limit is None else read_quantity(TIME, time_limit),
+    )
+    if (model := without_closed_forms(machine, settings)) is not None and along is None:
+        return prove_levitation(model, progress=tell)
     hypotheses = hypotheses_of(machine, settings, () if along is None else (along,))
-    tell = Reporter.of(progress, "proving")
     if (along is None) is not (interval is None):
         raise InputError("along", shown(along), "needs an interval, and an interval needs a parameter")
     if along is not None and interval is not None:
@@ -97,21 +105,55 @@ def prove(
         start, stop = (written_exactly(end) for end in interval)
         line_of(hypotheses, along, start, stop)
         limits = {"blocks": MOST_BLOCKS, "narrowest": NARROWEST}
-        seconds = math.inf if time_limit is None else read_quantity(TIME, time_limit)
         return proof_of(
             "along a parameter", hypotheses, {"along": along, "from": start, "to": stop, **limits}, tell, seconds
         )
-    if time_limit is not None:
-        raise InputError("time_limit", shown(time_limit), "is for a proof along a parameter")
     limit = None if longest_period is None else str(_time(longest_period))
     options = {"longest_period": limit, "cells": MOST_CELLS}
     if impacts == 1:
-        return proof_of("single-impact orbits", hypotheses, options, tell)
-    return proof_of("orbits of several impacts", hypotheses, {**options, "impacts": impacts}, tell)
+        return proof_of("single-impact orbits", hypotheses, options, tell, seconds)
+    return proof_of("orbits of several impacts", hypotheses, {**options, "impacts": impacts}, tell, seconds)
+
+
+def without_closed_forms(machine: Any, settings: Iterable[str] = ()) -> Model | None:
+    """The model of a machine whose contacts have no theorems: all but the planar rotor in a rigid wall, without weight and limits."""
+    if isinstance(machine, Hypotheses | Mapping):
+        return None
+    case: Any = machine
+    if isinstance(machine, str | os.PathLike):
+        try:
+            case = load(machine, settings)
+        except InputError:  # a number that only a theorem takes, such as a fraction
+            return None
+    model = model_of(case)
+    return None if model.has_closed_forms else model
+
+
+def prove_levitation(model: Model, kicks_up_to: float | str | None = None, *, progress: ShowProgress = None) -> Proof:
+    """Prove of any rotor that it levitates, and which kicks and steps of the unbalance never touch (:mod:`carom.proofs.levitation_claims`).
+
+    Parameters
+    ----------
+    model : Model
+        Its equations count as doubles; of a flexible machine those of all its modes.
+    kicks_up_to : float or str, optional
+        A speed that is asked for, in ``c_r Ω`` or text with a unit.
+
+    Raises
+    ------
+    InputError
+        A force acts that changes in the fixed frame, or the speed cannot be read.
+    """
+    size = None if kicks_up_to is None else own_size("kicks_up_to", kicks_up_to, "velocity", model.scales).hex()
+    return proof_of("levitation", StatedEquations.of(model), {"kicks_up_to": size}, Reporter.of(progress, "proving"))
 
 
 def proof_of(
-    theorem: str, hypotheses: Hypotheses, options: Options, tell: Reporter | None = None, seconds: float = math.inf
+    theorem: str,
+    hypotheses: Hypotheses | StatedEquations,
+    options: Options,
+    tell: Reporter | None = None,
+    seconds: float = math.inf,
 ) -> Proof:
     """Prove the claims of a theorem, with more bits as long as more bits may decide a claim; each search ends after so many seconds."""
     bits, done, tell = FIRST_BITS, 0.0, tell or Reporter()
@@ -133,10 +175,13 @@ def proof_of(
         bits, done = 2 * bits, end
 
 
-def proof_at(bits: int, theorem: str, hypotheses: Hypotheses, options: Options, evidence: Evidence) -> Proof:
+def proof_at(
+    bits: int, theorem: str, hypotheses: Hypotheses | StatedEquations, options: Options, evidence: Evidence
+) -> Proof:
     """Claims of a theorem at one precision, from evidence that is searched for or read."""
     with at_precision(bits):
-        claims = THEOREMS[theorem].claims(Rotor(hypotheses), evidence, options)
+        stated: Any = hypotheses if isinstance(hypotheses, StatedEquations) else Rotor(hypotheses)
+        claims = THEOREMS[theorem].claims(stated, evidence, options)
     not_claimed = THEOREMS[theorem].not_claimed
     return Proof(theorem, hypotheses, options, tuple(claims), bits, not_claimed, evidence.document())
 

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
-from carom.proofs import state_claims
+from carom.proofs import levitation_claims, state_claims
 from carom.proofs.claims import Claim, claim_of
 from carom.proofs.evidence import Evidence, rational_of
 from carom.proofs.families import FAMILIES
@@ -41,13 +41,13 @@ class Theorem:
     Attributes
     ----------
     claims : callable
-        Takes a :class:`~carom.proofs.rotor.Rotor`, :class:`~carom.proofs.evidence.Evidence` and options.
+        Takes a :class:`~carom.proofs.rotor.Rotor`, or equations of any rotor, :class:`~carom.proofs.evidence.Evidence` and options.
     not_claimed : tuple of str
     options : tuple of str
         Names of its options.
     """
 
-    claims: Callable[[Rotor, Evidence, Options], list[Claim]]
+    claims: Callable[[Any, Evidence, Options], list[Claim]]
     not_claimed: tuple[str, ...]
     options: tuple[str, ...]
 
@@ -159,6 +159,9 @@ THEOREMS: Mapping[str, Theorem] = {
         for about, family in FAMILIES.items()
     },
     BOX_THEOREM: Theorem(kick_box_claims, BOX_NOT_CLAIMED, BOX_OPTIONS),
+    levitation_claims.THEOREM: Theorem(
+        levitation_claims.levitation_claims, levitation_claims.NOT_CLAIMED, levitation_claims.OPTIONS
+    ),
     state_claims.THEOREM: Theorem(state_claims.state_claims, state_claims.NOT_CLAIMED, state_claims.OPTIONS),
 }
 """Theorems by their names in certificates."""

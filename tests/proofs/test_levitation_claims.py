@@ -1,0 +1,86 @@
+"""Any rotor: levitation, and kicks and steps of the unbalance that never touch, attacked by simulations and forgeries."""
+
+from __future__ import annotations
+
+import copy
+
+import numpy as np
+import pytest
+
+import carom as cm
+from carom.closed_forms import levitation
+from carom.models import model_of
+from carom.motions.starts import Kick
+from carom.outcome import InputError
+from carom.proofs import check, prove, prove_kicks
+
+SAGGING = """
+[machine]
+mass = "12 kg"
+speed = "36000 rpm"
+clearance = "0.2 mm"
+rotor_diameter = "50 mm"
+eccentricity = "1.5 um"
+friction = 0.2
+magnetic_bearings = 2
+force_current_factor = "90 N/A"
+negative_stiffness = "400 N/mm"
+proportional_gain = "12 A/mm"
+derivative_gain = "8 A s/m"
+current_limit = "6 A"
+
+[touchdown]
+law = "hunt-crossley"
+stiffness = "5e9 N/m^1.5"
+exponent = 1.5
+dissipation = "0.5 s/m"
+
+[gravity]
+"""
+
+
+@pytest.fixture(scope="module")
+def case(tmp_path_factory):
+    path = tmp_path_factory.mktemp("machines") / "sagging.toml"
+    path.write_text(SAGGING, encoding="utf-8")
+    return cm.load(path)
+
+
+@pytest.mark.jit_only
+def test_kicks_at_the_bound_never_touch_and_some_beyond_it_do(case):
+    proof, rotor = prove(case), model_of(case)
+    assert {claim.status for claim in proof} == {"proven"}
+    bearing = proof["levitation clear"].enclosures["bearing_1"]
+    assert float(bearing.low) <= levitation(rotor).reach * (1.0 + 1e-12) <= float(bearing.high) * (1.0 + 2e-12)
+    speed, random = float(proof["kicks never touch"].enclosures["speed"].low), np.random.default_rng(5)
+
+    def touches(share: float, angle: float, instant: float) -> bool:
+        motion = cm.simulate(rotor, Kick(share * speed, angle, instant), 200.0, max_events=3)
+        return len(motion.touches) > 0
+
+    tried = random.uniform(0.0, 2.0 * np.pi, (12, 2)).tolist()
+    assert not any(touches(1.0, *each) for each in tried)
+    assert any(touches(1.6, *each) for each in tried)
+
+
+def test_kicks_that_are_asked_for_and_a_certificate(case):
+    proof = prove_kicks(case, "30 mm/s")
+    assert proof["kicks asked never touch"].status == "proven"
+    assert prove_kicks(case, "100 mm/s")["kicks asked never touch"].status == "undecided"
+    document = proof.document()
+    assert check(document).claims == proof.claims
+    forged = copy.deepcopy(document)
+    forged["hypotheses"]["numbers"]["damping"]["doubles"] = (-0.1).hex() + " 0"
+    with pytest.raises(InputError, match="is refused"):
+        check(forged)
+    forged = copy.deepcopy(document)
+    (speed,) = [claim["enclosures"] for claim in forged["claims"] if "speed" in claim["enclosures"]]
+    speed["speed"] = [f"{1.01 * float(end)}" for end in speed["speed"]]
+    with pytest.raises(InputError, match="is refused"):
+        check(forged)
+
+
+def test_levitation_that_grows_is_not_proven(case):
+    grows = prove(model_of(case).replace(gamma=-0.01))
+    assert grows["levitation stable"].status == "undecided"
+    assert all(claim.about == "levitation" for claim in grows)
