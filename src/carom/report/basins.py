@@ -12,10 +12,13 @@ from carom.models import Model, axis, depends_on_instant
 from carom.parameters import in_terms_of
 from carom.studies import Study
 from carom.studies.kinds import Kind, required_kinds
+from carom.studies.questions import MANY_MODES
 from carom.studies.wording import entry_words
 
 CELLS: dict[Kind, tuple[int, ...]] = {"kick": (120, 120), "shock": (24, 60), "blade_loss": (120,)}
 """Cells of a basin: both parts of a kick, peak and direction of a shock, phase of the change of the unbalance by the loss of a blade."""
+CELLS_OF_MANY_MODES: dict[Kind, tuple[int, ...]] = {"kick": (20, 20), "shock": (6, 24), "blade_loss": (36,)}
+"""The same of rotors of many modes, whose motions take milliseconds each."""
 BEYOND = 1.5
 """Largest disturbance of a basin relative to the smallest that is lost, where all that must be survived came back."""
 
@@ -68,7 +71,8 @@ def drawable(study: Study) -> bool:
 
 
 def _basin(rotor: Model, model: Disturbance, kind: Kind) -> Cells:
-    return map_cells(rotor, Grid(model, CELLS[kind]))
+    cells = CELLS_OF_MANY_MODES if rotor.system.modes > MANY_MODES else CELLS
+    return map_cells(rotor, Grid(model, cells[kind]))
 
 
 def of_kicks(study: Study, largest: float) -> Cells:

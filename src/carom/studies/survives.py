@@ -105,10 +105,10 @@ def largest_change(rotor: Model) -> float:
     """Largest change of the unbalance, in ``c_r``, after which the rotor can levitate at any phase.
 
     Larger ones that add to the unbalance before lead to no levitation inside the wall; just below it motions do not settle.  Zero for a model whose
-    unbalance is not known by one number.
+    unbalance is not known by one number, and of a shaft whose speed changes.
     """
     system, before = rotor.system, rotor.unbalance_along() if "rho" in rotor.varied else None
-    if before is None or system.mirrored is not None:
+    if before is None or system.mirrored is not None or system.shaft is not None:
         return 0.0
     sags = np.abs(system.arrays["rows"] @ system.outer)
     shifts = np.abs(system.planes @ shift_by_unbalance(rotor))
