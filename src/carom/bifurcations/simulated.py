@@ -487,10 +487,12 @@ def simulated_branches(
             counts[branch.impacts] = counts.get(branch.impacts, 0) + 1
             found.append(replace(branch, name=CountedName(branch.impacts, counts[branch.impacts])))
 
-    for place, share in enumerate(VALUES):
+    # Branches of many numbers are not followed, and setting up their equations takes long.
+    values = VALUES if 4 * len(model.system.rest) <= MOST_NUMBERS else VALUES[:1]
+    for place, share in enumerate(values):
         value = limits[0] + share * (limits[1] - limits[0])
         rotor = along.move(model, value)
-        part = tell.part(place / len(VALUES), (place + 1) / len(VALUES))
+        part = tell.part(place / len(values), (place + 1) / len(values))
         orbits, searched = search_simulated(rotor, impacts, None, place, part, SHARE)
         done.append(searched)
         for orbit in orbits:

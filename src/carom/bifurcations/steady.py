@@ -18,8 +18,10 @@ from carom.models import Axis, Model, Rotor
 from carom.parameters import Numbers, Parameters
 from carom.results import Result
 
-SAMPLES, FEWER = 201, 21
-"""Values of the parameter; the second for rotors whose equations take long to set up."""
+SAMPLES, FEWER, FEWEST = 201, 21, 3
+"""Values of the parameter; the others for rotors of several coordinates, and of many, whose equations take seconds to set up."""
+FEW = 4
+"""Coordinates up to which they are several."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -89,13 +91,20 @@ def steady_points(parameters: Parameters, along: Axis, interval: tuple[float, fl
     return points
 
 
+def _count(model: Model) -> int:
+    """Number of values at which levitation and rubs are computed."""
+    if model.planar is not None:
+        return SAMPLES
+    return FEWER if len(model.system.rest) <= FEW else FEWEST
+
+
 def equilibrium_branches(model: Model, along: Axis, interval: tuple[float, float]) -> tuple[EquilibriumBranch, ...]:
     """Levitation and both rubs on an evenly spaced grid of the parameter; with weight levitation alone, as no rub is at rest.
 
     Of several stable rubs, or several others, the admissible one with the largest normal force.  A virtual rub counts as
     stable if it would attract sliding, so that a branch continues as the same one where its normal force changes sign.
     """
-    grid = np.linspace(*interval, SAMPLES if model.planar is not None else FEWER)
+    grid = np.linspace(*interval, _count(model))
     kinds = ("contact-free", "stable rub", "saddle rub")
     table = np.full((len(kinds), len(grid), 4), np.nan)
     for column, value in enumerate(grid.tolist()):
