@@ -13,7 +13,7 @@ from carom.parameters.gravity import GRAVITY_FIELDS
 from carom.parameters.load_limits import LIMIT_FIELDS
 from carom.parameters.terms import ENTRIES
 from carom.rotors.machine_file import PART_ENTRIES, ROTOR_ENTRIES
-from carom.rotors.rigid_rotor import RIGID_FIELDS
+from carom.rotors.rigid_body import RIGID_FIELDS
 
 SUPPORT = ("node", "kx", "ky", "cx", "cy")
 """How entries of a table begin that is left out as a whole."""

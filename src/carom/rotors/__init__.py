@@ -16,7 +16,7 @@
 ``flexible_rotor``        :class:`FlexibleRotor`: a shaft with discs as finite elements
 ``matrix_checks``         what matrices of a rotor must be
 ``matrix_rotor``          :class:`MatrixRotor`: a rotor by its matrices
-``rigid_rotor``           :class:`RigidRotor`, :func:`rigid_rotor`: four degrees of freedom
+``rigid_body``            :class:`RigidRotor`, :func:`rigid_rotor`: four degrees of freedom
 ``rotor_files``           :func:`read_rotor`, :func:`write_rotor`: files of matrices
 ``array_reader``          the program that reads arrays of a file, in a process of its own
 ``ross_reader``           the program that reads rotors with ROSS, in a process of its own
@@ -51,7 +51,7 @@ from carom.rotors.machine_file import load_machine
 from carom.rotors.magnetic_bearing import MagneticBearing
 from carom.rotors.matrix_rotor import MatrixRotor
 from carom.rotors.reduced_machine import ReducedMachine
-from carom.rotors.rigid_rotor import RigidRotor, rigid_rotor
+from carom.rotors.rigid_body import RigidRotor, rigid_rotor
 from carom.rotors.ross_import import ImportedRotor, import_rotor
 from carom.rotors.rotor_files import read_rotor, write_rotor
 from carom.rotors.sections import Material, Section

@@ -40,7 +40,7 @@ from carom.rotors.free_rotor import FreeRotor
 from carom.rotors.machine_parameters import unknown
 from carom.rotors.magnetic_bearing import BEARING_FIELDS, MagneticBearing
 from carom.rotors.matrix_rotor import MatrixRotor
-from carom.rotors.rigid_rotor import POSITION, RIGID_FIELDS, RigidRotor
+from carom.rotors.rigid_body import POSITION, RIGID_FIELDS, RigidRotor
 from carom.rotors.rotor_files import read_rotor
 from carom.rotors.sections import MATERIAL_FIELDS, SECTION_FIELDS, Material, Section
 from carom.rotors.state_spaces import StateSpace
