@@ -80,10 +80,12 @@ def _of_disturbances(study: Study) -> Iterator[Picture]:
         shown = (
             "with its distance from the centre, contact and load over time" if example.impacts else "without contact"
         )
+        # Coordinates of several are no displacements, so that their rates have no size in mm/s.
+        fast = "" if np.ndim(example.start.state.position) else f" at {study.wording.velocity(example.start.speed)}"
         yield Picture(
             f"disturbance-{_file_name(member.name)}",
             "motions",
-            f"After {what} at {study.wording.velocity(example.start.speed)} the rotor ends {ending_phrase(member.name)}, "
+            f"After {what}{fast} the rotor ends {ending_phrase(member.name)}, "
             f"as {'does' if member.count == 1 else 'do'} {member.count} of {len(study.attractors.disturbances)} disturbances "
             f"tried: {shown}.",
             lambda example=example: _history(study, example),  # type: ignore[misc]
