@@ -1,22 +1,28 @@
 """Periodic orbits, and maps from impact to impact.
 
-==================  =======================================================
-``orbit``           a periodic orbit of any word, with its margins
-``word``            which segments follow one another in it
-``shooting``        its equations and Newton's method
-``admissibility``   whether it is a motion of the machine
-``single_impact``   all orbits with one impact a period
-``search``          orbits with any number of impacts, from simulated starts
-``recognising``     the orbit that a simulated motion repeats
-``rubbing``         periodic motions with lasting contact, from one lift-off to the next
-``chatter``         a chatter as one segment
-``landings``        how far a chatter is from the onset of lasting contact
-``contraction``     how fast walls that give way shrink volumes
-``exponents``       Lyapunov exponents of motions and of orbits
-``names``           names of orbits
-``maps``            impact map and stroboscopic map, with their derivatives
-``stability``       multipliers of an orbit
-==================  =======================================================
+====================  ====================================================================
+``orbit``             a periodic orbit of any word, with its margins
+``word``              which segments follow one another in it
+``shooting``          its equations and Newton's method
+``admissibility``     whether it is a motion of the machine
+``single_impact``     all orbits with one impact a period
+``search``            orbits with any number of impacts, from simulated starts
+``flow``              the flow of any machine as a map, with derivatives by differences
+``happenings``        what happens along a motion, in order
+``simulated``         periodic motions of any machine, closed on its flow
+``simulated_search``  the search for these
+``flow_exponents``    Lyapunov exponents by the flow
+``extremes``          largest radius, depth and force
+``recognising``       the orbit that a simulated motion repeats
+``rubbing``           periodic motions with lasting contact, from one lift-off to the next
+``chatter``           a chatter as one segment
+``landings``          how far a chatter is from the onset of lasting contact
+``contraction``       how fast walls that give way shrink volumes
+``exponents``         Lyapunov exponents of motions and of orbits
+``names``             names of orbits
+``maps``              impact map and stroboscopic map, with their derivatives
+``stability``         multipliers of an orbit
+====================  ====================================================================
 """
 
 from carom.orbits.exponents import LyapunovExponents, lyapunov_exponents, orbit_exponents
