@@ -23,7 +23,7 @@ def test_motion_of_any_rotor():
     document = json.loads(as_json(trajectory_document(motion)))
 
     assert "parameters" not in document
-    assert type(rotor).from_attributes(document["rotor"]).attributes() == rotor.attributes()
+    assert cm.models.model_from(document["rotor"]).attributes() == rotor.attributes()
     assert document["start"]["V"] == [[0.5, 0.0], [0.0, 0.1]]
     assert np.shape(document["final"]["U"]) == (2, 2)
     logs = [motion.seen_at(plane).contacts for plane in (0, 1)]
