@@ -97,7 +97,7 @@ def test_a_study_says_it():
     found = cm.study(case, cm.disturbances.Sample(cm.disturbances.VelocityKick(1.5), 20))
     assert found.loads.disturbances > 0
     said = "\n".join(fact.text for fact in found.facts if fact.topic == "Touchdown loads")
-    assert said == found.loads.words
+    assert said.endswith(found.loads.words)
     assert "limit 1,000 N s: kept by all" in said
     assert found.to_dict()["loads"]["limits"][0]["name"] == "impulse"
     silent = dataclasses.replace(found, loads=None)
