@@ -35,8 +35,10 @@ def studies_are_made_once(monkeypatch):
     package = sys.modules["carom.studies"]
     real = package.study
 
-    def study(subject, *, proofs, progress):
-        return real(subject, proofs=True, progress=progress) if proofs else study_once(subject)
+    def study(subject, *, along, proofs, progress):
+        if along or proofs:
+            return real(subject, along=along, proofs=proofs, progress=progress)
+        return study_once(subject)
 
     monkeypatch.setattr(package, "study", study)
 
