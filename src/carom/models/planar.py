@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from carom.arguments import checked
 from carom.core.laws.hunt_crossley import HuntCrossley
 from carom.core.laws.kelvin_voigt import KelvinVoigt
 from carom.core.laws.rigid import Rigid
@@ -298,6 +299,7 @@ class Planar(Definition):
         return cls(parameters, TouchdownBearing(**bearing), levitates, Drive(**drive) if drive else None, gap)
 
 
+@checked
 def jeffcott(
     parameters: Parameters,
     bearing: TouchdownBearing | None = None,
