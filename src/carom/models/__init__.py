@@ -12,7 +12,7 @@
 ``from_modes``            systems from their modes
 ``planar``                :func:`jeffcott`: the planar rigid rotor by its parameters, in a touchdown bearing of any kind
 ``linear``                :class:`LinearEquations`: the equations of any linear rotor
-``from_matrices``         :func:`from_matrices`: any linear rotor, by its matrices
+``by_matrices``           :func:`from_matrices`: any linear rotor, by its matrices
 ``mirror``                its system where bearings act differently in two directions
 ``directions``            the whirl there
 ``linear_parameters``     its named parameters
@@ -35,9 +35,9 @@ from carom.core.laws.hunt_crossley import HuntCrossley
 from carom.core.laws.kelvin_voigt import KelvinVoigt
 from carom.core.laws.rigid import Rigid
 from carom.models.axes import Axis, axis
+from carom.models.by_matrices import from_corotating_matrices, from_matrices
 from carom.models.definition import Definition
 from carom.models.forcing import Force
-from carom.models.from_matrices import from_corotating_matrices, from_matrices
 from carom.models.from_modes import second_order_system
 from carom.models.limits import Limit
 from carom.models.linear import LinearEquations
