@@ -81,7 +81,9 @@ def test_subjects_of_any_kind_give_the_same():
     machine = REAL.replace(damping="6000 N s/m", friction=0.0)
     results = [study(subject).to_dict() for subject in (machine, Case("real", machine.parameters, machine, Zones()))]
 
-    assert results[0] | {"name": "real"} == results[1]
+    for result in results:
+        assert result["drop"].pop("name") == result.pop("name")
+    assert results[0] == results[1]
     with pytest.raises(InputError, match=r"machine = .*: a Machine, a Case"):
         study("keogh-cole.toml")
 
