@@ -151,7 +151,7 @@ def rotor_parameter(rotor):
 
 def test_gravity_is_a_parameter_of_a_rotor_that_weighs_something_alone():
     with pytest.raises(InputError, match=r"^gravity = to vary: unknown name"):
-        cm.models.axis(ROTOR.rotor, "gravity")
+        cm.models.axis(ROTOR.unforced, "gravity")
     assert cm.models.axis(HOPPING, "gravity").field.unit == "m/s^2"
 
 

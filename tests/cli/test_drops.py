@@ -151,7 +151,6 @@ def test_bad_drops_get_one_line(carom, arguments, words):
     "arguments",
     [
         ("bifurcations", "--along", "gamma", "--from", "0.1", "--to", "0.2", "--lasting"),
-        ("regions",),
         ("explore", "--no-browser", "--port", "0"),
     ],
 )

@@ -75,24 +75,6 @@ def test_without_weight_other_disturbances_work(carom, options):
     assert "At the end at touchdown bearing 2, in the fixed frame" in " ".join(out.split())
 
 
-PLANAR = [
-    ("response",),
-    ("prove",),
-    ("bifurcations", "--along", "speed", "--from", "2000 rpm", "--to", "3000 rpm"),
-    ("regions",),
-]
-
-
-@pytest.mark.parametrize("command", PLANAR, ids=" ".join)
-@pytest.mark.parametrize("settings", [(), ("--set", "gravity=0")])
-def test_what_takes_the_planar_rotor_refuses_it_in_one_line(carom, command, settings):
-    code, out, err = carom(command[0], MACHINE, *command[1:], *settings)
-    assert (code, out) == (2, "")
-    assert err.startswith("carom: machine = Case tum-flexible-rotor: the planar rotor")
-    assert "the commands study, simulate, drop, attractors, basins, orbits, explore, and sweep with [basins]" in err
-    assert err.count("\n") == 1
-
-
 def test_a_study_writes_its_report(carom, tmp_path, monkeypatch):
     monkeypatch.setattr("carom.studies.questions.FEW_MODES", 0.2)
     code, out, _ = carom("study", MACHINE, "--set", "gravity=0", "--out", str(tmp_path))

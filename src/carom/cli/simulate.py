@@ -44,7 +44,6 @@ def simulate(
     from carom.cli.drops import error_along, read_release
     from carom.cli.starts import read_time
     from carom.loading import load
-    from carom.studies.drops import release
 
     case = load(machine, settings or ())
     check_output(out)
@@ -62,7 +61,11 @@ def simulate(
         released = read_release(case, ways, regained_after) if drop else None
 
         def read(case: Case) -> tuple[Model, State, Echo]:
-            return _read(case, ways, instant) if released is None else release(case, released)
+            if released is None:
+                return _read(case, ways, instant)
+            from carom.studies.drops import release
+
+            return release(case, released)
 
         rotor, given, echo = read(case)
         motion = _follow(rotor, given, end, tell if out is None else tell.part(0.0, 0.4))
@@ -156,7 +159,7 @@ def _shown(motion: Trajectory) -> tuple[Trajectory, str]:
 
 
 def _read(case: Case, ways: dict[str, str | None], given_instant: str | None) -> tuple[Model, State, Echo]:
-    """Read the machine that moves, its start and what was taken; refuse wrong input before kernels are loaded."""
+    """Read the machine that moves, its start and what was taken; refuse wrong input before the rotor is made."""
     from carom.cli.starts import read_instant, read_start
     from carom.disturbances import BaseShock, BladeLoss, VelocityKick, echo
     from carom.disturbances.single import read_single
@@ -171,18 +174,18 @@ def _read(case: Case, ways: dict[str, str | None], given_instant: str | None) ->
         )
         raise InputError("--start", given, allowed)
     ((option, text),) = chosen.items()
-    rotor = _rotor(case)
-    instant = read_instant(given_instant, rotor)
     if option != "--start":
         kinds = {"--kick": VelocityKick, "--shock": BaseShock, "--blade-loss": BladeLoss}
-        single = replace(read_single(kinds[option], text, scales, option), instant=instant)
+        single, rotor = read_single(kinds[option], text, scales, option), _rotor(case)
+        single = replace(single, instant=read_instant(given_instant, rotor))
         try:
             return *single.stages(rotor), echo.echo_of(single, rotor)
         except InputError as problem:
             if problem.field in ("kick", "disturbance"):
                 raise InputError(option, text, f"{problem.allowed}; use --start") from None
             raise
-    state = read_start(text, scales, case.touchdown is not None and case.touchdown.yields)
+    state, rotor = read_start(text, scales, case.touchdown is not None and case.touchdown.yields), _rotor(case)
+    instant = read_instant(given_instant, rotor)
     said = echo.echo_of_start(state, rotor.unbalance_phase, scales)
     return rotor, replace(state, time=instant), echo.echo_at(said, rotor, instant)
 
