@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
@@ -148,7 +148,7 @@ def test_random_rotors_and_shocks():
 @pytest.mark.jit_only
 def test_an_undamped_rotor_in_resonance():
     rotor = tilting(damping=np.zeros((2, 2)), gyroscopic=np.zeros((2, 2)))
-    rotor = rotor.replace(forcing=0.3 * rotor.forcing)
+    rotor = replace(rotor, forcing=0.3 * rotor.forcing)
     assert rotor.model.system.rest_radius < 1.0
     duration = math.pi / np.abs(rotor.model.system.exponents.imag + 1.0).min()
     place, speed, impacts = shaken(rotor, 0.05, duration, 0.7).after()

@@ -44,7 +44,7 @@ class MotionTable:
 def table_of(rotor: Model) -> MotionTable:
     """Compute the table; of a rotor whose orbits are not known in closed form it has the steady motions.
 
-    Refuse one that never rests in contact, on a race that turns or with a shaft whose speed changes.
+    Refuse one that never rests in contact, with a shaft whose speed changes.
     """
     if not exact_results(rotor).orbits:
         rotor.system.refuse_forces()
