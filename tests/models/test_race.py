@@ -168,8 +168,6 @@ def test_what_cannot_turn_is_refused():
         Race(0.0, 1.5)
     with pytest.raises(cm.outcome.InputError, match="start races"):
         cm.simulate(rotor_with(SOFT, Race(2.0, 1.5)), cm.State(0.1, 0.0, (1.0, 2.0)), 1.0)
-    with pytest.raises(cm.outcome.InputError, match="a race that turns"):
-        rotor_with(SOFT, Race(2.0, 1.5)).system.refuse_forces()
 
 
 @pytest.mark.jit_only
