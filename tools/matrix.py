@@ -58,7 +58,7 @@ def questions(machine: str, small: bool = False) -> dict[str, list[str]]:
         "response": ["response"],
         "proof": ["prove"],
         "proof of kicks": ["prove", "--kicks-up-to", "30 mm/s", "--time-limit", "2 s" if small else "20 s"],
-        "study": ["study", *(["--time-limit", "2 s"] if small else [])],
+        "study": ["study", *(["--time-limit", "1 s"] if small else [])],
     }
 
 
