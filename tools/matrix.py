@@ -32,13 +32,8 @@ WITHOUT_MEANING = {("drive", question) for question in ("orbits", "two impacts",
 def questions(machine: str, small: bool = False) -> dict[str, list[str]]:
     """Arguments of the command of each question; small ones for a test."""
     flexible = machine in FLEXIBLE
-    speeds = (
-        ("2500 rpm", "3000 rpm")
-        if flexible
-        else ("18000 rpm", "20000 rpm")
-        if machine == "four-degrees"
-        else ("30000 rpm", "36000 rpm")
-    )
+    highest = 3000 if flexible else 20000 if machine == "four-degrees" else 36000
+    speeds = (f"{highest * (0.99 if small else 0.9)} rpm", f"{highest} rpm")
     until, grid, starts = ("10 ms", "2x3", "10") if small else ("50 ms", "6x8", "40")
     few = ["--guesses", "20"] if small else []
     return {
