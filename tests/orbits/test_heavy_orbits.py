@@ -224,7 +224,7 @@ def test_a_start_of_the_wrong_weight_is_corrected_to_its_size():
 
 
 def test_forces_that_change_in_the_fixed_frame_are_refused():
-    shaken = jeffcott(THREE.rotor.parameters).under(Force(0.5j, np.array([0.3])))
+    shaken = jeffcott(THREE.planar).under(Force(0.5j, np.array([0.3])))
     with pytest.raises(InputError, match=r"^machine = forces that change in the fixed frame: .*, or weight$"):
         orbit_near(shaken, Word.of(Kind.IMPACT_FORWARD), Start(np.ones((1, 2), complex), np.ones(1)))
     assert settled(shaken) is None

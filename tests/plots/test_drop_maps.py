@@ -47,7 +47,7 @@ def test_both_panels_show_the_cells(found):
 
 
 def test_what_exceeds_a_limit_is_outlined(found):
-    limited = cm.basins.DropMap(found.dataset.assign_attrs(limits='{"force": 1300.0}'))
+    limited = cm.basins.DropMap(found.dataset.assign_attrs(load_limits='{"force": 1300.0}'))
     over = limited.exceeding("force")
     assert 0 < over.sum() < over.size
     figure = plots.drop_map(limited)
