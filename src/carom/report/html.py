@@ -43,8 +43,8 @@ def versions() -> str:
 
 _SUBSCRIPT = re.compile(r"\b([ceFik])_(max|[rcis])(?![A-Za-z0-9])|\b([BR])(\d+,[a-d])\b|\b(F)(1)\b")
 _UNITS = (
-    "m c_r² Ω³|m c_r² Ω²|m c_r Ω²|m c_r Ω|c_r Ω|c_r|N s/m|A s/m|N s|g mm|kg mm|%|rpm|rad|mm/s|µm/s|m/s|mm|µm|m|ms|µs|s|kg|kN|MN|"
-    "N/mm|N/m|N/A|N|A/m|A|kW|W|kJ|J"
+    "m c_r² Ω³|m c_r² Ω²|m c_r Ω²|m c_r Ω|c_r Ω|c_r|N s/m|A s/m|N s|g mm|kg mm|%|rpm|rad|mm/s|µm/s|m/s²|m/s|mm|µm|m|ms|µs|s|kg|kN|MN|"
+    "N/mm|N/m|N/A|N|A/m|A|kW|W|kJ|J|Hz|dB"
 )
 _QUANTITY = re.compile(rf"(?<=[0-9⁰¹²³⁴⁵⁶⁷⁸⁹]) (?:{_UNITS})(?![\w/²³])")
 """A unit behind a number: no line ends within them."""
