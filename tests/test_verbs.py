@@ -143,6 +143,7 @@ GENERAL = {
     "basins.smallest_loss",
     "bifurcations.find_bifurcations",
     "closed_forms.find_equilibria",
+    "bifurcations.map_regions",
     "closed_forms.levitation",
     "closed_forms.harmless_blade_loss",
     "closed_forms.harmless_kick",
@@ -206,6 +207,7 @@ def test_every_function_on_a_rotor_takes_any_description():
     found = {name: (first, kind) for name, first, kind in public()}
     assert {name for name, (_, kind) in found.items() if kind.startswith("Subject")} == set(CALLS)
     others = {name for name, (first, _) in found.items() if first in ("machine", "rotor", "subject", "parameters")}
+    others.discard("models.jeffcott")  # it makes one
     assert {name for name in others - set(CALLS) if not name.endswith("_document")} == set()
 
 
@@ -236,4 +238,4 @@ def test_what_is_known_of_one_model_refuses_others_in_one_line(name):
         words = str(problem)
     assert isinstance(words, str)
     assert "\n" not in words
-    assert "the planar rotor" in words or "coordinate" in words
+    assert any(each in words for each in ("the planar rotor", "coordinate", "one mass", "scales"))

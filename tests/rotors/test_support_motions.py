@@ -140,7 +140,7 @@ def test_shocks_end_as_their_stages_do():
 def test_before_the_loss_of_a_blade_it_levitates_and_the_frame_turns_with_the_only_unbalance(phase):
     model = REDUCED.model
     after, state = BladeLoss(2.0 * model.value("rho")).apply(model, phase)
-    (before,), (changed,) = (each.rotor.finite_elements.machine.unbalances for each in (model, after))
+    (before,), (changed,) = (each.finite_elements.machine.unbalances for each in (model, after))
     turned = state.time
     start = model.system.states_of(model.system.forced_at(0.0)[None])[0].reshape(2, -1) * np.exp(-1j * turned)
     assert np.array([state.position, state.velocity]) == pytest.approx(start, abs=1e-12)

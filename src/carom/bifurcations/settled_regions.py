@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from carom.attractors.names import LEVITATION
 from carom.bifurcations.cells import Region, connected
 from carom.bifurcations.planes import Plane
 from carom.models import Model
@@ -72,7 +73,7 @@ def settled_motions(rotor: Model, starts: int = STARTS) -> SettledMotions:
     for _ in range(starts):
         motion = simulate(rotor, start_of(rotor, random), patience=PATIENCE, max_events=MOST_EVENTS)
         found.add((motion.outcome, motion.multiplicity))
-    words = ["levitation" if held else "no levitation"]
+    words = [f"{LEVITATION}" if held else f"no {LEVITATION}"]
     for outcome, count in sorted(found):
         if outcome is not Outcome.LEVITATED:
             words.append(f"{outcome.words} ({count} a period)" if count else outcome.words)

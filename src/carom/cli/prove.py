@@ -226,6 +226,7 @@ def _intervals(along: list[str] | None, start: list[str] | None, stop: list[str]
 def _print_proof(proof: Proof, checked: bool) -> None:
     """Print all claims, and what is not claimed."""
     from carom.cli.fitting import fitted, plain_table
+    from carom.proofs.levitation_claims import THEOREM
 
     screen = console()
     table = plain_table("Claims", "of", "claim", "status", "number, or reason")
@@ -233,7 +234,7 @@ def _print_proof(proof: Proof, checked: bool) -> None:
         table.add_row(claim.about, claim.kind, claim.status, claim.reason or _number(claim))
     screen.print(fitted(screen, table))
     for claim in proof:
-        if (claim.about == "kicks" or proof.theorem == "levitation") and claim.status == "proven":
+        if (claim.about == "kicks" or proof.theorem == THEOREM) and claim.status == "proven":
             screen.print(claim.statement)
     how = "Verified from the certificate alone" if checked else "Proven"
     screen.print(f"{how}, with balls of {proof.bits} bits. Exactly assumed: {_assumed(proof)}.")

@@ -21,7 +21,7 @@
 ``yielding_walls``  rubs and slipping whirl on walls that give way
 ``whirl_resonance`` speeds at which the whirls of a disc are in resonance
 ``hertz``           pressure between the balls and the race of a touchdown bearing
-``known``           what general code may ask of any model
+``exact_results``   what general code may ask of any rotor
 ==================  ===================================================
 """
 

@@ -66,7 +66,6 @@ class SimulatedOrbit(Result):
         Time of which the period is a multiple; ``None`` if it could have any.
     """
 
-    figure: ClassVar[str] = "motion"
     shown: ClassVar[tuple[str, ...]] = ("rotor", "name", "segments", "period", "turns", "start", "extremes", "stable")
 
     rotor: Any
@@ -98,6 +97,10 @@ class SimulatedOrbit(Result):
     def departure(self) -> State:
         """State where the period begins."""
         return self.start
+
+    def plot(self, *args: Any, **options: Any) -> Any:
+        """Draw one period of it, as :func:`carom.plots.motion` draws any motion."""
+        return self.trajectory().plot(*args, **options)
 
     def trajectory(self, periods: float = 1.0) -> Trajectory:
         """Follow it by simulation, from where its period begins."""

@@ -4,6 +4,7 @@
 ``fields``                names, symbols, units and ranges of all numbers
 ``common_units``          units of machine files as pint converts them
 ``terms``                 terms that stand for the numbers of a machine, with their formulas
+``tables``                tables that files of all machines share, each declared once
 ``quantities``            text with units -> float in SI units
 ``exact``                 text with units -> exact numbers, for proofs
 ``sizes``                 sizes of starts and disturbances, in units of the equations or with a unit

@@ -99,16 +99,16 @@ def _of_levitation(study: Study) -> Iterator[Picture]:
     if machine is None or found.campbell is None:
         return
     whirls = "Free whirls over the speed of the shaft, from all modes; unbalance excites forward whirls where they cross the line."
-    yield Picture("campbell", "levitation", whirls, found.campbell.plot)
+    yield Picture("campbell", "levitating", whirls, found.campbell.plot)
     shapes = "Shapes of the slowest free whirls at the speed of the machine, from all modes, along the shaft."
-    yield Picture("shapes", "levitation", shapes, lambda: plots.mode_shapes(machine, found.whirls))
+    yield Picture("shapes", "levitating", shapes, lambda: plots.mode_shapes(machine, found.whirls))
     if found.response is not None:
         radii = "Radii (0-to-peak) of the whirl by unbalance over the speed of the shaft, at the touchdown bearings."
         ends = float(found.response.speeds[0]), float(found.response.speeds[-1])
-        yield Picture("unbalance", "levitation", radii, lambda: unbalance_response(study.case, ends).plot())
+        yield Picture("unbalance", "levitating", radii, lambda: unbalance_response(study.case, ends).plot())
     if found.sensitivity is not None:
         peaks = "Sensitivity of each loop, with the zones of ISO 14839-3."
-        yield Picture("sensitivity", "levitation", peaks, found.sensitivity.plot)
+        yield Picture("sensitivity", "levitating", peaks, found.sensitivity.plot)
 
 
 def _of_loads(study: Study) -> Iterator[Picture]:

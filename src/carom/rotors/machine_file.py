@@ -126,7 +126,7 @@ def load_machine(path: str | os.PathLike[str], settings: Iterable[str] = ()) -> 
 
     See Also
     --------
-    carom.rotors.find_whirls, carom.rotors.sensitivity, carom.rotors.unbalance_response : does it levitate well?
+    carom.rotors.find_whirls, carom.rotors.sensitivity, carom.closed_forms.synchronous_response : does it levitate well?
 
     Examples
     --------
