@@ -4,7 +4,7 @@
     python tools/matrix.py                       # all of it, some twenty minutes
     python tools/matrix.py --machine rigid,real --question orbits,study
 
-Every cell is one command in a process of its own.  A cell has the seconds, ``—`` where the command says that the question has no meaning
+Every cell is one command in a process of its own.  A cell has the seconds, ``refused`` where it still is, ``—`` where the command says that the question has no meaning
 for the machine, ``late`` where it did not end in time, and ``FAILED`` where it failed otherwise.
 """
 
@@ -27,6 +27,8 @@ MACHINES = {
 FLEXIBLE = ("flexible-support", "tum-flexible-rotor", "uberlandia-flexible-rotor")
 WITHOUT_MEANING = {("drive", question) for question in ("orbits", "two impacts", "bifurcations", "regions")}
 """A shaft that slows down never repeats itself."""
+NOT_ANSWERED = {("drive", "blade loss"), ("drive", "shocks")}
+"""What still is refused, in one line."""
 
 
 def questions(machine: str, small: bool = False) -> dict[str, list[str]]:
@@ -73,8 +75,10 @@ def answer(machine: str, question: str, limit: float) -> str:
     code = os.waitstatus_to_exitcode(status)
     if code == 0:
         return f"{used.ru_utime + used.ru_stime:.0f}"
-    without = code == 2 and (machine, question) in WITHOUT_MEANING
-    return "—" if without else "late" if code < 0 else "FAILED"
+    cell = machine, question
+    if code == 2 and cell in WITHOUT_MEANING | NOT_ANSWERED:
+        return "—" if cell in WITHOUT_MEANING else "refused"
+    return "late" if code < 0 else "FAILED"
 
 
 def main() -> None:

@@ -19,11 +19,11 @@ MACHINE = cm.load("examples/keogh-cole.toml")
 
 
 @dataclass(frozen=True)
-class Shove(Disturbance):
+class LetGo(Disturbance):
     """The rotor is held off its place and let go."""
 
     farthest: float = 0.5
-    kind: ClassVar[str] = "shove"
+    kind: ClassVar[str] = "let-go"
     measured_in: ClassVar[dict[str, str]] = {"farthest": "length"}
     parts: ClassVar = (Part("distance", "DISTANCE", "length", optional=False), Part("direction", "ANGLE", "angle", 0.0))
     example: ClassVar = "'0.1 mm,30 deg'"
@@ -40,11 +40,11 @@ class Shove(Disturbance):
 
 
 def test_it_is_mapped_simulated_read_and_told():
-    assert cm.map_basins(MACHINE, cm.Grid(Shove.of(MACHINE, "0.2 mm"), (4, 6))).share_recovered.total == 24
-    one = Shove.read("0.2 mm, 30 deg", MACHINE)
+    assert cm.map_basins(MACHINE, cm.Grid(LetGo.of(MACHINE, "0.2 mm"), (4, 6))).share_recovered.total == 24
+    one = LetGo.read("0.2 mm, 30 deg", MACHINE)
     rotor, start = one.stages(MACHINE)
     assert start.position == pytest.approx(0.2 / 0.7 * np.exp(1j * np.pi / 6.0), rel=1e-12)
     assert cm.simulate(MACHINE, one, 50.0).final == cm.simulate(rotor, start, 50.0).final
-    assert echo_of(one, rotor).words == "Disturbance, shove: distance 0.2 mm, direction 30°"
-    with pytest.raises(InputError, match=r"^shove = 1 s: .*a length"):
-        Shove.read("1 s", MACHINE)
+    assert echo_of(one, rotor).words == "Disturbance, let-go: distance 0.2 mm, direction 30°"
+    with pytest.raises(InputError, match=r"^let-go = 1 s: .*a length"):
+        LetGo.read("1 s", MACHINE)

@@ -3,7 +3,7 @@
 import pytest
 
 import carom as cm
-from carom.studies import assembly, questions
+from carom.studies import questions
 from carom.studies.advice import GAIN_FACTOR
 from carom.studies.facts import about
 
@@ -37,7 +37,7 @@ def test_no_change_beyond_what_a_controller_can_give_is_advised():
 
 
 def test_a_study_that_follows_too_few_says_neither_back_nor_lost(tmp_path, monkeypatch):
-    monkeypatch.setattr(assembly, "EVENTS", dict.fromkeys(questions.EVENTS, 1500))
+    monkeypatch.setattr(questions, "EVENTS", dict.fromkeys(questions.EVENTS, 1500))
     path = tmp_path / "heavy.toml"
     path.write_text(
         """
