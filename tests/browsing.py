@@ -37,7 +37,7 @@ planar.judge = lambda case, tell: SimpleNamespace(
 sys.exit(main(["explore", *sys.argv[1:]]))
 """
 DESK = {"width": 1280, "height": 900}
-SOON = 120_000
+SOON = 300_000
 """Milliseconds after which the page is taken to hang; nothing is judged by how long it takes."""
 
 
