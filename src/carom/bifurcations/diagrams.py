@@ -14,7 +14,7 @@ from carom.bifurcations.branches import OrbitBranch
 from carom.bifurcations.points import HALVING, Bifurcation
 from carom.bifurcations.samples import AttractorSample, sample_attractors
 from carom.bifurcations.several import lies_on, searched_branches
-from carom.bifurcations.simulated import simulated_branches
+from carom.bifurcations.simulated import SimulatedBranch, simulated_branches
 from carom.bifurcations.steady import (
     EquilibriumBranch,
     RollingBranch,
@@ -305,15 +305,7 @@ def _follow_searched(
 ) -> _Followed:
     """Follow the branches of orbits that a search finds, of a model without closed forms; it has none with ``lasting``."""
     found, search = searched_branches(model, along, limits, (1, impacts), (), virtual=virtual, tell=tell)
-    points = sorted(_special(found), key=lambda point: point.value)
-    nothing = np.empty(0)
-    return _Followed(
-        RollingBranch(nothing, nothing, nothing > 0.0),
-        tuple(branch for branch in found if branch.impacts == 1),
-        tuple(branch for branch in found if branch.impacts > 1),
-        search,
-        points=tuple(points),
-    )
+    return _of_searched([branch for branch in found if branch.impacts], search, _special(found))
 
 
 def is_simulated(model: Model) -> bool:
@@ -333,14 +325,20 @@ def _follow_simulated(
 ) -> _Followed:
     """Follow the branches of the periodic motions of any machine that a search finds; all are motions, with lasting contact or without."""
     found, search = simulated_branches(model, along, limits, impacts, tell)
-    points = sorted((point for branch in found for point in branch.special), key=lambda point: point.value)
+    return _of_searched(found, search, [point for branch in found for point in branch.special])
+
+
+def _of_searched(
+    found: Sequence[OrbitBranch | SimulatedBranch], search: Searched, points: Sequence[Bifurcation]
+) -> _Followed:
+    """What was followed, of branches that a search found, without rolling."""
     nothing = np.empty(0)
     return _Followed(
         RollingBranch(nothing, nothing, nothing > 0.0),
         tuple(branch for branch in found if branch.impacts == 1),
         tuple(branch for branch in found if branch.impacts != 1),
         search,
-        points=tuple(points),
+        points=tuple(sorted(points, key=lambda point: point.value)),
     )
 
 

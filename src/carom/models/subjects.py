@@ -68,11 +68,6 @@ def exact_rotor_of(subject: Subject) -> Rotor:
     return rotor
 
 
-def refuse_other_rotors(subject: Subject) -> None:
-    """Refuse what is no planar rotor, whatever forces act on it."""
-    _ = model_of(subject).parameters
-
-
 @checked
 def model_from(attributes: Mapping[str, Any]) -> Rotor:
     """Model whose :meth:`~carom.models.Rotor.attributes` these are.
