@@ -17,4 +17,4 @@ def opened(*settings: str) -> Origin:
 
 def reduced(*settings: str):
     """The same by its vectors."""
-    return carom.models.model_of(opened(*settings).case).finite_elements
+    return carom.models.rotor_of(opened(*settings).case).finite_elements

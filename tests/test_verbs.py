@@ -36,7 +36,7 @@ START = cm.State(0.4 + 0.1j, 0.2j)
 
 def settled(machine):
     """Two starts next to levitation, followed."""
-    system = cm.models.model_of(machine).system
+    system = cm.models.rotor_of(machine).system
     states = system.kicked(np.array([0.1, 0.2j]))
     return cm.settle(machine, *(states if len(system.rest) > 1 else (part[:, 0] for part in states)))
 
@@ -104,7 +104,7 @@ CALLS = {
     "models.case_of": lambda m: cm.models.case_of(m).parameters,
     "models.planar_case_of": lambda m: cm.models.planar_case_of(m).parameters,
     "models.exact_rotor_of": cm.models.exact_rotor_of,
-    "models.model_of": cm.models.model_of,
+    "models.rotor_of": cm.models.rotor_of,
     "motions.follow_loads": lambda m: cm.motions.follow_loads(m, cm.kick(0.3), 5.0),
     "motions.settle": lambda m: settled(m),
     "motions.simulate": lambda m: cm.simulate(m, cm.kick(0.3), 5.0),
@@ -113,7 +113,7 @@ CALLS = {
     "orbits.orbit_near": lambda m: cm.orbits.orbit_near(
         m,
         cm.orbits.Word.of(cm.orbits.Kind.IMPACT_FORWARD),
-        Start(np.repeat([1.0, 0.7 - 1.0j], len(cm.models.model_of(m).system.rest))[None], np.array([2.9])),
+        Start(np.repeat([1.0, 0.7 - 1.0j], len(cm.models.rotor_of(m).system.rest))[None], np.array([2.9])),
     ),
     "orbits.impact_map": lambda m: cm.orbits.impact_map(m, cm.orbits.Section(0.3, 0.7, -1.0)),
     "orbits.orbits_within_reach": cm.orbits.orbits_within_reach,
@@ -154,7 +154,7 @@ GENERAL = {
     "closed_forms.yielding_rubs",
     "disturbances.outward_from",
     "models.axis",
-    "models.model_of",
+    "models.rotor_of",
     "attractors.known_starts",
     "basins.map_cells",
     "orbits.orbit_near",
@@ -192,7 +192,7 @@ def alike(one, other) -> bool:
     if isinstance(one, np.ndarray):
         return one.dtype.names is not None or np.array_equal(one, other, equal_nan=one.dtype.kind in "fc")
     if isinstance(one, cm.models.Rotor | Case):
-        return cm.models.model_of(one).parameters == cm.models.model_of(other).parameters
+        return cm.models.rotor_of(one).parameters == cm.models.rotor_of(other).parameters
     if dataclasses.is_dataclass(one):
         fields = (field.name for field in dataclasses.fields(one))
         return type(one) is type(other) and all(alike(getattr(one, name), getattr(other, name)) for name in fields)

@@ -12,7 +12,7 @@ import numpy as np
 
 import carom as cm
 
-machine = cm.models.model_of(cm.load("../keogh-cole.toml"))
+machine = cm.models.rotor_of(cm.load("../keogh-cole.toml"))
 unbalance = machine.value("rho") * np.exp(1j * machine.value("phi"))
 persists = cm.models.Trigger(contact_time=6.0 * np.pi, contact_gap=np.pi)
 

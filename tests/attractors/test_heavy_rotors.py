@@ -13,7 +13,7 @@ import carom as cm
 from carom.attractors import Attractor, character_of, find_attractors
 from carom.attractors.settled import settled_motion
 from carom.attractors.survival import follow_further
-from carom.models import Force, Rigid, jeffcott, model_of
+from carom.models import Force, Rigid, jeffcott, rotor_of
 from carom.orbits import Kind
 from carom.orbits.recognising import whole_turns
 from carom.outcome import Outcome
@@ -63,7 +63,7 @@ def test_levitation_goes_round_once_a_turn():
     levitation = found["levitation"]
     assert levitation.count == 20
     assert levitation.period == pytest.approx(math.tau)
-    rotor = model_of(HEAVY)
+    rotor = rotor_of(HEAVY)
     later = cm.simulate(rotor, levitation.state, math.tau).final
     assert later.position == pytest.approx(levitation.state.position, abs=1e-12)
     assert character_of(HEAVY, levitation).kind == "equilibrium"
@@ -76,7 +76,7 @@ def test_rest_on_the_bearing_is_sliding_that_repeats_every_turn():
     assert rest.orbit.word[0].kind is Kind.SLIDE_FORWARD
     assert rest.orbit.turns == 1
     assert rest.orbit.stable
-    rotor, scales = model_of(lying), lying.parameters.scales
+    rotor, scales = rotor_of(lying), lying.parameters.scales
     # It rocks with the unbalance about the place where friction holds it on the slope, against weight and spring.
     fixed = rest.orbit.trajectory().position(np.linspace(0.0, math.tau, 400), "fixed")
     assert abs(fixed) == pytest.approx(1.0, abs=1e-9)

@@ -10,7 +10,7 @@ from heavy_rotors import SOFT, settled
 
 import carom as cm
 from carom.bifurcations import Plane, continue_curve, examine_border, switch
-from carom.models import model_of
+from carom.models import rotor_of
 from carom.orbits import orbit_near, orbit_of_motion
 from carom.outcome import InputError
 
@@ -18,7 +18,7 @@ pytestmark = pytest.mark.jit_only
 HOPPING = cm.load("examples/dropped-rotor.toml").replace(
     gravity=60, unbalance="300 g mm", friction=0.05, damping="1500 N s/m", stiffness="8e5 N/m"
 )
-ROTOR = model_of(HOPPING)
+ROTOR = rotor_of(HOPPING)
 
 
 @pytest.fixture(scope="module")
@@ -121,7 +121,7 @@ def test_orbits_are_followed_along_other_parameters_under_the_same_weight(name, 
     branch = cm.continue_orbit(orbit, name, interval)
     for value, start in zip(branch.values[::5].tolist(), branch.orbits[::5], strict=True):
         case = HOPPING.replace(**{name if name != "d" else "restitution": value})
-        again = orbit_near(model_of(case), branch.word, start.start)
+        again = orbit_near(rotor_of(case), branch.word, start.start)
         assert again.nodes == pytest.approx(start.nodes, abs=1e-9)
         assert again.turns == 1
 

@@ -25,7 +25,7 @@ def test_a_drop_tells_both_bearings(carom):
     loads = cm.motions.drop_loads(cm.simulate(cm.load(MACHINE), cm.drop(), "20 ms"))
     for entry, plane in zip(found["touchdown_bearings"], loads.planes, strict=True):
         assert entry["loads"]["force_si"] == plane.loads.si()["force"]
-    assert cm.models.model_from(found["rotor"]).scales == loads.scales
+    assert cm.models.rotor_from(found["rotor"]).scales == loads.scales
 
 
 def test_a_motion_with_all_its_stages(carom):
@@ -196,5 +196,5 @@ def test_basins_of_kicks(carom, settings):
     _, out, _ = carom("basins", MACHINE, *kicks, "--json")
     found = json.loads(out)
     assert found["starts"] == 2
-    rotor = cm.models.model_from(found["rotor"])
+    rotor = cm.models.rotor_from(found["rotor"])
     assert rotor.scales == cm.load(MACHINE).parameters.scales

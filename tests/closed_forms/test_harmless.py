@@ -93,7 +93,7 @@ def test_no_harmless_kick_brings_a_heavy_rotor_to_the_wall():
     harmless, touched = harmless_kick(heavy), {0.99: 0, 1.4: 0}
     assert 0.0 < harmless < harmless_kick(heavy.replace(gravity=0))
     for phase in np.linspace(0.0, 6.0, 7):
-        rotor = cm.models.model_of(heavy.replace(unbalance_phase=float(phase)))
+        rotor = cm.models.rotor_of(heavy.replace(unbalance_phase=float(phase)))
         for size in touched:
             places, speeds = rotor.system.kicked(size * harmless * np.exp(1j * np.linspace(0.0, 6.2, 60)))
             touched[size] += np.count_nonzero(cm.settle(rotor, places[:, 0], speeds[:, 0]).impacts)
@@ -105,7 +105,7 @@ def test_no_harmless_kick_brings_a_heavy_rotor_to_the_wall():
 def test_no_harmless_disturbance_brings_bearings_to_their_limit(kind, force):
     """The rotor then moves as the linear one, for which contact is excluded; a bound without the limits was passed by 18 of 40 kicks."""
     case = cm.load("examples/keogh-cole.toml", ["eccentricity=0.05 mm", f"force_limit={force}"])
-    rotor = cm.models.model_of(case)
+    rotor = cm.models.rotor_of(case)
 
     def ends(factor):
         after, starts = of_size(rotor, kind, factor)

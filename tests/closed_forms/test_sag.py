@@ -11,7 +11,7 @@ from machines import PAPER
 
 import carom as cm
 from carom.closed_forms import levitation
-from carom.models import Force, jeffcott, model_of
+from carom.models import Force, jeffcott, rotor_of
 from carom.outcome import InputError
 
 HEAVY = cm.load("examples/dropped-rotor.toml")
@@ -23,13 +23,13 @@ def test_the_sag_is_what_the_stiffness_holds():
     held = levitation(HEAVY)
     assert held.sag == pytest.approx(-1j * 5.0 * 9.81 / 5e5 / scales.length, abs=1e-14)
     # The mass of the unbalance whirls as that without weight.
-    assert held.whirl == pytest.approx(model_of(HEAVY).unforced.equilibrium, rel=1e-14)
+    assert held.whirl == pytest.approx(rotor_of(HEAVY).unforced.equilibrium, rel=1e-14)
     assert held.reach == pytest.approx(abs(held.sag) + abs(held.whirl), rel=1e-14)
     assert held.inside
     assert held.stable
 
 
-@pytest.mark.parametrize("rotor", [model_of(HEAVY), TILTING], ids=["planar", "of two coordinates"])
+@pytest.mark.parametrize("rotor", [rotor_of(HEAVY), TILTING], ids=["planar", "of two coordinates"])
 def test_it_is_in_balance_in_the_fixed_frame(rotor):
     mass, damping, gyroscopic, stiffness, forcing = rotor.matrices
     held = levitation(rotor)
@@ -38,7 +38,7 @@ def test_it_is_in_balance_in_the_fixed_frame(rotor):
     assert (stiffness - mass + 1j * damping + gyroscopic) @ whirl == pytest.approx(forcing, abs=1e-12)
 
 
-@pytest.mark.parametrize("rotor", [model_of(HEAVY), TILTING], ids=["planar", "of two coordinates"])
+@pytest.mark.parametrize("rotor", [rotor_of(HEAVY), TILTING], ids=["planar", "of two coordinates"])
 def test_a_kick_of_no_size_stays_on_it(rotor):
     held = levitation(rotor)
     motion = cm.simulate(rotor, cm.kick(0.0), 20.0)
@@ -74,7 +74,7 @@ def test_a_bearing_whose_centre_is_where_the_rotor_sags_holds_it_in_the_middle()
 
 def test_a_rotor_that_nothing_holds_has_no_levitation():
     with pytest.raises(InputError, match=r"^levitation = none, nothing holds the rotor"):
-        levitation(model_of(HEAVY).without_levitation())
+        levitation(rotor_of(HEAVY).without_levitation())
     with pytest.raises(InputError, match=r"^machine = forces that change in the fixed frame"):
         levitation(jeffcott(PAPER).under(Force(0.3j, np.array([0.1]))))
 

@@ -7,7 +7,7 @@ import pytest
 
 from carom.core.margins import local_motion
 from carom.core.segments import carry_through_chatter
-from carom.models import Model, jeffcott
+from carom.models import Rotor, jeffcott
 from carom.motions import State, simulate
 from carom.orbits.recognising import segments_of
 from carom.orbits.shooting import Start, links_of, pack, unpack
@@ -21,13 +21,13 @@ FLIGHTS = [Kind.IMPACT_FORWARD, Kind.IMPACT_BACKWARD, Kind.IMPACT_STOPPED]
 CONTACTS = [Kind.SLIDE_FORWARD, Kind.SLIDE_BACKWARD, Kind.ROLL]
 
 
-def rotor_of(modes: int, planes: int, seed: int) -> Model:
+def rotor_of(modes: int, planes: int, seed: int) -> Rotor:
     if modes == 2:
         return jeffcott(PAPER.replace(gamma=0.1 + 0.02 * seed, radius_ratio=1.5))
     return {4: tilting, 8: bending}[modes](planes=planes).model
 
 
-def differences(rotor: Model, word: Word, start: Start, step: float = 1e-6) -> np.ndarray:
+def differences(rotor: Rotor, word: Word, start: Start, step: float = 1e-6) -> np.ndarray:
     unknowns = pack(start)
     columns = []
     for change in step * np.eye(len(unknowns)):
@@ -36,7 +36,7 @@ def differences(rotor: Model, word: Word, start: Start, step: float = 1e-6) -> n
     return np.array(columns).T
 
 
-def arbitrary(rotor: Model, word: Word, rng: np.random.Generator) -> Start:
+def arbitrary(rotor: Rotor, word: Word, rng: np.random.Generator) -> Start:
     """Nodes with their planes on the wall, as fast as an impact, and durations about one."""
     arrays = rotor.system.arrays
     nodes = rng.normal(size=(len(word), arrays.rows.shape[1], 2)) @ [1.0, 1j]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from carom.models import Model, jeffcott
+from carom.models import Rotor, jeffcott
 from carom.orbits.shooting import Start, by_parameter, links_of
 from carom.orbits.word import Kind, Segment, Word
 from carom.parameters import DIMENSIONLESS_FIELDS, Scales
@@ -14,7 +14,7 @@ from tests.core.test_segments import FLIGHTS, arbitrary, rotor_of
 from tests.machines import PAPER
 
 
-def differences(rotor: Model, word: Word, start: Start, name: str) -> np.ndarray:
+def differences(rotor: Rotor, word: Word, start: Start, name: str) -> np.ndarray:
     """Two central differences, extrapolated to a step of zero (Richardson): the error falls with its fourth power."""
     value, found = rotor.value(name), []
     for step in (2e-4 * (abs(value) or 1.0), 1e-4 * (abs(value) or 1.0)):
@@ -24,7 +24,7 @@ def differences(rotor: Model, word: Word, start: Start, name: str) -> np.ndarray
     return slopes
 
 
-def check(rotor: Model, names: list[str], planes: int, rng: np.random.Generator) -> None:
+def check(rotor: Rotor, names: list[str], planes: int, rng: np.random.Generator) -> None:
     word = Word(tuple(Segment(kind, int(rng.integers(planes))) for kind in FLIGHTS))
     start = arbitrary(rotor, word, rng)
     # Flights of up to six units of time: their propagator is doubled several times.

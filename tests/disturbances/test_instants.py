@@ -12,7 +12,7 @@ from carom.attractors import DisturbanceSet
 from carom.basins.shares import Population
 from carom.disturbances import AnyState, BladeLoss, ContactRelease, Grid, Sample, UnbalanceStep, VelocityKick
 from carom.disturbances.echo import ANY_INSTANT
-from carom.models import depends_on_instant, model_of
+from carom.models import depends_on_instant, rotor_of
 from carom.outcome import InputError
 
 MACHINE, PLAIN = "examples/dropped-rotor.toml", "examples/keogh-cole.toml"
@@ -21,7 +21,7 @@ TURNED = 0.7
 
 def turned(angle):
     """The machine whose unbalance is ahead by an angle, when both frames coincide."""
-    return model_of(cm.load(MACHINE)).replace(phi=model_of(cm.load(MACHINE)).value("phi") + angle)
+    return rotor_of(cm.load(MACHINE)).replace(phi=rotor_of(cm.load(MACHINE)).value("phi") + angle)
 
 
 @pytest.mark.parametrize(
@@ -47,7 +47,7 @@ def test_an_instant_later_is_an_unbalance_ahead(model, values, angles):
 
 
 def test_levitation_at_many_instants_is_that_at_each():
-    assert not depends_on_instant(model_of(cm.load(PLAIN)))
+    assert not depends_on_instant(rotor_of(cm.load(PLAIN)))
     weighs = turned(0.0)
     times = np.array([0.0, 0.4, 2.5])
     together = weighs.system.kicked(np.zeros(3), times)
@@ -58,7 +58,7 @@ def test_levitation_at_many_instants_is_that_at_each():
 
 
 def test_samples_are_over_the_instant_where_it_matters():
-    kicks, weighs, plain = VelocityKick(0.2), turned(0.0), model_of(cm.load(PLAIN))
+    kicks, weighs, plain = VelocityKick(0.2), turned(0.0), rotor_of(cm.load(PLAIN))
     for plan in (Sample(kicks, 400, 3), Grid(kicks, (20, 20)), DisturbanceSet(400, 3, 0.2)):
         begins = plan.starts(weighs).begins
         assert np.unique(begins).size == 400
@@ -78,6 +78,6 @@ def test_an_own_disturbance_must_take_the_instant():
         def starts(self, rotor, *values):
             return super().starts(rotor, *values)
 
-    assert Sample(Still(0.1), 3).starts(model_of(cm.load(PLAIN))).exists.all()
+    assert Sample(Still(0.1), 3).starts(rotor_of(cm.load(PLAIN))).exists.all()
     with pytest.raises(InputError, match="one whose starts take the instant"):
         Sample(Still(0.1), 3).starts(turned(0.0))

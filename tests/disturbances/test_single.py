@@ -7,7 +7,7 @@ import pytest
 
 import carom as cm
 from carom.disturbances import BaseShock, BladeLoss, VelocityKick
-from carom.models import model_of
+from carom.models import rotor_of
 
 MACHINE = cm.load("examples/keogh-cole.toml")
 
@@ -17,7 +17,7 @@ MACHINE = cm.load("examples/keogh-cole.toml")
 )
 def test_a_text_is_what_it_says_in_python(kind):
     model, text = kind
-    rotor = model_of(MACHINE)
+    rotor = rotor_of(MACHINE)
     first, *_ = text.split(", ")
     sizes = [first, "5 ms"] if model is BaseShock else [first]
     stated, angle = model.of(MACHINE, *sizes), np.pi / 6.0 if "deg" in text else 0.0

@@ -103,4 +103,4 @@ def test_what_sags_to_the_wall_is_refused():
         cm.BaseShock.of(machine, "1 g", "1 ms").apply(machine)
     with pytest.raises(InputError, match="needs levitation inside the wall before a disturbance"):
         BladeLoss(0.1).apply(machine)
-    assert not BladeLoss(0.1).starts(cm.models.model_of(machine), np.array([0.0, 1.0])).exists.any()
+    assert not BladeLoss(0.1).starts(cm.models.rotor_of(machine), np.array([0.0, 1.0])).exists.any()

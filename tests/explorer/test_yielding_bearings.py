@@ -23,7 +23,7 @@ from carom.explorer.computing.kicks import map_kicks
 from carom.explorer.computing.motions import table_of
 from carom.explorer.computing.planes import planes_of
 from carom.explorer.computing.rest import rest_of
-from carom.models import jeffcott, model_of, planar_case_of
+from carom.models import jeffcott, planar_case_of, rotor_of
 from carom.outcome import InputError
 
 MACHINE = """
@@ -147,7 +147,7 @@ def test_what_a_bearing_cannot_have_is_named_by_its_box(origin):
 def test_the_program_and_the_command_follow_what_is_shown(origin, kind, changes, capsys, monkeypatch, tmp_path):
     given = origin(kind)
     case = with_settings(given.case, changes)
-    rotor = model_of(case)
+    rotor = rotor_of(case)
     kick = kick_of(given.case, rotor)
     motion = carom.simulate(rotor, kick.state, settle=True)
     program = as_python(case, kick, controls_of(given.case)[1])
@@ -173,7 +173,7 @@ def test_the_program_and_the_command_follow_what_is_shown(origin, kind, changes,
 @pytest.mark.parametrize("changes", [{}, GROUNDED])
 def test_kicks_of_the_picture_are_those_that_are_followed(origin, kind, changes):
     case = with_settings(origin(kind).case, changes)
-    rotor, rest = model_of(case), rest_of(model_of(case))
+    rotor, rest = rotor_of(case), rest_of(rotor_of(case))
     assert rest.levitates == (not changes)
     parts = np.array([0.5, -0.2]), np.array([0.25, 0.6])
     starts = rest.kicks(1.0).starts(rotor, *parts)
@@ -186,7 +186,7 @@ def test_kicks_of_the_picture_are_those_that_are_followed(origin, kind, changes)
 
 def test_the_motion_goes_into_the_wall_and_tells_force_and_depth(origin):
     case = with_settings(origin("restitution").case, {"touchdown_stiffness": "2e7"})
-    rotor, kicks = model_of(case), planes_of(case)[0]
+    rotor, kicks = rotor_of(case), planes_of(case)[0]
     kicked = follow_kick(rotor, kicks, 0.8, 0.2)
     touches = carom.simulate(rotor, rest_of(rotor).kicked(0.8, 0.2), settle=True).touches
     assert kicked.hardest == touches.peak_force.max()
@@ -205,7 +205,7 @@ def test_the_largest_force_is_compared_with_its_limit(origin, monkeypatch):
     monkeypatch.setattr("carom.explorer.computing.judgement.SIZES", 1)
     monkeypatch.setattr("carom.explorer.computing.judgement.DIRECTIONS", 3)
     case = origin("restitution").case
-    rotor = model_of(case)
+    rotor = rotor_of(case)
     found = find_hardest(rotor, planes_of(case)[0], 1.0, case.limits)
     assert found.value.endswith(" N")
     assert found.remark.startswith("in 3 kicks up to ")
@@ -218,11 +218,11 @@ def test_losses_of_a_blade_are_shown_too(origin):
     case = origin("restitution").case
     losses = planes_of(case)[2]
     assert losses.usual > 0.0
-    assert map_kicks(model_of(case), losses, sized(6, 4), 2.0 * losses.usual).exists.any()
+    assert map_kicks(rotor_of(case), losses, sized(6, 4), 2.0 * losses.usual).exists.any()
 
 
 def test_steady_motions_are_listed_and_what_is_left_out_is_named(origin):
-    rotor = model_of(origin("restitution").case)
+    rotor = rotor_of(origin("restitution").case)
     table = table_of(rotor)
     assert [(row.name, row.state) for row in table.rows] == [
         ("levitation", "stable"),
@@ -236,7 +236,7 @@ def test_steady_motions_are_listed_and_what_is_left_out_is_named(origin):
 
 
 def test_a_shaft_whose_speed_changes_never_rests_in_contact(origin):
-    rotor = model_of(origin("drive").case)
+    rotor = rotor_of(origin("drive").case)
     with pytest.raises(InputError, match="a shaft whose speed changes"):
         table_of(rotor)
     with pytest.raises(InputError, match="a shaft whose speed changes"):
@@ -245,7 +245,7 @@ def test_a_shaft_whose_speed_changes_never_rests_in_contact(origin):
 
 
 def test_steady_motions_on_a_race_that_turns_are_listed(origin):
-    assert table_of(model_of(origin("race").case)).rows[0].name == "levitation"
+    assert table_of(rotor_of(origin("race").case)).rows[0].name == "levitation"
 
 
 def test_machines_that_never_rest_in_their_frame_are_refused_in_a_line(origin):
@@ -258,12 +258,12 @@ def test_machines_that_never_rest_in_their_frame_are_refused_in_a_line(origin):
 
 def test_a_model_has_the_case_of_its_bearing(origin):
     case = origin("drive").case
-    found = planar_case_of(model_of(case))
+    found = planar_case_of(rotor_of(case))
     assert (found.parameters, found.touchdown, found.drive) == (case.parameters, case.touchdown, case.drive)
     # A figure in a notebook begins with it.
     assert values_of(with_settings(found, {"touchdown_stiffness": "2e8"}))["touchdown_stiffness"] == 2e8
     assert "[dimensionless]" in as_toml(found)
-    assert "cm.models.jeffcott(" in as_python(found, kick_of(found, model_of(found)), controls_of(found)[0])
+    assert "cm.models.jeffcott(" in as_python(found, kick_of(found, rotor_of(found)), controls_of(found)[0])
     assert planar_case_of(replace(case, touchdown=None, drive=None).machine).touchdown is None
 
 
@@ -291,6 +291,6 @@ def test_a_session_answers_with_everything(origin, monkeypatch):
     session.close()
     assert answers["reply"]["values"]["touchdown_stiffness"] == 5e7
     assert not [name for name, value in answers.items() if "refused" in (value or {}) and name != "diagram"]
-    assert answers["diagram"]["refused"] == why_none(model_of(origin("restitution").case))
+    assert answers["diagram"]["refused"] == why_none(rotor_of(origin("restitution").case))
     assert "[touchdown]" in answers["exports"]["toml"]
     assert answers["motion"]["hardest"] >= 0.0

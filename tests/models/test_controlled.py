@@ -8,7 +8,7 @@ from linear_rotors import tilting, touchdowns
 from scipy.linalg import expm
 
 import carom as cm
-from carom.models import from_matrices, model_from
+from carom.models import from_matrices, rotor_from
 from carom.models.weight import levitation_of
 from carom.outcome import InputError
 from carom.parameters import Gravity, Scales
@@ -169,7 +169,7 @@ def test_gains_multiply_what_is_left_too():
 
 def test_it_is_read_again_from_its_attributes():
     rotor = controlled()
-    again = model_from(rotor.attributes())
+    again = rotor_from(rotor.attributes())
     assert again.system.arrays.tobytes() == rotor.system.arrays.tobytes()
     assert np.array_equal(again.unlevitated, rotor.unlevitated)
 

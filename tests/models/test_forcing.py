@@ -153,7 +153,7 @@ def test_a_bouncing_rotor_comes_to_rest_at_the_bottom():
 
 def test_a_model_is_read_again_from_its_attributes():
     rotor = dropped()
-    again = cm.models.model_from(rotor.attributes())
+    again = cm.models.rotor_from(rotor.attributes())
     assert again.system.arrays.tobytes() == rotor.system.arrays.tobytes()
     assert again.replace(mu=0.3).system.arrays.friction[0] == 0.3
     assert again.value("mu") == 0.1

@@ -9,7 +9,7 @@ import pytest
 from machines import PAPER
 
 import carom as cm
-from carom.models import jeffcott, model_from
+from carom.models import jeffcott, rotor_from
 from carom.outcome import InputError
 from carom.parameters import Scales, TouchdownBearing
 
@@ -87,9 +87,9 @@ def test_parameters_by_name():
         model.replace(d=0.9)
     with pytest.raises(InputError, match="d = nothing given"):
         model.value("d")
-    again = model_from(changed.attributes())
+    again = rotor_from(changed.attributes())
     assert again == changed
-    assert model_from({**changed.attributes()}).system.arrays == changed.system.arrays
+    assert rotor_from({**changed.attributes()}).system.arrays == changed.system.arrays
 
 
 @pytest.mark.jit_only

@@ -10,7 +10,7 @@ from linear_rotors import bending, single, tilting, touchdowns
 from machines import PAPER, random_parameters
 from scipy.linalg import expm
 
-from carom.models import from_matrices, jeffcott, model_from, model_of
+from carom.models import from_matrices, jeffcott, rotor_from, rotor_of
 from carom.models.modes import modes_of
 from carom.motions.ensembles import settle
 from carom.motions.simulation import simulate
@@ -179,10 +179,10 @@ def test_it_settles_as_the_planar_rotor_does():
 
 def test_attributes_make_the_same_rotor_again():
     model = tilting().model
-    again = model_from(model.attributes())
+    again = rotor_from(model.attributes())
     assert again.attributes() == model.attributes()
-    assert model_from(jeffcott(PAPER).attributes()) == jeffcott(PAPER)
-    assert model_of(model) is model
+    assert rotor_from(jeffcott(PAPER).attributes()) == jeffcott(PAPER)
+    assert rotor_of(model) is model
 
 
 @pytest.mark.parametrize(

@@ -20,7 +20,7 @@ from carom.models import (
     Touchdown,
     from_corotating_matrices,
     from_matrices,
-    model_from,
+    rotor_from,
 )
 from carom.motions import State, energy_ledger
 from carom.outcome import InputError, Outcome, Phase
@@ -231,7 +231,7 @@ def test_levitation_settles_inside_the_wall():
 
 def test_a_model_comes_back_from_its_attributes():
     rotor = heavy(rotor_of())
-    again = model_from(rotor.attributes())
+    again = rotor_from(rotor.attributes())
     assert again.system.arrays["mirror_columns"].tolist() == rotor.system.arrays["mirror_columns"].tolist()
 
 

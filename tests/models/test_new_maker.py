@@ -51,7 +51,7 @@ def test_a_new_kind_of_rotor_is_taken_by_the_verbs():
     assert cm.models.axis(rotor, "friction").move(rotor, 0.3).touchdowns[0].friction == 0.3
     pulled = rotor.under(Force(-1j, np.array([-0.05j])))
     assert pulled.replace(friction=0.3).forces == pulled.forces
-    again = cm.models.model_from(pulled.attributes())
+    again = cm.models.rotor_from(pulled.attributes())
     assert np.array_equal(again.system.arrays["exponents"], pulled.system.arrays["exponents"])
     assert not rotor.has_closed_forms
     assert rotor.planar is None

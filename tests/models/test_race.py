@@ -7,7 +7,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import carom as cm
-from carom.models import HuntCrossley, KelvinVoigt, Race, Rigid, Touchdown, from_matrices, model_from
+from carom.models import HuntCrossley, KelvinVoigt, Race, Rigid, Touchdown, from_matrices, rotor_from
 
 GAMMA, OMEGA, PUSH = 0.1, 0.76, 3.0 / 7.0 * np.exp(0.21j)
 START = cm.State(0.2 + 0.1j, 1.0)
@@ -158,7 +158,7 @@ def test_a_race_without_drag_ends_with_the_surface_of_a_rotor_that_stays_in_cont
 
 def test_a_rotor_with_a_race_is_written_and_read():
     rotor = rotor_with(SOFT, Race(2.0, 1.5, 0.3, 0.8))
-    again = model_from(rotor.attributes())
+    again = rotor_from(rotor.attributes())
     assert again.touchdowns == rotor.touchdowns
     assert cm.simulate(again, START, 3.0).final == cm.simulate(rotor, START, 3.0).final
 

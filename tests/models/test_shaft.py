@@ -7,7 +7,7 @@ import pytest
 from turning_reference import SLIDES, Turning
 
 import carom as cm
-from carom.models import Force, HuntCrossley, KelvinVoigt, Race, Rigid, Shaft, Touchdown, from_matrices, model_from
+from carom.models import Force, HuntCrossley, KelvinVoigt, Race, Rigid, Shaft, Touchdown, from_matrices, rotor_from
 
 START = cm.State(0.2 + 0.1j, 1.0)
 SOFT = KelvinVoigt(1e3, 3.3)
@@ -256,7 +256,7 @@ def test_a_driven_shaft_leaves_a_rigid_wall_where_nothing_presses_it_there():
 
 def test_a_rotor_with_a_shaft_is_written_and_read(tmp_path):
     rotor = single(SOFT, Shaft(2.0, 0.1), 0.3, 3.0)
-    again = model_from(rotor.attributes())
+    again = rotor_from(rotor.attributes())
     assert again.shaft == rotor.shaft
     motion = cm.simulate(again, START, 3.0)
     motion.save(tmp_path / "motion.nc")

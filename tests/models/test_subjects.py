@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from machines import PAPER
 
-from carom.models import case_of, jeffcott, model_of, planar_case_of
+from carom.models import case_of, jeffcott, planar_case_of, rotor_of
 from carom.outcome import InputError
 from carom.parameters import Case, Machine, Scales, Zones
 
@@ -14,16 +14,16 @@ MACHINE = Machine.from_parameters(PAPER, Scales(50.0, 0.7e-3, 184.2))
 
 def test_whatever_describes_a_rotor_is_taken():
     rotor = jeffcott(PAPER)
-    assert model_of(rotor) is rotor
-    assert model_of(PAPER) == rotor
-    assert model_of(Case("machine", PAPER, None, Zones())) == rotor
-    assert model_of(MACHINE) == jeffcott(MACHINE.parameters)
+    assert rotor_of(rotor) is rotor
+    assert rotor_of(PAPER) == rotor
+    assert rotor_of(Case("machine", PAPER, None, Zones())) == rotor
+    assert rotor_of(MACHINE) == jeffcott(MACHINE.parameters)
 
 
 @pytest.mark.parametrize("subject", [None, "machine.toml", 3, jeffcott(PAPER).system, {"gamma": 0.1}])
 def test_anything_else_is_refused(subject):
     with pytest.raises(InputError, match=r"machine = .*: a Machine, a Case .*, Parameters or a model"):
-        model_of(subject)
+        rotor_of(subject)
 
 
 def test_a_case_keeps_the_machine_it_was_made_from():
@@ -41,7 +41,7 @@ def test_the_case_of_a_planar_machine_keeps_the_limits_that_it_states():
         clearance="0.7 mm", rotor_radius="40 mm", friction=0.15, restitution=0.95, force_limit="300 N",
     )  # fmt: skip
     case = planar_case_of(machine)
-    assert model_of(case).limits == machine.control_limit
+    assert rotor_of(case).limits == machine.control_limit
     assert planar_case_of(case) is case
     with pytest.raises(InputError, match="limits"):
-        planar_case_of(model_of(case))  # the limits of a model have no place in a case
+        planar_case_of(rotor_of(case))  # the limits of a model have no place in a case

@@ -18,7 +18,7 @@ from carom.models import (
     Touchdown,
     from_matrices,
     jeffcott,
-    model_from,
+    rotor_from,
 )
 from carom.motions.starts import State
 from carom.outcome import InputError, Outcome
@@ -76,7 +76,7 @@ def test_the_second_law_runs_through_settling_basins_orbits_and_continuation():
 
 def test_it_is_stored_and_read_again():
     rotor = paper(FallingRestitution(0.9, 3.0))
-    again = model_from(rotor.attributes())
+    again = rotor_from(rotor.attributes())
     assert again.touchdowns == rotor.touchdowns
     assert again.replace(d=0.5, mu=0.2).touchdowns[0].law == FallingRestitution(0.5, 3.0)
 
@@ -125,7 +125,7 @@ def with_two_walls(first, second, scales=None) -> Rotor:
 @pytest.mark.parametrize("law", [SPRING, BALLS, HuntCrossley(7.0, 0.0), HuntCrossley(7.0, 0.0, 10 / 9)], ids=str)
 def test_walls_that_give_way_are_stored_and_read_again_to_the_last_bit(law):
     rotor = with_two_walls(law, Rigid(0.9))
-    again = model_from(rotor.attributes())
+    again = rotor_from(rotor.attributes())
     assert again.touchdowns == rotor.touchdowns
     assert [Touchdown.from_attributes(each.attributes()) for each in rotor.touchdowns] == list(rotor.touchdowns)
 

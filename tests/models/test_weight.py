@@ -8,13 +8,13 @@ from linear_rotors import single, tilting
 from machines import PAPER
 
 import carom as cm
-from carom.models import Force, Stage, Staged, exact_rotor_of, jeffcott, model_of
+from carom.models import Force, Stage, Staged, exact_rotor_of, jeffcott, rotor_of
 from carom.models.weight import levitation_of
 from carom.outcome import InputError
 from carom.parameters import Gravity, Parameters, Scales
 
 HEAVY = cm.load("examples/dropped-rotor.toml")
-ROTOR = model_of(HEAVY)
+ROTOR = rotor_of(HEAVY)
 PULL = 9.81 / (0.25e-3 * (300.0 * math.pi) ** 2)
 
 
@@ -23,7 +23,7 @@ def test_the_model_of_a_heavy_case_has_its_weight():
     assert ROTOR.unforced == jeffcott(HEAVY.parameters)
     assert ROTOR.weight == pytest.approx(-1j * PULL)
     assert Staged((Stage(ROTOR),)).weight == pytest.approx(-1j * PULL)
-    assert model_of(HEAVY.replace(gravity=0)) == jeffcott(HEAVY.parameters)
+    assert rotor_of(HEAVY.replace(gravity=0)) == jeffcott(HEAVY.parameters)
 
 
 def test_no_other_force_is_weight():
@@ -33,7 +33,7 @@ def test_no_other_force_is_weight():
 
 @pytest.mark.parametrize("changes", [{"speed": "6000 rpm"}, {"clearance": "0.4 mm"}, {"mass": "9 kg"}, {"gamma": 0.2}])
 def test_weight_keeps_its_acceleration_in_si_whatever_is_varied(changes):
-    varied, again = ROTOR.replace(**changes), model_of(HEAVY.replace(**changes))
+    varied, again = ROTOR.replace(**changes), rotor_of(HEAVY.replace(**changes))
     assert varied.weight == pytest.approx(again.weight, rel=1e-15)
     assert varied.value("omega") == pytest.approx(again.value("omega"), rel=1e-15)
 
@@ -41,7 +41,7 @@ def test_weight_keeps_its_acceleration_in_si_whatever_is_varied(changes):
 def test_gravity_is_a_named_parameter():
     assert ROTOR.value("gravity") == pytest.approx(9.81, rel=1e-14)
     moved = ROTOR.replace(gravity=1.62, speed="6000 rpm")
-    again = model_of(HEAVY.replace(gravity=1.62, speed="6000 rpm"))
+    again = rotor_of(HEAVY.replace(gravity=1.62, speed="6000 rpm"))
     assert moved.weight == pytest.approx(again.weight, rel=1e-14)
     assert moved.value("gravity") == pytest.approx(1.62, rel=1e-14)
     assert ROTOR.replace(gravity="162 cm/s^2").value("gravity") == pytest.approx(1.62, rel=1e-14)
@@ -79,7 +79,7 @@ def test_levitation_is_a_circle_about_the_static_sag():
 
 def test_a_rotor_that_sags_to_the_wall_does_not_levitate():
     with pytest.raises(InputError, match=r"^levitation = up to 1.97 clearances from the centre: .* inside the wall"):
-        levitation_of(model_of(HEAVY.replace(stiffness="1e5 N/m")))
+        levitation_of(rotor_of(HEAVY.replace(stiffness="1e5 N/m")))
     with pytest.raises(InputError, match=r"^levitation = none, nothing holds the rotor"):
         levitation_of(ROTOR.without_levitation())
 
@@ -111,7 +111,7 @@ def test_levitation_and_shaft_of_a_rotor_of_several_coordinates_are_not_told_apa
         lambda machine: cm.find_bifurcations(machine, "gamma", (0.1, 0.2), lasting=True),
         cm.models.case_of,
         exact_rotor_of,
-        lambda machine: model_of(machine).refuse_forces(),
+        lambda machine: rotor_of(machine).refuse_forces(),
     ],
 )
 def test_what_needs_a_rotor_at_rest_in_its_frame_names_gravity_and_what_works(asked):

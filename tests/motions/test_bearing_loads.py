@@ -257,4 +257,4 @@ def test_a_rotor_without_levitation_is_followed_for_a_time_that_is_stated():
     case = cm.load(BALLS)
     falling, _ = cm.drop().stages(case)
     assert settling.longest_time(falling) == pytest.approx(3000.0 * math.pi)
-    assert settling.longest_time(cm.models.model_of(case)) >= settling.SHORTEST_LIMIT
+    assert settling.longest_time(cm.models.rotor_of(case)) >= settling.SHORTEST_LIMIT

@@ -8,7 +8,7 @@ from flexible_machines import munich
 
 import carom as cm
 from carom.disturbances.echo import echo_of_drop
-from carom.models import model_of
+from carom.models import rotor_of
 from carom.models.touchdown import FARTHEST
 from carom.motions import drop_loads
 from carom.motions.magnets import excess_pull, magnet_reach
@@ -67,7 +67,7 @@ def test_it_is_told_since_when(tmp_path):
 def test_a_map_ends_a_start_as_one_motion_does(tmp_path):
     case, random = machine(tmp_path), np.random.default_rng(5)
     speeds = 3.0 * np.sqrt(random.random(12)) * np.exp(2j * np.pi * random.random(12))
-    starts = [cm.kick(abs(speed), float(np.angle(speed))).state(model_of(case)) for speed in speeds]
+    starts = [cm.kick(abs(speed), float(np.angle(speed))).state(rotor_of(case)) for speed in speeds]
     ends = cm.settle(case, [start.position for start in starts], [start.velocity for start in starts], until=400.0)
     alone = [cm.simulate(case, start, 400.0, settle=True) for start in starts]
     assert ends.outcomes.tolist() == [motion.outcome for motion in alone]

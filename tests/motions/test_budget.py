@@ -7,7 +7,7 @@ import carom as cm
 from carom.basins import smallest_loss
 from carom.disturbances import Sample, VelocityKick
 from carom.disturbances.following import follow
-from carom.models import model_of
+from carom.models import rotor_of
 from carom.motions.budget import LONGEST, NOT_FOLLOWED, START, Budget
 
 pytestmark = pytest.mark.jit_only
@@ -30,7 +30,7 @@ restitution = 0.6
 def rotor(tmp_path_factory):
     path = tmp_path_factory.mktemp("heavy") / "heavy.toml"
     path.write_text(MACHINE)
-    return model_of(cm.load(path))
+    return rotor_of(cm.load(path))
 
 
 def test_the_same_motions_are_followed_by_any_number_of_threads(rotor):

@@ -8,14 +8,14 @@ import pytest
 from linear_rotors import tilting
 
 import carom as cm
-from carom.models import Stage, Staged, model_of
+from carom.models import Stage, Staged, rotor_of
 from carom.motions import Drop, Whirl
 from carom.outcome import InputError, Outcome
 
 pytestmark = pytest.mark.jit_only
 
 HEAVY = cm.load("examples/dropped-rotor.toml")
-ROTOR = model_of(HEAVY)
+ROTOR = rotor_of(HEAVY)
 PULL = 9.81 / (0.25e-3 * (300.0 * math.pi) ** 2)
 
 
@@ -111,7 +111,7 @@ def test_it_is_released_from_a_whirl():
 
 def test_a_mount_is_at_rest_at_the_release_from_a_whirl():
     mounted = cm.load("examples/touchdown-balls.toml", ["touchdown_mount_mass=2", "touchdown_mount_stiffness=2e7"])
-    state = Whirl(0.5, 2.0).state(model_of(mounted))
+    state = Whirl(0.5, 2.0).state(rotor_of(mounted))
     assert state.position.tolist() == [0.5, 0.0]
     assert state.velocity.tolist() == [0.5j, 0.0]
 

@@ -208,7 +208,7 @@ def test_whoever_interrupts_its_progress_ends_the_work(monkeypatch):
     with pytest.raises(KeyboardInterrupt):
         settle(
             rotor,
-            carom.models.model_of(rotor).equilibrium,
+            carom.models.rotor_of(rotor).equilibrium,
             np.linspace(0.1, 1.5, 8000),
             threads=2,
             progress=interrupt,

@@ -79,7 +79,7 @@ def test_energy_under_gravity_closes_with_the_work_of_the_weight(settings, drops
 
 @pytest.mark.jit_only
 def test_energy_of_a_shaken_heavy_rotor_closes():
-    heavy = carom.models.model_of(carom.load("examples/dropped-rotor.toml"))
+    heavy = carom.models.rotor_of(carom.load("examples/dropped-rotor.toml"))
     shaken = heavy.under(carom.models.Force(0.4j, np.array([0.05 + 0.02j])))
     ledger = energy_ledger(carom.simulate(shaken, carom.State(0.4j, 2.0), until=100.0))
     assert ledger.imbalance < 1e-10

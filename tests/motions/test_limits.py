@@ -10,7 +10,7 @@ from limited_reference import clipped, follow, struck
 
 import carom as cm
 from carom.loading import load
-from carom.models import jeffcott, model_of
+from carom.models import jeffcott, rotor_of
 from carom.motions import State, Trajectory, energy_ledger
 from carom.outcome import InputError, Outcome, Phase
 from carom.parameters import ControlLimit, TouchdownBearing
@@ -19,8 +19,8 @@ KEOGH = "examples/keogh-cole.toml"
 YIELDING = TouchdownBearing(law="kelvin-voigt", stiffness="200 N/um", damping="5 kN s/m")
 
 
-def rotor_of(*settings, wall=None):
-    rotor = model_of(load(KEOGH, list(settings)))
+def keogh_cole(*settings, wall=None):
+    rotor = rotor_of(load(KEOGH, list(settings)))
     return jeffcott(rotor.parameters, wall) if wall else rotor
 
 
@@ -48,7 +48,7 @@ def unlimited_force(parameters, bound, pull):
 @pytest.mark.parametrize(("bound", "pull"), [(0.55, 0.0), (0.3, 0.2), (0.7, 0.5)])
 @pytest.mark.parametrize("start", [State(0.2 + 0.1j, 1.1 - 0.3j), State(-0.5j, 0.4 + 1.2j)])
 def test_motions_with_rigid_impacts_are_those_of_a_general_integrator(bound, pull, start):
-    rotor = rotor_of()
+    rotor = keogh_cole()
     at = rotor.parameters
     force = unlimited_force(at, bound, pull)
 
@@ -69,7 +69,7 @@ def test_motions_with_rigid_impacts_are_those_of_a_general_integrator(bound, pul
 
 @pytest.mark.parametrize("bound", [0.5, 0.3])
 def test_motions_in_a_wall_that_gives_way_are_those_of_a_general_integrator(bound):
-    rotor = rotor_of(wall=YIELDING)
+    rotor = keogh_cole(wall=YIELDING)
     at, pull = rotor.parameters, 0.3
     wall = rotor.system.contacts[0].wall
     force = unlimited_force(at, bound, pull)
@@ -94,7 +94,7 @@ def test_motions_in_a_wall_that_gives_way_are_those_of_a_general_integrator(boun
 
 def test_lasting_contact_at_a_limit_is_that_of_a_general_integrator():
     """Sliding on a rigid wall: one angle, whose acceleration follows from the forces along the wall."""
-    rotor = rotor_of("restitution=0", "damping=1 kN s/m")
+    rotor = keogh_cole("restitution=0", "damping=1 kN s/m")
     at, bound, pull = rotor.parameters, 0.4, 0.3
     force = unlimited_force(at, bound, pull)
     motion = cm.simulate(limited(rotor, bound, pull), State(np.exp(0.5j), 0.1j * np.exp(0.5j)), 6.0)
@@ -118,7 +118,7 @@ def test_lasting_contact_at_a_limit_is_that_of_a_general_integrator():
 
 @pytest.mark.parametrize("wall", [None, YIELDING])
 def test_a_limit_that_is_never_met_changes_nothing(wall):
-    rotor, start = rotor_of(wall=wall), State(0.1, 0.9 + 0.5j)
+    rotor, start = keogh_cole(wall=wall), State(0.1, 0.9 + 0.5j)
 
     held, linear = (cm.simulate(each, start, 60.0) for each in (limited(rotor, 50.0, 0.4), rotor))
 
@@ -132,7 +132,7 @@ def test_a_limit_that_is_never_met_changes_nothing(wall):
     ("settings", "wall"), [([], None), ([], YIELDING), (["restitution=0.3"], None), (["gravity=9.81"], None)]
 )
 def test_the_energy_ledger_closes(settings, wall):
-    rotor = rotor_of(*settings, wall=wall)
+    rotor = keogh_cole(*settings, wall=wall)
     heavy = bool(rotor.forces)
     held = limited(rotor.unforced, 0.4, 0.2)
     held = held.under(*rotor.forces) if heavy else held
@@ -147,7 +147,7 @@ def test_the_energy_ledger_closes(settings, wall):
 
 
 def test_bearings_that_can_give_nothing_let_the_rotor_fly():
-    rotor = rotor_of("damping=0 N s/m")
+    rotor = keogh_cole("damping=0 N s/m")
     flying = cm.models.from_matrices(
         mass=[[1.0]],
         damping=[[0.0]],
@@ -166,7 +166,7 @@ def test_bearings_that_can_give_nothing_let_the_rotor_fly():
 
 def test_a_limit_that_is_just_met_or_just_missed_makes_no_difference():
     """What is asked for is a circle in the frame of the rotor: each axis comes to its bound with no speed."""
-    rotor = rotor_of()
+    rotor = keogh_cole()
     levitation = rotor.system.rest[0]
     asked = abs(rotor.parameters.omega**2 + 1j * rotor.parameters.gamma) * abs(levitation)
 
@@ -178,7 +178,7 @@ def test_a_limit_that_is_just_met_or_just_missed_makes_no_difference():
 
 
 def test_axes_turned_by_a_quarter_turn_are_the_same():
-    rotor = rotor_of()
+    rotor = keogh_cole()
     turned = jeffcott(rotor.parameters.replace(phi=rotor.parameters.phi + 0.5 * np.pi))
     start = State(0.2 + 0.1j, 1.1 - 0.3j)
 
@@ -190,7 +190,7 @@ def test_axes_turned_by_a_quarter_turn_are_the_same():
 
 def test_a_motion_goes_on_where_it_has_stopped():
     """Its state holds the time, which says where the axes point."""
-    held, start = limited(rotor_of(), 0.4, 0.2), State(0.3, 0.8 + 0.6j)
+    held, start = limited(keogh_cole(), 0.4, 0.2), State(0.3, 0.8 + 0.6j)
     whole = cm.simulate(held, start, 6.0)
 
     first = cm.simulate(held, start, 2.6)
@@ -203,7 +203,7 @@ def test_a_motion_goes_on_where_it_has_stopped():
 
 
 def test_many_motions_end_as_each_alone():
-    held = limited(rotor_of(), 0.3, 0.2)
+    held = limited(keogh_cole(), 0.3, 0.2)
     velocities = np.array([0.1, 0.6 + 0.3j, -1.1j, 1.4])
     rest = complex(held.system.rest[0])
 
@@ -217,7 +217,7 @@ def test_many_motions_end_as_each_alone():
 
 
 def test_levitation_asks_for_what_the_bearings_can_give():
-    rotor = rotor_of()
+    rotor = keogh_cole()
     asked = abs(rotor.parameters.omega**2 + 1j * rotor.parameters.gamma) * abs(rotor.system.rest[0])
     rest, push = complex(rotor.system.rest[0]), 0.001
 
@@ -229,7 +229,7 @@ def test_levitation_asks_for_what_the_bearings_can_give():
 
 
 def test_a_motion_is_saved_with_its_limits(tmp_path):
-    motion = cm.simulate(limited(rotor_of(), 0.4, 0.2), State(0.3, 0.8 + 0.6j), 6.0)
+    motion = cm.simulate(limited(keogh_cole(), 0.4, 0.2), State(0.3, 0.8 + 0.6j), 6.0)
     motion.save(tmp_path / "motion.nc")
 
     again = Trajectory.load(tmp_path / "motion.nc")
@@ -244,9 +244,9 @@ def test_a_machine_file_gives_the_limits():
         KEOGH,
         ["magnetic_bearings=2", "force_current_factor=70 N/A", "negative_stiffness=100 N/mm", "current_limit=4 A"],
     )
-    assert model_of(case).limits == ControlLimit(2 * 70.0 * 4.0, 2e5)
+    assert rotor_of(case).limits == ControlLimit(2 * 70.0 * 4.0, 2e5)
     both = load(KEOGH, ["force_limit=200 N"])
-    assert model_of(both).limits == ControlLimit(200.0, 0.0)
-    assert model_of(load(KEOGH)).has_closed_forms
+    assert rotor_of(both).limits == ControlLimit(200.0, 0.0)
+    assert rotor_of(load(KEOGH)).has_closed_forms
     with pytest.raises(InputError, match="limits"):
         cm.models.exact_rotor_of(case)

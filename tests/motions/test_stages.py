@@ -11,7 +11,7 @@ from linear_rotors import tilting
 from machines import PAPER
 
 import carom as cm
-from carom.models import Force, Stage, Staged, Trigger, jeffcott, model_from
+from carom.models import Force, Stage, Staged, Trigger, jeffcott, rotor_from
 from carom.outcome import InputError, Outcome, Phase
 
 pytestmark = pytest.mark.jit_only
@@ -179,7 +179,7 @@ def test_a_start_in_lasting_contact_counts_from_its_beginning():
 
 def test_stages_are_read_again_from_their_attributes():
     staged = Staged((Stage(ROTOR, Trigger(time=5.0, contact_gap=0.2), carry=np.eye(2) * 1j), Stage(HELPED)))
-    again = model_from(staged.attributes())
+    again = rotor_from(staged.attributes())
     assert [each.trigger for each in again.stages] == [each.trigger for each in staged.stages]
     assert np.array_equal(again.stages[0].carry, 1j * np.eye(2))
     assert again.stages[1].rotor == HELPED

@@ -12,7 +12,7 @@ from linear_rotors import single, tilting
 from machines import PAPER
 
 import carom as cm
-from carom.models import jeffcott, model_of
+from carom.models import jeffcott, rotor_of
 from carom.motions.simulation import simulate
 from carom.motions.starts import Kick, State, kick
 from carom.outcome import InputError
@@ -110,7 +110,7 @@ class TestUnits:
 
 
 def test_a_motion_goes_on_from_where_another_has_ended():
-    heavy = model_of(cm.load("examples/dropped-rotor.toml"))
+    heavy = rotor_of(cm.load("examples/dropped-rotor.toml"))
     start = cm.State(0.2, 1.5 - 0.3j)
     whole = cm.simulate(heavy, start, 30.0)
     first = cm.simulate(heavy, start, 11.0)

@@ -11,7 +11,7 @@ import pytest
 
 from carom.bifurcations import find_bifurcations
 from carom.loading import load
-from carom.models import model_of
+from carom.models import rotor_of
 from carom.motions import State, settle, simulate
 from carom.orbits import find_orbits, rubbing_orbits
 from carom.orbits.orbit import Orbit, same_orbit
@@ -39,7 +39,7 @@ for Newton's method, by a program of its own with the closed form of a flight, w
 
 def searched_alone(machine, impacts: int, guesses: int) -> list[Orbit]:
     """What the search finds without any known orbit."""
-    search = Search(model_of(machine), impacts)
+    search = Search(rotor_of(machine), impacts)
     search.run(2000, guesses, 10, [0], Reporter())
     return [orbit for orbit in search.found if orbit.admissible]
 
@@ -228,6 +228,6 @@ def test_rotors_of_many_states_are_searched_with_few_guesses():
     """A guess on the rig of TU Munich takes seconds, on a planar rotor a thousandth of one."""
     flexible = load("examples/tum-flexible-rotor.toml").parameters
     width = 2 * len(flexible.system.nodes.rest) + 1
-    assert usual_share(model_of(PAPER)) == 1.0
+    assert usual_share(rotor_of(PAPER)) == 1.0
     assert width > 3 * WHOLE_WIDTH
     assert LEAST_SHARE <= usual_share(flexible) < 0.04

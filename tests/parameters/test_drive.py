@@ -50,7 +50,7 @@ def test_a_drop_brakes_the_shaft_and_a_drive_holds_it(tmp_path):
     given = 0.5 * float(touches.duration.sum()) * scales.time
     assert given > 0.01 * braked
     assert 4.5e-3 * scales.speed * turned == pytest.approx(braked - given, rel=1e-6)
-    again = cm.models.model_from(motion.rotor.attributes())
+    again = cm.models.rotor_from(motion.rotor.attributes())
     assert again.attributes() == motion.rotor.attributes()
     assert load(tmp_path, SOFT, case.drive.to_toml()).drive == case.drive
 
@@ -77,7 +77,7 @@ def test_a_drive_beside_a_rigid_wall_is_that_of_a_linear_rotor(tmp_path):
     rigid = MACHINE.replace("[gravity]", "restitution = 0.9")
     path.write_text(rigid + "[drive]\npolar_inertia = 0.01\n")
     machine = cm.load(path)
-    model = cm.models.model_of(machine)
+    model = cm.models.rotor_of(machine)
     at, scales = model.parameters, model.scales
     rotor = cm.models.from_matrices(
         mass=[[1.0]],

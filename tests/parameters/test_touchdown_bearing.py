@@ -49,7 +49,7 @@ def test_balls_are_no_parameter_of_the_motion(tmp_path):
     balls = 'damping = 500\nballs = 8\nball_diameter = "6 mm"\nrace_diameter = "40 mm"\nball_modulus = "310 GPa"\n'
     case = load(tmp_path, SOFT + balls, ["touchdown_balls=10"])
     assert (case.touchdown.balls, case.touchdown.ball_diameter, case.touchdown.ball_modulus) == (10, 6e-3, 310e9)
-    varied = cm.models.model_of(case).varied
+    varied = cm.models.rotor_of(case).varied
     assert "touchdown_stiffness" in varied
     assert not any("ball" in name for name in varied)
     again = load(tmp_path, case.touchdown.to_toml())
@@ -59,7 +59,7 @@ def test_balls_are_no_parameter_of_the_motion(tmp_path):
 def test_a_rigid_bearing_is_the_machine_with_its_restitution(tmp_path):
     case = load(tmp_path, '[touchdown]\nlaw = "rigid"\n', machine=MACHINE + "restitution = 0.9\n")
     assert case.touchdown is None
-    assert cm.models.model_of(case).has_closed_forms
+    assert cm.models.rotor_of(case).has_closed_forms
 
 
 def test_settings_and_replace_change_entries(tmp_path):

@@ -9,7 +9,7 @@ import pytest
 
 import carom as cm
 from carom.closed_forms import levitation
-from carom.models import model_of
+from carom.models import rotor_of
 from carom.motions.starts import Kick
 from carom.outcome import InputError
 from carom.proofs import check, prove, prove_kicks
@@ -48,7 +48,7 @@ def case(tmp_path_factory):
 
 @pytest.mark.jit_only
 def test_kicks_at_the_bound_never_touch_and_some_beyond_it_do(case):
-    proof, rotor = prove(case), model_of(case)
+    proof, rotor = prove(case), rotor_of(case)
     assert {claim.status for claim in proof} == {"proven"}
     bearing = proof["levitation clear"].enclosures["bearing_1"]
     assert float(bearing.low) <= levitation(rotor).reach * (1.0 + 1e-12) <= float(bearing.high) * (1.0 + 2e-12)
@@ -81,6 +81,6 @@ def test_kicks_that_are_asked_for_and_a_certificate(case):
 
 
 def test_levitation_that_grows_is_not_proven(case):
-    grows = prove(model_of(case).replace(gamma=-0.01))
+    grows = prove(rotor_of(case).replace(gamma=-0.01))
     assert grows["levitation stable"].status == "undecided"
     assert all(claim.about == "levitation" for claim in grows)

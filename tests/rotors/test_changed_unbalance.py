@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import carom as cm
-from carom.models import model_of
+from carom.models import rotor_of
 from carom.outcome import InputError
 from carom.rotors import Unbalance
 
@@ -20,7 +20,7 @@ BEFORE = (Unbalance(1, 20e-6, 0.0), Unbalance(3, 19e-6, math.pi))
 @pytest.fixture(scope="module")
 def couple():
     """Two unbalances that nearly cancel as a force and leave a couple."""
-    machine = model_of(cm.load("examples/uberlandia-flexible-rotor.toml")).finite_elements.machine
+    machine = rotor_of(cm.load("examples/uberlandia-flexible-rotor.toml")).finite_elements.machine
     return dataclasses.replace(machine, unbalances=BEFORE).with_modes(2).model
 
 

@@ -12,7 +12,7 @@ from scipy.integrate import solve_ivp
 
 import carom as cm
 from carom.closed_forms import ball_pressure, synchronous_response
-from carom.models import Rigid, Touchdown, from_matrices, model_from
+from carom.models import Rigid, Touchdown, from_matrices, rotor_from
 from carom.models.weight import levitation_of
 from carom.orbits import find_orbits
 from carom.outcome import InputError
@@ -177,7 +177,7 @@ def test_balls_have_a_pressure_at_each_plane():
         si = plane.loads.si()
         assert si["pressure"] == pytest.approx(ball_pressure(wall, si["force"]), rel=1e-12)
         assert si["pressure"] > 1e8
-    again = model_from(model.unforced.attributes())
+    again = rotor_from(model.unforced.attributes())
     assert [each.bearing.balls for each in again.touchdowns] == [12, 12]
 
 

@@ -84,7 +84,7 @@ def test_verdicts_are_those_of_all_exponents(example):
             continue
         verdicts.add(bool(worst.real > 0.0))
         if worst.real < 0.0:
-            assert cm.models.model_of(cm.load(example, settings)).system.decay > 0.0
+            assert cm.models.rotor_of(cm.load(example, settings)).system.decay > 0.0
             continue
         with pytest.raises(InputError) as refused:
             cm.load(example, settings)

@@ -9,7 +9,7 @@ import pytest
 from flexible_machines import munich
 
 import carom as cm
-from carom.models import model_of
+from carom.models import rotor_of
 from carom.outcome import CaromWarning, InputError
 from carom.rotors import PID, StateSpace
 
@@ -80,7 +80,7 @@ def test_the_example_is_the_rig_in_python():
         found, own = getattr(case.parameters, name), getattr(expected, name)
         # Lengths between nodes are rounded when they are written down.
         assert np.allclose(found, own, rtol=0, atol=1e-9 * np.abs(own).max())
-    assert model_of(case).forces
+    assert rotor_of(case).forces
     assert "Case tum-flexible-rotor" in repr(case)
 
 

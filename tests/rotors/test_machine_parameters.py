@@ -13,7 +13,7 @@ import pytest
 from flexible_machines import munich, symmetric
 
 import carom as cm
-from carom.models import model_from
+from carom.models import rotor_from
 from carom.outcome import InputError
 from carom.parameters import Gravity
 from carom.rotors import PID, MagneticBearing, StateSpace
@@ -91,7 +91,7 @@ def test_numbers_of_the_equations_are_told_to_the_machine(case):
     assert unbalance.angle - own.angle == pytest.approx(0.3 - model.unbalance_phase, abs=1e-14)
     assert [each.friction for each in machine.touchdowns] == [0.25, 0.25]
     assert machine.touchdowns[1].rotor_radius == pytest.approx(30.0 * machine.clearance, rel=1e-14)
-    other = model_from({key: text for key, text in model.attributes().items() if key != "flexible_machine"}).replace(
+    other = rotor_from({key: text for key, text in model.attributes().items() if key != "flexible_machine"}).replace(
         rho=2.0 * model.value("rho"),
         phi=0.3,
         mu=0.25,
@@ -109,7 +109,7 @@ def test_names_and_units_are_told(case):
     assert model.varied["proportional_2"].words == "proportional gain, of magnetic bearing 2"
     assert model.varied["touchdown_stiffness_1"].name == "touchdown_stiffness_1"
     assert not [name for name in model.varied if name.startswith("wall_")]
-    assert "gravity" in cm.models.model_of(case).varied
+    assert "gravity" in cm.models.rotor_of(case).varied
     assert model.rates("proportional") is None
 
 
@@ -189,7 +189,7 @@ def test_a_machine_comes_back_from_its_attributes(case):
         MagneticBearing(2, 50.0, -1e5, StateSpace([[-1e4]], [1e4], [-1e5], 1.09e5)),
     ]
     for model in (case.parameters, symmetric(bearings=bearings).with_modes(3).unchecked):
-        again = model_from(json.loads(json.dumps(model.attributes())))
+        again = rotor_from(json.loads(json.dumps(model.attributes())))
         assert again.finite_elements is not None
         assert np.array_equal(again.stiffness, model.stiffness)
         assert np.array_equal(again.damping, model.damping)
@@ -200,7 +200,7 @@ def test_a_machine_comes_back_from_its_attributes(case):
 
 
 def test_a_model_goes_to_other_processes(case):
-    model = cm.models.model_of(case)
+    model = cm.models.rotor_of(case)
     again = pickle.loads(pickle.dumps(model))
     assert again.forces
     assert np.array_equal(

@@ -58,7 +58,7 @@ stiffness = "4e7 N/m"
 damping = "400 N s/m"
 {"[gravity]" if gravity else ""}
 """)
-    return cm.models.model_of(cm.load(path))
+    return cm.models.rotor_of(cm.load(path))
 
 
 @pytest.mark.parametrize("gravity", [None, Gravity()])

@@ -207,7 +207,7 @@ def test_entries_are_parameters():
     assert MACHINE.value("kxy") == 3e4
     model = MACHINE.with_modes(6).linear
     assert model.replace(kyy=6e4).finite_elements.machine.supports[0].kyy == 6e4
-    again = cm.models.model_from(model.attributes())
+    again = cm.models.rotor_from(model.attributes())
     assert again.finite_elements.machine.supports == MACHINE.supports
     assert again.system.arrays["mirror_columns"].tolist() == model.system.arrays["mirror_columns"].tolist()
 

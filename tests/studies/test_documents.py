@@ -9,7 +9,7 @@ from machines import PAPER
 from yielding_walls import with_walls
 
 from carom.files import as_json
-from carom.models import KelvinVoigt, jeffcott, model_from
+from carom.models import KelvinVoigt, jeffcott, rotor_from
 from carom.motions import State, simulate
 from carom.parameters import Scales
 from carom.studies import trajectory_document
@@ -23,7 +23,7 @@ def test_motion_of_any_rotor():
     document = json.loads(as_json(trajectory_document(motion)))
 
     assert "parameters" not in document
-    assert model_from(document["rotor"]).attributes() == rotor.attributes()
+    assert rotor_from(document["rotor"]).attributes() == rotor.attributes()
     assert document["start"]["V"] == [[0.5, 0.0], [0.0, 0.1]]
     assert np.shape(document["final"]["U"]) == (2, 2)
     logs = [motion.seen_at(plane).contacts for plane in (0, 1)]

@@ -131,7 +131,7 @@ def test_of_motions_without_contact_the_orbit_is_told_not_the_start():
     """A kick that is known at once to come back is followed all the same; its widest orbit against a fresh one in finer steps."""
     case = cm.load(FILE)
     case = replace(case, requirement=cm.parameters.Requirement.of(case, kick="30 mm/s"))
-    rotor = cm.models.model_of(case)
+    rotor = cm.models.rotor_of(case)
     required = case.requirement.own(rotor.scales)
     (kicks,) = at_full_size(rotor, required)
     assert kicks.back.count == DIRECTIONS

@@ -221,7 +221,7 @@ def test_where_a_rotor_that_sags_touches_and_its_bearings_saturate(tmp_path):
     """The ends of the ranges, at speeds of their own, against the modes of the levitating rotor there."""
     (tmp_path / "levitated.toml").write_text(LEVITATED, encoding="utf-8")
     case = cm.load(tmp_path / "levitated.toml")
-    response, model = unbalance_response(case), cm.models.model_of(case)
+    response, model = unbalance_response(case), cm.models.rotor_of(case)
     assert response.rubs is None
     assert {stretch.what.contact_free for stretch in response.stretches} == {True, False}
     assert [stretch.what for stretch in response.saturating].count(True) == 1

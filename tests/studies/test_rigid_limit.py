@@ -7,7 +7,7 @@ import pytest
 from machines import PAPER
 
 import carom as cm
-from carom.models import KelvinVoigt, Touchdown, from_matrices, jeffcott, model_of
+from carom.models import KelvinVoigt, Touchdown, from_matrices, jeffcott, rotor_of
 from carom.parameters import Drive, TouchdownBearing
 from carom.studies.rigid_limit import RATIOS, SEED, on_other_walls, wall_values, wall_words
 from carom.studies.wording import Wording
@@ -61,7 +61,7 @@ def test_each_disturbance_is_followed_on_both_walls():
 def test_a_bearing_that_gives_way_is_compared_with_the_rigid_wall(law):
     speed = {"restitution_speed": 0.9 * 0.7e-3 * 184.2} if law == "hunt-crossley" else {}
     bearing = TouchdownBearing(law, "1e9 N/m", restitution=0.8, **speed)
-    rotor = jeffcott(model_of(SPINDLE).parameters, bearing)
+    rotor = jeffcott(rotor_of(SPINDLE).parameters, bearing)
     (other,) = on_other_walls(rotor, asked(rotor))
     assert other.stiffness is None
     assert other.restitution == pytest.approx(0.8, rel=1e-4 if speed else 1e-12)
@@ -69,7 +69,7 @@ def test_a_bearing_that_gives_way_is_compared_with_the_rigid_wall(law):
 
 
 def test_there_is_nothing_to_compare_where_a_rigid_wall_has_no_counterpart():
-    rotor = model_of(SPINDLE)
+    rotor = rotor_of(SPINDLE)
     stiff = {"law": "kelvin-voigt", "stiffness": 1e8, "damping": 2e3}
     for more in (
         {"mount_mass": 2.0, "mount_stiffness": 1e7},
@@ -91,7 +91,7 @@ def test_there_is_nothing_to_compare_where_a_rigid_wall_has_no_counterpart():
     ],
 )
 def test_words_say_from_which_stiffness_on(counts, words):
-    rotor = model_of(SPINDLE)
+    rotor = rotor_of(SPINDLE)
     found = on_other_walls(rotor, asked(rotor, 2))
     found = [
         replace(other, alike=cm.basins.Share.of(count, 60, drawn=True))

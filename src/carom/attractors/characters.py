@@ -12,7 +12,7 @@ from carom.attractors.groups import Attractor
 from carom.attractors.regularity import Rotation, rotation_of
 from carom.attractors.survival import Survival
 from carom.closed_forms.equilibria import find_equilibria
-from carom.models import Model, Subject, model_of
+from carom.models import Rotor, Subject, rotor_of
 from carom.motions.settling import REPEATING
 from carom.motions.simulation import simulate
 from carom.motions.trajectories import Trajectory
@@ -87,7 +87,7 @@ def character_of(machine: Subject, attractor: Attractor, impacts: Count = MEASUR
     impacts : int
         Impacts from which exponents of irregular bouncing are measured.
     """
-    rotor, outcome = model_of(machine), attractor.name.outcome
+    rotor, outcome = rotor_of(machine), attractor.name.outcome
     if outcome is Outcome.LEVITATED:
         rates = np.sort(np.repeat(rotor.system.exponents.real, 2))[::-1]
         return Character("equilibrium", "Levitation is proven to last.", "attractor", rates=rates)
@@ -98,7 +98,7 @@ def character_of(machine: Subject, attractor: Attractor, impacts: Count = MEASUR
     return Character("undecided", f"The motions were given up: {outcome.meaning}", "undecided")
 
 
-def _rubbing(rotor: Model, attractor: Attractor) -> Character:
+def _rubbing(rotor: Rotor, attractor: Attractor) -> Character:
     """Character of a motion that stays in contact."""
     exponents = orbit_exponents(attractor.orbit) if attractor.orbit is not None else None
     if attractor.name.outcome is Outcome.ROLLING:
@@ -107,7 +107,7 @@ def _rubbing(rotor: Model, attractor: Attractor) -> Character:
     return Character("rub", attractor.words, "attractor", attractor.orbit, exponents, rates)
 
 
-def _rolling_exponents(rotor: Model, attractor: Attractor) -> LyapunovExponents | None:
+def _rolling_exponents(rotor: Rotor, attractor: Attractor) -> LyapunovExponents | None:
     """Exponents of rolling that leaves nothing of a disturbance but a delay, as that of the planar rotor on a rigid wall does."""
     directions = 2 * len(rotor.system.exponents) - 1
     # The phase of a weight is not left alone by a delay.
@@ -120,7 +120,7 @@ def _rolling_exponents(rotor: Model, attractor: Attractor) -> LyapunovExponents 
     return LyapunovExponents(values, np.zeros(len(values)), 0.0, -np.inf, 0, 0, attractor.period)
 
 
-def _rub_rates(rotor: Model, attractor: Attractor) -> np.ndarray | None:
+def _rub_rates(rotor: Rotor, attractor: Attractor) -> np.ndarray | None:
     """Exponents of sliding next to a synchronous rub; the directions off the wall have no exponents."""
     steady = attractor.name.outcome is Outcome.FORWARD_RUB and not attractor.name.drifting
     if not steady or rotor.system.forced is not None:
@@ -132,7 +132,7 @@ def _rub_rates(rotor: Model, attractor: Attractor) -> np.ndarray | None:
     return None
 
 
-def _bouncing(rotor: Model, attractor: Attractor, impacts: int) -> Character:
+def _bouncing(rotor: Rotor, attractor: Attractor, impacts: int) -> Character:
     """Character of bouncing, with or without lasting contact in between."""
     if attractor.name.multiplicity:
         if attractor.orbit is None:
@@ -148,7 +148,7 @@ def _bouncing(rotor: Model, attractor: Attractor, impacts: int) -> Character:
 
 
 def _irregular(
-    rotor: Model, attractor: Attractor, exponents: LyapunovExponents, rotation: Rotation, motion: Trajectory
+    rotor: Rotor, attractor: Attractor, exponents: LyapunovExponents, rotation: Rotation, motion: Trajectory
 ) -> Character:
     """Character of bouncing that has not repeated, from what was measured."""
     value, error = exponents.across

@@ -8,7 +8,7 @@ from typing import Any, ClassVar
 from carom.arguments import Count, checked
 from carom.attractors.lifetimes import Lifetimes, measure_lifetimes
 from carom.attractors.starts import DisturbanceSet
-from carom.models import Model, Subject, axis, model_of
+from carom.models import Rotor, Subject, axis, rotor_of
 from carom.outcome import CaromError, InputError
 from carom.results import Result
 
@@ -33,7 +33,7 @@ class Crisis(Result):
 
     shown: ClassVar[tuple[str, ...]] = ("rotor", "name", "lasting", "ending", "words")
 
-    rotor: Model
+    rotor: Rotor
     name: str
     lasting: float
     ending: float
@@ -93,7 +93,7 @@ def locate_crisis(
     CaromError
         Bouncing ends at both values, or at none.
     """
-    rotor = model_of(machine)
+    rotor = rotor_of(machine)
     axis(rotor, name)
     if lasting == ending:
         raise InputError("ending", ending, "a value other than the one at which bouncing lasts")

@@ -13,7 +13,7 @@ from carom.attractors.starts import Start
 from carom.attractors.survival import MOTIONS, Survival, follow_further, follow_until_settled, stay_low, still_irregular
 from carom.disturbances import Starts
 from carom.disturbances.following import follow
-from carom.models import Model
+from carom.models import Rotor
 from carom.motions.ensembles import MOST_EVENTS, Endings
 from carom.motions.simulation import simulate
 from carom.outcome import Outcome
@@ -52,7 +52,7 @@ class Ending(Result):
         How long irregular bouncing lasts, if the motion is irregular or was so after 1000 impacts; otherwise ``None``.
     """
 
-    rotor: Model
+    rotor: Rotor
     start: Start
     attractor: MotionName
     time: float
@@ -81,7 +81,7 @@ class Ending(Result):
 
 
 def follow_in_stages(
-    rotor: Model, starts: Starts, patience: int, threads: int | None, tell: Reporter, divisor: int = 1
+    rotor: Rotor, starts: Starts, patience: int, threads: int | None, tell: Reporter, divisor: int = 1
 ) -> tuple[Endings, np.ndarray, Survival | None]:
     """Follow all starts, one-dimensional: first each for a short time, then for longer those that are still irregular.
 

@@ -16,7 +16,7 @@ from carom.attractors.names import MotionName
 from carom.attractors.starts import DisturbanceSet, disturbances_of
 from carom.attractors.survival import ENOUGH, Survival, still_irregular
 from carom.disturbances import Plan
-from carom.models import Model, Subject, model_of
+from carom.models import Rotor, Subject, rotor_of
 from carom.motions.ensembles import settle
 from carom.motions.settling import CHATTER, PATIENCE, REPEATING
 from carom.motions.starts import Kick, State
@@ -61,7 +61,7 @@ class Lifetimes(Result):
 
     shown: ClassVar[tuple[str, ...]] = ("rotor", "destinations", "followed", "discarded", "verdict", "words")
 
-    rotor: Model
+    rotor: Rotor
     impacts: np.ndarray
     ended: np.ndarray
     ends: tuple[str, ...]
@@ -231,7 +231,7 @@ def measure_lifetimes(
     InputError
         A number is out of range, or a start is not possible.
     """
-    rotor = model_of(machine)
+    rotor = rotor_of(machine)
     if discarded is None:
         discarded = min(_discarded(rotor), impacts // 2)
     if discarded >= impacts:
@@ -246,7 +246,7 @@ def measure_lifetimes(
     return Lifetimes(rotor, ends.impacts[order], ended[order], labels, impacts, discarded)
 
 
-def _discarded(rotor: Model) -> int:
+def _discarded(rotor: Rotor) -> int:
     """Impacts after which the motions no longer depend on their starts, plus those of a chatter, which a motion may still complete."""
     restitution = rotor.system.arrays.restitution
     lossy = restitution[(restitution > 0.0) & (restitution < 1.0)]

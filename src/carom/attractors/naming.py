@@ -11,7 +11,7 @@ from carom.attractors.names import SYNCHRONOUS_RUB, MotionName
 from carom.attractors.settled import SAME, SettledMotion, known_orbit, same_motion, settled_motion
 from carom.closed_forms.exact_results import exact_results
 from carom.disturbances import Disturbance
-from carom.models import Model
+from carom.models import Rotor
 from carom.motions.ensembles import Endings
 from carom.motions.settling import AT_REST, REPEATING
 from carom.motions.simulation import simulate
@@ -29,7 +29,7 @@ LOOKED_AT = 400
 
 
 def name_motions(
-    rotor: Model, endings: Endings, orbits: Sequence[Orbit] | None = None
+    rotor: Rotor, endings: Endings, orbits: Sequence[Orbit] | None = None
 ) -> tuple[np.ndarray, tuple[MotionName, ...]]:
     """Name the motion each start ends on: indices (int16, −1 without a start), and names in the order of outcomes.
 
@@ -70,7 +70,7 @@ def name_motions(
     return named, tuple(names)
 
 
-def name_endings(rotor: Model, model: Disturbance, endings: Endings) -> tuple[np.ndarray, tuple[MotionName, ...]]:
+def name_endings(rotor: Rotor, model: Disturbance, endings: Endings) -> tuple[np.ndarray, tuple[MotionName, ...]]:
     """:func:`name_motions` after disturbances of a kind; where these change the machine, by outcome alone: each has orbits of its own."""
     if not model.changes_machine:
         return name_motions(rotor, endings)
@@ -82,7 +82,7 @@ def name_endings(rotor: Model, model: Disturbance, endings: Endings) -> tuple[np
     return named, tuple(names)
 
 
-def _apart(rotor: Model, endings: Endings, chosen: np.ndarray, name: MotionName) -> Iterator[np.ndarray]:
+def _apart(rotor: Rotor, endings: Endings, chosen: np.ndarray, name: MotionName) -> Iterator[np.ndarray]:
     """Motions of one name that end in lasting contact elsewhere: at rest at another place, otherwise at other planes."""
     if name.outcome not in LASTING or exact_results(rotor).rubs:
         yield chosen
@@ -100,7 +100,7 @@ def _apart(rotor: Model, endings: Endings, chosen: np.ndarray, name: MotionName)
         left = left[~same]
 
 
-def _at_synchronous_rub(rotor: Model, endings: Endings) -> np.ndarray:
+def _at_synchronous_rub(rotor: Rotor, endings: Endings) -> np.ndarray:
     """Which motions in forward rub are at the synchronous rub, or are proven to converge to it."""
     axes = tuple(range(endings.outcomes.ndim, endings.velocities.ndim))
     still: np.ndarray = np.abs(endings.velocities).max(axis=axes, initial=0.0) < AT_REST
@@ -112,7 +112,7 @@ def _at_synchronous_rub(rotor: Model, endings: Endings) -> np.ndarray:
 
 
 def _periodic(
-    rotor: Model, endings: Endings, places: np.ndarray, orbits: Sequence[Orbit]
+    rotor: Rotor, endings: Endings, places: np.ndarray, orbits: Sequence[Orbit]
 ) -> list[tuple[np.ndarray, MotionName]]:
     """Kinds of periodic bouncing: the starts that belong to each, and its name."""
     ends = endings.reshaped(endings.outcomes.size)[places]
@@ -159,7 +159,7 @@ def _alike(*features: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return first, groups
 
 
-def orbits_of(rotor: Model) -> Sequence[Orbit]:
+def orbits_of(rotor: Rotor) -> Sequence[Orbit]:
     """Orbits known in closed form; empty for rotors without, and where their search fails."""
     try:
         return orbits_within_reach(rotor)

@@ -18,7 +18,7 @@ from carom.attractors.survival import Survival
 from carom.closed_forms.exact_results import exact_results
 from carom.disturbances import Disturbance, Plan, Sample, Starts
 from carom.disturbances.following import refuse_another_machine
-from carom.models import Model, Subject, model_of
+from carom.models import Rotor, Subject, rotor_of
 from carom.motions.budget import NOT_FOLLOWED
 from carom.motions.settling import PATIENCE
 from carom.motions.starts import Kick, State
@@ -59,7 +59,7 @@ class AttractorSet(Members[Attractor]):
     figure: ClassVar[str] = "attractors"
     called: ClassVar[str] = "attractor"
 
-    rotor: Model
+    rotor: Rotor
     members: tuple[Attractor, ...]
     endings: tuple[Ending, ...]
     sample: DisturbanceSet | Plan | None
@@ -194,7 +194,7 @@ def find_attractors(
     >>> found.members[0].name
     'B1,d'
     """
-    rotor, tell = model_of(machine), Reporter.of(progress, "following disturbances")
+    rotor, tell = rotor_of(machine), Reporter.of(progress, "following disturbances")
     given: DisturbanceSet | Plan | Sequence[State | Kick]
     if disturbances is None:
         given = DisturbanceSet.of(rotor, count, seed, fastest)

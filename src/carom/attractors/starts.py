@@ -18,7 +18,7 @@ from carom.disturbances.coordinates import INSTANT, ON_WALL
 from carom.disturbances.echo import ITS_INSTANT
 from carom.disturbances.following import require_start
 from carom.disturbances.plans import INSTANTS
-from carom.models import Model, Subject, depends_on_instant, model_of
+from carom.models import Rotor, Subject, depends_on_instant, rotor_of
 from carom.motions.starts import Kick, State
 from carom.orbits.orbit import Orbit
 from carom.outcome import STEADY_WORDS
@@ -111,7 +111,7 @@ class DisturbanceSet:
         InputError
             ``fastest`` is no speed above 0, or has a unit and the machine has no scales.
         """
-        scales = model_of(machine).scales
+        scales = rotor_of(machine).scales
         largest = usual_kick(scales) if fastest is None else own_size("fastest", fastest, "velocity", scales)
         return cls(count, seed, largest)
 
@@ -121,11 +121,11 @@ class DisturbanceSet:
             return self
         return replace(self, fastest=self.fastest * (before.velocity / after.velocity))
 
-    def kicks(self, rotor: Model) -> int:
+    def kicks(self, rotor: Rotor) -> int:
         """Number of kicks in the set; they come first."""
         return int(KICKS_SHARE * self.count) if rotor.system.rest_radius < 1.0 else 0
 
-    def starts(self, rotor: Model) -> Starts:
+    def starts(self, rotor: Rotor) -> Starts:
         """Starts, arrays of shape (count,); kicks come first, by increasing size."""
         random, kicks = np.random.default_rng(self.seed), self.kicks(rotor)
         rings, angles = np.arange(kicks) + random.random(kicks), 2.0 * math.pi * random.random(kicks)
@@ -142,7 +142,7 @@ class DisturbanceSet:
             parts[1] = parts[1].at(others)
         return Starts.joined(parts)
 
-    def words(self, rotor: Model) -> str:
+    def words(self, rotor: Rotor) -> str:
         """Describe the disturbances for a given rotor."""
         kicks = self.kicks(rotor)
         parts = []
@@ -163,7 +163,7 @@ class DisturbanceSet:
         )
 
 
-def starts_at(rotor: Model, states: Sequence[State]) -> Starts:
+def starts_at(rotor: Rotor, states: Sequence[State]) -> Starts:
     """States as arrays of starts."""
     positions, velocities = (
         np.array([getattr(state, name) for state in states], complex) for name in ("position", "velocity")
@@ -173,7 +173,7 @@ def starts_at(rotor: Model, states: Sequence[State]) -> Starts:
     return Starts(positions, velocities, places >= 0.0, places < 0.0, places >= 1.0 - ON_WALL, begins)
 
 
-def disturbances_of(rotor: Model, tried: DisturbanceSet | Plan | Sequence[State | Kick]) -> tuple[list[Start], Starts]:
+def disturbances_of(rotor: Rotor, tried: DisturbanceSet | Plan | Sequence[State | Kick]) -> tuple[list[Start], Starts]:
     """The possible ones of the disturbances, as single starts and as arrays; a plan without any is refused."""
     if isinstance(tried, Sequence):
         states = [start.state(rotor) if isinstance(start, Kick) else start for start in tried]
@@ -209,7 +209,7 @@ def known_starts(machine: Subject, orbits: Sequence[Orbit]) -> tuple[Start, ...]
         rolling at each plane that can roll while the others stay inside.  Where the speed is known from which backward whirl
         is certain to run away to rolling: one in such a whirl just above it.
     """
-    rotor, starts = model_of(machine), []
+    rotor, starts = rotor_of(machine), []
     for orbit in orbits:
         if orbit.admissible:
             leaving = orbit.departure
@@ -234,7 +234,7 @@ def known_starts(machine: Subject, orbits: Sequence[Orbit]) -> tuple[Start, ...]
     return tuple(starts)
 
 
-def _whirling(rotor: Model, plane: int, speed: float, words: str) -> Start:
+def _whirling(rotor: Rotor, plane: int, speed: float, words: str) -> Start:
     """Start in backward whirl at a speed in the co-rotating frame, displaced in the shape of an impulse at a plane until it touches."""
     shape = rotor.system.rates @ rotor.system.arrays.columns[:, plane]
     shape = shape / (rotor.system.planes[plane] @ shape)

@@ -10,7 +10,7 @@ import numpy as np
 
 from carom.arguments import Count, Reals, Whole, checked
 from carom.attractors.intervals import CONFIDENCE, exact_interval
-from carom.models import Model, Subject, model_of
+from carom.models import Rotor, Subject, rotor_of
 from carom.motions.budget import NOT_FOLLOWED
 from carom.motions.ensembles import Endings, settle
 from carom.motions.settling import REPEATING
@@ -138,7 +138,7 @@ def stay_low(endings: Endings) -> np.ndarray:
 
 
 def measure_survival(
-    rotor: Model,
+    rotor: Rotor,
     positions: np.ndarray,
     velocities: np.ndarray,
     *,
@@ -178,7 +178,7 @@ def measure_survival(
     return Survival.of(looks[1], LOOK * (len(looks) - 1), sum(left[1:]), sum(looks[1:]), sum(left[1:]))
 
 
-def follow_further(rotor: Model, endings: Endings, chosen: np.ndarray, **limits: Any) -> Endings:
+def follow_further(rotor: Rotor, endings: Endings, chosen: np.ndarray, **limits: Any) -> Endings:
     """Follow chosen motions of an ensemble, bool of its shape, from where they are; times and impacts are added up.
 
     Those that the events of a question do not suffice for stay as they are.
@@ -228,7 +228,7 @@ def follow_until_settled(
     Survival or None
         ``None`` if none of the motions is irregular.
     """
-    rotor, irregular = model_of(machine), still_irregular(endings)
+    rotor, irregular = rotor_of(machine), still_irregular(endings)
     met, at = (irregular, endings) if irregular.any() or earlier is None else (still_irregular(earlier), earlier)
     if not met.any():
         return endings, None

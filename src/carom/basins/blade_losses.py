@@ -18,7 +18,7 @@ from carom.disturbances import BladeLoss
 from carom.disturbances.blade_loss import levitating_before, starts_after
 from carom.disturbances.coordinates import TURN
 from carom.disturbances.following import follow
-from carom.models import Model, depends_on_instant
+from carom.models import Rotor, depends_on_instant
 from carom.motions.budget import BudgetSpentError
 from carom.outcome import Outcome
 from carom.progress import Reporter
@@ -36,7 +36,7 @@ DRAWN, AROUND = 300, 96
 
 
 def smallest_blade_loss(
-    rotor: Model, model: BladeLoss, *, threads: int | None = None, tell: Reporter | None = None
+    rotor: Rotor, model: BladeLoss, *, threads: int | None = None, tell: Reporter | None = None
 ) -> SmallestLoss:
     """Search for the smallest change of the unbalance up to that of the model that is lost at some phase.
 
@@ -74,7 +74,7 @@ class _Search(Bracket):
     the distance from ``before``, and its phase the direction from there.
     """
 
-    def __init__(self, rotor: Model, model: BladeLoss, threads: int | None) -> None:
+    def __init__(self, rotor: Rotor, model: BladeLoss, threads: int | None) -> None:
         self.harmless, self.largest = harmless_blade_loss(rotor, model.node), model.change
         sizes = {"quantity": UNBALANCE, "harmless": self.harmless, "largest": self.largest}
         super().__init__(kind=model.kind, **sizes, tolerance=TOLERANCE, scales=rotor.scales)

@@ -18,7 +18,7 @@ from carom.basins.shares import Share
 from carom.disturbances import Coordinate, Plan, Starts
 from carom.disturbances.echo import instants_words
 from carom.disturbances.following import NO_START, follow, require_start
-from carom.models import Model, Subject, model_of
+from carom.models import Rotor, Subject, rotor_of
 from carom.motions.ensembles import MOST_EVENTS, Endings
 from carom.motions.settling import PATIENCE, longest_time
 from carom.motions.starts import Until
@@ -233,7 +233,7 @@ def map_basins(
     >>> basin.share_recovered.count, basin.share_recovered.total
     (6, 72)
     """
-    rotor = model_of(machine)
+    rotor = rotor_of(machine)
     until = longest_time(rotor) if until is None else own_time("until", until, rotor.scales)
     starts, endings, survival = _followed(
         rotor, disturbances, until, patience=patience, max_events=max_events, threads=threads, progress=progress
@@ -251,13 +251,13 @@ def map_basins(
 @checked
 def map_cells(machine: Subject, disturbances: Plan) -> Cells:
     """What pictures need of the basin that :func:`map_basins` finds; without a dataset, which takes longer to load than to fill."""
-    rotor, plan = model_of(machine), disturbances
+    rotor, plan = rotor_of(machine), disturbances
     _, endings, _ = _followed(rotor, plan, longest_time(rotor))
     return Cells(plan, rotor.scales, *name_endings(rotor, plan.model, endings))
 
 
 def _followed(
-    rotor: Model,
+    rotor: Rotor,
     plan: Plan,
     until: float,
     *,

@@ -18,7 +18,7 @@ from carom.disturbances import Disturbance, Grid, Plan, Sample, Starts
 from carom.disturbances.coordinates import INSTANT
 from carom.disturbances.following import NO_START
 from carom.files.netcdf import load, save
-from carom.models import Model, depends_on_instant, exact_rotor_of, model_from
+from carom.models import Rotor, depends_on_instant, exact_rotor_of, rotor_from
 from carom.motions.ensembles import Endings
 from carom.outcome import Outcome
 from carom.parameters import Parameters
@@ -45,9 +45,9 @@ class Stored(Result):
     dataset: xarray.Dataset
 
     @cached_property
-    def rotor(self) -> Model:
-        """Model of the machine."""
-        return model_from(self.dataset.attrs)
+    def rotor(self) -> Rotor:
+        """Rotor of the machine."""
+        return rotor_from(self.dataset.attrs)
 
     @property
     def parameters(self) -> Parameters:
@@ -77,7 +77,7 @@ class Mapped(Stored):
         return plan_of(json.loads(self.dataset.attrs["disturbances"]))
 
 
-def provenance(rotor: Model, plan: Plan) -> dict[str, str]:
+def provenance(rotor: Rotor, plan: Plan) -> dict[str, str]:
     """Attributes that are needed to repeat the computation."""
     how: dict[str, object] = (
         {"cells": plan.shape, "instant": plan.instant}
@@ -101,7 +101,7 @@ def programs() -> str:
 
 
 def dataset_of(
-    rotor: Model,
+    rotor: Rotor,
     plan: Plan,
     starts: Starts,
     endings: Endings,
@@ -174,7 +174,7 @@ def _touched(starts: Starts, endings: Endings) -> np.ndarray:
     return starts.exists & (starts.touched | (endings.impacts > 0) | stays)
 
 
-def _axes(rotor: Model, plan: Plan) -> tuple[dict[str, Any], tuple[str, ...]]:
+def _axes(rotor: Rotor, plan: Plan) -> tuple[dict[str, Any], tuple[str, ...]]:
     """Coordinates of a dataset, including those in SI units, and its dimensions."""
     coordinates = plan.model.coordinates
     grid = isinstance(plan, Grid)

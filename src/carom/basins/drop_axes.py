@@ -9,7 +9,7 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from carom.models import Axis, Model, axis
+from carom.models import Axis, Rotor, axis
 from carom.models.axes import Ends, read_interval, usual_range
 from carom.motions import Drop
 from carom.outcome import InputError
@@ -61,10 +61,10 @@ RELEASED: Mapping[str, Axis] = {
 """What of the release itself can be varied, besides the parameters of the machine."""
 _OWN_UNITS = {"regained_after": "time", "race_speed": "speed"}
 """Those that a drop has in units of the equations."""
-Node: TypeAlias = tuple[Model, Drop]
+Node: TypeAlias = tuple[Rotor, Drop]
 
 
-def varied_of(rotor: Model, name: str) -> Axis:
+def varied_of(rotor: Rotor, name: str) -> Axis:
     """What is varied under a name: of the release, or a parameter of the machine."""
     return RELEASED[name] if name in RELEASED else axis(rotor, name)
 
@@ -85,7 +85,7 @@ def _with_unit(varied: Axis, text: str) -> str:
     return f"{varied.name.replace('_', ' ')} {text}{'' if unit == '°' else ' '}{unit}".rstrip()
 
 
-def present_of(rotor: Model, released: Drop, varied: Axis) -> float:
+def present_of(rotor: Rotor, released: Drop, varied: Axis) -> float:
     """Value of the present machine and release, in SI units; NaN if it has none."""
     if varied.name not in RELEASED:
         return varied.value(rotor)
@@ -107,7 +107,7 @@ def values_of(varied: Axis, present: float, given: Ends | None, count: int) -> n
     return np.linspace(*read_interval(varied, given or usual_range(varied, present, "ranges")), count)
 
 
-def moved(rotor: Model, released: Drop, axes: tuple[Axis, Axis], node: tuple[float, float]) -> Node:
+def moved(rotor: Rotor, released: Drop, axes: tuple[Axis, Axis], node: tuple[float, float]) -> Node:
     """Machine and release of a node; the release comes last, for its units may be those of the machine."""
     for varied, value in sorted(zip(axes, node, strict=True), key=lambda pair: pair[0].name in RELEASED):
         if varied.name not in RELEASED:

@@ -19,7 +19,7 @@ from carom.basins.drop_axes import TURN, Node, moved, present_of, told_range, to
 from carom.basins.gains import Several
 from carom.core.processors import available_cores
 from carom.disturbances.following import NO_START
-from carom.models import Axis, Subject, model_of
+from carom.models import Axis, Subject, rotor_of
 from carom.models.axes import Ends
 from carom.motions import Drop, State, Whirl, follow_loads
 from carom.motions.bearing_loads import DropLoads
@@ -205,7 +205,7 @@ def map_drops(
     >>> {str(name): share for name, share in found.fractions.items()}
     {'rest on the touchdown bearing': 1.0}
     """
-    rotor, released = model_of(machine), released or Drop()
+    rotor, released = rotor_of(machine), released or Drop()
     released.stages(rotor)  # refuses what cannot be dropped at all
     axes = varied_of(rotor, names[0]), varied_of(rotor, names[1])
     if axes[0].name == axes[1].name:

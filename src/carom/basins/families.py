@@ -21,7 +21,7 @@ from carom.disturbances import (
     VelocityKick,
 )
 from carom.disturbances.coordinates import TURN, complex_of, displaced
-from carom.models import Model, depends_on_instant
+from carom.models import Rotor, depends_on_instant
 from carom.outcome import InputError
 
 UNBALANCE = "unbalance"
@@ -65,12 +65,12 @@ def by_size(model: Disturbance) -> bool:
     return len(axes) == 2 and axes[0].low == 0.0 and axes[1].periodic
 
 
-def family_of(rotor: Model, model: Disturbance) -> Family:
+def family_of(rotor: Rotor, model: Disturbance) -> Family:
     """Family of starts through which a disturbance is searched."""
     return replace(_by_size_and_direction(rotor, model), timed=depends_on_instant(rotor))
 
 
-def _by_size_and_direction(rotor: Model, model: Disturbance) -> Family:
+def _by_size_and_direction(rotor: Rotor, model: Disturbance) -> Family:
     if type(model) is KickPlane:
         model = VelocityKick(model.fastest)
     if type(model) is UnbalanceStep:

@@ -21,7 +21,7 @@ from carom.disturbances import BaseShock, Grid, KickPlane, Plan, Sample, Starts,
 from carom.disturbances.coordinates import INSTANT
 from carom.disturbances.echo import instants_words
 from carom.disturbances.following import NO_START, follow_machines
-from carom.models import Axis, Model, Subject, axis, depends_on_instant, model_of
+from carom.models import Axis, Rotor, Subject, axis, depends_on_instant, rotor_of
 from carom.models.axes import Ends, read_interval, usual_range
 from carom.motions.ensembles import MOST_EVENTS
 from carom.motions.settling import PATIENCE
@@ -161,7 +161,7 @@ def map_gains(
     >>> dict(gains.dataset.sizes)
     {'stiffness': 3, 'damping': 3}
     """
-    rotor = model_of(machine)
+    rotor = rotor_of(machine)
     names = names or usual_gains(rotor)
     axes = axis(rotor, names[0]), axis(rotor, names[1])
     if axes[0].name == axes[1].name:
@@ -187,20 +187,20 @@ def map_gains(
     return GainMap(dataset)
 
 
-def usual_gains(rotor: Model) -> tuple[str, str]:
+def usual_gains(rotor: Rotor) -> tuple[str, str]:
     """Names of P and D gain: of the controllers, or what they are to the planar rotor, in its units without scales."""
     known = (("proportional", "derivative"), ("stiffness", "damping"), ("omega", "gamma"))
     return next((pair for pair in known if all(name in rotor.varied for name in pair)), known[1])
 
 
-def _values(rotor: Model, varied: Axis, given: Ends | None, count: int) -> np.ndarray:
+def _values(rotor: Rotor, varied: Axis, given: Ends | None, count: int) -> np.ndarray:
     """Evenly spaced values of a parameter over its range."""
     usual = given or usual_range(varied, varied.value(rotor), "ranges")
     return np.linspace(*read_interval(varied, usual), count)
 
 
 def measured(
-    rotor: Model, axes: tuple[Axis, Axis], nodes: list[Node], limits: Mapping[str, Any]
+    rotor: Rotor, axes: tuple[Axis, Axis], nodes: list[Node], limits: Mapping[str, Any]
 ) -> Iterator[dict[str, Any]]:
     """Yield the measures of each node, which has disturbances of its own; nodes are followed in chunks of about CHUNK starts.
 
@@ -216,7 +216,7 @@ def measured(
         yield measures
 
 
-def _machine(rotor: Model, plan: Plan, axes: tuple[Axis, Axis], node: tuple[float, ...]) -> tuple[Model, Starts]:
+def _machine(rotor: Rotor, plan: Plan, axes: tuple[Axis, Axis], node: tuple[float, ...]) -> tuple[Rotor, Starts]:
     """Machine of a node and its starts; none of them exists if it cannot levitate."""
     moved = rotor.replace(**{varied.name: value for varied, value in zip(axes, node, strict=True)})
     if not moved.system.levitates:
@@ -254,7 +254,7 @@ def _measures(plan: Plan, outcomes: np.ndarray, present: Scales | None, at: str)
     return measures
 
 
-def _smallest(present: Scales | None, rotor: Model, starts: Starts, outcomes: np.ndarray) -> dict[str, float]:
+def _smallest(present: Scales | None, rotor: Rotor, starts: Starts, outcomes: np.ndarray) -> dict[str, float]:
     """The smallest kick tried from which a machine does not recover, in the present machine's units of velocity."""
     speed, direction, instant = smallest_lost(rotor, starts, outcomes) or (math.nan, math.nan, math.nan)
     if rotor.scales is not None and present is not None:

@@ -17,7 +17,7 @@ from carom.basins.families import Family, family_of
 from carom.disturbances import BladeLoss, Disturbance, Starts
 from carom.disturbances.coordinates import TURN
 from carom.disturbances.following import follow
-from carom.models import Model, Subject, model_of
+from carom.models import Rotor, Subject, rotor_of
 from carom.motions.budget import NOT_FOLLOWED, BudgetSpentError
 from carom.outcome import InputError, Outcome
 from carom.progress import Reporter, ShowProgress, shows_progress
@@ -93,7 +93,7 @@ def smallest_loss(
     >>> print(f"{found.size * machine.parameters.scales.velocity * 1e3:.3f} mm/s, ends in {found.outcome.label}")
     5.466 mm/s, ends in forward-rub
     """
-    rotor = model_of(machine)
+    rotor = rotor_of(machine)
     if rotor.system.rest_radius >= 1.0:
         raise InputError("disturbance", f"|U*| = {rotor.system.rest_radius:.6g}", "needs levitation inside the wall")
     if rotor.system.decay < 0.0:
@@ -148,7 +148,7 @@ def _all_round(family: Family, directions: int) -> np.ndarray:
 class _Search(Bracket):
     """Search among the disturbances of a family."""
 
-    def __init__(self, rotor: Model, family: Family, tolerance: float, threads: int | None) -> None:
+    def __init__(self, rotor: Rotor, family: Family, tolerance: float, threads: int | None) -> None:
         sizes = {name: getattr(family, name) for name in ("kind", "quantity", "harmless", "largest")}
         super().__init__(**sizes, tolerance=tolerance, scales=rotor.scales)
         self.rotor, self.family, self.tolerance, self.threads = rotor, family, tolerance, threads
@@ -257,7 +257,7 @@ class _Search(Bracket):
         return outcomes
 
 
-def smallest_lost(rotor: Model, kicks: Starts, outcomes: np.ndarray) -> tuple[float, float, float] | None:
+def smallest_lost(rotor: Rotor, kicks: Starts, outcomes: np.ndarray) -> tuple[float, float, float] | None:
     """Speed, direction and instant of the smallest lost one among kicks; ``None`` if none is lost."""
     chosen = kicks.some(kicks.exists & lost(outcomes))
     if not chosen.exists.size:

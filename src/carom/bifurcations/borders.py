@@ -14,7 +14,7 @@ from carom.arguments import checked
 from carom.bifurcations.neighbours import BORDERS, NEIGHBOURS, gives_way, is_other, read_beside, setting_out
 from carom.bifurcations.paths import Path
 from carom.bifurcations.points import Bifurcation
-from carom.models import Model
+from carom.models import Rotor
 from carom.models.axes import axis
 from carom.motions.simulation import simulate
 from carom.motions.starts import State
@@ -225,7 +225,7 @@ class _Sides:
         self.along = axis(self.orbit.rotor, point.parameter)
         self.distances = tuple(step * abs(point.value) for step in STEPS)
 
-    def at(self, side: int, distance: float) -> Model:
+    def at(self, side: int, distance: float) -> Rotor:
         """Rotor on a side."""
         return self.along.move(self.orbit.rotor, self.value + side * distance)
 
@@ -289,7 +289,7 @@ def _from_contacts(contacts: np.ndarray, states: np.ndarray) -> np.ndarray:
     return nearest
 
 
-def _follow(orbit: Orbit, apart: Callable[[np.ndarray], np.ndarray], rotor: Model) -> tuple[float, tuple[float, float]]:
+def _follow(orbit: Orbit, apart: Callable[[np.ndarray], np.ndarray], rotor: Rotor) -> tuple[float, tuple[float, float]]:
     """Largest distance of a motion from the orbit beside which it starts, at its last events; its largest Lyapunov exponent if irregular."""
     before, regular = setting_out(orbit), (np.nan, np.nan)
     start = State(before.position, before.velocity * (1.0 + BESIDE))

@@ -12,7 +12,7 @@ import numpy as np
 from carom.arguments import checked
 from carom.bifurcations.conditions import Solution, is_admissible, jacobian_at, name_of, with_slip
 from carom.bifurcations.points import Bifurcation
-from carom.models import Model
+from carom.models import Rotor
 from carom.models.axes import Axis
 from carom.orbits.names import CountedName, OrbitName
 from carom.orbits.orbit import Orbit
@@ -183,7 +183,7 @@ class OrbitBranch(Result):
         return np.abs(self.multipliers).max(axis=1) < 1.0
 
     @checked
-    def starts_at(self, value: float, rotor: Model | None = None) -> list[Start]:
+    def starts_at(self, value: float, rotor: Rotor | None = None) -> list[Start]:
         """Nodes and durations of its orbits at a value of the parameter, one for each time it passes there.
 
         A ``rotor`` with this value need not be made again.
@@ -199,12 +199,12 @@ class OrbitBranch(Result):
         return found
 
 
-def orbit_at(rotor: Model, word: Word, unknowns: np.ndarray, name: OrbitName | CountedName) -> Orbit:
+def orbit_at(rotor: Rotor, word: Word, unknowns: np.ndarray, name: OrbitName | CountedName) -> Orbit:
     """Orbit with given nodes and durations, in the order of :func:`carom.orbits.shooting.pack`."""
     return Orbit.from_links(rotor, word, links_of(rotor, word, unpack(unknowns, len(word))), name)
 
 
-def speeds_at(rotor: Model, planes: np.ndarray, nodes: np.ndarray) -> np.ndarray:
+def speeds_at(rotor: Rotor, planes: np.ndarray, nodes: np.ndarray) -> np.ndarray:
     """``ṙ`` in ``c_r Ω`` and ``θ̇`` in ``Ω`` at nodes (m, 2n or, with weight, 2n + 1), as real and imaginary part, shape (m,)."""
     n = nodes.shape[1] // 2
     rows = rotor.system.planes[planes]

@@ -24,7 +24,7 @@ from carom.bifurcations.steady import (
 )
 from carom.bifurcations.words import continue_orbit, renamed
 from carom.closed_forms.exact_results import exact_results
-from carom.models import Model, Rotor, Subject, exact_rotor_of, jeffcott, model_of
+from carom.models import Rotor, Subject, exact_rotor_of, jeffcott, rotor_of
 from carom.models.axes import Axis, Ends, axis, read_interval
 from carom.orbits.names import RubbingName
 from carom.orbits.orbit import Orbit
@@ -80,7 +80,7 @@ class Diagram(Result):
 
     figure: ClassVar[str] = "bifurcation_diagram"
 
-    model: Model
+    model: Rotor
     axis: Axis
     interval: tuple[float, float]
     equilibria: tuple[EquilibriumBranch, ...]
@@ -208,7 +208,7 @@ def find_bifurcations(
     >>> [point.kind for point in diagram.points if point.name == "B1,d"]
     ['fold']
     """
-    model = exact_rotor_of(machine) if lasting else model_of(machine)
+    model = exact_rotor_of(machine) if lasting else rotor_of(machine)
     model.system.refuse_unrepeated()
     along = axis(model, parameter)
     limits = read_interval(along, interval)
@@ -294,7 +294,7 @@ def _follow_known(
 
 
 def _follow_searched(
-    model: Model,
+    model: Rotor,
     along: Axis,
     limits: tuple[float, float],
     tell: Reporter,
@@ -308,13 +308,13 @@ def _follow_searched(
     return _of_searched([branch for branch in found if branch.impacts], search, _special(found))
 
 
-def is_simulated(model: Model) -> bool:
+def is_simulated(model: Rotor) -> bool:
     """Whether orbits are closed and followed on the flow of the simulator: where motions have no words, and where walls give way."""
     return model.system.unrepeated is not None or bool(model.system.arrays["stiffness"].any())
 
 
 def _follow_simulated(
-    model: Model,
+    model: Rotor,
     along: Axis,
     limits: tuple[float, float],
     tell: Reporter,

@@ -11,7 +11,7 @@ from carom.core.friction import slip_of, spare_friction
 from carom.core.laws.choice import press_coefficient
 from carom.core.margins import highest_point, local_motion
 from carom.core.wall import set_on_wall
-from carom.models import Model
+from carom.models import Rotor
 from carom.motions.simulation import simulate
 from carom.motions.starts import State
 from carom.orbits.admissibility import INSTANT, departure
@@ -49,7 +49,7 @@ def setting_out(orbit: Orbit) -> State:
     return State.of(*system.state(amplitudes[0]))
 
 
-def read_beside(orbit: Orbit, rotor: Model) -> list[tuple[Word, Start]]:
+def read_beside(orbit: Orbit, rotor: Rotor) -> list[tuple[Word, Start]]:
     """Read the next two periods of a motion, of a rotor beside a border, that starts on the orbit on it.
 
     Each gives a word, nodes and durations.  Where lasting contact begins, the word holds the impacts that a chatter

@@ -12,7 +12,7 @@ from carom.core.fate import memory
 from carom.core.layout import rub_workspace
 from carom.core.phases import AWAY
 from carom.core.rub import fly_or_rub_all
-from carom.models import Model
+from carom.models import Rotor
 from carom.motions.simulation import follow
 from carom.orbits.admissibility import PHASES, departure
 from carom.orbits.orbit import Orbit
@@ -47,7 +47,7 @@ class Path:
     durations : ndarray, shape (k,)
     """
 
-    rotor: Model
+    rotor: Rotor
     begins: np.ndarray
     phases: np.ndarray
     durations: np.ndarray
@@ -99,7 +99,7 @@ class Path:
 
 
 def _pieces(
-    rotor: Model, segment: Segment, node: np.ndarray, duration: float
+    rotor: Rotor, segment: Segment, node: np.ndarray, duration: float
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Amplitudes, phases and durations of the pieces of a segment."""
     phases = np.full(len(rotor.system.contacts), AWAY)

@@ -8,7 +8,7 @@ import numpy as np
 
 from carom.arguments import checked
 from carom.continuation import Watch
-from carom.models import Model
+from carom.models import Rotor
 from carom.models.axes import Axis, Ends, axis, read_interval
 from carom.outcome import InputError
 from carom.parameters import Numbers, Parameters
@@ -68,12 +68,12 @@ class Plane:
         return Watch(EDGE, lambda u, _: min(u[-1] - low, high - u[-1]) / (high - low), at_zero="limit")
 
     @checked
-    def place_of(self, at: Model | Parameters | Numbers) -> tuple[float, float]:
+    def place_of(self, at: Rotor | Parameters | Numbers) -> tuple[float, float]:
         """Values of both parameters, whether inside the plane or outside."""
         return at.value(self.first), at.value(self.second)
 
     @checked
-    def start_at(self, at: Model | Numbers) -> tuple[np.ndarray, np.ndarray]:
+    def start_at(self, at: Rotor | Numbers) -> tuple[np.ndarray, np.ndarray]:
         """Place of a point from which a curve is followed, and typical sizes of both parameters there, shape (2,).
 
         Raises

@@ -20,7 +20,7 @@ from carom.bifurcations.planes import Plane
 from carom.bifurcations.points import Bifurcation
 from carom.bifurcations.settled_regions import axes_of, settled_motions, settled_regions
 from carom.bifurcations.survey import Survey
-from carom.models import Axis, Model, Subject, axis, exact_rotor_of, model_of
+from carom.models import Axis, Rotor, Subject, axis, exact_rotor_of, rotor_of
 from carom.orbits.names import OrbitName, combined
 from carom.outcome import CaromError
 from carom.progress import Reporter, ShowProgress, shows_progress
@@ -59,7 +59,7 @@ class RegionMap(Result):
     figure: ClassVar[str] = "region_map"
     shown: ClassVar[tuple[str, ...]] = ("plane", "curves", "regions", "present_motions", "unexplained", "lost")
 
-    model: Model
+    model: Rotor
     plane: Plane
     axes: tuple[Axis, Axis]
     curves: tuple[Curve, ...]
@@ -187,7 +187,7 @@ def map_regions(
     >>> sorted({curve.kind for curve in regions.curves})
     ['boundary-equilibrium', 'fold', 'non-smooth-hopf']
     """
-    rotor = model_of(machine)
+    rotor = rotor_of(machine)
     if not rotor.has_closed_forms:
         return _settled(rotor, plane, grid, Reporter.of(progress, "following disturbances"))
     model = exact_rotor_of(machine)
@@ -228,7 +228,7 @@ def map_regions(
     )
 
 
-def _settled(model: Model, plane: Plane, grid: int, tell: Reporter) -> RegionMap:
+def _settled(model: Rotor, plane: Plane, grid: int, tell: Reporter) -> RegionMap:
     """The map of any other machine, by where disturbances settle."""
     model.system.refuse_unrepeated()
     axes = axis(model, plane.first), axis(model, plane.second)

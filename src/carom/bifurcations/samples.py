@@ -10,7 +10,7 @@ from carom.arguments import Count, checked
 from carom.attractors import Attractor, AttractorSet, DisturbanceSet, Survival, find_attractors
 from carom.attractors.settled import seen_in_contact
 from carom.disturbances import Plan
-from carom.models import Model, Subject, model_of
+from carom.models import Rotor, Subject, rotor_of
 from carom.models.axes import Ends, axis, read_interval
 from carom.motions.settling import REPEATING
 from carom.motions.simulation import simulate
@@ -101,7 +101,7 @@ def sample_attractors(
         In ascending order of the parameter.  Motions that were given up are left out.  Irregular bouncing that ends is
         ``"irregular bouncing"``, with the share of the disturbances that were in it for 1000 impacts or more.
     """
-    model, tell = model_of(machine), Reporter.of(progress, "following disturbances")
+    model, tell = rotor_of(machine), Reporter.of(progress, "following disturbances")
     along = axis(model, parameter)
     found: list[AttractorSample] = []
     for done, value in enumerate(np.linspace(*read_interval(along, interval), values).tolist()):
@@ -113,7 +113,7 @@ def sample_attractors(
     return tuple(found)
 
 
-def _sample(value: float, rotor: Model, found: Attractor) -> AttractorSample:
+def _sample(value: float, rotor: Rotor, found: Attractor) -> AttractorSample:
     return AttractorSample(
         value,
         found.name,
@@ -140,7 +140,7 @@ def _transient(value: float, found: AttractorSet) -> list[AttractorSample]:
     ]
 
 
-def _impacts(rotor: Model, attractor: Attractor) -> np.ndarray:
+def _impacts(rotor: Rotor, attractor: Attractor) -> np.ndarray:
     """Radial speeds of the impacts on an attractor, or of arrivals at a wall that gives way; for a periodic one those of one period."""
     if attractor.name.outcome not in REPEATING:
         return np.empty(0)

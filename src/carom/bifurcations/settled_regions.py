@@ -11,7 +11,7 @@ import numpy as np
 from carom.attractors.names import LEVITATION
 from carom.bifurcations.cells import Region, connected
 from carom.bifurcations.planes import Plane
-from carom.models import Model
+from carom.models import Rotor
 from carom.models.axes import Axis
 from carom.motions.simulation import simulate
 from carom.orbits.simulated_search import start_of
@@ -66,7 +66,7 @@ class SettledMotions:
         return self.words
 
 
-def settled_motions(rotor: Model, starts: int = STARTS) -> SettledMotions:
+def settled_motions(rotor: Rotor, starts: int = STARTS) -> SettledMotions:
     """Follow some disturbances of a machine until they settle."""
     random, found = np.random.default_rng(0), set()
     held = rotor.system.levitates
@@ -86,7 +86,7 @@ NONE = SettledMotions((UNTOLD,), contact_free=False, rub=False, rolling=False, o
 
 
 def settled_regions(
-    model: Model, plane: Plane, axes: tuple[Axis, Axis], grid: int, tell: Reporter
+    model: Rotor, plane: Plane, axes: tuple[Axis, Axis], grid: int, tell: Reporter
 ) -> tuple[tuple[Region, ...], tuple[str, ...]]:
     """Regions of the cells of a grid, largest first, and what is said about them.
 
@@ -146,7 +146,7 @@ def _region(
     return Region(motions, (float(middle[0]), float(middle[1])), len(group) / len(cells), places)
 
 
-def axes_of(model: Model, plane: Plane, axes: Sequence[Axis]) -> None:
+def axes_of(model: Rotor, plane: Plane, axes: Sequence[Axis]) -> None:
     """Refuse ranges that the machine cannot have."""
     for end in (0, 1):
         moved = axes[0].move(model, plane.first_range[end])

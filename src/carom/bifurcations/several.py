@@ -12,7 +12,7 @@ from carom.bifurcations.branches import OrbitBranch
 from carom.bifurcations.neighbours import NEIGHBOURS
 from carom.bifurcations.points import HALVING, Bifurcation
 from carom.bifurcations.words import continue_orbit, renamed, switch
-from carom.models import Model
+from carom.models import Rotor
 from carom.models.axes import Axis
 from carom.orbits.names import CountedName
 from carom.orbits.orbit import Orbit, orbit_near
@@ -30,7 +30,7 @@ SAME = 1e-6
 
 
 def searched_branches(
-    model: Model,
+    model: Rotor,
     along: Axis,
     limits: tuple[float, float],
     impacts: tuple[int, int],
@@ -101,7 +101,7 @@ def _begins_another(point: Bifurcation, impacts: tuple[int, int], known: Sequenc
     return other is not None and not any(lies_on(other, point.value, branch) for branch in known)
 
 
-def _known(rotor: Model, value: float, branches: Sequence[OrbitBranch]) -> list[Orbit]:
+def _known(rotor: Rotor, value: float, branches: Sequence[OrbitBranch]) -> list[Orbit]:
     """Orbits of known branches at a value of the parameter."""
     starts = ((branch, start) for branch in branches for start in branch.starts_at(value, rotor))
     orbits = (orbit_near(rotor, branch.word, start) for branch, start in starts)

@@ -17,7 +17,7 @@ import numpy as np
 from carom.arguments import checked
 from carom.bifurcations.points import Bifurcation
 from carom.continuation import Branch, SpecialPoint, Steps, Watch, continue_branch
-from carom.models import Model
+from carom.models import Rotor
 from carom.models.axes import Axis, Ends, axis, interval_around
 from carom.motions.trajectories import Trajectory
 from carom.orbits.flow import Flow
@@ -443,7 +443,7 @@ SHARE, SECONDS = 0.2, 25.0
 
 
 def simulated_branches(
-    model: Model, along: Axis, limits: tuple[float, float], impacts: int, tell: Reporter
+    model: Rotor, along: Axis, limits: tuple[float, float], impacts: int, tell: Reporter
 ) -> tuple[list[SimulatedBranch], Searched]:
     """Branches of the periodic motions of any machine with at most a number of impacts, and what was searched.
 

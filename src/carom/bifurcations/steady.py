@@ -14,7 +14,7 @@ from carom.closed_forms.sag import levitation
 from carom.closed_forms.thresholds import boundary_kind, happens_to_rubs
 from carom.closed_forms.whirl import rolling
 from carom.continuation.roots import bracketed_root
-from carom.models import Axis, Model, Rotor
+from carom.models import Axis, Rotor
 from carom.parameters import Numbers, Parameters
 from carom.results import Result
 
@@ -91,14 +91,14 @@ def steady_points(parameters: Parameters, along: Axis, interval: tuple[float, fl
     return points
 
 
-def _count(model: Model) -> int:
+def _count(model: Rotor) -> int:
     """Number of values at which levitation and rubs are computed."""
     if model.planar is not None:
         return SAMPLES
     return FEWER if len(model.system.rest) <= FEW else FEWEST
 
 
-def equilibrium_branches(model: Model, along: Axis, interval: tuple[float, float]) -> tuple[EquilibriumBranch, ...]:
+def equilibrium_branches(model: Rotor, along: Axis, interval: tuple[float, float]) -> tuple[EquilibriumBranch, ...]:
     """Levitation and both rubs on an evenly spaced grid of the parameter; with weight levitation alone, as no rub is at rest.
 
     Of several stable rubs, or several others, the admissible one with the largest normal force.  A virtual rub counts as

@@ -20,7 +20,7 @@ from carom.core.planar import flight_profile
 from carom.core.rub import wall_push
 from carom.core.segments import LEAST_PUSH
 from carom.core.variation import strike
-from carom.models import Model
+from carom.models import Rotor
 from carom.models.axes import Axis
 from carom.orbits.admissibility import departure
 from carom.orbits.orbit import Margins, margins_of
@@ -132,7 +132,7 @@ class FamilyPoint:
         return min(self.pairs, key=lambda pair: abs(pair[0] - 1.0))[1].real
 
 
-def point_at(rotor: Model, word: Word, unknowns: np.ndarray) -> FamilyPoint | None:
+def point_at(rotor: Rotor, word: Word, unknowns: np.ndarray) -> FamilyPoint | None:
     """The segments of a word from the unknowns of :func:`~carom.orbits.shooting.pack_free`; ``None`` where they are not defined."""
     start = unpack_free(word, unknowns)
     # The contact after a chatter may vanish: lasting contact begins there.  Contact that shrinks to nothing goes on with negative duration.
@@ -164,12 +164,12 @@ TESTS: dict[str, Callable[[FamilyPoint], float]] = {
 class Orbits:
     """Orbits of a word by their unknowns and the values of parameters; the last ones, and the last rotors, are remembered."""
 
-    def __init__(self, word: Word, rotor_of: Callable[..., Model]) -> None:
+    def __init__(self, word: Word, rotor_of: Callable[..., Rotor]) -> None:
         self.word, self._rotor_of = word, rotor_of
         self.rotor_at = lru_cache(REMEMBERED)(self._rotor_at)
         self._known = lru_cache(REMEMBERED)(self._evaluated)
 
-    def _rotor_at(self, *place: float) -> Model | None:
+    def _rotor_at(self, *place: float) -> Rotor | None:
         """The rotor at values of the parameters; ``None`` where there is none."""
         try:
             return self._rotor_of(*place)
@@ -188,7 +188,7 @@ class Orbits:
 class Family(Orbits):
     """The equations of orbits of a word along a parameter."""
 
-    def __init__(self, rotor: Model, along: Axis, word: Word, limits: tuple[float, float]) -> None:
+    def __init__(self, rotor: Rotor, along: Axis, word: Word, limits: tuple[float, float]) -> None:
         super().__init__(word, partial(along.move, rotor))
         self.rotor, self.along, self.limits = rotor, along, limits
         self.size = max(abs(along.value(rotor)), 0.1 * (limits[1] - limits[0]))

@@ -39,13 +39,13 @@ def attractors(
     check_output(out)
     with progress("attractors (the kernels are compiled on first use)") as tell:
         from carom.attractors import character_of, find_attractors
-        from carom.models import model_of
+        from carom.models import rotor_of
         from carom.studies.attractors_document import attractors_document
 
         fastest = case.requirement.own(case.parameters.scales).kick
         found = find_attractors(case, count=starts, seed=seed, fastest=fastest, progress=tell)
         characters = [character_of(case, entry) for entry in found]
-        document = attractors_document(model_of(case), found, characters, exponents) if as_json or out else {}
+        document = attractors_document(rotor_of(case), found, characters, exponents) if as_json or out else {}
         if out is not None:
             with output_directory(out, case) as output:
                 output.figure("attractors", found.plot())

@@ -183,13 +183,13 @@ def at_instant(plan: Plan, instant: str | None, case: Case) -> Plan:
     """The same plan, the cells of a grid at one instant of the turn if it is given."""
     from carom.cli.starts import read_instant
     from carom.disturbances import Grid
-    from carom.models import model_of
+    from carom.models import rotor_of
 
     if instant is None:
         return plan
     if not isinstance(plan, Grid):
         raise InputError("--instant", instant, "allowed only with a grid: the starts of a sample come at any instant")
-    return replace(plan, instant=read_instant(instant, model_of(case)))
+    return replace(plan, instant=read_instant(instant, rotor_of(case)))
 
 
 def _model(case: Case, kind: str, sizes: dict[str, str | None]) -> Disturbance:

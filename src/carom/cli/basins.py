@@ -13,7 +13,7 @@ from carom.cli.terminal import AsJson, MachineFile, Out, Settings, check_output,
 if TYPE_CHECKING:
     from carom.basins import GainChange, GainMap
     from carom.disturbances import Plan
-    from carom.models import Model
+    from carom.models import Rotor
     from carom.progress import Reporter
 
 
@@ -67,9 +67,9 @@ def basins(
         from carom.basins.document import basin_document
         from carom.basins.families import has_sizes
         from carom.closed_forms import harmless_kick
-        from carom.models import model_of
+        from carom.models import rotor_of
 
-        rotor, share = model_of(case), 0.45 if asked is None else 0.2
+        rotor, share = rotor_of(case), 0.45 if asked is None else 0.2
         step = tell.part(0.0, share, f"following {plan.count} starts")
         basin = map_basins(rotor, plan, threads=threads, source=source, progress=step)
         harmless, smallest = harmless_kick(rotor), None
@@ -101,7 +101,7 @@ def basins(
 
 
 def _map(
-    rotor: Model, plan: Plan, asked: options.Gains, threads: int | None, source: dict[str, str], tell: Reporter
+    rotor: Rotor, plan: Plan, asked: options.Gains, threads: int | None, source: dict[str, str], tell: Reporter
 ) -> tuple[GainMap, GainChange | None]:
     from carom.basins import least_gain_change, map_gains
 

@@ -12,7 +12,7 @@ from carom.outcome import IRREGULAR_BOUNCING, STEADY_WORDS, InputError, Outcome,
 
 if TYPE_CHECKING:
     from carom.bifurcations import Bifurcation, Diagram
-    from carom.models import Axis, Model
+    from carom.models import Axis, Rotor
     from carom.parameters import Parameters
     from carom.proofs import Proof
 
@@ -94,10 +94,10 @@ def bifurcations(
         from carom.bifurcations.documents import diagram_document
         from carom.cli.starts import read_ends
         from carom.loading import load
-        from carom.models import axis, model_of
+        from carom.models import axis, rotor_of
 
         case = load(machine, settings or ())
-        model = model_of(case)
+        model = rotor_of(case)
         varied = axis(model, along.strip())
         interval = read_ends(start, end, varied)
         if seed is not None and not attractors:
@@ -158,10 +158,10 @@ def regions(
         from carom.bifurcations import Plane, map_regions
         from carom.bifurcations.documents import regions_document
         from carom.loading import load
-        from carom.models import axis, case_of, model_of
+        from carom.models import axis, case_of, rotor_of
 
         case = load(machine, settings or ())
-        model = model_of(case)
+        model = rotor_of(case)
         subject = case_of(case).parameters if model.has_closed_forms else model
         names = [name.strip() for name in plane.split(",")]
         if len(names) != 2:
@@ -206,7 +206,7 @@ def _checked(proof: str | None, out: str | None) -> Proof | None:
     return check(proof)
 
 
-def _range(subject: Parameters | Model, varied: Axis, option: str, given: str | None) -> tuple[float, float]:
+def _range(subject: Parameters | Rotor, varied: Axis, option: str, given: str | None) -> tuple[float, float]:
     """Return the range of a parameter: as given, or around its present value."""
     if given is not None:
         from carom.cli.starts import read_range

@@ -43,13 +43,13 @@ def read_plane(
         return None
     from carom.basins.drop_axes import RELEASED, varied_of
     from carom.cli.starts import read_range
-    from carom.models import model_of
+    from carom.models import rotor_of
     from carom.parameters.fields import unknown_name
 
     names = [name.strip() for name in plane.split(",")]
     if len(names) != 2 or names[0] == names[1]:
         raise InputError("--map", plane, "must be two names with a comma between them, such as phase,speed")
-    rotor = model_of(case)
+    rotor = rotor_of(case)
     for name in names:
         if name not in (known := dict.fromkeys([*RELEASED, *rotor.varied])):
             raise InputError("--map", plane, f"{name}: {unknown_name(name, None, known, 'what can be varied').allowed}")

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from rich.console import Console
 
     from carom.disturbances.echo import Echo
-    from carom.models import Model
+    from carom.models import Rotor
     from carom.motions.bearing_loads import DropLoads
     from carom.motions.drops import Drop, Whirl
     from carom.motions.reduction_errors import ReductionError
@@ -63,26 +63,26 @@ def read_release(
 
 
 def error_along(
-    case: Case, loads: DropLoads, again: Callable[[Case], tuple[Model, Any, Echo]]
+    case: Case, loads: DropLoads, again: Callable[[Case], tuple[Rotor, Any, Echo]]
 ) -> ReductionError | None:
     """Error of the reduction of a flexible machine along a motion; ``None`` of other machines.  ``again`` reads the same motion of another case."""
-    from carom.models import model_of
+    from carom.models import rotor_of
     from carom.motions.reduction_errors import reduction_error
 
-    if (reduced := model_of(case).finite_elements) is None:
+    if (reduced := rotor_of(case).finite_elements) is None:
         return None
     return reduction_error(reduced, loads, lambda finer: again(replace(case, parameters=finer.limited))[:2])
 
 
 def motion_document(case: Case, motion: Trajectory) -> dict[str, Any]:
     """Return the document of a motion: of all its stages if it has several, with times from its beginning."""
-    from carom.models import model_of
+    from carom.models import rotor_of
     from carom.studies import trajectory_document
 
     document = trajectory_document(motion, case.limits)
     if case.gravity:
         gravity = {"acceleration_si": case.gravity.acceleration, "direction": case.gravity.direction}
-        document |= model_of(case).document() | {"gravity": gravity}
+        document |= rotor_of(case).document() | {"gravity": gravity}
     if case.touchdown:
         document["touchdown"] = {"law": case.touchdown.law, **case.touchdown.given}
     return document

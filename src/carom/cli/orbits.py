@@ -44,13 +44,13 @@ def orbits(
     orbits with at most N impacts that are known or that a search finds, with what it tried.
     """
     from carom.loading import load
-    from carom.models import case_of, model_of
+    from carom.models import case_of, rotor_of
 
     given = load(machine, settings or ())
     if impacts is not None:
         _search(given, impacts, guesses, as_json)
         return
-    model = model_of(given)
+    model = rotor_of(given)
     model.system.refuse_unrepeated()
     if not model.has_closed_forms:
         _print_steady(given, longest_period, as_json)

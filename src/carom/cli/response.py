@@ -55,12 +55,12 @@ def response(
     check_output(out)
     with progress("response over speed") as tell:
         from carom.disturbances.echo import echo_of_unbalance
-        from carom.models import model_of
+        from carom.models import rotor_of
         from carom.studies.response import unbalance_response
 
         found = unbalance_response(case, interval, operating=run)
         tell(0.3, "response over speed")
-        echo = echo_of_unbalance(model_of(case).value("rho"), found.interval, found.scales)
+        echo = echo_of_unbalance(rotor_of(case).value("rho"), found.interval, found.scales)
         document = {"disturbance": echo.document(found.scales)} | found.to_dict() if as_json or out is not None else {}
         if out is not None:
             tell(0.4, "drawing")

@@ -14,7 +14,7 @@ from carom.outcome import InputError
 
 if TYPE_CHECKING:
     from carom.disturbances.echo import Echo
-    from carom.models import Model
+    from carom.models import Rotor
     from carom.motions.starts import State
     from carom.motions.trajectories import Trajectory
     from carom.parameters import Case
@@ -60,7 +60,7 @@ def simulate(
         end = None if until is None else read_time(until, case.parameters.scales)
         released = read_release(case, ways, regained_after) if drop else None
 
-        def read(case: Case) -> tuple[Model, State, Echo]:
+        def read(case: Case) -> tuple[Rotor, State, Echo]:
             if released is None:
                 return _read(case, ways, instant)
             from carom.studies.drops import release
@@ -158,7 +158,7 @@ def _shown(motion: Trajectory) -> tuple[Trajectory, str]:
     return follow(rotor, motion.start, until_decayed(rotor, motion.time)), "returns to levitation"
 
 
-def _read(case: Case, ways: dict[str, str | None], given_instant: str | None) -> tuple[Model, State, Echo]:
+def _read(case: Case, ways: dict[str, str | None], given_instant: str | None) -> tuple[Rotor, State, Echo]:
     """Read the machine that moves, its start and what was taken; refuse wrong input before the rotor is made."""
     from carom.cli.starts import read_instant, read_start
     from carom.disturbances import BaseShock, BladeLoss, VelocityKick, echo
@@ -190,13 +190,13 @@ def _read(case: Case, ways: dict[str, str | None], given_instant: str | None) ->
     return rotor, replace(state, time=instant), echo.echo_at(said, rotor, instant)
 
 
-def _rotor(case: Case) -> Model:
-    from carom.models import model_of
+def _rotor(case: Case) -> Rotor:
+    from carom.models import rotor_of
 
-    return model_of(case)
+    return rotor_of(case)
 
 
-def _follow(rotor: Model, start: State, end: float | None, tell: Reporter) -> Trajectory:
+def _follow(rotor: Rotor, start: State, end: float | None, tell: Reporter) -> Trajectory:
     from carom.motions.simulation import simulate as follow
 
     return follow(rotor, start, end, progress=tell)

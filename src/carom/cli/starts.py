@@ -27,7 +27,7 @@ from carom.parameters import (
 from carom.parameters.terms import SETTABLE, set_by
 
 if TYPE_CHECKING:
-    from carom.models import Axis, Model
+    from carom.models import Axis, Rotor
     from carom.motions.drops import Whirl
     from carom.motions.starts import Kick, State
 
@@ -72,7 +72,7 @@ def read_whirl(text: str, scales: Scales | None) -> Whirl:
     return Whirl(*sizes, place)
 
 
-def read_instant(text: str | None, rotor: Model, option: str = "--instant") -> float:
+def read_instant(text: str | None, rotor: Rotor, option: str = "--instant") -> float:
     """Read the angle by which the shaft has turned at a disturbance, by default 0; refuse it where it says nothing."""
     if text is None:
         return 0.0

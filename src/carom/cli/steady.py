@@ -11,14 +11,14 @@ from carom.cli.fitting import fitted, plain_table
 from carom.closed_forms.equilibria import steady_motions
 from carom.closed_forms.statics import exponent_of
 from carom.closed_forms.yielding_walls import slipping_whirls
-from carom.models import model_of
+from carom.models import rotor_of
 from carom.outcome import STEADY_WORDS, Outcome
 from carom.parameters import Scales
 from carom.parameters.told import number, told
 from carom.results import in_si
 
 if TYPE_CHECKING:
-    from carom.models import Model
+    from carom.models import Rotor
     from carom.parameters import Case
 
 WHIRL = Outcome.BACKWARD_WHIRL.words
@@ -35,7 +35,7 @@ class Steady(NamedTuple):
     state: str
 
 
-def steady_of(rotor: Model) -> list[Steady]:
+def steady_of(rotor: Rotor) -> list[Steady]:
     """Levitation; without weight the synchronous rubs; and slipping whirls at each plane whose wall gives way, of the rotor without its unbalance and weight."""
     found = [
         Steady(
@@ -66,7 +66,7 @@ def _state(status: str, stable: bool) -> str:
 
 def steady_document(case: Case) -> dict[str, Any]:
     """Return the same as plain data."""
-    rotor = model_of(case)
+    rotor = rotor_of(case)
     entries = [{**each._asdict(), "touchdown_bearings": list(each.touchdown_bearings)} for each in steady_of(rotor)]
     own = [{**each, **in_si(each, rotor.scales, radius="length", normal_force="force")} for each in entries]
     return {**rotor.document(), "steady": own}
@@ -74,7 +74,7 @@ def steady_document(case: Case) -> dict[str, Any]:
 
 def print_steady(console: Console, case: Case) -> None:
     """Print steady motions, in SI units."""
-    rotor = model_of(case)
+    rotor = rotor_of(case)
     scales: Scales | None = rotor.scales
     table = plain_table(
         "Steady motions",

@@ -90,12 +90,12 @@ def _draw(plan: SweepPlan, tally: Tally, figures: str) -> None:
     from carom import plots
     from carom.files import staged_directory
     from carom.files.directory import FIGURES
-    from carom.models import axis, model_of
+    from carom.models import axis, rotor_of
     from carom.parameters import Case
     from carom.studies.wording import machine_heading
     from carom.sweeps import open_sweep
 
-    model = model_of(plan.case)
+    model = rotor_of(plan.case)
     present = {varied.name: float(axis(model, varied.name).value(model)) for varied in plan.axes}
     words = machine_heading(plan.case) if isinstance(plan.case, Case) else plan.name
     data = open_sweep(str(tally.store))

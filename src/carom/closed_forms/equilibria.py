@@ -12,7 +12,7 @@ from carom.arguments import checked
 from carom.closed_forms.rub_stability import sliding_rates
 from carom.closed_forms.sag import Levitation, Status, levitation, status_of
 from carom.closed_forms.statics import COUNTED, all_found, depths, exponent_of, rub_forces, static_state
-from carom.models import Model, Subject, model_of
+from carom.models import Rotor, Subject, rotor_of
 from carom.models.excess import asks_beyond
 from carom.outcome import Phase
 from carom.parameters import Scales
@@ -101,7 +101,7 @@ class EquilibriumSet(Members[Equilibrium]):
     figure: ClassVar[str] = "equilibria"
     called: ClassVar[str] = "equilibrium"
 
-    rotor: Model
+    rotor: Rotor
     members: tuple[Equilibrium, ...]
     complete: bool
 
@@ -168,7 +168,7 @@ def find_equilibria(machine: Subject) -> EquilibriumSet:
     >>> [(one.kind, one.stable) for one in cm.find_equilibria(machine)]
     [('contact-free', True), ('rub', True), ('rub', False)]
     """
-    model = model_of(machine)
+    model = rotor_of(machine)
     system = model.system
     model.refuse_forces()
     rubs = [
@@ -180,7 +180,7 @@ def find_equilibria(machine: Subject) -> EquilibriumSet:
     return EquilibriumSet(model, found, complete=all_found(system))
 
 
-def _contact_free(model: Model) -> Equilibrium:
+def _contact_free(model: Rotor) -> Equilibrium:
     system = model.system
     places = np.asarray(system.arrays["offsets"])
     # The exponents of the planar rotor are exact, others have rounding errors.
@@ -198,7 +198,7 @@ def _contact_free(model: Model) -> Equilibrium:
     )
 
 
-def _rub(model: Model, planes: tuple[int, ...], forces: np.ndarray, touching: np.ndarray) -> Equilibrium:
+def _rub(model: Rotor, planes: tuple[int, ...], forces: np.ndarray, touching: np.ndarray) -> Equilibrium:
     system = model.system
     arrays, chosen = system.arrays, list(planes)
     amplitudes = static_state(system, planes, forces, touching)
@@ -244,7 +244,7 @@ SteadyMotion = Equilibrium | Levitation
 """A motion that is the same in each turn of the shaft."""
 
 
-def steady_motions(rotor: Model) -> tuple[SteadyMotion, ...]:
+def steady_motions(rotor: Rotor) -> tuple[SteadyMotion, ...]:
     """Levitation, then the synchronous rubs; levitation alone where something stands in the fixed frame or the speed of the shaft changes.
 
     Under weight nothing else is at rest in the frame that turns with the shaft: a rotor that lies on its bearing is found among the ends

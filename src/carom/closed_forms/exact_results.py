@@ -15,7 +15,7 @@ from carom.closed_forms.equilibria import Equilibrium, find_equilibria
 from carom.closed_forms.fading import fading_speed
 from carom.closed_forms.thresholds import largest_response
 from carom.closed_forms.whirl import Rolling, Runaway, hastening_speed, rolling, runaway_speed
-from carom.models import Model, jeffcott
+from carom.models import Rotor, jeffcott
 from carom.parameters import Parameters
 
 ROTORS = 64
@@ -53,7 +53,7 @@ class ExactResults:
         return self.rolls.largest_force if self.rolls else 0.0
 
 
-def exact_results(rotor: Model) -> ExactResults:
+def exact_results(rotor: Rotor) -> ExactResults:
     """Exact results of a rotor."""
     return _of(rotor.planar) if rotor.has_closed_forms and rotor.planar is not None else NONE
 

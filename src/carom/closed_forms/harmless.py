@@ -21,7 +21,7 @@ import numpy as np
 
 from carom.arguments import Positive, Whole, checked
 from carom.closed_forms.exact_results import exact_results
-from carom.models import Model, Subject, model_of
+from carom.models import Rotor, Subject, rotor_of
 from carom.models.mode_arrays import STEADY
 from carom.models.stages import stages_of
 
@@ -40,7 +40,7 @@ class _Levitation(NamedTuple):
     """``√(d K⁻¹ dᴴ + v M⁻¹ vᴴ)`` of each: its largest change per root of the energy, shape (P + L,)."""
 
 
-def _levitation(model: Model) -> _Levitation | None:
+def _levitation(model: Rotor) -> _Levitation | None:
     """Levitation of a model; ``None`` where it lies outside a wall or can grow.  Under weight it is a circle about the sag."""
     if len(stages_of(model)) > 1 or model.system.rest_radius >= 1.0 or _is_shaken(model):
         return None
@@ -64,7 +64,7 @@ def _levitation(model: Model) -> _Levitation | None:
     return _Levitation(rooms, np.sqrt(yields))
 
 
-def _rooms_of_limits(model: Model) -> np.ndarray:
+def _rooms_of_limits(model: Rotor) -> np.ndarray:
     """What is left of each limit of the magnetic bearings while the rotor levitates, whatever the directions of the axes, shape (L,)."""
     if not model.system.limits:
         return np.empty(0)
@@ -73,7 +73,7 @@ def _rooms_of_limits(model: Model) -> np.ndarray:
     return np.asarray(arrays["limit_bounds"] - asked)
 
 
-def _watched(model: Model) -> tuple[np.ndarray, np.ndarray]:
+def _watched(model: Rotor) -> tuple[np.ndarray, np.ndarray]:
     """Displacements of the planes, then what is asked of each limit, per coordinate and per rate in the fixed frame, each (P + L, n)."""
     planes = model.system.planes
     limits = model.listed_limits
@@ -81,7 +81,7 @@ def _watched(model: Model) -> tuple[np.ndarray, np.ndarray]:
     return shown, np.concatenate([0.0 * planes, *(np.atleast_2d(each.velocity) for each in limits)])
 
 
-def _is_shaken(model: Model) -> bool:
+def _is_shaken(model: Rotor) -> bool:
     """Whether forces act that are not constant in the fixed frame: they may go on growing."""
     constant = np.abs(model.system.arrays["exponents"] - STEADY) <= ROUNDING
     return bool((model.system.forced_at(0.0)[~constant] != 0.0).any())
@@ -106,7 +106,7 @@ def harmless_kick(machine: Subject) -> float:
     >>> print(f"{cm.closed_forms.harmless_kick(machine):.6f}")
     0.039821
     """
-    model = model_of(machine)
+    model = rotor_of(machine)
     return _harmless_push(model, model.system.translated)
 
 
@@ -124,11 +124,11 @@ def harmless_shock(machine: Subject, duration: Positive) -> float:
     duration : float
         ``T``, in ``1/Ω``.
     """
-    model = model_of(machine)
+    model = rotor_of(machine)
     return _harmless_push(model, model.carried_by_housing) * math.pi / (2.0 * duration)
 
 
-def _harmless_push(model: Model, along: np.ndarray) -> float:
+def _harmless_push(model: Rotor, along: np.ndarray) -> float:
     """Change of the velocities of all coordinates, in proportion to these, up to which the wall is not reached."""
     levitation, known = _levitation(model), exact_results(model.unforced).response
     if levitation is None:
@@ -147,7 +147,7 @@ def harmless_unbalance_step(machine: Subject) -> float:
     ``|u₀|√(1 + 1/ω²)``.  This bound is not sharp.  The change is in ``c_r``; zero as for :func:`harmless_kick`, and where the unbalance
     of the rotor is not that of all masses off centre by one eccentricity, as it is before such a step.
     """
-    model = model_of(machine)
+    model = rotor_of(machine)
     levitation = _levitation(model)
     push = model.matrices.mass @ model.system.translated
     own = cmath.rect(model.value("rho"), model.unbalance_phase) * push
@@ -165,7 +165,7 @@ def harmless_blade_loss(machine: Subject, node: Whole | None = None) -> float:
     displaced from the one before by ``u₀``.  This bound is not sharp.  The change, in ``c_r``, is the modulus of that of the complex
     eccentricity, at a node of a flexible machine; zero as for :func:`harmless_kick`.
     """
-    model = model_of(machine)
+    model = rotor_of(machine)
     levitation = _levitation(model)
     if levitation is None:
         return 0.0
@@ -173,18 +173,18 @@ def harmless_blade_loss(machine: Subject, node: Whole | None = None) -> float:
     return float((levitation.rooms / (shift + deviation)).min())
 
 
-def shift_by_unbalance(model: Model, node: int | None = None) -> np.ndarray:
+def shift_by_unbalance(model: Rotor, node: int | None = None) -> np.ndarray:
     """Displacement (n,) of levitation per change of the unbalance, in the frame that turns."""
     return _shift(model, model.unbalance_push(node))
 
 
-def _shift(model: Model, push: np.ndarray) -> np.ndarray:
+def _shift(model: Rotor, push: np.ndarray) -> np.ndarray:
     """Displacement of the levitating rotor by a force in the frame that turns."""
     mass, damping, gyroscopic, stiffness, _ = model.matrices
     return np.linalg.solve(stiffness - mass + 1j * damping + gyroscopic, push)
 
 
-def _after_step(model: Model, levitation: _Levitation, push: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _after_step(model: Rotor, levitation: _Levitation, push: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Shift of levitation at each plane and limit by a change of the unbalance force, and the largest deviation from it after that step."""
     shift = _shift(model, push)
     energy = _energy(model.matrices.stiffness, shift) + _energy(model.matrices.mass, shift)

@@ -8,7 +8,7 @@ from typing import Any, ClassVar, Literal
 import numpy as np
 
 from carom.arguments import Reals, checked
-from carom.models import Model, Subject, model_of
+from carom.models import Rotor, Subject, rotor_of
 from carom.models.excess import asks_beyond
 from carom.outcome import InputError
 from carom.results import Result
@@ -53,7 +53,7 @@ class Levitation(Result):
     planes: ClassVar[tuple[int, ...]] = ()
     normal_force: ClassVar[float] = 0.0
 
-    rotor: Model
+    rotor: Rotor
     sag: Any
     whirl: Any
     opposite: Any
@@ -127,7 +127,7 @@ def levitation(machine: Subject) -> Levitation:
     >>> print(f"{abs(held.sag):.4f} + {abs(held.whirl):.4f} = {held.reach:.4f}")
     0.3924 + 0.0088 = 0.4012
     """
-    model = model_of(machine)
+    model = rotor_of(machine)
     system, arrays = model.system, model.system.arrays
     if system.shaken:
         system.refuse_unsteady()

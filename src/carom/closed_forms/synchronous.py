@@ -17,7 +17,7 @@ from typing import ClassVar, NamedTuple
 import numpy as np
 
 from carom.arguments import checked
-from carom.models import Limit, Model, Subject, model_of
+from carom.models import Limit, Rotor, Subject, rotor_of
 from carom.outcome import InputError
 from carom.parameters import Zones
 from carom.results import Result
@@ -153,7 +153,7 @@ def synchronous_response(machine: Subject | FlexibleMachine, speeds: Sequence[fl
     0.4012
     """
     listed = speeds_of(speeds)
-    whole = _of_flexible(machine) if isinstance(machine, FlexibleMachine) else _of_model(model_of(machine))
+    whole = _of_flexible(machine) if isinstance(machine, FlexibleMachine) else _of_model(rotor_of(machine))
     answers = Ellipses(*_answers(whole.equations, listed / whole.speed))
 
     def seen(rows: np.ndarray) -> Ellipses:
@@ -172,7 +172,7 @@ def synchronous_response(machine: Subject | FlexibleMachine, speeds: Sequence[fl
     )
 
 
-def _of_model(model: Model) -> _Whole:
+def _of_model(model: Rotor) -> _Whole:
     reduced, scales = model.finite_elements, model.scales
     if reduced is not None:
         return _of_flexible(reduced.machine)

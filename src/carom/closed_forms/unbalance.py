@@ -23,7 +23,7 @@ import numpy as np
 
 from carom.arguments import Positive, Reals, checked
 from carom.closed_forms.thresholds import largest_pull
-from carom.models import Rotor, Subject, jeffcott, model_of
+from carom.models import Rotor, Subject, jeffcott, rotor_of
 from carom.outcome import InputError, shown
 from carom.results import Result
 
@@ -127,7 +127,7 @@ def speed_response(machine: Subject) -> SpeedResponse:
     InputError
         A rotor with more modes, or a rotor without scales: its damping and stiffness are not known apart from its speed.
     """
-    at = model_of(machine).planar
+    at = rotor_of(machine).planar
     if at is None:
         raise InputError("machine", shown(machine), "a rotor with one mass; carom.studies.unbalance_response takes any")
     rotor = jeffcott(at)

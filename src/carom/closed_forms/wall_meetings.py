@@ -35,7 +35,7 @@ from carom.arguments import Positive, Whole, checked
 from carom.closed_forms.periods import PeriodCondition
 from carom.closed_forms.piecewise import Pieces
 from carom.closed_forms.statics import exponent_of
-from carom.models import Model, Subject, System, model_of
+from carom.models import Rotor, Subject, System, rotor_of
 from carom.outcome import InputError
 from carom.results import Result
 
@@ -125,7 +125,7 @@ class WallMeeting(Result):
 
     shown: ClassVar = ("rotor", "plane", "gap", "kind", "rub_stable", "cycles")
 
-    rotor: Model
+    rotor: Rotor
     plane: int
     gap: float
     force_rate: float
@@ -190,7 +190,7 @@ def small_cycles(machine: Subject, plane: Whole | None = None, longest: Positive
     >>> meeting.kind, [(f"{cycle.period:.4f}", cycle.criticality) for cycle in meeting.cycles]
     ('non-smooth fold', [('0.6668', 'subcritical'), ('3.0765', 'subcritical')])
     """
-    model = model_of(machine)
+    model = rotor_of(machine)
     system = model.system
     system.refuse_forces()
     radii = np.abs(system.arrays.offsets)

@@ -46,7 +46,7 @@ from carom.arguments import Positive, Whole, checked
 from carom.closed_forms.free_impact import Exponent
 from carom.closed_forms.power_sums import positive_roots
 from carom.closed_forms.statics import rubs_in_wall
-from carom.models import Subject, System, model_of
+from carom.models import Subject, System, rotor_of
 from carom.outcome import InputError
 
 REAL = 1e-6
@@ -137,7 +137,7 @@ def yielding_rubs(
     >>> [f"{rub.depth:.3e}" for rub in cm.closed_forms.yielding_rubs(machine, stiffness=1e4)]
     ['5.871e-07', '7.910e-05']
     """
-    system = model_of(machine).system
+    system = rotor_of(machine).system
     system.refuse_forces()
     _check_plane(system, plane)
     row, column = system.arrays["rows"][plane], system.arrays["columns"][:, plane]
@@ -192,7 +192,7 @@ def slipping_whirls(
     ...     print(f"{whirl.speed:.9f}, {whirl.radius:.9f}")
     1.163219537, 1.000077554
     """
-    system = model_of(machine).system
+    system = rotor_of(machine).system
     system.refuse_forces()
     _check_plane(system, plane)
     surface = float(system.arrays["surface_speed"][plane]) - 1.0

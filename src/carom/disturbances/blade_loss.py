@@ -13,7 +13,7 @@ from carom.disturbances.model import Disturbance
 from carom.disturbances.single import Part
 
 if TYPE_CHECKING:
-    from carom.models import Model
+    from carom.models import Rotor
 
 
 @dataclass(frozen=True)
@@ -63,14 +63,14 @@ class BladeLoss(Disturbance):
         """Phase of the change."""
         return (angle_coordinate("phase", "phase of the change of the unbalance, relative to that before it"),)
 
-    def starts(self, rotor: Model, *values: np.ndarray, instant: np.ndarray | float = 0.0) -> Starts:
+    def starts(self, rotor: Rotor, *values: np.ndarray, instant: np.ndarray | float = 0.0) -> Starts:
         """Levitation of the machine before the loss, in the frame in which the phase of the unbalance stays the same."""
         (phases,) = values
         return starts_after(rotor, self.change, phases, self.node, instant)
 
 
 def starts_after(
-    rotor: Model,
+    rotor: Rotor,
     sizes: np.ndarray | float,
     phases: np.ndarray,
     node: int | None = None,
@@ -85,7 +85,7 @@ def starts_after(
     return levitating_before(rotor, turned, instants)._replace(after=after)
 
 
-def levitating_before(rotor: Model, turned: np.ndarray, instants: np.ndarray) -> Starts:
+def levitating_before(rotor: Rotor, turned: np.ndarray, instants: np.ndarray) -> Starts:
     """Levitation at instants of the turn, seen in frames that have turned by these angles with the unbalance after it."""
     from carom.models.weight import refuse_unsteady  # only here: it loads kernels
 

@@ -15,7 +15,7 @@ from carom.outcome import InputError
 from carom.parameters.requirement import SHOCK_DURATION
 
 if TYPE_CHECKING:
-    from carom.models import Model, Subject
+    from carom.models import Rotor, Subject
     from carom.motions.starts import State
 
 LONGEST_SHOCK = 1e4
@@ -61,18 +61,18 @@ class VelocityKick(Disturbance):
             "direction", "direction of the kick"
         )
 
-    def starts(self, rotor: Model, *values: np.ndarray, instant: np.ndarray | float = 0.0) -> Starts:
+    def starts(self, rotor: Rotor, *values: np.ndarray, instant: np.ndarray | float = 0.0) -> Starts:
         """Levitation with the velocity changed."""
         speed, direction = values
         velocity = complex_of(speed * np.cos(direction), speed * np.sin(direction))
         return _kicked(rotor, velocity, instant)
 
-    def apply(self, machine: Subject, *values: float | str, instant: float | str = 0.0) -> tuple[Model, State]:
+    def apply(self, machine: Subject, *values: float | str, instant: float | str = 0.0) -> tuple[Rotor, State]:
         """See :meth:`Disturbance.apply`."""
-        from carom.models import model_of
+        from carom.models import rotor_of
         from carom.motions.starts import Kick
 
-        rotor, radius = model_of(machine), model_of(machine).system.rest_radius
+        rotor, radius = rotor_of(machine), rotor_of(machine).system.rest_radius
         if radius > 1.0 and rotor.system.forced is None:  # with weight the kick itself says so
             words = f"needs levitation, but |U*| = {radius:.6g} is outside the wall"
             raise InputError("kick", radius, words)
@@ -116,7 +116,7 @@ class KickPlane(Disturbance):
         """Whether kicks are no larger than the largest, but for rounding."""
         return np.asarray(np.hypot(radial, tangential) <= self.fastest * (1.0 + 1e-12))
 
-    def starts(self, rotor: Model, *values: np.ndarray, instant: np.ndarray | float = 0.0) -> Starts:
+    def starts(self, rotor: Rotor, *values: np.ndarray, instant: np.ndarray | float = 0.0) -> Starts:
         """Levitation with the velocity changed; there is no start beyond the largest kick."""
         radial, tangential = values
         outward = outward_from(rotor)
@@ -179,7 +179,7 @@ class BaseShock(Disturbance):
         peak = Coordinate("peak_acceleration", "peak acceleration of the base", 0.0, self.peak, "acceleration", True)
         return peak, angle_coordinate("direction", "direction of the shock")
 
-    def starts(self, rotor: Model, *values: np.ndarray, instant: np.ndarray | float = 0.0) -> Starts:
+    def starts(self, rotor: Rotor, *values: np.ndarray, instant: np.ndarray | float = 0.0) -> Starts:
         """State at the end of the pulse, which begins at the instant."""
         from carom.disturbances.shocks import states_after_shocks
         from carom.models.stages import depends_on_instant, stages_of
@@ -194,7 +194,7 @@ class BaseShock(Disturbance):
         begins = begun + self.duration if depends_on_instant(rotor) else np.zeros(peaks.shape)
         return Starts(positions, velocities, np.ones(peaks.shape, bool), ended, touched, begins)
 
-    def apply(self, machine: Subject, *values: float | str, instant: float | str = 0.0) -> tuple[Model, State]:
+    def apply(self, machine: Subject, *values: float | str, instant: float | str = 0.0) -> tuple[Rotor, State]:
         """Return the machine under a shock and then without, and its start at levitation, for :func:`carom.simulate`.
 
         Contacts during the shock are part of the motion.  Stages of the machine begin when the shock is over.  A machine with weight
@@ -215,11 +215,11 @@ class BaseShock(Disturbance):
             The rotor cannot levitate inside the wall.
         """
         from carom.disturbances.shocks import shaken
-        from carom.models import Stage, Staged, Trigger, model_of
+        from carom.models import Stage, Staged, Trigger, rotor_of
         from carom.models.stages import stages_of
         from carom.motions.starts import Kick
 
-        further = stages_of(model_of(machine))
+        further = stages_of(rotor_of(machine))
         rotor = further[0].rotor
         peak, direction, begun = self.whole(values, instant)
         size, start = cmath.rect(peak, direction) / 2j, Kick(0.0, instant=begun).state(rotor)
@@ -247,14 +247,14 @@ class BaseShock(Disturbance):
 
 def outward_from(machine: Subject) -> complex:
     """Direction from the bearing centre to the levitating rotor; that of the unbalance if the rotor is centred."""
-    from carom.models import model_of
+    from carom.models import rotor_of
 
-    rotor = model_of(machine)
+    rotor = rotor_of(machine)
     rest = complex(rotor.system.arrays.offsets[0])
     return rest / abs(rest) if rest else cmath.rect(1.0, rotor.unbalance_phase)
 
 
-def _kicked(rotor: Model, velocity: np.ndarray, instant: np.ndarray | float) -> Starts:
+def _kicked(rotor: Rotor, velocity: np.ndarray, instant: np.ndarray | float) -> Starts:
     """Levitation with the velocity of the rotor as a whole changed."""
     velocity, begins = np.broadcast_arrays(velocity, np.asarray(instant, float))
     positions, velocities = rotor.system.kicked(velocity, begins)

@@ -15,7 +15,7 @@ from carom.parameters import UNITS, Scales
 from carom.parameters.told import number, shown_in
 
 if TYPE_CHECKING:
-    from carom.models import Model
+    from carom.models import Rotor
 
 TURN = 2.0 * math.pi
 ON_WALL = 1e-12
@@ -166,7 +166,7 @@ class Starts(NamedTuple):
 
 
 def sagged(
-    rotor: Model, positions: np.ndarray, opposite: np.ndarray | None = None, instant: np.ndarray | float = 0.0
+    rotor: Rotor, positions: np.ndarray, opposite: np.ndarray | None = None, instant: np.ndarray | float = 0.0
 ) -> tuple[np.ndarray, np.ndarray]:
     """Positions of rotors at rest in the turning frame with the static sag added, and the velocities of that, which stands still.
 
@@ -184,7 +184,7 @@ def sagged(
     return placed, velocities
 
 
-def displaced(rotor: Model, positions: np.ndarray, velocities: np.ndarray, exists: np.ndarray | bool = True) -> Starts:
+def displaced(rotor: Rotor, positions: np.ndarray, velocities: np.ndarray, exists: np.ndarray | bool = True) -> Starts:
     """Starts of a rotor that is displaced and moves as a whole.
 
     Positions are the displacement of the contact plane that moves farthest, in its clearance.  Velocities, in ``c_r Ω``, are

@@ -16,7 +16,7 @@ from carom.results import in_si
 
 if TYPE_CHECKING:
     from carom.disturbances.single import Single
-    from carom.models import Model
+    from carom.models import Rotor
     from carom.motions.starts import State
     from carom.parameters import Gravity
 
@@ -68,14 +68,14 @@ def angles_words(phase: float, when: str = "") -> str:
     return f"angles count from the x axis that turns with the shaft{when}, in the sense of rotation (the unbalance lies at {told_angle(phase)})"
 
 
-def echo_of(single: Single, rotor: Model) -> Echo:
+def echo_of(single: Single, rotor: Rotor) -> Echo:
     """A single disturbance of a rotor as it was taken: its kind, its sizes, and from where its angles count."""
     told_by = {"kick": _echo_of_kick, "shock": _echo_of_shock, "blade-loss": _echo_of_blade_loss}
     found = told_by.get(single.model.kind, _echo_of_any)(single, rotor)
     return echo_at(found, rotor, single.instant)
 
 
-def _echo_of_any(single: Single, rotor: Model) -> Echo:
+def _echo_of_any(single: Single, rotor: Rotor) -> Echo:
     axes = single.model.coordinates
     sizes = {each.name: (value, each.scale) for each, value in zip(axes, single.values, strict=True)}
     told_sizes = (
@@ -85,7 +85,7 @@ def _echo_of_any(single: Single, rotor: Model) -> Echo:
     return Echo(single.model.kind, f"Disturbance, {single.model.kind}: {', '.join(told_sizes)}", sizes)
 
 
-def _echo_of_kick(single: Single, rotor: Model) -> Echo:
+def _echo_of_kick(single: Single, rotor: Rotor) -> Echo:
     speed, angle = single.values
     words = (
         f"Kick: {told(speed, 'velocity', rotor.scales)} at {told_angle(angle)}; {angles_words(rotor.unbalance_phase)}"
@@ -93,7 +93,7 @@ def _echo_of_kick(single: Single, rotor: Model) -> Echo:
     return Echo("kick", words, {"speed": (speed, "velocity"), "angle": (angle, "")})
 
 
-def echo_at(echo: Echo, rotor: Model, instant: float) -> Echo:
+def echo_at(echo: Echo, rotor: Rotor, instant: float) -> Echo:
     """The same, with the instant of the turn where that matters."""
     from carom.models import depends_on_instant  # only here: it loads kernels
 
@@ -103,7 +103,7 @@ def echo_at(echo: Echo, rotor: Model, instant: float) -> Echo:
     return replace(echo, words=words, sizes={**echo.sizes, "instant": (instant, "")})
 
 
-def _echo_of_shock(single: Single, rotor: Model) -> Echo:
+def _echo_of_shock(single: Single, rotor: Rotor) -> Echo:
     """A half-sine shock of the base, with which the motion begins."""
     (peak, angle), duration = single.values, float(single.model.describe()["duration"])  # type: ignore[arg-type]
     scales = rotor.scales
@@ -116,7 +116,7 @@ def _echo_of_shock(single: Single, rotor: Model) -> Echo:
     return Echo("shock", words, sizes)
 
 
-def _echo_of_blade_loss(single: Single, rotor: Model) -> Echo:
+def _echo_of_blade_loss(single: Single, rotor: Rotor) -> Echo:
     """A loss of a blade at a phase relative to the unbalance before, whose eccentricity is told for rotors with one unbalance alone."""
     loss: Any = single.model
     (phase,), scales = single.values, rotor.scales
@@ -213,7 +213,7 @@ def _moving_at(place: complex, rate: complex, scales: Scales | None) -> Echo:
     )
 
 
-def instants_words(rotor: Model, plan: Plan | None = None) -> str:
+def instants_words(rotor: Rotor, plan: Plan | None = None) -> str:
     """At which instants of the turn disturbances come, where these matter, of a plan or of any sample; else nothing."""
     from carom.models import depends_on_instant  # only here: it loads kernels
 

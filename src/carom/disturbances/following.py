@@ -9,7 +9,7 @@ import numpy as np
 
 from carom.disturbances.coordinates import Starts
 from carom.disturbances.model import Disturbance
-from carom.models import Model
+from carom.models import Rotor
 from carom.motions.ensembles import Endings, settle
 from carom.outcome import InputError, Outcome
 
@@ -18,7 +18,7 @@ NO_START = -1
 
 
 def follow(
-    machine: Model | Sequence[Model], starts: Starts, *, which: np.ndarray | None = None, **limits: Any
+    machine: Rotor | Sequence[Rotor], starts: Starts, *, which: np.ndarray | None = None, **limits: Any
 ) -> Endings:
     """Follow all starts that exist and from which a motion goes on.
 
@@ -44,19 +44,19 @@ def follow(
     return Endings(**whole)
 
 
-def _distinct(after: np.ndarray) -> tuple[list[Model], np.ndarray]:
+def _distinct(after: np.ndarray) -> tuple[list[Rotor], np.ndarray]:
     """Machines without repetition, and which of them each is."""
     places: dict[int, int] = {}
     which = np.array([places.setdefault(id(each), len(places)) for each in after], np.int64)
     return [after[place] for place in np.unique(which, return_index=True)[1]], which
 
 
-def follow_machines(machines: Iterable[tuple[Model, Starts]], chunk: int, **limits: Any) -> Iterator[Endings]:
+def follow_machines(machines: Iterable[tuple[Rotor, Starts]], chunk: int, **limits: Any) -> Iterator[Endings]:
     """Follow the disturbances of one machine after another; yield the endings of each, as :func:`follow` returns them.
 
     About ``chunk`` starts are followed together and held in memory.
     """
-    waiting: list[tuple[Model, Starts]] = []
+    waiting: list[tuple[Rotor, Starts]] = []
     for machine in machines:
         waiting.append(machine)
         if sum(starts.exists.size for _, starts in waiting) >= chunk:
@@ -66,7 +66,7 @@ def follow_machines(machines: Iterable[tuple[Model, Starts]], chunk: int, **limi
         yield from _together(waiting, limits)
 
 
-def _together(machines: list[tuple[Model, Starts]], limits: dict[str, Any]) -> Iterator[Endings]:
+def _together(machines: list[tuple[Rotor, Starts]], limits: dict[str, Any]) -> Iterator[Endings]:
     rotors, sets = zip(*machines, strict=True)
     sizes = [starts.exists.size for starts in sets]
     found = follow(rotors, Starts.joined(sets), which=np.repeat(np.arange(len(sets)), sizes), **limits)
@@ -74,7 +74,7 @@ def _together(machines: list[tuple[Model, Starts]], limits: dict[str, Any]) -> I
         yield found[end - size : end].reshaped(*starts.exists.shape)
 
 
-def require_start(rotor: Model, starts: Starts) -> None:
+def require_start(rotor: Rotor, starts: Starts) -> None:
     """Refuse a set of disturbances if none is possible."""
     if not starts.exists.any():
         raise InputError(

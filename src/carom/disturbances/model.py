@@ -17,7 +17,7 @@ from carom.outcome import InputError, Outcome, shown
 from carom.parameters import Scales, own_size, own_unbalance, usual_kick
 
 if TYPE_CHECKING:
-    from carom.models import Model, Subject
+    from carom.models import Rotor, Subject
     from carom.motions.starts import State
 
 FASTEST = usual_kick(None)
@@ -90,7 +90,7 @@ class Disturbance:
         """Values of the coordinates drawn by numbers uniform from 0 to 1, shape (number, coordinates)."""
         return tuple(coordinate.at(share) for coordinate, share in zip(self.coordinates, shares.T, strict=True))
 
-    def starts(self, rotor: Model, *values: np.ndarray, instant: np.ndarray | float = 0.0) -> Starts:
+    def starts(self, rotor: Rotor, *values: np.ndarray, instant: np.ndarray | float = 0.0) -> Starts:
         """Starts of free motion.
 
         Parameters
@@ -120,13 +120,13 @@ class Disturbance:
         InputError
             The text is none of this kind.
         """
-        from carom.models import model_of
+        from carom.models import rotor_of
 
         if not cls.parts:
             raise InputError(name or cls.kind, shown(text), "a kind of disturbance that has a text")
-        return read_single(cls, text, model_of(machine).scales, name or cls.kind)
+        return read_single(cls, text, rotor_of(machine).scales, name or cls.kind)
 
-    def apply(self, machine: Subject, *values: float | str, instant: float | str = 0.0) -> tuple[Model, State]:
+    def apply(self, machine: Subject, *values: float | str, instant: float | str = 0.0) -> tuple[Rotor, State]:
         """Return the machine that moves after one disturbance, perhaps in stages or another one than before, and its start.
 
         Parameters
@@ -143,10 +143,10 @@ class Disturbance:
         InputError
             The rotor cannot levitate inside the wall before it, or its motion ends during it.
         """
-        from carom.models import depends_on_instant, model_of
+        from carom.models import depends_on_instant, rotor_of
         from carom.motions.starts import State
 
-        rotor = model_of(machine)
+        rotor = rotor_of(machine)
         *own, begun = self.whole(values, instant)
         given = [np.array([each]) for each in own]
         starts = self.starts_on(rotor, *given, *([np.array([begun])] if depends_on_instant(rotor) else []))
@@ -174,13 +174,13 @@ class Disturbance:
             for each, value in zip((*axes, INSTANT), (*values, instant), strict=True)
         )
 
-    def coordinates_on(self, rotor: Model) -> tuple[Coordinate, ...]:
+    def coordinates_on(self, rotor: Rotor) -> tuple[Coordinate, ...]:
         """Coordinates by which the disturbance varies on a machine: those of the model, and the instant where that matters."""
         from carom.models import depends_on_instant
 
         return (*self.coordinates, INSTANT) if depends_on_instant(rotor) else self.coordinates
 
-    def starts_on(self, rotor: Model, *values: np.ndarray) -> Starts:
+    def starts_on(self, rotor: Rotor, *values: np.ndarray) -> Starts:
         """Starts of free motion by the coordinates on a machine."""
         from carom.models import depends_on_instant
 
@@ -212,9 +212,9 @@ class Disturbance:
         """
         if len(sizes) > len(cls.measured_in):
             raise InputError("sizes", shown(sizes), f"at most {len(cls.measured_in)}: {', '.join(cls.measured_in)}")
-        from carom.models import model_of
+        from carom.models import rotor_of
 
-        scales = model_of(machine).scales
+        scales = rotor_of(machine).scales
         pairs = zip(cls.measured_in.items(), sizes, strict=False)
         given: dict[str, Any] = {
             name: own_unbalance(name, size, scales) if kind == "unbalance" else own_size(name, size, kind, scales)

@@ -16,7 +16,7 @@ from carom.outcome import InputError
 from carom.parameters import Scales
 
 if TYPE_CHECKING:
-    from carom.models import Model
+    from carom.models import Rotor
 
 
 INSTANTS = 1
@@ -91,12 +91,12 @@ class Grid(_Plan):
         """Return the same grid: it draws nothing."""
         return self
 
-    def starts(self, rotor: Model) -> Starts:
+    def starts(self, rotor: Rotor) -> Starts:
         """Starts, arrays of the shape of the grid."""
-        from carom.models import model_of
+        from carom.models import rotor_of
 
         values = np.meshgrid(*self.values(), indexing="ij")
-        return _begun(self.model, model_of(rotor), values, self.instants().reshape(self.shape))
+        return _begun(self.model, rotor_of(rotor), values, self.instants().reshape(self.shape))
 
     def instants(self) -> np.ndarray:
         """Instant of each cell, one-dimensional."""
@@ -151,18 +151,18 @@ class Sample(_Plan):
         seeds = np.random.SeedSequence(self.seed, spawn_key=(number,))
         return replace(self, seed=int(seeds.generate_state(1, np.uint64)[0]))
 
-    def starts(self, rotor: Model) -> Starts:
+    def starts(self, rotor: Rotor) -> Starts:
         """Starts, arrays of shape (count,)."""
-        from carom.models import model_of
+        from carom.models import rotor_of
 
-        return _begun(self.model, model_of(rotor), self.values(), self.instants())
+        return _begun(self.model, rotor_of(rotor), self.values(), self.instants())
 
     def instants(self) -> np.ndarray:
         """Instant of each start, shape (count,), on a machine on which that matters."""
         return INSTANT.at(np.random.default_rng([self.seed, INSTANTS]).random(self.count))
 
 
-def _begun(model: Disturbance, rotor: Model, values: Sequence[np.ndarray], instants: np.ndarray) -> Starts:
+def _begun(model: Disturbance, rotor: Rotor, values: Sequence[np.ndarray], instants: np.ndarray) -> Starts:
     """Starts by values of the coordinates, at instants where these matter."""
     known = len(model.coordinates_on(rotor)) > len(values)
     return model.starts_on(rotor, *values, *((instants,) if known else ()))

@@ -30,7 +30,7 @@ from carom.core.fate import memory
 from carom.core.in_turn import advance_in_turn
 from carom.core.layout import rub_workspace, workspace
 from carom.core.phases import AWAY
-from carom.models import Force, Model, Rotor
+from carom.models import Force, Rotor
 from carom.models.mode_arrays import EQUAL, STEADY
 from carom.motions.ensembles import MOST_EVENTS
 from carom.outcome import Outcome
@@ -41,7 +41,7 @@ TOGETHER = 64
 """Shocks in one compiled call, in which Ctrl-C is not heard."""
 
 
-def shaken(rotor: Model, duration: float, size: complex, begins: float = 0.0) -> Rotor:
+def shaken(rotor: Rotor, duration: float, size: complex, begins: float = 0.0) -> Rotor:
     """The rotor under the two forces of a half-sine pulse of this duration in ``1/Ω``, with ``size = â e^{iα}/2i``, from a time."""
     frequency, push = math.pi / duration, size * rotor.carried_by_housing
     exponents = 1j * (frequency - 1.0), -1j * (frequency + 1.0)
@@ -50,7 +50,7 @@ def shaken(rotor: Model, duration: float, size: complex, begins: float = 0.0) ->
 
 
 def states_after_shocks(
-    rotor: Model, peaks: np.ndarray, duration: float, directions: np.ndarray, begins: np.ndarray | float = 0.0
+    rotor: Rotor, peaks: np.ndarray, duration: float, directions: np.ndarray, begins: np.ndarray | float = 0.0
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     """State at the end of half-sine pulses that hit a rotor that levitates inside the wall.
 
@@ -105,7 +105,7 @@ def states_after_shocks(
 
 
 def _states_one_by_one(
-    rotor: Model, peaks: np.ndarray, duration: float, directions: np.ndarray, begins: np.ndarray
+    rotor: Rotor, peaks: np.ndarray, duration: float, directions: np.ndarray, begins: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     """:func:`states_after_shocks` where bearings act differently in two directions: the motion is no multiple of that of another shock."""
     planes, limits = len(rotor.system.arrays["rows"]), rotor.system.limits

@@ -12,7 +12,7 @@ from carom.parameters.quantities import comma_advice, without_separators
 
 if TYPE_CHECKING:
     from carom.disturbances.model import Disturbance
-    from carom.models import Model, Subject
+    from carom.models import Rotor, Subject
     from carom.motions.starts import State
 
 
@@ -47,7 +47,7 @@ class Single:
     values: tuple[float, ...]
     instant: float = 0.0
 
-    def stages(self, machine: Subject) -> tuple[Model, State]:
+    def stages(self, machine: Subject) -> tuple[Rotor, State]:
         """Return the machine that moves, perhaps in stages or another one than before, and its start."""
         return self.model.apply(machine, *self.values, instant=self.instant)
 

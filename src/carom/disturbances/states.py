@@ -24,7 +24,7 @@ from carom.disturbances.coordinates import (
 from carom.disturbances.model import FASTEST, Disturbance
 
 if TYPE_CHECKING:
-    from carom.models import Model
+    from carom.models import Rotor
 
 Release = Literal["fixed", "rotating", "rolling"]
 
@@ -69,7 +69,7 @@ class UnbalanceStep(Disturbance):
             angle_coordinate("phase_before", "phase of the unbalance before the step, relative to that after it"),
         )
 
-    def starts(self, rotor: Model, *values: np.ndarray, instant: np.ndarray | float = 0.0) -> Starts:
+    def starts(self, rotor: Rotor, *values: np.ndarray, instant: np.ndarray | float = 0.0) -> Starts:
         """Levitation with the old unbalance; under weight about the static sag."""
         from carom.models.directions import whirl_of
         from carom.models.weight import refuse_unsteady
@@ -123,7 +123,7 @@ class ContactRelease(Disturbance):
         """Angle of the contact point on the wall."""
         return (angle_coordinate("angle", "place on the wall"),)
 
-    def starts(self, rotor: Model, *values: np.ndarray, instant: np.ndarray | float = 0.0) -> Starts:
+    def starts(self, rotor: Rotor, *values: np.ndarray, instant: np.ndarray | float = 0.0) -> Starts:
         """States on the wall, moving along it."""
         (angle,) = values
         cosine, sine = np.cos(angle), np.sin(angle)
@@ -156,7 +156,7 @@ class StateSlice(Disturbance):
         """Both components of the position."""
         return length_coordinate("x", "position Re U", -1.0, 1.0), length_coordinate("y", "position Im U", -1.0, 1.0)
 
-    def starts(self, rotor: Model, *values: np.ndarray, instant: np.ndarray | float = 0.0) -> Starts:
+    def starts(self, rotor: Rotor, *values: np.ndarray, instant: np.ndarray | float = 0.0) -> Starts:
         """All positions inside the wall."""
         x, y = np.broadcast_arrays(*values)
         positions = complex_of(x, y)
@@ -198,7 +198,7 @@ class AnyState(Disturbance):
         """Speed in the fixed frame."""
         return self.coordinates[2]
 
-    def starts(self, rotor: Model, *values: np.ndarray, instant: np.ndarray | float = 0.0) -> Starts:
+    def starts(self, rotor: Rotor, *values: np.ndarray, instant: np.ndarray | float = 0.0) -> Starts:
         """The given states, in the co-rotating frame."""
         radius, angle, speed, direction = np.broadcast_arrays(*values)
         return displaced(

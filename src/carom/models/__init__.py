@@ -26,7 +26,7 @@
 ``forces``                forces as they are given
 ``stages``                :class:`Staged`: a rotor that changes when a trigger ends a stage
 ``weight``                where a rotor levitates under its weight
-``subjects``              :func:`model_of`, :func:`case_of`: any description of a rotor -> its model, its case
+``subjects``              :func:`rotor_of`, :func:`case_of`: any description of a rotor -> its model, its case
 ========================  =================================================================
 """
 
@@ -48,11 +48,9 @@ from carom.models.rotor import Rotor
 from carom.models.shaft import Shaft
 from carom.models.spans import Edge, Span
 from carom.models.stages import Stage, Staged, Trigger, depends_on_instant
-from carom.models.subjects import Subject, case_of, exact_rotor_of, model_from, model_of, planar_case_of
+from carom.models.subjects import Subject, case_of, exact_rotor_of, planar_case_of, rotor_from, rotor_of
 from carom.models.system import System
 from carom.models.touchdown import Touchdown
-
-Model = Rotor
 
 __all__ = [
     "Axis",
@@ -65,7 +63,6 @@ __all__ = [
     "Limit",
     "LinearEquations",
     "Matrices",
-    "Model",
     "Planar",
     "Race",
     "Rates",
@@ -86,8 +83,8 @@ __all__ = [
     "from_corotating_matrices",
     "from_matrices",
     "jeffcott",
-    "model_from",
-    "model_of",
     "planar_case_of",
+    "rotor_from",
+    "rotor_of",
     "second_order_system",
 ]

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from carom.arguments import checked
 from carom.models.rotor import Rotor
-from carom.models.subjects import Subject, model_of
+from carom.models.subjects import Subject, rotor_of
 from carom.outcome import InputError
 from carom.parameters import Field, field_to_vary, read_quantity
 from carom.parameters.terms import no_such_parameter
@@ -67,10 +67,10 @@ def axis(machine: Subject, name: str) -> Axis:
     --------
     >>> import carom as cm
     >>> machine = cm.load("examples/keogh-cole.toml")
-    >>> cm.models.axis(cm.models.model_of(machine), "damping").field.unit
+    >>> cm.models.axis(cm.models.rotor_of(machine), "damping").field.unit
     'N s/m'
     """
-    model = model_of(machine)
+    model = rotor_of(machine)
     varied = model.varied
     if name in varied:
         return Axis(varied[name])

@@ -59,7 +59,7 @@ class Definition:
         raise NotImplementedError
 
     def attributes(self) -> dict[str, Any]:
-        """Numbers and texts from which :func:`~carom.models.subjects.model_from` makes the same again."""
+        """Numbers and texts from which :func:`~carom.models.subjects.rotor_from` makes the same again."""
         raise NotImplementedError
 
     def rates(self, name: str) -> Rates | None:

@@ -400,7 +400,7 @@ class Rotor(Result):
         return None if self.forces or self.limits else self.definition.rates(name)
 
     def attributes(self) -> dict[str, Any]:
-        """Numbers and texts from which :func:`~carom.models.subjects.model_from` makes the same rotor again, exact to the last bit."""
+        """Numbers and texts from which :func:`~carom.models.subjects.rotor_from` makes the same rotor again, exact to the last bit."""
         found = self.definition.attributes()
         if self.limits:
             found = {"limits": limits_as_text(self.limits), "rotor": json.dumps(found)}

@@ -20,7 +20,7 @@ from carom.outcome import InputError, shown
 def _check_one_stage(rotor: Any) -> None:
     """Refuse what is no rotor of one stage."""
     if isinstance(rotor, Staged) or not isinstance(rotor, Rotor):
-        raise InputError("rotor", shown(rotor), "a rotor of one stage, such as carom.models.model_of(machine)")
+        raise InputError("rotor", shown(rotor), "a rotor of one stage, such as carom.models.rotor_of(machine)")
 
 
 @checked
@@ -105,7 +105,7 @@ class Staged(Rotor):
     Examples
     --------
     >>> import carom as cm
-    >>> machine = cm.models.model_of(cm.load("examples/keogh-cole.toml"))
+    >>> machine = cm.models.rotor_of(cm.load("examples/keogh-cole.toml"))
     >>> on_contact = cm.models.Trigger(contact_time=5.0, contact_gap=2.0)
     >>> helped = cm.models.Staged((cm.models.Stage(machine, on_contact), cm.models.Stage(machine.replace(gamma=0.8))))
     >>> motion = cm.simulate(helped, cm.kick("100 mm/s"))

@@ -25,8 +25,8 @@ Subject = Machine | Case | Parameters | Rotor
 _ALLOWED = "a Machine, a Case (as carom.load reads it from a file), Parameters or a model"
 
 
-def model_of(subject: Subject) -> Rotor:
-    """Model of a machine, a case or parameters; a model is returned as it is.
+def rotor_of(subject: Subject) -> Rotor:
+    """Rotor of a machine, a case or parameters; a rotor is returned as it is.
 
     Raises
     ------
@@ -38,9 +38,9 @@ def model_of(subject: Subject) -> Rotor:
     if isinstance(subject, Parameters):
         return jeffcott(subject)
     if isinstance(subject, Machine):
-        return _limited(model_of(subject.parameters), subject)
+        return _limited(rotor_of(subject.parameters), subject)
     if isinstance(subject, Case):
-        rotor = model_of(subject.parameters)
+        rotor = rotor_of(subject.parameters)
         if (subject.touchdown or subject.drive) and rotor.has_closed_forms:
             gap = None if subject.machine is None else subject.machine.air_gap
             rotor = jeffcott(rotor.parameters, subject.touchdown or RIGID, drive=subject.drive, air_gap=gap)
@@ -63,14 +63,14 @@ def exact_rotor_of(subject: Subject) -> Rotor:
     InputError
         It is none of these, or a rotor without exact results: no planar one, or with weight, limits or a touchdown bearing of its own.
     """
-    rotor = model_of(subject)
+    rotor = rotor_of(subject)
     rotor.refuse_without_closed_forms()
     return rotor
 
 
 @checked
-def model_from(attributes: Mapping[str, Any]) -> Rotor:
-    """Model whose :meth:`~carom.models.Rotor.attributes` these are.
+def rotor_from(attributes: Mapping[str, Any]) -> Rotor:
+    """Rotor whose :meth:`~carom.models.Rotor.attributes` these are.
 
     Raises
     ------
@@ -80,10 +80,10 @@ def model_from(attributes: Mapping[str, Any]) -> Rotor:
         An attribute is missing, or is not such text.
     """
     if "forces" in attributes:
-        rotor = model_from(json.loads(attributes["rotor"]))
+        rotor = rotor_from(json.loads(attributes["rotor"]))
         return replace(rotor, forces=(*rotor.forces, *forces_from(attributes["forces"])))
     if "limits" in attributes:
-        return replace(model_from(json.loads(attributes["rotor"])), limits=limits_from(attributes["limits"]))
+        return replace(rotor_from(json.loads(attributes["rotor"])), limits=limits_from(attributes["limits"]))
     if "stages" in attributes:
         return Staged(tuple(map(_stage_from, json.loads(attributes["stages"]))))
     if "flexible_machine" in attributes:
@@ -97,7 +97,7 @@ def model_from(attributes: Mapping[str, Any]) -> Rotor:
 def _stage_from(given: Mapping[str, Any]) -> Stage:
     real, imaginary = map(np.array, given["carry"] or (0.0, 0.0))
     carry = None if given["carry"] is None else real + 1j * imaginary
-    return Stage(model_from(given["rotor"]), Trigger(**given["trigger"]), carry)
+    return Stage(rotor_from(given["rotor"]), Trigger(**given["trigger"]), carry)
 
 
 def case_of(subject: Subject) -> Case:
@@ -124,7 +124,7 @@ def planar_case_of(subject: Subject) -> Case:
     InputError
         It is none of these, another model, has weight, or the centre of the touchdown bearing is off the place of levitation.
     """
-    rotor = model_of(subject)
+    rotor = rotor_of(subject)
     if isinstance(subject, Machine | Case):
         rotor = replace(rotor, limits=())
         if rotor.has_closed_forms:

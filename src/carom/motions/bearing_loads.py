@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from carom.models import Model
+from carom.models import Rotor
 from carom.motions.loads import TouchdownLoads
 from carom.motions.magnets import MagnetReach
 from carom.outcome import Outcome
@@ -153,7 +153,7 @@ class DropLoads(Result):
     scales : Scales or None
     """
 
-    rotor: Model
+    rotor: Rotor
     outcome: Outcome
     multiplicity: int
     time: float

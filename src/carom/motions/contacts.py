@@ -11,7 +11,7 @@ import numpy as np
 
 from carom.arguments import Whole, checked
 from carom.core.friction import rebound
-from carom.models import Model
+from carom.models import Rotor
 from carom.outcome import Phase
 from carom.parameters import UNITS
 from carom.results import Result, flags
@@ -155,7 +155,7 @@ class ContactLog(Table):
     @checked
     def from_states(
         cls,
-        rotor: Model,
+        rotor: Rotor,
         times: np.ndarray,
         blows: Blows,
         before: np.ndarray,
@@ -234,7 +234,7 @@ class ContactHistory(Table):
     @checked
     def from_states(
         cls,
-        rotor: Model,
+        rotor: Rotor,
         plane: Whole,
         times: np.ndarray,
         phases: np.ndarray,

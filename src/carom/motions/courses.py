@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from carom.models import Model
+from carom.models import Rotor
 from carom.motions.contacts import presses, race_speed, shaft_lead, yields
 from carom.motions.load_sums import drop_loads
 from carom.motions.trajectories import Trajectory
@@ -114,7 +114,7 @@ def course_of(motion: Trajectory, until: float, samples: int = EVEN) -> Course:
     )
 
 
-def _mount(rotor: Model, amplitudes: np.ndarray) -> np.ndarray:
+def _mount(rotor: Rotor, amplitudes: np.ndarray) -> np.ndarray:
     """Place of the mount in the frame of the rotor; zero without one."""
     if not rotor.is_on_mount:
         return np.zeros(len(amplitudes), complex)

@@ -7,7 +7,7 @@ import math
 from dataclasses import dataclass
 
 from carom.arguments import checked
-from carom.models import Model, Stage, Staged, Subject, Trigger, model_of
+from carom.models import Rotor, Stage, Staged, Subject, Trigger, rotor_of
 from carom.models.stages import stages_of
 from carom.models.weight import levitation_of
 from carom.motions.starts import Kick, State
@@ -37,12 +37,12 @@ class Whirl:
     speed: float | str
     angle: float | str = 0.0
 
-    def stages(self, machine: Subject) -> tuple[Model, State]:
+    def stages(self, machine: Subject) -> tuple[Rotor, State]:
         """Return the machine, which goes on levitating, and its start."""
-        rotor = model_of(machine)
+        rotor = rotor_of(machine)
         return rotor, self.state(rotor)
 
-    def state(self, rotor: Model) -> State:
+    def state(self, rotor: Rotor) -> State:
         """Return the state at that instant; what does not move with the rotor, such as a mount, is at rest.
 
         Raises
@@ -84,7 +84,7 @@ class Drop:
     race_speed: float | str | None = None
 
     @checked
-    def stages(self, machine: Subject) -> tuple[Model, State]:
+    def stages(self, machine: Subject) -> tuple[Rotor, State]:
         """Return the rotor that falls, and levitates again if levitation is regained, and its start.
 
         A rotor that states no weight falls by :data:`ASSUMED`, which the bias currents of its bearings carry while it levitates.
@@ -95,7 +95,7 @@ class Drop:
             The rotor has neither weight nor scales, its levitation does not stay inside the wall, it has several coordinates, its race does not turn,
             or a text is no such size.
         """
-        rotor = model_of(machine)
+        rotor = rotor_of(machine)
         if rotor.weight is None and rotor.scales is None:
             raise InputError("gravity", None, "a drop needs weight, in m/s^2: a machine with mass, clearance and speed")
         if stages_of(rotor)[0].rotor is not rotor:
@@ -111,7 +111,7 @@ class Drop:
         time = own_time("regained_after", self.regained_after, rotor.scales)
         return Staged((Stage(falling, Trigger(time=time), rotor.carry_at_regain), Stage(rotor))), start
 
-    def unbalance_angle(self, rotor: Model) -> float:
+    def unbalance_angle(self, rotor: Rotor) -> float:
         """Angle of the unbalance at the release, in the fixed frame, in rad.
 
         Raises
@@ -124,7 +124,7 @@ class Drop:
         ahead = own_size("phase", self.phase, "angle", rotor.scales)
         return math.remainder(rotor.direction_of_fall + ahead, 2.0 * math.pi)
 
-    def _start(self, rotor: Model) -> State:
+    def _start(self, rotor: Rotor) -> State:
         """State at the release."""
         state = self._moving(rotor)
         if self.race_speed is None:
@@ -135,7 +135,7 @@ class Drop:
         speed = own_size("race_speed", self.race_speed, "speed", rotor.scales)
         return State(state.position, state.velocity, tuple(radius * speed for radius in radii))
 
-    def _moving(self, rotor: Model) -> State:
+    def _moving(self, rotor: Rotor) -> State:
         """State at the release, with the races as the model has them."""
         if self.at is not None:
             return self.at if isinstance(self.at, State) else self.at.state(rotor)

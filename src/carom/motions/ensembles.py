@@ -10,7 +10,7 @@ import numpy as np
 
 from carom.arguments import Count, Reals, Whole, checked
 from carom.core.processors import available_cores
-from carom.models import Model, Stage, Subject, model_of
+from carom.models import Rotor, Stage, Subject, rotor_of
 from carom.models.stages import stages_of
 from carom.motions.budget import NOT_FOLLOWED, present_question
 from carom.motions.portions import Limits, motions_from, parts_of, settle_parts
@@ -187,7 +187,7 @@ def settle(
 
 
 def _followed(
-    rotors: Sequence[Model],
+    rotors: Sequence[Rotor],
     which: np.ndarray,
     positions: np.ndarray,
     velocities: np.ndarray,
@@ -300,7 +300,7 @@ def _note_low_bounces(
     endings.outcomes[doubtful[low]] = Outcome.LOW_BOUNCES
 
 
-def _coordinates(rotors: Sequence[Model]) -> tuple[int, ...]:
+def _coordinates(rotors: Sequence[Rotor]) -> tuple[int, ...]:
     """Last axes of positions: none for rotors of one coordinate."""
     counts = {len(rotor.system.rest) for rotor in rotors} or {1}
     if len(counts) > 1:
@@ -317,15 +317,15 @@ def _read(name: str, given: np.ndarray, coordinates: tuple[int, ...]) -> np.ndar
     return values
 
 
-def _machines(machine: Subject | Sequence[Subject], which: np.ndarray | None) -> tuple[Sequence[Model], np.ndarray]:
+def _machines(machine: Subject | Sequence[Subject], which: np.ndarray | None) -> tuple[Sequence[Rotor], np.ndarray]:
     """Models of one machine or of several, and the index of the machine of each start."""
     if isinstance(machine, Subject):
         if which is not None:
             raise InputError("which", which, "left out where there is one machine")
-        return [model_of(machine)], np.zeros((), np.int64)
+        return [rotor_of(machine)], np.zeros((), np.int64)
     if which is None:
         raise InputError("which", which, "the machine of each start, where there are several")
-    rotors = [model_of(one) for one in machine]
+    rotors = [rotor_of(one) for one in machine]
     chosen = np.asarray(which)
     if not chosen.size:
         return rotors, chosen.astype(np.int64)

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from carom.models import Model
+from carom.models import Rotor
 from carom.motions.bearing_loads import DropLoads, FirstContact
 from carom.motions.load_sums import follow_loads
 from carom.parameters.told import number
@@ -63,7 +63,7 @@ class ReductionError(Result):
 
 
 def reduction_error(
-    reduced: ReducedMachine, loads: DropLoads, again: Callable[[ReducedMachine], tuple[Model, Any]]
+    reduced: ReducedMachine, loads: DropLoads, again: Callable[[ReducedMachine], tuple[Rotor, Any]]
 ) -> ReductionError | None:
     """Compare the loads of a motion with those by twice as many vectors; ``None`` of all modes, and without contact with compliant bearings.
 

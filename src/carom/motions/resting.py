@@ -19,7 +19,7 @@ from carom.core.event_log import EventLog
 from carom.core.fate import BLOCK, NO_TURN, TURNS, memory
 from carom.core.layout import rub_workspace, workspace
 from carom.core.phases import lasts
-from carom.models import Model
+from carom.models import Rotor
 from carom.outcome import Outcome, Phase
 
 STEADY = 1e-3
@@ -30,7 +30,7 @@ LOGGED, MOST_LOGS = 2048, 128
 """Steps of lasting contact that are looked at together, and how often: of a rigid rotor a turn takes about eight, of one that bends hundreds."""
 
 
-def goes_round(rotor: Model, amplitudes: np.ndarray, contact: np.ndarray, recollection: np.record) -> Outcome | None:
+def goes_round(rotor: Rotor, amplitudes: np.ndarray, contact: np.ndarray, recollection: np.record) -> Outcome | None:
     """Whirl of a rotor that weighs something that has lasted for 1,024 turns along the wall, or of the shaft; else ``None``.
 
     Contact that has not gone round once in the frame of the shaft in so many of its turns keeps in step with it.  Where the shaft loses
@@ -63,7 +63,7 @@ def _steady(recollection: np.record) -> bool:
     return bool(blocks[-1, 0] < 2.0 * math.pi and steady.all())
 
 
-def lies(rotor: Model, amplitudes: np.ndarray, contact: np.ndarray, recollection: np.record) -> bool:
+def lies(rotor: Rotor, amplitudes: np.ndarray, contact: np.ndarray, recollection: np.record) -> bool:
     """Whether every contact that lasts goes on, within half the wall, for 64 turns of the shaft.
 
     Parameters

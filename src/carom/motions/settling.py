@@ -15,7 +15,7 @@ from carom.core.fate import doubt, memory
 from carom.core.layout import rub_workspace, workspace
 from carom.core.limits import set_limits
 from carom.core.planar_proofs import fades_to_rolling, planar_proofs
-from carom.models import Model, System
+from carom.models import Rotor, System
 from carom.models.stages import NEVER, Trigger
 from carom.motions.recurrence import least_recurrence
 from carom.motions.resting import goes_round, lies
@@ -58,7 +58,7 @@ MODES = 2
 
 
 def fresh_memory(
-    rotor: Model, patience: int, stop_at_chatter: bool = False, *, absorb: bool = False, trigger: Trigger = NEVER
+    rotor: Rotor, patience: int, stop_at_chatter: bool = False, *, absorb: bool = False, trigger: Trigger = NEVER
 ) -> np.record:
     """Memory of a motion at its start, for :func:`~carom.motions.simulation.follow`.
 
@@ -120,7 +120,7 @@ def begin_limits(system: System, amplitudes: np.ndarray, time: float, recollecti
 
 
 def settled(
-    rotor: Model, amplitudes: np.ndarray, contact: np.ndarray, outcome: Outcome, recollection: np.record
+    rotor: Rotor, amplitudes: np.ndarray, contact: np.ndarray, outcome: Outcome, recollection: np.record
 ) -> tuple[Outcome, int]:
     """Examine the end of a motion: whether it has settled there, and the impacts per period of periodic bouncing.
 
@@ -170,24 +170,24 @@ def settled(
     return Outcome.EVENT_LIMIT, 0
 
 
-def may_be_low(rotor: Model, patience: int) -> bool:
+def may_be_low(rotor: Rotor, patience: int) -> bool:
     """Whether bounces may stay low for so many impacts: not if a chatter would have ended."""
     restitution = rotor.system.arrays.restitution
     return patience > 0 and bool((restitution > math.exp(-2.0 * CHATTER / patience)).any())
 
 
-def low_interval(rotor: Model) -> float:
+def low_interval(rotor: Rotor) -> float:
     """Mean time between impacts, in ``1/Ω``, below which bounces are low."""
     return LOW / float(np.abs(rotor.system.arrays["exponents"]).max())
 
 
-def _fade(rotor: Model, arrival: np.ndarray) -> bool:
+def _fade(rotor: Rotor, arrival: np.ndarray) -> bool:
     """Whether bounces from a state just before an impact are proven to fade to rolling."""
     proofs = planar_proofs(fading=exact_results(rotor).fading)
     return bool(fades_to_rolling(proofs, rotor.system.arrays, arrival))
 
 
-def _is_at_rest(rotor: Model, amplitudes: np.ndarray) -> bool:
+def _is_at_rest(rotor: Rotor, amplitudes: np.ndarray) -> bool:
     """Whether a rub is synchronous; one that runs round the wall has been recognised by a full turn."""
     _, velocity = rotor.system.state(amplitudes)
     return bool(np.max(np.abs(velocity)) < AT_REST)
@@ -199,17 +199,17 @@ def _tools() -> tuple[np.ndarray, EventLog, np.record, np.record, np.record]:
     return np.empty(1, np.int64), log, memory(MODES), workspace(MODES), rub_workspace(MODES)
 
 
-def _recheck_time(rotor: Model) -> float:
+def _recheck_time(rotor: Rotor) -> float:
     decay = rotor.system.decay
     return min(1.0 / decay, LONG_FLIGHT) if decay > 0.0 else np.inf
 
 
-def time_limit(rotor: Model, trigger: Trigger) -> float:
+def time_limit(rotor: Rotor, trigger: Trigger) -> float:
     """Time in ``1/Ω`` after which a stage is given up: :func:`longest_time`, or that of its trigger."""
     return trigger.time if trigger.time < np.inf else longest_time(rotor)
 
 
-def longest_time(rotor: Model) -> float:
+def longest_time(rotor: Rotor) -> float:
     """Time limit in ``1/Ω`` for a motion to settle: TIME_CONSTANTS time constants of free flight, within bounds; else :data:`FALLING_TURNS`."""
     decay = rotor.system.decay
     if rotor.weight is not None and not rotor.system.levitates and rotor.system.shaft is None:

@@ -13,7 +13,7 @@ from carom.core.advance import advance
 from carom.core.event_log import EventLog
 from carom.core.layout import rub_workspace, workspace
 from carom.core.phases import AWAY, FLIGHT
-from carom.models import Model, Subject, Trigger, model_of
+from carom.models import Rotor, Subject, Trigger, rotor_of
 from carom.models.stages import stages_of
 from carom.motions.budget import present_question
 from carom.motions.settling import (
@@ -128,7 +128,7 @@ def stretches(
 
     Times of a piece count from the beginning of its stage; that of its first segment is where the piece before ends, with the event there.
     """
-    model, state = (model_of(machine), start) if isinstance(start, State) else start.stages(machine)
+    model, state = (rotor_of(machine), start) if isinstance(start, State) else start.stages(machine)
     settle = until is None if settle is None else settle
     end = None if until is None and settle else own_time("until", until, model.scales)
     options = _Options(settle, stop_at_chatter, patience, max_events, Reporter.of(progress, "simulating"))
@@ -153,7 +153,7 @@ class _Options(NamedTuple):
 
 
 def _follow_stage(
-    rotor: Model, start: State, longest: float, trigger: Trigger, options: _Options
+    rotor: Rotor, start: State, longest: float, trigger: Trigger, options: _Options
 ) -> Iterator[Trajectory]:
     """Follow a start through one stage, for so long at most, or until its trigger ends it."""
     settle, stop_at_chatter, patience, max_events, tell = options
@@ -212,14 +212,14 @@ def _follow_stage(
             begun, first = time, (log.phases[-1].copy(), log.after[-1].copy(), log.limited[-1].copy())
 
 
-def tools(rotor: Model) -> tuple[np.record, ...]:
+def tools(rotor: Rotor) -> tuple[np.record, ...]:
     """Rotor, table and scratch arrays for :func:`follow`."""
     modes, planes = rotor.system.arrays["columns"].shape
     return *rotor.system.own_records(), workspace(modes), rub_workspace(modes, planes, rotor.system.limits)
 
 
 def follow(
-    rotor: Model,
+    rotor: Rotor,
     amplitudes: np.ndarray,
     until: float,
     contact: np.ndarray,

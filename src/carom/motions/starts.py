@@ -13,7 +13,7 @@ from carom.core.layout import rub_workspace
 from carom.core.phases import AWAY, FLIGHT
 from carom.core.rub import phase_in_wall
 from carom.core.wall import set_on_wall
-from carom.models import Model, Subject, System, depends_on_instant, model_of
+from carom.models import Rotor, Subject, System, depends_on_instant, rotor_of
 from carom.models.weight import levitation_of
 from carom.outcome import InputError
 from carom.parameters import own_size
@@ -23,7 +23,7 @@ from carom.parameters import own_size
 class Beginning(Protocol):
     """What a motion begins with: a kick, a drop, or any single disturbance."""
 
-    def stages(self, machine: Subject) -> tuple[Model, State]:
+    def stages(self, machine: Subject) -> tuple[Rotor, State]:
         """Return what moves, perhaps in stages or another machine than before, and the state in which it starts."""
 
 
@@ -115,12 +115,12 @@ class Kick:
     angle: float | str = 0.0
     instant: float | str = 0.0
 
-    def stages(self, machine: Subject) -> tuple[Model, State]:
+    def stages(self, machine: Subject) -> tuple[Rotor, State]:
         """Return the machine, which goes on levitating, and its start."""
-        rotor = model_of(machine)
+        rotor = rotor_of(machine)
         return rotor, self.state(rotor)
 
-    def state(self, rotor: Model) -> State:
+    def state(self, rotor: Rotor) -> State:
         """Return the state just after the kick, which moves the rotor as a whole.
 
         Raises
@@ -166,7 +166,7 @@ def kick(speed: float | str, angle: float | str = 0.0, instant: float | str = 0.
     return Kick(speed, angle, instant)
 
 
-def amplitudes_of(rotor: Model, state: State) -> tuple[np.ndarray, np.ndarray]:
+def amplitudes_of(rotor: Rotor, state: State) -> tuple[np.ndarray, np.ndarray]:
     """Amplitudes of a start, and its state of contact at each plane (see :func:`carom.core.advance.advance`)."""
     system = rotor.system
     coordinates = () if len(system.rest) == 1 else system.rest.shape

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from carom.files import netcdf
-from carom.models import model_from
+from carom.models import rotor_from
 from carom.motions.contacts import in_units, phase_flags
 from carom.motions.starts import State
 from carom.motions.trajectories import Trajectory
@@ -99,7 +99,7 @@ def _stage(dataset: xarray.Dataset, mark: str) -> Trajectory:
     columns |= {name: columns[name][..., 0] + 1j * columns[name][..., 1] for name in COMPLEX}
     start, final = (_state(json.loads(told[name])) for name in ("start", "final"))
     return Trajectory(
-        rotor=model_from(told),
+        rotor=rotor_from(told),
         start=start,
         outcome=Outcome[told["outcome"]],
         time=float(told["end_time"]),

@@ -15,7 +15,7 @@ from carom.arguments import Count, Reals, Whole, checked
 from carom.core.event_log import EventLog, flying
 from carom.core.layout import rub_workspace
 from carom.core.rub import fly_or_rub_all, forces_all
-from carom.models import Model
+from carom.models import Rotor
 from carom.motions.blows import Blows, blows_of
 from carom.motions.contacts import ContactHistory, ContactLog, LastingContact, presses, yields
 from carom.motions.starts import State
@@ -84,7 +84,7 @@ class Trajectory(Result):
         "lasting_contacts",
     )
 
-    rotor: Model
+    rotor: Rotor
     start: State
     outcome: Outcome
     time: float

@@ -15,7 +15,7 @@ from carom.core.rub import lift_off, rest_on_wall, wall_push
 from carom.core.rub_step import NOWHERE
 from carom.core.segments import MOST_STEPS
 from carom.core.variation import strike
-from carom.models import Model, Rotor
+from carom.models import Rotor
 from carom.motions.simulation import follow
 from carom.orbits.chatter import LONGEST_CHATTER, MOST_BOUNCES
 from carom.orbits.shooting import TOLERANCE, Start
@@ -56,7 +56,7 @@ def slip_stays_forward(rotor: Rotor) -> bool:
     return bool((gone - 0.5 * (parameters.rho + parameters.omega**2) * times**2).max() > 1.0)
 
 
-def departure(rotor: Model, segment: Segment, node: np.ndarray) -> np.ndarray:
+def departure(rotor: Rotor, segment: Segment, node: np.ndarray) -> np.ndarray:
     """Amplitudes just after the beginning of a segment: after the impact, if there is one."""
     if not segment.kind.is_impact:
         return node
@@ -65,7 +65,7 @@ def departure(rotor: Model, segment: Segment, node: np.ndarray) -> np.ndarray:
     return after
 
 
-def why_virtual(rotor: Model, word: Word, start: Start) -> str:
+def why_virtual(rotor: Rotor, word: Word, start: Start) -> str:
     """Reason why an orbit of this word, nodes and durations is not admissible; empty if it is."""
     nodes = rotor.system.nodes.amplitudes(start.nodes)
     for i, segment in enumerate(word):
@@ -77,7 +77,7 @@ def why_virtual(rotor: Model, word: Word, start: Start) -> str:
     return ""
 
 
-def _why_no_impact(rotor: Model, segment: Segment, target: Segment, node: np.ndarray, duration: float) -> str:
+def _why_no_impact(rotor: Rotor, segment: Segment, target: Segment, node: np.ndarray, duration: float) -> str:
     """Reason why an impact and the flight after it are not a motion."""
     contacts, plane = rotor.system.contacts, segment.plane
     wall = contacts[plane].wall
@@ -110,7 +110,7 @@ def _why_no_impact(rotor: Model, segment: Segment, target: Segment, node: np.nda
     return ""
 
 
-def _same_arrival(rotor: Model, plane: int, after: np.ndarray, time: float, duration: float) -> bool:
+def _same_arrival(rotor: Rotor, plane: int, after: np.ndarray, time: float, duration: float) -> bool:
     """Whether the next contact of a flight and its end are one event.
 
     The nodes are on the wall as closely as Newton's method brings them, which shifts a slow arrival in time by far more.
@@ -122,7 +122,7 @@ def _same_arrival(rotor: Model, plane: int, after: np.ndarray, time: float, dura
     return bool(abs(abs(between) - 1.0) <= TOLERANCE * (1.0 + np.abs(after).max()))
 
 
-def _first_contact(rotor: Model, left: int, plane: int, start: np.ndarray, horizon: float) -> tuple[int, float]:
+def _first_contact(rotor: Rotor, left: int, plane: int, start: np.ndarray, horizon: float) -> tuple[int, float]:
     """Outcome and time of the first contact of a plane after an impact at a plane."""
     arrays, work = rotor.system.arrays, workspace(len(start))
     if plane != left or rotor.system.contacts[plane].wall.restitution > 0.0:
@@ -144,7 +144,7 @@ PHASES = {Kind.SLIDE_FORWARD: 1, Kind.SLIDE_BACKWARD: 2, Kind.ROLL: 3, Kind.FREE
 """Phase of a segment that stays at its wall; all others begin in flight."""
 
 
-def _why_no_such_contact(rotor: Model, segment: Segment, target: Segment, node: np.ndarray, duration: float) -> str:
+def _why_no_such_contact(rotor: Rotor, segment: Segment, target: Segment, node: np.ndarray, duration: float) -> str:
     """Reason why a segment is not what the simulation does from its node, by kind of contact, place and time."""
     if segment.kind is Kind.LAND:
         return _why_no_such_landing(rotor, segment, target, node)
@@ -181,7 +181,7 @@ def _why_no_such_contact(rotor: Model, segment: Segment, target: Segment, node: 
     return ""
 
 
-def _put_in_wall(rotor: Model, segment: Segment, amplitudes: np.ndarray) -> int:
+def _put_in_wall(rotor: Rotor, segment: Segment, amplitudes: np.ndarray) -> int:
     """:func:`_put_on_wall` for a wall that gives way: a segment that begins at its edge begins exactly there.
 
     A plane parts from its wall inside, however little: a slow one a very small depth below the edge.
@@ -193,7 +193,7 @@ def _put_in_wall(rotor: Model, segment: Segment, amplitudes: np.ndarray) -> int:
     return PHASES.get(segment.kind, int(Phase.FLIGHT))
 
 
-def _put_on_wall(rotor: Model, segment: Segment, amplitudes: np.ndarray) -> int:
+def _put_on_wall(rotor: Rotor, segment: Segment, amplitudes: np.ndarray) -> int:
     """Remove from a segment's start, at rest on the wall, what Newton's method leaves of speeds that are zero there; return the phase.
 
     A rotor that lifts off may still be pressed to the wall for an instant, in which it slides.
@@ -206,13 +206,13 @@ def _put_on_wall(rotor: Model, segment: Segment, amplitudes: np.ndarray) -> int:
     return PHASES.get(segment.kind, int(Phase.FLIGHT))
 
 
-def _slip(rotor: Model, plane: int, amplitudes: np.ndarray) -> float:
+def _slip(rotor: Rotor, plane: int, amplitudes: np.ndarray) -> float:
     contact = rotor.system.contacts[plane]
     _, local = contact.local(amplitudes)
     return float(slip_of(local, contact.wall))
 
 
-def _why_no_such_landing(rotor: Model, segment: Segment, target: Segment, node: np.ndarray) -> str:
+def _why_no_such_landing(rotor: Rotor, segment: Segment, target: Segment, node: np.ndarray) -> str:
     """Reason why the lasting contact after a chatter is of another kind; the chatter itself is simulated in any case."""
     planes, landing = len(rotor.system.contacts), node.copy()
     contact = np.full(planes, AWAY)

@@ -11,7 +11,7 @@ from carom.core.fate import memory
 from carom.core.rub import wall_push
 from carom.core.segments import carry_through_chatter
 from carom.core.variation import strike
-from carom.models import Model
+from carom.models import Rotor
 from carom.motions.simulation import follow
 from carom.orbits.landings import NO_RETURN, distance_from_onset, slip_at_landing
 from carom.orbits.word import Segment
@@ -27,7 +27,7 @@ SLOW = 1e-5
 
 
 def follow_chatter(
-    rotor: Model, following: Segment, node: np.ndarray, arrival: np.ndarray, slopes: np.ndarray
+    rotor: Rotor, following: Segment, node: np.ndarray, arrival: np.ndarray, slopes: np.ndarray
 ) -> tuple[float, float, float]:
     """Follow a chatter and write its end and derivatives; return its duration, its distance from the onset, and its slip.
 
@@ -68,7 +68,7 @@ def follow_chatter(
     return time, distance, left
 
 
-def _on_wall(rotor: Model, plane: int, amplitudes: np.ndarray, changes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _on_wall(rotor: Rotor, plane: int, amplitudes: np.ndarray, changes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Amplitudes with a plane moved onto its wall, and what small changes (k, N) of them become."""
     arrays = rotor.system.arrays
     row, lever = arrays.rows[plane], arrays.free * arrays.rows[plane].conj() / arrays.weights[plane]
@@ -78,7 +78,7 @@ def _on_wall(rotor: Model, plane: int, amplitudes: np.ndarray, changes: np.ndarr
     return amplitudes + lever * (normal - position), changes + np.outer(along - moved, lever)
 
 
-def _distance(rotor: Model, plane: int, bounce: np.ndarray) -> float:
+def _distance(rotor: Rotor, plane: int, bounce: np.ndarray) -> float:
     """Distance from the onset of lasting contact of a chatter with a state at the beginning of one of its last bounces."""
     position, velocity = rotor.system.at_plane(bounce, plane)
     push, rate = wall_push(rotor.system.arrays, plane, bounce)
@@ -88,13 +88,13 @@ def _distance(rotor: Model, plane: int, bounce: np.ndarray) -> float:
     return distance_from_onset(rotor.system.contacts[plane].wall.restitution, push, ratio)
 
 
-def _interruption(rotor: Model, plane: int, bounces: EventLog) -> int | None:
+def _interruption(rotor: Rotor, plane: int, bounces: EventLog) -> int | None:
     """Last bounce but one of a chatter that is interrupted just before it is complete."""
     gone = next(slow_departures(rotor, plane, bounces.after, bounces.planes == plane), None)
     return None if gone is None else max(gone - 1, 0)
 
 
-def slow_departures(rotor: Model, plane: int, after: np.ndarray, chosen: np.ndarray | None = None) -> Iterator[int]:
+def slow_departures(rotor: Rotor, plane: int, after: np.ndarray, chosen: np.ndarray | None = None) -> Iterator[int]:
     """Bounces, of states (n, N) just after them, that are slow and from which the rotor does not return at once.
 
     They interrupt a chatter, graze the wall, or have no rebound.

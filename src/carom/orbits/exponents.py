@@ -12,7 +12,7 @@ import numpy as np
 from carom.arguments import Count, checked, whole
 from carom.core.closing import LONGEST
 from carom.core.growth import carry_orthogonal
-from carom.models import Model, Subject, model_of
+from carom.models import Rotor, Subject, rotor_of
 from carom.motions.simulation import simulate
 from carom.motions.starts import Kick, State
 from carom.motions.trajectories import Trajectory
@@ -152,7 +152,7 @@ def lyapunov_exponents(
         The motion stops hitting the wall, has too few segments, its segments cannot be repeated to eight digits, or two
         planes touch at a time while one of the contacts lasts.
     """
-    rotor = model_of(machine)
+    rotor = rotor_of(machine)
     rotor.system.refuse_unrepeated()
     state = start.state(rotor) if isinstance(start, Kick) else start
     if rotor.system.unrepeated is not None:
@@ -184,7 +184,7 @@ def lyapunov_exponents(
     return LyapunovExponents(values[order], errors[order], rate, volume, int(struck.sum()), landings, time)
 
 
-def _by_flow(rotor: Model, state: State, impacts: int, transient: int, batches: int) -> LyapunovExponents:
+def _by_flow(rotor: Rotor, state: State, impacts: int, transient: int, batches: int) -> LyapunovExponents:
     """The exponents of a machine whose motions have no words: by central differences of the flow, for as long as there is time."""
     grown = Grown(rotor, state, impacts, transient)
     if len(grown.durations) < batches:
@@ -235,7 +235,7 @@ class _Stretch(NamedTuple):
     end: State
 
 
-def _stretches(rotor: Model, state: State, impacts: int) -> Iterator[_Stretch]:
+def _stretches(rotor: Rotor, state: State, impacts: int) -> Iterator[_Stretch]:
     """Follow a motion for a number of impacts; each stretch begins with the impact with which the last one ended."""
     further = 1
     while impacts > 0:
@@ -263,7 +263,7 @@ def _stretches(rotor: Model, state: State, impacts: int) -> Iterator[_Stretch]:
         impacts -= count
 
 
-def _followed(rotor: Model, motion: Trajectory, first: int, last: int) -> tuple[Word, Links]:
+def _followed(rotor: Rotor, motion: Trajectory, first: int, last: int) -> tuple[Word, Links]:
     """Segments from one impact up to another, and that impact: it says at which plane the segment before it ends."""
     try:
         word, begin = segments_of(motion, first, last + 1, brief=True)
@@ -298,7 +298,7 @@ def _apart(rate: np.ndarray, directions: np.ndarray) -> np.ndarray:
     return logarithms
 
 
-def _directions_kept(rotor: Model, words: list[Word]) -> int:
+def _directions_kept(rotor: Rotor, words: list[Word]) -> int:
     """Number of directions of the section at an impact that no segment takes away.
 
     A stopped slip takes away one, and so does the normal velocity that is lost without restitution.
@@ -325,7 +325,7 @@ def _means(logarithms: np.ndarray, durations: np.ndarray, batches: int) -> tuple
     return values, np.sqrt(batches / (batches - 1) * (apart**2).sum(axis=0)) / durations.sum()
 
 
-def _growth_of_volume(rotor: Model, struck: np.ndarray, shrinks: float, time: float) -> float:
+def _growth_of_volume(rotor: Rotor, struck: np.ndarray, shrinks: float, time: float) -> float:
     """Rate at which volumes of the state space grow: ``2 Re Σλ`` in flight, and a factor ``d²`` at each impact of a plane.
 
     An impact with slip multiplies the normal velocity by ``−d``; the other velocities change by what depends on it and on

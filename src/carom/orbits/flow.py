@@ -15,7 +15,7 @@ import numpy as np
 
 from carom.core.limits import LOWER, UPPER
 from carom.core.rub import rest_on_wall
-from carom.models import Model
+from carom.models import Rotor
 from carom.motions.simulation import simulate
 from carom.motions.starts import State
 from carom.motions.trajectories import Trajectory
@@ -42,7 +42,7 @@ class Flow:
         Contact planes that lie on rigid walls at the beginning, and whether they roll: states are put there before they are followed.
     """
 
-    rotor: Model
+    rotor: Rotor
     begins: float = 0.0
     rests: tuple[tuple[int, bool], ...] = ()
 

@@ -7,7 +7,7 @@ import time
 
 import numpy as np
 
-from carom.models import Model
+from carom.models import Rotor
 from carom.motions.simulation import simulate
 from carom.motions.starts import State
 from carom.orbits.flow import Flow
@@ -35,7 +35,7 @@ class Grown:
         Logarithm of the growth of a delay, over all of them; 0 where something stands in the fixed frame.
     """
 
-    def __init__(self, rotor: Model, state: State, impacts: int, transient: int) -> None:
+    def __init__(self, rotor: Rotor, state: State, impacts: int, transient: int) -> None:
         self.rotor, self.begun = rotor, time.process_time()
         motion = simulate(rotor, state, 0.5 * STRETCH, settle=False)
         flow, self.vector = Flow.at(motion, motion.time)

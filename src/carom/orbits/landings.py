@@ -26,7 +26,7 @@ import numpy as np
 
 from carom.core.event_log import EventLog
 from carom.core.margins import local_motion
-from carom.models import Model
+from carom.models import Rotor
 
 NO_RETURN = 0.375
 """Value of ``w`` above which the rotor does not return to the wall at once."""
@@ -101,7 +101,7 @@ def distance_from_onset(restitution: float, force: float, ratio: float) -> float
     return float((abs(force) / gone) ** onset.power * onset.slope * (onset.ratio - w))
 
 
-def slip_at_landing(rotor: Model, plane: int, direction: int, bounces: EventLog) -> tuple[float, int | None]:
+def slip_at_landing(rotor: Rotor, plane: int, direction: int, bounces: EventLog) -> tuple[float, int | None]:
     """How far a chatter is from contact of another kind, as a function that vanishes there and is continuous.
 
     Parameters

@@ -11,7 +11,7 @@ from carom.arguments import Positive, checked
 from carom.core import variation
 from carom.core.event_log import EventLog
 from carom.core.fate import memory
-from carom.models import Subject, exact_rotor_of, model_of
+from carom.models import Subject, exact_rotor_of, rotor_of
 from carom.motions.simulation import follow, simulate
 from carom.motions.starts import LARGEST_SPEED, State
 from carom.motions.trajectories import Trajectory
@@ -107,7 +107,7 @@ def impact_map(machine: Subject, section: Section, longest_flight: Positive = 10
     InputError
         The rotor does not move toward the wall, its wall gives way, or it has several coordinates, of which the section is no state.
     """
-    rotor = model_of(machine)
+    rotor = rotor_of(machine)
     rotor.refuse_forces()
     if rotor.system.arrays["stiffness"].any():
         raise InputError(

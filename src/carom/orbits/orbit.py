@@ -15,7 +15,7 @@ from carom.core.closing import ALIKE
 from carom.core.layout import rub_workspace
 from carom.core.margins import contact_margins, least_margins
 from carom.core.yielding_margins import margins_in_walls
-from carom.models import Model, Subject, model_of
+from carom.models import Rotor, Subject, rotor_of
 from carom.motions.simulation import simulate
 from carom.motions.starts import State
 from carom.motions.trajectories import Trajectory
@@ -127,7 +127,7 @@ class Orbit(Result):
 
     @classmethod
     @checked
-    def from_links(cls, rotor: Model, word: Word, links: Links, name: OrbitName | CountedName) -> Orbit:
+    def from_links(cls, rotor: Rotor, word: Word, links: Links, name: OrbitName | CountedName) -> Orbit:
         """Orbit that multiple shooting has found, with its multipliers and its admissibility checked."""
         start = links.start
         if (links.landings < 0.0).any():
@@ -320,7 +320,7 @@ class Orbit(Result):
         return position
 
 
-def margins_of(links: Links, rotor: Model, word: Word) -> Margins:
+def margins_of(links: Links, rotor: Rotor, word: Word) -> Margins:
     """How far an orbit is from a change of its word."""
     nodes = rotor.system.nodes.amplitudes(links.start.nodes)
     at = word.kinds, word.planes, nodes, links.start.durations, links.landings
@@ -364,7 +364,7 @@ def orbit_near(machine: Subject, word: Word, start: Start, name: OrbitName | Cou
     InputError
         The start does not fit the word and the rotor, or the word its walls.
     """
-    rotor = model_of(machine)
+    rotor = rotor_of(machine)
     if rotor.system.unrepeated is not None:
         raise InputError("machine", *rotor.system.unrepeated)
     shape = len(word), len(rotor.system.nodes.rest)
@@ -382,7 +382,7 @@ def lasts(word: Word, solution: Start) -> bool:
     return bool((solution.durations >= np.where(word.lands, 0.0, SHORTEST)).all())
 
 
-def orbit_of_links(rotor: Model, word: Word, links: Links, name: OrbitName | CountedName | None = None) -> Orbit:
+def orbit_of_links(rotor: Rotor, word: Word, links: Links, name: OrbitName | CountedName | None = None) -> Orbit:
     """Orbit from converged equations, as short as it is and beginning at its fastest impact."""
     nodes, durations = links.start
     count = shortest(word, nodes)
@@ -401,7 +401,7 @@ def shortest(word: Word, nodes: np.ndarray) -> int:
     return len(word)
 
 
-def beginning(rotor: Model, word: Word, nodes: np.ndarray) -> int:
+def beginning(rotor: Rotor, word: Word, nodes: np.ndarray) -> int:
     """Segment with which an orbit begins: that of the fastest arrival at a wall; without any, the first flight."""
     flights = np.flatnonzero(word.arrives).tolist()
     if not flights:

@@ -10,7 +10,7 @@ from carom.arguments import checked
 from carom.core.arrivals import SHORTEST_LAP
 from carom.core.event_log import flying
 from carom.core.margins import local_motion
-from carom.models import Model
+from carom.models import Rotor
 from carom.motions.simulation import simulate
 from carom.motions.starts import amplitudes_of
 from carom.motions.trajectories import Trajectory
@@ -179,7 +179,7 @@ def _closed(motion: Trajectory, first: int, last: int) -> Orbit | None:
     return _near(motion.rotor, word, start)
 
 
-def _near(rotor: Model, word: Word, start: Start) -> Orbit | None:
+def _near(rotor: Rotor, word: Word, start: Start) -> Orbit | None:
     """Orbit next to a start, if it is the one that the motion has settled on."""
     if rotor.system.unrepeated is not None or start.nodes.size * 2 > MOST_NUMBERS:
         return None

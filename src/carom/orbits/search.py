@@ -15,7 +15,7 @@ from typing import Annotated
 import numpy as np
 
 from carom.arguments import whole
-from carom.models import Model
+from carom.models import Rotor
 from carom.motions.ensembles import Endings, settle
 from carom.motions.simulation import simulate
 from carom.motions.starts import State
@@ -135,14 +135,14 @@ class Searched:
         )
 
 
-def usual_share(rotor: Model) -> float:
+def usual_share(rotor: Rotor) -> float:
     """Share of the usual guesses and motions that a search tries: fewer for a rotor of many states, whose guesses take seconds each."""
     width = 2 * len(rotor.system.nodes.rest) + 1
     return max(LEAST_SHARE, min(1.0, (WHOLE_WIDTH / width) ** 3))
 
 
 def search_orbits(
-    rotor: Model, impacts: int, guesses: int | None, seed: int, known: Sequence[Orbit], tell: Reporter
+    rotor: Rotor, impacts: int, guesses: int | None, seed: int, known: Sequence[Orbit], tell: Reporter
 ) -> tuple[tuple[Orbit, ...], Searched]:
     """Search orbits with at most a number of impacts a period: the admissible ones known then, and what was tried.
 
@@ -162,7 +162,7 @@ def search_orbits(
 
 
 def random_starts(
-    rotor: Model, random: np.random.Generator, count: int, *, on_wall: bool = False
+    rotor: Rotor, random: np.random.Generator, count: int, *, on_wall: bool = False
 ) -> tuple[np.ndarray, np.ndarray]:
     """Random positions inside all walls, or on one, and velocities, complex, shape (count,) or, for n > 1 coordinates, (count, n).
 
@@ -188,7 +188,7 @@ def random_starts(
     return (positions, velocities) if n > 1 else (positions[:, 0], velocities[:, 0])
 
 
-def _orbits_of_ends(rotor: Model, count: int, random: np.random.Generator) -> Iterator[tuple[Orbit, int]]:
+def _orbits_of_ends(rotor: Rotor, count: int, random: np.random.Generator) -> Iterator[tuple[Orbit, int]]:
     """Orbits on which motions from random starts end, with the number of motions; an orbit may come several times."""
     ends: Endings = settle(rotor, *random_starts(rotor, random, count), patience=GIVEN_UP, max_events=GIVEN_UP)
     ends = ends[((ends.outcomes == Outcome.BOUNCING) & (ends.multiplicities > 0)) | (ends.outcomes == Outcome.MIXED)]
@@ -211,7 +211,7 @@ class Search:
         Orbits that are not to be found again.
     """
 
-    def __init__(self, rotor: Model, impacts: int, known: Sequence[Orbit] = ()) -> None:
+    def __init__(self, rotor: Rotor, impacts: int, known: Sequence[Orbit] = ()) -> None:
         self.rotor, self.impacts = rotor, impacts
         self.found: list[Orbit] = []
         self.solutions: dict[Word, np.ndarray] = {}

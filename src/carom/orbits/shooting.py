@@ -25,7 +25,7 @@ from carom.core.layout import rub_workspace
 from carom.core.segments import follow_contact, follow_flights
 from carom.core.sensitivity import sensitivity_of_flights
 from carom.core.yielding_segments import follow_in_walls
-from carom.models import Model
+from carom.models import Rotor
 from carom.orbits.chatter import follow_chatter
 from carom.orbits.word import Kind, Word
 
@@ -171,7 +171,7 @@ def by_angle(nodes: np.ndarray) -> np.ndarray:
     return changes
 
 
-def links_of(rotor: Model, word: Word, start: Start) -> Links:
+def links_of(rotor: Rotor, word: Word, start: Start) -> Links:
     """Follow each segment of a word from its node.
 
     Parameters
@@ -209,7 +209,7 @@ def links_of(rotor: Model, word: Word, start: Start) -> Links:
     return Links(Start(nodes, durations), arrivals, values, slopes, landings, slips, system.forced is not None)
 
 
-def by_parameter(rotor: Model, word: Word, start: Start, name: str) -> np.ndarray | None:
+def by_parameter(rotor: Rotor, word: Word, start: Start, name: str) -> np.ndarray | None:
     """Exact derivative of the left sides of the equations by a parameter of the rotor, shape (m (2N + 1),).
 
     ``None`` for words with lasting contact, and where the rotor does not give the derivatives of its equations of motion.
@@ -228,7 +228,7 @@ def _room(m: int, numbers: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     return np.empty((m, numbers), complex), np.empty(m), np.empty((m, 2 * numbers + 1, 2 * numbers + 1))
 
 
-def closed_flights(rotor: Model, word: Word, start: Start) -> Start | None:
+def closed_flights(rotor: Rotor, word: Word, start: Start) -> Start | None:
     """Solve the equations of a word of impacts by plain Newton steps from a start next to an orbit.
 
     ``None`` if the iteration does not converge; it takes no shorter steps, and knows no lasting contact (:func:`converged`).
@@ -293,7 +293,7 @@ def unpack_free(word: Word, unknowns: np.ndarray) -> Start:
     return unpack(whole, len(word))
 
 
-def converged(rotor: Model, word: Word, start: Start) -> Links | None:
+def converged(rotor: Rotor, word: Word, start: Start) -> Links | None:
     """Solve the equations of an orbit by Newton's method from a start nearby.
 
     Parameters

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from carom.models import Model
+from carom.models import Rotor
 from carom.motions.settling import AT_REST, REPEATING
 from carom.motions.simulation import simulate
 from carom.motions.starts import Kick, State
@@ -43,7 +43,7 @@ WHIRLS = (Outcome.BACKWARD_WHIRL, Outcome.ROLLING, Outcome.FORWARD_RUB, Outcome.
 
 
 def search_simulated(
-    rotor: Model, impacts: int, guesses: int | None, seed: int, tell: Reporter, share: float = 1.0
+    rotor: Rotor, impacts: int, guesses: int | None, seed: int, tell: Reporter, share: float = 1.0
 ) -> tuple[tuple[SimulatedOrbit, ...], Searched]:
     """Search periodic motions with at most a number of impacts a period, of any machine, and say what was tried: a share of the usual."""
     search = _Search(rotor, impacts, share)
@@ -69,7 +69,7 @@ def search_simulated(
 class _Search:
     """What a search has found and tried so far."""
 
-    def __init__(self, rotor: Model, impacts: int, share: float = 1.0) -> None:
+    def __init__(self, rotor: Rotor, impacts: int, share: float = 1.0) -> None:
         self.rotor, self.impacts, self.seconds = rotor, impacts, share * SECONDS
         self.barren = math.ceil(share * BARREN)
         self.found: list[SimulatedOrbit] = []
@@ -157,7 +157,7 @@ class _Search:
                 yield motion, begin, float(spans[place])
 
 
-def start_of(rotor: Model, random: np.random.Generator) -> State:
+def start_of(rotor: Rotor, random: np.random.Generator) -> State:
     """A random start: a kick out of levitation, or of few coordinates also any place and velocity."""
     speed = FASTEST * float(SLOWEST ** random.uniform())
     if rotor.system.levitates and (len(rotor.system.rest) > FEW or random.uniform() < 0.5):

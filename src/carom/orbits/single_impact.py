@@ -13,7 +13,7 @@ import numpy as np
 from carom.arguments import Count, Positive, Reals, Seed, checked
 from carom.closed_forms.periods import PeriodCondition, PeriodRoots
 from carom.core.planar import impact_jacobian
-from carom.models import Model, Rotor, Subject, exact_rotor_of, model_of
+from carom.models import Rotor, Subject, exact_rotor_of, rotor_of
 from carom.orbits.admissibility import slip_stays_forward, why_virtual
 from carom.orbits.maps import Section
 from carom.orbits.names import OrbitName, Slip
@@ -78,7 +78,7 @@ class OrbitSet(Members[Orbit]):
 
     @classmethod
     @checked
-    def none(cls, rotor: Model) -> OrbitSet:
+    def none(cls, rotor: Rotor) -> OrbitSet:
         """No orbits, and none searched: of a rotor whose magnetic bearings have limits."""
         return cls(rotor, (), 1, None, np.empty(0), 0.0, complete=False, slip_stays_forward=False)
 
@@ -184,7 +184,7 @@ def find_orbits(
     2.328416 True
     """
     if impacts is not None:
-        model, tell = model_of(machine), Reporter.of(progress, "searching orbits")
+        model, tell = rotor_of(machine), Reporter.of(progress, "searching orbits")
         model.system.refuse_unrepeated()
         known = [*orbits_within_reach(model), *rubbing_orbits(model)] if model.has_closed_forms else []
         there = [orbit for orbit in known if orbit.admissible]

@@ -10,7 +10,7 @@ from math import pi
 import numpy as np
 
 from carom.bifurcations import Diagram, RegionMap
-from carom.models import Model, exact_rotor_of
+from carom.models import Rotor, exact_rotor_of
 from carom.outcome import InputError
 from carom.proofs.claims import Claim, Proof
 from carom.proofs.hypotheses import NUMBERS, Hypotheses
@@ -83,7 +83,7 @@ def proven_of_plane(proof: Proof, regions: RegionMap) -> ProvenLine:
     return _proven(proof, names, lambda value: regions.model.replace(**{**present, proof.options["along"]: value}))
 
 
-def _proven(proof: Proof, allowed: tuple[str, ...], model_at: Callable[[float], Model]) -> ProvenLine:
+def _proven(proof: Proof, allowed: tuple[str, ...], model_at: Callable[[float], Rotor]) -> ProvenLine:
     along = proof.options.get("along")
     if along not in allowed:
         raise InputError(
@@ -101,7 +101,7 @@ def _proven(proof: Proof, allowed: tuple[str, ...], model_at: Callable[[float], 
     )
 
 
-def check_machine(hypotheses: Hypotheses, model: Model) -> None:
+def check_machine(hypotheses: Hypotheses, model: Rotor) -> None:
     """Compare the numbers of the equations with those of a proof; :class:`~carom.outcome.InputError` if they are others."""
     parameters = exact_rotor_of(model).parameters
     for name in NUMBERS:

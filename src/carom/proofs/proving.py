@@ -10,7 +10,7 @@ from typing import Annotated, Any
 
 from carom.arguments import checked, whole
 from carom.loading import load
-from carom.models import Model, Subject, model_of
+from carom.models import Rotor, Subject, rotor_of
 from carom.outcome import InputError, shown
 from carom.parameters import Field, own_size, read_quantity
 from carom.progress import Reporter, ShowProgress, shows_progress
@@ -19,7 +19,7 @@ from carom.proofs.claims import Proof
 from carom.proofs.evidence import Evidence, NotShownError
 from carom.proofs.hypotheses import Given, Hypotheses, hypotheses_of, written_exactly
 from carom.proofs.lines import line_of
-from carom.proofs.rotor import Rotor
+from carom.proofs.rotor import Rotor as RotorInBalls
 from carom.proofs.several_impacts import MOST_IMPACTS
 from carom.proofs.stated_equations import StatedEquations
 from carom.proofs.theorems import THEOREMS, Options
@@ -115,7 +115,7 @@ def prove(
     return proof_of("orbits of several impacts", hypotheses, {**options, "impacts": impacts}, tell, seconds)
 
 
-def without_closed_forms(machine: Any, settings: Iterable[str] = ()) -> Model | None:
+def without_closed_forms(machine: Any, settings: Iterable[str] = ()) -> Rotor | None:
     """The model of a machine whose contacts have no theorems: all but the planar rotor in a rigid wall, without weight and limits."""
     if isinstance(machine, Hypotheses | Mapping):
         return None
@@ -125,11 +125,11 @@ def without_closed_forms(machine: Any, settings: Iterable[str] = ()) -> Model | 
             case = load(machine, settings)
         except InputError:  # a number that only a theorem takes, such as a fraction
             return None
-    model = model_of(case)
+    model = rotor_of(case)
     return None if model.has_closed_forms else model
 
 
-def prove_levitation(model: Model, kicks_up_to: float | str | None = None, *, progress: ShowProgress = None) -> Proof:
+def prove_levitation(model: Rotor, kicks_up_to: float | str | None = None, *, progress: ShowProgress = None) -> Proof:
     """Prove of any rotor that it levitates, and which kicks and steps of the unbalance never touch (:mod:`carom.proofs.levitation_claims`).
 
     Parameters
@@ -180,7 +180,7 @@ def proof_at(
 ) -> Proof:
     """Claims of a theorem at one precision, from evidence that is searched for or read."""
     with at_precision(bits):
-        stated: Any = hypotheses if isinstance(hypotheses, StatedEquations) else Rotor(hypotheses)
+        stated: Any = hypotheses if isinstance(hypotheses, StatedEquations) else RotorInBalls(hypotheses)
         claims = THEOREMS[theorem].claims(stated, evidence, options)
     not_claimed = THEOREMS[theorem].not_claimed
     return Proof(theorem, hypotheses, options, tuple(claims), bits, not_claimed, evidence.document())

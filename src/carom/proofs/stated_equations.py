@@ -10,7 +10,7 @@ from typing import Any, ClassVar
 import numpy as np
 from flint import acb, acb_mat, arb
 
-from carom.models import Model
+from carom.models import Rotor
 from carom.outcome import InputError
 from carom.proofs.evidence import NotShownError
 
@@ -41,7 +41,7 @@ class StatedEquations:
     exact: ClassVar[bool] = True
 
     @classmethod
-    def of(cls, model: Model) -> StatedEquations:
+    def of(cls, model: Rotor) -> StatedEquations:
         """Equations of a rotor; of a flexible machine with all its modes.
 
         Raises

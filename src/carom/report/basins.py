@@ -8,7 +8,7 @@ from carom import plots
 from carom.basins import Cells, map_cells
 from carom.disturbances import BaseShock, BladeLoss, Disturbance, Grid, KickPlane
 from carom.disturbances.echo import ITS_INSTANT
-from carom.models import Model, axis, depends_on_instant
+from carom.models import Rotor, axis, depends_on_instant
 from carom.parameters import in_terms_of
 from carom.studies import Study
 from carom.studies.kinds import Kind, required_kinds
@@ -70,7 +70,7 @@ def drawable(study: Study) -> bool:
     return study.levitates or study.recommendation.advised is not None
 
 
-def _basin(rotor: Model, model: Disturbance, kind: Kind) -> Cells:
+def _basin(rotor: Rotor, model: Disturbance, kind: Kind) -> Cells:
     cells = CELLS_OF_MANY_MODES if rotor.system.modes > MANY_MODES else CELLS
     return map_cells(rotor, Grid(model, cells[kind]))
 

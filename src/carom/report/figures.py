@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 
 from carom import plots
 from carom.attractors import Ending
-from carom.models import Model
+from carom.models import Rotor
 from carom.motions import Trajectory
 from carom.motions.simulation import simulate
 from carom.orbits.orbit import Orbit
@@ -149,7 +149,7 @@ def _history(study: Study, example: Ending) -> Figure:
     return plots.radius(motion, _zones(study, motion.radius(motion.sample())))
 
 
-def until_decayed(rotor: Model, time: float) -> float:
+def until_decayed(rotor: Rotor, time: float) -> float:
     """Return the time until which a motion is shown that returns to levitation at a time, in ``1/Ω``."""
     decay = rotor.system.decay
     return min(time + (SHOWN_TAIL / decay if decay > 0.0 else 0.0), LONGEST_SHOWN)

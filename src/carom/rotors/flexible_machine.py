@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from carom.arguments import Count, Positive, checked
-from carom.models import Model
+from carom.models import Rotor
 from carom.outcome import InputError, shown
 from carom.parameters import Field, Gravity
 from carom.parameters.tables import read_entries
@@ -213,6 +213,6 @@ class FlexibleMachine:
         return slowest_of(self.whole.equations, self.speed)
 
     @cached_property
-    def model(self) -> Model:
-        """Model of the reduced machine that levitates, for ``carom.simulate`` and all the others: see :attr:`ReducedMachine.model`."""
+    def model(self) -> Rotor:
+        """Rotor of the reduced machine that levitates, for ``carom.simulate`` and all the others: see :attr:`ReducedMachine.model`."""
         return self.reduce().model

@@ -36,7 +36,7 @@ from carom.closed_forms.sag import Levitation
 from carom.closed_forms.whirl import Rolling
 from carom.core.limits import WITHIN
 from carom.disturbances import Sample
-from carom.models import model_of
+from carom.models import rotor_of
 from carom.models.excess import excess_accelerations, excess_of
 from carom.motions.simulation import simulate
 from carom.motions.starts import State
@@ -208,7 +208,7 @@ def bearing_demand(
     case: Case, equilibria: Iterable[SteadyMotion], orbits: Iterable[Orbit], roll: Rolling | None, found: AttractorSet
 ) -> BearingDemand | None:
     """What the motions of a study have to do with the limits of the magnetic bearings; ``None`` if these have none."""
-    given, slew = model_of(case).limits, slew_limit_of(case)
+    given, slew = rotor_of(case).limits, slew_limit_of(case)
     control = given if isinstance(given, ControlLimit) else None
     equilibria = tuple(equilibria)
     if isinstance(equilibria[0], Levitation):
@@ -253,7 +253,7 @@ def asked_by(case: Case, disturbances: Iterable[Sample]) -> float | None:
     limit = slew_limit_of(case)
     if limit is None:
         return None
-    rotor = model_of(case)
+    rotor = rotor_of(case)
     reached = [float(limit.asked(Centre.whirling(rotor.system.rest_radius, 1.0)))]
     for sample in disturbances:
         starts = sample.model.starts_on(rotor, *coordinates_at_largest(rotor, sample, LARGEST))

@@ -19,7 +19,7 @@ from carom.closed_forms.exact_results import exact_results
 from carom.closed_forms.thresholds import FOLD, ROLLING, WALL
 from carom.closed_forms.whirl import Runaway
 from carom.disturbances import Sample
-from carom.models import Edge, Span, model_of
+from carom.models import Edge, Span, rotor_of
 from carom.motions.budget import BudgetSpentError
 from carom.parameters import Case, InTerms, in_terms_of
 from carom.results import Result
@@ -294,7 +294,7 @@ class _Adviser:
     def _change(self, terms: InTerms, check: Check, span: Span | None, forced: tuple[Check, ...]) -> Change:
         value, present = check.value, self.present
         case = with_setting(self.case, terms)
-        rotor = model_of(case)
+        rotor = rotor_of(case)
         known = exact_results(rotor)
         margin: Margin | None = None
         far: Edge | None = None

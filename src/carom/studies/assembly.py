@@ -25,7 +25,7 @@ from carom.closed_forms.exact_results import exact_results
 from carom.closed_forms.thresholds import Gain
 from carom.disturbances import AnyState, Disturbance, Plan, Sample
 from carom.disturbances.following import follow, refuse_another_machine
-from carom.models import Model, Subject, axis, case_of, model_of
+from carom.models import Rotor, Subject, axis, case_of, rotor_of
 from carom.motions.budget import NOT_FOLLOWED, Budget, Question
 from carom.orbits.single_impact import OrbitSet, find_orbits, orbits_within_reach
 from carom.outcome import InputError
@@ -179,7 +179,7 @@ def study(
         case = replace(case, requirement=requirement)
     refuse_another_machine(disturbances)
     seconds = math.inf if time_limit is None else read_quantity(TIME_LIMIT, time_limit)
-    rotor = model_of(case)
+    rotor = rotor_of(case)
     asked = Asked(case, rotor, case.requirement.own(rotor.scales), Budget(seconds), disturbances, along, proof_time)
     contributors = [each for each in CONTRIBUTORS if each.applies(asked) and (proofs or each.name not in OF_PROOFS)]
     tell, done, whole = Reporter.of(progress, "study"), 0.0, sum(each.share for each in contributors)
@@ -195,7 +195,7 @@ class Asked:
     """What a study is asked, and what it has found so far, by the fields of :class:`StudyData`."""
 
     case: Case
-    rotor: Model
+    rotor: Rotor
     required: Required
     budget: Budget
     disturbances: Plan | Disturbance | None
@@ -265,7 +265,7 @@ def _prove_states(asked: Asked, tell: Reporter) -> Proof:
 
 def _case_of(machine: Subject) -> Case:
     """What is studied; a model that no file describes stands for itself, with the usual zones."""
-    model = model_of(machine)
+    model = rotor_of(machine)
     if isinstance(machine, Case):
         return machine
     if exact_results(model).orbits:
@@ -323,7 +323,7 @@ def _parameters(asked: Asked) -> tuple[str, ...]:
     return tuple(name for name in levitation if name in rotor.varied and _has(rotor, name))
 
 
-def _has(rotor: Model, name: str) -> bool:
+def _has(rotor: Rotor, name: str) -> bool:
     try:
         return rotor.value(name) > 0.0
     except InputError:  # bearings differ

@@ -7,12 +7,12 @@ from typing import Any
 
 from carom.attractors import Attractor, AttractorSet, Character, document_of, exact_interval
 from carom.basins import share_of_kicks
-from carom.models import Model
+from carom.models import Rotor
 from carom.results import fields_of
 
 
 def attractors_document(
-    rotor: Model, found: AttractorSet, characters: Sequence[Character], exponents: bool = True
+    rotor: Rotor, found: AttractorSet, characters: Sequence[Character], exponents: bool = True
 ) -> dict[str, Any]:
     """Return the document of attractors, with one character for each member of ``found``.
 

@@ -17,7 +17,7 @@ from carom.bifurcations.boundary import BoundaryEquilibrium
 from carom.bifurcations.documents import search_document
 from carom.closed_forms.equilibria import SteadyMotion
 from carom.closed_forms.sag import Levitation
-from carom.models import Model, Span, jeffcott
+from carom.models import Rotor, Span, jeffcott
 from carom.orbits.happenings import RECOVERS, SATURATES
 from carom.orbits.orbit import Orbit
 from carom.orbits.simulated import SimulatedOrbit
@@ -48,7 +48,7 @@ def orbits_document(
 
 
 def _orbits_of(
-    rotor: Model, equilibria: tuple[SteadyMotion, ...], orbits: OrbitSet, machine: Machine | None
+    rotor: Rotor, equilibria: tuple[SteadyMotion, ...], orbits: OrbitSet, machine: Machine | None
 ) -> dict[str, Any]:
     return {
         **rotor.document(),
@@ -61,7 +61,7 @@ def _orbits_of(
 
 
 @checked
-def found_orbits_document(parameters: Parameters | Model, found: OrbitSet) -> dict[str, Any]:
+def found_orbits_document(parameters: Parameters | Rotor, found: OrbitSet) -> dict[str, Any]:
     """Return the document of orbits with at most a number of impacts."""
     return {
         **({"parameters": parameters.as_dict()} if isinstance(parameters, Parameters) else found.rotor.document()),
@@ -147,7 +147,7 @@ def study_document(study: StudyData, verdict: Verdict, facts: Sequence[Fact]) ->
     }
 
 
-def _equilibrium(entry: SteadyMotion, rotor: Model) -> dict[str, Any]:
+def _equilibrium(entry: SteadyMotion, rotor: Rotor) -> dict[str, Any]:
     scales = rotor.scales
     document = {
         **fields_of(entry, kind="kind", U="position", radius="radius", normal_force="normal_force"),
@@ -232,7 +232,7 @@ def _check(check: Check) -> dict[str, Any]:
     }
 
 
-def _attractor(entry: Attractor, rotor: Model) -> dict[str, Any]:
+def _attractor(entry: Attractor, rotor: Rotor) -> dict[str, Any]:
     scales, at = rotor.scales, rotor.in_rigid_wall
     told = fields_of(entry, name="name", outcome="name.outcome.label", settled="settled")
     told |= fields_of(entry, multiplicity="name.multiplicity", period="period", whirl="whirl", count="count")
@@ -245,7 +245,7 @@ def _attractor(entry: Attractor, rotor: Model) -> dict[str, Any]:
     return document
 
 
-def _disturbances(found: AttractorSet, rotor: Model) -> dict[str, Any]:
+def _disturbances(found: AttractorSet, rotor: Rotor) -> dict[str, Any]:
     scales, at = rotor.scales, rotor.in_rigid_wall
     touched = touching(found)
     document = {

@@ -7,7 +7,7 @@ from typing import Any
 
 from carom.attractors import MotionName
 from carom.disturbances.echo import Echo, echo_of_drop
-from carom.models import Model, model_of
+from carom.models import Rotor, rotor_of
 from carom.motions import DropLoads, Trajectory, drop, drop_loads, simulate
 from carom.motions.drops import ASSUMED, Drop
 from carom.motions.reduction_errors import ReductionError, reduction_error
@@ -86,7 +86,7 @@ class DropStudy(Result):
         document: dict[str, Any] = {
             "name": case.name,
             "disturbance": self.echo.document(scales),
-            **model_of(case).document(),
+            **rotor_of(case).document(),
             "gravity": {"acceleration_si": gravity.acceleration, "direction": gravity.direction},
             "gravity_assumed": self.assumed,
             "touchdown": {"law": case.touchdown.law, **case.touchdown.given} if case.touchdown else {"law": "rigid"},
@@ -112,7 +112,7 @@ def drop_of(case: Case) -> DropStudy | None:
     except InputError:
         return None
     motion = simulate(rotor, state, FALLING, max_events=MOST_EVENTS)
-    loads, reduced = drop_loads(motion), model_of(case).finite_elements
+    loads, reduced = drop_loads(motion), rotor_of(case).finite_elements
     error = None
     if reduced is not None:
         error = reduction_error(
@@ -121,7 +121,7 @@ def drop_of(case: Case) -> DropStudy | None:
     return DropStudy(case, echo, loads, error, motion)
 
 
-def release(case: Case, released: Drop) -> tuple[Model, State, Echo]:
+def release(case: Case, released: Drop) -> tuple[Rotor, State, Echo]:
     """The rotor that falls, its start, and what was taken of a release whose sizes are numbers.
 
     Raises
@@ -133,7 +133,7 @@ def release(case: Case, released: Drop) -> tuple[Model, State, Echo]:
     scales, back, turning = case.parameters.scales, released.regained_after, released.race_speed
     if scales is None:  # which stages() has refused
         raise InputError("gravity", None, "a machine with mass, clearance and speed")
-    angle = released.unbalance_angle(model_of(case))
+    angle = released.unbalance_angle(rotor_of(case))
     regained, race = (None if each is None else float(each) for each in (back, turning))
     amplitudes, _ = amplitudes_of(rotor, state)
     planes = []

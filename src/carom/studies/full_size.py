@@ -13,7 +13,7 @@ from carom.basins import Share
 from carom.basins.losses import GOLDEN
 from carom.disturbances import BaseShock, BladeLoss, Disturbance, VelocityKick
 from carom.disturbances.coordinates import TURN
-from carom.models import Model
+from carom.models import Rotor
 from carom.motions import State, Trajectory, drop_loads, simulate
 from carom.motions.bearing_loads import DropLoads, PlaneLoads
 from carom.motions.budget import present_question
@@ -119,7 +119,7 @@ class FullSize(Result):
         }
 
 
-def at_full_size(rotor: Model, required: Required) -> tuple[FullSize, ...]:
+def at_full_size(rotor: Rotor, required: Required) -> tuple[FullSize, ...]:
     """Follow each kind that must be survived at its full size in all directions."""
     kinds: dict[Kind, Disturbance] = {"kick": VelocityKick(required.kick)}
     if required.shock is not None:
@@ -146,8 +146,8 @@ class _Followed(NamedTuple):
         return blow, 0.0 if blow else max(_reach(self.motion, each) for each in planes)
 
 
-def _of_kind(rotor: Model, kind: Kind, size: float, model: Disturbance) -> FullSize:
-    def at(rotor: Model, angle: float, instant: float) -> tuple[Model, State]:
+def _of_kind(rotor: Rotor, kind: Kind, size: float, model: Disturbance) -> FullSize:
+    def at(rotor: Rotor, angle: float, instant: float) -> tuple[Rotor, State]:
         return model.apply(rotor, angle, instant=instant)
 
     tried = [_followed(*at(rotor, *pair), pair) for pair in _affordable()]
@@ -188,7 +188,7 @@ def _affordable() -> Iterator[tuple[float, float]]:
             yield pairs[place]
 
 
-def _followed(rotor: Model, start: Any, pair: tuple[float, float]) -> _Followed:
+def _followed(rotor: Rotor, start: Any, pair: tuple[float, float]) -> _Followed:
     """Follow a motion until its end is known; one without contact, whose end is known at once, for some turns."""
     motion = simulate(rotor, start, settle=True, max_events=MOST_EVENTS)
     back, loads = motion.outcome is Outcome.LEVITATED, drop_loads(motion)

@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 
 from carom.closed_forms import SynchronousResponse, synchronous_response
-from carom.models import Model
+from carom.models import Rotor
 from carom.parameters import Case, Machine
 from carom.results import Result, fields_of
 from carom.rotors import (
@@ -155,7 +155,7 @@ class Levitating(Result):
         return found
 
 
-def levitating(case: Case, rotor: Model) -> Levitating:
+def levitating(case: Case, rotor: Rotor) -> Levitating:
     """Compute how a machine levitates."""
     reduced = rotor.finite_elements
     if reduced is not None:

@@ -10,7 +10,7 @@ from typing import Any
 from carom.arguments import checked
 from carom.attractors import AttractorSet, MotionName
 from carom.disturbances import BaseShock, BladeLoss
-from carom.models import Model
+from carom.models import Rotor
 from carom.motions import DropLoads, TouchdownLoads, Trajectory, drop_loads, simulate, touchdown_loads
 from carom.motions.budget import present_question
 from carom.outcome import InputError
@@ -193,7 +193,7 @@ def worst_loads(found: AttractorSet, limits: LoadLimits, required: Required | No
     return WorstLoads(tuple(worst), tuple(names), tuple(counts), len(checked))
 
 
-def _of_required(rotor: Model, required: Required) -> Iterator[Trajectory]:
+def _of_required(rotor: Rotor, required: Required) -> Iterator[Trajectory]:
     """Motions after the shock and the loss of a blade that must be survived, in all directions; none without levitation."""
     if rotor.system.rest_radius >= 1.0:
         return

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-from carom.models import Model
+from carom.models import Rotor
 from carom.motions.budget import Question
 from carom.studies.facts import Fact
 from carom.studies.wording import listed
@@ -40,7 +40,7 @@ FEWEST = 60
 """Disturbances of a kind of which none is lost for a verdict that they came back: otherwise one in twenty might be lost unseen."""
 
 
-def events_for(rotor: Model, question: str) -> int:
+def events_for(rotor: Rotor, question: str) -> int:
     """Events of a question for a rotor."""
     return round(EVENTS[question] * min(1.0, FEW_MODES / rotor.system.modes))
 

@@ -17,7 +17,7 @@ from carom.bifurcations.steady import steady_points
 from carom.closed_forms.equilibria import find_equilibria
 from carom.closed_forms.thresholds import Gain, Steady, ranges_of
 from carom.closed_forms.whirl import rolling
-from carom.models import Axis, Edge, Model, Rotor, Span, axis, exact_rotor_of
+from carom.models import Axis, Edge, Rotor, Span, axis, exact_rotor_of
 from carom.models.axes import usual_range
 from carom.models.spans import spans_where
 from carom.orbits.single_impact import longest_within_reach, orbits_within_reach
@@ -107,7 +107,7 @@ class MotionRange:
         return any(value in span for span in self.spans)
 
 
-def motion_ranges(rotor: Model, along: Axis, progress: ShowProgress = None) -> tuple[MotionRange, ...]:
+def motion_ranges(rotor: Rotor, along: Axis, progress: ShowProgress = None) -> tuple[MotionRange, ...]:
     """Return the values of a parameter for which each simple motion of the planar rotor exists; none for other rotors.
 
     Where a synchronous rub exists with positive damping, a stable one does too, unless the restitution is one.  Orbits with one

@@ -18,7 +18,7 @@ import numpy as np
 
 from carom.arguments import Count, Positive, Seed, checked
 from carom.disturbances import Sample
-from carom.models import Axis, Edge, Model, Span, Subject, axis, model_of
+from carom.models import Axis, Edge, Rotor, Span, Subject, axis, rotor_of
 from carom.models.axes import Ends, read_interval, usual_range
 from carom.models.spans import paired, spans_where
 from carom.motions.budget import BudgetSpentError
@@ -66,7 +66,7 @@ class Recovery(Result):
 
     shown: ClassVar[tuple[str, ...]] = ("rotor", "searched", "spans", "checks")
 
-    rotor: Model
+    rotor: Rotor
     along: Axis
     disturbances: tuple[Sample, ...]
     motions: tuple[MotionRange, ...]
@@ -161,7 +161,7 @@ def find_recovery(
     >>> [(round(span.low.value), round(span.high.value), span.high.kind) for span in slower.spans]
     [(92, 120, 'boundary-equilibrium')]
     """
-    rotor = model_of(machine)
+    rotor = rotor_of(machine)
     varied = axis(rotor, along)
     if not disturbances:
         raise InputError("disturbances", None, "at least one sample of a kind of disturbance")
@@ -187,7 +187,7 @@ def power_of(along: Axis) -> int:
 
 
 def _searched(
-    rotor: Model, varied: Axis, within: Ends | None, motions: tuple[MotionRange, ...], factor: float | None
+    rotor: Rotor, varied: Axis, within: Ends | None, motions: tuple[MotionRange, ...], factor: float | None
 ) -> tuple[Span, ...]:
     """The intervals to search."""
     present = varied.value(rotor)

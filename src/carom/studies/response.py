@@ -13,7 +13,7 @@ import numpy as np
 from carom.arguments import checked
 from carom.closed_forms import SpeedResponse, find_equilibria, rolling, speed_response, synchronous_response
 from carom.closed_forms.exact_results import exact_results
-from carom.models import Axis, Model, Subject, axis, model_of
+from carom.models import Axis, Rotor, Subject, axis, rotor_of
 from carom.models.axes import Ends, read_interval
 from carom.outcome import InputError
 from carom.parameters import Case, Machine, Parameters, Zones, read_quantity
@@ -97,7 +97,7 @@ def unbalance_response(
     4.797
     """
     case = _case_of(machine)
-    model = model_of(case)
+    model = rotor_of(case)
     if model.scales is None:
         allowed = "needed for a response over speed: use a file with a [machine] table, or parameters with scales"
         raise InputError("scales", None, allowed)
@@ -119,7 +119,7 @@ def _case_of(subject: Subject) -> Case:
         return subject
     if isinstance(subject, Machine):
         return Case("machine", subject.parameters, subject, Zones())
-    return Case("machine", subject if isinstance(subject, Parameters) else model_of(subject), None, Zones())
+    return Case("machine", subject if isinstance(subject, Parameters) else rotor_of(subject), None, Zones())
 
 
 def _usual_range(free: SpeedResponse | None, run: tuple[float, float]) -> tuple[float, float]:
@@ -130,7 +130,7 @@ def _usual_range(free: SpeedResponse | None, run: tuple[float, float]) -> tuple[
     return AROUND[0] * min(known), AROUND[1] * max(known)
 
 
-def _speeds(model: Model, free: SpeedResponse | None, interval: tuple[float, float]) -> list[float]:
+def _speeds(model: Rotor, free: SpeedResponse | None, interval: tuple[float, float]) -> list[float]:
     """Speeds of the curves: evenly, densely about narrow peaks, and those that are named."""
     reduced, scales = model.finite_elements, model.scales
     marks = [] if scales is None else [scales.speed]
@@ -144,7 +144,7 @@ def _speeds(model: Model, free: SpeedResponse | None, interval: tuple[float, flo
     return [float(each) for each in np.unique([*interval, *even, *inside])]
 
 
-def _rubs(found: ResponseData, model: Model, along: Axis) -> Rubs | None:
+def _rubs(found: ResponseData, model: Rotor, along: Axis) -> Rubs | None:
     """Synchronous rubs over the speed in one touchdown bearing, where nothing stands in the fixed frame."""
     system, free = model.system, found.contact_free
     if found.exact and free is not None:
@@ -164,7 +164,7 @@ def _rubs(found: ResponseData, model: Model, along: Axis) -> Rubs | None:
     return Rubs(speeds, lags, radii)
 
 
-def _stretches(found: ResponseData, model: Model, along: Axis) -> tuple[Stretch, ...]:
+def _stretches(found: ResponseData, model: Rotor, along: Axis) -> tuple[Stretch, ...]:
     """Ranges of speeds with the same steady motions; their ends are exact, or bisected between the speeds at which rubs were looked for."""
     free = found.contact_free
 

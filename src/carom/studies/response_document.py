@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from carom.closed_forms import SynchronousResponse
-from carom.models import model_of
+from carom.models import rotor_of
 from carom.parameters.fields import RPM
 from carom.results import fields_of
 from carom.studies.response_data import ResponseData, Stretch
@@ -25,7 +25,7 @@ def response_document(response: ResponseData, words: Sequence[str]) -> dict[str,
     return {
         "name": response.case.name,
         "carom": version("carom"),
-        **model_of(response.case).document(),
+        **rotor_of(response.case).document(),
         "speeds_si": list(response.interval),
         "present": _at(response, response.present) | {"steady": response.steady_at_present._asdict()},
         "critical": None if highest is None else _at(response, highest.speed),

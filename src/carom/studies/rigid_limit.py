@@ -17,7 +17,7 @@ import numpy as np
 from carom.basins.shares import Share
 from carom.disturbances import Sample, VelocityKick
 from carom.disturbances.following import follow
-from carom.models import HuntCrossley, KelvinVoigt, Model, Touchdown, from_matrices, jeffcott
+from carom.models import HuntCrossley, KelvinVoigt, Rotor, Touchdown, from_matrices, jeffcott
 from carom.models.planar import law_of
 from carom.motions.budget import NOT_FOLLOWED
 from carom.parameters import Scales, TouchdownBearing
@@ -61,9 +61,9 @@ class OtherWall:
     alike: Share
 
 
-def on_other_walls(rotor: Model, disturbances: Sequence[Sample]) -> tuple[OtherWall, ...]:
+def on_other_walls(rotor: Rotor, disturbances: Sequence[Sample]) -> tuple[OtherWall, ...]:
     """Follow disturbances of a planar rotor on its wall and on others; none for other rotors, and without a restitution above zero."""
-    others: list[tuple[float | None, Model]]
+    others: list[tuple[float | None, Rotor]]
     if rotor.planar is None or rotor.limits or rotor.forces or rotor.system.shaft is not None:
         return ()
     bearing = rotor.bearing_at(0)
@@ -89,13 +89,13 @@ def on_other_walls(rotor: Model, disturbances: Sequence[Sample]) -> tuple[OtherW
     return tuple(found)
 
 
-def _ends(rotor: Model, drawn: Sequence[Sample]) -> np.ndarray:
+def _ends(rotor: Rotor, drawn: Sequence[Sample]) -> np.ndarray:
     """Kind of motion in which each disturbance ends."""
     followed = (follow(rotor, each.starts(rotor)) for each in drawn)
     return np.concatenate([ends.outcomes for ends in followed])
 
 
-def _on_a_spring(rotor: Model, stiffness: float) -> Model:
+def _on_a_spring(rotor: Rotor, stiffness: float) -> Rotor:
     """The rotor in a Kelvin–Voigt wall that gives a free rotor the restitution of its rigid one."""
     at: Any = rotor.planar
     mass, damping, _, spring, forcing = rotor.matrices

@@ -11,7 +11,7 @@ from carom.basins import Share
 from carom.bifurcations.boundary import BoundaryEquilibrium
 from carom.closed_forms.equilibria import Equilibrium, SteadyMotion
 from carom.closed_forms.exact_results import ExactResults, exact_results
-from carom.models import Model
+from carom.models import Rotor
 from carom.motions.budget import Question
 from carom.orbits.orbit import Orbit
 from carom.orbits.single_impact import OrbitSet
@@ -84,7 +84,7 @@ class StudyData(Result):
     rests_on: ClassVar[tuple[str, ...]] = ("mora2014", "iso14839", "api617")
 
     case: Case
-    rotor: Model
+    rotor: Rotor
     levitating: Levitating
     equilibria: tuple[SteadyMotion, ...]
     orbits: OrbitSet

@@ -20,7 +20,7 @@ from carom.basins.losses import DIRECTIONS, SIZES
 from carom.closed_forms.harmless import shift_by_unbalance
 from carom.disturbances import BaseShock, BladeLoss, Disturbance, Sample, VelocityKick
 from carom.disturbances.blows import LONGEST_SHOCK
-from carom.models import Model
+from carom.models import Rotor
 from carom.motions.budget import Budget
 from carom.parameters import DIMENSIONLESS_FIELDS, SHOCK_DURATION, Required, Scales
 from carom.progress import Reporter
@@ -73,7 +73,7 @@ class Survives(Result):
         return tuple((name, entry) for name, entry in found.items() if entry is not None)
 
 
-def survives(rotor: Model, required: Required, budget: Budget, tell: Reporter) -> Survives | None:
+def survives(rotor: Rotor, required: Required, budget: Budget, tell: Reporter) -> Survives | None:
     """Search for the smallest disturbance of each kind that is lost; ``None`` where there is no levitation to come back to."""
     if not comes_to_rest(rotor):
         return None
@@ -96,12 +96,12 @@ def survives(rotor: Model, required: Required, budget: Budget, tell: Reporter) -
     return Survives(kick, shock, duration, blade_loss)
 
 
-def comes_to_rest(rotor: Model) -> bool:
+def comes_to_rest(rotor: Rotor) -> bool:
     """Whether there is stable levitation inside the wall, to which a disturbed rotor can come back."""
     return rotor.system.rest_radius < 1.0 and rotor.system.decay > 0.0
 
 
-def largest_change(rotor: Model) -> float:
+def largest_change(rotor: Rotor) -> float:
     """Largest change of the unbalance, in ``c_r``, after which the rotor can levitate at any phase.
 
     Larger ones that add to the unbalance before lead to no levitation inside the wall; just below it motions do not settle.  Zero for a model whose
@@ -115,7 +115,7 @@ def largest_change(rotor: Model) -> float:
     return min(float((BELOW * (1.0 - sags) / shifts).min()), DIMENSIONLESS_FIELDS["rho"].highest) - before
 
 
-def _duration(rotor: Model, required: Required) -> float:
+def _duration(rotor: Rotor, required: Required) -> float:
     """Duration of the shocks: that required, otherwise the usual one where times are known; else 0."""
     if required.shock:
         return required.shock.duration
@@ -125,7 +125,7 @@ def _duration(rotor: Model, required: Required) -> float:
     return usual if usual <= LONGEST_SHOCK else 0.0
 
 
-def _reaching(rotor: Model, model: VelocityKick | BaseShock) -> SmallestLoss:
+def _reaching(rotor: Rotor, model: VelocityKick | BaseShock) -> SmallestLoss:
     """Search up to a multiple of a disturbance, or of what is proven to be harmless if that is more."""
     family = family_of(rotor, model)
     many = rotor.system.modes > MANY_MODES

@@ -21,7 +21,7 @@ from carom.basins.shares import Population, Share
 from carom.disturbances import Coordinate, Disturbance, Sample, Starts
 from carom.disturbances.echo import instants_words
 from carom.disturbances.following import follow
-from carom.models import Axis, Model, Subject, axis, model_of
+from carom.models import Axis, Rotor, Subject, axis, rotor_of
 from carom.motions.budget import NOT_FOLLOWED, BudgetSpentError
 from carom.results import Result
 
@@ -126,7 +126,7 @@ def check_recovery(
     value : float, optional
         In the unit of the parameter.
     """
-    rotor = model_of(machine)
+    rotor = rotor_of(machine)
     varied = axis(rotor, along or next(iter(rotor.varied)))
     there = varied.value(rotor) if value is None else value
     return Trial(rotor, varied, tuple(disturbances), seed, threads).at(there)
@@ -136,7 +136,7 @@ def check_recovery(
 class Trial:
     """Follows disturbances at one value after another, and tries those lost last again."""
 
-    rotor: Model
+    rotor: Rotor
     varied: Axis
     disturbances: tuple[Sample, ...]
     seed: int
@@ -233,7 +233,7 @@ def _coordinates(
     return np.array([each.at(share) for each, share in zip(along, shares, strict=True)])
 
 
-def coordinates_at_largest(rotor: Model, sample: Sample, count: int) -> np.ndarray:
+def coordinates_at_largest(rotor: Rotor, sample: Sample, count: int) -> np.ndarray:
     """Coordinates (k, count) on a machine of disturbances of a kind at their largest size, in random directions."""
     return _coordinates(sample.model.coordinates_on(rotor), np.random.default_rng(sample.seed), count, largest=True)
 

@@ -16,7 +16,7 @@ from carom.sweeps.variables import LEVITATES, Dimension, Variable, with_si
 
 if TYPE_CHECKING:
     from carom.disturbances import Disturbance, Starts
-    from carom.models import Model
+    from carom.models import Rotor
     from carom.parameters import Case, Scales
 
 ENDINGS = (
@@ -110,14 +110,14 @@ class BasinsTask:
         """Return the disturbance model for a machine with these scales."""
         return self.tried.model.rescaled(self.scales, scales, self.in_si)
 
-    def evaluate(self, case: Case | Model, seed: np.random.SeedSequence) -> dict[str, Any]:
+    def evaluate(self, case: Case | Rotor, seed: np.random.SeedSequence) -> dict[str, Any]:
         """Compute the values of one machine by variable name; a variable without a value is left out."""
         from carom.basins.losses import smallest_lost
         from carom.basins.shares import Share
         from carom.disturbances.following import NO_START, follow
-        from carom.models import depends_on_instant, model_of
+        from carom.models import depends_on_instant, rotor_of
 
-        rotor = model_of(case)
+        rotor = rotor_of(case)
         counts = np.zeros(len(ENDINGS), np.int64)
         if rotor.system.decay < 0.0 and not rotor.system.levitates:
             return {"levitates": False, "possible": 0, "counts": counts}
@@ -145,7 +145,7 @@ class BasinsTask:
             found |= in_si(found, rotor.scales, smallest_unrecovered_kick="velocity")
         return found
 
-    def _batches(self, rotor: Model, seed: np.random.SeedSequence) -> Iterator[Starts]:
+    def _batches(self, rotor: Rotor, seed: np.random.SeedSequence) -> Iterator[Starts]:
         model = self.model(rotor.scales)
         if isinstance(self.tried, Grid):
             yield Grid(model, self.tried.shape, self.tried.instant).starts(rotor)

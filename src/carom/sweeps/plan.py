@@ -22,10 +22,10 @@ from carom.sweeps.studies import StudyTask
 from carom.sweeps.variables import STATUS
 
 if TYPE_CHECKING:
-    from carom.models import Model, Subject
+    from carom.models import Rotor, Subject
     from carom.sweeps.variables import Variable
 else:
-    Model = Subject = object  # imported when a plan is made, and refused there
+    Rotor = Subject = object  # imported when a plan is made, and refused there
 
 MOST_POINTS = 1_000_000_000
 """Largest number of points of a sweep: a point takes a thousandth of a second at least."""
@@ -45,7 +45,7 @@ class SweepPlan:
 
     Attributes
     ----------
-    case : Case or Model
+    case : Case or Rotor
         The machine whose parameters the axes vary.
     axes : tuple of GridAxis
     task : Task
@@ -60,7 +60,7 @@ class SweepPlan:
         Texts of the sweep file and of the machine file, which the store keeps.
     """
 
-    case: Case | Model
+    case: Case | Rotor
     axes: tuple[GridAxis, ...]
     task: Task
     chunk_shape: tuple[int, ...]
@@ -132,7 +132,7 @@ class SweepPlan:
         return {axis.name: float(axis.values[place]) for axis, place in zip(self.axes, point, strict=True)}
 
     @checked
-    def case_at(self, point: tuple[int, ...]) -> Case | Model:
+    def case_at(self, point: tuple[int, ...]) -> Case | Rotor:
         """Return the machine at a point; a case is bit for bit the same as with ``--set``.
 
         Raises
@@ -180,7 +180,7 @@ class SweepPlan:
         return hashlib.sha256(json.dumps(self.describe(), sort_keys=True).encode()).hexdigest()
 
 
-def _described(numbers: Parameters | Model) -> dict[str, Any]:
+def _described(numbers: Parameters | Rotor) -> dict[str, Any]:
     """What identifies the parameters of a case, or its model."""
     if not isinstance(numbers, Parameters):
         return numbers.attributes()
@@ -215,7 +215,7 @@ def cut(shape: tuple[int, ...], task: Task, chunk: int | None) -> tuple[int, ...
     return tuple(sizes)
 
 
-def check_varied(case: Case | Model, name: str) -> None:
+def check_varied(case: Case | Rotor, name: str) -> None:
     """Refuse to vary a parameter that the machine does not have."""
     if not isinstance(case, Case) or not isinstance(case.parameters, Parameters):
         from carom.models.axes import axis
@@ -279,10 +279,10 @@ def plan_sweep(
     >>> plan.shape
     (5,)
     """
-    from carom.models import Model, case_of, model_of
+    from carom.models import Rotor, case_of, rotor_of
 
-    keeps = isinstance(machine, Model) and not isinstance(work, StudyTask)
-    case: Case | Model = machine if isinstance(machine, Case) else model_of(machine) if keeps else case_of(machine)
+    keeps = isinstance(machine, Rotor) and not isinstance(work, StudyTask)
+    case: Case | Rotor = machine if isinstance(machine, Case) else rotor_of(machine) if keeps else case_of(machine)
     names = [axis.name for axis in axes]
     if not names or len(set(names)) < len(names):
         raise InputError("axes", ", ".join(names) or None, "must be one or more, each for another parameter")
@@ -290,7 +290,7 @@ def plan_sweep(
         check_settings(dict.fromkeys(names, "varied"))
     for name in names:
         check_varied(case, name)
-    scales = model_of(case).scales
+    scales = rotor_of(case).scales
     if seed is None:
         seed = work.seed if isinstance(work, Sample) else 0
     task: Task

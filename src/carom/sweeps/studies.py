@@ -15,7 +15,7 @@ from carom.results import fields_of, in_si
 from carom.sweeps.variables import LEVITATES, Dimension, Variable, with_si
 
 if TYPE_CHECKING:
-    from carom.models import Model
+    from carom.models import Rotor
     from carom.orbits.single_impact import OrbitSet
     from carom.parameters import Required
 
@@ -126,7 +126,7 @@ class StudyTask:
         """Return what identifies the task, as plain data for JSON."""
         return fields_of(self, "kind", "disturbances", "least_damping", "zone_limits")
 
-    def evaluate(self, machine: Case | Model, seed: np.random.SeedSequence) -> dict[str, Any]:
+    def evaluate(self, machine: Case | Rotor, seed: np.random.SeedSequence) -> dict[str, Any]:
         """Compute the values of one machine by variable name; a variable without a value is left out.
 
         Parameters
@@ -134,11 +134,11 @@ class StudyTask:
         seed : SeedSequence
             Seed of this point.
         """
-        from carom.models import model_of
+        from carom.models import rotor_of
         from carom.parameters import Requirement
 
         case = machine if isinstance(machine, Case) else None
-        rotor = model_of(machine)
+        rotor = rotor_of(machine)
         found = self._closed_forms(rotor, case.zones if case else Zones())
         number = int(seed.generate_state(1)[0])
         required = (case.requirement if case else Requirement()).own(rotor.scales)
@@ -149,7 +149,7 @@ class StudyTask:
         scaled = {each.name: each.scale for each in self.variables if each.scale and each.name in found}
         return found | in_si(found, rotor.scales, **scaled)
 
-    def _closed_forms(self, rotor: Model, zones: Zones) -> dict[str, Any]:
+    def _closed_forms(self, rotor: Rotor, zones: Zones) -> dict[str, Any]:
         from carom.closed_forms.equilibria import steady_motions
         from carom.closed_forms.exact_results import exact_results
         from carom.orbits.single_impact import orbits_within_reach
@@ -173,7 +173,7 @@ class StudyTask:
             found["zone"] = zones.labels.index(zones.zone(min(levitation.radius, 1.0)))
         return found
 
-    def _simulated(self, rotor: Model, fastest: float, seed: int) -> dict[str, Any]:
+    def _simulated(self, rotor: Rotor, fastest: float, seed: int) -> dict[str, Any]:
         from carom.attractors import find_attractors
         from carom.basins import share_of_kicks
         from carom.motions.budget import Budget
@@ -192,7 +192,7 @@ class StudyTask:
             "smallest_unrecovered_kick": math.nan if smallest is None else smallest,
         }
 
-    def _damping(self, rotor: Model, required: Required, seed: int) -> dict[str, Any]:
+    def _damping(self, rotor: Rotor, required: Required, seed: int) -> dict[str, Any]:
         from carom.closed_forms.exact_results import exact_results
         from carom.studies.recovery import find_recovery
         from carom.studies.survives import required_disturbances

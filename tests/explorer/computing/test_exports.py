@@ -20,7 +20,7 @@ from carom.explorer.computing.controls import controls_of, with_settings
 from carom.explorer.computing.exports import Kick, Origin, as_command, as_options, as_python, as_toml
 from carom.explorer.computing.planes import planes_of
 from carom.explorer.computing.rest import rest_of
-from carom.models import jeffcott, model_of
+from carom.models import jeffcott, rotor_of
 from carom.motions import Trajectory
 from carom.parameters import Requirement, Shock
 
@@ -122,7 +122,7 @@ def test_machines_are_told_in_the_program(given, changes):
     program = as_python(case, kick, controls_of(case)[0])
     names: dict[str, object] = {}
     exec(program[: program.index("basin =")], names)
-    told = model_of(names["machine"])
+    told = rotor_of(names["machine"])
     assert getattr(told, "rotor", told).parameters == jeffcott(case.parameters).parameters
 
 

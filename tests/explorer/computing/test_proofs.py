@@ -9,7 +9,7 @@ import carom
 from carom.closed_forms import harmless_kick
 from carom.explorer.computing import proofs
 from carom.explorer.computing.planes import planes_of
-from carom.models import model_of
+from carom.models import rotor_of
 from carom.outcome import InputError
 from carom.proofs import prove_kicks
 
@@ -20,7 +20,7 @@ PLANES = {plane.name: plane for plane in planes_of(CASE)}
 
 
 def test_kicks_that_never_touch_are_proven(monkeypatch):
-    rotor = model_of(CASE)
+    rotor = rotor_of(CASE)
     monkeypatch.setattr(proofs, "LIMIT", "1 s")
     largest = 1.5 * harmless_kick(rotor)
     found = proofs.find_proven(rotor, PLANES["kick"], largest)
@@ -45,7 +45,7 @@ def test_rows_are_the_second_component(monkeypatch):
         return proof_at(BITS, KICKS.about, proof.hypotheses, proof.options, Evidence({"cells": "a0g"}))
 
     monkeypatch.setattr("carom.proofs.prove_kicks", upper)
-    rotor = model_of(CASE)
+    rotor = rotor_of(CASE)
     found = proofs.find_proven(rotor, PLANES["kick"], 0.9 * harmless_kick(rotor))
     half = proofs.CELLS // 2
     inside = np.s_[half // 2 : half], np.s_[half // 2 : half]  # lower left
@@ -55,4 +55,4 @@ def test_rows_are_the_second_component(monkeypatch):
 
 def test_of_other_disturbances_nothing_is_proven():
     with pytest.raises(InputError, match="kicks: of other disturbances nothing is proven"):
-        proofs.find_proven(model_of(CASE), PLANES["shock"], 1.0)
+        proofs.find_proven(rotor_of(CASE), PLANES["shock"], 1.0)

@@ -14,7 +14,7 @@ from carom.explorer.computing.exports import Kick, as_python
 from carom.explorer.computing.motions import table_of
 from carom.explorer.computing.planes import planes_of
 from carom.explorer.computing.rest import rest_of
-from carom.models import jeffcott, model_of, planar_case_of
+from carom.models import jeffcott, planar_case_of, rotor_of
 
 MACHINE = Path(__file__).parents[3] / "examples" / "keogh-cole.toml"
 
@@ -104,7 +104,7 @@ def test_a_diagram_along_the_speed_is_in_rpm(case):
 
 def test_beside_limits_of_magnetic_bearings_there_are_no_orbits():
     case = planar_case_of(carom.load(MACHINE, ["eccentricity=0.1 mm", "force_limit=300 N"]))
-    rotor = model_of(case)
+    rotor = rotor_of(case)
     table = table_of(rotor)
     assert "magnetic bearings have limits" in table.argument
     assert [row.name for row in table.rows] == ["levitation"]

@@ -6,7 +6,7 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
-from carom.models import model_of
+from carom.models import rotor_of
 from carom.outcome import InputError, Problems, printable, shown
 from carom.parameters import SETTINGS, Case, TouchdownBearing, read_quantity
 from carom.parameters.fields import Field
@@ -105,13 +105,13 @@ def controls_of(case: Case) -> tuple[Control, ...]:
 
 def values_of(case: Case) -> dict[str, float]:
     """Values of a machine's controls, in their units."""
-    rotor = model_of(case)
+    rotor = rotor_of(case)
     return {name: float(f"{rotor.value(name) / unit_of(name):.12g}") for name in _kinds_of(case)}
 
 
 def _kinds_of(case: Case) -> Mapping[str, _Kind]:
     own, restitution = (_DIMENSIONLESS, "d") if case.machine is None else (_KINDS, "restitution")
-    of_wall = {restitution: _OF_WALL[restitution]} if restitution in model_of(case).varied else {}
+    of_wall = {restitution: _OF_WALL[restitution]} if restitution in rotor_of(case).varied else {}
     return {**own, **of_wall, **(_kinds_of_bearing(case.touchdown) if case.touchdown else {})}
 
 

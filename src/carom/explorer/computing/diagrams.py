@@ -10,7 +10,7 @@ from carom.bifurcations import Diagram, EquilibriumBranch, OrbitBranch, find_bif
 from carom.closed_forms.exact_results import exact_results
 from carom.explorer.computing.controls import Control, unit_of
 from carom.explorer.computing.rest import repeats
-from carom.models import Model
+from carom.models import Rotor
 from carom.outcome import STEADY_WORDS
 from carom.plots.diagrams import BOUNDARIES, POINTS
 from carom.plots.style import LOOKS, OUTCOMES
@@ -66,7 +66,7 @@ class Picture:
     points: tuple[Point, ...]
 
 
-def picture_along(rotor: Model, control: Control, progress: ShowProgress = None) -> Picture:
+def picture_along(rotor: Rotor, control: Control, progress: ShowProgress = None) -> Picture:
     """Compute the diagram over the whole slider of a parameter."""
     unit = unit_of(control.name)
     diagram = find_bifurcations(rotor, control.name, (unit * control.low, unit * control.high), progress=progress)
@@ -81,7 +81,7 @@ def picture_along(rotor: Model, control: Control, progress: ShowProgress = None)
     )
 
 
-def why_none(rotor: Model) -> str:
+def why_none(rotor: Rotor) -> str:
     """Why there is no diagram of the orbits of a rotor, in a sentence; nothing where there is one."""
     if exact_results(rotor).orbits:
         return ""

@@ -18,7 +18,7 @@ from carom.closed_forms.exact_results import exact_results
 from carom.explorer.computing.controls import Control, controls_of, term_of, unit_of, with_unit
 from carom.explorer.computing.planes import Plane
 from carom.explorer.computing.rest import Rest, repeats
-from carom.models import Model, model_of
+from carom.models import Rotor, rotor_of
 from carom.motions import State
 from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, Case, TouchdownBearing
 from carom.parameters.machine_file import UNUSED
@@ -40,7 +40,7 @@ class Kick:
         """The rotor just after a kick."""
         return self.rest.kicked(self.first, self.second)
 
-    def texts(self, rotor: Model) -> tuple[str, str]:
+    def texts(self, rotor: Rotor) -> tuple[str, str]:
         """Size and angle as ``simulate`` reads them: that of a kick counts from the real axis of the co-rotating frame."""
         pair = self.first, self.second
         vector = self.rest.velocity(*pair) if self.plane.name == "kick" else complex(*pair)
@@ -126,7 +126,7 @@ def as_toml(case: Case) -> str:
     return "\n".join(["[dimensionless]", *lines]) + f"\n{zones}\n{case.requirement.to_toml(has_scales=False)}"
 
 
-def as_command(origin: Origin, changes: Mapping[str, str], rotor: Model, kick: Kick) -> str:
+def as_command(origin: Origin, changes: Mapping[str, str], rotor: Rotor, kick: Kick) -> str:
     """The command that follows the disturbance shown; the rotor is that of the machine on the page.
 
     Empty where no option says that start: a rub on a bearing with a mount.
@@ -146,7 +146,7 @@ def as_python(case: Case, kick: Kick, along: Control) -> str:
 
     It holds the machine itself, so that it runs in any folder.
     """
-    rotor = model_of(case)
+    rotor = rotor_of(case)
     module, model, grid, start = _disturbance(rotor, kick)
     return f"""import carom as cm
 from {module} import {model.partition("(")[0]}
@@ -163,7 +163,7 @@ motion.plot().savefig("motion.png")
 {_orbits(rotor, along)}"""
 
 
-def _orbits(rotor: Model, along: Control) -> str:
+def _orbits(rotor: Rotor, along: Control) -> str:
     """The part of a program that finds orbits; none where there are none."""
     if not repeats(rotor) or rotor.limits:
         return ""
@@ -179,7 +179,7 @@ diagram.plot().savefig("diagram.png")
 """
 
 
-def _disturbance(rotor: Model, kick: Kick) -> tuple[str, str, str, str]:
+def _disturbance(rotor: Rotor, kick: Kick) -> tuple[str, str, str, str]:
     """Module, model, shape of its grid, and arguments of the motion in a program."""
     size, angle = math.hypot(kick.first, kick.second), math.atan2(kick.second, kick.first)
     if kick.plane.name == "shock":
@@ -217,7 +217,7 @@ def _constructed(case: Case) -> str:
         return _call(name, tables[kind])
     unused = {"restitution": UNUSED} if case.machine is not None and "restitution" not in tables[kind] else {}
     bearing = case.touchdown or TouchdownBearing()
-    parts = [f"cm.models.model_of({_call(name, tables[kind] | unused)}).parameters"]
+    parts = [f"cm.models.rotor_of({_call(name, tables[kind] | unused)}).parameters"]
     parts.append(_call("TouchdownBearing", {"law": bearing.law, **bearing.given}))
     if case.drive:
         parts.append(f"drive={_call('Drive', asdict(case.drive))}")

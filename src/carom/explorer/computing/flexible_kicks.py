@@ -14,7 +14,7 @@ from carom.basins import Share
 from carom.disturbances import VelocityKick
 from carom.disturbances.following import NO_START, follow
 from carom.explorer.computing.kicks import NOWHERE, Ending
-from carom.models import Model, model_of
+from carom.models import Rotor, rotor_of
 from carom.outcome import Outcome
 from carom.parameters import Case, Scales
 from carom.plots.style import OUTCOMES
@@ -113,7 +113,7 @@ def empty_picture(largest: float) -> KickPicture:
 
 
 def fill_picture(
-    rotor: Model, begun: KickPicture, strides: Sequence[int], progress: ShowProgress = None
+    rotor: Rotor, begun: KickPicture, strides: Sequence[int], progress: ShowProgress = None
 ) -> Iterator[KickPicture]:
     """Follow the kicks of a picture that are still missing, the middles of squares of these sizes; yield it about every second."""
     middles, largest = begun.largest * _middles(CELLS), begun.largest
@@ -148,7 +148,7 @@ def _middle_cells(stride: int, wanted: np.ndarray) -> np.ndarray:
     return cells[np.hypot(*(cells - (CELLS - 1) / 2.0).T).argsort(kind="stable")]
 
 
-def _ends(rotor: Model, right: np.ndarray, up: np.ndarray, progress: ShowProgress = None) -> np.ndarray:
+def _ends(rotor: Rotor, right: np.ndarray, up: np.ndarray, progress: ShowProgress = None) -> np.ndarray:
     """Outcomes of kicks by their parts, in units of the equations."""
     starts = VelocityKick().starts(rotor, np.hypot(right, up), np.arctan2(up, right))
     return np.asarray(follow(rotor, starts, max_events=MOST_EVENTS, progress=progress).outcomes)
@@ -157,7 +157,7 @@ def _ends(rotor: Model, right: np.ndarray, up: np.ndarray, progress: ShowProgres
 @lru_cache(maxsize=MACHINES)
 def opening_size(case: Case) -> float:
     """Range with which the page of a machine begins, in m/s: one in which some kicks are lost, if such are found."""
-    rotor = model_of(case)
+    rotor = rotor_of(case)
     scales = rotor.scales or Scales(1.0, 1.0, 1.0)  # a flexible machine has some
     required = case.requirement.own(scales).kick
     angles = math.tau * (np.arange(DIRECTIONS) + 0.5) / DIRECTIONS

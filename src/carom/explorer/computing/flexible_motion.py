@@ -17,7 +17,7 @@ from carom.explorer.computing.kicked_motion import (
     span_of,
 )
 from carom.explorer.computing.walls import YIELDING, Hits, hits_of
-from carom.models import Model
+from carom.models import Rotor
 from carom.motions import Trajectory, kick, simulate
 from carom.motions.settling import REPEATING
 from carom.outcome import Outcome
@@ -92,7 +92,7 @@ class FlexibleMotion:
     words: str
 
 
-def follow_flexible(rotor: Model, right: float, up: float, progress: ShowProgress = None) -> FlexibleMotion:
+def follow_flexible(rotor: Rotor, right: float, up: float, progress: ShowProgress = None) -> FlexibleMotion:
     """Follow a kick by its parts to the right and upward at its instant, in units of the equations; refuse one that is not possible."""
     size, angle = math.hypot(right, up), math.atan2(up, right)
     start = kick(size, angle).state(rotor)

@@ -9,7 +9,7 @@ from carom.basins import smallest_loss
 from carom.explorer.computing.planes import Plane
 from carom.explorer.computing.rest import rest_of
 from carom.explorer.computing.walls import hits_of, wall_of
-from carom.models import Model, model_of
+from carom.models import Rotor, rotor_of
 from carom.motions import simulate
 from carom.outcome import InputError
 from carom.parameters import Case, LoadLimits
@@ -53,7 +53,7 @@ class Hardest:
     remark: str
 
 
-def find_loss(rotor: Model, plane: Plane, largest: float, progress: ShowProgress = None) -> Loss:
+def find_loss(rotor: Rotor, plane: Plane, largest: float, progress: ShowProgress = None) -> Loss:
     """Search for the smallest disturbance up to a size, in units of the equations, that is lost."""
     scales = rotor.scales
     try:
@@ -71,7 +71,7 @@ def find_loss(rotor: Model, plane: Plane, largest: float, progress: ShowProgress
 
 
 def find_hardest(
-    rotor: Model, plane: Plane, largest: float, limits: LoadLimits = NO_LIMITS, progress: ShowProgress = None
+    rotor: Rotor, plane: Plane, largest: float, limits: LoadLimits = NO_LIMITS, progress: ShowProgress = None
 ) -> Hardest:
     """Follow disturbances of all directions and sizes up to one in units of the equations, and note the hardest blow."""
     rest, wall = rest_of(rotor), wall_of(rotor)
@@ -92,7 +92,7 @@ def find_hardest(
 
 def judge(case: Case, progress: ShowProgress = None) -> Judgement:
     """Verdict and advice of a full study; refused where friction turns a race or changes the speed of the shaft."""
-    model_of(case).system.refuse_forces()
+    rotor_of(case).system.refuse_forces()
     found = study(case, progress=progress)
     first = next((fact for fact in about(found.facts, "Recommendation") if fact.label in (*CHANGES, BEYOND)), None)
     advice = f"{first.label}: {first.text}." if first else ""

@@ -11,7 +11,7 @@ from carom.attractors.naming import name_motions
 from carom.explorer.computing.planes import Plane
 from carom.explorer.computing.rest import rest_of
 from carom.explorer.computing.walls import Hits, hits_of, wall_of
-from carom.models import Model
+from carom.models import Rotor
 from carom.motions import LastingContact, Trajectory, settle, simulate
 from carom.motions.settling import REPEATING
 from carom.outcome import Outcome
@@ -83,7 +83,7 @@ class KickedMotion:
     hardest: float
 
 
-def follow_kick(rotor: Model, plane: Plane, first: float, second: float, progress: ShowProgress = None) -> KickedMotion:
+def follow_kick(rotor: Rotor, plane: Plane, first: float, second: float, progress: ShowProgress = None) -> KickedMotion:
     """Follow one disturbance, by its components in units of the equations, to where it ends; refuse one that is not possible."""
     rotor, start, begin = plane.start(rotor, rest_of(rotor), first, second)
     motion = simulate(rotor, start, settle=True, progress=progress)
@@ -113,7 +113,7 @@ def follow_kick(rotor: Model, plane: Plane, first: float, second: float, progres
     )
 
 
-def _shown_until(rotor: Model, motion: Trajectory) -> float:
+def _shown_until(rotor: Rotor, motion: Trajectory) -> float:
     events = motion.segment_starts[1:]
     if motion.outcome is Outcome.LEVITATED:
         decay = rotor.system.decay

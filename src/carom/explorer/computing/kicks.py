@@ -14,7 +14,7 @@ from carom.disturbances.blade_loss import levitating_before
 from carom.disturbances.following import NO_START, follow
 from carom.explorer.computing.planes import Plane, ShockPlane
 from carom.explorer.computing.rest import Rest, rest_of
-from carom.models import Model
+from carom.models import Rotor
 from carom.outcome import InputError, Outcome
 from carom.plots.cells import MotionLook, motion_looks
 from carom.plots.style import OUTCOMES
@@ -117,7 +117,7 @@ class KickMap:
         return self.share_up_to(math.inf)
 
 
-def map_kicks(rotor: Model, plane: Plane, cells: int, largest: float, progress: ShowProgress = None) -> KickMap:
+def map_kicks(rotor: Rotor, plane: Plane, cells: int, largest: float, progress: ShowProgress = None) -> KickMap:
     """Follow a grid of disturbances up to a size, in the units of planes, to where they end."""
     rest, own = rest_of(rotor), plane.own(largest, rotor.scales)
     if plane.name == "blade-loss":
@@ -136,7 +136,7 @@ def _ending(look: MotionLook) -> Ending:
     return Ending(look.words, look.colour, look.look.hatch[:1], look.share, look.name.outcome is Outcome.LEVITATED)
 
 
-def _map_losses(rotor: Model, rest: Rest, plane: Plane, cells: int, largest: float) -> KickMap:
+def _map_losses(rotor: Rotor, rest: Rest, plane: Plane, cells: int, largest: float) -> KickMap:
     """The same of losses of a blade.
 
     Changes that leave one size of the unbalance lead to one machine.  So a cell shows the nearest of few sizes, each with many phases; motions are told
@@ -169,13 +169,13 @@ def _map_losses(rotor: Model, rest: Rest, plane: Plane, cells: int, largest: flo
     return KickMap(rest, plane, largest, outcomes, touched, np.ascontiguousarray(places.T), tuple(endings))
 
 
-def opening_range(rotor: Model, plane: Plane) -> float:
+def opening_range(rotor: Rotor, plane: Plane) -> float:
     """The range with which the page begins, in the units of planes: one in which a good part comes back, and a good part is lost."""
     return _opening_range(rotor, plane)
 
 
 @lru_cache(maxsize=MACHINES)
-def _opening_range(rotor: Model, plane: Plane) -> float:
+def _opening_range(rotor: Rotor, plane: Plane) -> float:
     best, least = plane.usual, math.inf
     for times in RANGES:
         share = map_kicks(rotor, plane, TRIED, times * plane.usual).share.fraction

@@ -6,7 +6,7 @@ from dataclasses import asdict, dataclass
 
 from carom.closed_forms import find_equilibria
 from carom.closed_forms.exact_results import exact_results
-from carom.models import Model
+from carom.models import Rotor
 from carom.orbits import Orbit
 from carom.orbits.single_impact import orbits_within_reach
 from carom.studies import Wording
@@ -41,7 +41,7 @@ class MotionTable:
     argument: str
 
 
-def table_of(rotor: Model) -> MotionTable:
+def table_of(rotor: Rotor) -> MotionTable:
     """Compute the table; of a rotor whose orbits are not known in closed form it has the steady motions.
 
     Refuse one that never rests in contact, with a shaft whose speed changes.

@@ -16,7 +16,7 @@ from carom.disturbances import BaseShock, BladeLoss, Coordinate, Disturbance, St
 from carom.disturbances.blows import LONGEST_SHOCK
 from carom.disturbances.echo import angles_words
 from carom.explorer.computing.rest import Rest, rest_of
-from carom.models import Model, model_of
+from carom.models import Rotor, rotor_of
 from carom.motions import State
 from carom.parameters import SHOCK_DURATION, Case, Scales
 from carom.parameters.told import shown_in, told, told_angle
@@ -45,7 +45,7 @@ class ShockPlane(Disturbance):
         """Peak acceleration."""
         return BaseShock(self.peak, self.duration).coordinates[0]
 
-    def starts(self, rotor: Model, *values: np.ndarray, instant: np.ndarray | float = 0.0) -> Starts:
+    def starts(self, rotor: Rotor, *values: np.ndarray, instant: np.ndarray | float = 0.0) -> Starts:
         """State at the end of the pulse; there is none beyond the largest peak."""
         x, y = values
         found = BaseShock(self.peak, self.duration).starts(rotor, np.hypot(x, y), np.arctan2(y, x), instant=instant)
@@ -107,7 +107,7 @@ class Plane:
         """All of them up to a size in units of the equations, such as ``kicks up to 166 mm/s``."""
         return f"{self.nouns[1]} up to {told(size, self.scale, scales)}"
 
-    def by_size(self, rotor: Model, size: float) -> Disturbance:
+    def by_size(self, rotor: Rotor, size: float) -> Disturbance:
         """Disturbances by size and direction, for searches; the size is in units of the equations."""
         if self.name == "kick":
             return VelocityKick(size)
@@ -115,11 +115,11 @@ class Plane:
             return BaseShock(size, self.lasting(rotor))
         return BladeLoss(size)
 
-    def lasting(self, rotor: Model) -> float:
+    def lasting(self, rotor: Rotor) -> float:
         """Duration of a shock in ``1/Ω``."""
         return self.duration / (rotor.scales.time if rotor.scales else 1.0)
 
-    def start(self, rotor: Model, rest: Rest, first: float, second: float) -> tuple[Model, State, str]:
+    def start(self, rotor: Rotor, rest: Rest, first: float, second: float) -> tuple[Rotor, State, str]:
         """The machine and its state just after a disturbance by components in units of the equations, and what was done, in words."""
         size, angle = math.hypot(first, second), math.atan2(second, first)
         if self.name == "kick":
@@ -145,7 +145,7 @@ def planes_of(case: Case) -> tuple[Plane, ...]:
     """The kinds of disturbances that a machine can be shown with, kicks first."""
     scales = case.parameters.scales
     needed = case.requirement.own(scales)
-    rotor = model_of(case)
+    rotor = rotor_of(case)
     levitates = rotor.system.rest_radius < 1.0
 
     def si(size: float, scale: str) -> float:
@@ -167,7 +167,7 @@ def planes_of(case: Case) -> tuple[Plane, ...]:
 
 def opening_words(case: Case) -> str:
     """What the page begins with."""
-    rotor = model_of(case)
+    rotor = rotor_of(case)
     kicks = planes_of(case)[0]
     needed = kicks.words_up_to(kicks.own(kicks.usual, rotor.scales), rotor.scales)
     return f"{case.name}: it must survive {needed}, which disturb {rest_of(rotor).words}; {angles_words(rotor.unbalance_phase)}"

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from carom.explorer.computing.planes import Plane
-from carom.models import Model, exact_rotor_of
+from carom.models import Rotor, exact_rotor_of
 from carom.outcome import InputError
 from carom.parameters.told import number, rounded_down
 from carom.progress import ShowProgress
@@ -36,7 +36,7 @@ class ProvenPicture:
     open: np.ndarray
 
 
-def find_proven(rotor: Model, plane: Plane, largest: float, progress: ShowProgress = None) -> ProvenPicture:
+def find_proven(rotor: Rotor, plane: Plane, largest: float, progress: ShowProgress = None) -> ProvenPicture:
     """Prove kicks up to a size, in units of the equations; of other disturbances nothing is proven."""
     if plane.name != "kick":
         raise InputError("what disturbs the rotor", plane.nouns[1], "kicks: of other disturbances nothing is proven")

@@ -9,7 +9,7 @@ import numpy as np
 
 from carom.closed_forms import Equilibrium, find_equilibria
 from carom.disturbances import Coordinate, Disturbance, KickPlane, Starts, outward_from
-from carom.models import Model
+from carom.models import Rotor
 from carom.motions import State
 from carom.outcome import STEADY_WORDS
 
@@ -35,7 +35,7 @@ class RestKick(KickPlane):
         """Radial and tangential part."""
         return KickPlane(self.fastest).coordinates
 
-    def starts(self, rotor: Model, *values: np.ndarray, instant: np.ndarray | float = 0.0) -> Starts:
+    def starts(self, rotor: Rotor, *values: np.ndarray, instant: np.ndarray | float = 0.0) -> Starts:
         """The resting motion with the velocity of the rotor as a whole changed."""
         radial, tangential = values
         velocities = self.position / abs(self.position) * (radial + 1j * tangential)
@@ -92,12 +92,12 @@ class Rest:
         return tuple(self.position.tolist()) if np.ndim(self.position) else ()
 
 
-def repeats(rotor: Model) -> bool:
+def repeats(rotor: Rotor) -> bool:
     """Whether a motion in contact can rest or repeat: not while friction turns a race or changes the speed of the shaft."""
     return rotor.system.races is None and rotor.system.shaft is None
 
 
-def rest_of(rotor: Model) -> Rest:
+def rest_of(rotor: Rotor) -> Rest:
     """The motion that kicks disturb: levitation, otherwise the stable rub, otherwise rest where levitation meets the wall."""
     system = rotor.system
     rest, _ = system.kicked(0.0)
@@ -112,14 +112,14 @@ def rest_of(rotor: Model) -> Rest:
     return _rest(rotor, "rest on the bearing", rest / abs(place), on_wall, on_wall)
 
 
-def _rest(rotor: Model, words: str, position: Any, place: complex, outward: complex) -> Rest:
+def _rest(rotor: Rotor, words: str, position: Any, place: complex, outward: complex) -> Rest:
     position = np.asarray(position)
     levitates = rotor.system.rest_radius < 1.0
     own = position if position.size > 1 else complex(position.reshape(()))
     return Rest(words, levitates, own, place, outward, rotor.system.translated)
 
 
-def _rubs(rotor: Model) -> tuple[Equilibrium, ...]:
+def _rubs(rotor: Rotor) -> tuple[Equilibrium, ...]:
     """Synchronous rubs, where they are known."""
     if not repeats(rotor):
         return ()

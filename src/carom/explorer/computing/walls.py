@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from carom.models import Model
+from carom.models import Rotor
 from carom.motions import Trajectory
 from carom.motions.contacts import yields
 from carom.parameters import LoadLimits, Scales
@@ -139,6 +139,6 @@ YIELDING = _Yielding(
 )
 
 
-def wall_of(rotor: Model) -> Wall:
+def wall_of(rotor: Rotor) -> Wall:
     """What the page says of the wall of a rotor."""
     return YIELDING if yields(rotor.system, 0) else RIGID

@@ -25,7 +25,7 @@ from carom.explorer.page.flexible_messages import flexible_motion_message, levit
 from carom.explorer.page.kind import Message, Pairs, Shown, Task, Tell, Work
 from carom.explorer.page.scripts import FLEXIBLE
 from carom.explorer.page.view import View
-from carom.models import Model, model_of
+from carom.models import Rotor, rotor_of
 from carom.outcome import CaromError, InputError
 from carom.parameters import Case, Scales
 from carom.parameters.told import shown_in, told
@@ -52,7 +52,7 @@ class FlexibleKind:
     reading = "Point at a kick: it is followed at every touchdown bearing. Kicks are as seen along the shaft, with 0° at the right. The picture is filled in, coarse at first."
 
     def __init__(self, origin: Origin) -> None:
-        found = model_of(origin.case).finite_elements
+        found = rotor_of(origin.case).finite_elements
         if found is None:
             raise TypeError("no flexible machine")
         self.origin, self._reduced = origin, found
@@ -137,10 +137,10 @@ class FlexibleKind:
         unit = self._shown_in[0] * shown.subject.scales.velocity
         return right / unit, up / unit
 
-    def _levitating(self, shown: Shown) -> Model:
+    def _levitating(self, shown: Shown) -> Rotor:
         """The rotor, whose levitation kicks disturb."""
         try:
-            rotor: Model = shown.subject.model
+            rotor: Rotor = shown.subject.model
         except InputError:
             raise CaromError(NONE) from None
         if rotor.system.rest_radius >= 1.0:

@@ -11,7 +11,7 @@ from carom.explorer.computing.flexible_kicks import KickPicture
 from carom.explorer.computing.flexible_levitation import Levitating
 from carom.explorer.computing.flexible_motion import AtPlane, FlexibleMotion
 from carom.explorer.page.messages import WAITS, sentence, shown_share, units_message
-from carom.models import Model
+from carom.models import Rotor
 from carom.outcome import STEADY_WORDS
 from carom.parameters.fields import RPM
 from carom.parameters.told import shown_in, told
@@ -55,7 +55,7 @@ def _top(most: float, walls: list[float]) -> float:
     return 1.1 * max(*walls, min(most, 1.6 * max(walls)))
 
 
-def picture_message(found: KickPicture, rotor: Model, required: float, begun: float) -> Message:
+def picture_message(found: KickPicture, rotor: Rotor, required: float, begun: float) -> Message:
     """The picture of kicks as far as it is filled in; `required` is in units of the equations, `begun` is the first range in the unit that people are told."""
     factor, unit = shown_in("velocity", rotor.scales)
     cells, endings = found.cells
@@ -93,7 +93,7 @@ def picture_message(found: KickPicture, rotor: Model, required: float, begun: fl
     }
 
 
-def flexible_motion_message(motion: FlexibleMotion, rotor: Model) -> Message:
+def flexible_motion_message(motion: FlexibleMotion, rotor: Rotor) -> Message:
     """A motion at each plane, with the factors of the axes; forces in N, times in ms."""
     return {
         **fields_of(motion, "times", "whole", "outcome", "colour", "words"),
@@ -102,7 +102,7 @@ def flexible_motion_message(motion: FlexibleMotion, rotor: Model) -> Message:
     }
 
 
-def _plane(found: AtPlane, plane: int, rotor: Model) -> Message:
+def _plane(found: AtPlane, plane: int, rotor: Rotor) -> Message:
     force, unit = shown_in("force", rotor.system.scales_at(plane, rotor.scales))
     return {
         **vars(found),

@@ -6,7 +6,7 @@ from carom.explorer.computing.exports import Origin
 from carom.explorer.page.flexible import FlexibleKind
 from carom.explorer.page.kind import Kind
 from carom.explorer.page.planar import PlanarKind
-from carom.models import Subject, model_of, planar_case_of
+from carom.models import Subject, planar_case_of, rotor_of
 from carom.parameters import Case, Zones
 
 
@@ -18,7 +18,7 @@ def kind_of(origin: Origin) -> Kind:
     InputError
         It is neither the planar rotor nor a flexible machine.
     """
-    return PlanarKind(origin) if model_of(origin.case).finite_elements is None else FlexibleKind(origin)
+    return PlanarKind(origin) if rotor_of(origin.case).finite_elements is None else FlexibleKind(origin)
 
 
 def explored_case_of(subject: Subject) -> Case:
@@ -29,7 +29,7 @@ def explored_case_of(subject: Subject) -> Case:
     InputError
         It is neither, or has what the page of its kind does not show.
     """
-    reduced = model_of(subject).finite_elements
+    reduced = rotor_of(subject).finite_elements
     if reduced is None:
         return planar_case_of(subject)
     if isinstance(subject, Case):

@@ -15,7 +15,7 @@ from carom.explorer.computing.kicked_motion import KickedMotion
 from carom.explorer.computing.kicks import KickMap
 from carom.explorer.computing.motions import MotionTable
 from carom.explorer.computing.planes import Plane
-from carom.models import Model
+from carom.models import Rotor
 from carom.parameters import Scales
 from carom.parameters.told import number, shown_in, told
 from carom.plots.style import LOOKS
@@ -57,7 +57,7 @@ WAITS = "told when the picture is fine"
 """What a coarse picture says of the smallest that is lost."""
 
 
-def basin_message(found: KickMap, rotor: Model, coarse: bool = False) -> Message:
+def basin_message(found: KickMap, rotor: Rotor, coarse: bool = False) -> Message:
     """The picture of a basin, its legend, and what is read off it; sizes in the unit that people are told."""
     plane, scales = found.plane, rotor.scales
     factor, unit = plane.shown(scales)
@@ -91,7 +91,7 @@ def basin_message(found: KickMap, rotor: Model, coarse: bool = False) -> Message
     }
 
 
-def judged_share(found: KickMap, rotor: Model) -> tuple[Share, str]:
+def judged_share(found: KickMap, rotor: Rotor) -> tuple[Share, str]:
     """Share that comes back of what must be survived, where all of that is in the picture, otherwise of all in it; and of what."""
     required = None if found.plane.required is None else found.plane.own(found.plane.required, rotor.scales)
     # A little above, for rounding where the picture ends with it.
@@ -100,7 +100,7 @@ def judged_share(found: KickMap, rotor: Model) -> tuple[Share, str]:
     return found.share_up_to(required * (1.0 + 1e-9)), found.plane.words_up_to(required, rotor.scales)
 
 
-def plane_harmless(found: KickMap, rotor: Model) -> float:
+def plane_harmless(found: KickMap, rotor: Rotor) -> float:
     """Size up to which contact is proven to be impossible, in units of the equations; 0 where nothing is proven."""
     if not found.rest.levitates:
         return 0.0
@@ -129,7 +129,7 @@ def shown_share(share: Share, coarse: bool) -> str:
     return percent(share.fraction)
 
 
-def motion_message(motion: KickedMotion, rotor: Model) -> Message:
+def motion_message(motion: KickedMotion, rotor: Rotor) -> Message:
     """A motion, with the factors of its axes."""
     return {
         **vars(motion),

@@ -23,7 +23,7 @@ from carom.explorer.page import messages
 from carom.explorer.page.kind import Message, Pairs, Shown, Task, Tell, Work
 from carom.explorer.page.scripts import PLANAR
 from carom.explorer.page.view import SLOTS
-from carom.models import Model, model_of
+from carom.models import Rotor, rotor_of
 from carom.parameters import Case
 from carom.results import fields_of
 
@@ -39,7 +39,7 @@ class PlanarSubject:
     """A machine with the model of its rotor."""
 
     case: Case
-    rotor: Model
+    rotor: Rotor
 
 
 class PlanarKind:
@@ -81,7 +81,7 @@ class PlanarKind:
     def subject(self, settings: Mapping[str, str]) -> PlanarSubject:
         """The machine with other values of its controls."""
         case = with_settings(self.origin.case, settings)
-        return PlanarSubject(case, model_of(case))
+        return PlanarSubject(case, rotor_of(case))
 
     def values(self, subject: PlanarSubject) -> Mapping[str, float | None]:
         """Values of the controls of a machine."""
@@ -96,7 +96,7 @@ class PlanarKind:
 
     def variables(self) -> Message:
         """What the template needs beside the controls."""
-        rotor = model_of(self.origin.case)
+        rotor = rotor_of(self.origin.case)
         return {
             "planes": [messages.plane_message(plane, rotor.scales) for plane in self.planes.values()],
             "wall": wall_of(rotor),
@@ -109,7 +109,7 @@ class PlanarKind:
 
     def warm_up(self) -> None:
         """Compile the kernels, or load them, by a first small use."""
-        rotor, kicks = model_of(self.origin.case), self.planes["kick"]
+        rotor, kicks = rotor_of(self.origin.case), self.planes["kick"]
         table_of(rotor)
         found = map_kicks(rotor, kicks, 17, opening_range(rotor, kicks))
         follow_kick(rotor, kicks, *telling_pair(found)[0])
@@ -137,7 +137,7 @@ class PlanarKind:
             return shown.view.largest * plane.per_unit(shown.subject.rotor.scales)
         if plane.name not in self._ranges:
             began = time.perf_counter()
-            self._ranges[plane.name] = opening_range(model_of(self.origin.case), plane)
+            self._ranges[plane.name] = opening_range(rotor_of(self.origin.case), plane)
             # At least this, so that a machine whose motions take long begins with a coarse picture.
             self._cost = max(self._cost, (time.perf_counter() - began) / (len(RANGES) * TRIED**2))
         return self._ranges[plane.name]
