@@ -16,11 +16,11 @@ from carom.basins import Basin, map_basins, map_cells
 from carom.disturbances import (
     AnyState,
     BaseShock,
+    BladeLoss,
     ContactRelease,
     Grid,
     Sample,
     StateSlice,
-    UnbalanceStep,
     VelocityKick,
 )
 from carom.outcome import InputError, Outcome
@@ -113,7 +113,7 @@ def test_threads_change_nothing(rotor, kicks):
         Grid(VelocityKick(1.0), (4, 5)),
         pytest.param(Grid(VelocityKick(0.01), (4, 5)), marks=pytest.mark.deep),
         pytest.param(Grid(BaseShock(1.0, 0.7), (4, 5)), marks=pytest.mark.deep),
-        Grid(UnbalanceStep(0.5), (4, 5)),
+        Grid(BladeLoss(0.05), (5,)),
         Grid(ContactRelease("rotating"), (7,)),
         pytest.param(Grid(StateSlice(0.1 + 0.2j), (4, 5)), marks=pytest.mark.deep),
         Sample(AnyState(1.0), 20, seed=3),

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import io
 import json
-import math
 
 import numpy as np
 import pytest
@@ -96,8 +95,7 @@ def test_table_and_files(carom, machine, tmp_path):
         ("kick-plane", "--grid", "6x6", "--fastest", "30 mm/s"),
         ("shock", "--grid", "5x6", "--peak", "6 g", "--duration", "5 ms"),
         pytest.param(("shock", "--starts", "20", "--peak", "60 m/s^2", "--duration", "5.4 ms"), marks=pytest.mark.deep),
-        ("unbalance-step", "--grid", "5x6", "--before", "0.1 mm"),
-        pytest.param(("unbalance-step", "--grid", "5x6"), marks=pytest.mark.deep),
+        ("blade-loss", "--grid", "6", "--change", "0.1 mm"),
         ("release", "--grid", "9", "--release", "rotating"),
         pytest.param(("slice", "--grid", "8x8"), marks=pytest.mark.deep),
         ("state", "--starts", "30", "--fastest", "64 mm/s"),
@@ -117,15 +115,6 @@ def test_gravities_are_not_grams(carom, machine):
         for peak in ("6 g", "6g", f"{6 * 9.80665} m/s^2")
     ]
     assert peaks == pytest.approx([6 * 9.80665 / (0.7e-3 * 184.2**2)] * 3)
-
-
-def test_unbalance_by_default_up_to_where_the_clearance_is_filled(carom, machine):
-    _, out, _ = carom("basins", machine, "--disturbance", "unbalance-step", "--grid", "4x4", "--json")
-    document = json.loads(out)
-    assert document["starts"] == 16
-    numbers = document["parameters"]
-    fills = math.hypot(numbers["omega"] ** 2 - 1.0, numbers["gamma"])
-    assert document["disturbances"]["model"]["largest"] == pytest.approx(fills)
 
 
 def test_no_kick_is_lost(carom, machine):
@@ -151,12 +140,6 @@ def test_no_kick_is_lost(carom, machine):
             "shock",
             "shock of this duration",
             0.7e-3 * 184.2**2,
-        ),
-        (
-            ("unbalance-step", "--grid", "4x4", "--before", "0.3 mm"),
-            "unbalance_step",
-            "step of the unbalance",
-            0.7e-3,
         ),
         (("release", "--grid", "9"), "release_speed", "release", 0.7e-3 * 184.2),
     ],
@@ -271,7 +254,7 @@ def test_which_unbalances_are_survived(carom, machine, tmp_path):
         (("--change", "3 kg"), "--change = 3 kg: must be an unbalance"),
         (("--change", "-2 g mm"), "--change = -2 g mm: must be an eccentricity or an unbalance above 0"),
         (("--change", "0.1 mm", "--node", "x"), "--node = x: must be the number of a node"),
-        (("--change", "0.5 mm", "--before", "1 mm"), "allowed only with --disturbance unbalance-step"),
+        (("--change", "0.5 mm", "--peak", "1 g"), "allowed only with --disturbance shock"),
     ],
 )
 def test_unbalances_that_cannot_be_tried(carom, machine, options, words):

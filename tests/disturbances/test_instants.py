@@ -10,7 +10,7 @@ import pytest
 import carom as cm
 from carom.attractors import DisturbanceSet
 from carom.basins.shares import Population
-from carom.disturbances import AnyState, BladeLoss, ContactRelease, Grid, Sample, UnbalanceStep, VelocityKick
+from carom.disturbances import AnyState, BladeLoss, ContactRelease, Grid, Sample, VelocityKick
 from carom.disturbances.echo import ANY_INSTANT
 from carom.models import depends_on_instant, rotor_of
 from carom.outcome import InputError
@@ -30,7 +30,6 @@ def turned(angle):
         (VelocityKick(0.3), (0.2, 1.1), (1,)),
         (cm.BaseShock(0.2, 2.0), (0.1, 1.1), (1,)),
         (BladeLoss(0.1), (1.1,), ()),
-        (UnbalanceStep(0.05), (0.03, 0.4), ()),
         (AnyState(0.3), (0.5, 0.2, 0.2, 1.0), (1, 3)),
         (ContactRelease(), (1.0,), (0,)),
     ],

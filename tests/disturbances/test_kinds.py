@@ -19,7 +19,6 @@ from carom.disturbances import (
     KickPlane,
     Sample,
     StateSlice,
-    UnbalanceStep,
     VelocityKick,
 )
 from carom.outcome import InputError
@@ -74,19 +73,6 @@ def test_nothing_can_be_kicked_out_of_levitation_where_there_is_none():
         assert not Grid(model, (3, 3)).starts(grounded).exists.any()
 
 
-def test_an_unbalance_step_starts_in_the_old_levitation(rotor):
-    before = QUIET.replace(rho=0.1, phi=QUIET.phi + 1.2)
-    starts = UnbalanceStep(0.5).starts(rotor, np.array([0.1]), np.array([1.2]))
-    assert starts.positions[0] == pytest.approx(rest_position(before), abs=1e-15)
-    assert starts.velocities[0] == 0.0
-
-
-def test_old_levitation_outside_the_wall_is_no_start(rotor):
-    fills = abs(complex(QUIET.omega**2 - 1.0, QUIET.gamma))
-    starts = UnbalanceStep(2.0 * fills).starts(rotor, np.array([0.9 * fills, 1.1 * fills]), np.zeros(2))
-    assert starts.exists.tolist() == [True, False]
-
-
 @pytest.mark.parametrize(("motion", "whirl"), [("fixed", 0.0), ("rotating", 1.0), ("rolling", -400 / 7)])
 def test_a_release_moves_along_the_wall(rotor, motion, whirl):
     angles = np.linspace(0.0, 6.0, 7)
@@ -126,7 +112,7 @@ def test_a_longer_sample_begins_with_the_shorter(rotor):
     assert (other.positions != short.positions).all()
 
 
-@pytest.mark.parametrize("model", [VelocityKick(2.0), BaseShock(2.0, 1.0), UnbalanceStep(2.0)])
+@pytest.mark.parametrize("model", [VelocityKick(2.0), BaseShock(2.0, 1.0)])
 def test_cells_of_a_disc_weigh_by_their_area(model):
     size, direction = model.coordinates
     rings = np.diff(math.pi * size.edges(7) ** 2)
@@ -138,7 +124,7 @@ def test_cells_of_a_disc_weigh_by_their_area(model):
     assert (direction.weights(5) == 1.0).all()
 
 
-@pytest.mark.parametrize("model", [VelocityKick(2.0), KickPlane(2.0), BaseShock(2.0, 1.0), UnbalanceStep(2.0)])
+@pytest.mark.parametrize("model", [VelocityKick(2.0), KickPlane(2.0), BaseShock(2.0, 1.0)])
 def test_samples_are_uniform_over_the_disc(model):
     """Chi-square over 6 rings of equal area times 8 sectors."""
     size, direction = Sample(model, 10_000, seed=3).values()

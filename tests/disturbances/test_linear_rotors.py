@@ -13,7 +13,7 @@ from linear_rotors import FixedFrame, random_rotor, single, tilting, touchdowns
 from scipy.integrate import solve_ivp
 
 import carom
-from carom.disturbances import AnyState, BaseShock, ContactRelease, Grid, Sample, StateSlice, UnbalanceStep
+from carom.disturbances import AnyState, BaseShock, ContactRelease, Grid, Sample, StateSlice
 from carom.disturbances.shocks import states_after_shocks
 from carom.models import jeffcott
 from carom.outcome import InputError, Outcome
@@ -185,17 +185,6 @@ def test_displaced_rotors_touch_with_the_plane_that_moves_farthest(model, releas
     assert states.exists.all()
     cells = Grid(StateSlice(0.1), (5, 5)).starts(model)
     assert cells.exists.sum() == 21
-
-
-def test_an_unbalance_step_starts_from_the_whirl_with_the_old_unbalance():
-    for model in (tilting().model, three_masses().model):
-        starts = Sample(UnbalanceStep(0.9), 40, 1).starts(model)
-        values = [0.18, 0.4 * np.pi]
-        (position,) = UnbalanceStep(0.9).starts(model, *(np.array([value]) for value in values)).positions
-        turn = cmath.exp(1j * (float(values[1]) + model.unbalance_phase))
-        before = model.replace(forcing=float(values[0]) * turn * (model.mass @ model.translation))
-        assert np.allclose(position, before.system.rest, rtol=1e-12, atol=0)
-        assert (np.abs(starts.positions @ model.planes.T).max(axis=1) <= 1.0 + 1e-14).all()
 
 
 def test_a_rotor_whose_translation_moves_no_plane_cannot_be_displaced():

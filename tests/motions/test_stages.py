@@ -317,7 +317,7 @@ def test_a_shock_comes_before_the_stages_of_a_rotor():
     assert after.final.position == pytest.approx(motion.final.position, abs=1e-9)
 
 
-@pytest.mark.parametrize("disturbance", [cm.BaseShock(2.0, 1.3), cm.disturbances.UnbalanceStep(0.3)])
+@pytest.mark.parametrize("disturbance", [cm.BaseShock(2.0, 1.3), cm.disturbances.BladeLoss(0.3)])
 def test_disturbances_of_a_rotor_at_rest_are_refused_where_it_never_is(disturbance):
     grid = cm.Grid(disturbance, (3,) * len(disturbance.coordinates))
     shaken = ROTOR.under(WEIGHT, Force(0.3j, np.array([0.01])))

@@ -22,7 +22,6 @@ from carom.disturbances import (
     KickPlane,
     Sample,
     StateSlice,
-    UnbalanceStep,
     VelocityKick,
 )
 from carom.orbits.names import OrbitName
@@ -139,14 +138,6 @@ def test_kicks_by_size_and_direction(rotor):
     assert "smallest kick found that is lost" in words(figure)
 
 
-def test_a_change_of_the_eccentricity_is_not_marked_among_eccentricities(rotor):
-    step = UnbalanceStep.of(MACHINE, "0.2 mm")
-    smallest = smallest_loss(rotor, step, directions=24, sizes=24)
-    round_ = plots.basin(map_basins(rotor, Grid(step, (6, 8))), smallest).axes[0]
-    assert smallest.size is not None
-    assert [line.get_gid() for line in round_.lines] == []
-
-
 def test_shares_at_each_size_are_stacked_to_a_hundred(rotor):
     basin = map_basins(rotor, Grid(VelocityKick(1.0), (12, 16)))
     steps = plots.basin(basin).axes[1].patches
@@ -159,7 +150,6 @@ def test_shares_at_each_size_are_stacked_to_a_hundred(rotor):
     ("plan", "labels"),
     [
         (Grid(BaseShock.of(MACHINE, "8 g", "5 ms"), (6, 8)), ("peak acceleration of the base (g)",)),
-        (Grid(UnbalanceStep.of(MACHINE, "0.2 mm"), (6, 8)), ("eccentricity before the step (mm)",)),
         (Grid(KickPlane(1.0), (10, 10)), ("kick outward (mm/s)", "kick in the sense of rotation (mm/s)")),
         (Grid(StateSlice(), (12, 12)), ("Re $U$ (mm)", "Im $U$ (mm)")),
         (Grid(ContactRelease("rotating"), (20,)), ("released from the wall, at rest in the co-rotating frame",)),

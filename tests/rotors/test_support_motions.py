@@ -10,7 +10,7 @@ from flexible_machines import symmetric
 from limited_reference import clipped, follow
 
 import carom as cm
-from carom.disturbances import BaseShock, BladeLoss, UnbalanceStep
+from carom.disturbances import BaseShock, BladeLoss
 from carom.motions import State, energy_ledger
 from carom.outcome import Outcome
 from carom.parameters import Gravity
@@ -146,29 +146,6 @@ def test_before_the_loss_of_a_blade_it_levitates_and_the_frame_turns_with_the_on
     assert np.array([state.position, state.velocity]) == pytest.approx(start, abs=1e-12)
     assert changed.angle == pytest.approx(before.angle)
     assert changed.size * np.exp(1j * turned) == pytest.approx(before.size + 2.0 * before.size * np.exp(1j * phase))
-
-
-def test_before_a_step_of_the_unbalance_it_levitates_with_that():
-    model = REDUCED.model
-    step = UnbalanceStep(0.1)
-    starts = step.starts(model, np.array([0.1]), np.array([0.7]))
-    # Whatever its distribution, the eccentricity is that of the rotor as a whole.
-    whole = REDUCED.linear
-    forcing = 0.1 * np.exp(1j * (0.7 + model.unbalance_phase)) * (whole.mass @ whole.translation)
-    before = cm.models.from_corotating_matrices(
-        whole.mass,
-        whole.damping,
-        whole.stiffness,
-        forcing,
-        whole.touchdowns,
-        translation=whole.translation,
-        conjugate=whole.conjugate,
-    )
-    weighted = before.under(*model.forces)
-    position, velocity = weighted.system.kicked(0.0)
-    assert starts.exists.all()
-    assert starts.positions[0] == pytest.approx(position, abs=1e-12)
-    assert starts.velocities[0] == pytest.approx(velocity, abs=1e-12)
 
 
 def test_disturbances_find_their_attractors():

@@ -315,7 +315,6 @@ def test_sweeps_are_planned_and_laid_out_before_kernels_are_loaded(write, tmp_pa
         "kick": 'fastest = "0.1 m/s"',
         "kick-plane": "fastest = 1",
         "shock": 'peak = "20 g"\nduration = "11 ms"',
-        "unbalance-step": 'largest = "0.2 mm"',
         "blade-loss": 'change = "0.2 mm"',
         "release": 'motion = "rolling"',
         "slice": "",

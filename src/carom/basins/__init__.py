@@ -5,7 +5,7 @@
 ``dataset``             endings as a dataset with coordinates, units and provenance
 ``shares``              the share of disturbances that come back, with its confidence interval
 ``brackets``            the bracket that a search for the smallest loss finds
-``losses``              the smallest kicks, shocks, steps and releases that are lost
+``losses``              the smallest kicks, shocks, losses of a blade and releases that are lost
 ``families``            kinds of disturbances by size and direction, as searches for losses take them
 ``blade_losses``        the smallest unbalance after the loss of a blade that is not survived
 ``integrity_measures``  the largest ball of starts that all come back

@@ -31,15 +31,14 @@ class SmallestLoss(Result):
     Attributes
     ----------
     kind : str
-        Kind of the disturbance: ``"kick"``, ``"shock"``, ``"unbalance-step"``, ``"blade-loss"``, ``"release"``, or that of
+        Kind of the disturbance: ``"kick"``, ``"shock"``, ``"blade-loss"``, ``"release"``, or that of
         another model; of a kick plane ``"kick"``.
     size : float or None
         Smallest lost size found: change of velocity in ``c_r Ω``, peak acceleration in ``c_r Ω²``, change of the
         unbalance as an eccentricity in ``c_r``, speed along the wall in ``c_r Ω`` (fixed
         frame), or first coordinate of another model.  ``None`` where none was found.
     angle : float or None
-        Its direction in rad.  For a kick or shock as in :mod:`carom.disturbances`; for a step the direction from the
-        eccentricity after the step to the one before it, relative to the one after; for the loss of a blade the phase of the
+        Its direction in rad.  For a kick or shock as in :mod:`carom.disturbances`; for the loss of a blade the phase of the
         change relative to the unbalance before it; for a release the place on the wall.
     instant : float or None
         Angle in rad by which the shaft has turned when it comes, since the co-rotating frame coincided with the fixed one; ``None`` where

@@ -21,8 +21,8 @@ from carom.basins.families import size_coordinate
 from carom.basins.gains import GainMap
 from carom.basins.integrity_measures import integrity
 from carom.basins.shares import Share, starts_enough
-from carom.closed_forms.harmless import harmless_blade_loss, harmless_shock, harmless_unbalance_step
-from carom.disturbances import BaseShock, BladeLoss, Sample, UnbalanceStep
+from carom.closed_forms.harmless import harmless_blade_loss, harmless_shock
+from carom.disturbances import BaseShock, BladeLoss, Sample
 from carom.disturbances.echo import plan_words
 from carom.outcome import InputError, Outcome
 from carom.parameters import Case, in_terms_of
@@ -71,13 +71,11 @@ def basin_document(
     if smallest is not None and smallest.kind != "kick":
         document |= _loss(smallest, basin, smallest.kind)
     proven: dict[str, float] = {}
-    if isinstance(model, UnbalanceStep):
-        proven["harmless_unbalance_step"] = harmless_unbalance_step(basin.rotor)
     if isinstance(model, BladeLoss):
         proven["harmless_blade_loss"] = harmless_blade_loss(basin.rotor, model.node)
     if isinstance(model, BaseShock):
         proven["harmless_shock"] = harmless_shock(basin.rotor, model.duration)
-    kind = "acceleration" if isinstance(model, BaseShock) else "unbalance" if isinstance(model, BladeLoss) else "length"
+    kind = "acceleration" if isinstance(model, BaseShock) else "unbalance"
     document |= proven | in_si(proven, scales, **dict.fromkeys(proven, kind))
     if gains is not None:
         document["gains"] = _gains(gains, change, wanted)

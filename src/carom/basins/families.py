@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from carom.closed_forms.harmless import harmless_kick, harmless_shock, harmless_unbalance_step
+from carom.closed_forms.harmless import harmless_kick, harmless_shock
 from carom.disturbances import (
     BaseShock,
     BladeLoss,
@@ -17,7 +17,6 @@ from carom.disturbances import (
     Disturbance,
     KickPlane,
     Starts,
-    UnbalanceStep,
     VelocityKick,
 )
 from carom.disturbances.coordinates import TURN, complex_of, displaced
@@ -73,14 +72,6 @@ def family_of(rotor: Rotor, model: Disturbance) -> Family:
 def _by_size_and_direction(rotor: Rotor, model: Disturbance) -> Family:
     if type(model) is KickPlane:
         model = VelocityKick(model.fastest)
-    if type(model) is UnbalanceStep:
-        step, now = model, rotor.value("rho")
-
-        def changed(sizes: np.ndarray, angles: np.ndarray, *instants: np.ndarray) -> Starts:
-            x, y = now + sizes * np.cos(angles), sizes * np.sin(angles)
-            return step.starts_on(rotor, np.hypot(x, y), np.arctan2(y, x), *instants)
-
-        return Family(step.kind, UNBALANCE, step.largest + now, harmless_unbalance_step(rotor), changed)
     if type(model) is ContactRelease:
 
         def released(sizes: np.ndarray, places: np.ndarray, *instants: np.ndarray) -> Starts:
@@ -108,8 +99,6 @@ def size_coordinate(model: Disturbance) -> Coordinate:
     """Coordinate with the description and unit of the size of a disturbance."""
     if type(model) is BladeLoss:
         return Coordinate("change", "change of the unbalance", 0.0, math.inf, UNBALANCE)
-    if type(model) is UnbalanceStep:
-        return Coordinate("eccentricity_change", "change of the eccentricity", 0.0, math.inf, "length")
     if type(model) is ContactRelease:
         return Coordinate("release_speed", "speed along the wall", 0.0, math.inf, "velocity")
     return model.coordinates[0]

@@ -1,4 +1,4 @@
-"""The smallest disturbances that are lost: kicks, shocks, steps of the unbalance, releases from contact.
+"""The smallest disturbances that are lost: kicks, shocks, losses of a blade, releases from contact.
 
 This is a search, not a proof.  Its result is a bracket: the largest size up to which every start tried came back, and
 the smallest size found that does not.
@@ -23,6 +23,8 @@ from carom.outcome import InputError, Outcome
 from carom.progress import Reporter, ShowProgress, shows_progress
 
 DIRECTIONS, SIZES = 96, 96
+COARSE, COARSEST, MANY_MODES = (48, 48), (12, 24), 16
+"""The same for rotors whose motions are followed one after another, and for those of more modes than that."""
 TOGETHER = 768
 """About as many starts of a scan are followed at once, at a few sizes; larger ones only if none of them is lost."""
 NARROWED = 4
@@ -47,8 +49,8 @@ def smallest_loss(
     machine: Subject,
     model: Disturbance,
     *,
-    directions: Count = DIRECTIONS,
-    sizes: Count = SIZES,
+    directions: Count | None = None,
+    sizes: Count | None = None,
     tolerance: float = TOLERANCE,
     threads: Count | None = None,
     progress: ShowProgress = None,
@@ -67,12 +69,13 @@ def smallest_loss(
     ----------
     machine : Machine, Case, Parameters or model
     model : Disturbance
-        A kick, a shock, a step of the unbalance, the loss of a blade, a release from contact, or another model whose
+        A kick, a shock, the loss of a blade, a release from contact, or another model whose
         coordinates are a size from 0 and a direction over a full turn.  Sizes are searched up to the largest of the
-        model (for a step up to the largest change to the eccentricity of the machine; for a release in whirl forward and
+        model (for a release in whirl forward and
         backward, from rest up to 2 ``c_r Ω``).
-    directions, sizes : int
-        Numbers of directions and sizes in the scan.
+    directions, sizes : int, optional
+        Numbers of directions and sizes in the scan; by default 96 of each for the planar rotor, fewer for rotors whose motions
+        are followed one after another.
 
     Raises
     ------
@@ -102,6 +105,8 @@ def smallest_loss(
     if isinstance(model, BladeLoss):
         return smallest_blade_loss(rotor, model, threads=threads, tell=Reporter.of(progress, "trying unbalances"))
     family = family_of(rotor, model)
+    usual = (DIRECTIONS, SIZES) if rotor.system.is_planar else COARSEST if rotor.system.modes > MANY_MODES else COARSE
+    directions, sizes = directions or usual[0], sizes or usual[1]
     search = _Search(rotor, family, tolerance, threads)
     try:
         return _searched(search, directions, sizes, Reporter.of(progress, "looking for the smallest that is lost"))

@@ -26,14 +26,13 @@ _OPTIONS = {
     "kick": ("fastest",),
     "kick-plane": ("fastest",),
     "shock": ("peak", "duration"),
-    "unbalance-step": ("before",),
     "blade-loss": ("change", "node"),
     "release": ("release",),
     "slice": (),
     "state": ("fastest",),
 }
 """Kinds of disturbances, and the options that belong to each."""
-_FIELDS = {"before": "largest", "release": "motion"}
+_FIELDS = {"release": "motion"}
 """Fields of the models where they do not have the name of the option."""
 _NEEDED = {"peak": "'20 g'", "duration": "'5 ms'", "change": "'0.1 mm' or '5000 g mm'"}
 KINDS = tuple(_OPTIONS)
@@ -62,9 +61,6 @@ Fastest = Annotated[
 Peak = Annotated[str | None, typer.Option(metavar="ACC", help="Largest peak of a shock, such as '20 g'.")]
 Duration = Annotated[
     str | None, typer.Option(metavar="TIME", help="Duration of a shock, a half-sine pulse, such as '5 ms'.")
-]
-Before = Annotated[
-    str | None, typer.Option(metavar="LENGTH", help="Largest eccentricity before an unbalance step, such as '0.1 mm'.")
 ]
 Change = Annotated[
     str | None,
@@ -213,8 +209,6 @@ def _model(case: Case, kind: str, sizes: dict[str, str | None]) -> Disturbance:
             raise InputError(f"--{option}", None, f"needed for a {kind}, such as {_NEEDED[option]}, or dimensionless")
         elif option == "fastest":
             given[name] = case.requirement.own(parameters.scales).kick
-        elif option == "before":  # the unbalance whose contact-free whirl just reaches the wall
-            given[name] = abs(complex(parameters.omega**2 - 1.0, parameters.gamma))
     return model(**given)
 
 

@@ -118,7 +118,6 @@ def _touching(basin: Basin) -> str:
 _LOSSES = {
     "kick": "kick",
     "shock": "shock of this duration",
-    "unbalance-step": "step of the unbalance",
     "blade-loss": "change of the unbalance by a loss of a blade",
     "release": "release",
 }
@@ -180,8 +179,6 @@ def _where(basin: Basin, smallest: SmallestLoss) -> str:
         return f"{'in ' + whirl + ' whirl ' if smallest.size else ''}at {angle:.4f} rad on the wall"
     if smallest.kind == "blade-loss":
         return f"at {math.degrees(angle):+.0f} deg from the unbalance before it"
-    if smallest.kind == "unbalance-step":
-        return f"from an eccentricity that differs by it at {math.degrees(angle):+.0f} deg from the heavy side"
     heavy = math.degrees(math.remainder(angle - basin.rotor.unbalance_phase, 2.0 * math.pi))
     turned = (
         "" if smallest.instant is None else f" when the shaft has turned by {math.degrees(smallest.instant):.0f} deg"

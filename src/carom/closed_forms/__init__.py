@@ -33,7 +33,6 @@ from carom.closed_forms.harmless import (
     harmless_blade_loss,
     harmless_kick,
     harmless_shock,
-    harmless_unbalance_step,
 )
 from carom.closed_forms.hertz import PointContact, ball_pressure, point_contact
 from carom.closed_forms.local import ContactSystem, LocalCycle, NonSmoothHopf, cycle_determinant, non_smooth_hopf
@@ -75,7 +74,6 @@ __all__ = [
     "harmless_blade_loss",
     "harmless_kick",
     "harmless_shock",
-    "harmless_unbalance_step",
     "hunt_crossley_impact",
     "internal_resonance",
     "kelvin_voigt_impact",

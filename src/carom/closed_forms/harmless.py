@@ -13,7 +13,6 @@ Of the planar rotor the largest deviation after a kick is known (:func:`~carom.c
 
 from __future__ import annotations
 
-import cmath
 import math
 from typing import NamedTuple
 
@@ -139,31 +138,13 @@ def _harmless_push(model: Rotor, along: np.ndarray) -> float:
 
 
 @checked
-def harmless_unbalance_step(machine: Subject) -> float:
-    """Change of the eccentricity up to which a step of the unbalance provably never brings the rotor to the wall.
-
-    A change ``Δ`` shifts the levitation whirl by ``u₀ = Δ/(ω² − 1 + iγ)`` in the co-rotating frame, or by what the matrices give.
-    This is the deviation at the step; its velocity in the fixed frame is ``iu₀``.  So the deviation of the planar rotor stays below
-    ``|u₀|√(1 + 1/ω²)``.  This bound is not sharp.  The change is in ``c_r``; zero as for :func:`harmless_kick`, and where the unbalance
-    of the rotor is not that of all masses off centre by one eccentricity, as it is before such a step.
-    """
-    model = rotor_of(machine)
-    levitation = _levitation(model)
-    push = model.matrices.mass @ model.system.translated
-    own = cmath.rect(model.value("rho"), model.unbalance_phase) * push
-    forcing = model.matrices.forcing
-    if levitation is None or np.linalg.norm(forcing - own) > ROUNDING * np.linalg.norm(forcing):
-        return 0.0
-    return float((levitation.rooms / _after_step(model, levitation, push)[1]).min())
-
-
-@checked
 def harmless_blade_loss(machine: Subject, node: Whole | None = None) -> float:
     """Change of the unbalance up to which the loss of a blade provably never brings the rotor to the wall, at any phase.
 
-    As in :func:`harmless_unbalance_step` the deviation from the levitation whirl after the loss is bounded, but that whirl itself is
-    displaced from the one before by ``u₀``.  This bound is not sharp.  The change, in ``c_r``, is the modulus of that of the complex
-    eccentricity, at a node of a flexible machine; zero as for :func:`harmless_kick`.
+    A change ``Δ`` shifts the levitation whirl by ``u₀ = Δ/(ω² − 1 + iγ)`` in the co-rotating frame, or by what the matrices give.
+    This is the deviation at the loss; its velocity in the fixed frame is ``iu₀``.  So the deviation of the planar rotor from the whirl after
+    the loss stays below ``|u₀|√(1 + 1/ω²)``, and that whirl is displaced from the one before by ``u₀``.  This bound is not sharp.
+    The change, in ``c_r``, is the modulus of that of the complex eccentricity, at a node of a flexible machine; zero as for :func:`harmless_kick`.
     """
     model = rotor_of(machine)
     levitation = _levitation(model)

@@ -9,7 +9,6 @@ co-rotating frame, from which the motion is free.
 :class:`VelocityKick`    a blow: the velocity changes at once, given by size and direction
 :class:`KickPlane`       the same, given by radial and tangential parts, seen from the bearing centre
 :class:`BaseShock`       the housing is accelerated by a half-sine pulse (peak, duration, direction)
-:class:`UnbalanceStep`   the unbalance jumps to that of the machine from another size and phase
 :class:`BladeLoss`       the unbalance of the machine changes by a vector of a size, at any phase
 :class:`ContactRelease`  levitation is switched on with the rotor on the touchdown bearing
 :class:`StateSlice`      any position, at a given velocity
@@ -33,7 +32,7 @@ from carom.disturbances.coordinates import Coordinate, Starts
 from carom.disturbances.kinds import MODELS
 from carom.disturbances.model import FASTEST, Disturbance
 from carom.disturbances.plans import Grid, Plan, Sample
-from carom.disturbances.states import AnyState, ContactRelease, StateSlice, UnbalanceStep
+from carom.disturbances.states import AnyState, ContactRelease, StateSlice
 
 __all__ = [
     "FASTEST",
@@ -50,7 +49,6 @@ __all__ = [
     "Sample",
     "Starts",
     "StateSlice",
-    "UnbalanceStep",
     "VelocityKick",
     "outward_from",
 ]

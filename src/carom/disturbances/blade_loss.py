@@ -33,7 +33,6 @@ class BladeLoss(Disturbance):
 
     See Also
     --------
-    carom.disturbances.UnbalanceStep : steps to the unbalance of the machine, from others
     carom.closed_forms.harmless_blade_loss : change up to which contact is impossible
 
     Examples

@@ -145,7 +145,7 @@ class BaseShock(Disturbance):
     See Also
     --------
     carom.closed_forms.harmless_shock : peak up to which contact is impossible
-    carom.disturbances.VelocityKick, carom.disturbances.UnbalanceStep : other disturbances
+    carom.disturbances.VelocityKick, carom.disturbances.BladeLoss : other disturbances
 
     Examples
     --------

@@ -165,25 +165,6 @@ class Starts(NamedTuple):
         return Starts._make(None if values is None else values[chosen] for values in self)
 
 
-def sagged(
-    rotor: Rotor, positions: np.ndarray, opposite: np.ndarray | None = None, instant: np.ndarray | float = 0.0
-) -> tuple[np.ndarray, np.ndarray]:
-    """Positions of rotors at rest in the turning frame with the static sag added, and the velocities of that, which stands still.
-
-    ``opposite`` are positions, at instant zero, of what goes round against the shaft, twice as fast in its frame.
-    """
-    if rotor.system.forced is None:
-        return positions, np.zeros_like(positions)
-    sag = rotor.system.shapes @ rotor.system.outer
-    turn = complex_of(np.cos(instant), -np.sin(instant))
-    sags = np.multiply.outer(turn, sag) if len(sag) > 1 else turn * sag[0]
-    placed, velocities = positions + sags, np.broadcast_to(-1j * sags, np.broadcast(positions, sags).shape).copy()
-    if opposite is not None:
-        opposite = opposite * (turn**2)[..., None] if len(sag) > 1 else opposite * turn**2
-        placed, velocities = placed + opposite, velocities - 2j * opposite
-    return placed, velocities
-
-
 def displaced(rotor: Rotor, positions: np.ndarray, velocities: np.ndarray, exists: np.ndarray | bool = True) -> Starts:
     """Starts of a rotor that is displaced and moves as a whole.
 

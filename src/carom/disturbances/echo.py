@@ -24,7 +24,6 @@ _NAMES = {
     "kick": "velocity kicks out of levitation",
     "kick-plane": "velocity kicks out of levitation",
     "shock": "half-sine shocks of the base",
-    "unbalance-step": "steps of the unbalance to what it is",
     "blade-loss": "losses of a blade at levitation",
     "release": "releases from the wall",
     "slice": "positions at one velocity",

@@ -5,9 +5,8 @@ from __future__ import annotations
 from carom.disturbances.blade_loss import BladeLoss
 from carom.disturbances.blows import BaseShock, KickPlane, VelocityKick
 from carom.disturbances.model import Disturbance
-from carom.disturbances.states import AnyState, ContactRelease, StateSlice, UnbalanceStep
+from carom.disturbances.states import AnyState, ContactRelease, StateSlice
 
 MODELS: dict[str, type[Disturbance]] = {
-    model.kind: model
-    for model in (VelocityKick, KickPlane, BaseShock, UnbalanceStep, BladeLoss, ContactRelease, StateSlice, AnyState)
+    model.kind: model for model in (VelocityKick, KickPlane, BaseShock, BladeLoss, ContactRelease, StateSlice, AnyState)
 }

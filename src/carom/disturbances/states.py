@@ -1,8 +1,7 @@
-"""Disturbances that put the rotor into a state: unbalance steps, releases from the wall, slices and all states."""
+"""Disturbances that put the rotor into a state: releases from the wall, slices and all states."""
 
 from __future__ import annotations
 
-import cmath
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar, Literal
 
@@ -10,14 +9,12 @@ import numpy as np
 
 from carom.arguments import checked
 from carom.disturbances.coordinates import (
-    ON_WALL,
     Coordinate,
     Starts,
     angle_coordinate,
     complex_of,
     displaced,
     length_coordinate,
-    sagged,
     speed_coordinate,
     within,
 )
@@ -27,78 +24,6 @@ if TYPE_CHECKING:
     from carom.models import Rotor
 
 Release = Literal["fixed", "rotating", "rolling"]
-
-
-@dataclass(frozen=True)
-class UnbalanceStep(Disturbance):
-    """The unbalance jumps to that of the machine, for example by a lost blade or a shifted sleeve.
-
-    Before the step the rotor whirls without contact with another eccentricity and phase; all its masses are off centre by
-    this eccentricity, along the translation.  Its position and velocity at the step are the start of the motion with the
-    present unbalance.
-
-    Attributes
-    ----------
-    largest : float
-        Largest eccentricity before the step, in clearances.  Phases are relative to the unbalance after the step.
-
-    See Also
-    --------
-    carom.closed_forms.harmless_unbalance_step : change up to which contact is impossible
-    carom.map_basins : follow steps of all sizes and phases
-
-    Examples
-    --------
-    >>> import carom as cm
-    >>> machine = cm.load("examples/keogh-cole.toml")
-    >>> step = cm.disturbances.UnbalanceStep.of(machine, "0.1 mm")
-    >>> print(f"{step.largest:.4f}")
-    0.1429
-    """
-
-    largest: float
-    kind: ClassVar[str] = "unbalance-step"
-    noun: ClassVar[str] = "steps of the unbalance from eccentricities"
-    measured_in: ClassVar[dict[str, str]] = {"largest": "length"}
-
-    @property
-    def coordinates(self) -> tuple[Coordinate, ...]:
-        """Eccentricity and phase before the step."""
-        return (
-            length_coordinate("eccentricity_before", "eccentricity before the step", 0.0, self.largest, over_disc=True),
-            angle_coordinate("phase_before", "phase of the unbalance before the step, relative to that after it"),
-        )
-
-    def starts(self, rotor: Rotor, *values: np.ndarray, instant: np.ndarray | float = 0.0) -> Starts:
-        """Levitation with the old unbalance; under weight about the static sag."""
-        from carom.models.directions import whirl_of
-        from carom.models.weight import refuse_unsteady
-
-        eccentricity, phase, begun = np.broadcast_arrays(*values, instant)
-        refuse_unsteady(rotor)
-        push = cmath.rect(1.0, rotor.unbalance_phase) * rotor.system.translated
-        response, opposite = whirl_of(rotor, rotor.matrices.mass @ push)
-        sags = np.abs(rotor.system.arrays["rows"] @ rotor.system.outer)
-        reaches = np.abs(rotor.system.planes @ response) + np.abs(rotor.system.planes @ opposite)
-        cosine, sine = eccentricity * np.cos(phase), eccentricity * np.sin(phase)
-
-        def reach() -> np.ndarray:
-            farthest: np.ndarray = (np.hypot(cosine, sine)[..., None] * reaches + sags).max(axis=-1)
-            return farthest
-
-        there = reach() <= 1.0
-        cosine, sine = np.where(there, cosine, 0.0), np.where(there, sine, 0.0)
-        touched = there & (reach() >= 1.0 - ON_WALL)
-        if len(response) > 1:
-            cosine, sine = cosine[..., None], sine[..., None]
-        else:
-            response = response[0]
-        behind = None if rotor.system.mirrored is None else (cosine - 1j * sine) * opposite
-        positions = complex_of(
-            response.real * cosine - response.imag * sine, response.imag * cosine + response.real * sine
-        )
-        none = np.zeros(there.shape, bool)
-        return Starts(*sagged(rotor, positions, behind, begun), there, none, touched, np.zeros(there.shape)).at(begun)
 
 
 @checked

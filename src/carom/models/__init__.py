@@ -14,7 +14,6 @@
 ``linear``                :class:`LinearEquations`: the equations of any linear rotor
 ``by_matrices``           :func:`from_matrices`: any linear rotor, by its matrices
 ``mirror``                its system where bearings act differently in two directions
-``directions``            the whirl there
 ``linear_parameters``     its named parameters
 ``limits``                :class:`Limit`: limits of magnetic bearings
 ``excess``                what is asked of bearings beyond their limits

@@ -72,7 +72,7 @@ def _polar(basin: Basin, motions: list[MotionLook], smallest: SmallestLoss | Non
     round_.set_xlabel(f"radius: {label}\nangle: {direction.words}, co-rotating frame")
     handles: list[Artist] = []
     # The size of a step of the unbalance is a change of the eccentricity: no radius of this picture.
-    if smallest is not None and basin.plan.model.kind == smallest.kind != "unbalance-step":
+    if smallest is not None and basin.plan.model.kind == smallest.kind:
         handles = _mark_smallest(round_, smallest, factor)
     _stacked(beside, basin, motions)
     beside.set_title("(b)", loc="left", y=1.0)

@@ -97,8 +97,7 @@ def prove_unbalance_steps(
 
     See Also
     --------
-    carom.disturbances.UnbalanceStep : such steps, simulated
-    carom.closed_forms.harmless_unbalance_step : changes that never bring the rotor to the wall
+    carom.disturbances.BladeLoss : the unbalance changes from that of the machine instead, simulated
 
     Examples
     --------

@@ -16,7 +16,6 @@ import numpy as np
 from carom.attractors import AttractorSet
 from carom.basins import Share, SmallestLoss, smallest_loss
 from carom.basins.families import family_of
-from carom.basins.losses import DIRECTIONS, SIZES
 from carom.closed_forms.harmless import shift_by_unbalance
 from carom.disturbances import BaseShock, BladeLoss, Disturbance, Sample, VelocityKick
 from carom.disturbances.blows import LONGEST_SHOCK
@@ -27,11 +26,9 @@ from carom.progress import Reporter
 from carom.results import Result
 from carom.studies.full_size import FullSize
 from carom.studies.kinds import Kind, required_kinds
-from carom.studies.questions import FEWEST, MANY_MODES, SMALLEST, events_for
+from carom.studies.questions import FEWEST, SMALLEST, events_for
 from carom.studies.trials import Check
 
-COARSE, COARSEST = (48, 48), (12, 24)
-"""Directions, and sizes, that are scanned of rotors whose motions are followed one after another, and of those of many modes."""
 REACH = 4.0
 """Largest kick and shock searched, as a multiple of what must be survived or is proven to be harmless."""
 BELOW = 0.999
@@ -128,10 +125,8 @@ def _duration(rotor: Rotor, required: Required) -> float:
 def _reaching(rotor: Rotor, model: VelocityKick | BaseShock) -> SmallestLoss:
     """Search up to a multiple of a disturbance, or of what is proven to be harmless if that is more."""
     family = family_of(rotor, model)
-    many = rotor.system.modes > MANY_MODES
-    directions, sizes = (DIRECTIONS, SIZES) if rotor.system.is_planar else COARSEST if many else COARSE
     largest = _times(model, REACH * max(1.0, family.harmless / family.largest))
-    return smallest_loss(rotor, largest, directions=directions, sizes=sizes)
+    return smallest_loss(rotor, largest)
 
 
 def _times(model: VelocityKick | BaseShock, factor: float) -> VelocityKick | BaseShock:
