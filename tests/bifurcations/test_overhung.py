@@ -10,7 +10,7 @@ import pytest
 import carom as cm
 from carom.bifurcations.simulated import continue_simulated, switch_simulated
 from carom.models import KelvinVoigt, Touchdown, from_corotating_matrices
-from carom.orbits.simulated import close
+from carom.orbits.closing import close
 
 MASS, ECCENTRICITY, POLAR, DAMPING, RING = 0.9, 0.353, 0.143, 0.01, 10.0
 

@@ -8,8 +8,8 @@ from limited_reference import clipped, follow, struck
 from scipy.integrate import solve_ivp
 
 import carom as cm
+from carom.orbits.closing import close
 from carom.orbits.recognising import orbit_of_motion
-from carom.orbits.simulated import close
 from carom.orbits.simulated_search import periodic_of
 from carom.outcome import InputError
 

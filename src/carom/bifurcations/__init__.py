@@ -1,35 +1,37 @@
 """Bifurcations of equilibria and orbits: branches, diagrams, curves in two parameters, regions.
 
-===================  =====================================================================================================
-``diagrams``         bifurcation diagrams along one parameter
-``steady``           levitation, synchronous rubs and rolling along it
-``branches``         a branch of orbits of any word
-``words``            following such a branch, and switching to others
-``word_equations``   equations of a word, and what vanishes at special points
-``single_impact``    what the closed form tells of orbits with one impact
-``several``          orbits with several impacts for diagrams
-``samples``          attractors found by simulation, for diagrams
-``points``           special points of branches
-``borders``          what becomes of a motion where its word changes
-``neighbours``       the word on the other side of such a border
-``paths``            how far states are from the path of an orbit
-``boundary``         where levitation meets the wall
-``windows``          ranges of a parameter in which orbits are motions
-``curve_results``    a curve of bifurcations in two parameters, and points on it
-``curves``           following such a curve
-``word_curves``      those of orbits of any word
-``conditions``       orbits with one impact by their closed form: solutions, names and test functions; those of equilibria
-``passing``          whether a known curve passes through a point
-``planes``           the plane of two parameters
-``regions``          regions of a plane with the same motions
-``cells``            groups of neighbouring cells
-``motions``          the simple motions of a machine
-``survey``           the search for curves that explain each change
-``changes``          changes between two points, and their causes
-``documents``        results as plain data for JSON
-``simulated``        branches of orbits of any machine, closed on the flow of the simulator
-``settled_regions``  regions of any machine, by where disturbances settle
-===================  =====================================================================================================
+======================  ====================================================================================================
+``diagrams``            bifurcation diagrams along one parameter
+``steady``              levitation, synchronous rubs and rolling along it
+``branches``            a branch of orbits of any word
+``words``               following such a branch, and switching to others
+``word_equations``      equations of a word, and what vanishes at special points
+``single_impact``       what the closed form tells of orbits with one impact
+``several``             orbits with several impacts for diagrams
+``samples``             attractors found by simulation, for diagrams
+``points``              special points of branches
+``borders``             what becomes of a motion where its word changes
+``neighbours``          the word on the other side of such a border
+``paths``               how far states are from the path of an orbit
+``boundary``            where levitation meets the wall
+``windows``             ranges of a parameter in which orbits are motions
+``curve_results``       a curve of bifurcations in two parameters, and points on it
+``curves``              following such a curve
+``word_curves``         those of orbits of any word
+``conditions``          orbits with one impact by their closed form: solutions, names and test functions; those of equilibria
+``passing``             whether a known curve passes through a point
+``planes``              the plane of two parameters
+``regions``             regions of a plane with the same motions
+``cells``               groups of neighbouring cells
+``motions``             the simple motions of a machine
+``survey``              the search for curves that explain each change
+``changes``             changes between two points, and their causes
+``documents``           results as plain data for JSON
+``simulated``           branches of orbits of any machine, closed on the flow of the simulator
+``simulated_family``    their equations
+``simulated_branches``  those that searches lead to, for diagrams
+``settled_regions``     regions of any machine, by where disturbances settle
+======================  ====================================================================================================
 """
 
 from carom.bifurcations.borders import Border, examine_border

@@ -36,7 +36,7 @@ class OrbitBranch(Result):
     name : OrbitName or CountedName
         Name of the orbit from which it was followed.
     word : Word
-    rotor : Model
+    rotor : Rotor
         The rotor of that orbit.
     values : ndarray, shape (m,)
         The parameter.

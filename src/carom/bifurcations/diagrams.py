@@ -14,7 +14,8 @@ from carom.bifurcations.branches import OrbitBranch
 from carom.bifurcations.points import HALVING, Bifurcation
 from carom.bifurcations.samples import AttractorSample, sample_attractors
 from carom.bifurcations.several import lies_on, searched_branches
-from carom.bifurcations.simulated import SimulatedBranch, simulated_branches
+from carom.bifurcations.simulated import SimulatedBranch
+from carom.bifurcations.simulated_branches import simulated_branches
 from carom.bifurcations.steady import (
     EquilibriumBranch,
     RollingBranch,
@@ -54,7 +55,7 @@ class Diagram(Result):
 
     Attributes
     ----------
-    model : Model
+    model : Rotor
     axis : Axis
         The parameter.
     interval : tuple of float

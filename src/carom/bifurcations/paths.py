@@ -39,7 +39,7 @@ class Path:
 
     Attributes
     ----------
-    rotor : Model
+    rotor : Rotor
     begins : ndarray of complex, shape (k, N)
         Amplitudes at the beginning of each piece.
     phases : ndarray of int, shape (k, P)

@@ -36,7 +36,7 @@ class RegionMap(Result):
 
     Attributes
     ----------
-    model : Model
+    model : Rotor
         The machine itself.
     plane : Plane
     axes : tuple of Axis

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -14,6 +13,7 @@ from carom.bifurcations.planes import Plane
 from carom.models import Rotor
 from carom.models.axes import Axis
 from carom.motions.simulation import simulate
+from carom.orbits.flow import Budget
 from carom.orbits.simulated_search import start_of
 from carom.outcome import InputError, Outcome
 from carom.progress import Reporter
@@ -21,8 +21,8 @@ from carom.progress import Reporter
 STARTS = 6
 """Motions that are followed at each point of the grid, from the same random numbers everywhere."""
 MOST_EVENTS, PATIENCE = 1500, 500
-SECONDS = 35.0
-"""Time of the processor after which no further point is examined."""
+EVENTS = 6e6
+"""Events (:class:`~carom.orbits.flow.Budget`) after which no further point of the grid is examined."""
 UNTOLD = "not examined"
 
 
@@ -66,12 +66,12 @@ class SettledMotions:
         return self.words
 
 
-def settled_motions(rotor: Rotor, starts: int = STARTS) -> SettledMotions:
+def settled_motions(rotor: Rotor, budget: Budget | None = None) -> SettledMotions:
     """Follow some disturbances of a machine until they settle."""
-    random, found = np.random.default_rng(0), set()
+    random, found, budget = np.random.default_rng(0), set(), budget or Budget()
     held = rotor.system.levitates
-    for _ in range(starts):
-        motion = simulate(rotor, start_of(rotor, random), patience=PATIENCE, max_events=MOST_EVENTS)
+    for _ in range(STARTS):
+        motion = budget.pay(simulate(rotor, start_of(rotor, random), patience=PATIENCE, max_events=MOST_EVENTS))
         found.add((motion.outcome, motion.multiplicity))
     words = [f"{LEVITATION}" if held else f"no {LEVITATION}"]
     for outcome, count in sorted(found):
@@ -92,16 +92,16 @@ def settled_regions(
 
     The middle of each cell is examined; of a plane that takes too long only every second one along each parameter, or fewer.
     """
-    begun, shares = time.process_time(), (np.arange(grid) + 0.5) / grid
+    budget, shares = Budget(EVENTS), (np.arange(grid) + 0.5) / grid
     xs, ys = (low + (high - low) * shares for low, high in (plane.first_range, plane.second_range))
     cells: dict[tuple[int, int], SettledMotions] = {}
     order = _spread(grid)
     for done, (i, j) in enumerate(order):
-        if time.process_time() - begun > SECONDS:
+        if budget.spent:
             break
         rotor = axes[1].move(axes[0].move(model, float(xs[i])), float(ys[j]))
         try:
-            cells[i, j] = settled_motions(rotor)
+            cells[i, j] = settled_motions(rotor, budget)
         except InputError:
             cells[i, j] = NONE
         tell((done + 1) / len(order))
@@ -110,7 +110,7 @@ def settled_regions(
     notes = (
         remarks,
         *(
-            [f"{left} points of the grid were not reached in {SECONDS:g} s; each counts as its nearest."]
+            [f"{left} points of the grid were not reached within {EVENTS:.0e} events; each counts as its nearest."]
             if left
             else []
         ),

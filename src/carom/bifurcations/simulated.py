@@ -6,9 +6,8 @@ vanishes, two contacts become one, or a limit is met.  A period of any length be
 
 from __future__ import annotations
 
-import time
 from dataclasses import dataclass, replace
-from functools import cached_property, reduce
+from functools import cached_property
 from itertools import combinations, pairwise
 from typing import Any, ClassVar
 
@@ -16,31 +15,21 @@ import numpy as np
 
 from carom.arguments import checked
 from carom.bifurcations.points import Bifurcation
-from carom.continuation import Branch, SpecialPoint, Steps, Watch, continue_branch
-from carom.models import Rotor
+from carom.bifurcations.simulated_family import Family
+from carom.continuation import Branch, SpecialPoint, Steps, continue_branch
 from carom.models.axes import Axis, Ends, axis, interval_around
-from carom.motions.trajectories import Trajectory
-from carom.orbits.flow import Flow
+from carom.orbits.closing import multipliers_from, newton
+from carom.orbits.flow import Budget, Flow
 from carom.orbits.happenings import happenings, told
 from carom.orbits.names import CountedName
-from carom.orbits.search import Searched
-from carom.orbits.simulated import SimulatedOrbit, multipliers_from, newton, numbered
-from carom.orbits.simulated_search import search_simulated
+from carom.orbits.simulated import SimulatedOrbit
 from carom.outcome import CaromError, InputError, Phase
-from carom.progress import Reporter
 from carom.results import Result
 
 STEPS = Steps(first=0.01, largest=0.2, smallest=1e-6, sharpest_turn=0.3, most_points=250, tolerance=1e-10)
-FEW = replace(STEPS, largest=0.3, most_points=60)
-"""Steps of the branches of a diagram, of which there may be many."""
-ALONE = "not followed"
-DIFFERENCE = 1e-6
-"""Step of the differences by the parameter, relative to its size."""
 MOST_NUMBERS = 40
 """Numbers of a state up to which its branches are followed: each step takes the whole derivative."""
 SAMPLES, HALVINGS = 2000, 60
-LEADING = 0.2
-"""Size of the multipliers that are watched in pairs."""
 BISECTIONS = 12
 JOINS, CHANGES = "grazing", "contact-change"
 """Where an arrival at a wall joins or leaves the period, and where anything else that happens in it does."""
@@ -58,7 +47,7 @@ class SimulatedBranch(Result):
     ----------
     axis : Axis
     name : CountedName
-    rotor : Model
+    rotor : Rotor
         That of the motion from which it was followed.
     values : ndarray, shape (m,)
         The parameter.
@@ -151,114 +140,6 @@ ON_BRANCH = 5e-3
 """Relative distance of period and speed from those interpolated on a branch, within which an orbit is one of it."""
 
 
-class _Family:
-    """The equations of a periodic motion along a parameter, in the numbers of its state and, where it is free, its period."""
-
-    def __init__(self, orbit: SimulatedOrbit, along: Axis, limits: tuple[float, float]) -> None:
-        self.orbit, self.along, self.limits = orbit, along, limits
-        self.free, self.plane = orbit.repeats is None, orbit.leading_plane
-        self.size = max(abs(along.value(orbit.rotor)), 0.1 * (limits[1] - limits[0]))
-        self._flows: dict[float, Flow | None] = {}
-        self._motions: dict[bytes, tuple[np.ndarray, Trajectory] | None] = {}
-        self._slopes: dict[bytes, np.ndarray] = {}
-
-    def flow(self, p: float) -> Flow | None:
-        """The flow at a value of the parameter; ``None`` where there is no such rotor."""
-        if p not in self._flows:
-            try:
-                rotor = self.along.move(self.orbit.rotor, p)
-                self._flows[p] = Flow(rotor, self.orbit.start.time, self.orbit.rests)
-            except InputError:
-                self._flows[p] = None
-        return self._flows[p]
-
-    def split(self, u: np.ndarray) -> tuple[np.ndarray, float]:
-        """State and period of the unknowns."""
-        return (u[:-1], float(u[-1])) if self.free else (u, self.orbit.period)
-
-    def motion(self, u: np.ndarray, p: float) -> Trajectory | None:
-        """One period from the unknowns."""
-        key = u.tobytes() + np.float64(p).tobytes()
-        if key not in self._motions:
-            flow, (vector, period) = self.flow(p), self.split(u)
-            found = None if flow is None or period <= 0.0 else flow.follow(vector, period)
-            self._motions[key] = None if found is None else (vector, found)
-        known = self._motions[key]
-        return None if known is None else known[1]
-
-    def residual(self, u: np.ndarray, p: float) -> np.ndarray:
-        """How far the end is from the start, and the radial speed there if the period is free."""
-        motion, flow = self.motion(u, p), self.flow(p)
-        if motion is None or flow is None:
-            return np.full(len(u), np.nan)
-        vector, _ = self.split(u)
-        apart = flow.vector(motion.final) - vector
-        return np.append(apart, self._radial(flow, vector)) if self.free else apart
-
-    def _radial(self, flow: Flow, vector: np.ndarray) -> float:
-        system, state = flow.rotor.system, flow.state(vector)
-        amplitudes = system.amplitudes(state.position, state.velocity, flow.begins)
-        place, moving = system.at_plane(amplitudes, self.plane)
-        return float((np.conj(place) * moving).real)
-
-    def flow_slopes(self, u: np.ndarray, p: float) -> np.ndarray:
-        """Derivative of the end of the period by its start."""
-        key = u.tobytes() + np.float64(p).tobytes()
-        if key not in self._slopes:
-            motion, flow, (vector, period) = self.motion(u, p), self.flow(p), self.split(u)
-            if motion is None or flow is None:
-                return np.full((len(vector),) * 2, np.nan)
-            self._slopes[key] = flow.derivative(vector, period, happenings(motion))
-        return self._slopes[key]
-
-    def jacobian(self, u: np.ndarray, p: float) -> np.ndarray:
-        """Derivatives of the residual by the unknowns and the parameter."""
-        flow, (vector, period), n = self.flow(p), self.split(u), len(u)
-        slopes = np.zeros((n, n + 1))
-        if flow is None:
-            return np.full((n, n + 1), np.nan)
-        m = len(vector)
-        slopes[:m, :m] = self.flow_slopes(u, p) - np.eye(m)
-        if self.free:
-            slopes[:m, m] = flow.rate(vector, period)
-            sides = DIFFERENCE * np.eye(m)
-            slopes[m, :m] = [
-                (self._radial(flow, vector + side) - self._radial(flow, vector - side)) / (2.0 * DIFFERENCE)
-                for side in sides
-            ]
-        step = DIFFERENCE * self.size
-        low, high = max(p - step, self.limits[0]), min(p + step, self.limits[1])
-        slopes[:, -1] = (self.residual(u, high) - self.residual(u, low)) / (high - low)
-        return slopes
-
-    def multipliers(self, u: np.ndarray, p: float) -> np.ndarray:
-        """Non-trivial multipliers; ``nan`` where they are not defined."""
-        slopes = self.flow_slopes(u, p)
-        if not np.isfinite(slopes).all():
-            return np.full(len(slopes) - int(self.free), np.nan, complex)
-        return multipliers_from(slopes, free=self.free)
-
-    def watches(self) -> list[Watch]:
-        """Functions that vanish at period doublings and Neimark–Sacker bifurcations."""
-
-        def doubling(u: np.ndarray, p: float) -> float:
-            return float(np.prod(1.0 + self.multipliers(u, p)).real)
-
-        def torus(u: np.ndarray, p: float) -> float:
-            leading = [each for each in self.multipliers(u, p).tolist() if not abs(each) < LEADING]
-            return float(np.prod([first * second - 1.0 for first, second in combinations(leading, 2)]).real)
-
-        return [Watch("period-doubling", doubling), Watch("neimark-sacker", torus)]
-
-    def orbit_at(self, u: np.ndarray, p: float, name: Any) -> SimulatedOrbit | None:
-        """The orbit of the unknowns."""
-        flow, (vector, period) = self.flow(p), self.split(u)
-        values = self.multipliers(u, p)
-        if flow is None or not np.isfinite(values).all():
-            return None
-        return self.orbit.moved(flow, vector, period, values, name)
-
-
 def _based(orbit: SimulatedOrbit) -> SimulatedOrbit:
     """The same orbit, beginning where the radius is least: there a free period is told apart from its delays, even in contact all the time."""
     motion = orbit.motion
@@ -281,7 +162,11 @@ def _based(orbit: SimulatedOrbit) -> SimulatedOrbit:
 
 @checked
 def continue_simulated(
-    orbit: SimulatedOrbit, parameter: str, interval: Ends, steps: Steps | None = None
+    orbit: SimulatedOrbit,
+    parameter: str,
+    interval: Ends,
+    steps: Steps | None = None,
+    budget: Budget | None = None,
 ) -> SimulatedBranch:
     """Continue a periodic motion of any machine along a parameter, through events that join or leave its period.
 
@@ -290,6 +175,8 @@ def continue_simulated(
     orbit : SimulatedOrbit
     parameter : str
     interval : tuple of float or str
+    budget : Budget, optional
+        What the motions are paid from.
 
     Raises
     ------
@@ -303,7 +190,7 @@ def continue_simulated(
             "orbit", len(Flow.vector(orbit.start)), f"a rotor of at most {MOST_NUMBERS} numbers of a state"
         )
     begun = _based(orbit) if orbit.repeats is None else orbit
-    family = _Family(begun, along, limits)
+    family = Family(begun, along, limits, budget or Budget())
     vector = Flow.vector(begun.start)
     start = np.append(vector, begun.period) if family.free else vector
     branch = continue_branch(
@@ -332,7 +219,7 @@ def continue_simulated(
     )
 
 
-def _special(family: _Family, point: SpecialPoint, name: Any) -> Bifurcation | None:
+def _special(family: Family, point: SpecialPoint, name: Any) -> Bifurcation | None:
     orbit = family.orbit_at(point.unknowns, point.parameter, name)
     if orbit is None:
         return None
@@ -343,7 +230,7 @@ def _special(family: _Family, point: SpecialPoint, name: Any) -> Bifurcation | N
     return _point(family, point.kind, orbit, point.parameter, point.place)
 
 
-def _point(family: _Family, kind: str, orbit: SimulatedOrbit, value: float, place: float) -> Bifurcation:
+def _point(family: Family, kind: str, orbit: SimulatedOrbit, value: float, place: float) -> Bifurcation:
     return Bifurcation(
         kind,
         None,
@@ -358,7 +245,7 @@ def _point(family: _Family, kind: str, orbit: SimulatedOrbit, value: float, plac
     )
 
 
-def _changes(family: _Family, branch: Branch, name: Any) -> list[Bifurcation]:
+def _changes(family: Family, branch: Branch, name: Any) -> list[Bifurcation]:
     """Points between which something joins or leaves the period, by bisection on the chord."""
     found = []
     known = [_told(family, u, p) for u, p in zip(branch.unknowns, branch.parameters.tolist(), strict=True)]
@@ -382,7 +269,7 @@ def _changes(family: _Family, branch: Branch, name: Any) -> list[Bifurcation]:
     return found
 
 
-def _told(family: _Family, u: np.ndarray, p: float) -> tuple[str, int] | None:
+def _told(family: Family, u: np.ndarray, p: float) -> tuple[str, int] | None:
     """What happens in a period, from its first arrival on in the order of the alphabet, and the number of arrivals."""
     motion = family.motion(u, p)
     if motion is None:
@@ -394,7 +281,7 @@ def _told(family: _Family, u: np.ndarray, p: float) -> tuple[str, int] | None:
     return min(turns), sum(each.arrives for each in found)
 
 
-def _corrected(family: _Family, guess: np.ndarray) -> np.ndarray | None:
+def _corrected(family: Family, guess: np.ndarray) -> np.ndarray | None:
     """Point of the branch at the parameter of a guess."""
     u, p = guess[:-1], float(guess[-1])
     flow, (vector, period) = family.flow(p), family.split(u)
@@ -405,7 +292,7 @@ def _corrected(family: _Family, guess: np.ndarray) -> np.ndarray | None:
 
 
 @checked
-def switch_simulated(point: Bifurcation, interval: Ends) -> SimulatedBranch:
+def switch_simulated(point: Bifurcation, interval: Ends, budget: Budget | None = None) -> SimulatedBranch:
     """Branch of twice the period at a period doubling of a periodic motion of any machine.
 
     Raises
@@ -414,6 +301,7 @@ def switch_simulated(point: Bifurcation, interval: Ends) -> SimulatedBranch:
         No such motion is found beside it.
     """
     orbit: Any = point.orbit
+    budget = budget or Budget()
     along = axis(orbit.rotor, point.parameter)
     vector = Flow.vector(orbit.start)
     free = orbit.repeats is None
@@ -422,7 +310,7 @@ def switch_simulated(point: Bifurcation, interval: Ends) -> SimulatedBranch:
     direction = vectors[:, int(np.argmin(np.abs(values + 1.0)))].real
     direction = direction / np.abs(direction).max()
     for share in BESIDE:
-        flow = Flow(along.move(orbit.rotor, point.value * (1.0 + share)), orbit.start.time, orbit.rests)
+        flow = Flow(along.move(orbit.rotor, point.value * (1.0 + share)), orbit.start.time, orbit.rests, budget)
         for size in ALONG:
             found = newton(flow, vector + size * direction, 2.0 * orbit.period, free=free)
             if found is None or np.abs(flow.end(found[0], 0.5 * found[1]) - found[0]).max() < TWICE:
@@ -432,70 +320,5 @@ def switch_simulated(point: Bifurcation, interval: Ends) -> SimulatedBranch:
                 continue
             values = multipliers_from(flow.derivative(*found, happenings(motion)), free=free)
             doubled = orbit.moved(flow, *found, values, CountedName(2 * orbit.impacts, 1))
-            return continue_simulated(doubled, point.parameter, interval)
+            return continue_simulated(doubled, point.parameter, interval, budget=budget)
     raise CaromError("no orbit of twice the period was found beside the period doubling")
-
-
-VALUES = (0.5, 0.15, 0.85)
-"""Places of the range at which orbits are searched."""
-SHARE, SECONDS = 0.2, 25.0
-"""Share of the usual search there, and time of the processor after which no further orbit is followed."""
-
-
-def simulated_branches(
-    model: Rotor, along: Axis, limits: tuple[float, float], impacts: int, tell: Reporter
-) -> tuple[list[SimulatedBranch], Searched]:
-    """Branches of the periodic motions of any machine with at most a number of impacts, and what was searched.
-
-    Those of rotors of very many states are found at some values, and not followed.
-    """
-    begun, done = time.process_time(), list[Searched]()
-    found: list[SimulatedBranch] = []
-    counts: dict[int, int] = {}
-
-    def add(orbit: SimulatedOrbit) -> None:
-        value = along.value(orbit.rotor)
-        counts[orbit.impacts] = counts.get(orbit.impacts, 0) + 1
-        named = numbered(orbit, counts[orbit.impacts])
-        followed = len(Flow.vector(orbit.start)) <= MOST_NUMBERS and time.process_time() - begun < SECONDS
-        try:
-            branch = continue_simulated(named, along.name, limits, FEW) if followed else None
-        except CaromError:
-            branch = None
-        if branch is None or not len(branch):
-            branch = SimulatedBranch(along, named.name, orbit.rotor, np.array([value]), (named,), (), (ALONE, ALONE))
-        found.append(branch)
-        for point in branch.special if followed else ():
-            if (
-                point.kind == "period-doubling"
-                and 2 * orbit.impacts <= impacts
-                and time.process_time() - begun < SECONDS
-            ):
-                _leave(point)
-
-    def _leave(point: Bifurcation) -> None:
-        try:
-            branch = switch_simulated(point, limits)
-        except CaromError:
-            return
-        known = any(
-            other.passes(orbit, value)
-            for other in found
-            for orbit, value in [(branch.orbits[len(branch) // 2], float(branch.values[len(branch) // 2]))]
-        )
-        if not known:
-            counts[branch.impacts] = counts.get(branch.impacts, 0) + 1
-            found.append(replace(branch, name=CountedName(branch.impacts, counts[branch.impacts])))
-
-    # Branches of many numbers are not followed, and setting up their equations takes long.
-    values = VALUES if 4 * len(model.system.rest) <= MOST_NUMBERS else VALUES[:1]
-    for place, share in enumerate(values):
-        value = limits[0] + share * (limits[1] - limits[0])
-        rotor = along.move(model, value)
-        part = tell.part(place / len(values), (place + 1) / len(values))
-        orbits, searched = search_simulated(rotor, impacts, None, place, part, SHARE)
-        done.append(searched)
-        for orbit in orbits:
-            if not any(branch.passes(orbit, value) for branch in found):
-                add(orbit)
-    return found, reduce(Searched.and_then, done)

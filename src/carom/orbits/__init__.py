@@ -9,7 +9,8 @@
 ``search``            orbits with any number of impacts, from simulated starts
 ``flow``              the flow of any machine as a map, with derivatives by differences
 ``happenings``        what happens along a motion, in order
-``simulated``         periodic motions of any machine, closed on its flow
+``simulated``         periodic motions of any machine
+``closing``           closing them on that flow, by Newton's method
 ``simulated_search``  the search for these
 ``flow_exponents``    Lyapunov exponents by the flow
 ``extremes``          largest radius, depth and force

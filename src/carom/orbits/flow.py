@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -27,6 +27,31 @@ STEPS = (3e-6, 1e-6, 1e-7)
 MOST_EVENTS = 40_000
 """Events of a period."""
 TURN, QUARTER = 2.0 * math.pi, 0.5 * math.pi
+BEGINNING, MODES = 250, 16
+"""Events that the beginning of a motion counts for, and modes with which each event counts twice."""
+
+
+@dataclass(eq=False)
+class Budget:
+    """Events that motions may take: what a search finds must not depend on how fast a computer is.
+
+    Attributes
+    ----------
+    left : float
+        Events that are left; below zero they are spent.
+    """
+
+    left: float = math.inf
+
+    @property
+    def spent(self) -> bool:
+        """Whether nothing is left."""
+        return self.left <= 0.0
+
+    def pay(self, motion: Trajectory) -> Trajectory:
+        """Take off what a motion has cost."""
+        self.left -= (BEGINNING + len(motion.event_planes)) * (1.0 + motion.rotor.system.modes / MODES)
+        return motion
 
 
 @dataclass(frozen=True)
@@ -35,25 +60,28 @@ class Flow:
 
     Attributes
     ----------
-    rotor : Model
+    rotor : Rotor
     begins : float
         Time at which motions begin, in ``1/Ω``.
     rests : tuple of (int, bool)
         Contact planes that lie on rigid walls at the beginning, and whether they roll: states are put there before they are followed.
+    budget : Budget
+        What the motions are paid from; unlimited by default.
     """
 
     rotor: Rotor
     begins: float = 0.0
     rests: tuple[tuple[int, bool], ...] = ()
+    budget: Budget = field(default_factory=Budget, compare=False, repr=False)
 
     @classmethod
-    def at(cls, motion: Trajectory, time: float) -> tuple[Flow, np.ndarray]:
+    def at(cls, motion: Trajectory, time: float, budget: Budget | None = None) -> tuple[Flow, np.ndarray]:
         """The flow from an instant of a motion, and the state there."""
         system = motion.rotor.system
         amplitudes, phases = (found[0] for found in motion.amplitudes_at(np.array([time])))
         rigid = (phases != Phase.FLIGHT) & (system.arrays["stiffness"] == 0.0)
         rests = tuple((int(plane), bool(phases[plane] == Phase.ROLLING)) for plane in np.flatnonzero(rigid))
-        flow = cls(motion.rotor, motion.begins + time if system.timed else 0.0, rests)
+        flow = cls(motion.rotor, motion.begins + time if system.timed else 0.0, rests, budget or Budget())
         position, velocity = system.state(amplitudes)
         return flow, flow.vector(State.of(position, velocity, system.race_speeds(amplitudes)))
 
@@ -85,7 +113,7 @@ class Flow:
             motion = simulate(self.rotor, self.state(vector), duration, settle=False, max_events=MOST_EVENTS)
         except CaromError:
             return None
-        return motion if motion.outcome is Outcome.TIME_REACHED else None
+        return self.budget.pay(motion) if motion.outcome is Outcome.TIME_REACHED else None
 
     def end(self, vector: np.ndarray, duration: float) -> np.ndarray:
         """State after a time; ``nan`` where the motion is not known."""

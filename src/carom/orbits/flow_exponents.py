@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import math
-import time
 
 import numpy as np
 
 from carom.models import Rotor
 from carom.motions.simulation import simulate
 from carom.motions.starts import State
-from carom.orbits.flow import Flow
+from carom.orbits.flow import Budget, Flow
 from carom.orbits.happenings import happenings
 from carom.outcome import CaromError
 
@@ -18,8 +17,8 @@ STRETCH = 2.0
 """Time of a stretch, in ``1/Ω``, after which directions are made orthogonal."""
 NOTHING = 1e-7
 """Factor in a stretch below which a direction is taken away: it is the error of the derivatives."""
-SECONDS = 40.0
-"""Time of the processor after which no further stretch is measured."""
+EVENTS = 7e6
+"""Events (:class:`~carom.orbits.flow.Budget`) after which no further stretch is measured."""
 MOST = 100_000
 
 
@@ -36,9 +35,9 @@ class Grown:
     """
 
     def __init__(self, rotor: Rotor, state: State, impacts: int, transient: int) -> None:
-        self.rotor, self.begun = rotor, time.process_time()
+        self.rotor, self.budget = rotor, Budget(EVENTS)
         motion = simulate(rotor, state, 0.5 * STRETCH, settle=False)
-        flow, self.vector = Flow.at(motion, motion.time)
+        flow, self.vector = Flow.at(motion, motion.time, self.budget)
         self.flow = flow
         self.directions = np.linalg.qr(np.random.default_rng(0).normal(size=(len(self.vector),) * 2))[0]
         self._measure(transient)
@@ -53,7 +52,7 @@ class Grown:
         """Follow the motion for a number of impacts, or as long as there is time."""
         found: list[np.ndarray] = []
         struck = landed = 0
-        while struck < impacts and len(found) < MOST and time.process_time() - self.begun < SECONDS:
+        while struck < impacts and len(found) < MOST and not self.budget.spent:
             motion = self.flow.follow(self.vector, STRETCH)
             if motion is None:
                 raise CaromError("the motion goes beyond the model: it has no exponents")
@@ -67,5 +66,5 @@ class Grown:
             found.append(np.log(np.maximum(np.abs(np.diag(triangle)), NOTHING)))
             struck += sum(each.arrives for each in happened)
             landed += sum(each.label == "land" for each in happened)
-            self.flow, self.vector = Flow.at(motion, motion.time)
+            self.flow, self.vector = Flow.at(motion, motion.time, self.budget)
         return np.full(len(found), STRETCH), np.array(found).reshape(len(found), -1), (struck, landed)

@@ -106,7 +106,7 @@ def slip_at_landing(rotor: Rotor, plane: int, direction: int, bounces: EventLog)
 
     Parameters
     ----------
-    rotor : Model
+    rotor : Rotor
     plane : int
     direction : {1, -1, 0}
         Of the slip after it; 0 if rolling follows.

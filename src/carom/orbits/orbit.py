@@ -83,7 +83,7 @@ class Orbit(Result):
 
     Attributes
     ----------
-    rotor : Model
+    rotor : Rotor
     name : OrbitName or CountedName
         ``"B1,d"`` for one impact a period: pair 1 of the periods; ``a`` and ``c`` have the shorter period of the pair, ``b``
         and ``d`` the longer; ``a`` and ``b`` have the lower radial speed, ``c`` and ``d`` the higher.  Names of orbits with

@@ -176,7 +176,7 @@ def links_of(rotor: Rotor, word: Word, start: Start) -> Links:
 
     Parameters
     ----------
-    rotor : Model
+    rotor : Rotor
     word : Word
     start : Start
         What follows from a chatter is not read: where it lands, and how long it takes of the time up to the end of the contact after it.
@@ -298,7 +298,7 @@ def converged(rotor: Rotor, word: Word, start: Start) -> Links | None:
 
     Parameters
     ----------
-    rotor : Model
+    rotor : Rotor
     word : Word
     start : Start
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import time
 from collections.abc import Iterator
 
 import numpy as np
@@ -13,10 +12,11 @@ from carom.motions.settling import AT_REST, REPEATING
 from carom.motions.simulation import simulate
 from carom.motions.starts import Kick, State
 from carom.motions.trajectories import Trajectory
-from carom.orbits.flow import repeats_after
+from carom.orbits.closing import OFF_PERIOD, close, quietest
+from carom.orbits.flow import Budget, repeats_after
 from carom.orbits.recognising import arrives, first_of_period
 from carom.orbits.search import FASTEST, KIND, Searched, random_starts
-from carom.orbits.simulated import OFF_PERIOD, SimulatedOrbit, close, numbered, quietest, same_simulated
+from carom.orbits.simulated import SimulatedOrbit, numbered, same_simulated
 from carom.outcome import Outcome
 from carom.progress import Reporter
 
@@ -24,8 +24,8 @@ SETTLED, FRESH, GUESSES = 120, 60, 150
 """Motions followed until they settle, fresh ones afterwards, and stretches of further ones that are tried for each number of impacts."""
 GIVEN_UP = 2000
 """Events after which a motion that does not settle is given up."""
-SECONDS = 20.0
-"""Time of the processor after which no further motions are followed, and no further stretches tried."""
+EVENTS = 4e6
+"""Events of a search (:class:`~carom.orbits.flow.Budget`), some 20 s of a processor; motions followed until they settle may take a quarter."""
 SLOWEST = 0.01
 """Least speed of the starts, relative to the largest, evenly spread over its logarithm."""
 FEW = 2
@@ -70,7 +70,7 @@ class _Search:
     """What a search has found and tried so far."""
 
     def __init__(self, rotor: Rotor, impacts: int, share: float = 1.0) -> None:
-        self.rotor, self.impacts, self.seconds = rotor, impacts, share * SECONDS
+        self.rotor, self.impacts, self.share, self.budget = rotor, impacts, share, Budget(share * EVENTS)
         self.barren = math.ceil(share * BARREN)
         self.found: list[SimulatedOrbit] = []
         self.motions = self.guesses = self.repeats = self.failures = self.last_new = 0
@@ -91,37 +91,37 @@ class _Search:
         self, count: int, random: np.random.Generator, tell: Reporter
     ) -> tuple[int, list[tuple[SimulatedOrbit, int]]]:
         """Periodic motions on which motions from random starts end, each with the number of these, and how many were followed."""
-        begun, followed = time.process_time(), 0
+        followed, reserve = 0, self.budget.left - 0.25 * self.share * EVENTS
         found: list[tuple[SimulatedOrbit | None, int]] = []
         kinds: dict[tuple[Outcome, int, bytes], int] = {}
         left = np.array_split(np.arange(count), max(1, count // 10))
         for part in left:
             for _ in part:
                 start = start_of(self.rotor, random)
-                motion = simulate(self.rotor, start, patience=GIVEN_UP, max_events=GIVEN_UP)
+                motion = self.budget.pay(simulate(self.rotor, start, patience=GIVEN_UP, max_events=GIVEN_UP))
                 state = motion.rotor.system.states_of(motion.last_amplitudes[None])
                 kind = motion.outcome, motion.multiplicity, state.round(KIND).tobytes()
                 if kind not in kinds:
                     kinds[kind] = len(found)
-                    found.append((periodic_of(motion), 0))
+                    found.append((periodic_of(motion, self.budget), 0))
                 orbit, number = found[kinds[kind]]
                 found[kinds[kind]] = orbit, number + 1
             followed += len(part)
             tell(followed / count)
-            if time.process_time() - begun > self.seconds / 2:
+            if self.budget.left < reserve:
                 break
         return followed, [(orbit, number) for orbit, number in found if orbit is not None]
 
     def guess(self, guesses: int, random: np.random.Generator, tell: Reporter) -> None:
         """Close stretches of motions that nearly come back."""
-        begun, barren, idle = time.process_time(), 0, 0
+        barren, idle = 0, 0
         while self.guesses < guesses * self.impacts and barren < self.barren and idle < self.barren:
-            if time.process_time() - begun > self.seconds:
+            if self.budget.spent:
                 return
             before = self.guesses
             for motion, begin, period in self._stretches(start_of(self.rotor, random)):
                 self.guesses += 1
-                orbit = close(motion, begin, period)
+                orbit = close(motion, begin, period, self.budget)
                 if orbit is None:
                     self.failures += 1
                 elif not self.add(orbit):
@@ -136,7 +136,7 @@ class _Search:
     def _stretches(self, start: State) -> Iterator[tuple[Trajectory, float, float]]:
         """For each number of impacts the stretch of a motion that comes back closest: the motion, where it begins, and how long it is."""
         most = IN_WALL * 4 * (self.impacts + 1)
-        motion = simulate(self.rotor, start, FOLLOWED, settle=False, max_events=most)
+        motion = self.budget.pay(simulate(self.rotor, start, FOLLOWED, settle=False, max_events=most))
         events = np.flatnonzero(arrives(motion))
         if len(events) < 2:
             return
@@ -168,7 +168,7 @@ def start_of(rotor: Rotor, random: np.random.Generator) -> State:
     return State.of(positions[0], velocities[0] * (speed / FASTEST) + whirl)
 
 
-def periodic_of(motion: Trajectory) -> SimulatedOrbit | None:
+def periodic_of(motion: Trajectory, budget: Budget | None = None) -> SimulatedOrbit | None:
     """Close the periodic motion on which a motion of any machine has settled; ``None`` if it has not, or repeats nothing."""
     if motion.outcome in REPEATING and motion.multiplicity:
         times = motion.segment_starts[1:][arrives(motion)]
@@ -182,7 +182,7 @@ def periodic_of(motion: Trajectory) -> SimulatedOrbit | None:
         return None
     later = simulate(motion.rotor, motion.final, 2.1 * span, settle=False)
     once = simulate(motion.rotor, motion.final, span, settle=False)
-    return close(later, quietest(once), span) if later.outcome is Outcome.TIME_REACHED else None
+    return close(later, quietest(once), span, budget) if later.outcome is Outcome.TIME_REACHED else None
 
 
 def _first_return(motion: Trajectory) -> float:

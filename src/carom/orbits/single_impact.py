@@ -44,7 +44,7 @@ class OrbitSet(Members[Orbit]):
 
     Attributes
     ----------
-    rotor : Model
+    rotor : Rotor
     members : tuple of Orbit
     impacts : int
         Most impacts a period.

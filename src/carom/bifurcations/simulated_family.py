@@ -1,0 +1,134 @@
+"""The equations of a periodic motion of any machine along a parameter, and what vanishes at its special points.
+
+A period of any length begins where the radius is least; one of whole turns at its instant.
+"""
+
+from __future__ import annotations
+
+from itertools import combinations
+from typing import Any
+
+import numpy as np
+
+from carom.continuation import Watch
+from carom.models.axes import Axis
+from carom.motions.trajectories import Trajectory
+from carom.orbits.closing import multipliers_from
+from carom.orbits.flow import Budget, Flow
+from carom.orbits.happenings import happenings
+from carom.orbits.simulated import SimulatedOrbit
+from carom.outcome import InputError
+
+DIFFERENCE = 1e-6
+"""Step of the differences by the parameter, relative to its size."""
+LEADING = 0.2
+"""Size of the multipliers that are watched in pairs."""
+
+
+class Family:
+    """The equations of a periodic motion along a parameter, in the numbers of its state and, where it is free, its period."""
+
+    def __init__(self, orbit: SimulatedOrbit, along: Axis, limits: tuple[float, float], budget: Budget) -> None:
+        self.budget = budget
+        self.orbit, self.along, self.limits = orbit, along, limits
+        self.free, self.plane = orbit.repeats is None, orbit.leading_plane
+        self.size = max(abs(along.value(orbit.rotor)), 0.1 * (limits[1] - limits[0]))
+        self._flows: dict[float, Flow | None] = {}
+        self._motions: dict[bytes, tuple[np.ndarray, Trajectory] | None] = {}
+        self._slopes: dict[bytes, np.ndarray] = {}
+
+    def flow(self, p: float) -> Flow | None:
+        """The flow at a value of the parameter; ``None`` where there is no such rotor."""
+        if p not in self._flows:
+            try:
+                rotor = self.along.move(self.orbit.rotor, p)
+                self._flows[p] = Flow(rotor, self.orbit.start.time, self.orbit.rests, self.budget)
+            except InputError:
+                self._flows[p] = None
+        return self._flows[p]
+
+    def split(self, u: np.ndarray) -> tuple[np.ndarray, float]:
+        """State and period of the unknowns."""
+        return (u[:-1], float(u[-1])) if self.free else (u, self.orbit.period)
+
+    def motion(self, u: np.ndarray, p: float) -> Trajectory | None:
+        """One period from the unknowns."""
+        key = u.tobytes() + np.float64(p).tobytes()
+        if key not in self._motions:
+            flow, (vector, period) = self.flow(p), self.split(u)
+            found = None if flow is None or period <= 0.0 else flow.follow(vector, period)
+            self._motions[key] = None if found is None else (vector, found)
+        known = self._motions[key]
+        return None if known is None else known[1]
+
+    def residual(self, u: np.ndarray, p: float) -> np.ndarray:
+        """How far the end is from the start, and the radial speed there if the period is free."""
+        motion, flow = self.motion(u, p), self.flow(p)
+        if motion is None or flow is None:
+            return np.full(len(u), np.nan)
+        vector, _ = self.split(u)
+        apart = flow.vector(motion.final) - vector
+        return np.append(apart, self._radial(flow, vector)) if self.free else apart
+
+    def _radial(self, flow: Flow, vector: np.ndarray) -> float:
+        system, state = flow.rotor.system, flow.state(vector)
+        amplitudes = system.amplitudes(state.position, state.velocity, flow.begins)
+        place, moving = system.at_plane(amplitudes, self.plane)
+        return float((np.conj(place) * moving).real)
+
+    def flow_slopes(self, u: np.ndarray, p: float) -> np.ndarray:
+        """Derivative of the end of the period by its start."""
+        key = u.tobytes() + np.float64(p).tobytes()
+        if key not in self._slopes:
+            motion, flow, (vector, period) = self.motion(u, p), self.flow(p), self.split(u)
+            if motion is None or flow is None:
+                return np.full((len(vector),) * 2, np.nan)
+            self._slopes[key] = flow.derivative(vector, period, happenings(motion))
+        return self._slopes[key]
+
+    def jacobian(self, u: np.ndarray, p: float) -> np.ndarray:
+        """Derivatives of the residual by the unknowns and the parameter."""
+        flow, (vector, period), n = self.flow(p), self.split(u), len(u)
+        slopes = np.zeros((n, n + 1))
+        if flow is None:
+            return np.full((n, n + 1), np.nan)
+        m = len(vector)
+        slopes[:m, :m] = self.flow_slopes(u, p) - np.eye(m)
+        if self.free:
+            slopes[:m, m] = flow.rate(vector, period)
+            sides = DIFFERENCE * np.eye(m)
+            slopes[m, :m] = [
+                (self._radial(flow, vector + side) - self._radial(flow, vector - side)) / (2.0 * DIFFERENCE)
+                for side in sides
+            ]
+        step = DIFFERENCE * self.size
+        low, high = max(p - step, self.limits[0]), min(p + step, self.limits[1])
+        slopes[:, -1] = (self.residual(u, high) - self.residual(u, low)) / (high - low)
+        return slopes
+
+    def multipliers(self, u: np.ndarray, p: float) -> np.ndarray:
+        """Non-trivial multipliers; ``nan`` where they are not defined."""
+        slopes = self.flow_slopes(u, p)
+        if not np.isfinite(slopes).all():
+            return np.full(len(slopes) - int(self.free), np.nan, complex)
+        return multipliers_from(slopes, free=self.free)
+
+    def watches(self) -> list[Watch]:
+        """Functions that vanish at period doublings and Neimark–Sacker bifurcations."""
+
+        def doubling(u: np.ndarray, p: float) -> float:
+            return float(np.prod(1.0 + self.multipliers(u, p)).real)
+
+        def torus(u: np.ndarray, p: float) -> float:
+            leading = [each for each in self.multipliers(u, p).tolist() if not abs(each) < LEADING]
+            return float(np.prod([first * second - 1.0 for first, second in combinations(leading, 2)]).real)
+
+        return [Watch("period-doubling", doubling), Watch("neimark-sacker", torus)]
+
+    def orbit_at(self, u: np.ndarray, p: float, name: Any) -> SimulatedOrbit | None:
+        """The orbit of the unknowns."""
+        flow, (vector, period) = self.flow(p), self.split(u)
+        values = self.multipliers(u, p)
+        if flow is None or not np.isfinite(values).all():
+            return None
+        return self.orbit.moved(flow, vector, period, values, name)
