@@ -15,7 +15,6 @@ BROUGHT = {
     "markupsafe": "jinja2",
     "tornado": "bokeh",
     "IPython": "a notebook",
-    "dask_jobqueue": "whoever has a cluster",
 }
 """Modules that come with something else, which is there where they are imported."""
 

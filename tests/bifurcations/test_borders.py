@@ -7,7 +7,7 @@ from functools import cache, reduce
 import numpy as np
 import pytest
 
-from carom.bifurcations import Bifurcation, Border, OrbitBranch, continue_orbit, examine_border, switch
+from carom.bifurcations import Bifurcation, OrbitBranch, continue_orbit, switch
 from carom.bifurcations.neighbours import NEIGHBOURS
 from carom.models import jeffcott
 from carom.motions import State, simulate
@@ -33,11 +33,6 @@ def stopped() -> Bifurcation:
     orbit = find_orbits(PAPER.replace(radius_ratio=1.0))["B1,d"]
     (point,) = [each for each in continue_orbit(orbit, "radius_ratio", (0.5, 1.2)).special if each.kind == "slip-stop"]
     return point
-
-
-@cache
-def jump() -> Border:
-    return examine_border(located("grazing", 0.08267))
 
 
 def test_the_orbit_on_the_border_solves_the_equations_of_both_words():
@@ -68,24 +63,6 @@ def test_the_branch_with_one_impact_more_ends_at_the_grazing():
     assert np.abs(motion.contacts.time - np.cumsum(orbit.durations)).max() < 1e-7
 
 
-def test_both_orbits_end_at_the_grazing_and_motions_jump_away():
-    found = jump()
-    assert (found.inside, found.beyond) == (1, None)
-    assert found.alongside is not None
-    assert found.alongside.impacts == 3
-    assert not found.alongside.stable
-    assert found.verdict == "jump"
-    assert "both end there" in found.words
-    assert "a jump" in repr(found)
-    # The other way round: from the branch with three impacts the same border is seen.
-    (end,) = [each for each in three_impacts().special if each.kind == "vanishing-impact"]
-    other = examine_border(end)
-    assert (other.inside, other.beyond, other.verdict) == (1, None, "unstable")
-    assert other.alongside is not None
-    assert other.alongside.stable
-    assert "no motion was followed" in other.words
-
-
 def test_fresh_motions_beyond_the_jump_do_not_return_to_the_orbit():
     """Other distances and starts than those of the examination, all of them close to the border."""
     point, rng = located("grazing", 0.08267), np.random.default_rng(8)
@@ -101,17 +78,12 @@ def test_fresh_motions_beyond_the_jump_do_not_return_to_the_orbit():
 
 def test_where_friction_stops_the_slip_the_motion_goes_on_continuously():
     point = stopped()
-    found = examine_border(point)
-    assert found.inside == 1
-    assert found.beyond is not None
-    assert found.beyond.segments == "impact0"
-    assert found.beyond.stable
-    assert found.verdict == "continuous"
     branch = switch(point, (0.5, 1.2))
     assert str(branch.word) == "impact0"
     assert branch.admissible[branch.values < point.value - 1e-6].all()
     # There it is what the simulation does, and it attracts.
     orbit = branch.orbits[0]
+    assert orbit.stable
     motion = simulate(orbit.rotor, State(orbit.position, orbit.departure.velocity * 1.001), settle=True)
     assert (motion.outcome, motion.multiplicity) == (Outcome.BOUNCING, 1)
     assert np.abs(np.abs(motion.contacts.radial_speed[-3:]) - orbit.radial_speed).max() < 1e-7
@@ -124,8 +96,6 @@ def test_slip_stop_of_a_single_impact_orbit_is_that_of_the_closed_form():
 
 
 def test_no_orbit_is_constructed_beyond_other_points():
-    with pytest.raises(InputError, match="border"):
-        examine_border(located("period-doubling", 0.08556))
     with pytest.raises(InputError, match="special point"):
         switch(located("fold", 0.08267))
     with pytest.raises(InputError, match="another flight"):
@@ -204,24 +174,11 @@ def grazing_of(gamma: float, along: str, low: float, high: float) -> Bifurcation
     return point
 
 
-@cache
-def band() -> Border:
-    return examine_border(grazing_of(0.0652, "gamma", 0.06, 0.07))
-
-
-def test_a_band_of_chaos_begins_at_a_grazing():
-    found = band()
-    assert found.verdict == "chaotic band"
-    assert "a band of chaos that begins there" in found.words
-    # The size of the band is the square root of the distance, which falls by a quarter.
-    slope = np.polyfit(np.log(found.distances), np.log(found.departures), 1)[0]
-    assert slope == pytest.approx(0.5, abs=0.02)
-    assert all(value > 3.0 * error > 0.0 for value, error in found.exponents)
-
-
-def test_fresh_motions_in_the_band_stay_irregular_and_part_from_each_other():
+def test_motions_beyond_the_grazing_stay_irregular_and_part_from_each_other():
     """Other distances than those of the examination; how motions part is seen without any derivative."""
-    point, side, rng = band().point, -band().inside, np.random.default_rng(5)
+    point, rng = grazing_of(0.0652, "gamma", 0.06, 0.07), np.random.default_rng(5)
+    above = orbit_near(jeffcott(INELASTIC.replace(gamma=point.value + 1e-7)), point.orbit.word, point.orbit.start)
+    side = -1 if above is not None and above.admissible else 1
     for distance in (1e-7, 6e-7, 1.7e-6):
         rotor = jeffcott(INELASTIC.replace(gamma=point.value + side * distance))
         before, push, speeds = point.orbit.departure, 1.0 + 1e-6 * rng.uniform(), []
@@ -232,22 +189,3 @@ def test_fresh_motions_in_the_band_stay_irregular_and_part_from_each_other():
         size = np.ptp(speeds[0][2000:])
         assert np.abs(speeds[0] - speeds[1])[:3].max() < 1e-6 * size
         assert np.abs(speeds[0] - speeds[1])[2000:].max() > 0.1 * size
-
-
-def test_a_small_jump_under_a_square_root_is_no_continuous_transition():
-    """At first the distance from the orbit shrinks nearly as that of a continuous transition."""
-    machine = PAPER.replace(omega=0.24656, rho=0.28149, mu=0.17093, d=0.20299, radius_ratio=17.93, gamma=0.09445)
-    (orbit,) = [each for each in find_orbits(machine) if each.admissible and each.stable]
-    (point,) = [each for each in continue_orbit(orbit, "gamma", (0.09, 0.1)).special if each.kind == "grazing"]
-    found = examine_border(point)
-    sizes = np.array(found.departures)
-    assert (sizes[1:3] < 0.75 * sizes[:2]).all()
-    assert found.verdict == "jump"
-    # Closer still, and from starts beside the orbit at random, the impact at the place of the grazing keeps its speed.
-    rng, before = np.random.default_rng(2), point.orbit.departure
-    for distance in (1e-9, 1e-10):
-        rotor = jeffcott(machine.replace(gamma=point.value - found.inside * distance))
-        start = State(before.position, before.velocity * (1.0 + 1e-6 * rng.normal()))
-        motion = simulate(rotor, start, settle=True, patience=20_000)
-        speeds = motion.contacts.radial_speed[-40:]
-        assert 1.1e-3 < speeds.min() < 1.3e-3

@@ -9,7 +9,7 @@ import pytest
 from heavy_rotors import SOFT, settled
 
 import carom as cm
-from carom.bifurcations import Plane, continue_curve, examine_border, switch
+from carom.bifurcations import Plane, continue_curve, switch
 from carom.models import rotor_of
 from carom.orbits import orbit_near, orbit_of_motion
 from carom.outcome import InputError
@@ -103,15 +103,12 @@ def test_at_a_grazing_border_the_simulated_orbit_touches_the_wall(along_gravity)
         times = begin + duration * np.linspace(0.02, 0.98, 20_001)
         radii.append(np.abs(orbit.path(times)).max())
     assert max(radii) == pytest.approx(1.0, abs=1e-7)
-    border = examine_border(grazing)
-    assert border.inside == 1
-    assert border.alongside is not None
 
 
 def test_a_vanishing_impact_is_a_border_to_the_orbit_without_it(along_gravity):
-    border = examine_border(point_of(along_gravity, "vanishing-impact"))
-    assert str(border.word) == "impact+"
-    assert border.beyond.turns == 1
+    branch = switch(point_of(along_gravity, "vanishing-impact"))
+    assert str(branch.word) == "impact+"
+    assert {each.turns for each in branch.orbits} == {1}
 
 
 @pytest.mark.parametrize(

@@ -9,7 +9,7 @@ import pytest
 from yielding_rotors import Yielding, packed
 
 import carom as cm
-from carom.bifurcations import Plane, continue_curve, continue_orbit, examine_border, switch
+from carom.bifurcations import Plane, continue_curve, continue_orbit, switch
 from carom.models import HuntCrossley, KelvinVoigt
 from carom.orbits import Kind, orbit_near, orbit_of_motion
 from tests.orbits.test_yielding_orbits import CROSSLEY, VOIGT, settled
@@ -85,10 +85,6 @@ def test_beside_the_grazing_there_is_an_orbit_with_one_more_contact(special):
     assert min(orbit.impact_speeds.min() for orbit in motions) < 0.1 * max(
         orbit.impact_speeds.min() for orbit in motions
     )
-    border = examine_border(point)
-    assert border.inside == 1
-    assert str(border.word) == str(other.word)
-    assert border.alongside is not None or border.beyond is not None
 
 
 def test_flights_vanish_where_contact_becomes_permanent():

@@ -5,7 +5,6 @@ import signal
 import subprocess
 import sys
 import time
-import types
 from pathlib import Path
 
 import pytest
@@ -47,7 +46,7 @@ class Cluster:
         self.workers[name] = self._start("worker", "--name", name, *options)
 
     def wait_for(self, count):
-        with connect(str(self.file), None) as client:
+        with connect(str(self.file)) as client:
             client.wait_for_workers(count, timeout=120)
 
     def _wait(self, ready):
@@ -198,32 +197,7 @@ def test_worker_that_knows_other_code_is_one_line(cluster, tmp_path):
     assert "\n" not in str(caught.value)
 
 
-def test_slurm_asks_for_jobs(tmp_path, monkeypatch):
-    class Jobs(distributed.LocalCluster):
-        """Stands for jobs of SLURM: processes of this machine."""
-
-        asked: list = []  # noqa: RUF012
-
-        def __init__(self):
-            super().__init__(n_workers=0, threads_per_worker=1, processes=True, dashboard_address=":0", silence_logs=60)
-
-        def scale(self, count):
-            self.asked.append(count)
-            return super().scale(count)
-
-    monkeypatch.setitem(sys.modules, "dask_jobqueue", types.SimpleNamespace(SLURMCluster=Jobs))
-    tally = run_sweep(plan_of(Drawn()), tmp_path / "s.zarr", scheduler="slurm", workers=1)
-
-    assert Jobs.asked[0] == 1
-    assert tally.done == 10
-    with pytest.raises(InputError, match="--workers = nothing given"):
-        run_sweep(plan_of(Drawn()), tmp_path / "t.zarr", scheduler="slurm")
-
-
 def test_absent_packages_are_named(tmp_path, monkeypatch):
-    monkeypatch.setitem(sys.modules, "dask_jobqueue", None)
-    with pytest.raises(InputError, match="needs dask-jobqueue; install it"):
-        run_sweep(plan_of(Drawn()), tmp_path / "s.zarr", scheduler="slurm", workers=1)
     monkeypatch.setitem(sys.modules, "distributed", None)
     with pytest.raises(InputError, match=r"needs dask.distributed; .*carom\[cluster\]"):
         run_sweep(plan_of(Drawn()), tmp_path / "s.zarr", scheduler="tcp://127.0.0.1:1")

@@ -10,9 +10,7 @@
 ``several``             orbits with several impacts for diagrams
 ``samples``             attractors found by simulation, for diagrams
 ``points``              special points of branches
-``borders``             what becomes of a motion where its word changes
-``neighbours``          the word on the other side of such a border
-``paths``               how far states are from the path of an orbit
+``neighbours``          the word on the other side of a special point at which it changes
 ``boundary``            where levitation meets the wall
 ``windows``             ranges of a parameter in which orbits are motions
 ``curve_results``       a curve of bifurcations in two parameters, and points on it
@@ -34,7 +32,6 @@
 ======================  ====================================================================================================
 """
 
-from carom.bifurcations.borders import Border, examine_border
 from carom.bifurcations.boundary import BoundaryEquilibrium, boundary_equilibria
 from carom.bifurcations.branches import OrbitBranch
 from carom.bifurcations.cells import Region
@@ -55,7 +52,6 @@ __all__ = [
     "KINDS",
     "AttractorSample",
     "Bifurcation",
-    "Border",
     "BoundaryEquilibrium",
     "Codimension2Point",
     "Curve",
@@ -72,7 +68,6 @@ __all__ = [
     "boundary_equilibria",
     "continue_curve",
     "continue_orbit",
-    "examine_border",
     "find_bifurcations",
     "map_regions",
     "motions_at",

@@ -134,7 +134,7 @@ def switch(point: Bifurcation, interval: Ends | None = None, *, virtual: bool = 
     other slip.  Where contact becomes permanent, it is that of the sliding that never leaves the wall.  At the onset of
     lasting contact it is that of the many impacts which the interrupted chatter has at a small distance; the closer, the
     more they are.  Where lasting contact changes its kind it is that of the word which a simulated period has beside the
-    border.  Which of its orbits are motions, and on which side, :func:`~carom.bifurcations.examine_border` tells.
+    border.  ``admissible`` of the branch says which of its orbits are motions, and so on which side.
 
     Parameters
     ----------

@@ -30,10 +30,7 @@ def sweep(
     threads: Annotated[bool, typer.Option("--threads", help="Threads of one process instead of processes.")] = False,
     scheduler: Annotated[
         str | None,
-        typer.Option(
-            metavar="ADDRESS",
-            help="Compute on a Dask cluster: address or file of its scheduler, or slurm (N jobs, through dask-jobqueue).",
-        ),
+        typer.Option(metavar="ADDRESS", help="Compute on a Dask cluster: address or file of its scheduler."),
     ] = None,
     retry_failed: Annotated[
         bool, typer.Option("--retry-failed", help="Compute chunks with failed points again.")

@@ -17,7 +17,6 @@
 ``local``           cycles that shrink into a boundary equilibrium
 ``piecewise``       motion next to a point of a wall that levitation touches
 ``wall_meetings``   what is born there, for any number of modes and both kinds of walls
-``free_impact``     impacts of a free mass on walls that give way
 ``yielding_walls``  rubs and slipping whirl on walls that give way
 ``whirl_resonance`` speeds at which the whirls of a disc are in resonance
 ``hertz``           pressure between the balls and the race of a touchdown bearing
@@ -28,7 +27,6 @@
 from carom.closed_forms.absorbing import RubNeighbourhood, rub_neighbourhood
 from carom.closed_forms.equilibria import Equilibrium, EquilibriumSet, find_equilibria
 from carom.closed_forms.fading import fading_speed
-from carom.closed_forms.free_impact import FreeImpact, hunt_crossley_impact, kelvin_voigt_impact
 from carom.closed_forms.harmless import (
     harmless_blade_loss,
     harmless_kick,
@@ -51,7 +49,6 @@ __all__ = [
     "Ellipses",
     "Equilibrium",
     "EquilibriumSet",
-    "FreeImpact",
     "Levitation",
     "LocalCycle",
     "NonSmoothHopf",
@@ -74,9 +71,7 @@ __all__ = [
     "harmless_blade_loss",
     "harmless_kick",
     "harmless_shock",
-    "hunt_crossley_impact",
     "internal_resonance",
-    "kelvin_voigt_impact",
     "levitation",
     "non_smooth_hopf",
     "point_contact",

@@ -38,17 +38,18 @@ from __future__ import annotations
 
 import cmath
 from dataclasses import dataclass
+from typing import Annotated
 
 import numpy as np
 from scipy.linalg import eigvals  # type: ignore[import-untyped]
 
-from carom.arguments import Positive, Whole, checked
-from carom.closed_forms.free_impact import Exponent
+from carom.arguments import Kind, Positive, Whole, checked
 from carom.closed_forms.power_sums import positive_roots
 from carom.closed_forms.statics import rubs_in_wall
 from carom.models import Subject, System, rotor_of
 from carom.outcome import InputError
 
+Exponent = Annotated[float, Kind(lambda number: number >= 1.0, "a number of at least 1")]
 REAL = 1e-6
 """Imaginary part, relative to the fastest mode, up to which a zero is tried as a real one: rounding splits double ones by its root."""
 EXACT = 1e-10

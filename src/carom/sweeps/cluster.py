@@ -21,7 +21,6 @@ if TYPE_CHECKING:
     from distributed import Client, Future
 
 OPTION = "--scheduler"
-SLURM = "slurm"
 _PATIENCE = "20s"
 _POLL = 2.0
 """Seconds without a result after which to look for new workers."""
@@ -75,39 +74,24 @@ def on_cluster(plan: SweepPlan, numbers: Iterator[int], client: Client) -> Gener
 
 
 @contextmanager
-def connect(scheduler: str, workers: int | None) -> Iterator[Client]:
-    """Connect to a cluster; refuse a scheduler that cannot be reached.
-
-    The scheduler is an address such as ``"tcp://host:8786"``, the path of its file, or ``"slurm"`` for as many jobs of
-    a SLURM cluster as there are to be workers, which the configuration of dask-jobqueue describes.
-    """
+def connect(scheduler: str) -> Iterator[Client]:
+    """Connect to a cluster by the address of its scheduler, such as ``"tcp://host:8786"``, or the path of its file."""
     try:
         from distributed import Client
     except ImportError:
         remedy = 'needs dask.distributed; install it with: pip install "carom[cluster]"'
         raise InputError(OPTION, scheduler, remedy) from None
-    with _quiet(), _connected(Client, scheduler, workers) as client:
-        yield client
-
-
-@contextmanager
-def _connected(kind: type[Client], scheduler: str, workers: int | None) -> Iterator[Client]:
-    if scheduler == SLURM:
-        with _slurm_jobs(workers) as cluster, kind(cluster) as client:
-            yield client
-        return
     place = {"scheduler_file": scheduler} if Path(scheduler).is_file() else {"address": scheduler}
-    allowed = (
-        f"must be the address of a Dask scheduler that can be reached, such as tcp://host:8786, or its file, or {SLURM}"
-    )
+    allowed = "must be the address of a Dask scheduler that can be reached, such as tcp://host:8786, or its file"
     if "address" in place and ":" not in scheduler:
         raise InputError(OPTION, scheduler, f"{allowed} (there is no such file)")
-    try:
-        client = kind(**place, timeout=_PATIENCE, set_as_default=False)
-    except (OSError, ValueError, TimeoutError) as problem:
-        raise InputError(OPTION, scheduler, f"{allowed} ({type(problem).__name__})") from None
-    with client:
-        yield client
+    with _quiet():
+        try:
+            client = Client(**place, timeout=_PATIENCE, set_as_default=False)
+        except (OSError, ValueError, TimeoutError) as problem:
+            raise InputError(OPTION, scheduler, f"{allowed} ({type(problem).__name__})") from None
+        with client:
+            yield client
 
 
 @contextmanager
@@ -122,24 +106,6 @@ def _quiet() -> Iterator[None]:
     finally:
         for logger, level in zip(loggers, levels, strict=True):
             logger.setLevel(level)
-
-
-@contextmanager
-def _slurm_jobs(workers: int | None) -> Iterator[object]:
-    try:
-        from dask_jobqueue import SLURMCluster
-    except ImportError:
-        raise InputError(OPTION, SLURM, "needs dask-jobqueue; install it with: pip install dask-jobqueue") from None
-    if workers is None:
-        raise InputError("--workers", None, f"with {OPTION} {SLURM}: how many workers to ask for")
-    try:
-        cluster = SLURMCluster()
-    except (ValueError, OSError) as problem:
-        remedy = "describe the jobs (cores, memory, queue) in the configuration of dask-jobqueue"
-        raise InputError(OPTION, SLURM, f"{remedy}; {problem}") from None
-    with cluster:
-        cluster.scale(workers)
-        yield cluster
 
 
 def _compute(plan: SweepPlan, number: int, wanted: dict[str, str]) -> Chunk:

@@ -126,7 +126,7 @@ def run_sweep(
     threads : bool
         Use threads of this process instead of processes; by default in memory only.
     scheduler : str or distributed.Client, optional
-        Compute on a Dask cluster instead: address or file of its scheduler, ``"slurm"``, or a client.
+        Compute on a Dask cluster instead: address or file of its scheduler, or a client.
     retry_failed : bool
         Compute chunks with failed points again.
 
@@ -155,10 +155,8 @@ def run_sweep(
     """
     if scheduler is not None and threads:
         raise InputError("--threads", "given", "not allowed with --scheduler, whose workers compute")
-    if scheduler not in (None, "slurm") and workers is not None:
-        raise InputError(
-            "--workers", workers, "not allowed with --scheduler ADDRESS, whose workers compute; allowed with slurm"
-        )
+    if scheduler is not None and workers is not None:
+        raise InputError("--workers", workers, "not allowed with --scheduler, whose workers compute")
     book = SweepMemory(plan) if store is None else SweepStore(store, plan)
     if threads is None:
         threads = store is None and scheduler is None
@@ -194,7 +192,7 @@ def _chunks(
     if scheduler is not None:
         from carom.sweeps.cluster import connect, on_cluster
 
-        client = stack.enter_context(connect(scheduler, workers)) if isinstance(scheduler, str) else scheduler
+        client = stack.enter_context(connect(scheduler)) if isinstance(scheduler, str) else scheduler
         return on_cluster(plan, numbers, client)
     from carom.sweeps.local import on_processes, on_threads
 

@@ -1,8 +1,15 @@
-"""The figure: orbits and impacts over the damping, with exponents, half-lives and destinations below."""
+"""How the machine of the source paper loses its bouncing as the damping falls: orbits, simulated motions, exponents, half-lives.
+
+``python docs/_cells/loss_of_bouncing.py`` computes for some minutes and draws the picture of the page again.  The source paper
+follows the orbit ``B1,d`` and says where its bouncing is stable.  What happens below the period doubling is not in it.
+"""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -10,17 +17,207 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
+from carom.attractors import Lifetimes, measure_lifetimes
 from carom.attractors.names import SYNCHRONOUS_RUB
-from carom.outcome import Outcome
+from carom.bifurcations import Diagram, OrbitBranch, continue_orbit, find_bifurcations
+from carom.bifurcations.several import lies_on
+from carom.models import Rotor, jeffcott
+from carom.motions import State, Trajectory, simulate
+from carom.orbits import find_orbits, lyapunov_exponents, orbit_exponents, orbit_of_motion
+from carom.orbits.orbit import Orbit
+from carom.outcome import CaromError, Outcome
+from carom.plots import save
 from carom.plots.diagrams import POINTS, branch_line, mark_point
 from carom.plots.figure import StyledFigure
 from carom.plots.style import LOOKS, OUTCOMES, TWO_COLUMNS, styled
-from carom.reproductions.loss_of_bouncing.following import CLOSE, RANGE
+from carom.reproductions.mora2014 import machine_at
 
-if TYPE_CHECKING:
-    from carom.bifurcations import OrbitBranch
-    from carom.reproductions.loss_of_bouncing.following import LossOfBouncing
-    from carom.reproductions.loss_of_bouncing.samples import BouncingSample
+BESIDE = 1e-3
+"""Relative change of the velocity at the starts beside the orbit."""
+SHOWN = 150
+"""Impacts of irregular bouncing that are kept."""
+DISCARDED = 100
+"""Impacts discarded at the beginning: until then a motion depends on its start."""
+MEASURED_IMPACTS, SHORTEST = 4000, 600
+"""Impacts over which exponents are measured, and the fewest of a motion that ends."""
+SEED = 1
+
+
+@dataclass(frozen=True, eq=False)
+class BouncingSample:
+    """Motions started beside the orbit ``B1,d`` at one damping.
+
+    Attributes
+    ----------
+    gamma : float
+    speeds : ndarray
+        Radial speeds just before impacts, in ``c_r Ω``: of one period, of the last impacts of irregular bouncing, or of a motion before
+        it ends.
+    orbit : Orbit or None
+        The orbit on which it settled; ``None`` if it did not become periodic, or ended.
+    ended : bool
+        Whether this motion ended.
+    exponent, error : float
+        Its largest Lyapunov exponent across the motion, in ``Ω``, with its standard error (0 for a periodic orbit); ``nan`` where the
+        motion ended too early.
+    lifetimes : Lifetimes
+        Lifetimes of all the motions.
+    """
+
+    gamma: float
+    speeds: np.ndarray
+    orbit: Orbit | None
+    ended: bool
+    exponent: float
+    error: float
+    lifetimes: Lifetimes
+
+    @property
+    def impacts(self) -> int:
+        """Impacts per period; 0 without an orbit."""
+        return self.orbit.impacts if self.orbit else 0
+
+
+def sample_bouncing(rotor: Rotor, *, motions: int, impacts: int) -> BouncingSample:
+    """Follow motions from beside ``B1,d``.
+
+    Parameters
+    ----------
+    rotor : Rotor
+        The machine at a damping where this orbit is a motion.
+    motions : int
+    impacts : int
+        Impacts for which each is followed.
+    """
+    starts = _beside(find_orbits(rotor)["B1,d"], motions)
+    lifetimes = measure_lifetimes(rotor, starts, impacts=impacts, discarded=DISCARDED)
+    motion, start = _longest(rotor, starts, impacts)
+    speeds = motion.contacts.radial_speed
+    ended = motion.outcome not in (Outcome.BOUNCING, Outcome.MIXED)
+    orbit = orbit_of_motion(motion) if motion.multiplicity else None
+    if orbit is not None:
+        speeds, exponent = orbit.impact_speeds, orbit_exponents(orbit).across
+    else:
+        # Before a motion ends in lasting contact, its last impacts are those of a chatter.
+        speeds = speeds[DISCARDED : len(speeds) // 2] if ended else speeds
+        exponent = _measured(rotor, start, min(MEASURED_IMPACTS, len(motion.contacts) // 2))
+    return BouncingSample(rotor.parameters.gamma, speeds[-SHOWN:], orbit, ended, *exponent, lifetimes)
+
+
+def _beside(orbit: Orbit, motions: int) -> list[State]:
+    random, before = np.random.default_rng(SEED), orbit.departure
+    return [State(before.position, before.velocity * (1.0 + BESIDE * random.normal())) for _ in range(motions)]
+
+
+def _longest(rotor: Rotor, starts: Sequence[State], impacts: int) -> tuple[Trajectory, State]:
+    """The first motion that does not end early, or the longest of them, and its start."""
+    found = []
+    for start in starts:
+        found.append((simulate(rotor, start, settle=True, patience=impacts), start))
+        if len(found[-1][0].contacts) > 4 * SHORTEST or found[-1][0].multiplicity:
+            return found[-1]
+    return max(found, key=lambda pair: len(pair[0].contacts))
+
+
+def _measured(rotor: Rotor, start: State, impacts: int) -> tuple[float, float]:
+    """Largest exponent across the motion over so many impacts, and its error."""
+    if impacts < SHORTEST:
+        return np.nan, np.nan
+    try:
+        return lyapunov_exponents(rotor, start, impacts, transient=DISCARDED).across
+    except CaromError:
+        return np.nan, np.nan
+
+
+RANGE = (0.0785, 0.095)
+"""Damping: from bouncing that ends after a few hundred impacts up to where ``B1,d`` is stable."""
+MOST_IMPACTS = 12
+"""Most impacts a period of the branches on which motions settled."""
+CLOSE = (0.0795, 0.0836)
+"""Part of it that is looked at closely: from the loss of bouncing up to the period doubling."""
+
+
+@dataclass(frozen=True, eq=False)
+class LossOfBouncing:
+    """The loss of bouncing of the source paper's machine along the damping.
+
+    Attributes
+    ----------
+    diagram : Diagram
+        Orbits with up to some impacts a period.
+    windows : tuple of OrbitBranch
+        Branches of orbits with more impacts, up to 12, on which simulated motions settled.
+    samples : tuple of BouncingSample
+        Over the whole range, in ascending order.
+    close : tuple of BouncingSample
+        Over the part looked at closely.
+    """
+
+    diagram: Diagram
+    windows: tuple[OrbitBranch, ...]
+    samples: tuple[BouncingSample, ...]
+    close: tuple[BouncingSample, ...]
+
+    @property
+    def every(self) -> list[BouncingSample]:
+        """All samples, in ascending order of the damping."""
+        return sorted((*self.samples, *self.close), key=lambda sample: sample.gamma)
+
+    @property
+    def lost(self) -> tuple[float, float]:
+        """Dampings between which bouncing was lost: the largest sampled at which motions ended, the next at which none did."""
+        ending = [sample.gamma for sample in self.every if _ends(sample)]
+        low = max(ending, default=float("nan"))
+        return low, min((sample.gamma for sample in self.every if sample.gamma > low), default=float("nan"))
+
+
+def _ends(sample: BouncingSample) -> bool:
+    """Whether motions stopped bouncing, and did not only become periodic."""
+    ends = sample.lifetimes.destinations
+    return any("bouncing" not in end and end in _OTHERS for end in ends)
+
+
+_OTHERS = ("rolling", "levitated", "forward-rub", "backward-whirl")
+
+
+def follow_loss(
+    *,
+    impacts: int = 4,
+    values: int = 100,
+    close: int = 206,
+    motions: int = 40,
+    patience: int = 20_000,
+) -> LossOfBouncing:
+    """Compute what the figure shows.
+
+    Parameters
+    ----------
+    impacts : int
+        Largest number of impacts a period of the orbits searched and followed.
+    values, close : int
+        Numbers of dampings over the whole range, and over the part looked at closely.
+    motions, patience : int
+        Number of motions simulated at each, and impacts for which each is followed.
+    """
+    diagram = find_bifurcations(machine_at(0.1), "gamma", RANGE, impacts=impacts)
+    found: list[tuple[BouncingSample, ...]] = []
+    for limits, count in ((RANGE, values), (CLOSE, close)):
+        rotors = [jeffcott(machine_at(gamma)) for gamma in np.linspace(*limits, count).tolist()]
+        found.append(tuple(sample_bouncing(rotor, motions=motions, impacts=patience) for rotor in rotors))
+    return LossOfBouncing(diagram, _windows((*found[0], *found[1]), impacts), *found)
+
+
+def _windows(samples: tuple[BouncingSample, ...], impacts: int) -> tuple[OrbitBranch, ...]:
+    """Branches through the orbits on which motions settled and that have too many impacts for the search."""
+    branches: list[OrbitBranch] = []
+    for sample in samples:
+        orbit = sample.orbit
+        if orbit is None or not max(impacts, 1) < orbit.impacts <= MOST_IMPACTS:
+            continue
+        if not any(lies_on(orbit, sample.gamma, branch) for branch in branches):
+            branches.append(continue_orbit(orbit, "gamma", RANGE, virtual=False))
+    return tuple(branches)
+
 
 INK, PALE = "#1a1a1a", "#9a9a9a"
 WIDTHS = {"-": 1.2, "--": 0.55}
@@ -190,3 +387,7 @@ def _key() -> list[Line2D]:
         Line2D([], [], ls="none", marker="x", ms=3.5, mew=0.7, color=INK, label="half-life, with 95 %"),
         Line2D([], [], ls="none", marker="^", ms=3.5, mfc="none", mec=INK, mew=0.5, label="half-life above (95 %)"),
     ]
+
+
+if __name__ == "__main__":
+    save(loss_figure(follow_loss()), Path(__file__).parent.parent / "images" / "loss-of-bouncing")

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from dataclasses import replace
 from functools import cache
 
@@ -11,9 +10,8 @@ import pytest
 
 from carom.models import jeffcott
 from carom.orbits import find_orbits
-from carom.reproductions import loss_of_bouncing
-from carom.reproductions.loss_of_bouncing import LossOfBouncing, follow_loss, sample_bouncing
 from carom.reproductions.mora2014 import machine_at
+from docs._cells.loss_of_bouncing import LossOfBouncing, follow_loss, loss_figure, sample_bouncing
 
 pytestmark = pytest.mark.jit_only
 
@@ -47,19 +45,10 @@ def test_exponent_of_a_periodic_motion_is_that_of_its_orbit():
     assert sample.exponent == pytest.approx(np.log(orbit.multipliers.spectral_radius) / orbit.period, abs=1e-9)
 
 
-def test_figure_and_files(tmp_path):
+def test_figure():
     low, high = few().lost
     assert 0.0785 <= low < high < 0.0825
-    written = loss_of_bouncing.write_loss(few(), str(tmp_path))
-    assert [path.name for path in written] == [
-        "loss-of-bouncing.svg",
-        "loss-of-bouncing.png",
-        "loss-of-bouncing.json",
-    ]
-    document = json.loads((tmp_path / "loss-of-bouncing.json").read_text())
-    assert len(document["samples"]) == 8
-    assert document["lost_between"] == [low, high]
-    figure = loss_of_bouncing.loss_figure(few())
+    figure = loss_figure(few())
     titles = [axes.get_title(loc="left") for axes in figure.axes]
     assert [title.split("(")[1][0] for title in titles] == list("abcde")
     assert all(axes.get_ylabel() for axes in figure.axes)
@@ -69,7 +58,7 @@ def test_motions_that_take_long_to_become_periodic_have_no_half_life():
     """Beside the period doubling motions settle on two impacts a period slowly, all at about the same age."""
     sample = sample_bouncing(jeffcott(machine_at(0.08338)), motions=20, impacts=20_000)
     assert sample.lifetimes.survival.half_life is not None
-    drawn = loss_of_bouncing.loss_figure(replace(few(), close=(sample,))).axes[3]
+    drawn = loss_figure(replace(few(), close=(sample,))).axes[3]
     assert "half-life" in drawn.get_title(loc="left")
     assert not drawn.lines
 
