@@ -145,3 +145,64 @@ def test_machine_code_that_kernels_share_is_compiled_once_and_found_by_its_name_
         file.unlink()
     assert in_another_process("twice thrice", others=3) == ["10.0", "15.0", "4", "0", "0"]
     assert len(list(tmp_path.glob("cache/**/*.length.*"))) == 4
+
+
+TWO = """
+import numpy as np
+from carom.compiling.decorators import kernel
+from carom.core.records import record
+
+@kernel
+def longest(values, n):
+    total = 0.0
+    for i in range(n):
+        total += np.exp(-total * total) + np.tanh(total) + np.arctan(total + n)
+        total -= np.log(1.0 + total * total) * np.tan(total / 100.0)
+        for k in range(values.numbers.shape[0]):
+            total += values.numbers[k] ** 3 + np.cos(total)
+    return total
+
+@kernel
+def longer(values, n):
+    total = 0.0
+    for i in range(n):
+        total += np.sqrt(values.numbers[0]) * np.sin(total) + np.exp(-total * total) + np.tanh(total) + np.arctan(total + n)
+        total -= np.log(1.0 + total * total) * np.tan(total / 100.0)
+        for k in range(values.numbers.shape[0]):
+            total += values.numbers[k] ** 3 + np.cos(total)
+    if n > 5:
+        total += longest(values, n - 6)
+    return total
+
+@kernel
+def both(values, n):
+    return longer(values, n) + 2.0 * longer(values, n + 1) + 3.0 * longer(values, n + 2) * longer(values, n + 9)
+"""
+ONE_AFTER_ANOTHER = """
+import sys
+import two_for_test as kernels
+for size in sys.argv[1:]:
+    print(kernels.both(kernels.record(numbers=kernels.np.ones(int(size))), 3), sum(kernels.both.stats.cache_hits.values()))
+"""
+
+
+@pytest.mark.parametrize("compiler", ["", "plain"])
+def test_code_from_several_processes_is_told_apart(tmp_path, compiler):
+    """Each process counts types and functions from one, and the disk gives the code of both to a third."""
+    (tmp_path / "two_for_test.py").write_text(TWO)
+    more = {
+        "PYTHONPATH": os.pathsep.join([str(tmp_path), *sys.path]),
+        "CAROM_CACHE_DIR": str(tmp_path / "cache"),
+        "CAROM_COMPILER": compiler,
+        "PYTHONHASHSEED": "0",  # of which the order of Numba's flags depends, and with it the names
+    }
+
+    def results(*sizes):
+        command = [sys.executable, "-c", ONE_AFTER_ANOTHER, *sizes]
+        done = subprocess.run(command, env=os.environ | more, capture_output=True, text=True, check=True)
+        return [line.split() for line in done.stdout.splitlines()]
+
+    ((of_two, _),), ((of_three, _),) = results("2"), results("3")
+    assert of_two != of_three
+    assert results("2", "3") == [[of_two, "1"], [of_three, "2"]]
+    assert results("3", "2") == [[of_three, "1"], [of_two, "2"]]

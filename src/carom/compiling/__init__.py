@@ -9,6 +9,7 @@ alone, and can be done without (:func:`~carom.compiling.choice.compiles_plainly`
 ``choice``           whether Numba compiles as it does for everybody
 ``cache``            the disk cache of compiled kernels
 ``cache_directory``  where that cache is
+``names``            names in machine code, the same in every process
 ``intermediate``     kernels that only other kernels call
 ``libraries``        what is linked into a kernel, and where it is optimised
 ``steps``            Numba's steps of compilation, as kernels need them

@@ -13,7 +13,6 @@ import hashlib
 import pickle
 import sys
 from contextlib import suppress
-from functools import cache
 from importlib import import_module
 from pathlib import Path
 from typing import Any
@@ -26,6 +25,7 @@ from numba.core.serialize import dumps
 
 from carom.compiling.cache_directory import cache_directory, tell_once
 from carom.compiling.choice import compiles_plainly
+from carom.compiling.names import source_of
 from carom.files import write_whole
 
 CHECKSUM = 32
@@ -112,17 +112,9 @@ class KernelCache(_Cache):  # type: ignore[misc]
 
     def _origin(self, sig: Any, codegen: Any) -> bytes:
         """Everything that determines the machine code, except the other sources: these name the directory."""
-        code, cells = self._function.__code__, self._function.__closure__ or ()
-        written = _source(code.co_filename), code.co_firstlineno, dumps(tuple(cell.cell_contents for cell in cells))
         compiler = sys.version, numba.__version__, llvmlite.__version__, codegen.magic_tuple(), compiles_plainly()
-        return repr((self._function.__module__, written, compiler, sig)).encode()
+        return repr((source_of(self._function), compiler, sig)).encode()
 
 
 def _checksum(origin: bytes, content: bytes) -> bytes:
     return hashlib.sha256(origin + content).digest()
-
-
-@cache
-def _source(path: str) -> str:
-    """Hash of a source file."""
-    return hashlib.sha256(Path(path).read_bytes()).hexdigest()

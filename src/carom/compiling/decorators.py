@@ -10,6 +10,7 @@ from numba.extending import register_jitable
 
 from carom.compiling.cache import keep
 from carom.compiling.choice import compiles_plainly
+from carom.compiling.names import NamingCompiler
 
 Kernel = TypeVar("Kernel", bound=Callable[..., object])
 
@@ -53,7 +54,7 @@ def _compile(function: Kernel, share: bool = False, **more: bool | str) -> Kerne
     if numba.config.DISABLE_JIT:
         return function
     if compiles_plainly():
-        compiled: Kernel = numba.jit(**options)(function)
+        compiled: Kernel = numba.jit(**options, pipeline_class=NamingCompiler)(function)
     else:
         from carom.compiling.intermediate import (
             compile_once,  # imported here: another version of Numba may lack what it uses

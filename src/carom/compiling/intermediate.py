@@ -7,13 +7,11 @@ called by kernels only, so most of their machine code would never run.
 
 from __future__ import annotations
 
-from hashlib import sha256
 from typing import Any
 
 import numba
 from numba.core.compiler import CompileResult
 from numba.core.dispatcher import _FunctionCompiler  # type: ignore[attr-defined]
-from numba.core.funcdesc import default_mangler
 from numba.core.registry import CPUDispatcher
 from numba.core.types import unliteral  # type: ignore[attr-defined]
 
@@ -23,7 +21,7 @@ from carom.compiling.steps import KernelCompiler
 
 def compile_once(function: Any, options: dict[str, Any], share: bool) -> Any:
     """A kernel that other kernels use as intermediate code or, if it is to be shared, as machine code; Python calls either."""
-    kernel = numba.jit(**options, pipeline_class=_SharedPipeline if share else _CallerPipeline)(function)
+    kernel = numba.jit(**options, pipeline_class=_CallerPipeline)(function)
     (_share_machine_code if share else _serve_kernels)(kernel)
     return kernel
 
@@ -39,7 +37,7 @@ def _serve_kernels(kernel: Any) -> None:
 def _share_machine_code(kernel: Any) -> None:
     """Make the kernels that call a kernel use its machine code, which is compiled once for them and for Python.
 
-    Callers are kept on the disk with the name that they call, which :class:`_SharedPipeline` makes the same in each process.
+    Callers are kept on the disk with the name that they call, which is the same in each process (:mod:`carom.compiling.names`).
     """
     add_overload, get_call_template = kernel.add_overload, kernel.get_call_template
 
@@ -71,21 +69,6 @@ class _CallerPipeline(KernelCompiler):
         self.state.library = CallerLibrary(self.state.targetctx.codegen(), self.state.func_id.func_qualname)
         self.state.library.enable_object_caching()
         return super().define_pipelines()
-
-
-class _SharedPipeline(_CallerPipeline):
-    """Numba's compiler pipeline for kernels that share their machine code."""
-
-    def define_pipelines(self) -> Any:
-        """The steps of compilation."""
-        self.state.targetctx.mangler = self._symbol
-        return super().define_pipelines()
-
-    def _symbol(self, name: str, kinds: Any, *, abi_tags: Any = (), uid: int | None = None) -> str:
-        """Name in the machine code: that of Numba counts functions and records, and so differs between processes."""
-        if uid != self.state.func_id.unique_id:  # a function that Numba compiles for this one
-            return default_mangler(name, kinds, abi_tags=abi_tags, uid=uid)
-        return default_mangler(name, (), abi_tags=(sha256(repr(kinds).encode()).hexdigest(),))
 
 
 class _Pipeline(KernelCompiler):

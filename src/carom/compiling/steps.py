@@ -4,16 +4,16 @@ from __future__ import annotations
 
 from typing import Any
 
-from numba.core.compiler import Compiler
 from numba.core.typed_passes import NativeLowering
 from numba.core.untyped_passes import InlineInlinables, RewriteSemanticConstants
 
 from carom.compiling.lowering import KernelLowering
+from carom.compiling.names import NamingCompiler
 from carom.compiling.shapes import RecordShapes
 from carom.compiling.signatures import RecallingContext
 
 
-class KernelCompiler(Compiler):  # type: ignore[misc]
+class KernelCompiler(NamingCompiler):
     """Numba's compiler with steps of its own for kernels.
 
     Shapes of records become constants before branches are pruned, and again after functions are inlined.
